@@ -1,0 +1,86 @@
+"""Diagnostics as values, the errors that carry them, and the frame that shows where each one stands."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from mouse_cli._span import Span
+
+ERROR, WARNING = "error", "warning"
+_RULER = (
+    "         1         2         3         4         5         6         7         8",
+    "12345678901234567890123456789012345678901234567890123456789012345678901234567890",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One finding: `code` is explained by `mouse explain`, `message` says what was read and what was expected."""
+
+    code: str
+    severity: str
+    message: str
+    span: Span | None = None
+    note: str = ""
+    help: str = ""
+
+    @property
+    def headline(self) -> str:
+        """First line, in the form that editors and CI make clickable: file:line:column: severity[code]: text."""
+        place = f"{self.span}: " if self.span else ""
+        return f"{place}{self.severity}[{self.code}]: {self.message}"
+
+
+class MouseError(Exception):
+    """Carries every diagnostic found, so that a user mends a deck once and not once per error."""
+
+    exit_code = 5
+
+    def __init__(self, diagnostics: Iterable[Diagnostic] | Diagnostic):
+        one = isinstance(diagnostics, Diagnostic)
+        self.diagnostics: tuple[Diagnostic, ...] = (diagnostics,) if one else tuple(diagnostics)
+        super().__init__("\n".join(d.headline for d in self.diagnostics))
+
+
+class DeckError(MouseError):
+    """A deck was rejected; nothing was computed or written."""
+
+    exit_code = 4
+
+
+class RecordError(MouseError):
+    """A recording was rejected."""
+
+    exit_code = 4
+
+
+class NumericalError(MouseError):
+    """The numbers allow no answer: names the parameter, the cycle and the card or line that set it."""
+
+
+class WrittenError(MouseError):
+    """An output could not be written; whatever stood there before is untouched."""
+
+    exit_code = 5
+
+
+def frame(diagnostic: Diagnostic, ruler: bool = False) -> str:
+    """Headline, the offending line with a caret under the whole field, then note and help.
+
+    `ruler` adds the column ruler of an 80-column card above the line.
+    """
+    lines = [diagnostic.headline]
+    span = diagnostic.span
+    if span and span.text:
+        gutter = " " * len(str(span.line))
+        if ruler:
+            lines += [f"{gutter} |  {row}" for row in _RULER]
+        lines.append(f"{span.line} |  {_printable(span.text)}")
+        lines.append(f"{gutter} |  {' ' * (span.column - 1)}{'^' * max(1, span.width)}")
+    gutter = " " * (len(str(span.line)) if span else 1)
+    lines += [f"{gutter} = {name}: {text}" for name, text in (("note", diagnostic.note), ("help", diagnostic.help)) if text]
+    return "\n".join(lines)
+
+
+def _printable(text: str) -> str:
+    """The line with one visible character per column, so that the caret stays under its field."""
+    return "".join(c if c.isprintable() else "?" for c in text[:200])

@@ -1,0 +1,34 @@
+"""Members of a kind are files of a folder: adding one is adding a file, and no list is edited."""
+
+from functools import cache
+from importlib import import_module
+from importlib.metadata import entry_points
+from pkgutil import iter_modules
+from typing import Any
+
+
+@cache
+def names(package: str) -> tuple[str, ...]:
+    """Sorted names of the modules in `package` that hold a member; nothing is imported but the package itself."""
+    path = import_module(package).__path__
+    return tuple(sorted(m.name for m in iter_modules(path) if not m.name.startswith("_")))
+
+
+@cache
+def discover(package: str, attribute: str) -> dict[str, Any]:
+    """Every member of a kind, by key, sorted: `attribute` of each module in `package`, then third-party entry points.
+
+    A module without the attribute is support code and is passed over. A member has a `key`.
+    Third parties register under the entry-point group named like the package, e.g. `mouse_cli.estimators`.
+
+    Raises ValueError when two members claim one key.
+    """
+    modules = (import_module(f"{package}.{name}") for name in names(package))
+    found = [getattr(module, attribute) for module in modules if hasattr(module, attribute)]
+    found += [entry.load() for entry in entry_points(group=package)]
+    members: dict[str, Any] = {}
+    for member in found:
+        if member.key in members:
+            raise ValueError(f"two members of {package} are called '{member.key}'")
+        members[member.key] = member
+    return dict(sorted(members.items()))

@@ -1,0 +1,94 @@
+"""What a reader took from a file, before it is known to make sense; each value remembers where it was written.
+
+A reader (cards, YAML) only reads. `assemble.assemble` applies the rules, once for all formats, and makes the Problem.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from mouse_cli._errors import ERROR, WARNING, Diagnostic
+from mouse_cli._span import Span
+from mouse_cli.model._arrays import Matrix
+from mouse_cli.model.parameter import Parameter
+from mouse_cli.model.problem import RunOptions, Source
+
+Where = Callable[[int], Span | None]
+
+
+def nowhere(_: int) -> None:
+    """No place is known, e.g. for the elements of a matrix file."""
+
+
+@dataclass
+class Entries:
+    """Matrix elements as listed: rows and columns from 1, values, and `where(i)`, the place of the i-th."""
+
+    rows: np.ndarray
+    cols: np.ndarray
+    values: np.ndarray
+    where: Where = nowhere
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+
+@dataclass
+class TestDraft:
+    """The modal test as read. dofs count from 1; shapes and shape_sd are (s, m), NaN where missing."""
+
+    __test__ = False  # not a pytest class
+
+    number: np.ndarray
+    frequency_hz: np.ndarray
+    frequency_sd_hz: np.ndarray
+    dofs: np.ndarray
+    shapes: np.ndarray
+    shape_sd: np.ndarray
+    scale: str = "least-squares"
+    where_number: Where = nowhere
+    where_frequency: Where = nowhere
+    where_frequency_sd: Where = nowhere
+    where_dof: Where = nowhere
+    where_shape: Callable[[int, int], Span | None] = lambda s, m: None
+    where_shape_sd: Callable[[int, int], Span | None] = lambda s, m: None
+
+
+@dataclass
+class Draft:
+    """A whole deck as read.
+
+    K, M: Entries (diagonal and upper triangle) or a whole matrix from a file. elements: Entries whose value is 0 for
+    stiffness and 1 for mass, in the order of group RS, stiffness first. A: Entries (listed element, parameter, partial).
+    covariance (p, p): the prior's, when it has off-diagonals; else the parameters' sd hold it.
+    """
+
+    title: str
+    order: int
+    K: Entries | Matrix
+    M: Entries | Matrix
+    elements: Entries
+    A: Entries
+    parameters: list[Parameter]
+    run: RunOptions
+    source: Source
+    covariance: np.ndarray | None = None
+    test: TestDraft | None = None
+    labels: tuple[str, ...] = ()
+    where_order: Span | None = None
+    where_covariance: Span | None = None
+    where_total_mass: Span | None = None
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+
+    def error(self, code: str, message: str, span: Span | None = None, note: str = "", help: str = "") -> None:
+        """Note an error and go on reading."""
+        self.diagnostics.append(Diagnostic(code, ERROR, message, span, note, help))
+
+    def warn(self, code: str, message: str, span: Span | None = None, note: str = "", help: str = "") -> None:
+        """Note a warning."""
+        self.diagnostics.append(Diagnostic(code, WARNING, message, span, note, help))
+
+    def with_run(self, **changes: object) -> "Draft":
+        """The same draft with some run options replaced, e.g. from the command line."""
+        return replace(self, run=replace(self.run, **changes))

@@ -1,0 +1,75 @@
+"""A deck, read and checked: everything a run needs, and nothing about where it was written but the spans."""
+
+from dataclasses import dataclass, field
+
+from mouse_cli._errors import Diagnostic
+from mouse_cli.model._arrays import Matrix, frozen
+from mouse_cli.model.modal_test import ModalTest
+from mouse_cli.model.parameter import Gaussian, Parameter
+from mouse_cli.model.structure import ListedElements, Structure
+
+RECURSIONS = ("replaced", "anchored")
+PAIRINGS = ("number", "mac")
+CONVERGENCE_RULES = ("ratio", "fraction")
+STEPS = ("first-order", "second-order")
+CONFIDENCES = (90, 95, 99)
+
+
+@dataclass(frozen=True)
+class RunOptions:
+    """How to run; every field is a key of `run:` in a YAML deck and an option of `mouse run`.
+
+    partials: most recomputations of the partial derivatives (NPARD). passes: passes of O-7/O-8 for each (ITERMX).
+    cycles: exactly so many cycles, whatever the convergence test says. convergence: exceedances against
+    non-exceedances (`ratio`) or against all data (`fraction`). extra_update: one more cycle after the test has passed.
+    fix_total_mass: total mass stays while component masses vary; total_mass_dofs (from 0) limits the sum to those
+    degrees of freedom (empty: all).
+    """
+
+    estimator: str = "bayes"
+    recursion: str = "anchored"
+    confidence: int = 95
+    partials: int = 30
+    passes: int = 1
+    cycles: int | None = None
+    convergence: str = "ratio"
+    extra_update: bool = False
+    pairing: str = "mac"
+    step: str = "first-order"
+    fix_total_mass: bool = False
+    total_mass_dofs: tuple[int, ...] = ()
+    print_partials: bool = False
+
+
+@dataclass(frozen=True)
+class Source:
+    """The file a problem was read from: `cards` or `yaml`, and its lines for the echo."""
+
+    path: str = "<memory>"
+    format: str = "yaml"
+    lines: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Structure, parameters with their prior, the matrix A (e, p) that ties parameters to matrix elements, test and options.
+
+    elements, A: d(element) = A d(parameter), Eq. (3-2) of the report. test is None for a deck that only asks for modes.
+    """
+
+    title: str
+    structure: Structure
+    elements: ListedElements
+    A: Matrix
+    parameters: tuple[Parameter, ...]
+    prior: Gaussian
+    test: ModalTest | None
+    run: RunOptions = field(default_factory=RunOptions)
+    source: Source = field(default_factory=Source)
+    warnings: tuple[Diagnostic, ...] = ()
+
+    def __post_init__(self) -> None:
+        e, p = len(self.elements), len(self.parameters)
+        object.__setattr__(self, "A", frozen(self.A, (e, p), "A"))
+        if len(self.prior.mean) != p:
+            raise ValueError(f"prior has {len(self.prior.mean)} means for {p} parameters")

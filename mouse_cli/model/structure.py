@@ -1,0 +1,55 @@
+"""The baseline: stiffness and mass matrices at the prior values of the parameters, and what its degrees of freedom are called."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.model._arrays import Matrix, frozen
+
+
+@dataclass(frozen=True)
+class Structure:
+    """K and M (n, n), symmetric; dense numpy or scipy.sparse; K in N/m, M in kg, or any units that make omega^2 in rad^2/s^2."""
+
+    K: Matrix
+    M: Matrix
+    labels: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        n = self.K.shape[0]
+        object.__setattr__(self, "K", frozen(self.K, (n, n), "K"))
+        object.__setattr__(self, "M", frozen(self.M, (n, n), "M"))
+        object.__setattr__(self, "labels", tuple(self.labels) or tuple(str(i + 1) for i in range(n)))
+
+    @property
+    def n(self) -> int:
+        """Number of degrees of freedom."""
+        return self.K.shape[0]
+
+
+@dataclass(frozen=True)
+class ListedElements:
+    """The e elements of K and M that may vary (group RS of a card deck), stiffness first; `row` <= `col`, from 0.
+
+    An off-diagonal element stands for itself and its mirror image: both move together.
+    """
+
+    is_mass: np.ndarray
+    row: np.ndarray
+    col: np.ndarray
+
+    def __post_init__(self) -> None:
+        e = len(self.row)
+        object.__setattr__(self, "is_mass", frozen(self.is_mass, (e,), "is_mass", bool))
+        object.__setattr__(self, "row", frozen(self.row, (e,), "row", int))
+        object.__setattr__(self, "col", frozen(self.col, (e,), "col", int))
+
+    def __len__(self) -> int:
+        return len(self.row)
+
+    def labels(self) -> tuple[str, ...]:
+        """Names as the report prints them, e.g. `k(1,2)` and `m(3,3)`."""
+        return tuple(
+            f"{'m' if mass else 'k'}({i + 1},{j + 1})"
+            for mass, i, j in zip(self.is_mass, self.row, self.col, strict=True)
+        )
