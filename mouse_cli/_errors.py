@@ -77,7 +77,11 @@ def frame(diagnostic: Diagnostic, ruler: bool = False) -> str:
         lines.append(f"{span.line} |  {_printable(span.text)}")
         lines.append(f"{gutter} |  {' ' * (span.column - 1)}{'^' * max(1, span.width)}")
     gutter = " " * (len(str(span.line)) if span else 1)
-    lines += [f"{gutter} = {name}: {text}" for name, text in (("note", diagnostic.note), ("help", diagnostic.help)) if text]
+    lines += [
+        f"{gutter} = {name}: {text}"
+        for name, text in (("note", diagnostic.note), ("help", diagnostic.help))
+        if text
+    ]
     return "\n".join(lines)
 
 

@@ -1,0 +1,1 @@
+"""Numerics on arrays, no input or output: eigensolution, sensitivities, correlation of mode shapes."""

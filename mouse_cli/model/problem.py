@@ -22,6 +22,8 @@ class RunOptions:
     partials: most recomputations of the partial derivatives (NPARD). passes: passes of O-7/O-8 for each (ITERMX).
     cycles: exactly so many cycles, whatever the convergence test says. convergence: exceedances against
     non-exceedances (`ratio`) or against all data (`fraction`). extra_update: one more cycle after the test has passed.
+    step: `second-order` adds the curvature of the data along the step. limit_sd: no correction beyond so many prior sd.
+    legacy: the limits of 1972 are errors.
     fix_total_mass: total mass stays while component masses vary; total_mass_dofs (from 0) limits the sum to those
     degrees of freedom (empty: all).
     """
@@ -36,9 +38,11 @@ class RunOptions:
     extra_update: bool = False
     pairing: str = "mac"
     step: str = "first-order"
+    limit_sd: float | None = None
     fix_total_mass: bool = False
     total_mass_dofs: tuple[int, ...] = ()
     print_partials: bool = False
+    legacy: bool = False
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,1 @@
+"""One file, one kind of term: a parameterised contribution to the equations of motion."""

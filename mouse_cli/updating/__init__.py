@@ -1,0 +1,5 @@
+"""The loop of Figure 4-1: from a problem to a result."""
+
+from mouse_cli.updating.loop import forecast, run
+
+__all__ = ["forecast", "run"]

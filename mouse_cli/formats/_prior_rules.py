@@ -1,0 +1,84 @@
+"""Rules for the parameters and what is believed of them before the test."""
+
+import math
+
+import numpy as np
+
+from mouse_cli.formats.draft import Draft
+from mouse_cli.model.parameter import Gaussian, Parameter
+
+
+def prior(draft: Draft) -> Gaussian | None:
+    """The prior distribution of the parameters; None when a rule is broken."""
+    names: set[str] = set()
+    for parameter in draft.parameters:
+        _one(draft, parameter)
+        if parameter.name in names:
+            draft.error(
+                "MD310",
+                f"two parameters are called '{parameter.name}'",
+                parameter.span,
+                help="give each its own name",
+            )
+        names.add(parameter.name)
+    mean = np.array([p.nominal for p in draft.parameters])
+    cov = draft.covariance
+    if cov is None:
+        return Gaussian(mean, np.array([p.sd**2 for p in draft.parameters]))
+    _semidefinite(draft, cov)
+    return Gaussian(mean, cov)
+
+
+def _one(draft: Draft, parameter: Parameter) -> None:
+    """One parameter: its standard deviation, its limits and its transform."""
+    name, where = parameter.name, parameter.span
+    if not (math.isfinite(parameter.sd) and parameter.sd >= 0):
+        draft.error(
+            "MD311",
+            f"standard deviation of {name} is {parameter.sd:.8g}; it must be positive, or 0 to hold it",
+            where,
+            help="give the standard deviation of the property",
+        )
+    elif parameter.sd == 0:
+        draft.warn("MD312", f"{name} has no standard deviation: it stays at its prior value", where)
+    if not math.isfinite(parameter.nominal):
+        draft.error(
+            "MD302", f"nominal value of {name} is {parameter.nominal}", where, help="give a finite number"
+        )
+    if not parameter.lower <= parameter.nominal <= parameter.upper or parameter.lower == parameter.upper:
+        draft.error(
+            "MD313",
+            f"{name} has the prior value {parameter.nominal:.8g}, which is not within its limits "
+            f"{parameter.lower:.8g} to {parameter.upper:.8g}",
+            where,
+            help="give lower < upper with the nominal value between them",
+        )
+    if parameter.transform == "log" and not parameter.nominal > 0:
+        draft.error(
+            "MD314",
+            f"{name} has transform log and the nominal value {parameter.nominal:.8g}; a logarithm needs a positive one",
+            where,
+            help="give a positive nominal value, or transform: identity",
+        )
+    if parameter.transform == "log" and draft.run.fix_total_mass:
+        draft.error(
+            "MD315",
+            f"{name} has transform log, but the total mass can be held fixed only for transform identity",
+            where,
+            help="use limits (lower: 0) in place of the logarithm",
+        )
+
+
+def _semidefinite(draft: Draft, cov: np.ndarray) -> None:
+    """A covariance is symmetric and has no negative eigenvalue."""
+    scale = np.sqrt(np.outer(np.abs(np.diag(cov)), np.abs(np.diag(cov))))
+    correlation = np.divide(cov, scale, out=np.zeros_like(cov), where=scale > 0)
+    if not np.isfinite(cov).all() or not np.allclose(correlation, correlation.T, atol=1e-9):
+        draft.error("MD316", "prior covariance is not symmetric and finite", draft.where_covariance)
+    elif np.linalg.eigvalsh(correlation).min() < -1e-9:
+        draft.error(
+            "MD316",
+            "prior covariance has a negative eigenvalue: no set of properties can be correlated so",
+            draft.where_covariance,
+            help="check the correlations; each lies within -1 to 1, and they must agree with one another",
+        )

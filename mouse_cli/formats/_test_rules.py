@@ -1,0 +1,121 @@
+"""Rules for the measured modes."""
+
+import numpy as np
+
+from mouse_cli.formats.draft import Draft, TestDraft
+from mouse_cli.model.modal_test import ModalTest
+
+
+def modal_test(draft: Draft) -> ModalTest | None:
+    """The measured modes with dofs from 0; None for a deck without a test, or when a rule is broken."""
+    test = draft.test
+    if test is None:
+        return None
+    _mode_numbers(draft, test)
+    _frequencies(draft, test)
+    _dofs(draft, test)
+    _accuracies(draft, test)
+    return ModalTest(
+        test.number,
+        test.frequency_hz,
+        test.frequency_sd_hz,
+        test.dofs - 1,
+        test.shapes,
+        test.shape_sd,
+        test.scale,
+    )
+
+
+def total_mass_dofs(draft: Draft) -> None:
+    """The degrees of freedom whose mass is summed must exist."""
+    for dof in draft.run.total_mass_dofs:
+        if not 0 <= dof < draft.order:
+            draft.error(
+                "MD317",
+                f"degree of freedom {dof + 1} of fix_total_mass is outside 1 to {draft.order}",
+                draft.where_total_mass,
+                help=f"give numbers from 1 to {draft.order}",
+            )
+
+
+def _mode_numbers(draft: Draft, test: TestDraft) -> None:
+    previous = 0
+    for i, number in enumerate(test.number.tolist()):
+        if not previous < number <= draft.order:
+            draft.error(
+                "MD320",
+                f"mode number {number} must be above {previous} and at most {draft.order}, the order of the model",
+                test.where_number(i),
+                "mode numbers count the rigid-body modes and ascend",
+                "give the system mode number of each measured mode, in ascending order",
+            )
+        previous = max(previous, number)
+
+
+def _frequencies(draft: Draft, test: TestDraft) -> None:
+    previous = 0.0
+    for i, frequency in enumerate(test.frequency_hz.tolist()):
+        if np.isnan(frequency):
+            continue
+        if not np.isfinite(frequency) or frequency <= 0:
+            draft.error(
+                "MD321",
+                f"test frequency {i + 1} is {frequency:.8g} Hz; it must be positive",
+                test.where_frequency(i),
+                help="give natural frequencies in Hz",
+            )
+        elif frequency < previous:
+            draft.error(
+                "MD322",
+                f"test frequency {i + 1} is {frequency:.8g} Hz, below {previous:.8g} Hz of the mode before",
+                test.where_frequency(i),
+                help="give the modes in ascending order of frequency",
+            )
+        previous = max(previous, frequency)
+
+
+def _dofs(draft: Draft, test: TestDraft) -> None:
+    seen: set[int] = set()
+    for i, dof in enumerate(test.dofs.tolist()):
+        if not 1 <= dof <= draft.order:
+            draft.error(
+                "MD323",
+                f"measured degree of freedom {dof} is outside 1 to {draft.order}",
+                test.where_dof(i),
+                help=f"give numbers from 1 to {draft.order}",
+            )
+        elif dof in seen:
+            draft.error(
+                "MD324",
+                f"degree of freedom {dof} is measured twice",
+                test.where_dof(i),
+                help="give each once",
+            )
+        seen.add(dof)
+
+
+def _accuracies(draft: Draft, test: TestDraft) -> None:
+    """Every datum needs a positive standard deviation: a certain datum has no place in a covariance."""
+    for i, (frequency, sd) in enumerate(zip(test.frequency_hz, test.frequency_sd_hz, strict=True)):
+        if not np.isnan(frequency) and not (np.isfinite(sd) and sd > 0):
+            draft.error(
+                "MD325",
+                f"standard deviation of test frequency {i + 1} is {sd:.8g} Hz; it must be positive",
+                test.where_frequency_sd(i),
+                help="give the standard deviation in Hz; 0 would make a certain datum",
+            )
+    bad = np.isfinite(test.shapes) & ~(np.isfinite(test.shape_sd) & (test.shape_sd > 0))
+    for s, m in np.argwhere(bad)[:20]:
+        draft.error(
+            "MD326",
+            f"standard deviation of x({m + 1},{s + 1}), mode {m + 1} at measured point {s + 1}, is "
+            f"{test.shape_sd[s, m]:.8g}; it must be positive",
+            test.where_shape_sd(int(s), int(m)),
+            help="give the standard deviation in the units of the shape",
+        )
+    for s, m in np.argwhere(np.isinf(test.shapes))[:20]:
+        draft.error("MD302", f"x({m + 1},{s + 1}) is not finite", test.where_shape(int(s), int(m)))
+    if not (np.isfinite(test.frequency_hz).any() or np.isfinite(test.shapes).any()):
+        draft.error(
+            "MD327", "the test holds no datum", test.where_frequency(0), help="give a frequency or a shape"
+        )

@@ -1,0 +1,136 @@
+"""What a run found; reports read it and compute nothing."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mouse_cli._errors import Diagnostic
+from mouse_cli.model._arrays import Matrix
+from mouse_cli.model.problem import Problem
+
+
+@dataclass(frozen=True)
+class ChiSquareTest:
+    """A test of the model form: `chi2` on `dof` degrees of freedom would be exceeded with probability `p`."""
+
+    name: str
+    chi2: float
+    dof: int
+    p: float
+
+    @property
+    def rejects(self) -> bool:
+        """Whether so large a value would come by chance less than once in a thousand."""
+        return self.dof > 0 and self.p < REJECT
+
+
+REJECT = 1e-3  # gate of the model-form tests
+
+
+@dataclass(frozen=True)
+class Status:
+    """How a run ended: `key`, one sentence that says it, one that says what to do; `exit_code` of the command."""
+
+    key: str
+    sentence: str
+    advice: str = ""
+    exit_code: int = 0
+
+
+@dataclass(frozen=True)
+class Cycle:
+    """One pass of the outer loop: values (p,) of the parameters after it, and how the data then stand.
+
+    chi2 = r'R^-1 r; exceedances of `allowed`; cost: chi2 plus the prior's share; damping of the accepted step.
+    """
+
+    index: int
+    theta: np.ndarray
+    chi2: float
+    exceedances: int
+    allowed: int
+    cost: float
+    damping: float = 0.0
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """The model at given values theta (p,).
+
+    K, M; eigenvalues (k,) and shapes (n, k), all modes of a dense model; modes (m,) from 0: which of them was paired with
+    each measured one; test_shapes, model_shapes (s, m) at one scale; y, predicted (q,) data and sd_predicted (q,) from the
+    covariance of theta; mac (m,).
+    """
+
+    theta: np.ndarray
+    K: Matrix
+    M: Matrix
+    eigenvalues: np.ndarray
+    shapes: np.ndarray
+    modes: np.ndarray
+    model_shapes: np.ndarray
+    predicted: np.ndarray
+    sd_predicted: np.ndarray
+    mac: np.ndarray
+
+
+@dataclass(frozen=True)
+class Result:
+    """The answer of `run`.
+
+    y, sd, labels (q,): the data at the scale of the theory; test_shapes (s, m) and shape_factor (m,) likewise.
+    covariance (p, p) and sd_theta (p,) of the revised parameters, in their units; at_limit (p,).
+    B (q, e), T (q, p): partials at the revised model, only when asked for. innovation: before the cycles; residual and
+    prior_shift: after them.
+    """
+
+    problem: Problem
+    status: Status
+    cycles: tuple[Cycle, ...]
+    prior: Snapshot
+    revised: Snapshot
+    y: np.ndarray
+    sd: np.ndarray
+    labels: tuple[str, ...]
+    test_shapes: np.ndarray
+    test_shape_sd: np.ndarray
+    shape_factor: np.ndarray
+    covariance: np.ndarray
+    sd_theta: np.ndarray
+    at_limit: np.ndarray
+    innovation: ChiSquareTest
+    residual: ChiSquareTest
+    prior_shift: ChiSquareTest
+    rigid_modes: int
+    z: float
+    allowed: int
+    exceeding: np.ndarray
+    warnings: tuple[Diagnostic, ...] = ()
+    B: np.ndarray | None = None
+    T: np.ndarray | None = None
+    versions: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def rejected(self) -> bool:
+        """Whether the data contradict the form of the model, as far as the tests after the cycles can tell."""
+        return self.residual.rejects or self.prior_shift.rejects
+
+    @property
+    def exit_code(self) -> int:
+        """0: converged and the model explains the data; 1: do not trust it; 5: no answer."""
+        return self.status.exit_code or int(self.rejected)
+
+
+@dataclass(frozen=True)
+class Forecast:
+    """Answer of `modes`: natural frequencies and shapes of the prior model with the uncertainty the prior gives them.
+
+    frequencies_hz, sd_hz (k,); shapes, shape_sd (n, k), mass-normalised, largest component positive.
+    """
+
+    problem: Problem
+    frequencies_hz: np.ndarray
+    sd_hz: np.ndarray
+    shapes: np.ndarray
+    shape_sd: np.ndarray
+    rigid_modes: int

@@ -1,0 +1,136 @@
+"""The modal test as observable: eigenvalues and mode-shape components, in the order of the card deck."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.dynamics.correlation import least_squares_scale
+from mouse_cli.dynamics.eigen import EigenSolution
+from mouse_cli.dynamics.sensitivity import ModalPartials
+from mouse_cli.model._arrays import Matrix, is_sparse
+from mouse_cli.model.modal_test import ModalTest
+
+UNRELATED = 0.1  # least ratio |c t| / |x| of a test vector that has anything to do with the theory's
+
+
+@dataclass(frozen=True)
+class ModalObservable:
+    """y = (lambda of every mode; then mode 1 at its points, mode 2, ...) with its standard deviations.
+
+    shapes, shape_sd (s, m): the test vectors at the scale of the theory, NaN where not measured; factor (m,): what they
+    were multiplied by, sign included. mass (s, s): M restricted to the measured points.
+    """
+
+    test: ModalTest
+    shapes: np.ndarray
+    shape_sd: np.ndarray
+    factor: np.ndarray
+    mass: np.ndarray
+
+    @property
+    def fitted(self) -> bool:
+        """Whether the scale of every shape is fitted along with the parameters."""
+        return self.test.scale == "fitted"
+
+    @property
+    def has_frequency(self) -> np.ndarray:
+        """Mask (m,) of the modes whose frequency was measured."""
+        return np.isfinite(self.test.frequency_hz)
+
+    @property
+    def has_shape(self) -> np.ndarray:
+        """Mask (s, m) of the measured components."""
+        return np.isfinite(self.shapes)
+
+    @property
+    def scales_fitted(self) -> int:
+        """Number of degrees of freedom that fitted scales take from the data."""
+        return int(self.has_shape.any(axis=0).sum()) if self.fitted else 0
+
+    def stacked(self, eigenvalues: np.ndarray, shapes: np.ndarray) -> np.ndarray:
+        """Values (q, ...) of `eigenvalues` (m, ...) and `shapes` (s, m, ...) where there is a datum, in the order of y."""
+        return np.concatenate([eigenvalues[self.has_frequency], np.swapaxes(shapes, 0, 1)[self.has_shape.T]])
+
+    def measured(self) -> tuple[np.ndarray, np.ndarray]:
+        """y (q,) and its standard deviations (q,): lambda = (2 pi f)^2, sd_lambda = 8 pi^2 f sd_f."""
+        f, sd = self.test.frequency_hz, self.test.frequency_sd_hz
+        y = self.stacked((2 * np.pi * f) ** 2, self.shapes)
+        return y, self.stacked(8 * np.pi**2 * f * sd, self.shape_sd)
+
+    def labels(self) -> list[str]:
+        """Names of the data as the report writes them: `lambda 1`, `x(3,2)` = component at dof 2 of mode 3."""
+        names = [f"lambda {n}" for n, have in zip(self.test.number, self.has_frequency, strict=True) if have]
+        return names + [
+            f"x({self.test.number[i]},{self.test.dofs[s] + 1})" for i, s in np.argwhere(self.has_shape.T)
+        ]
+
+    def theory(self, solution: EigenSolution, modes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Model shapes (s, m) of the paired `modes` at the measured points, signed and scaled; and those factors (m,)."""
+        shapes = solution.shapes[self.test.dofs[:, None], modes]
+        factor = np.array([self._amplitude(shapes[:, i], i) for i in range(len(modes))])
+        return shapes * factor, factor
+
+    def _amplitude(self, x: np.ndarray, i: int) -> float:
+        """Factor on the model's shape: its sign, and its amplitude when that is fitted."""
+        have = self.has_shape[:, i]
+        if not have.any():
+            return 1.0
+        x, t = x[have], self.shapes[have, i]
+        if self.fitted:
+            w = 1.0 / self.shape_sd[have, i] ** 2
+            size = float(x @ (w * x))
+            return float(x @ (w * t)) / size if size > 0 else 1.0
+        return -1.0 if x @ self.mass[np.ix_(have, have)] @ t < 0 else 1.0
+
+    def partials(self, partials: ModalPartials, shapes: np.ndarray, factor: np.ndarray) -> np.ndarray:
+        """B (q, e) in the order of y, for model `shapes` (s, m) with their `factor` (m,) as `theory` gives them.
+
+        With fitted scales the direction of each shape itself is projected out (variable projection, Golub and Pereyra
+        1973): what a change of scale explains says nothing of the parameters.
+        """
+        d_shape = np.swapaxes(partials.d_shape, 0, 1) * factor[:, None]
+        if self.fitted:
+            for i in range(self.test.m):
+                have = self.has_shape[:, i]
+                x, w = shapes[have, i], 1.0 / self.shape_sd[have, i] ** 2
+                size = float(x @ (w * x))
+                if size > 0:
+                    d_shape[have, i] -= np.outer(x, (w * x) @ d_shape[have, i]) / size
+        return self.stacked(partials.d_lambda, d_shape)
+
+
+def observe(test: ModalTest, M: Matrix, solution: EigenSolution, modes: np.ndarray) -> ModalObservable:
+    """The observable of `test`, its shapes renormalised once to the model's `modes` (m,) of `solution`.
+
+    Scale `least-squares` (and the start of `fitted`): c = x'Mt / t'Mt over the measured points; `unit`: t'Mt = 1, signed;
+    `none`: as punched. Accuracies are scaled with the shapes. Raises UnrelatedShapes when c would be about 0.
+    """
+    mass = M[test.dofs][:, test.dofs].toarray() if is_sparse(M) else M[np.ix_(test.dofs, test.dofs)]
+    theory = solution.shapes[test.dofs[:, None], modes]
+    factor = np.array([_factor(test, mass, theory[:, i], i) for i in range(test.m)])
+    return ModalObservable(test, test.shapes * factor, test.shape_sd * np.abs(factor), factor, mass)
+
+
+class UnrelatedShapes(ValueError):
+    """A test vector has nothing in common with the model's mode of that number; `mode` counts from 0."""
+
+    def __init__(self, mode: int, ratio: float):
+        super().__init__(f"test mode {mode + 1}: |c t| / |x| = {ratio:.3g}")
+        self.mode, self.ratio = mode, ratio
+
+
+def _factor(test: ModalTest, mass: np.ndarray, x: np.ndarray, i: int) -> float:
+    """Renormalisation factor of test vector i."""
+    have = np.isfinite(test.shapes[:, i])
+    if test.scale == "none" or not have.any():
+        return 1.0
+    x, t, mass = x[have], test.shapes[have, i], mass[np.ix_(have, have)]
+    length = np.sqrt(max(t @ mass @ t, 0.0))
+    if length == 0:
+        raise UnrelatedShapes(i, 0.0)
+    c = least_squares_scale(x, t, mass)
+    size = np.sqrt(max(x @ mass @ x, 0.0))
+    ratio = abs(c) * length / size if size > 0 else 0.0
+    if ratio < UNRELATED:
+        raise UnrelatedShapes(i, ratio)
+    return c if test.scale != "unit" else float(np.copysign(1.0 / length, c))

@@ -1,0 +1,148 @@
+"""One run: eigensolution of the prior model, innovation test, recursion, tests and covariance of what came out."""
+
+import sys
+from dataclasses import replace
+
+import numpy as np
+
+from mouse_cli import __version__
+from mouse_cli.dynamics.eigen import IndefiniteError
+from mouse_cli.estimators import estimator as find_estimator
+from mouse_cli.estimators._linear import Estimator, LinearEstimate, LinearProblem, Unobservable, conditioned
+from mouse_cli.model.problem import Problem
+from mouse_cli.model.result import Cycle, Forecast, Result, Snapshot
+from mouse_cli.observables.modal import UnrelatedShapes, observe
+from mouse_cli.terms.matrix_entries import MatrixEntries
+from mouse_cli.updating import anchored, model_form, replaced, rules
+from mouse_cli.updating.convergence import ExceedanceTest
+from mouse_cli.updating.coordinates import coordinates
+from mouse_cli.updating.state import Setting, State, paired, reference_eigenvalue, solve
+from mouse_cli.updating.trace import Trace
+
+RECURSIONS = {"replaced": replaced, "anchored": anchored}
+
+
+def run(problem: Problem, progress=lambda cycle: None) -> Result:
+    """Revise the model of `problem` by its test.
+
+    progress is called with each Cycle as it ends. Raises DeckError for a deck whose test cannot belong to its model
+    (a rigid-body mode named as measured, shapes that are unrelated), NumericalError where no eigensolution exists.
+    """
+    estimator = find_estimator(problem.run.estimator)
+    setting, start = _begin(problem)
+    innovation = model_form.innovation(setting, start)
+    trace = Trace(setting, ExceedanceTest(problem.run.confidence, problem.run.convergence), progress, start)
+    status = RECURSIONS[problem.run.recursion].recur(trace, estimator)
+    end = trace.state
+    answered = status.key not in ("unobservable", "infeasible")
+    estimate, at_limit = _spread(setting, end, estimator if answered else find_estimator("bayes"))
+    residual, shift = model_form.residual_and_shift(setting, end, at_limit, estimator.uses_prior)
+    slope = setting.coordinates.slope(end.u)
+    covariance = estimate.covariance() * np.outer(slope, slope)
+    exceeding = trace.test.exceeding(end.residual, setting.sd)
+    result = Result(
+        problem=problem,
+        status=status,
+        cycles=tuple(trace.cycles),
+        prior=_snapshot(
+            setting, start, problem.prior.dense() / np.outer(*2 * [setting.coordinates.slope(start.u)])
+        ),
+        revised=_snapshot(setting, end, estimate.covariance()),
+        y=setting.y,
+        sd=setting.sd,
+        labels=tuple(setting.observable.labels()),
+        test_shapes=setting.observable.shapes,
+        test_shape_sd=setting.observable.shape_sd,
+        shape_factor=setting.observable.factor,
+        covariance=covariance,
+        sd_theta=np.sqrt(np.maximum(np.diag(covariance), 0.0)),
+        at_limit=at_limit,
+        innovation=innovation,
+        residual=residual,
+        prior_shift=shift,
+        rigid_modes=start.solution.rigid(reference_eigenvalue(problem, start.solution.eigenvalues)),
+        z=trace.test.z,
+        allowed=trace.cycles[-1].allowed,
+        exceeding=exceeding,
+        B=end.B if problem.run.print_partials else None,
+        T=end.T if problem.run.print_partials else None,
+        versions=_versions(),
+    )
+    return replace(result, warnings=tuple(rules.remarks(result)))
+
+
+def _begin(problem: Problem) -> tuple[Setting, State]:
+    """O-1 for the prior model, and the test brought to its scale."""
+    term = MatrixEntries(problem.structure, problem.elements, problem.A)
+    try:
+        solution = solve(problem, problem.structure.K, problem.structure.M)
+    except IndefiniteError as reason:
+        raise rules.unphysical(problem, str(reason)) from None
+    rules.check_rigid_modes(problem, solution)
+    modes = paired(problem, solution)
+    try:
+        observable = observe(problem.test, problem.structure.M, solution, modes)
+    except UnrelatedShapes as reason:
+        raise rules.unrelated(problem, solution, reason.mode, reason.ratio) from None
+    y, sd = observable.measured()
+    setting = Setting(problem, term, coordinates(problem, term), observable, y, sd)
+    return setting, setting.state(setting.coordinates.mean)
+
+
+def _spread(setting: Setting, state: State, estimator: Estimator) -> tuple[LinearEstimate, np.ndarray]:
+    """Covariance of the revised parameters, with T of the final model (O-11); and which of them stand at a limit (p,)."""
+    problem = LinearProblem(state.T, state.residual, setting.sd, setting.coordinates.L)
+    try:
+        estimate = estimator.solve(problem)
+    except Unobservable:
+        estimate = find_estimator("bayes").solve(problem)
+    at_limit = _at_limit(setting, state.u)
+    if at_limit.any():
+        root_x, held = estimate.root(), at_limit.astype(int)
+        in_u = replace(problem, L=np.eye(len(state.u)))
+        root, _ = conditioned(in_u, root_x, held)
+        estimate = replace(estimate, variance=np.einsum("ij,ij->i", root, root), root=lambda: root)
+    return estimate, at_limit
+
+
+def _at_limit(setting: Setting, u: np.ndarray) -> np.ndarray:
+    """Mask (p,) of the parameters that stand at a limit."""
+    lower, upper = setting.coordinates.lower, setting.coordinates.upper
+    if lower is None:
+        return np.zeros(len(u), bool)
+    near = 1e-7 * np.maximum(np.abs(u), np.abs(u - setting.coordinates.mean))
+    return (u - lower <= near) | (upper - u <= near)
+
+
+def _snapshot(setting: Setting, state: State, covariance: np.ndarray) -> Snapshot:
+    """What a report needs of `state`, with `covariance` (p, p) of u carried to the data."""
+    spread = np.einsum("ij,jk,ik->i", state.T, covariance, state.T, optimize=True)
+    return Snapshot(
+        theta=state.theta,
+        K=state.K,
+        M=state.M,
+        eigenvalues=state.solution.eigenvalues,
+        shapes=state.solution.shapes,
+        modes=state.modes,
+        model_shapes=state.shapes,
+        predicted=state.predicted,
+        sd_predicted=np.sqrt(np.maximum(spread, 0.0)),
+        mac=state.mac,
+    )
+
+
+def _versions() -> dict[str, str]:
+    return {"mouse": __version__, "numpy": np.__version__, "python": sys.version.split()[0]}
+
+
+def forecast(problem: Problem, count: int | None = None) -> Forecast:
+    """VIDAP's forward problem: natural frequencies and shapes of the prior model and the uncertainty that S gives them.
+
+    count: how many modes, from the lowest; all of a dense model when None. Raises NumericalError.
+    """
+    from mouse_cli.updating.forward import forecast as _forecast
+
+    return _forecast(problem, count)
+
+
+__all__ = ["Cycle", "forecast", "run"]

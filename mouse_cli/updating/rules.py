@@ -1,0 +1,152 @@
+"""What can only be judged with an eigensolution: tests that cannot belong to the model, and remarks on an answer."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from mouse_cli._errors import ERROR, WARNING, DeckError, Diagnostic, NumericalError
+from mouse_cli.dynamics.correlation import mac
+from mouse_cli.dynamics.eigen import EigenSolution
+from mouse_cli.model.problem import Problem
+from mouse_cli.model.result import Result
+from mouse_cli.updating.state import reference_eigenvalue
+
+_SILENT = 0.99  # revised over prior standard deviation: above this the data said nothing
+_TIED = 0.995  # correlation above which two properties are determined only together
+_MOST_RIGID_1972 = 3
+
+
+def check_rigid_modes(problem: Problem, solution: EigenSolution) -> None:
+    """Raise DeckError when a rigid-body mode is named as measured: its accuracy would become a zero variance."""
+    rigid = solution.rigid(reference_eigenvalue(problem, solution.eigenvalues))
+    named = [int(n) for n in problem.test.number if n <= rigid]
+    if named:
+        raise DeckError(
+            Diagnostic(
+                "MD330",
+                ERROR,
+                f"mode {named[0]} is named as measured, but the model has {rigid} rigid-body mode(s) and this is one of them",
+                note="mode numbers count the rigid-body modes; the first flexural mode is number "
+                f"{rigid + 1}",
+                help="add the number of rigid-body modes to the mode numbers of the test",
+            )
+        )
+    if problem.run.legacy and rigid > _MOST_RIGID_1972:
+        raise DeckError(
+            Diagnostic(
+                "MD332",
+                ERROR,
+                f"the model has {rigid} rigid-body modes; the program of 1972 allowed {_MOST_RIGID_1972}",
+                help="run without --legacy",
+            )
+        )
+
+
+def unphysical(problem: Problem, reason: str) -> NumericalError:
+    """The error for a prior model that has no real natural frequencies."""
+    return NumericalError(
+        Diagnostic(
+            "MD501",
+            ERROR,
+            f"the prior model of '{problem.title.strip()}' is not physical: {reason}",
+            help="check the signs of the off-diagonal stiffnesses and that every mass is positive",
+        )
+    )
+
+
+def unrelated(problem: Problem, solution: EigenSolution, mode: int, ratio: float) -> DeckError:
+    """The error for a test vector that has nothing in common with the mode it is said to be."""
+    test = problem.test
+    likeness = mac(test.shapes[:, [mode]], solution.shapes[test.dofs])[0]
+    best = int(np.argmax(likeness))
+    return DeckError(
+        Diagnostic(
+            "MD331",
+            ERROR,
+            f"the shape measured for mode {test.number[mode]} is unrelated to the model's: |c t| / |x| is {ratio:.3g}, "
+            "at least 0.1 is expected",
+            note=f"it looks most like model mode {best + 1} (MAC {likeness[best]:.2f})",
+            help="check the mode numbers and the order of the measured points, or use --pairing mac or --scale none",
+        )
+    )
+
+
+def remarks(result: Result) -> Iterator[Diagnostic]:
+    """What a careful reader of the answer should know."""
+    if result.status.key in ("unobservable", "infeasible"):
+        return
+    yield from _silent(result)
+    yield from _tied(result)
+    yield from _limits(result)
+    yield from _signs(result)
+    yield from _places(result)
+
+
+def _silent(result: Result) -> Iterator[Diagnostic]:
+    prior_sd = result.problem.prior.sd
+    for i, parameter in enumerate(result.problem.parameters):
+        if prior_sd[i] > 0 and not result.at_limit[i] and result.sd_theta[i] > _SILENT * prior_sd[i]:
+            yield _remark(
+                "MD502",
+                f"the data say nothing of {parameter.name}: its standard deviation is {result.sd_theta[i]:.4g}, before the "
+                f"test {prior_sd[i]:.4g}",
+                parameter.span,
+                "measure a mode or a point that it moves",
+            )
+
+
+def _tied(result: Result) -> Iterator[Diagnostic]:
+    sd = np.where(result.sd_theta > 0, result.sd_theta, np.inf)
+    correlation = np.triu(result.covariance / np.outer(sd, sd), 1)
+    names = [p.name for p in result.problem.parameters]
+    for i, j in np.argwhere(np.abs(correlation) > _TIED)[:10]:
+        kind = "sum" if correlation[i, j] < 0 else "ratio or difference"
+        yield _remark(
+            "MD503",
+            f"{names[i]} and {names[j]} are determined only together (correlation {correlation[i, j]:+.4f}): trust their {kind}",
+        )
+
+
+def _limits(result: Result) -> Iterator[Diagnostic]:
+    for parameter, value, stopped in zip(
+        result.problem.parameters, result.revised.theta, result.at_limit, strict=True
+    ):
+        if stopped:
+            yield _remark(
+                "MD504",
+                f"{parameter.name} stopped at its limit, {value:.6g}; its standard deviation is not meaningful there",
+                parameter.span,
+                "if the limit is not physical, widen it; if it is, look for what else the model lacks",
+            )
+
+
+def _signs(result: Result) -> Iterator[Diagnostic]:
+    for parameter, value in zip(result.problem.parameters, result.revised.theta, strict=True):
+        if parameter.nominal > 0 >= value:
+            yield _remark(
+                "MD505",
+                f"{parameter.name} became {value:.6g}; its prior value was {parameter.nominal:.6g}",
+                parameter.span,
+                "use transform: log or lower: 0 if it cannot be negative",
+            )
+
+
+def _places(result: Result) -> Iterator[Diagnostic]:
+    """Measured modes that look like another model mode than the one they were compared with."""
+    test, revised = result.problem.test, result.revised
+    if np.isfinite(test.shapes).sum(axis=0).min(initial=0) < 3:
+        return
+    likeness = mac(test.shapes, revised.shapes[test.dofs])
+    for i, mode in enumerate(revised.modes):
+        best = int(np.argmax(likeness[i]))
+        if best != mode and likeness[i, best] > 0.8 and likeness[i, mode] < 0.5:
+            yield _remark(
+                "MD506",
+                f"the shape measured for mode {test.number[i]} looks like model mode {best + 1} (MAC "
+                f"{likeness[i, best]:.2f}), but was compared with mode {mode + 1} (MAC {likeness[i, mode]:.2f})",
+                help="use --pairing mac",
+            )
+
+
+def _remark(code: str, message: str, span=None, help: str = "") -> Diagnostic:
+    return Diagnostic(code, WARNING, message, span, help=help)

@@ -1,0 +1,156 @@
+"""The model at given values of its parameters, and what follows from that: eigensolution, predictions, partials."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from mouse_cli.dynamics.correlation import align, mac, pair
+from mouse_cli.dynamics.eigen import RIGID, EigenSolution, IndefiniteError, clusters, eigensolution
+from mouse_cli.dynamics.sensitivity import contract, modal_partials
+from mouse_cli.model._arrays import Matrix, is_sparse
+from mouse_cli.model.problem import Problem
+from mouse_cli.observables.modal import ModalObservable
+from mouse_cli.terms.matrix_entries import MatrixEntries
+from mouse_cli.updating.coordinates import Coordinates
+
+
+@dataclass(frozen=True)
+class Setting:
+    """What stays the same during a run: problem, term, coordinates, and the data at the scale of the theory."""
+
+    problem: Problem
+    term: MatrixEntries
+    coordinates: Coordinates
+    observable: ModalObservable
+    y: np.ndarray
+    sd: np.ndarray
+
+    def state(self, u: np.ndarray) -> "State":
+        """The model at the coordinates u (p,). Raises IndefiniteError when K or M is not physical there."""
+        return State(self, u)
+
+
+class State:
+    """The model at coordinates u (p,): everything else is computed when first asked for, and once."""
+
+    def __init__(self, setting: Setting, u: np.ndarray):
+        self.setting, self.u = setting, u
+        problem = setting.problem
+        self.theta = setting.coordinates.value(u)
+        self.K, self.M = setting.term.matrices(self.theta - problem.prior.mean)
+        self.solution = solve(problem, self.K, self.M)
+        self.modes = paired(problem, self.solution)
+        self.solution = aligned(self.solution, self.modes, setting.observable)
+        self.shapes, self.factor = setting.observable.theory(self.solution, self.modes)
+
+    @cached_property
+    def predicted(self) -> np.ndarray:
+        """h(theta) (q,): the data as this model predicts them."""
+        return self.setting.observable.stacked(self.solution.eigenvalues[self.modes], self.shapes)
+
+    @cached_property
+    def residual(self) -> np.ndarray:
+        """Delta (q,): measured minus predicted, Eq. O-2."""
+        return self.setting.y - self.predicted
+
+    @cached_property
+    def chi2(self) -> float:
+        """r'R^-1 r."""
+        return float(np.sum((self.residual / self.setting.sd) ** 2))
+
+    @cached_property
+    def B(self) -> np.ndarray:
+        """d(data)/d(listed elements) (q, e), Eq. O-4."""
+        setting, problem = self.setting, self.setting.problem
+        partials = modal_partials(
+            self.solution, self.K, self.M, self.modes, setting.observable.test.dofs, problem.elements
+        )
+        return setting.observable.partials(partials, self.shapes, self.factor)
+
+    @cached_property
+    def T(self) -> np.ndarray:
+        """d(data)/du (q, p), Eq. O-5."""
+        return contract(self.B, self.setting.problem.A) * self.setting.coordinates.slope(self.u)
+
+    @cached_property
+    def mac(self) -> np.ndarray:
+        """MAC (m,) of each measured shape with its model mode; NaN where no shape was measured."""
+        test = self.setting.observable.test.shapes
+        model = np.where(
+            np.isfinite(test),
+            self.solution.shapes[self.setting.observable.test.dofs[:, None], self.modes],
+            np.nan,
+        )
+        values = np.array([mac(test[:, [i]], model[:, [i]])[0, 0] for i in range(test.shape[1])])
+        return np.where(np.isfinite(test).any(axis=0), values, np.nan)
+
+
+def reference_eigenvalue(problem: Problem, eigenvalues: np.ndarray) -> float:
+    """The eigenvalue by which zero is judged: that of the first measured mode, else a share of the largest."""
+    if problem.test is not None and np.isfinite(problem.test.frequency_hz).any():
+        return float((2 * np.pi * np.nanmin(problem.test.frequency_hz)) ** 2)
+    return float(np.abs(eigenvalues).max()) * 1e-4
+
+
+def solve(problem: Problem, K: Matrix, M: Matrix, count: int | None = None) -> EigenSolution:
+    """Eigensolution of K, M as the problem needs it.
+
+    Raises IndefiniteError when an eigenvalue is negative beyond what rounding makes of a rigid-body mode.
+    """
+    count, shift = count or _modes_needed(problem), None
+    if problem.test is not None and is_sparse(K):
+        shift = -0.3 * reference_eigenvalue(problem, np.ones(1))
+    solution = eigensolution(K, M, count, shift)
+    lowest = float(solution.eigenvalues[0])
+    if lowest < -RIGID * reference_eigenvalue(problem, solution.eigenvalues):
+        raise IndefiniteError(f"the stiffness matrix has the negative eigenvalue {lowest:.6g} (rad/s)^2")
+    return solution
+
+
+def _modes_needed(problem: Problem) -> int:
+    """Modes that a sparse model is solved for: the highest measured one and some to pair with."""
+    highest = int(problem.test.number.max()) if problem.test is not None else 10
+    return min(highest + 6, problem.structure.n)
+
+
+def paired(problem: Problem, solution: EigenSolution) -> np.ndarray:
+    """Index (m,) from 0 of the model mode that each measured mode is: by number, or by MAC and frequency."""
+    test = problem.test
+    by_number = test.number - 1
+    have = np.isfinite(test.shapes)
+    if problem.run.pairing == "number" or not len(have) or have.sum(axis=0).min() < 2:
+        return by_number
+    reach = min(solution.shapes.shape[1], 2 * int(test.number.max()) + 6)
+    hz = solution.frequencies_hz[:reach].copy()
+    hz[solution.eigenvalues[:reach] <= RIGID * reference_eigenvalue(problem, solution.eigenvalues)] = 0.0
+    return pair(test.shapes, test.frequency_hz, solution.shapes[test.dofs, :reach], hz)
+
+
+def aligned(solution: EigenSolution, modes: np.ndarray, observable: ModalObservable) -> EigenSolution:
+    """The solution with the shapes of equal frequencies rotated within their subspace onto the measured ones."""
+    family = clusters(solution.eigenvalues)
+    crowded = [c for c in np.unique(family[modes]) if np.count_nonzero(family == c) > 1]
+    if not crowded or not observable.test.s:
+        return solution
+    shapes = solution.shapes.copy()
+    for cluster in crowded:
+        members = np.flatnonzero(family == cluster)
+        measured = [i for i in range(len(modes)) if modes[i] in members and observable.has_shape[:, i].all()]
+        if measured:
+            rotation = align(shapes[np.ix_(observable.test.dofs, members)], observable.shapes[:, measured])
+            rotated = shapes[:, members] @ rotation
+            order = [int(np.flatnonzero(members == modes[i])[0]) for i in measured]
+            rest = [j for j in range(len(members)) if j not in order]
+            shapes[:, members[order + rest]] = rotated
+    return EigenSolution(solution.eigenvalues, shapes)
+
+
+def attempt(setting: Setting, u: np.ndarray) -> State | None:
+    """The state at u, or None where the model is not physical or not finite there."""
+    if not np.isfinite(u).all():
+        return None
+    try:
+        return setting.state(u)
+    except (IndefiniteError, np.linalg.LinAlgError):
+        return None

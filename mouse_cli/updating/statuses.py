@@ -1,0 +1,68 @@
+"""How a run can end: one sentence that says it, one that says what to do."""
+
+from mouse_cli.model.result import Status
+
+STATUSES = {
+    "passed": Status("converged", "Converged: the model meets the test within its confidence limits."),
+    "stationary": Status(
+        "converged", "Converged: no further step along the partial derivatives changes the answer."
+    ),
+    **{
+        status.key: status
+        for status in (
+            Status(
+                "not-converged",
+                "Not converged: all {cycles} computations of the partial derivatives are used up and {exceedances} of {data} "
+                "data lie outside their confidence limits ({allowed} are allowed).",
+                "Allow more partials (NPARD), or look at the data marked * below: one wrong datum is enough.",
+                1,
+            ),
+            Status(
+                "stalled",
+                "Stalled: further cycles change nothing, yet {exceedances} of {data} data lie outside their confidence limits "
+                "({allowed} are allowed).",
+                "The recursion is at its limit point; no revision of these properties fits better. Check the accuracies and the "
+                "data marked *, or the form of the model.",
+                1,
+            ),
+            Status(
+                "no-descent",
+                "Stopped: no step along the partial derivatives improves the fit any more, and the mode is not reached.",
+                "Check for mode shapes that change places (pairing) and for data that contradict each other.",
+                1,
+            ),
+            Status(
+                "diverged",
+                "Diverged: the misfit grew from cycle to cycle ({chi2_first:.4g} to {chi2_last:.4g}).",
+                "The perturbation exceeds the linear range: use --recursion anchored, --step second-order, or limits.",
+                1,
+            ),
+            Status(
+                "indefinite",
+                "Stopped in cycle {cycle}: the revision makes the model unphysical ({reason}); the results are those of the last "
+                "good cycle.",
+                "A stiffness or mass was driven negative: the model form may be wrong (see the tests), or use --recursion anchored, "
+                "limits, or transform: log.",
+                5,
+            ),
+            Status(
+                "unobservable",
+                "No answer: {reason}; undetermined: {names}.",
+                "Measure more, hold those properties (sd 0), or use the Bayes estimator, which keeps the prior where data are silent.",
+                5,
+            ),
+            Status(
+                "infeasible",
+                "No answer: {reason}.",
+                "Widen the limits.",
+                5,
+            ),
+        )
+    },
+}
+
+
+def status(key: str, **facts: object) -> Status:
+    """The status `key` with its sentence filled in."""
+    template = STATUSES[key]
+    return Status(template.key, template.sentence.format(**facts), template.advice, template.exit_code)

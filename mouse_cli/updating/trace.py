@@ -1,0 +1,61 @@
+"""What a recursion leaves behind: its cycles, the state it ended in, and why it ended."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mouse_cli.model.result import Cycle, Status
+from mouse_cli.updating.convergence import ExceedanceTest
+from mouse_cli.updating.state import Setting, State
+from mouse_cli.updating.statuses import status
+
+Progress = Callable[[Cycle], None]
+
+
+@dataclass
+class Trace:
+    """Grows by one cycle at a time; `state` is the last good one."""
+
+    setting: Setting
+    test: ExceedanceTest
+    progress: Progress
+    state: State
+    cycles: list[Cycle] = field(default_factory=list)
+
+    def record(self, state: State, cost: float, damping: float = 0.0) -> Cycle:
+        """Accept `state` as the result of the next cycle."""
+        exceeding = self.test.exceeding(state.residual, self.setting.sd)
+        allowed = self.test.allowed(len(exceeding))
+        cycle = Cycle(len(self.cycles), state.theta, state.chi2, int(exceeding.sum()), allowed, cost, damping)
+        self.state = state
+        self.cycles.append(cycle)
+        self.progress(cycle)
+        return cycle
+
+    @property
+    def passed(self) -> bool:
+        """Whether the last cycle passes the exceedance test."""
+        last = self.cycles[-1]
+        return last.exceedances <= last.allowed
+
+    def end(self, key: str, **facts: object) -> Status:
+        """The status `key` with the facts of this trace."""
+        first, last = self.cycles[0], self.cycles[-1]
+        return status(
+            key,
+            cycles=last.index,
+            exceedances=last.exceedances,
+            data=len(self.setting.y),
+            allowed=last.allowed,
+            chi2_first=first.chi2,
+            chi2_last=last.chi2,
+            **facts,
+        )
+
+    def unobservable(self, message: str, loose: np.ndarray) -> Status:
+        """The status for properties (mask `loose`) that the data do not determine."""
+        parameters = self.setting.problem.parameters
+        names = [p.name for p, is_loose in zip(parameters, loose, strict=True) if is_loose]
+        listed = ", ".join(names[:10]) + (f" and {len(names) - 10} more" if len(names) > 10 else "")
+        return self.end("unobservable", reason=message, names=listed)
