@@ -1,0 +1,86 @@
+"""Decks in and out: the format is told by the content, and only the reader that is needed is loaded."""
+
+import os
+import re
+
+from mouse_cli._errors import ERROR, DeckError, Diagnostic
+from mouse_cli._span import Span
+from mouse_cli.formats.draft import Draft
+from mouse_cli.model.problem import Problem
+
+_YAML_SUFFIXES = (".yaml", ".yml")
+_VERSION_KEY = re.compile(r"""^["']?mouse["']?\s*:""")
+_LEADING_LINES = 50  # a deck in YAML says `mouse: 1` at its head, below comments at most
+
+
+def read_deck(path: str | os.PathLike[str], *, legacy: bool = False, **options: object) -> Problem:
+    """The problem that a deck in either format states; `options` are those of `read_draft`.
+
+    Raises DeckError with everything that is wrong with the deck.
+    """
+    from mouse_cli.formats.assemble import assemble
+
+    return assemble(read_draft(_bytes(os.fspath(path)), os.fspath(path), legacy=legacy, **options))
+
+
+def read_draft(data: str | bytes, path: str, *, legacy: bool = False, **options: object) -> Draft:
+    """A deck as written. `options` (strip_73_80, overrides) concern card decks alone.
+
+    Raises DeckError when the text cannot be read as a deck.
+    """
+    if is_yaml(data, path):
+        from mouse_cli.formats import yaml_deck
+
+        draft = yaml_deck.read(data, path)
+        return draft.with_run(legacy=True) if legacy else draft
+    from mouse_cli.formats import cards
+
+    return cards.read(data, path, legacy=legacy, **options)
+
+
+def write_deck(problem: Problem, path: str | os.PathLike[str]) -> list[str]:
+    """Write the problem as YAML, with its large matrices beside it; returns the names of all files, the deck last.
+
+    Raises WrittenError.
+    """
+    from mouse_cli._atomic import write_text_atomically
+    from mouse_cli.formats import yaml_deck
+    from mouse_cli.formats.matrix_files import market
+
+    path = os.fspath(path)
+    folder, name = os.path.split(path)
+    text, attachments = yaml_deck.write(problem, os.path.splitext(name)[0])
+    written = []
+    for (
+        attachment,
+        matrix,
+    ) in attachments.items():  # before the deck, which must not name files that are not there
+        written.append(os.path.join(folder, attachment))
+        write_text_atomically(written[-1], market.text(matrix, problem.title))
+    write_text_atomically(path, text)
+    return [*written, path]
+
+
+def is_yaml(data: str | bytes, path: str = "") -> bool:
+    """Whether a deck is in YAML: by its suffix, or by a line `mouse:` before any other key."""
+    if path.lower().endswith(_YAML_SUFFIXES):
+        return True
+    head = data[:20_000]
+    text = head.decode("utf-8", "replace") if isinstance(head, bytes) else head
+    lines = [
+        line
+        for line in text.removeprefix("\ufeff").splitlines()
+        if line.strip() and not line.startswith(("#", "%", "---"))
+    ]
+    return any(_VERSION_KEY.match(line) for line in lines[:_LEADING_LINES])
+
+
+def _bytes(path: str) -> bytes:
+    try:
+        with open(path, "rb") as stream:
+            return stream.read()
+    except OSError as error:
+        message = f"the deck cannot be read: {error.strerror or error}"
+        raise DeckError(
+            Diagnostic("MD201", ERROR, message, Span(path, 1), help="check the name of the file")
+        ) from error
