@@ -1,0 +1,193 @@
+"""Routine INPUT, which reads groups 6, 7, 9, 11 and 12: four elements a card, any order, until a blank card."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mouse_cli._span import Span
+from mouse_cli.formats.card_cursor import BLANK, Cursor, blanks_are_zeros, reads_as
+from mouse_cli.formats.card_layout import GROUPS, Field, Group
+from mouse_cli.formats.draft import Entries
+from mouse_cli.formats.edit import clean_reader
+
+Item = tuple[Field, Field, Field]
+
+
+@dataclass
+class Matrix:
+    """A matrix while it is read: its shape, and the elements found so far with card and slot of each."""
+
+    group: Group
+    rows: int
+    cols: int
+    symmetric: bool = False
+    next_shape: tuple[int, int] | None = None
+    elements: dict[tuple[int, int], tuple[float, int, int]] = field(default_factory=dict)
+    end: int = 0
+    errors_before: int = 0
+
+    def entries(self, cursor: Cursor) -> Entries:
+        """The elements as listed, each with its place."""
+        indices = np.array(list(self.elements), dtype=np.int64).reshape(-1, 2)
+        values = np.array([value for value, _, _ in self.elements.values()], dtype=float)
+        places = [(card, slot) for _, card, slot in self.elements.values()]
+        return Entries(indices[:, 0], indices[:, 1], values, lambda i: slot_span(cursor, self.group, *places[i]))
+
+
+def slot_span(cursor: Cursor, group: Group, card: int, slot: int) -> Span:
+    """The 20 columns of one element."""
+    item = group.items[slot]
+    return cursor.images.span(card, item[0].column, sum(field.width for field in item))
+
+
+def read_input(cursor: Cursor, matrix: Matrix) -> Matrix:
+    """Read elements until the card that ends the group. Raises DeckError when its end has clearly been missed."""
+    matrix.errors_before = cursor.findings.errors
+    while True:
+        card = cursor.take(matrix.group, len(matrix.elements))
+        if cursor.images.cards[card] == BLANK or not _read_card(cursor, matrix, card):
+            matrix.end = card
+            return matrix
+
+
+def refuse_empty(cursor: Cursor, matrix: Matrix) -> None:
+    """A matrix without elements means a blank card too many; what follows would be read as something else."""
+    if not matrix.elements and cursor.findings.errors == matrix.errors_before:
+        cursor.findings.stop(
+            "MD116",
+            f"{matrix.group.symbol} has no elements (card {matrix.end + 1}, {matrix.group.title})",
+            cursor.images.span(matrix.end),
+            "every blank card ends a group",
+            f"delete the blank card, or punch the elements of {matrix.group.symbol}",
+        )
+
+
+def _read_card(cursor: Cursor, matrix: Matrix, card: int) -> bool:
+    """The elements of one card; False when the card holds only zeros and so ends the group."""
+    errors, before = cursor.findings.errors, len(cursor.findings.diagnostics)
+    used = [slot for slot, item in enumerate(matrix.group.items) if _read_slot(cursor, matrix, card, slot, item, before)]
+    if not used and cursor.findings.errors == errors:
+        cursor.findings.warn(
+            "MD115",
+            f"a card of zeros ends the group (card {card + 1}, {matrix.group.title})",
+            cursor.images.span(card),
+            help="use a blank card",
+        )
+        return False
+    if used and used[0] > 0 and cursor.findings.errors == errors:
+        cursor.findings.warn(
+            "MD114",
+            f"the first of the four elements is empty (card {card + 1}, {matrix.group.title})",
+            slot_span(cursor, matrix.group, card, 0),
+            "a reader that looks only at the first row index would end the group here",
+            "start each card with its first element",
+        )
+    return True
+
+
+def _read_slot(cursor: Cursor, matrix: Matrix, card: int, slot: int, item: Item, before: int) -> bool:
+    """One element; True when the slot is in use."""
+    text = cursor.images.cards[card]
+    first, last = item[0].column - 1, item[2].column - 1 + item[2].width
+    if text[first:last] == BLANK[first:last]:
+        return False
+    row, col, value = (_value(cursor, matrix, card, text, place) for place in item)
+    if row is None or col is None or value is None:
+        _stop_if_group_has_ended(cursor, matrix, card, before)
+        return True
+    if row == col == 0 and value == 0:
+        return False
+    if not (0 < row <= matrix.rows and 0 < col <= matrix.cols):
+        _refuse_index(cursor, matrix, card, slot, (row, col, value), before)
+    else:
+        _add(cursor, matrix, card, slot, (row, col, value))
+    return True
+
+
+def _value(cursor: Cursor, matrix: Matrix, card: int, text: str, place: Field) -> float | int | None:
+    if not cursor.images.stripped:
+        value = _CLEAN[place.format.kind](text[place.column - 1 : place.column - 1 + place.width])
+        if value is not None:
+            return value
+    return cursor.value(card, place, 1, matrix.group)
+
+
+_CLEAN = {"I": clean_reader("I"), "E": clean_reader("E")}
+
+
+def _add(cursor: Cursor, matrix: Matrix, card: int, slot: int, element: tuple[int, int, float]) -> None:
+    row, col, value = element
+    key = (col, row) if matrix.symmetric and (col, row) in matrix.elements else (row, col)
+    if key in matrix.elements:
+        _refuse_twice(cursor, matrix, card, slot, element, key)
+    else:
+        matrix.elements[key] = (value, card, slot)
+
+
+def _refuse_twice(cursor: Cursor, matrix: Matrix, card: int, slot: int, element: tuple, key: tuple[int, int]) -> None:
+    """The same place twice: an error, unless both say the same."""
+    row, col, value = element
+    symbol, (first, first_card, _) = matrix.group.symbol, matrix.elements[key]
+    note_it = cursor.findings.warn if first == value else cursor.findings.error
+    following = _following(matrix.group)
+    missing = f"; missing blank card before group {following.number}?" if following and following.is_input else ""
+    mirror = ", its mirror image" if key != (row, col) else ""
+    note_it(
+        "MD112",
+        f"{symbol}({row},{col}) is given twice: {first:.8g} on card {first_card + 1}{mirror}, {value:.8g} here "
+        f"({_slot_place(cursor, matrix, card, slot)})",
+        slot_span(cursor, matrix.group, card, slot),
+        "whether the first, the last or the sum was meant cannot be known",
+        f"delete one of the two{missing}",
+    )
+
+
+def _refuse_index(cursor: Cursor, matrix: Matrix, card: int, slot: int, element: tuple, before: int) -> None:
+    """An element outside the matrix, with the likely cause."""
+    row, col, value = element
+    _stop_if_group_has_ended(cursor, matrix, card, before)
+    code = "MD110" if row and col else "MD111"
+    message = (
+        f"{matrix.group.symbol}({row},{col}) = {value:.8g} is outside {matrix.rows} x {matrix.cols} "
+        f"({_slot_place(cursor, matrix, card, slot)})"
+    )
+    span, text = slot_span(cursor, matrix.group, card, slot), cursor.images.cards[card]
+    if matrix.next_shape and 0 < row <= matrix.next_shape[0] and 0 < col <= matrix.next_shape[1]:
+        _forget(cursor, before)
+        following = _following(matrix.group)
+        note = f"it would fit {following.symbol}, which comes next"
+        cursor.findings.stop(code, message, span, note, f"missing blank card before group {following.number}?")
+    hints = (blanks_are_zeros(place, text, index) for place, index in zip(matrix.group.items[slot], (row, col), strict=False))
+    note, help = next((hint for hint in hints if hint[0]), ("", ""))
+    fallback = f"give a row from 1 to {matrix.rows} and a column from 1 to {matrix.cols}, right justified"
+    cursor.findings.error(code, message, span, note, help or fallback)
+
+
+def _stop_if_group_has_ended(cursor: Cursor, matrix: Matrix, card: int, before: int) -> None:
+    """When the card reads as one of the next group, the blank card before that group is missing."""
+    following = _following(matrix.group)
+    if following is None or following.is_input or not reads_as(cursor.images.cards[card], following):
+        return
+    _forget(cursor, before)
+    cursor.findings.stop(
+        "MD111",
+        f"the card holds numbers and no indices (card {card + 1}, {matrix.group.title})",
+        cursor.images.span(card),
+        f"it reads as a card of {following.title}",
+        f"missing blank card before group {following.number}?",
+    )
+
+
+def _forget(cursor: Cursor, before: int) -> None:
+    """Drop what was found on this card: it was read as something that it is not."""
+    del cursor.findings.diagnostics[before:]
+
+
+def _following(group: Group) -> Group | None:
+    return GROUPS[group.number] if group.number < len(GROUPS) else None
+
+
+def _slot_place(cursor: Cursor, matrix: Matrix, card: int, slot: int) -> str:
+    span = slot_span(cursor, matrix.group, card, slot)
+    text = cursor.images.cards[card][span.column - 1 : span.column - 1 + span.width]
+    return f'card {card + 1}, {matrix.group.title}, columns {span.column}-{span.column + span.width - 1}: "{text}"'
