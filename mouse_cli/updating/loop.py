@@ -9,6 +9,7 @@ from mouse_cli import __version__
 from mouse_cli.dynamics.eigen import IndefiniteError
 from mouse_cli.estimators import estimator as find_estimator
 from mouse_cli.estimators._linear import Estimator, LinearEstimate, LinearProblem, Unobservable, conditioned
+from mouse_cli.model._arrays import is_sparse
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import Cycle, Forecast, Result, Snapshot
 from mouse_cli.observables.modal import UnrelatedShapes, observe
@@ -17,18 +18,42 @@ from mouse_cli.updating import anchored, model_form, replaced, rules
 from mouse_cli.updating.convergence import ExceedanceTest
 from mouse_cli.updating.coordinates import coordinates
 from mouse_cli.updating.state import Setting, State, paired, reference_eigenvalue, solve
-from mouse_cli.updating.trace import Trace
+from mouse_cli.updating.trace import Progress, Trace
 
 RECURSIONS = {"replaced": replaced, "anchored": anchored}
 
 
-def run(problem: Problem, progress=lambda cycle: None) -> Result:
+def run(problem: Problem, progress: Progress = lambda cycle: None) -> Result:
     """Revise the model of `problem` by its test.
 
     progress is called with each Cycle as it ends. Raises DeckError for a deck whose test cannot belong to its model
     (a rigid-body mode named as measured, shapes that are unrelated), NumericalError where no eigensolution exists.
     """
     estimator = find_estimator(problem.run.estimator)
+    try:
+        return _run(problem, estimator, progress)
+    except np.linalg.LinAlgError as reason:
+        raise rules.unphysical(problem, f"{reason} (values beyond what can be computed with)") from None
+
+
+def examine(problem: Problem) -> None:
+    """Look at what only the eigensolution of the prior model can tell of a deck; large models are left alone.
+
+    Raises DeckError and NumericalError as `run` does before its first cycle.
+    """
+    if is_sparse(problem.structure.K) or is_sparse(problem.structure.M):
+        return
+    try:
+        if problem.test is None:
+            solve(problem, problem.structure.K, problem.structure.M)
+        else:
+            _begin(problem)
+    except (IndefiniteError, np.linalg.LinAlgError) as reason:
+        raise rules.unphysical(problem, str(reason)) from None
+
+
+def _run(problem: Problem, estimator: Estimator, progress: Progress) -> Result:
+    """`run`, once the estimator is known."""
     setting, start = _begin(problem)
     innovation = model_form.innovation(setting, start)
     trace = Trace(setting, ExceedanceTest(problem.run.confidence, problem.run.convergence), progress, start)
@@ -73,6 +98,8 @@ def run(problem: Problem, progress=lambda cycle: None) -> Result:
 
 def _begin(problem: Problem) -> tuple[Setting, State]:
     """O-1 for the prior model, and the test brought to its scale."""
+    if problem.test is None:
+        raise rules.no_test(problem)
     term = MatrixEntries(problem.structure, problem.elements, problem.A)
     try:
         solution = solve(problem, problem.structure.K, problem.structure.M)

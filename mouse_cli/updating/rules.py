@@ -42,6 +42,18 @@ def check_rigid_modes(problem: Problem, solution: EigenSolution) -> None:
         )
 
 
+def no_test(problem: Problem) -> DeckError:
+    """The error for a deck that states no test, and so nothing to revise the model by."""
+    return DeckError(
+        Diagnostic(
+            "MD333",
+            ERROR,
+            f"the deck '{problem.title.strip()}' holds no test: there is nothing to revise the model by",
+            help="add `test:` with measured modes, or ask for `mouse modes`",
+        )
+    )
+
+
 def unphysical(problem: Problem, reason: str) -> NumericalError:
     """The error for a prior model that has no real natural frequencies."""
     return NumericalError(

@@ -1,0 +1,77 @@
+"""From a name on the command line to problems: files, standard input, options that replace what the deck says."""
+
+import os
+import sys
+from collections.abc import Iterator
+from dataclasses import replace
+
+import click
+
+from mouse_cli._errors import ERROR, DeckError, Diagnostic
+from mouse_cli._span import Span
+from mouse_cli.formats import is_yaml, read_draft
+from mouse_cli.formats.assemble import assemble
+from mouse_cli.formats.draft import Draft
+from mouse_cli.model.problem import Problem
+
+_LARGEST = 256 * 1024 * 1024  # bytes of a deck's text; matrices larger than that belong into files of their own
+
+
+def deck_bytes(path: str) -> bytes:
+    """Content of the file `path`, or of standard input for '-'. Raises DeckError."""
+    try:
+        if path == "-":
+            data = sys.stdin.buffer.read(_LARGEST + 1)
+        else:
+            with open(path, "rb") as file:
+                data = file.read(_LARGEST + 1)
+    except OSError as error:
+        raise _unreadable(path, f"the deck cannot be read: {error.strerror or error}") from error
+    if len(data) > _LARGEST:
+        raise _unreadable(path, f"the deck is larger than {_LARGEST // 2**20} MB")
+    return data
+
+
+def _unreadable(path: str, message: str) -> DeckError:
+    return DeckError(Diagnostic("MD201", ERROR, message, Span(shown(path), 1), help="check the name of the file"))
+
+
+def shown(path: str) -> str:
+    """The name under which a deck appears in messages."""
+    return "<stdin>" if path == "-" else path
+
+
+def read_problem(path: str, changes: dict[str, object] | None = None, **reading: object) -> Problem:
+    """The problem of one deck; `changes` are options of the command line that replace those of the deck."""
+    draft = read_draft(deck_bytes(path), shown(path), **reading)
+    return assemble(changed(draft, changes or {}))
+
+
+def read_cases(path: str, changes: dict[str, object], **reading: object) -> Iterator[Problem]:
+    """The problems of a file of stacked card decks, one after another."""
+    from mouse_cli.formats import cards
+
+    data = deck_bytes(path)
+    if is_yaml(data, path):
+        raise click.UsageError("--stacked is for card decks; a YAML file holds one deck")
+    for draft in cards.read_all(data, shown(path), stacked=True, **reading):
+        yield assemble(changed(draft, changes))
+
+
+def changed(draft: Draft, changes: dict[str, object]) -> Draft:
+    """`draft` with run options, and the scale of its test, replaced by those that were given."""
+    given = {name: value for name, value in changes.items() if value is not None}
+    scale = given.pop("scale", None)
+    if scale and draft.test:
+        draft = replace(draft, test=replace(draft.test, scale=scale))
+    return draft.with_run(**given)
+
+
+def expanded(paths: tuple[str, ...]) -> Iterator[str]:
+    """Files as named; for a folder every deck in it, sorted."""
+    for path in paths:
+        if os.path.isdir(path):
+            for folder, _, names in sorted(os.walk(path)):
+                yield from (os.path.join(folder, n) for n in sorted(names) if n.endswith((".dat", ".yaml", ".yml")))
+        else:
+            yield path

@@ -1,0 +1,82 @@
+"""Options shared by commands: each replaces a key of `run:` in the deck, and is echoed in the printout and the JSON."""
+
+from collections.abc import Callable
+
+import click
+
+from mouse_cli.model.modal_test import SCALES
+from mouse_cli.model.problem import CONVERGENCE_RULES, PAIRINGS, RECURSIONS, STEPS
+
+_POSITIVE = click.IntRange(min=1)
+
+RUN = (
+    click.option("--estimator", metavar="NAME", help="Row of Table 3-1; see `mouse list estimators`."),
+    click.option("--recursion", type=click.Choice(RECURSIONS), help="The loop of 1972, or the true posterior mode."),
+    click.option("--scale", type=click.Choice(SCALES), help="How test shapes are brought to the scale of the theory."),
+    click.option("--pairing", type=click.Choice(PAIRINGS), help="Pair modes by number, or by MAC and frequency."),
+    click.option("--confidence", type=click.Choice(["90", "95", "99"]), help="Confidence level of the limits, per cent."),
+    click.option("--partials", type=_POSITIVE, help="Most computations of the partial derivatives (NPARD)."),
+    click.option("--passes", type=_POSITIVE, help="Passes of O-7/O-8 before the partials are recomputed (ITERMX)."),
+    click.option("--cycles", type=click.IntRange(min=0), help="Exactly so many cycles, whatever the convergence test says."),
+    click.option(
+        "--convergence",
+        type=click.Choice(CONVERGENCE_RULES),
+        help="Exceedances against non-exceedances (ratio) or against all data (fraction).",
+    ),
+    click.option(
+        "--legacy-extra-update", "extra_update", is_flag=True, default=None, help="One more cycle after the test passed."
+    ),
+    click.option("--step", type=click.Choice(STEPS), help="First-order step, or with the curvature of the data along it."),
+    click.option("--limit-sd", type=click.FloatRange(min=0, min_open=True), help="No correction beyond so many prior sd."),
+    click.option("--fix-total-mass", is_flag=True, default=None, help="Hold the total mass while component masses vary."),
+    click.option("--print-partials", is_flag=True, default=None, help="Print the partial derivatives (JFLAG)."),
+)
+
+READING = (
+    click.option("--legacy", is_flag=True, help="Enforce the limits of 1972 (140 DOF, 10 modes, ...)."),
+    click.option("--strip-73-80", is_flag=True, help="Blank columns 73-80, where a deck has sequence numbers."),
+    click.option(
+        "--set",
+        "overrides",
+        multiple=True,
+        metavar="NAME=VALUE",
+        help="A control integer of a card deck, e.g. NPARD=5, in place of the punched one.",
+    ),
+)
+
+
+def options(*groups: tuple[Callable, ...]) -> Callable:
+    """Decorator that adds groups of options to a command, in their order."""
+
+    def decorate(function: Callable) -> Callable:
+        for option in reversed([option for group in groups for option in group]):
+            function = option(function)
+        return function
+
+    return decorate
+
+
+def reading(legacy: bool, strip_73_80: bool, overrides: tuple[str, ...]) -> dict[str, object]:
+    """Arguments of the readers from the options READING. Raises click.BadParameter."""
+    values: dict[str, int] = {}
+    for item in overrides:
+        name, _, value = item.partition("=")
+        try:
+            values[name.strip().upper()] = int(value)
+        except ValueError:
+            raise click.BadParameter(f"'{item}' is not NAME=INTEGER", param_hint="--set") from None
+    return {"legacy": legacy, "strip_73_80": strip_73_80, "overrides": values}
+
+
+def run_changes(given: dict[str, object]) -> dict[str, object]:
+    """Run options as the model wants them, from those of the command line. Raises click.BadParameter."""
+    if given.get("estimator"):
+        from mouse_cli.estimators import estimator
+
+        try:
+            estimator(given["estimator"])
+        except ValueError as error:
+            raise click.BadParameter(str(error), param_hint="--estimator") from None
+    if given.get("confidence"):
+        given = {**given, "confidence": int(given["confidence"])}
+    return given

@@ -1,0 +1,52 @@
+"""mouse check: look for errors in many decks, compute nothing but the eigensolution that judges the mode numbers."""
+
+import click
+
+from mouse_cli.cli._options import READING, options, reading
+
+
+@click.command()
+@click.argument("decks", nargs=-1, required=True)
+@click.option("--brief", is_flag=True, help="One line for each finding, without the card.")
+@click.option("--strict", is_flag=True, help="Warnings count as errors.")
+@click.option("-q", "--quiet", is_flag=True, help="Errors only, no warnings.")
+@options(READING)
+def command(
+    decks: tuple[str, ...],
+    brief: bool,
+    strict: bool,
+    quiet: bool,
+    legacy: bool,
+    strip_73_80: bool,
+    overrides: tuple[str, ...],
+) -> int:
+    """Check DECKS (files, folders, '-'): findings to standard error, a count line to standard output.
+
+    Exit 0: every deck is sound. 4: at least one was rejected.
+    """
+    from mouse_cli.cli._decks import expanded
+    from mouse_cli.cli._terminal import show_diagnostics
+
+    how = reading(legacy, strip_73_80, overrides)
+    checked = rejected = warned = 0
+    for path in expanded(decks):
+        findings = _findings(path, how)
+        errors = any(d.severity == "error" for d in findings) or (strict and bool(findings))
+        checked, rejected, warned = checked + 1, rejected + errors, warned + (bool(findings) and not errors)
+        show_diagnostics((d for d in findings if d.severity == "error" or not quiet), brief)
+    click.echo(f"{checked} decks checked: {checked - rejected} sound, {rejected} rejected, {warned} with warnings")
+    return 4 if rejected else 0
+
+
+def _findings(path: str, how: dict[str, object]) -> tuple:
+    """Everything found in one deck."""
+    from mouse_cli._errors import MouseError
+    from mouse_cli.cli._decks import read_problem
+    from mouse_cli.updating.loop import examine
+
+    try:
+        problem = read_problem(path, **how)
+        examine(problem)
+    except MouseError as error:
+        return error.diagnostics
+    return problem.warnings

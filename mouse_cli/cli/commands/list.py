@@ -1,0 +1,80 @@
+"""mouse list: what there is to choose from."""
+
+from collections.abc import Callable, Iterator
+
+import click
+
+
+def _estimators() -> Iterator[tuple[str, str]]:
+    from mouse_cli._registry import discover
+
+    for key, estimator in discover("mouse_cli.estimators", "ESTIMATOR").items():
+        yield key, estimator.equation
+
+
+def _recursions() -> Iterator[tuple[str, str]]:
+    from mouse_cli.updating.loop import RECURSIONS
+
+    for key, recursion in RECURSIONS.items():
+        yield key, recursion.MEANING.partition(": ")[2]
+
+
+def _codes() -> Iterator[tuple[str, str]]:
+    from mouse_cli.codes import catalogue
+
+    for code, entry in catalogue().items():
+        yield code, entry.title
+
+
+def _commands() -> Iterator[tuple[str, str]]:
+    from mouse_cli.cli.main import cli
+
+    context = click.Context(cli)
+    for name in cli.list_commands(context):
+        yield name, cli.get_command(context, name).get_short_help_str(90)
+
+
+def _statuses() -> Iterator[tuple[str, str]]:
+    from mouse_cli.updating.statuses import STATUSES
+
+    for entry in STATUSES.values():
+        yield entry.key, f"exit {entry.exit_code}. {entry.advice}".strip()
+
+
+def _sections() -> Iterator[tuple[str, str]]:
+    from mouse_cli._registry import discover
+
+    for section in sorted(discover("mouse_cli.report.sections", "SECTION").values(), key=lambda s: s.order):
+        yield section.key, section.title
+
+
+def _groups() -> Iterator[tuple[str, str]]:
+    from mouse_cli.formats.cards import layout
+
+    for group in layout.GROUPS:
+        yield str(group.number), f"{group.symbol}, {group.format}: {group.title}"
+
+
+KINDS: dict[str, Callable[[], Iterator[tuple[str, str]]]] = {
+    "codes": _codes,
+    "commands": _commands,
+    "estimators": _estimators,
+    "groups": _groups,
+    "recursions": _recursions,
+    "sections": _sections,
+    "statuses": _statuses,
+}
+
+
+@click.command()
+@click.argument("kind", type=click.Choice(sorted(KINDS)), required=False)
+def command(kind: str | None) -> int:
+    """List the estimators, recursions, diagnostic codes, card groups, ... that there are; without KIND all of them."""
+    for name in [kind] if kind else sorted(KINDS):
+        if not kind:
+            click.echo(f"{name}:")
+        rows = list(KINDS[name]())
+        width = max(len(key) for key, _ in rows)
+        for key, text in rows:
+            click.echo(f"{'' if kind else '  '}{key:<{width}}  {text}".rstrip())
+    return 0

@@ -1,0 +1,60 @@
+"""mouse run: revise the model of a deck by its test."""
+
+import click
+
+from mouse_cli.cli._options import READING, RUN, options, reading, run_changes
+
+
+@click.command()
+@click.argument("deck")
+@click.option("-o", "--output", metavar="FILE", help="Write the answer to FILE instead of standard output.")
+@click.option("--json", "form", flag_value="json", help="One JSON document (mouse.result/1) in place of the printout.")
+@click.option("--markdown", "form", flag_value="markdown", help="Markdown in place of the printout.")
+@click.option("--numbers", type=click.Choice(["legacy", "modern"]), help="1.28872+04 as in 1972, or 12887.2.")
+@click.option("--stacked", is_flag=True, help="The file holds several card decks, one after another.")
+@click.option("-q", "--quiet", is_flag=True, help="No warnings on standard error.")
+@options(RUN, READING)
+def command(
+    deck: str,
+    output: str | None,
+    form: str | None,
+    numbers: str | None,
+    stacked: bool,
+    quiet: bool,
+    legacy: bool,
+    strip_73_80: bool,
+    overrides: tuple[str, ...],
+    **given: object,
+) -> int:
+    """Revise the model of DECK (cards or YAML; '-' is standard input) by its test.
+
+    Exit 0: converged, and the model explains the data. 1: do not trust the answer. 4: deck rejected. 5: no answer.
+    """
+    from mouse_cli.cli._decks import read_cases, read_problem
+    from mouse_cli.cli._terminal import deliver, progress, show_diagnostics
+    from mouse_cli.updating import run
+
+    changes, how = run_changes(given), reading(legacy, strip_73_80, overrides)
+    problems = read_cases(deck, changes, **how) if stacked else [read_problem(deck, changes, **how)]
+    results = []
+    for problem in problems:
+        if not quiet:
+            show_diagnostics(problem.warnings)
+        results.append(run(problem, progress()))
+    deliver(_text(results, form, numbers, stacked), output)
+    return max((result.exit_code for result in results), default=0)
+
+
+def _text(results: list, form: str | None, numbers: str | None, stacked: bool) -> str:
+    """The answer in the form asked for."""
+    from mouse_cli import report
+
+    if form == "json":
+        import json
+
+        documents = [report.document(result) for result in results]
+        whole = {"schema": "mouse.results/1", "cases": documents} if stacked else documents[0]
+        return json.dumps(whole, indent=1, allow_nan=False)
+    if form == "markdown":
+        return "\n".join(report.markdown(result, numbers or "modern") for result in results)
+    return "\n".join(report.printout(result, numbers or "legacy") for result in results)

@@ -1,0 +1,78 @@
+"""`mouse`: finds the command, runs it, and turns what went wrong into sentences and exit codes."""
+
+import os
+import sys
+from importlib import import_module
+
+import click
+
+from mouse_cli import __version__, _registry
+from mouse_cli._errors import MouseError
+
+_COMMANDS = "mouse_cli.cli.commands"
+_THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
+INTERRUPTED = 130
+
+
+class _Commands(click.Group):
+    """A group whose commands are files: listed without loading them, loaded when called."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return list(_registry.names(_COMMANDS))
+
+    def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
+        if name not in _registry.names(_COMMANDS):
+            return None
+        return import_module(f"{_COMMANDS}.{name}").command
+
+    def resolve_command(self, ctx: click.Context, args: list[str]):
+        try:
+            return super().resolve_command(ctx, args)
+        except click.UsageError as error:
+            import difflib
+
+            near = difflib.get_close_matches(args[0], self.list_commands(ctx), 1)
+            raise click.UsageError(error.message + (f" Did you mean '{near[0]}'?" if near else ""), ctx) from None
+
+
+@click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, "-V", "--version", prog_name="mouse", message="%(prog)s %(version)s")
+def cli() -> None:
+    """Revise a structural model from a modal test, and say when the model itself is wrong.
+
+    \b
+    mouse run deck.dat       revise the model of a card deck or YAML deck
+    mouse check *.dat        look for errors, compute nothing
+    mouse explain MD104      what a diagnostic means
+    """
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Entry point. Exit codes: 0 to 5 and 130, as `mouse explain exit` lists them."""
+    for name in _THREADS:  # more threads slow down the small matrices of most decks; the environment has the last word
+        os.environ.setdefault(name, "1")
+    sys.exit(_run(arguments))
+
+
+def _run(arguments: list[str] | None) -> int:
+    try:
+        code = cli.main(arguments, prog_name="mouse", standalone_mode=False)
+        sys.stdout.flush()
+        return code if isinstance(code, int) else 0
+    except MouseError as error:
+        from mouse_cli.cli._terminal import show_diagnostics
+
+        show_diagnostics(error.diagnostics)
+        return error.exit_code
+    except click.ClickException as error:
+        error.show()
+        return error.exit_code
+    except (KeyboardInterrupt, click.Abort):
+        click.echo("mouse: interrupted", err=True)
+        return INTERRUPTED
+    except BrokenPipeError:  # the reader of our output has gone, e.g. `mouse show deck | head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+        return 1
+    except MemoryError:
+        click.echo("mouse: error[MD512]: not enough memory for a model of this size", err=True)
+        return 5
