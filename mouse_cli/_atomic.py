@@ -1,4 +1,4 @@
-"""Whole files or none: text goes to a temporary name in the same folder and takes its final name at the end."""
+"""Whole files or none: text goes to a temporary name in the same folder, then takes its final name."""
 
 import contextlib
 import os
@@ -9,7 +9,7 @@ from mouse_cli._errors import ERROR, Diagnostic, WrittenError
 
 
 def write_text_atomically(path: str | Path, text: str) -> None:
-    """Write `text` as UTF-8; an interrupt or a full disk leaves what stood there before, and no temporary file.
+    """Write `text` as UTF-8; an interrupt or a full disk leaves what stood there before.
 
     A symbolic link is followed, so that the link stays one. Permissions of an existing file are kept.
     Raises WrittenError (MD290) when the file cannot be written.

@@ -5,19 +5,22 @@ from mouse_cli.codes import Code
 CODES = {
     "MD200": Code(
         "not text",
-        "A deck in YAML is UTF-8 text. A byte that is not UTF-8, or a control character, stands in it; often the file "
+        "A deck in YAML is UTF-8 text. A byte that is not UTF-8, or a control character, stands in it; "
+        "often the file "
         "was saved in another encoding, or is no deck at all.",
         "Save the deck as UTF-8 without control characters.",
     ),
     "MD201": Code(
         "not YAML, or not readable",
-        "The text does not follow the rules of YAML at this place, or the file could not be opened. The cause is often "
+        "The text does not follow the rules of YAML at this place, or the file could not be opened. The "
+        "cause is often "
         "a line above: a bracket that was not closed, a missing comma, a colon without a blank after it.",
         "Check brackets, commas, colons and indentation (blanks, no tabs) at the place and above.",
     ),
     "MD202": Code(
         "beyond the limits of a deck",
-        "The deck is larger, or nested deeper, than any deck needs; or its aliases (*name) stand for more values than "
+        "The deck is larger, or nested deeper, than any deck needs; or its aliases (*name) stand for more "
+        "values than "
         "memory holds. The limits keep a damaged or hostile file from exhausting the machine.",
         "Put large matrices in files: {file: k.mtx}; close open brackets; write aliases out.",
     ),
@@ -43,7 +46,8 @@ CODES = {
     ),
     "MD210": Code(
         "unknown key",
-        "The key is not one of those that this section has. It would be without effect, which is never what was meant.",
+        "The key is not one of those that this section has. It would be without effect, which is never "
+        "what was meant.",
         "Correct the spelling; the message names the nearest key. `mouse explain schema` lists all.",
     ),
     "MD211": Code(
@@ -53,12 +57,14 @@ CODES = {
     ),
     "MD212": Code(
         "key of a later release",
-        "The key belongs to the format but this release does not read it. The message says what is possible instead.",
+        "The key belongs to the format but this release does not read it. The message says what is "
+        "possible instead.",
         "Give bare matrices and measured modes.",
     ),
     "MD213": Code(
         "wrong kind of value",
-        "The value is not of the kind that its key expects, for instance a word for a number or a number for a list. "
+        "The value is not of the kind that its key expects, for instance a word for a number or a number "
+        "for a list. "
         "Numbers in quotes are text; FORTRAN's exponent letter D is not read.",
         "Give a value of the kind that the message names.",
     ),
@@ -69,18 +75,21 @@ CODES = {
     ),
     "MD215": Code(
         "number outside its limits",
-        "The number cannot be meant: a version that does not exist, an order below 1 or beyond a million, a negative count.",
+        "The number cannot be meant: a version that does not exist, an order below 1 or beyond a million, "
+        "a negative count.",
         "Give a number within the limits that the message names.",
     ),
     "MD216": Code(
         "wrong count",
-        "A list has more or fewer values than another part of the deck requires. Shapes have one row for each of dofs "
+        "A list has more or fewer values than another part of the deck requires. Shapes have one row for "
+        "each of dofs "
         "and one column for each mode.",
         "Give as many values as the message says.",
     ),
     "MD217": Code(
         "no form, or several forms",
-        "A matrix is given as entries with order, dense, diagonal, identity or file, and the prior as correlation, "
+        "A matrix is given as entries with order, dense, diagonal, identity or file, and the prior as "
+        "correlation, "
         "correlations or covariance: exactly one of them.",
         "Give one form.",
     ),
@@ -106,7 +115,8 @@ CODES = {
     ),
     "MD224": Code(
         "standard deviation missing or told twice",
-        "A parameter needs a prior standard deviation: how far its value may be from the nominal one. It comes from sd "
+        "A parameter needs a prior standard deviation: how far its value may be from the nominal one. It "
+        "comes from sd "
         "or from the diagonal of prior.covariance; when both are given and differ, the covariance is used.",
         "Give sd, or prior.covariance; sd: 0 holds the parameter at its nominal value.",
     ),
@@ -122,8 +132,10 @@ CODES = {
     ),
     "MD227": Code(
         "shapes turned",
-        "The list has one row for each mode, where one row for each degree of freedom was expected. As the counts "
-        "differ there is no doubt, and it was read turned. With as many modes as sensors it could not be noticed.",
+        "The list has one row for each mode, where one row for each degree of freedom was expected. As "
+        "the counts "
+        "differ there is no doubt, and it was read turned. With as many modes as sensors it could not be "
+        "noticed.",
         "Write one row for each of dofs, one column for each mode, as Table 5-3 prints the modal matrix.",
     ),
     "MD229": Code(
@@ -138,7 +150,8 @@ CODES = {
     ),
     "MD231": Code(
         "file outside the folder of the deck",
-        "A deck may name only files in its own folder or below, so that a deck from elsewhere reads nothing else. "
+        "A deck may name only files in its own folder or below, so that a deck from elsewhere reads "
+        "nothing else. "
         "Absolute paths, '..' and links that lead out are refused.",
         "Put the file beside the deck and give its name alone.",
     ),
@@ -154,7 +167,8 @@ CODES = {
     ),
     "MD252": Code(
         "damaged matrix file",
-        "The file does not hold what its format demands: a wrong first line, fewer entries than promised (truncated), "
+        "The file does not hold what its format demands: a wrong first line, fewer entries than promised "
+        "(truncated), "
         "a row of another length, a word where a number should be.",
         "Write the file anew.",
     ),
@@ -170,7 +184,8 @@ CODES = {
     ),
     "MD255": Code(
         "matrix file not symmetric",
-        "An element and its mirror image differ by more than rounding, or the file says it is skew-symmetric or "
+        "An element and its mirror image differ by more than rounding, or the file says it is "
+        "skew-symmetric or "
         "Hermitian. Perhaps only one triangle was written under the word 'general'.",
         "Write both triangles; in Matrix Market, or the lower triangle and the word 'symmetric'.",
     ),
@@ -186,7 +201,8 @@ CODES = {
     ),
     "MD258": Code(
         "matrix file too large",
-        "The file promises more than can be read into memory. Orders up to a million and files up to 2 GB are read.",
+        "The file promises more than can be read into memory. Orders up to a million and files up to 2 GB "
+        "are read.",
         "Condense the model.",
     ),
     "MD259": Code(
@@ -196,7 +212,8 @@ CODES = {
     ),
     "MD290": Code(
         "file not written",
-        "The file could not be written: a missing folder, no permission, a full disk. What stood there before is untouched.",
+        "The file could not be written: a missing folder, no permission, a full disk. What stood there "
+        "before is untouched.",
         "Check the folder, its permissions and the free space.",
     ),
 }

@@ -39,7 +39,7 @@ def read_draft(data: str | bytes, path: str, *, legacy: bool = False, **options:
 
 
 def write_deck(problem: Problem, path: str | os.PathLike[str]) -> list[str]:
-    """Write the problem as YAML, with its large matrices beside it; returns the names of all files, the deck last.
+    """Write the problem as YAML, large matrices beside it; returns the names of all files, the deck last.
 
     Raises WrittenError.
     """
@@ -82,5 +82,5 @@ def _bytes(path: str) -> bytes:
     except OSError as error:
         message = f"the deck cannot be read: {error.strerror or error}"
         raise DeckError(
-            Diagnostic("MD201", ERROR, message, Span(path, 1), help="check the name of the file")
+            Diagnostic("MD250", ERROR, message, Span(path, 1), help="check the name of the file")
         ) from error

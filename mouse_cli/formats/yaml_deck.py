@@ -6,10 +6,10 @@ from mouse_cli._errors import DeckError
 from mouse_cli.formats import yaml_parameters, yaml_prior
 from mouse_cli.formats.draft import Draft
 from mouse_cli.formats.yaml_model import Model, model
+from mouse_cli.formats.yaml_modes import modal_test
 from mouse_cli.formats.yaml_nodes import compose
 from mouse_cli.formats.yaml_run import run_options
 from mouse_cli.formats.yaml_sections import Section
-from mouse_cli.formats.yaml_test import modal_test
 from mouse_cli.formats.yaml_write import write
 from mouse_cli.model.parameter import Parameter
 from mouse_cli.model.problem import Source

@@ -33,7 +33,7 @@ def named(document: Document, node: Node, what: str) -> Node | None:
 
 
 def _path(document: Document, node: Node, what: str) -> str | None:
-    """A deck from elsewhere must not read files beyond its own folder: no absolute path, `..` or link leads out."""
+    """A deck from elsewhere must not read beyond its own folder: no absolute path, `..` or link leads out."""
     name = yaml_values.text(document, node, f"{what}.file", "the name of a file")
     if name is None:
         return None

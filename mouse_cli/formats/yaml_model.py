@@ -107,7 +107,8 @@ def _symmetric(document: Document, node: Node, values: np.ndarray, what: str) ->
         document.error(
             "MD221",
             node.value[i].value[j],
-            f"{what}({i + 1},{j + 1}) is {values[i, j]:.10g}, but its mirror image ({j + 1},{i + 1}) is {values[j, i]:.10g}",
+            f"{what}({i + 1},{j + 1}) is {values[i, j]:.10g}, "
+            f"but its mirror image ({j + 1},{i + 1}) is {values[j, i]:.10g}",
             "make the two equal: K and M are symmetric",
         )
     return bool(close.all())

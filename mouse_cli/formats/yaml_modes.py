@@ -197,7 +197,7 @@ def _oriented(modes: Section, key: str, grid: Grid, s: int, m: int) -> Grid | No
     if shape == (s, m):
         return grid
     if shape == (m, s):
-        message = f"{what} has {m} rows of {s}, one for each mode; it was turned to one row for each degree of freedom"
+        message = f"{what} has {m} rows of {s}, one for each mode; it was turned to one for each of dofs"
         modes.document.warn("MD227", node, message, _layout(s, m))
         return Grid(grid.values.T, lambda i, j: grid.where(j, i))
     message = f"{what} has {shape[0]} rows of {shape[1]} values; expected {s} rows of {m}"

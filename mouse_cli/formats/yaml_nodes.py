@@ -150,7 +150,7 @@ class _Limits:
         self._depth -= 1
 
     def resolve(self, kind: type, value: object, implicit: object) -> str:
-        """The word that stands for a tag: readers decide by what they expect, not by what a text looks like."""
+        """The word that stands for a tag: readers go by what they expect, not by what a text looks like."""
         if kind is not yaml.ScalarNode:
             return COLLECTION
         return PLAIN if implicit[0] else QUOTED
@@ -212,7 +212,8 @@ def _syntax(document: Document, error: yaml.MarkedYAMLError) -> tuple[Span, str,
     span = document.at(mark.line, mark.column)
     note = ""
     if error.context and error.context_mark:
-        note = f"{error.context}, begun at line {error.context_mark.line + 1}, column {error.context_mark.column + 1}"
+        begun = error.context_mark
+        note = f"{error.context}, begun at line {begun.line + 1}, column {begun.column + 1}"
     if span.text[: mark.column + 1].strip(" ") == "\t":
         return span, "a tab cannot indent YAML", "indent with spaces", note
     return (

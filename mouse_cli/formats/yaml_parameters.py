@@ -1,4 +1,4 @@
-"""The `parameters:` and `elements:` of a YAML deck: the properties, and the matrix A that ties them to elements."""
+"""The `parameters:` and `elements:` of a YAML deck: the properties, and what of K and M they move."""
 
 from collections.abc import Callable
 from math import inf
@@ -28,7 +28,7 @@ def sections(deck: Section) -> list[Section]:
 
 
 def parameter(section: Section, variance: float | None) -> Parameter | None:
-    """One property; `variance` from prior.covariance takes the place of its sd. None when it has no name or sd."""
+    """One property; a `variance` from prior.covariance replaces its sd. None when it has no name or sd."""
     name, nominal = section.value("name"), section.value("nominal", 0.0)
     sd = _sd(section, nominal, variance)
     if name is None or sd is None:
@@ -58,13 +58,13 @@ def _sd(section: Section, nominal: float, variance: float | None) -> float | Non
     sd = fraction_of(document, node, section.what("sd"), abs(nominal), "the nominal value, which is 0")
     if sd is None or variance is None or np.isclose(sd, from_covariance, rtol=1e-6, atol=0):
         return sd
-    message = f"{section.what('sd')} is {sd:.8g}, but prior.covariance says {from_covariance:.8g}; the covariance is used"
-    document.warn("MD224", node, message, "give one of the two")
+    both = f"{section.what('sd')} is {sd:.8g}, but prior.covariance says {from_covariance:.8g}"
+    document.warn("MD224", node, f"{both}; the covariance is used", "give one of the two")
     return from_covariance
 
 
 def fraction_of(document: Document, node: Node, what: str, whole: float, zero: str) -> float | None:
-    """A number, or a percentage of `whole`; a percentage of 0 is refused, and `zero` says of what it was to be."""
+    """A number, or a percentage of `whole`; one of 0 is refused, and `zero` says of what it was to be."""
     percent = yaml_values.as_percent(node)
     if percent is None:
         return yaml_values.number(document, node, what, KINDS["sd"].words)

@@ -10,7 +10,7 @@ from mouse_cli.formats.yaml_sections import Section
 
 
 def covariance(section: Section | None, form: str | None, p: int) -> np.ndarray | None:
-    """The covariance (p, p) of `prior: {covariance: ...}`, which gives the parameters' sd; None in any other case."""
+    """The covariance (p, p) of `prior: {covariance: ...}`; None in any other case."""
     if section is None or form != "covariance":
         return None
     return square(section.document, section.nodes[form], section.what(form), p)

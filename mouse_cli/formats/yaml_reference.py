@@ -1,4 +1,4 @@
-"""What the definitions of the YAML deck say to others: a JSON Schema for editors, a table for readers."""
+"""The definitions of the YAML deck for others: a JSON Schema for editors, a table for readers."""
 
 from typing import Any
 
@@ -6,7 +6,7 @@ from mouse_cli.formats.yaml_schema import KINDS, SECTIONS, VERSION, Key, Section
 
 
 def schema() -> dict[str, Any]:
-    """The JSON Schema (2020-12) of a deck; shipped as deck.schema.json and printed by `mouse explain schema`."""
+    """The JSON Schema of a deck, shipped as deck.schema.json and printed by `mouse explain schema`."""
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": f"mouse deck, version {VERSION}",
@@ -22,8 +22,8 @@ def reference() -> str:
 
 
 _NUMBERS = (
-    "Numbers are written as `1`, `2.5`, `1e5` or `2.5e+05`; `.inf` and `.nan` are read too. A leading zero means nothing: "
-    "`010` is ten. An empty value, `~` and `null` mean that the key is not given."
+    "Numbers are written as `1`, `2.5`, `1e5` or `2.5e+05`; `.inf` and `.nan` are read too. A leading "
+    "zero means nothing: `010` is ten. An empty value, `~` and `null` mean that the key is not given."
 )
 
 

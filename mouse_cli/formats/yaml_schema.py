@@ -1,4 +1,4 @@
-"""Every key of a YAML deck, once, as data: the reader's checks, the JSON Schema and the reference table come from here."""
+"""Every key of a YAML deck, once, as data: for the reader, the JSON Schema and the reference table."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -79,7 +79,7 @@ KINDS = {
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """One key: kind of its value (of KINDS, or `section NAME`, or `list NAME`), meaning, default, unit and limits."""
+    """One key: kind of value (of KINDS, `section NAME` or `list NAME`), meaning, default, unit, limits."""
 
     kind: str
     meaning: str
@@ -93,7 +93,7 @@ class Key:
 
 @dataclass(frozen=True, slots=True)
 class Section:
-    """A mapping: its keys; `forms` are the sets of keys of which exactly one must be given; `later`, keys to come."""
+    """A mapping: its keys; `forms`, sets of keys of which exactly one is given; `later`, keys to come."""
 
     meaning: str
     keys: dict[str, Key]
@@ -164,8 +164,8 @@ SECTIONS = {
         {"file": Key("path", "matrix file (.mtx, .npz, .csv) below the folder of the deck", required=True)},
     ),
     "elements": Section(
-        "Order of the varying elements, in which their partial derivatives are printed; default: as the parameters "
-        "name them, stiffness first.",
+        "Order of the varying elements, in which their partial derivatives are printed; default: as the "
+        "parameters name them, stiffness first.",
         {
             "stiffness": Key("pairs", "elements of K as [row, column]", "[]"),
             "mass": Key("pairs", "elements of M as [row, column]", "[]"),

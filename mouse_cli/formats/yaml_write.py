@@ -1,5 +1,6 @@
 """A Problem as a YAML deck that reads back as the same problem; large matrices go to files beside it."""
 
+import os
 from dataclasses import fields
 
 import numpy as np
@@ -40,7 +41,7 @@ def _source_note(problem: Problem) -> str:
     """What the deck said of its source, or the card deck that it was converted from."""
     source = problem.source
     if source.format == "cards":
-        return f"converted from {source.path}"
+        return f"converted from {os.path.basename(source.path)}"
     if source.format != "yaml" or not source.lines:
         return ""
     _, root = compose("\n".join(source.lines), source.path)

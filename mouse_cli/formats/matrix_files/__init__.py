@@ -1,4 +1,4 @@
-"""Matrices kept in files: one module = one format (.mtx, .npz, .csv); here, what every matrix of a model must be."""
+"""Matrices kept in files: one module = one format; here, what every matrix of a model must be."""
 
 import os
 from collections.abc import Callable
@@ -14,12 +14,13 @@ from mouse_cli.model._arrays import Matrix, is_sparse
 MAX_BYTES = 2_000_000_000  # of a file, and of what is packed in it
 MAX_ORDER = 1_000_000
 LARGEST_DENSE = 500  # smaller matrices are kept dense: sparse bookkeeping would cost more than the zeros
-ROUNDING = 1e-8  # mirror images may differ by so much of the geometric mean of their diagonals: printed digits, no slip
+# Mirror images may differ by so much of the geometric mean of their diagonals: printed digits, no slip.
+ROUNDING = 1e-8
 
 
 @dataclass(frozen=True, slots=True)
 class MatrixFormat:
-    """A format: `key` is the suffix of its files, `read(path)` gives a real array (rows, columns), dense or sparse."""
+    """A format: `key` is the suffix of its files; `read(path)` gives a real array, dense or sparse."""
 
     key: str
     read: Callable[[str], Matrix]

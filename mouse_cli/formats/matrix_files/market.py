@@ -8,7 +8,7 @@ from mouse_cli._span import Span
 from mouse_cli.formats.matrix_files import MAX_BYTES, MAX_ORDER, MatrixFormat, reject, upper_triangle
 from mouse_cli.model._arrays import Matrix
 
-_HELP = "begin the file with '%%MatrixMarket matrix coordinate real symmetric' and a line of rows, columns, entries"
+_HELP = "begin with '%%MatrixMarket matrix coordinate real symmetric' and a line of rows, columns, entries"
 _SHORTEST_ENTRY, _SHORTEST_VALUE = 6, 2  # "1 1 1\n", "1\n"
 
 
