@@ -1,0 +1,41 @@
+"""From a result to what people and programs read: printout, Markdown, JSON document. Reads results and computes nothing."""
+
+from typing import Any
+
+from mouse_cli.model.result import Forecast, Result
+from mouse_cli.report.section import Options
+
+__all__ = ["Options", "document", "markdown", "printout", "written"]
+
+
+def written(
+    subject: Result | Forecast, form: str, numbers: str | None = None, options: Options | None = None
+) -> str:
+    """The report of `subject` in a `form` of `report.renderers`, numbers in its own style or in another.
+
+    Raises ValueError for a form or a style that does not exist.
+    """
+    from mouse_cli.report.numbers import Numbers
+    from mouse_cli.report.renderers import renderer
+    from mouse_cli.report.section import blocks
+
+    chosen = renderer(form)
+    return chosen.render(blocks(subject, options), Numbers(numbers or chosen.numbers))
+
+
+def printout(subject: Result | Forecast, numbers: str = "legacy", options: Options | None = None) -> str:
+    """The report of `subject` as the line printer gave it, no line longer than 132 columns."""
+    return written(subject, "printout", numbers, options)
+
+
+def markdown(subject: Result | Forecast, numbers: str = "modern", options: Options | None = None) -> str:
+    """The report of `subject` in GitHub's Markdown."""
+    return written(subject, "markdown", numbers, options)
+
+
+def document(subject: Result | Forecast) -> dict[str, Any]:
+    """The report of `subject` as JSON can hold it: no NaN, no infinity, plain Python values."""
+    from mouse_cli.report import modes_document, result_document
+
+    chosen = modes_document if isinstance(subject, Forecast) else result_document
+    return chosen.document(subject)

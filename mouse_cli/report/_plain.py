@@ -1,0 +1,35 @@
+"""Values as JSON holds them: plain Python, and nothing that is not finite."""
+
+from math import isfinite
+from typing import Any
+
+import numpy as np
+
+
+def plain(value: Any) -> Any:
+    """`value` with numpy arrays as lists, numpy scalars as Python's, NaN and infinity as None.
+
+    >>> import numpy as np
+    >>> plain({"a": np.array([1.0, np.nan]), "b": np.int64(3), "c": (True, -np.inf)})
+    {'a': [1.0, None], 'b': 3, 'c': [True, None]}
+    """
+    if isinstance(value, np.ndarray | np.generic):
+        if np.issubdtype(value.dtype, np.floating) and np.isfinite(value).all():
+            return value.tolist()
+        return plain(value.tolist())
+    if isinstance(value, dict):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(item) for item in value]
+    if isinstance(value, float) and not isfinite(value):
+        return None
+    return value
+
+
+def dof_name(label: str) -> int | str:
+    """A degree of freedom as a deck writes it: the number of a matrix model's, else its label.
+
+    >>> dof_name("3"), dof_name("12TY")
+    (3, '12TY')
+    """
+    return int(label) if label.isascii() and label.isdecimal() else label

@@ -1,0 +1,97 @@
+"""What a report is made of, whatever it will look like: headings, texts, tables, matrices and verbatim lines."""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+Cell = int | float | str | None
+
+
+@dataclass(frozen=True)
+class Heading:
+    """Title of a section (level 1) or of a part of one (level 2)."""
+
+    text: str
+    level: int = 1
+
+
+@dataclass(frozen=True)
+class Text:
+    """One paragraph; each `{}` in it is filled by the next of `values`, printed as all numbers of the report are."""
+
+    text: str
+    values: tuple[float, ...] = ()
+
+    def filled(self, number: Any) -> str:
+        """The paragraph with its values written by `number`."""
+        return self.text.format(*(number(v) for v in self.values)) if self.values else self.text
+
+
+@dataclass(frozen=True)
+class Column:
+    """Head of a table's column; `literal`: the name is someone's own (a property's) and keeps its letters."""
+
+    name: str
+    unit: str = ""
+    align: str = "right"
+    literal: bool = False
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows of cells under columns. A table too wide for its page is printed in parts that repeat the first `keys` columns."""
+
+    columns: tuple[Column, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+    keys: int = 1
+
+    def __post_init__(self) -> None:
+        for row in self.rows:
+            if len(row) != len(self.columns):
+                raise ValueError(f"a row has {len(row)} cells for {len(self.columns)} columns")
+
+    def without_empty_columns(self) -> "Table":
+        """The same table without the columns that hold nothing in any row; the first `keys` columns stay."""
+        kept = [
+            j
+            for j in range(len(self.columns))
+            if j < self.keys or any(not is_blank(row[j]) for row in self.rows)
+        ]
+        rows = tuple(tuple(row[j] for j in kept) for row in self.rows)
+        return Table(tuple(self.columns[j] for j in kept), rows, self.keys)
+
+
+@dataclass(frozen=True)
+class Matrix:
+    """Array (rows, columns) with a name, a unit and labels; NaN is printed as a blank.
+
+    corner: what the labels are, e.g. `position` for the rows and `mode` for the columns.
+    """
+
+    name: str
+    array: np.ndarray
+    row_labels: tuple[str, ...]
+    column_labels: tuple[str, ...]
+    unit: str = ""
+    corner: tuple[str, str] = ("", "")
+
+    def __post_init__(self) -> None:
+        expected = (len(self.row_labels), len(self.column_labels))
+        if self.array.shape != expected:
+            raise ValueError(f"{self.name} has shape {self.array.shape}, its labels {expected}")
+
+
+@dataclass(frozen=True)
+class Lines:
+    """Lines that are printed as they stand, such as the cards of a deck."""
+
+    lines: tuple[str, ...] = field(default_factory=tuple)
+
+
+Block = Heading | Text | Table | Matrix | Lines
+
+
+def is_blank(cell: Cell) -> bool:
+    """Whether a cell shows nothing: None, an empty text, NaN."""
+    return cell is None or cell == "" or (isinstance(cell, float) and cell != cell)

@@ -1,0 +1,44 @@
+"""Where each measured quantity stands in the data y of a result: eigenvalues first, then shapes mode by mode."""
+
+import numpy as np
+
+from mouse_cli.model.result import Result
+
+NOT_MEASURED = -1
+
+
+def eigenvalue_index(result: Result) -> np.ndarray:
+    """Index (m,) in y of each mode's eigenvalue; NOT_MEASURED where the frequency was not measured."""
+    return _numbered(np.isfinite(result.problem.test.frequency_hz), 0)
+
+
+def shape_index(result: Result) -> np.ndarray:
+    """Index (s, m) in y of each shape component; NOT_MEASURED where it is missing."""
+    start = int(np.isfinite(result.problem.test.frequency_hz).sum())
+    return _numbered(np.isfinite(result.test_shapes).T, start).T
+
+
+def _numbered(have: np.ndarray, start: int) -> np.ndarray:
+    """`have` with its true places numbered from `start`, row by row."""
+    index = np.full(have.shape, NOT_MEASURED)
+    index[have] = start + np.arange(int(have.sum()))
+    return index
+
+
+def positions(result: Result) -> tuple[str, ...]:
+    """Names (s,) of the measured degrees of freedom."""
+    labels = result.problem.structure.labels
+    return tuple(labels[d] for d in result.problem.test.dofs)
+
+
+def answered(result: Result) -> bool:
+    """Whether the run gave values of the properties at all."""
+    return result.status.key not in ("unobservable", "infeasible")
+
+
+def model_form(result: Result) -> str:
+    """`rejected`, `accepted`, or `untested`: no answer to judge by, or no datum more than properties."""
+    if result.rejected:
+        return "rejected"
+    tested = result.residual.dof > 0 or result.prior_shift.dof > 0
+    return "accepted" if tested and result.status.exit_code < 5 else "untested"

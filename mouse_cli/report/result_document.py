@@ -1,0 +1,150 @@
+"""A result as one JSON document, schema mouse.result/1."""
+
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from mouse_cli import __version__
+from mouse_cli._errors import Diagnostic
+from mouse_cli.model._arrays import Matrix, is_sparse
+from mouse_cli.model.result import ChiSquareTest, Result
+from mouse_cli.report._plain import dof_name, plain
+from mouse_cli.report.measured import NOT_MEASURED, answered, eigenvalue_index, model_form, shape_index
+
+SCHEMA = "mouse.result/1"
+_LARGEST_COVARIANCE = 200
+_LARGEST_MATRIX = 140
+
+
+def document(result: Result) -> dict[str, Any]:
+    """`result` in plain Python values; what is not finite or has no meaning is None."""
+    problem = result.problem
+    return plain(
+        {
+            "schema": SCHEMA,
+            "version": result.versions.get("mouse", __version__),
+            "title": problem.title.strip(),
+            "source": problem.source.path,
+            "status": result.status.key,
+            "message": result.status.sentence,
+            "advice": result.status.advice,
+            "exit_code": result.exit_code,
+            "estimator": problem.run.estimator,
+            "recursion": problem.run.recursion,
+            "options": {**asdict(problem.run), "scale": problem.test.scale},
+            "confidence": problem.run.confidence,
+            "cycles": [_cycle(cycle) for cycle in result.cycles],
+            "parameters": _parameters(result),
+            "covariance": _covariance(result),
+            **_matrices(result),
+            "rigid_modes": result.rigid_modes,
+            "eigenvalues": result.revised.eigenvalues,
+            "modes": _modes(result),
+            "shapes": _shapes(result),
+            "exceedances": [name for name, out in zip(result.labels, result.exceeding, strict=True) if out],
+            "allowed": result.allowed,
+            "innovation": _test(result.innovation),
+            "residual": _test(result.residual),
+            "prior_shift": _test(result.prior_shift),
+            "model_form": model_form(result),
+            "warnings": [_warning(d) for d in (*problem.warnings, *result.warnings)],
+            "versions": result.versions,
+        }
+    )
+
+
+def _cycle(cycle) -> dict[str, Any]:
+    keys = ("theta", "chi2", "exceedances", "allowed", "cost", "damping")
+    return {"cycle": cycle.index, **{key: getattr(cycle, key) for key in keys}}
+
+
+def _parameters(result: Result) -> list[dict[str, Any]]:
+    """One entry a property; a run without an answer has no posterior, a property at its limit no standard deviation."""
+    have, prior_sd = answered(result), result.problem.prior.sd
+    return [
+        {
+            "name": parameter.name,
+            "unit": parameter.unit,
+            "prior": result.prior.theta[i],
+            "prior_sd": prior_sd[i],
+            "posterior": result.revised.theta[i] if have else None,
+            "posterior_sd": result.sd_theta[i] if have and not result.at_limit[i] else None,
+            "at_limit": result.at_limit[i],
+        }
+        for i, parameter in enumerate(result.problem.parameters)
+    ]
+
+
+def _covariance(result: Result) -> np.ndarray | None:
+    if not answered(result) or len(result.problem.parameters) > _LARGEST_COVARIANCE:
+        return None
+    return result.covariance
+
+
+def _matrices(result: Result) -> dict[str, Any]:
+    """Revised K and M while they are small enough for a document."""
+    if result.problem.structure.n > _LARGEST_MATRIX:
+        return {}
+    return {"stiffness": _dense(result.revised.K), "mass": _dense(result.revised.M)}
+
+
+def _dense(matrix: Matrix) -> np.ndarray:
+    return matrix.toarray() if is_sparse(matrix) else matrix
+
+
+def _modes(result: Result) -> list[dict[str, Any]]:
+    """One entry a measured mode. sd_hz: of the revised prediction, sd_lambda / (8 pi^2 f)."""
+    test, prior, revised = result.problem.test, result.prior, result.revised
+    modes = []
+    for i, k in enumerate(eigenvalue_index(result)):
+        hz = _hz(revised.eigenvalues[revised.modes[i]])
+        known = k != NOT_MEASURED and hz > 0 and answered(result)
+        modes.append(
+            {
+                "mode": test.number[i],
+                "model_mode": revised.modes[i] + 1,
+                "test_hz": test.frequency_hz[i],
+                "test_sd_hz": test.frequency_sd_hz[i] if k != NOT_MEASURED else None,
+                "prior_hz": _hz(prior.eigenvalues[prior.modes[i]]),
+                "revised_hz": hz,
+                "sd_hz": revised.sd_predicted[k] / (8 * np.pi**2 * hz) if known else None,
+                "mac": revised.mac[i],
+                "prior_mac": prior.mac[i],
+                "exceeds": bool(k != NOT_MEASURED and result.exceeding[k]),
+            }
+        )
+    return modes
+
+
+def _hz(eigenvalue: float) -> float:
+    return float(np.sqrt(max(eigenvalue, 0.0)) / (2 * np.pi))
+
+
+def _shapes(result: Result) -> list[dict[str, Any]]:
+    """One entry a measured component, at the scale of the theory. test_sd: of the test; sd: of the revised prediction."""
+    test, labels = result.problem.test, result.problem.structure.labels
+    index, have = shape_index(result), answered(result)
+    return [
+        {
+            "mode": test.number[i],
+            "dof": dof_name(labels[test.dofs[s]]),
+            "test": result.test_shapes[s, i],
+            "test_sd": result.test_shape_sd[s, i],
+            "prior": result.prior.model_shapes[s, i],
+            "revised": result.revised.model_shapes[s, i],
+            "sd": result.revised.sd_predicted[index[s, i]] if have else None,
+            "exceeds": result.exceeding[index[s, i]],
+        }
+        for i in range(test.m)
+        for s in range(test.s)
+        if index[s, i] != NOT_MEASURED
+    ]
+
+
+def _test(test: ChiSquareTest) -> dict[str, Any]:
+    return {"chi2": test.chi2, "dof": test.dof, "p": test.p}
+
+
+def _warning(remark: Diagnostic) -> str:
+    return f"{remark.code}: {remark.message}"

@@ -1,0 +1,47 @@
+"""Words that several sections share."""
+
+from mouse_cli.model.problem import Problem
+from mouse_cli.model.result import ChiSquareTest
+from mouse_cli.report.blocks import Column, Table
+
+RIGHT, LEFT = "right", "left"
+
+
+def names(problem: Problem) -> tuple[str, ...]:
+    """Names (p,) of the properties."""
+    return tuple(p.name for p in problem.parameters)
+
+
+def counted(count: int, one: str, many: str = "") -> str:
+    """`count` with its noun.
+
+    >>> counted(1, "datum", "data"), counted(20, "datum", "data"), counted(2, "mode")
+    ('1 datum', '20 data', '2 modes')
+    """
+    return f"{count} {one if count == 1 else many or one + 's'}"
+
+
+def chance(p: float) -> str:
+    """How often a probability is met.
+
+    >>> chance(0.656), chance(0.012), chance(0.0004), chance(1e-12)
+    ('66 times in 100', '12 times in 1000', '4 times in 10 000', 'less than once in a million')
+    """
+    if p >= 0.995:
+        return "practically always"
+    for least, of, in_words in ((0.095, 100, "100"), (0.0095, 1000, "1000"), (0.00009, 10_000, "10 000")):
+        if p >= least:
+            times = round(p * of)
+            return f"{'once' if times == 1 else f'{times} times'} in {in_words}"
+    return "less than once in a million" if p < 1e-6 else "less than once in 10 000"
+
+
+def test_table(tests: tuple[ChiSquareTest, ...]) -> Table:
+    """Chi-square tests, one a row."""
+    columns = (
+        Column("test", align=LEFT),
+        Column("chi-square"),
+        Column("degrees of freedom"),
+        Column("probability of a larger value"),
+    )
+    return Table(columns, tuple((t.name, t.chi2, t.dof, t.p if t.dof else None) for t in tests))

@@ -1,0 +1,105 @@
+"""Test against revised model, in the layout of Table 5-5: eigenvalues, then eigenvectors, with the data beyond their limits."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from mouse_cli.model.result import Result
+from mouse_cli.report.blocks import Block, Column, Table, Text
+from mouse_cli.report.measured import NOT_MEASURED, eigenvalue_index, positions, shape_index
+from mouse_cli.report.section import Options, Section
+from mouse_cli.report.sections._wording import counted
+
+
+def comparison(result: Result, options: Options) -> Iterator[Block]:
+    """Both tables and what a star means."""
+    yield _eigenvalues(result)
+    if (shape_index(result) != NOT_MEASURED).any():
+        yield _eigenvectors(result)
+    count = int(result.exceeding.sum())
+    outside = (
+        ("none lies outside", "1 lies outside and is marked *")[count]
+        if count < 2
+        else f"{count} lie outside, marked *"
+    )
+    yield Text(
+        f"The interval is the half width of the {result.problem.run.confidence} per cent confidence interval of the test, "
+        f"{result.z:.3f} standard deviations. Of {counted(len(result.y), 'datum', 'data')} {outside}; "
+        f"{result.allowed or 'none'} may before the fit is called in question."
+    )
+
+
+def _eigenvalues(result: Result) -> Table:
+    """One line a mode; the model's own number is shown where it differs from the test's."""
+    test = result.problem.test
+    columns = (
+        Column("mode"),
+        Column("model mode"),
+        Column("revised eigenvalues", "rad2/s2"),
+        Column("test eigenvalues", "rad2/s2"),
+        Column("revised frequency", "Hz"),
+        Column("test frequency", "Hz"),
+        Column("test sd", "Hz"),
+        Column("interval", "Hz"),
+        Column("difference", "Hz"),
+        Column("prior MAC"),
+        Column("revised MAC"),
+        Column("*"),
+    )
+    renumbered = (test.number != result.revised.modes + 1).any()
+    rows = []
+    for i, (k, mode) in enumerate(zip(eigenvalue_index(result), result.revised.modes, strict=True)):
+        revised, measured = float(result.revised.eigenvalues[mode]), k != NOT_MEASURED
+        hz, test_hz, sd = (
+            np.sqrt(max(revised, 0.0)) / (2 * np.pi),
+            test.frequency_hz[i],
+            test.frequency_sd_hz[i],
+        )
+        frequency = (test_hz, sd, result.z * sd, test_hz - hz) if measured else (np.nan,) * 4
+        rows.append(
+            (
+                int(test.number[i]),
+                int(mode) + 1 if renumbered else None,
+                revised,
+                float(result.y[k]) if measured else None,
+                float(hz),
+                *map(float, frequency),
+                float(result.prior.mac[i]),
+                float(result.revised.mac[i]),
+                "*" if measured and result.exceeding[k] else None,
+            )
+        )
+    return Table(columns, tuple(rows)).without_empty_columns()
+
+
+def _eigenvectors(result: Result) -> Table:
+    """Mode by mode, position by position; test vectors at the scale of the theory."""
+    columns = (
+        Column("position"),
+        Column("mode"),
+        Column("revised eigenvectors"),
+        Column("test eigenvectors"),
+        Column("interval"),
+        Column("difference"),
+        Column("*"),
+    )
+    places, numbers = positions(result), result.problem.test.number
+    model, test, interval = result.revised.model_shapes, result.test_shapes, result.z * result.test_shape_sd
+    rows = tuple(
+        (
+            places[s],
+            int(numbers[i]),
+            float(model[s, i]),
+            float(test[s, i]),
+            float(interval[s, i]),
+            float(test[s, i] - model[s, i]),
+            "*" if result.exceeding[k] else None,
+        )
+        for i, column in enumerate(shape_index(result).T)
+        for s, k in enumerate(column)
+        if k != NOT_MEASURED
+    )
+    return Table(columns, rows, keys=2).without_empty_columns()
+
+
+SECTION = Section("comparison", 90, "Comparison of eigenvalues and eigenvectors", comparison)

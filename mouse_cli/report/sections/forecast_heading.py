@@ -1,0 +1,30 @@
+"""Heading of a forecast: program, title, source, size of the model."""
+
+from collections.abc import Iterator
+
+from mouse_cli import __version__
+from mouse_cli.model.result import Forecast
+from mouse_cli.report.blocks import Block, Column, Table, Text
+from mouse_cli.report.section import Options, Section
+from mouse_cli.report.sections._wording import LEFT, counted
+
+
+def heading(forecast: Forecast, options: Options) -> Iterator[Block]:
+    """What the model is."""
+    problem = forecast.problem
+    yield Table(
+        (Column("", align=LEFT), Column("", align=LEFT)),
+        (
+            ("program", f"mouse {__version__}"),
+            ("title", problem.title.strip()),
+            ("source", problem.source.path),
+        ),
+    )
+    yield Text(
+        f"The model has {counted(problem.structure.n, 'degree', 'degrees')} of freedom and "
+        f"{counted(len(problem.parameters), 'uncertain property', 'uncertain properties')}. The standard deviations of "
+        "its natural frequencies and mode shapes follow from those of its properties by first-order partial derivatives."
+    )
+
+
+SECTION = Section("forecast-heading", 10, "Natural frequencies and mode shapes", heading, (Forecast,))

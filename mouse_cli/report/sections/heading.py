@@ -1,0 +1,120 @@
+"""Heading: program, title, source, size of the problem, how it ended, and every option that changes a number."""
+
+from collections.abc import Iterator
+
+from mouse_cli import __version__
+from mouse_cli.estimators import estimator
+from mouse_cli.model.problem import Problem
+from mouse_cli.model.result import Result
+from mouse_cli.report.blocks import Block, Cell, Column, Table, Text
+from mouse_cli.report.section import Options, Section
+from mouse_cli.report.sections._wording import LEFT, counted
+from mouse_cli.updating.loop import RECURSIONS
+
+_SCALES = {
+    "least-squares": "each measured shape is brought to the scale of the theory once, by least squares over its points",
+    "fitted": "the scale of each shape is fitted along with the properties",
+    "unit": "each measured shape is brought to unit modal mass over its points",
+    "none": "measured shapes are taken as they were given",
+}
+_PAIRINGS = {
+    "number": "each measured mode is the model's mode of the same number",
+    "mac": "each measured mode is the model's mode that is most like it in shape (MAC) and frequency",
+}
+_RULES = {
+    "ratio": "exceedances are held against non-exceedances",
+    "fraction": "exceedances are held against all data",
+}
+_UNUSED = "not used by this recursion"
+_STEPS = {
+    "first-order": "along the partial derivatives",
+    "second-order": "along the partial derivatives, with the curvature of the data along the step",
+}
+
+
+def heading(result: Result, options: Options) -> Iterator[Block]:
+    """Everything that one needs to run the same run again."""
+    problem = result.problem
+    yield Table(
+        (Column("", align=LEFT), Column("", align=LEFT)),
+        (
+            ("program", f"mouse {result.versions.get('mouse', __version__)}"),
+            ("title", problem.title.strip()),
+            ("source", problem.source.path),
+            ("result", result.status.sentence),
+        ),
+    )
+    yield Text(_size(result))
+    columns = (Column("option", align=LEFT), Column("value", align=LEFT), Column("meaning", align=LEFT))
+    yield Table(columns, (*_method(problem), *_convergence(result), *_limits(problem)))
+
+
+def _size(result: Result) -> str:
+    problem, listed = result.problem, len(result.problem.elements)
+    return (
+        f"The model has {counted(problem.structure.n, 'degree', 'degrees')} of freedom and "
+        f"{counted(len(problem.parameters), 'variable property', 'variable properties')} that "
+        f"{'move' if len(problem.parameters) != 1 else 'moves'} {counted(listed, 'element')} of its matrices; the test gave "
+        f"{counted(len(result.y), 'datum', 'data')} of {counted(problem.test.m, 'mode')} at "
+        f"{counted(problem.test.s, 'position')}."
+    )
+
+
+def _method(problem: Problem) -> tuple[tuple[Cell, ...], ...]:
+    run, method = problem.run, estimator(problem.run.estimator)
+    return (
+        ("estimator", run.estimator, f"{method.title}: {method.equation}"),
+        ("recursion", run.recursion, RECURSIONS[run.recursion].MEANING.split(": ", 1)[-1]),
+        ("scale", problem.test.scale, _SCALES[problem.test.scale]),
+        ("pairing", run.pairing, _PAIRINGS[run.pairing]),
+        ("step", run.step, _STEPS[run.step]),
+    )
+
+
+def _convergence(result: Result) -> tuple[tuple[Cell, ...], ...]:
+    run, z = result.problem.run, result.z
+    replaced = run.recursion == "replaced"
+    ends = "until that many or fewer exceed" if replaced else "until a full step is negligible"
+    cycles = ("as needed", ends) if run.cycles is None else (run.cycles, "exactly so many")
+    extra = "one more cycle after convergence" if run.extra_update else "no cycle after convergence"
+    passes = "passes over each set of partial derivatives (ITERMX)"
+    return (
+        (
+            "confidence",
+            f"{run.confidence} %",
+            f"a datum exceeds its limits beyond {z:.3f} standard deviations",
+        ),
+        (
+            "convergence",
+            run.convergence,
+            f"{_RULES[run.convergence]}: {result.allowed} of {len(result.y)} may exceed",
+        ),
+        ("partials", run.partials, "most computations of the partial derivatives (NPARD)"),
+        ("passes", run.passes, passes if replaced else _UNUSED),
+        ("cycles", *cycles),
+        ("extra update", "yes" if run.extra_update else "no", extra if replaced else _UNUSED),
+    )
+
+
+def _limits(problem: Problem) -> tuple[tuple[Cell, ...], ...]:
+    run = problem.run
+    bounded = "no revision is limited by its standard deviation"
+    if run.limit_sd is not None:
+        bounded = f"no property moves farther than {run.limit_sd:g} prior standard deviations"
+    over = "all degrees of freedom"
+    if run.total_mass_dofs:
+        over = "degrees of freedom " + ", ".join(problem.structure.labels[d] for d in run.total_mass_dofs)
+    mass = f"held, over {over}" if run.fix_total_mass else "free to change"
+    limits = "of 1972, enforced" if run.legacy else "none"
+    return (
+        ("limits", "none" if run.limit_sd is None else run.limit_sd, bounded),
+        ("total mass", "held" if run.fix_total_mass else "free", mass),
+        (
+            "size limits",
+            limits,
+            "orders and counts that the program of 1972 could hold" if run.legacy else "",
+        ),
+    )
+
+
+SECTION = Section("heading", 10, "Modal Optimization Using Statistical Evaluators", heading)

@@ -1,0 +1,54 @@
+"""Stiffness and mass matrix after revision: in full while they fit the page, else the elements that were revised."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from mouse_cli.model._arrays import is_sparse
+from mouse_cli.model.result import Result
+from mouse_cli.report.blocks import Block, Column, Matrix, Table, Text
+from mouse_cli.report.section import Options, Section
+from mouse_cli.report.sections._wording import LEFT, counted
+
+
+def matrices(result: Result, options: Options) -> Iterator[Block]:
+    """K, then M."""
+    for name, mass, before, after in (
+        ("stiffness matrix", False, result.prior.K, result.revised.K),
+        ("mass matrix", True, result.prior.M, result.revised.M),
+    ):
+        moved = np.flatnonzero((result.problem.elements.is_mass == mass) & (_change(result) != 0))
+        if result.problem.structure.n <= options.matrix_dofs:
+            labels = result.problem.structure.labels
+            full = after.toarray() if is_sparse(after) else after
+            yield Matrix(f"{name} after optimization", full, labels, labels)
+        if not len(moved):
+            yield Text(f"No element of the {name} was revised.")
+        elif result.problem.structure.n > options.matrix_dofs:
+            yield from _elements(result, name, moved, before, after, options.elements)
+
+
+def _change(result: Result) -> np.ndarray:
+    """Change (e,) of the listed elements, Eq. O-9."""
+    return np.asarray(result.problem.A @ (result.revised.theta - result.prior.theta))
+
+
+def _elements(result: Result, name: str, moved: np.ndarray, before, after, most: int) -> Iterator[Block]:
+    """Table of the elements `moved` of the matrix called `name`, the strongest changes only when there are too many."""
+    change, listed, labels = _change(result), result.problem.elements, result.problem.elements.labels()
+    shown = moved
+    if len(moved) > most:
+        shown = np.sort(moved[np.argsort(-np.abs(change[moved]), kind="stable")[:most]])
+        yield Text(
+            f"{counted(len(moved), 'element')} of the {name} were revised; the {most} largest changes are shown."
+        )
+    columns = (Column(f"element of {name}", align=LEFT), Column("prior"), Column("revised"), Column("change"))
+    before, after = (m.tocsr() if is_sparse(m) else m for m in (before, after))
+    rows = tuple(
+        (labels[k], float(before[i, j]), float(after[i, j]), float(change[k]))
+        for k, i, j in zip(shown, listed.row[shown], listed.col[shown], strict=True)
+    )
+    yield Table(columns, rows)
+
+
+SECTION = Section("matrices", 70, "Stiffness and mass matrices after optimization", matrices)

@@ -1,0 +1,87 @@
+"""Verdict: how the run ended, whether the form of the model holds, and what a careful reader should know."""
+
+from collections.abc import Iterator
+
+from mouse_cli.model.result import Result
+from mouse_cli.report.blocks import Block, Heading, Text
+from mouse_cli.report.measured import answered, model_form
+from mouse_cli.report.section import Options, Section
+from mouse_cli.report.sections._wording import chance, test_table
+
+
+def verdict(result: Result, options: Options) -> Iterator[Block]:
+    """Status, tests of the model's form, conclusion, warnings."""
+    yield Text(result.status.sentence)
+    if result.status.advice:
+        yield Text(result.status.advice)
+    yield test_table((result.innovation, result.residual, result.prior_shift))
+    yield Text(_residual(result))
+    yield Text(_prior_shift(result))
+    yield Text(_conclusion(result))
+    remarks = (*result.problem.warnings, *result.warnings)
+    if remarks:
+        yield Heading("Warnings", 2)
+    for remark in remarks:
+        place = f" ({remark.span})" if remark.span else ""
+        remedy = f"; {remark.help}" if remark.help else ""
+        yield Text(f"{remark.code}{place}: {remark.message}{remedy}.")
+
+
+def _residual(result: Result) -> str:
+    test = result.residual
+    if test.dof == 0:
+        return "Residual: there are no more data than properties, so nothing is left over that could contradict the model."
+    if test.rejects:
+        return (
+            "Residual: no values of these properties explain the data; by chance a misfit as large as what remains would come "
+            f"{chance(test.p)}."
+        )
+    return (
+        "Residual: what no values of these properties explain is no more than the accuracies of the test let expect; by "
+        f"chance it would be larger {chance(test.p)}."
+    )
+
+
+def _prior_shift(result: Result) -> str:
+    test = result.prior_shift
+    if test.dof == 0:
+        return "Prior shift: not tested, for the prior takes no part in this estimate."
+    if test.rejects:
+        return (
+            "Prior shift: the values that fit the data lie farther from the prior values than their standard deviations allow; by "
+            f"chance that would come {chance(test.p)}."
+        )
+    return (
+        "Prior shift: the values that fit the data agree with the prior values and their standard deviations; by chance they "
+        f"would lie farther off {chance(test.p)}."
+    )
+
+
+def _conclusion(result: Result) -> str:
+    """The plain statement."""
+    form = model_form(result)
+    if form == "rejected" and result.residual.rejects:
+        return (
+            "The form of the model is rejected: the data show what the model lacks, or are less accurate than they are said to "
+            "be. The revised properties make up for something else; do not trust them."
+        )
+    if form == "rejected":
+        return (
+            "The form of the model is rejected: it fits the data only with values of its properties that were held to be out of "
+            "the question. Either the prior standard deviations are too small, or the properties make up for something that "
+            "the model lacks."
+        )
+    if form == "untested":
+        reason = "the run gave no answer" if not answered(result) else "the run broke off"
+        if result.status.exit_code < 5:
+            reason = "the data leave nothing to test it by"
+        return f"Nothing is said of the form of the model: {reason}."
+    if result.status.exit_code:
+        return (
+            "The data do not contradict the form of the model, as far as its first-order partial derivatives tell; but the "
+            "run has not come to its end, and its values are not to be trusted yet."
+        )
+    return "The model explains the data."
+
+
+SECTION = Section("verdict", 120, "Verdict", verdict)
