@@ -64,6 +64,8 @@ def _legal(cursor: Cursor, card: int, field: Field, before: dict[str, int | None
     """One integer, checked against its bounds and against those punched before it; None after an error."""
     value = cursor.value(card, field, 1, CONTROLS, warn=False)
     if value is None:
+        if "," in cursor.images.cards[card]:  # a card in free format: every other field is wrong for the same reason
+            cursor.findings.give_up()
         return None
     row, bound = field.row, before.get(field.row.at_most)
     if value <= 0 and row.name in LOOPS and cursor.legacy:

@@ -97,9 +97,10 @@ class Cursor:
 
     def _refuse(self, index: int, field: Field, label: str, group: Group, error: FieldError) -> None:
         legal = f"; legal: {field.row.legal}" if field.row.legal else ""
+        column = "" if error.offset is None else f", column {field.column + error.offset}"
         self.findings.error(
             "MD101",
-            f"{label} cannot be read: {error.reason} ({self.place(index, field, group)})",
+            f"{label} cannot be read: {error.reason}{column} ({self.place(index, field, group)})",
             self.span(index, field),
             f"expected {field.format}: {field.row.meaning.format(i='i')}{legal}",
             error.help,
@@ -127,6 +128,8 @@ class Cursor:
 
 
 def _missing(group: Group) -> str:
+    if group.number < 7:
+        return f"punch the cards of group {group.number} and all that follow"
     return f"punch the cards of group {group.number}, or look for a missing blank card before group {group.number}"
 
 

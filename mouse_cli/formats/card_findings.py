@@ -35,6 +35,15 @@ class Findings:
         else:
             self.last[code] = span
 
+    def forget(self, since: int) -> None:
+        """Drop what was found since a place in the list: a card was read as something that it is not."""
+        for diagnostic in self.diagnostics[since:]:
+            if diagnostic.severity == ERROR:
+                self.errors -= 1
+            else:
+                self.warned[diagnostic.code] -= 1
+        del self.diagnostics[since:]
+
     def stop(self, code: str, message: str, span: Span | None = None, note: str = "", help: str = "") -> NoReturn:
         """Note an error after which the rest of the deck has no meaning, and raise everything found."""
         self.diagnostics.append(Diagnostic(code, ERROR, message, span, note, help))

@@ -34,16 +34,17 @@ class Images:
         return Span(self.path, index + 1, column, width, text)
 
 
-def images(text: str | bytes, path: str, findings: Findings, *, strip_73_80: bool = False) -> Images:
-    """The cards of a deck. Raises DeckError for characters that shift the columns and for card numbers in 73-80."""
-    deck = Images(path, _lines(text), stripped=strip_73_80)
-    deck.cards = [_card(line) for line in deck.lines]
+def images(text: str | bytes, path: str, *, strip_73_80: bool = False) -> Images:
+    """The cards of a deck, whatever is on them."""
+    lines, last = _lines(text), SEQUENCE_COLUMN - 1 if strip_73_80 else COLUMNS
+    return Images(path, lines, [line[:last].ljust(COLUMNS) for line in lines], strip_73_80)
+
+
+def check(deck: Images, findings: Findings) -> None:
+    """Note what no card can hold. Raises DeckError for characters that shift the columns and for card numbers in 73-80."""
     _check_characters(deck, findings)
-    if strip_73_80:
-        deck.cards = [card[: SEQUENCE_COLUMN - 1].ljust(COLUMNS) for card in deck.cards]
-    elif numbered(deck.cards):
+    if not deck.stripped and numbered(deck.cards):
         _refuse_numbers(deck, findings)
-    return deck
 
 
 def _lines(text: str | bytes) -> list[str]:
@@ -62,10 +63,6 @@ def _decoded(data: bytes) -> str:
         return data.decode("utf-8")
     except UnicodeDecodeError:
         return data.decode("latin-1")
-
-
-def _card(line: str) -> str:
-    return line[:COLUMNS].ljust(COLUMNS)
 
 
 def _check_characters(deck: Images, findings: Findings) -> None:

@@ -94,12 +94,13 @@ def _read_slot(cursor: Cursor, matrix: Matrix, card: int, slot: int, item: Item,
     row, col, value = (_value(cursor, matrix, card, text, place) for place in item)
     if row is None or col is None or value is None:
         _stop_if_group_has_ended(cursor, matrix, card, before)
+    if row is None or col is None:
         return True
     if row == col == 0 and value == 0:
         return False
     if not (0 < row <= matrix.rows and 0 < col <= matrix.cols):
         _refuse_index(cursor, matrix, card, slot, (row, col, value), before)
-    else:
+    elif value is not None:
         _add(cursor, matrix, card, slot, (row, col, value))
     return True
 
@@ -109,7 +110,7 @@ def _value(cursor: Cursor, matrix: Matrix, card: int, text: str, place: Field) -
         value = _CLEAN[place.format.kind](text[place.column - 1 : place.column - 1 + place.width])
         if value is not None:
             return value
-    return cursor.value(card, place, 1, matrix.group)
+    return cursor.value(card, place, 1, matrix.group, warn=place.format.kind == "E")
 
 
 _CLEAN = {"I": clean_reader("I"), "E": clean_reader("E")}
@@ -117,11 +118,20 @@ _CLEAN = {"I": clean_reader("I"), "E": clean_reader("E")}
 
 def _add(cursor: Cursor, matrix: Matrix, card: int, slot: int, element: tuple[int, int, float]) -> None:
     row, col, value = element
+    if row >= 10 or col >= 10:
+        _warn_of_indices(cursor, matrix, card, slot)
     key = (col, row) if matrix.symmetric and (col, row) in matrix.elements else (row, col)
     if key in matrix.elements:
         _refuse_twice(cursor, matrix, card, slot, element, key)
     else:
         matrix.elements[key] = (value, card, slot)
+
+
+def _warn_of_indices(cursor: Cursor, matrix: Matrix, card: int, slot: int) -> None:
+    """An index below ten cannot have been made large by blanks; others are looked at."""
+    for place in matrix.group.items[slot][:2]:
+        if " " in place.cut(cursor.images.cards[card]).lstrip(" "):
+            cursor.warn_of(card, place, place.row.name, matrix.group)
 
 
 def _refuse_twice(cursor: Cursor, matrix: Matrix, card: int, slot: int, element: tuple, key: tuple[int, int]) -> None:
@@ -144,16 +154,16 @@ def _refuse_twice(cursor: Cursor, matrix: Matrix, card: int, slot: int, element:
 
 def _refuse_index(cursor: Cursor, matrix: Matrix, card: int, slot: int, element: tuple, before: int) -> None:
     """An element outside the matrix, with the likely cause."""
-    row, col, value = element
+    row, col, _ = element
     _stop_if_group_has_ended(cursor, matrix, card, before)
     code = "MD110" if row and col else "MD111"
     message = (
-        f"{matrix.group.symbol}({row},{col}) = {value:.8g} is outside {matrix.rows} x {matrix.cols} "
+        f"{matrix.group.symbol}({row},{col}) is outside {matrix.rows} x {matrix.cols} "
         f"({_slot_place(cursor, matrix, card, slot)})"
     )
     span, text = slot_span(cursor, matrix.group, card, slot), cursor.images.cards[card]
     if matrix.next_shape and 0 < row <= matrix.next_shape[0] and 0 < col <= matrix.next_shape[1]:
-        _forget(cursor, before)
+        cursor.findings.forget(before)
         following = _following(matrix.group)
         note = f"it would fit {following.symbol}, which comes next"
         cursor.findings.stop(code, message, span, note, f"missing blank card before group {following.number}?")
@@ -168,7 +178,7 @@ def _stop_if_group_has_ended(cursor: Cursor, matrix: Matrix, card: int, before: 
     following = _following(matrix.group)
     if following is None or following.is_input or not reads_as(cursor.images.cards[card], following):
         return
-    _forget(cursor, before)
+    cursor.findings.forget(before)
     cursor.findings.stop(
         "MD111",
         f"the card holds numbers and no indices (card {card + 1}, {matrix.group.title})",
@@ -176,11 +186,6 @@ def _stop_if_group_has_ended(cursor: Cursor, matrix: Matrix, card: int, before: 
         f"it reads as a card of {following.title}",
         f"missing blank card before group {following.number}?",
     )
-
-
-def _forget(cursor: Cursor, before: int) -> None:
-    """Drop what was found on this card: it was read as something that it is not."""
-    del cursor.findings.diagnostics[before:]
 
 
 def _following(group: Group) -> Group | None:

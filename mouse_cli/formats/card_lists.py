@@ -71,7 +71,7 @@ def _counted(cursor: Cursor, group: Group, count: int, unreadable: float, note: 
 
 def read_rs(cursor: Cursor, control: Control) -> Entries:
     """Group 4: the variable elements, stiffness, one pair 0 0, then mass; values are 0 for stiffness and 1 for mass."""
-    rows, cols = Listed(cursor), Listed(cursor)
+    rows, cols, errors = Listed(cursor), Listed(cursor), cursor.findings.errors
     count = control.NRS + 1
     for start in range(0, count, len(RS.items)):
         card = cursor.take(RS, start)
@@ -79,15 +79,18 @@ def read_rs(cursor: Cursor, control: Control) -> Entries:
             rows.add(cursor.value(card, row, k, RS), card, row, 0)
             cols.add(cursor.value(card, col, k, RS), card, col, 0)
         cursor.refuse_used(card, RS, tuple(f for pair in RS.items[count - start :] for f in pair))
+    overfull = cursor.findings.errors > errors
     pairs = np.array([rows.values, cols.values], dtype=np.int64)
-    return _split(cursor, control, pairs, rows)
-
-
-def _split(cursor: Cursor, control: Control, pairs: np.ndarray, places: Listed) -> Entries:
-    """Take out the pair 0 0 that stands between stiffness and mass."""
     zeros = np.flatnonzero(~pairs.any(axis=0))
     if len(zeros) != 1:
-        _refuse_separators(cursor, control, zeros, places)
+        _refuse_separators(cursor, control, zeros, rows)
+        if overfull or len(zeros) > 1:  # NRS is wrong, and so is where every later card is looked for
+            cursor.findings.give_up()
+    return _split(control, pairs, zeros, rows)
+
+
+def _split(control: Control, pairs: np.ndarray, zeros: np.ndarray, places: Listed) -> Entries:
+    """Take out the pair 0 0 that stands between stiffness and mass."""
     at = int(zeros[0]) if len(zeros) else control.NRS
     keep = np.delete(np.arange(control.NRS + 1), at)
     where = lambda i: places.cursor.images.span(places.places[keep[i]][0], places.places[keep[i]][1].column, 8)

@@ -1,16 +1,15 @@
 """Card decks of 1972: text in, Draft out. The order of the groups is here; what each holds is in `card_layout`."""
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
-
-import numpy as np
 
 from mouse_cli._errors import DeckError
 from mouse_cli.formats import card_layout as layout
 from mouse_cli.formats.card_control import Control, read_control
 from mouse_cli.formats.card_cursor import Cursor
 from mouse_cli.formats.card_findings import Findings
-from mouse_cli.formats.card_images import images
+from mouse_cli.formats.card_images import check, images
 from mouse_cli.formats.card_input import Matrix, read_input, refuse_empty, slot_span
 from mouse_cli.formats.card_lists import read_indic, read_lamtst, read_mode, read_rs, read_var
 from mouse_cli.formats.card_test import test_draft
@@ -44,7 +43,8 @@ def read_all(
 ) -> Iterator[Draft]:
     """One Draft for each case of a deck; without `stacked`, cards after the first case are an error."""
     findings = Findings()
-    deck = images(text, path, findings, strip_73_80=strip_73_80)
+    deck = images(text, path, strip_73_80=strip_73_80)
+    check(deck, findings)
     at = 0
     while True:
         cursor = Cursor(deck, findings, legacy, dict(overrides or {}), at=at)
@@ -56,22 +56,12 @@ def read_all(
         findings = Findings()
 
 
-def trace(text: str | bytes, path: str, **options: object) -> tuple[Cursor, Draft | None]:
-    """The cursor after reading, which knows what each card was taken for, and the Draft if there is one.
-
-    For `mouse show`, which also shows decks that cannot be read to the end.
-    """
-    findings = Findings()
-    strip = bool(options.pop("strip_73_80", False))
-    try:
-        deck = images(text, path, findings, strip_73_80=strip)
-    except DeckError:
-        deck = images("", path, Findings())
-    cursor = Cursor(deck, findings, **options)
-    try:
-        return cursor, _read_case(cursor, stacked=False)
-    except DeckError:
-        return cursor, None
+def trace(text: str | bytes, *, strip_73_80: bool = False, **options: object) -> Cursor:
+    """The cursor after reading, which knows what each card was taken for, however far reading got."""
+    cursor = Cursor(images(text, "<deck>", strip_73_80=strip_73_80), Findings(), **options)
+    with suppress(DeckError):
+        _read_case(cursor, stacked=False)
+    return cursor
 
 
 @dataclass
