@@ -1,0 +1,55 @@
+"""mouse convert: card decks to YAML and back."""
+
+import click
+
+from mouse_cli.cli._options import READING, options, reading
+
+
+@click.command()
+@click.argument("deck")
+@click.option("-o", "--output", metavar="FILE", help="Write to FILE (.dat: cards, .yaml: YAML) instead of standard output.")
+@click.option("--to", type=click.Choice(["cards", "yaml"]), help="The format to write; by default the other one.")
+@click.option("--lossy", is_flag=True, help="Write cards even when they cannot hold everything; what is lost is said.")
+@options(READING)
+def command(
+    deck: str,
+    output: str | None,
+    to: str | None,
+    lossy: bool,
+    legacy: bool,
+    strip_73_80: bool,
+    overrides: tuple[str, ...],
+) -> int:
+    """Convert DECK to the other format without loss; exit 4 when cards cannot hold what it says."""
+    from mouse_cli.cli._decks import read_problem
+    from mouse_cli.cli._terminal import deliver, show_diagnostics
+
+    problem = read_problem(deck, **reading(legacy, strip_73_80, overrides))
+    show_diagnostics(problem.warnings)
+    if (to or _format(output, problem.source.format)) == "cards":
+        from mouse_cli.formats import card_writer
+
+        text, findings = card_writer.write(problem, lossy=lossy)
+        show_diagnostics(findings)
+        deliver(text, output)
+    elif output in (None, "-"):
+        from mouse_cli.formats import yaml_deck
+
+        text, attachments = yaml_deck.write(problem)
+        if attachments:
+            raise click.UsageError("the deck has matrices that go to files of their own: name the deck with -o")
+        deliver(text, output)
+    else:
+        from mouse_cli.formats import write_deck
+
+        write_deck(problem, output)
+    return 0
+
+
+def _format(output: str | None, source: str) -> str:
+    """The format of the file `output` by its suffix; without one, the format that `source` is not."""
+    if output and output.endswith((".yaml", ".yml")):
+        return "yaml"
+    if output and output.endswith(".dat"):
+        return "cards"
+    return "yaml" if source == "cards" else "cards"

@@ -1,0 +1,75 @@
+"""mouse explain: what a diagnostic code, a card group, an estimator, a deck key means."""
+
+import difflib
+import json
+from collections.abc import Callable, Iterator
+
+import click
+
+_EXIT = """\
+0    answer found and trusted: converged, and the model explains the data
+1    finished, but do not trust it: not converged, or the data show physics that the model lacks
+2    wrong command line
+3    batch: some job missed its expectation
+4    a deck was rejected (diagnostics printed, nothing written)
+5    no answer: numerical failure
+130  interrupted; nothing half-written"""
+
+
+def _exit() -> str:
+    return _EXIT
+
+
+def _schema() -> str:
+    from mouse_cli.formats import yaml_schema
+
+    return json.dumps(yaml_schema.schema(), indent=1)
+
+
+def _yaml() -> str:
+    from mouse_cli.formats import yaml_reference
+
+    return yaml_reference.reference()
+
+
+def _cards() -> str:
+    from mouse_cli.formats import card_manual
+
+    return card_manual.manual()
+
+
+TOPICS: dict[str, Callable[[], str]] = {"cards": _cards, "exit": _exit, "schema": _schema, "yaml": _yaml}
+
+
+@click.command()
+@click.argument("topic")
+def command(topic: str) -> int:
+    """Explain TOPIC: a diagnostic code (MD104), an estimator, a recursion, a status; or cards, yaml, schema, exit."""
+    if topic in TOPICS:
+        click.echo(TOPICS[topic]())
+        return 0
+    entries = dict(_entries())
+    text = entries.get(topic) or entries.get(topic.upper())
+    if text is None:
+        near = difflib.get_close_matches(topic, [*entries, *TOPICS], 3)
+        hint = f" Near to it: {', '.join(near)}." if near else ""
+        raise click.UsageError(f"nothing is known of '{topic}'.{hint} `mouse list` shows all that there is.")
+    click.echo(text)
+    return 0
+
+
+def _entries() -> Iterator[tuple[str, str]]:
+    """Everything that has a name and an explanation."""
+    from mouse_cli._registry import discover
+    from mouse_cli.codes import catalogue
+    from mouse_cli.updating.loop import RECURSIONS
+    from mouse_cli.updating.statuses import STATUSES
+
+    for status in STATUSES.values():
+        yield status.key, f"status {status.key}, exit {status.exit_code}\n{status.sentence}\n{status.advice}".rstrip()
+    for code, entry in catalogue().items():
+        yield code, f"{code}: {entry.title}\n\n{entry.meaning}\n\n{entry.remedy}"
+    for key, estimator in discover("mouse_cli.estimators", "ESTIMATOR").items():
+        yield key, f"{estimator.title}\n\n{estimator.equation}"
+    for key, recursion in RECURSIONS.items():
+        yield key, recursion.MEANING

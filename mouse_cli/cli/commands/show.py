@@ -1,0 +1,37 @@
+"""mouse show: a deck as a reader understands it."""
+
+import click
+
+from mouse_cli.cli._options import READING, options, reading
+
+
+@click.command()
+@click.argument("deck")
+@options(READING)
+def command(deck: str, legacy: bool, strip_73_80: bool, overrides: tuple[str, ...]) -> int:
+    """Show DECK: every card under a column ruler with its fields named and valued; a YAML deck in its canonical form.
+
+    A card deck is shown even when it has errors, so that one sees what was read.
+    """
+    from mouse_cli._errors import MouseError
+    from mouse_cli.cli._decks import deck_bytes, shown
+    from mouse_cli.cli._terminal import show_diagnostics
+    from mouse_cli.formats import is_yaml, read_draft
+    from mouse_cli.formats.assemble import assemble
+
+    data, how = deck_bytes(deck), reading(legacy, strip_73_80, overrides)
+    if not is_yaml(data, deck):
+        from mouse_cli.formats import card_show
+
+        click.echo(card_show.describe(data, **how))
+    try:
+        problem = assemble(read_draft(data, shown(deck), **how))
+    except MouseError as error:
+        show_diagnostics(error.diagnostics)
+        return error.exit_code
+    show_diagnostics(problem.warnings)
+    if problem.source.format == "yaml":
+        from mouse_cli.formats import yaml_deck
+
+        click.echo(yaml_deck.write(problem)[0], nl=False)
+    return 0
