@@ -43,7 +43,7 @@ def eigensolution(
     Dense matrices go to LAPACK through the Cholesky factor of M; sparse ones to shift-invert Lanczos at `shift` < 0,
     so that K - shift M is positive definite although the structure may move as a rigid body.
 
-    Raises IndefiniteError when M is not positive definite.
+    Raises IndefiniteError when M is not positive definite, and for sparse matrices when K has eigenvalues below the shift.
 
     >>> import numpy as np
     >>> eigensolution(np.array([[2.0, -1.0], [-1.0, 2.0]]), np.eye(2)).eigenvalues.round(12).tolist()
@@ -81,9 +81,13 @@ def _sparse(K: Matrix, M: Matrix, count: int, shift: float | None) -> EigenSolut
     n = K.shape[0]
     if n < 3 * count + 10:
         return _dense(_array(K), _array(M))
+    if M.diagonal().min() < 0:
+        raise IndefiniteError("the mass matrix is not positive definite")
     if shift is None:
         shift = -1e-4 * float(np.min(K.diagonal() / M.diagonal()))
     factor = symmetric_factor(K - shift * M)
+    if not _positive(factor):  # Lanczos near the shift would not see what lies far below it
+        raise IndefiniteError(f"the stiffness matrix has eigenvalues below {shift:.6g} (rad/s)^2")
     inverse = LinearOperator((n, n), matvec=factor.solve, dtype=float)
     start = np.random.default_rng(0).standard_normal(n)  # the same answer at every run
     eigenvalues, vectors = eigsh(K, count, M, sigma=shift, OPinv=inverse, v0=start, tol=1e-11)
@@ -100,6 +104,11 @@ def symmetric_factor(matrix: Matrix):
     return splu(
         csc_array(matrix), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
     )
+
+
+def _positive(factor) -> bool:
+    """Whether the factorised symmetric matrix is positive definite: all pivots positive, on the diagonal (Sylvester)."""
+    return bool((factor.perm_r == factor.perm_c).all() and (factor.U.diagonal() > 0).all())
 
 
 def _array(matrix: Matrix) -> np.ndarray:
