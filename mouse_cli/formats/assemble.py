@@ -175,17 +175,12 @@ def _partials(draft: Draft) -> Matrix | None:
     if not outside(draft, A, e, p, "A").all():
         return None
     _finite(draft, A, "A")
-    pairs, counts = np.unique(np.stack([A.rows, A.cols]), axis=1, return_counts=True)
-    for row, col in pairs[:, counts > 1].T[:20]:
-        place = int(np.flatnonzero((A.rows == row) & (A.cols == col))[-1])
-        same = np.unique(A.values[(A.rows == row) & (A.cols == col)]).size == 1
-        note = draft.warn if same else draft.error
-        note(
-            "MD307",
-            f"A({row},{col}) is given twice",
-            A.where(place),
-            help="give each partial derivative once",
-        )
+    order = np.lexsort((A.cols, A.rows))
+    again = (np.diff(A.rows[order]) == 0) & (np.diff(A.cols[order]) == 0)
+    for first, second in zip(order[:-1][again][:20].tolist(), order[1:][again][:20].tolist(), strict=True):
+        note = draft.warn if A.values[first] == A.values[second] else draft.error
+        place, message = A.where(max(first, second)), f"A({A.rows[first]},{A.cols[first]}) is given twice"
+        note("MD307", message, place, help="give each partial derivative once")
     _idle(draft)
     if e * p > LARGEST_PARTIALS:
         from scipy.sparse import coo_array

@@ -20,7 +20,7 @@ MEANING = (
     "checked by an exact re-solution"
 )
 TOLERANCE = 1e-4  # a step this small, in revised standard deviations, is the end
-_DAMPING = (1e-3, 10.0, 1e12)  # first damping relative to |B|^2, its growth, and where to give up
+_FIRST, _GROWTH, _GIVE_UP = 1e-3, 3.0, 1e12  # damping relative to |B|^2: where it begins, how it grows, where it ends
 
 
 def recur(trace: Trace, estimator: Estimator) -> Status:
@@ -31,16 +31,16 @@ def recur(trace: Trace, estimator: Estimator) -> Status:
     most = options.cycles if options.cycles is not None else options.partials
     try:
         while trace.cycles[-1].index < most:
-            length = run.step()
-            if length is None:
+            arrived = run.step()
+            if arrived is None:
                 return trace.end("no-descent")
-            if length < TOLERANCE and options.cycles is None:
+            if arrived and options.cycles is None:
                 return trace.end("stationary")
     except Unobservable as problem:
         return trace.unobservable(str(problem), problem.loose)
     except Infeasible as problem:
         return trace.end("infeasible", reason=str(problem))
-    return trace.end("stationary" if run.length < TOLERANCE else "not-converged")
+    return trace.end("stationary" if run.arrived else "restless")
 
 
 class _Descent:
@@ -52,34 +52,41 @@ class _Descent:
         self.z = np.zeros(L.shape[-1])
         self.alpha = 1.0 if estimator.uses_prior else 0.0
         self.noise = self.setting.sd if estimator.weighted else np.ones_like(self.setting.sd)
-        self.damping, self.length = 0.0, np.inf
+        self.damping, self.arrived = 0.0, False
 
     def cost(self, state: State, z: np.ndarray) -> float:
         """J at `state`, with the prior's share |z|^2."""
         return float(np.sum((state.residual / self.noise) ** 2)) + self.alpha * float(z @ z)
 
-    def step(self) -> float | None:
-        """Take one step that lowers J, damped as far as needed; its length in revised sd, or None when there is none."""
+    def step(self) -> bool | None:
+        """Take one step that lowers J, damped as far as needed: whether it was negligible, or None when there is none."""
         state, before = self.trace.state, self.trace.cycles[-1].cost
-        first, growth, last = _DAMPING
         scale = self._scale(state)
-        while self.damping <= last * scale:
+        while self.damping <= _GIVE_UP * scale:
             change = self._solve(state)
             length = self._length(state, change)
-            z = self.z + change
-            there = attempt(self.setting, self.setting.coordinates.mean + self._expand(z))
-            if there is not None and self.cost(there, z) <= before * (1 + 1e-12) + 1e-14:
-                self.z = z
-                self.trace.record(there, self.cost(there, z), self.damping)
-                self.length = length if self.damping < first * scale else np.inf
-                self.damping = self.damping / growth if self.damping > first * scale else 0.0
-                return self.length
-            if length < TOLERANCE and self.damping == 0.0:  # at the rounding of J
-                self.trace.record(state, before, self.damping)
-                self.length = length
-                return length
-            self.damping = max(self.damping * growth, first * scale)
+            there = attempt(self.setting, self.setting.coordinates.mean + self._expand(self.z + change))
+            cost = np.inf if there is None else self.cost(there, self.z + change)
+            small = length < TOLERANCE * self._misfit(before) and self.damping < scale
+            if small and not cost < before:  # at the rounding of J
+                there, cost, change = state, before, np.zeros_like(change)
+            if cost <= before:
+                self._damp(state, change, (before - cost), scale)
+                self.z = self.z + change
+                self.trace.record(there, cost, self.damping)
+                self.arrived = small
+                return small
+            self.damping = max(self.damping * _GROWTH, _FIRST * scale)
         return None
+
+    def _damp(self, state: State, change: np.ndarray, gained: float, scale: float) -> None:
+        """More damping for the next step where the linearised model promised much more than was gained, else less."""
+        moved = state.T @ self._expand(change) / self.noise
+        promised = (1 + 2 * self.damping / scale) * float(moved @ moved) + self.alpha * float(change @ change)
+        if gained < 0.5 * promised:
+            self.damping = max(self.damping * _GROWTH, _FIRST * scale)
+        elif gained > 0.9 * promised:
+            self.damping = self.damping / _GROWTH if self.damping > _FIRST * scale else 0.0
 
     def _solve(self, state: State) -> np.ndarray:
         """Change of z: the answer of the linearised problem, damped towards where the search stands."""
@@ -113,6 +120,10 @@ class _Descent:
         """Length of `change` in revised standard deviations: sqrt(dz' (B'B + alpha) dz)."""
         moved = state.T @ self._expand(change) / self.setting.sd
         return float(np.sqrt(moved @ moved + self.alpha * (change @ change)))
+
+    def _misfit(self, cost: float) -> float:
+        """How many times larger than its accuracy a datum's residual is: where that is much, steps need not be finer."""
+        return max(1.0, cost / len(self.noise)) ** 0.5 if self.estimator.weighted else 1.0
 
     def _scale(self, state: State) -> float:
         L = self.setting.coordinates.L

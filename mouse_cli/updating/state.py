@@ -130,6 +130,8 @@ def paired(problem: Problem, solution: EigenSolution) -> np.ndarray:
 def aligned(solution: EigenSolution, modes: np.ndarray, observable: ModalObservable) -> EigenSolution:
     """The solution with the shapes of equal frequencies rotated within their subspace onto the measured ones."""
     family = clusters(solution.eigenvalues)
+    if family[-1] == len(family) - 1:  # every eigenvalue stands alone
+        return solution
     crowded = [c for c in np.unique(family[modes]) if np.count_nonzero(family == c) > 1]
     if not crowded or not observable.test.s:
         return solution

@@ -7,6 +7,12 @@ STATUSES = {
     "stationary": Status(
         "converged", "Converged: no further step along the partial derivatives changes the answer."
     ),
+    "restless": Status(
+        "not-converged",
+        "Not converged: all {cycles} computations of the partial derivatives are used up and the steps are not yet negligible.",
+        "Allow more partials.",
+        1,
+    ),
     **{
         status.key: status
         for status in (
