@@ -75,15 +75,22 @@ def table_grids(table: Table, numbers: Numbers, width: int) -> Iterator[Grid]:
 
 def matrix_grids(matrix: Matrix, numbers: Numbers, width: int) -> Iterator[Grid]:
     """`matrix` in pages of up to 10 columns, its row labels in front of each."""
-    head = tuple(filter(None, (matrix.corner[1].upper(), matrix.corner[0].upper())))
-    labels = Strip(head, tuple((label,) for label in matrix.row_labels), True)
-    first = _fitted([labels], width // 3)
+    first = _fitted([_labels(matrix)], width // 3)
+    below = ("",) if matrix.corner[1] else ()
     strips = [
-        Strip((label,), tuple((numbers(v),) for v in matrix.array[:, j].tolist()), False).folded(width // 3)
+        Strip((label, *below), tuple((numbers(v),) for v in matrix.array[:, j].tolist()), False)
         for j, label in enumerate(matrix.column_labels)
     ]
-    room = width - _total(first)
-    yield from (Grid((*first, *part)) for part in _parts(strips, room, _ACROSS))
+    strips = [s.folded(width // 3) if s.width > width // 3 else s for s in strips]
+    yield from (Grid((*first, *part)) for part in _parts(strips, width - _total(first), _ACROSS))
+
+
+def _labels(matrix: Matrix) -> Strip:
+    """Row labels; in their head what the columns are, beside the columns' labels, and below it what the rows are."""
+    rows, columns = (name.upper() for name in matrix.corner)
+    widest = max(len(text) for text in (rows, columns, *matrix.row_labels, ""))
+    head = (columns.rjust(widest), rows) if columns else (rows,)
+    return Strip(head, tuple((label,) for label in matrix.row_labels), True)
 
 
 def _strip(column: Column, cells: list, numbers: Numbers) -> Strip:

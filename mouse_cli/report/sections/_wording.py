@@ -29,9 +29,9 @@ def chance(p: float) -> str:
     """
     if p >= 0.995:
         return "practically always"
-    for least, of, in_words in ((0.095, 100, "100"), (0.0095, 1000, "1000"), (0.00009, 10_000, "10 000")):
-        if p >= least:
-            times = round(p * of)
+    for least, of, in_words in ((5, 100, "100"), (5, 1000, "1000"), (1, 10_000, "10 000")):
+        times = round(p * of)
+        if times >= least:
             return f"{'once' if times == 1 else f'{times} times'} in {in_words}"
     return "less than once in a million" if p < 1e-6 else "less than once in 10 000"
 

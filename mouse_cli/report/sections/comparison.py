@@ -25,7 +25,7 @@ def comparison(result: Result, options: Options) -> Iterator[Block]:
     yield Text(
         f"The interval is the half width of the {result.problem.run.confidence} per cent confidence interval of the test, "
         f"{result.z:.3f} standard deviations. Of {counted(len(result.y), 'datum', 'data')} {outside}; "
-        f"{result.allowed or 'none'} may before the fit is called in question."
+        f"the convergence test allows {result.allowed or 'none'}."
     )
 
 

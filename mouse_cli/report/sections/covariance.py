@@ -17,7 +17,8 @@ def covariance(result: Result, options: Options) -> Iterator[Block]:
         return
     labels, correlation = names(result.problem), _correlation(result)
     if len(labels) <= options.properties:
-        yield Matrix("covariance S* of the revised properties", result.covariance, labels, labels)
+        shown = np.where(np.isnan(correlation), np.nan, result.covariance)
+        yield Matrix("covariance S* of the revised properties", shown, labels, labels)
         if len(labels) > 1:
             yield Matrix("correlation of the revised properties", correlation, labels, labels)
         return

@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.model._arrays import is_sparse
 from mouse_cli.model.result import Result
-from mouse_cli.report.blocks import Block, Column, Matrix, Table, Text
+from mouse_cli.report.blocks import Block, Column, Heading, Matrix, Table, Text
 from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._wording import LEFT, counted
 
@@ -42,7 +42,8 @@ def _elements(result: Result, name: str, moved: np.ndarray, before, after, most:
         yield Text(
             f"{counted(len(moved), 'element')} of the {name} were revised; the {most} largest changes are shown."
         )
-    columns = (Column(f"element of {name}", align=LEFT), Column("prior"), Column("revised"), Column("change"))
+    yield Heading(f"elements of the {name} that were revised", 2)
+    columns = (Column("element", align=LEFT), Column("prior"), Column("revised"), Column("change"))
     before, after = (m.tocsr() if is_sparse(m) else m for m in (before, after))
     rows = tuple(
         (labels[k], float(before[i, j]), float(after[i, j]), float(change[k]))

@@ -2,11 +2,17 @@
 
 from collections.abc import Iterator
 
+from mouse_cli.estimators import estimator
 from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block, Heading, Text
 from mouse_cli.report.measured import answered, model_form
 from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._wording import chance, test_table
+
+_UNFINISHED = {
+    "stalled": "more data lie outside their limits than chance allows",
+    "diverged": "the run has moved away from them",
+}
 
 
 def verdict(result: Result, options: Options) -> Iterator[Block]:
@@ -23,8 +29,8 @@ def verdict(result: Result, options: Options) -> Iterator[Block]:
         yield Heading("Warnings", 2)
     for remark in remarks:
         place = f" ({remark.span})" if remark.span else ""
-        remedy = f"; {remark.help}" if remark.help else ""
-        yield Text(f"{remark.code}{place}: {remark.message}{remedy}.")
+        more = "".join(f" {part[0].upper()}{part[1:]}." for part in (remark.note, remark.help) if part)
+        yield Text(f"{remark.code}{place}: {remark.message}.{more}")
 
 
 def _residual(result: Result) -> str:
@@ -44,6 +50,8 @@ def _residual(result: Result) -> str:
 
 def _prior_shift(result: Result) -> str:
     test = result.prior_shift
+    if test.dof == 0 and estimator(result.problem.run.estimator).uses_prior:
+        return "Prior shift: not tested, for the data say nothing of the properties."
     if test.dof == 0:
         return "Prior shift: not tested, for the prior takes no part in this estimate."
     if test.rejects:
@@ -78,8 +86,9 @@ def _conclusion(result: Result) -> str:
         return f"Nothing is said of the form of the model: {reason}."
     if result.status.exit_code:
         return (
-            "The data do not contradict the form of the model, as far as its first-order partial derivatives tell; but the "
-            "run has not come to its end, and its values are not to be trusted yet."
+            "The data do not contradict the form of the model, as far as its first-order partial derivatives tell; but "
+            f"{_UNFINISHED.get(result.status.key, 'the run has not come to its end')}, and its values are not to be "
+            "trusted yet."
         )
     return "The model explains the data."
 
