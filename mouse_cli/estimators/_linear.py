@@ -43,11 +43,9 @@ class LinearProblem:
             return (values.T / self.noise).T
         return np.linalg.solve(np.linalg.cholesky(self.noise), values)
 
-    def unwhiten(self, values: np.ndarray) -> np.ndarray:
-        """R^1/2 times `values` (q, k)."""
-        if self.noise.ndim == 1:
-            return (values.T * self.noise).T
-        return np.linalg.cholesky(self.noise) @ values
+    def carried(self, rows: np.ndarray) -> np.ndarray:
+        """`rows` (k, q) times R^1/2, so that carried carried' = rows R rows'."""
+        return rows * self.noise if self.noise.ndim == 1 else rows @ np.linalg.cholesky(self.noise)
 
     def in_prior_units(self) -> np.ndarray:
         """T L (q, k): columns in units of what the prior leaves uncertain."""
@@ -60,7 +58,7 @@ class LinearProblem:
 
 @dataclass(frozen=True)
 class LinearEstimate:
-    """x (p,); z (k,) with x = L z; root(): matrix (p, k) with covariance = root root'; variance (p,); at_limit (p,)."""
+    """x (p,); z (k,) with x = L z; root(): matrix (p, ...) with covariance = root root'; variance (p,); at_limit (p,)."""
 
     x: np.ndarray
     z: np.ndarray
@@ -119,7 +117,7 @@ def without_prior(problem: LinearProblem, weighted: bool) -> LinearEstimate:
     U, s, Vt, scale = determined(B, problem)
     inverse = (Vt.T / s) / scale[:, None]  # R^-1 B = V s^-1 U': inverse @ U' is the pseudo-inverse
     z = inverse @ (U.T @ r)
-    root_z = inverse if weighted else inverse @ problem.unwhiten(U).T
+    root_z = inverse if weighted else inverse @ problem.carried(U.T)
     at_limit = np.zeros(len(problem.T[0]), bool)
     if problem.lower is not None:
         z, active = limited(problem, z, (Vt * s[:, None]) * scale)

@@ -4,60 +4,63 @@ import numpy as np
 
 from mouse_cli.estimators._linear import Estimator, LinearEstimate, LinearProblem, conditioned, limited
 
-_LARGE = 1e7  # norm of B above which I + B'B would lose the prior to rounding: then QR of [B; I]
+_LARGE = 1e3  # size of B above which I + B'B would lose digits of the prior to rounding: then QR of [B; I]
+_SEEN = 1e-4  # share of a variance that the data do not see, below which it is not formed as a difference
 
 
 def solve(problem: LinearProblem) -> LinearEstimate:
     """x* = x_p + S T'(R + T S T')^-1 (y - T x_p), S* = S - S T'(R + T S T')^-1 T S, by square roots.
 
-    With B = R^-1/2 T L: z = (I + B'B)^-1 B'r, on whichever side is smaller. Never fails for want of data: where they say
-    nothing, the prior stays.
+    With B = R^-1/2 T L: z = (I + B'B)^-1 B'r, within the row space of B where that is smaller. Never fails for want of
+    data: where they say nothing, the prior stays.
     """
     B, r = problem.whiten(problem.in_prior_units()), problem.whiten(problem.d)
     q, k = B.shape
-    if problem.lower is not None or k <= q or np.abs(B).max(initial=0.0) > _LARGE:
-        return _by_properties(problem, B, r)
-    return _by_data(problem, B, r)
-
-
-def _by_properties(problem: LinearProblem, B: np.ndarray, r: np.ndarray) -> LinearEstimate:
-    """C'C = I + B'B (k, k): C by Cholesky, or by QR of [B; I] where B is large."""
-    q, k = B.shape
-    if np.abs(B).max(initial=0.0) > _LARGE:
-        Q, C = np.linalg.qr(np.vstack([B, np.eye(k)]))
-        z = np.linalg.solve(C, Q[:q].T @ r)
-    else:
-        C = np.linalg.cholesky(np.eye(k) + B.T @ B).T
-        z = np.linalg.solve(C, np.linalg.solve(C.T, B.T @ r))
+    if q < k and problem.lower is None:
+        return _within_row_space(problem, B, r)
+    z, C = _mode(B, r)
     root_z, at_limit = np.linalg.inv(C), np.zeros(problem.T.shape[1], bool)
     if problem.lower is not None:
         z, active = limited(problem, z, C)
         root_z, at_limit = conditioned(problem, root_z, active)
     U = problem.expand(root_z)
-    return LinearEstimate(problem.expand(z), z, np.einsum("ij,ij->i", U, U), lambda: U, at_limit)
+    return LinearEstimate(problem.expand(z), z, np.sum(U * U, axis=1), lambda: U, at_limit)
 
 
-def _by_data(problem: LinearProblem, B: np.ndarray, r: np.ndarray) -> LinearEstimate:
-    """C C' = I + B B' (q, q); only variances are formed unless the covariance is asked for."""
+def _mode(B: np.ndarray, r: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """z (k,) that minimises |r - B z|^2 + |z|^2; C (k, k), upper triangular, with C'C = I + B'B."""
     q, k = B.shape
-    C = np.linalg.cholesky(np.eye(q) + B @ B.T)
-    Y = np.linalg.solve(C, B)
-    z = Y.T @ np.linalg.solve(C, r)
-    prior = (
-        problem.expand(np.ones(k)) ** 2
-        if problem.L.ndim == 1
-        else np.einsum("ij,ij->i", problem.L, problem.L)
-    )
-    explained = problem.expand(Y.T)
+    if np.linalg.norm(B) > _LARGE:
+        stacked = np.zeros((q + k, k + 1))
+        stacked[:q, :k], stacked[:q, k], stacked[q:, :k] = B, r, np.eye(k)
+        C = np.linalg.qr(stacked, mode="r")[:k]
+        return np.linalg.solve(C[:, :k], C[:, k]), C[:, :k]
+    C = np.linalg.cholesky(np.eye(k) + B.T @ B).T
+    return np.linalg.solve(C, np.linalg.solve(C.T, B.T @ r)), C
+
+
+def _within_row_space(problem: LinearProblem, B: np.ndarray, r: np.ndarray) -> LinearEstimate:
+    """Fewer data than properties: B' = Q F with Q (k, q). Only z = Q w is revised; I - Q Q' stays as it was.
+
+    Variances are sums of squares, so that what accurate data leave of them keeps its digits.
+    """
+    Q, F = np.linalg.qr(B.T)
+    w, C = _mode(F.T, r)
+    z = Q @ w
+    seen = problem.expand(Q)
+    revised = seen @ np.linalg.inv(C)
+    prior = problem.L**2 if problem.L.ndim == 1 else np.sum(problem.L**2, axis=1)
+    unseen = prior - np.sum(seen * seen, axis=1)
+    small = np.flatnonzero(unseen < _SEEN * prior)  # at most about q of them
+    rows = problem.L[small, None] * np.eye(len(z))[small] if problem.L.ndim == 1 else problem.L[small]
+    unseen[small] = np.sum((rows - seen[small] @ Q.T) ** 2, axis=1)
 
     def root() -> np.ndarray:
-        """L (I - Y'Y)^1/2, symmetric square root by the singular values of Y."""
-        _, s, Vt = np.linalg.svd(Y, full_matrices=False)
-        shrink = 1.0 - np.sqrt(np.maximum(1.0 - s**2, 0.0))
-        return problem.expand(np.eye(k) - (Vt.T * shrink) @ Vt)
+        """[L Q C^-1, L (I - Q Q')]."""
+        return np.hstack([revised, problem.expand(np.eye(len(z)) - Q @ Q.T)])
 
-    variance = np.maximum(prior - np.einsum("ij,ij->i", explained, explained), 0.0)
-    return LinearEstimate(problem.expand(z), z, variance, root, np.zeros(problem.T.shape[1], bool))
+    variance = unseen + np.sum(revised * revised, axis=1)
+    return LinearEstimate(problem.expand(z), z, variance, root, np.zeros(len(variance), bool))
 
 
 ESTIMATOR = Estimator(
