@@ -8,7 +8,6 @@ from mouse_cli.formats import matrix_files, yaml_values
 from mouse_cli.formats.draft import TestDraft, nowhere
 from mouse_cli.formats.yaml_files import named, read_below
 from mouse_cli.formats.yaml_model import dofs as degrees_of_freedom
-from mouse_cli.formats.yaml_nodes import Node, is_null
 from mouse_cli.formats.yaml_schema import KINDS
 from mouse_cli.formats.yaml_sections import Section
 
@@ -84,27 +83,17 @@ def _frequency_sd(modes: Section, frequency: np.ndarray) -> np.ndarray:
                 "give frequency_sd: a number in Hz, or a percentage",
             )
         return nothing
-    if yaml_values.is_list(node):
-        values = [_one_sd(modes, item, f) for item, f in zip(node.value, frequency, strict=False)]
-        return (
-            np.array(values) if _matching(modes, "frequency_sd", len(node.value), len(frequency)) else nothing
-        )
-    return np.array([_one_sd(modes, node, f) for f in frequency]) + 0 * frequency
-
-
-def _one_sd(modes: Section, node: Node, frequency: float) -> float:
-    if is_null(node):
-        return np.nan
+    what, words = modes.what("frequency_sd"), KINDS["sds"].words
+    if not yaml_values.is_scalar(node):
+        values = yaml_values.numbers(document, node, what, words, missing=True)
+        if values is None or not _matching(modes, "frequency_sd", len(values), len(frequency)):
+            return nothing
+        return values
     percent = yaml_values.as_percent(node)
     if percent is not None:
         return percent * frequency / 100
-    words = (
-        KINDS["sd"].words
-        if yaml_values.is_scalar(modes.nodes["frequency_sd"])
-        else "a number, a percentage or null"
-    )
-    value = yaml_values.number(modes.document, node, modes.what("frequency_sd"), words)
-    return np.nan if value is None else value
+    value = yaml_values.number(document, node, what, words)
+    return nothing if value is None else np.where(np.isnan(frequency), np.nan, value)
 
 
 class Grid:

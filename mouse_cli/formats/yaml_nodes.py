@@ -15,6 +15,7 @@ PLAIN, QUOTED, COLLECTION = "plain", "quoted", "collection"
 
 MAX_BYTES = 64_000_000  # composing takes about 0.1 s and 20 MB of memory for each MB of deck
 MAX_DEPTH = 20  # the deepest value of a deck, a component of shapes, is 5 deep
+MAX_FINDINGS = 200
 MAX_VALUES = 2_000_000  # of a deck with aliases, each alias counted as often as it is used
 
 _BREAK = re.compile("\r\n|[\n\r\x85\u2028\u2029]")
@@ -42,6 +43,11 @@ class Document:
     def folder(self) -> str:
         """Folder that paths in the deck are relative to."""
         return os.path.dirname(os.path.abspath(self.path))
+
+    @property
+    def full(self) -> bool:
+        """Whether so much is wrong that more findings would help nobody."""
+        return len(self.diagnostics) >= MAX_FINDINGS
 
     def span(self, node: Node) -> Span:
         """Place of a key or value; of one over several lines, its first line."""
@@ -71,6 +77,8 @@ class Document:
         self._note(WARNING, code, node, message, help, note)
 
     def _note(self, severity: str, code: str, node: Node | Span, message: str, help: str, note: str) -> None:
+        if self.full:
+            return
         span = node if isinstance(node, Span) else self.span(node)
         self.diagnostics.append(Diagnostic(code, severity, message, span, note, help))
 
@@ -182,7 +190,8 @@ def _parsed(document: Document) -> Node | None:
     try:
         return _Composer(document.text).get_single_node()
     except _TooDeep as error:
-        span = document.span(error.args[0])
+        start = error.args[0].start_mark  # of a node that is not whole and has no end
+        span = document.at(start.line, start.column)
         _stop(
             "MD202",
             span,

@@ -74,6 +74,8 @@ class Section:
     def _take(self) -> None:
         seen: set[str] = set()
         for key, value in self.node.value:
+            if self.document.full:
+                return
             name = key.value if yaml_values.is_scalar(key) else yaml_values.shown(key)
             if name in seen:
                 message = f"key '{name}' is given twice"

@@ -46,9 +46,8 @@ def shown(node: Node) -> str:
 def mistyped(document: Document, node: Node, what: str, words: str) -> None:
     """Note that a value is of another kind than its key expects; returns None, the missing value."""
     if (node.tag not in (PLAIN, QUOTED) and is_scalar(node)) or ":" in str(node.tag):
-        document.error(
-            "MD203", node, f"{what} carries the tag {node.tag}; tags are not read", "delete the tag"
-        )
+        tag = node.tag.replace("tag:yaml.org,2002:", "!!")
+        document.error("MD203", node, f"{what} carries the tag {tag}; tags are not read", "delete the tag")
         return
     document.error("MD213", node, f"{what} is {shown(node)}; expected {words}", _remedy(node, words))
 

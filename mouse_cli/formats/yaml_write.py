@@ -114,4 +114,6 @@ def _option(value: object) -> str:
         return "null"
     if isinstance(value, bool):
         return "true" if value else "false"
+    if isinstance(value, float):
+        return real(value)
     return str(min(value, MAX_WHOLE)) if isinstance(value, int) else word(str(value))
