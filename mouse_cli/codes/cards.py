@@ -5,15 +5,18 @@ from mouse_cli.codes import Code
 CODES = {
     "MD100": Code(
         "The deck ends too early",
-        "All twelve groups are always present, in order. A group read by INPUT (6, 7, 9, 11 and 12) ends with its own blank "
-        "card, and so does the last one of the deck. A missing blank card makes two groups one, and the last is then missing.",
-        "Look for a missing blank card before the group named, and add the blank card at the end of the deck.",
+        "All twelve groups are always present, in order. A group read by INPUT (6, 7, 9, 11 and "
+        "12) ends with its own blank card, and so does the last one of the deck. A missing blank "
+        "card makes two groups one, and the last is then missing.",
+        "Look for a missing blank card before the group named, and add the blank card at the end "
+        "of the deck.",
     ),
     "MD101": Code(
         "A field cannot be read",
-        "The columns of the field do not hold a number that FORTRAN would read: `I` fields take a sign and digits; `E` fields "
-        "take digits, a point, and an exponent written E5, E+05, D5 or +05. A blank after an exponent is refused because it "
-        "would multiply the exponent by ten.",
+        "The columns of the field do not hold a number that FORTRAN would read: `I` fields take a"
+        " sign and digits; `E` fields take digits, a point, and an exponent written E5, E+05, D5 "
+        "or +05. A blank after an exponent is refused because it would multiply the exponent by "
+        "ten.",
         "Retype the number inside its columns, right justified.",
     ),
     "MD102": Code(
@@ -23,19 +26,21 @@ CODES = {
     ),
     "MD103": Code(
         "A character that no card can hold",
-        "A card holds printable ASCII, one character a column. A tab would shift the columns by an unknown amount.",
+        "A card holds printable ASCII, one character a column. A tab would shift the columns by "
+        "an unknown amount.",
         "Replace tabs with blanks and retype other characters.",
     ),
     "MD104": Code(
         "A control integer is out of range or conflicts with another",
-        "The second card holds ten integers in fields of eight columns. A blank inside or after a number is the digit zero, so a "
-        "4 punched one column early reads 40. ITERMX and NPARD below 1 are refused (taken as 1 under --legacy).",
+        "The second card holds ten integers in fields of eight columns. A blank inside or after a"
+        " number is the digit zero, so a 4 punched one column early reads 40. ITERMX and NPARD "
+        "below 1 are refused (taken as 1 under --legacy).",
         "Right justify the integer in its eight columns; check it against the groups that it counts.",
     ),
     "MD105": Code(
         "Sequence numbers in columns 73-80",
-        "All 80 columns of these cards are data. Card numbers there would be read as NPARD, as a mode number, or as the end of "
-        "a measured value, in silence.",
+        "All 80 columns of these cards are data. Card numbers there would be read as NPARD, as a "
+        "mode number, or as the end of a measured value, in silence.",
         "Blank the columns with --strip-73-80, and give NPARD and what else stood there.",
     ),
     "MD106": Code(
@@ -45,48 +50,53 @@ CODES = {
     ),
     "MD107": Code(
         "A field past the end of a list is not blank",
-        "A count on the control card says how many values a list has. Fields after the last one would be ignored by FORTRAN in "
-        "silence; something in them means that the count or the columns are wrong.",
+        "A count on the control card says how many values a list has. Fields after the last one "
+        "would be ignored by FORTRAN in silence; something in them means that the count or the "
+        "columns are wrong.",
         "Blank the field, or mend the count (NM, NRS, IROW) on the control card.",
     ),
     "MD108": Code(
         "The pair 0 0 of group 4 is missing or repeated",
-        "Group 4 is one list of NRS+1 pairs: stiffness elements, one pair 0 0, mass elements. Without mass elements the pair "
-        "comes last, and a blank field serves; without stiffness elements it comes first.",
+        "Group 4 is one list of NRS+1 pairs: stiffness elements, one pair 0 0, mass elements. "
+        "Without mass elements the pair comes last, and a blank field serves; without stiffness "
+        "elements it comes first.",
         "Give NRS pairs and one pair 0 0, or mend NRS.",
     ),
     "MD109": Code(
         "INDIC does not hold IROW positions, or does not end where it must",
-        "Cards of twenty positions are read until a 20th value is zero, or seven cards have been read. With IROW = 20, 40, ... "
-        "120 a blank card must follow.",
+        "Cards of twenty positions are read until a 20th value is zero, or seven cards have been "
+        "read. With IROW = 20, 40, ... 120 a blank card must follow.",
         "Punch IROW positions without gaps, and the blank card where it is needed.",
     ),
     "MD110": Code(
         "An element lies outside its matrix",
-        "The indices of an INPUT element are two fields of three columns, right justified: trailing blanks are zeros. An "
-        "element that would fit the next matrix means that the blank card between the two groups is missing.",
+        "The indices of an INPUT element are two fields of three columns, right justified: "
+        "trailing blanks are zeros. An element that would fit the next matrix means that the "
+        "blank card between the two groups is missing.",
         "Right justify the indices, or insert the missing blank card.",
     ),
     "MD111": Code(
         "An element without indices",
-        "A value stands in an element whose row or column is zero or blank. When the whole card reads as one of the next group, "
-        "the blank card that ends this group is missing.",
+        "A value stands in an element whose row or column is zero or blank. When the whole card "
+        "reads as one of the next group, the blank card that ends this group is missing.",
         "Give both indices, or insert the missing blank card.",
     ),
     "MD112": Code(
         "An element is given twice",
-        "Whether the first, the last or the sum was meant cannot be known. In M and K an element and its mirror image are one "
-        "place. Equal values are only a warning.",
+        "Whether the first, the last or the sum was meant cannot be known. In M and K an element "
+        "and its mirror image are one place. Equal values are only a warning.",
         "Delete one of the two, or insert a missing blank card.",
     ),
     "MD113": Code(
         "A component of a test eigenvector is not punched",
-        "Card decks have no mark for a missing datum: what is not punched at a position of INDIC is a measured zero.",
+        "Card decks have no mark for a missing datum: what is not punched at a position of INDIC "
+        "is a measured zero.",
         "Punch the component; convert the deck to YAML if it was not measured.",
     ),
     "MD114": Code(
         "The first element of a card is empty",
-        "Only a wholly blank card ends a group here. A reader that looks at the first row index alone would end it earlier.",
+        "Only a wholly blank card ends a group here. A reader that looks at the first row index "
+        "alone would end it earlier.",
         "Start each card with its first element.",
     ),
     "MD115": Code(
@@ -96,19 +106,21 @@ CODES = {
     ),
     "MD116": Code(
         "A matrix has no elements",
-        "A, M or K ended before its first element: there is a blank card too many, and what follows belongs to it.",
+        "A, M or K ended before its first element: there is a blank card too many, and what "
+        "follows belongs to it.",
         "Delete the blank card.",
     ),
     "MD117": Code(
         "The rows of the test eigenvectors can be read in two ways",
-        "The row of X is a degree of freedom of INDIC. It is read as a position in INDIC (1 to IROW) only when no other reading "
-        "is possible.",
+        "The row of X is a degree of freedom of INDIC. It is read as a position in INDIC (1 to "
+        "IROW) only when no other reading is possible.",
         "Punch the degree of freedom in the row field.",
     ),
     "MD118": Code(
         "The columns of the test eigenvectors are not 1 to NM",
-        "The column of X is the position of the mode in MODE. System mode numbers are accepted with a warning when all columns "
-        "are in MODE; all rows within NM suggest that X was transposed.",
+        "The column of X is the position of the mode in MODE. System mode numbers are accepted "
+        "with a warning when all columns are in MODE; all rows within NM suggest that X was "
+        "transposed.",
         "Punch the degree of freedom first, then the position of the mode.",
     ),
     "MD119": Code(
@@ -118,19 +130,20 @@ CODES = {
     ),
     "MD120": Code(
         "VAR runs on",
-        "VAR is one list of NM(1+IROW) values, five a card. The eigenvector values follow the frequencies on the same card.",
+        "VAR is one list of NM(1+IROW) values, five a card. The eigenvector values follow the "
+        "frequencies on the same card.",
         "Punch the list without a break, or mend NM and IROW.",
     ),
     "MD121": Code(
         "A limit of the 1972 program is exceeded",
-        "The program held 140 degrees of freedom, 140 properties, 140 variable elements, 140 positions and 10 modes. The limits "
-        "are errors under --legacy only.",
+        "The program held 140 degrees of freedom, 140 properties, 140 variable elements, 140 "
+        "positions and 10 modes. The limits are errors under --legacy only.",
         "Nothing, unless the old program is to read the deck.",
     ),
     "MD122": Code(
         "COV has an element off the diagonal",
-        "Group 6 holds standard deviations of uncorrelated properties. The manual announces correlation for a later edition "
-        "without giving a form.",
+        "Group 6 holds standard deviations of uncorrelated properties. The manual announces "
+        "correlation for a later edition without giving a form.",
         "Delete the element; give correlated properties in a YAML deck.",
     ),
     "MD123": Code(
@@ -140,8 +153,8 @@ CODES = {
     ),
     "MD124": Code(
         "A real number without a decimal point",
-        "The last d digits of an Ew.d field are then the fraction, also when an exponent is punched: 85000 under E14.8 is "
-        "0.00085.",
+        "The last d digits of an Ew.d field are then the fraction, also when an exponent is "
+        "punched: 85000 under E14.8 is 0.00085.",
         "Punch the decimal point.",
     ),
     "MD125": Code(
@@ -156,8 +169,8 @@ CODES = {
     ),
     "MD127": Code(
         "A value was lost with columns 73-80",
-        "--strip-73-80 blanks eight columns that hold data on every card: NPARD, MODE(10), the tenth pair of RS, two positions "
-        "of INDIC and the end of the last number of other cards.",
+        "--strip-73-80 blanks eight columns that hold data on every card: NPARD, MODE(10), the "
+        "tenth pair of RS, two positions of INDIC and the end of the last number of other cards.",
         "Give the value otherwise, or remove the card numbers from the deck by hand.",
     ),
     "MD128": Code(
@@ -172,7 +185,8 @@ CODES = {
     ),
     "MD130": Code(
         "A value is given for a field that the deck does not have",
-        "Values may replace fields by name: a control integer such as NPARD, or an item of a list such as MODE(10).",
+        "Values may replace fields by name: a control integer such as NPARD, or an item of a list"
+        " such as MODE(10).",
         "Use a name that `mouse show` prints for the deck.",
     ),
     "MD140": Code(
@@ -207,7 +221,8 @@ CODES = {
     ),
     "MD146": Code(
         "The problem does not fit the cards",
-        "Indices have three columns, so matrices end at 999; at least one variable element and one property are needed.",
+        "Indices have three columns, so matrices end at 999; at least one variable element and "
+        "one property are needed.",
         "Keep the deck in YAML.",
     ),
     "MD147": Code(

@@ -35,7 +35,7 @@ class Control:
 
 
 def read_control(cursor: Cursor) -> Control:
-    """The control card. Raises DeckError when a size is missing or impossible: no later card can then be found."""
+    """The control card. Raises DeckError when a size is impossible: no later card can then be found."""
     card = cursor.take(CONTROLS)
     values, where = {}, {}
     for field in CONTROLS.fields:
@@ -50,10 +50,9 @@ def read_control(cursor: Cursor) -> Control:
 
 def check_nvec(cursor: Cursor, control: Control, highest: int) -> None:
     """NVEC is the number of the highest measured mode."""
-    if highest and control.NVEC and control.NVEC != highest:
-        _refuse(
-            cursor, control.card, _field("NVEC"), control.NVEC, f"but the highest measured mode is MODE({control.NM}) = {highest}"
-        )  # fmt: skip
+    if highest and control.NVEC and highest != control.NVEC:
+        conflict = f"but the highest measured mode is MODE({control.NM}) = {highest}"
+        _refuse(cursor, control.card, _field("NVEC"), control.NVEC, conflict)
 
 
 def _field(name: str) -> Field:
@@ -64,7 +63,7 @@ def _legal(cursor: Cursor, card: int, field: Field, before: dict[str, int | None
     """One integer, checked against its bounds and against those punched before it; None after an error."""
     value = cursor.value(card, field, 1, CONTROLS, warn=False)
     if value is None:
-        if "," in cursor.images.cards[card]:  # a card in free format: every other field is wrong for the same reason
+        if "," in cursor.images.cards[card]:  # in free format, all other fields are wrong for the same reason
             cursor.findings.give_up()
         return None
     row, bound = field.row, before.get(field.row.at_most)
@@ -114,9 +113,10 @@ def _check_limit(cursor: Cursor, card: int, field: Field, value: int) -> None:
     note_it = cursor.findings.error if cursor.legacy else cursor.findings.warn
     note_it(
         "MD121",
-        f"{field.row.name} is {value}; the 1972 program holds at most {limit} ({cursor.place(card, field, CONTROLS)})",
+        f"{field.row.name} is {value}; the 1972 program holds at most {limit} "
+        f"({cursor.place(card, field, CONTROLS)})",
         cursor.span(card, field),
-        help="read the deck without --legacy" if cursor.legacy else "keep within the limit if the old program is to read it",
+        help="read the deck without --legacy"
+        if cursor.legacy
+        else "keep within the limit if the old program is to read it",
     )
-
-

@@ -1,4 +1,4 @@
-"""Where the reader stands in the deck: takes cards, cuts and reads their fields, and says where and why that failed."""
+"""Where the reader stands in the deck: takes cards, reads fields, says where and why that failed."""
 
 from dataclasses import dataclass, field
 
@@ -14,7 +14,7 @@ SUSPICIONS = {"no-point": "MD124", "trailing-blank": "MD125", "embedded-blank": 
 
 @dataclass
 class Cursor:
-    """The next card is number `at` (from 0). `trace` remembers what each card was taken for, for `mouse show`."""
+    """The next card is number `at` (from 0). `trace` remembers what each card was taken for."""
 
     images: Images
     findings: Findings
@@ -48,7 +48,9 @@ class Cursor:
         text = field.cut(self.images.cards[index])
         return f'card {index + 1}, {group.title}, columns {field.columns}: "{text}"'
 
-    def value(self, index: int, field: Field, ordinal: int, group: Group, warn: bool = True) -> float | int | None:
+    def value(
+        self, index: int, field: Field, ordinal: int, group: Group, warn: bool = True
+    ) -> float | int | None:
         """What a field holds; None after an error. `overrides` come first, by the name of the field."""
         if self.overrides or self.images.stripped:
             label = field.label(ordinal)
@@ -71,7 +73,7 @@ class Cursor:
             )
 
     def refuse_used(self, index: int, group: Group, fields: tuple[Field, ...], note: str = "") -> None:
-        """Fields that the deck has no use for must be blank or zero: a READ list would ignore them in silence."""
+        """Unused fields must be blank or zero: a READ list would ignore them in silence."""
         for one in fields:
             text = one.cut(self.images.cards[index])
             if text.strip(" 0+-."):
@@ -120,17 +122,21 @@ class Cursor:
         done = f"after {items} items of it" if items else "before its first card"
         self.findings.stop(
             "MD100",
-            f"the deck ends at card {last}, in {group.title}, {done}; expected {group.cards} card(s), ended by: {group.ended}",
+            f"the deck ends at card {last}, in {group.title}, {done}; expected {group.cards} card(s), "
+            f"ended by: {group.ended}",
             self.images.span(max(0, last - 1)),
-            "all twelve groups are always present; a group read by INPUT ends with its own blank card, the last one too",
-            f"add a blank card at the end of group {group.number}" if group.is_input and items else _missing(group),
+            "all twelve groups are always present; each group read by INPUT ends with its own blank card",
+            f"add a blank card at the end of group {group.number}"
+            if group.is_input and items
+            else _missing(group),
         )
 
 
 def _missing(group: Group) -> str:
     if group.number < 7:
         return f"punch the cards of group {group.number} and all that follow"
-    return f"punch the cards of group {group.number}, or look for a missing blank card before group {group.number}"
+    number = group.number
+    return f"punch the cards of group {number}, or look for a missing blank card before group {number}"
 
 
 def blanks_are_zeros(field: Field, card: str, value: int) -> tuple[str, str]:
@@ -142,12 +148,14 @@ def blanks_are_zeros(field: Field, card: str, value: int) -> tuple[str, str]:
     column = field.column + field.width - 1
     return (
         f'a blank inside or after a number is a zero (trailing blanks are zeros), so "{text}" is {value}',
-        f"move the {digits} to column {column}" if len(digits) == 1 else f"end the {digits} in column {column}",
+        f"move the {digits} to column {column}"
+        if len(digits) == 1
+        else f"end the {digits} in column {column}",
     )
 
 
 def reads_as(card: str, group: Group) -> bool:
-    """Whether a card looks like one of `group`: some field is punched, and every one is an unbroken legal number."""
+    """Whether a card looks like one of `group`: all that is punched are unbroken legal numbers."""
     texts = [(one.cut(card), str(one.format)) for one in group.fields]
     return any(text.strip() for text, _ in texts) and all(_unbroken(text, format) for text, format in texts)
 

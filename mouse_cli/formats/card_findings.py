@@ -1,4 +1,4 @@
-"""The diagnostics of one deck while it is being read: counted, capped and, when reading cannot go on, raised."""
+"""The diagnostics of one deck while it is read: counted, capped and, when reading cannot go on, raised."""
 
 from collections import Counter
 from dataclasses import dataclass, field
@@ -20,12 +20,19 @@ class Findings:
     warned: Counter = field(default_factory=Counter)
     last: dict[str, Span | None] = field(default_factory=dict)
 
-    def error(self, code: str, message: str, span: Span | None = None, note: str = "", help: str = "") -> None:
+    def error(
+        self, code: str, message: str, span: Span | None = None, note: str = "", help: str = ""
+    ) -> None:
         """Note an error. Raises DeckError when there are too many to be of use."""
         self.diagnostics.append(Diagnostic(code, ERROR, message, span, note, help))
         self.errors += 1
         if self.errors >= MOST_ERRORS:
-            self.stop("MD128", f"{MOST_ERRORS} errors; the rest of the deck was not read", span, help="mend these first")
+            self.stop(
+                "MD128",
+                f"{MOST_ERRORS} errors; the rest of the deck was not read",
+                span,
+                help="mend these first",
+            )
 
     def warn(self, code: str, message: str, span: Span | None = None, note: str = "", help: str = "") -> None:
         """Note a warning, unless there are many of its kind already."""
@@ -44,7 +51,9 @@ class Findings:
                 self.warned[diagnostic.code] -= 1
         del self.diagnostics[since:]
 
-    def stop(self, code: str, message: str, span: Span | None = None, note: str = "", help: str = "") -> NoReturn:
+    def stop(
+        self, code: str, message: str, span: Span | None = None, note: str = "", help: str = ""
+    ) -> NoReturn:
         """Note an error after which the rest of the deck has no meaning, and raise everything found."""
         self.diagnostics.append(Diagnostic(code, ERROR, message, span, note, help))
         self.give_up()
@@ -56,7 +65,9 @@ class Findings:
     def finished(self) -> list[Diagnostic]:
         """All diagnostics, with one line for the warnings that were counted only."""
         extra = [
-            Diagnostic(code, WARNING, f"{self.warned[code] - MOST_WARNINGS} more warnings like this one", span)
+            Diagnostic(
+                code, WARNING, f"{self.warned[code] - MOST_WARNINGS} more warnings like this one", span
+            )
             for code, span in self.last.items()
         ]
         return self.diagnostics + extra

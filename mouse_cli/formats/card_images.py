@@ -1,7 +1,8 @@
 """A text file as card images: lines cut at LF, padded with blanks to 80 columns before any field is cut.
 
-A card always had 80 columns, and a blank after a digit is a zero; so an editor that strips trailing blanks must change
-nothing. What no card can hold (tabs, other characters, text past column 80, a ninth field of card numbers) is found here.
+A card always had 80 columns, and a blank after a digit is a zero; so an editor that strips trailing blanks
+must change nothing. What no card can hold (tabs, other characters, text past column 80, a ninth field of
+card numbers) is found here.
 """
 
 import re
@@ -41,7 +42,7 @@ def images(text: str | bytes, path: str, *, strip_73_80: bool = False) -> Images
 
 
 def check(deck: Images, findings: Findings) -> None:
-    """Note what no card can hold. Raises DeckError for characters that shift the columns and for card numbers in 73-80."""
+    """Note what no card can hold. Raises DeckError for characters that shift columns, and card numbers."""
     _check_characters(deck, findings)
     if not deck.stripped and numbered(deck.cards):
         _refuse_numbers(deck, findings)
@@ -90,7 +91,7 @@ def _refuse_beyond(deck: Images, index: int, line: str, findings: Findings) -> N
 
 
 def _refuse_characters(deck: Images, index: int, findings: Findings) -> bool:
-    """Note the first unpunchable character of a card; in the heading (and only there) a tab alone is fatal."""
+    """Note the first unpunchable character of a card; in the heading only a tab is fatal."""
     card = deck.cards[index]
     found = "\t" if "\t" in card else next(iter(_NOT_PUNCHABLE.findall(card)), "")
     if not found:
@@ -99,7 +100,10 @@ def _refuse_characters(deck: Images, index: int, findings: Findings) -> bool:
     if index == 0 and found != "\t":
         deck.cards[0] = _NOT_PUNCHABLE.sub("?", card)
         findings.warn(
-            "MD106", f"the heading holds {found!a}, which cannot be punched; it becomes ?", span, help="use plain ASCII"
+            "MD106",
+            f"the heading holds {found!a}, which cannot be punched; it becomes ?",
+            span,
+            help="use plain ASCII",
         )
         return False
     name = "a tab" if found == "\t" else f"the character {found!a}"
@@ -114,7 +118,7 @@ def _refuse_characters(deck: Images, index: int, findings: Findings) -> bool:
 
 
 def numbered(cards: list[str]) -> bool:
-    """Whether columns 73-80 hold card numbers: unbroken, rising by one step, on at least four cards in five."""
+    """Whether columns 73-80 hold card numbers: unbroken, rising by one step, on four cards in five."""
     last = [card[SEQUENCE_COLUMN - 1 :].strip(" ") for card in cards]
     numbers = {i: int(match[1]) for i, text in enumerate(last) if (match := _CARD_NUMBER(text))}
     enough = max(3, ENOUGH_NUMBERED * len(cards))

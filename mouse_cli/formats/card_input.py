@@ -1,4 +1,4 @@
-"""Routine INPUT, which reads groups 6, 7, 9, 11 and 12: four elements a card, any order, until a blank card."""
+"""Routine INPUT, which reads groups 6, 7, 9, 11 and 12: four elements a card, until a blank card."""
 
 from dataclasses import dataclass, field
 
@@ -31,7 +31,9 @@ class Matrix:
         indices = np.array(list(self.elements), dtype=np.int64).reshape(-1, 2)
         values = np.array([value for value, _, _ in self.elements.values()], dtype=float)
         places = [(card, slot) for _, card, slot in self.elements.values()]
-        return Entries(indices[:, 0], indices[:, 1], values, lambda i: slot_span(cursor, self.group, *places[i]))
+        return Entries(
+            indices[:, 0], indices[:, 1], values, lambda i: slot_span(cursor, self.group, *places[i])
+        )
 
 
 def slot_span(cursor: Cursor, group: Group, card: int, slot: int) -> Span:
@@ -41,7 +43,7 @@ def slot_span(cursor: Cursor, group: Group, card: int, slot: int) -> Span:
 
 
 def read_input(cursor: Cursor, matrix: Matrix) -> Matrix:
-    """Read elements until the card that ends the group. Raises DeckError when its end has clearly been missed."""
+    """Read elements until the card that ends the group. Raises DeckError when its end has been missed."""
     matrix.errors_before = cursor.findings.errors
     while True:
         card = cursor.take(matrix.group, len(matrix.elements))
@@ -65,7 +67,11 @@ def refuse_empty(cursor: Cursor, matrix: Matrix) -> None:
 def _read_card(cursor: Cursor, matrix: Matrix, card: int) -> bool:
     """The elements of one card; False when the card holds only zeros and so ends the group."""
     errors, before = cursor.findings.errors, len(cursor.findings.diagnostics)
-    used = [slot for slot, item in enumerate(matrix.group.items) if _read_slot(cursor, matrix, card, slot, item, before)]
+    used = [
+        slot
+        for slot, item in enumerate(matrix.group.items)
+        if _read_slot(cursor, matrix, card, slot, item, before)
+    ]
     if not used and cursor.findings.errors == errors:
         cursor.findings.warn(
             "MD115",
@@ -87,17 +93,16 @@ def _read_card(cursor: Cursor, matrix: Matrix, card: int) -> bool:
 
 def _read_slot(cursor: Cursor, matrix: Matrix, card: int, slot: int, item: Item, before: int) -> bool:
     """One element; True when the slot is in use."""
-    text = cursor.images.cards[card]
-    first, last = item[0].column - 1, item[2].column - 1 + item[2].width
-    if text[first:last] == BLANK[first:last]:
-        return False
-    row, col, value = (_value(cursor, matrix, card, text, place) for place in item)
+    row, col, value = _plain(cursor, matrix.group.cuts[slot], card)
+    if row is None or col is None or value is None:
+        texts = [cursor.images.cards[card][cut] for cut in matrix.group.cuts[slot]]
+        if not "".join(texts).strip(" "):
+            return False
+        row, col, value = (cursor.value(card, f, 1, matrix.group, warn=f is item[2]) for f in item)
     if row is None or col is None or value is None:
         _stop_if_group_has_ended(cursor, matrix, card, before)
-    if row is None or col is None:
-        return True
-    if row == col == 0 and value == 0:
-        return False
+    if row is None or col is None or (row == col == 0 and value == 0):
+        return row is None or col is None
     if not (0 < row <= matrix.rows and 0 < col <= matrix.cols):
         _refuse_index(cursor, matrix, card, slot, (row, col, value), before)
     elif value is not None:
@@ -105,15 +110,16 @@ def _read_slot(cursor: Cursor, matrix: Matrix, card: int, slot: int, item: Item,
     return True
 
 
-def _value(cursor: Cursor, matrix: Matrix, card: int, text: str, place: Field) -> float | int | None:
-    if not cursor.images.stripped:
-        value = _CLEAN[place.format.kind](text[place.column - 1 : place.column - 1 + place.width])
-        if value is not None:
-            return value
-    return cursor.value(card, place, 1, matrix.group, warn=place.format.kind == "E")
+def _plain(cursor: Cursor, cuts: tuple[slice, ...], card: int) -> tuple[int | None, int | None, float | None]:
+    """The element when nothing about it is peculiar; such are nearly all, and this is the quick way."""
+    if cursor.images.stripped:
+        return None, None, None
+    text = cursor.images.cards[card]
+    row, col, value = cuts
+    return _INTEGER(text[row]), _INTEGER(text[col]), _REAL(text[value])
 
 
-_CLEAN = {"I": clean_reader("I"), "E": clean_reader("E")}
+_INTEGER, _REAL = clean_reader("I"), clean_reader("E")
 
 
 def _add(cursor: Cursor, matrix: Matrix, card: int, slot: int, element: tuple[int, int, float]) -> None:
@@ -134,17 +140,22 @@ def _warn_of_indices(cursor: Cursor, matrix: Matrix, card: int, slot: int) -> No
             cursor.warn_of(card, place, place.row.name, matrix.group)
 
 
-def _refuse_twice(cursor: Cursor, matrix: Matrix, card: int, slot: int, element: tuple, key: tuple[int, int]) -> None:
+def _refuse_twice(
+    cursor: Cursor, matrix: Matrix, card: int, slot: int, element: tuple, key: tuple[int, int]
+) -> None:
     """The same place twice: an error, unless both say the same."""
     row, col, value = element
     symbol, (first, first_card, _) = matrix.group.symbol, matrix.elements[key]
     note_it = cursor.findings.warn if first == value else cursor.findings.error
     following = _following(matrix.group)
-    missing = f"; missing blank card before group {following.number}?" if following and following.is_input else ""
+    missing = (
+        f"; missing blank card before group {following.number}?" if following and following.is_input else ""
+    )
     mirror = ", its mirror image" if key != (row, col) else ""
     note_it(
         "MD112",
-        f"{symbol}({row},{col}) is given twice: {first:.8g} on card {first_card + 1}{mirror}, {value:.8g} here "
+        f"{symbol}({row},{col}) is given twice: {first:.8g} on card {first_card + 1}{mirror}, {value:.8g} "
+        f"here "
         f"({_slot_place(cursor, matrix, card, slot)})",
         slot_span(cursor, matrix.group, card, slot),
         "whether the first, the last or the sum was meant cannot be known",
@@ -166,8 +177,13 @@ def _refuse_index(cursor: Cursor, matrix: Matrix, card: int, slot: int, element:
         cursor.findings.forget(before)
         following = _following(matrix.group)
         note = f"it would fit {following.symbol}, which comes next"
-        cursor.findings.stop(code, message, span, note, f"missing blank card before group {following.number}?")
-    hints = (blanks_are_zeros(place, text, index) for place, index in zip(matrix.group.items[slot], (row, col), strict=False))
+        cursor.findings.stop(
+            code, message, span, note, f"missing blank card before group {following.number}?"
+        )
+    hints = (
+        blanks_are_zeros(place, text, index)
+        for place, index in zip(matrix.group.items[slot], (row, col), strict=False)
+    )
     note, help = next((hint for hint in hints if hint[0]), ("", ""))
     fallback = f"give a row from 1 to {matrix.rows} and a column from 1 to {matrix.cols}, right justified"
     cursor.findings.error(code, message, span, note, help or fallback)
@@ -194,5 +210,6 @@ def _following(group: Group) -> Group | None:
 
 def _slot_place(cursor: Cursor, matrix: Matrix, card: int, slot: int) -> str:
     span = slot_span(cursor, matrix.group, card, slot)
-    text = cursor.images.cards[card][span.column - 1 : span.column - 1 + span.width]
-    return f'card {card + 1}, {matrix.group.title}, columns {span.column}-{span.column + span.width - 1}: "{text}"'
+    first, last = span.column, span.column + span.width - 1
+    text = cursor.images.cards[card][first - 1 : last]
+    return f'card {card + 1}, {matrix.group.title}, columns {first}-{last}: "{text}"'

@@ -48,7 +48,8 @@ def read_var(cursor: Cursor, control: Control) -> Listed:
     if reads_as(cursor.peek(), VAR):
         cursor.findings.stop(
             "MD120",
-            f"VAR seems to run on: the card after its {control.data} values, NM(1+IROW) with NM = {control.NM} and "
+            f"VAR seems to run on: the card after its {control.data} values, NM(1+IROW) with NM = "
+            f"{control.NM} and "
             f"IROW = {control.IROW}, holds numbers and no indices (card {cursor.at + 1}, {VAR.title})",
             cursor.images.span(cursor.at),
             note,
@@ -70,7 +71,7 @@ def _counted(cursor: Cursor, group: Group, count: int, unreadable: float, note: 
 
 
 def read_rs(cursor: Cursor, control: Control) -> Entries:
-    """Group 4: the variable elements, stiffness, one pair 0 0, then mass; values are 0 for stiffness and 1 for mass."""
+    """Group 4: stiffness elements (value 0), one pair 0 0, mass elements (value 1)."""
     rows, cols, errors = Listed(cursor), Listed(cursor), cursor.findings.errors
     count = control.NRS + 1
     for start in range(0, count, len(RS.items)):
@@ -93,7 +94,9 @@ def _split(control: Control, pairs: np.ndarray, zeros: np.ndarray, places: Liste
     """Take out the pair 0 0 that stands between stiffness and mass."""
     at = int(zeros[0]) if len(zeros) else control.NRS
     keep = np.delete(np.arange(control.NRS + 1), at)
-    where = lambda i: places.cursor.images.span(places.places[keep[i]][0], places.places[keep[i]][1].column, 8)
+    where = lambda i: places.cursor.images.span(
+        places.places[keep[i]][0], places.places[keep[i]][1].column, 8
+    )
     return Entries(pairs[0, keep], pairs[1, keep], (keep > at).astype(float), where)
 
 
@@ -105,7 +108,8 @@ def _refuse_separators(cursor: Cursor, control: Control, zeros: np.ndarray, plac
         f"{len(zeros) or 'none'} of the NRS+1 = {control.NRS + 1} pairs are 0 0; expected one "
         f"({cursor.place(card, place, RS)})",
         cursor.images.span(card, place.column, 2 * place.width),
-        "one pair 0 0 separates the stiffness elements from the mass elements; without mass elements it comes last",
+        "one pair 0 0 separates the stiffness elements from the mass elements; without mass elements it "
+        "comes last",
         "give NRS pairs and one pair 0 0, or mend NRS on the control card",
     )
 
@@ -135,7 +139,8 @@ def _indic_card(cursor: Cursor, control: Control, card: int, start: int, listed:
     if start and start >= control.IROW and cursor.images.cards[card].strip(" 0"):
         cursor.findings.stop(
             "MD109",
-            f"INDIC has its IROW = {control.IROW} positions, and the 20th value of its last card is not 0: a blank card "
+            f"INDIC has its IROW = {control.IROW} positions, and the 20th value of its last card is not 0: "
+            "a blank card "
             f"must follow (card {card + 1}, {INDIC.title})",
             cursor.images.span(card),
             "a card of INDIC is followed by another as long as its 20th value is not zero",
@@ -156,7 +161,8 @@ def _check_indic(cursor: Cursor, control: Control, listed: Listed) -> None:
     at = next((i for i, value in enumerate(listed.values) if not value), len(listed.values) - 1)
     cursor.findings.error(
         "MD109",
-        f"INDIC holds {found} positions, but IROW = {control.IROW} ({cursor.place(*listed.places[at], INDIC)})",
+        f"INDIC holds {found} positions, but IROW = {control.IROW} "
+        f"({cursor.place(*listed.places[at], INDIC)})",
         listed.where(at),
         "the list ends at a card whose 20th value (columns 77-80) is 0",
         "punch one position in each field, without gaps, or mend IROW on the control card",

@@ -1,4 +1,4 @@
-"""What a card deck cannot hold of a Problem: losses that change the problem are errors, the others warnings."""
+"""What a card deck cannot hold of a Problem: errors where the problem would change, else warnings."""
 
 from dataclasses import dataclass, field
 from math import inf
@@ -87,21 +87,31 @@ def _sizes(found: Losses, problem: Problem) -> None:
     for row in layout.CONTROL:
         size = sizes.get(row.name, row.low)
         if size < row.low or size > (row.high or size):
-            found.error("MD146", f"{row.name}, the {row.meaning}, is {size}; cards hold {row.low} to {row.high}")
+            found.error(
+                "MD146", f"{row.name}, the {row.meaning}, is {size}; cards hold {row.low} to {row.high}"
+            )
     if np.any(np.diff(problem.elements.is_mass.astype(int)) < 0):
         found.error("MD146", "mass elements stand before stiffness elements; cards list stiffness first")
     test = problem.test
     if test is not None and test.s > layout.MOST_INDIC_CARDS * len(layout.INDIC.fields):
-        found.warn("MD121", f"{test.s} positions are more than the 140 of the 1972 program", "the old program cannot read it")
+        found.warn(
+            "MD121",
+            f"{test.s} positions are more than the 140 of the 1972 program",
+            "the old program cannot read it",
+        )
 
 
 def _parameter(found: Losses, parameter: Parameter) -> None:
     """Value, limits and transform: cards know only the change of a property."""
     name = parameter.name
     if parameter.nominal != 0:
-        found.error("MD141", f"{name} has the prior value {parameter.nominal:.8g}; cards hold no values of properties")
+        found.error(
+            "MD141", f"{name} has the prior value {parameter.nominal:.8g}; cards hold no values of properties"
+        )
     if parameter.lower != -inf or parameter.upper != inf:
-        found.error("MD142", f"{name} has limits, {parameter.lower:.8g} to {parameter.upper:.8g}; cards hold none")
+        found.error(
+            "MD142", f"{name} has limits, {parameter.lower:.8g} to {parameter.upper:.8g}; cards hold none"
+        )
     if parameter.transform != "identity":
         found.error("MD143", f"{name} has transform {parameter.transform}; cards hold none")
 
@@ -109,12 +119,18 @@ def _parameter(found: Losses, parameter: Parameter) -> None:
 def _test(found: Losses, test: ModalTest) -> None:
     missing = int(np.count_nonzero(np.isnan(test.frequency_hz)))
     if missing or test.m == 0:
-        found.error("MD145", f"{missing} of {test.m} modes have no frequency; every mode of a card deck has one")
+        found.error(
+            "MD145", f"{missing} of {test.m} modes have no frequency; every mode of a card deck has one"
+        )
     blank = int(np.count_nonzero(np.isnan(test.shapes)))
     if blank:
-        found.error("MD145", f"{blank} components of mode shapes are missing; on cards they would be measured zeros")
+        found.error(
+            "MD145", f"{blank} components of mode shapes are missing; on cards they would be measured zeros"
+        )
     if test.scale != "least-squares":
-        found.warn("MD151", f"scale: {test.scale} is not on cards", f"run the cards with --scale {test.scale}")
+        found.warn(
+            "MD151", f"scale: {test.scale} is not on cards", f"run the cards with --scale {test.scale}"
+        )
 
 
 def _options(found: Losses, run: RunOptions) -> None:
@@ -122,7 +138,11 @@ def _options(found: Losses, run: RunOptions) -> None:
         chosen = getattr(run, name)
         if chosen != value:
             option = f"--{name.replace('_', '-')}" + ("" if chosen is True else f" {chosen}")
-            found.warn("MD151", f"{name}: {chosen} is not on cards, which stand for {value}", f"run the cards with {option}")
+            found.warn(
+                "MD151",
+                f"{name}: {chosen} is not on cards, which stand for {value}",
+                f"run the cards with {option}",
+            )
     if run.fix_total_mass:
         found.error("MD148", "the total mass is held fixed, which cards cannot ask for")
 

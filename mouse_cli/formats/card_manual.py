@@ -1,4 +1,4 @@
-"""The user's manual of card decks in Markdown, set anew from the layout: every card drawn, every field explained."""
+"""The user's manual of card decks, set anew from the layout: every card drawn, every field explained."""
 
 from collections.abc import Iterator
 
@@ -9,27 +9,31 @@ _HEAD = """# Card decks
 
 A deck is a text file with one card of 80 columns on each line: twelve groups, all of them, in this order.
 
-Integers are right justified. An all-blank field is 0; **a blank inside or after a number is the digit 0**. Real numbers
-carry a decimal point; without one the last d digits of an Ew.d field are the fraction, also when an exponent is
-punched. Exponents are written `E5`, `E+05`, `D5` or `+05`, and nothing, not even a blank, follows them.
+Integers are right justified. An all-blank field is 0; **a blank inside or after a number is the digit 0**.
+Real numbers carry a decimal point; without one the last d digits of an Ew.d field are the fraction, also
+when an exponent is punched. Exponents are written `E5`, `E+05`, `D5` or `+05`, and nothing, not even a
+blank, follows them.
 """
 
-_INPUT = """Matrices (groups 6, 7, 9, 11 and 12) are read by routine INPUT: up to four elements a card, in any order, each
-with its row, its column and its value. Only nonzero elements need to be given. A blank card ends the group. A negative
+_INPUT = """Matrices (groups 6, 7, 9, 11 and 12) are read by routine INPUT: up to four elements a card, in
+any order, each with its row, its column and its value. Only nonzero elements need to be given. A blank card
+ends the group. A negative
 number leaves no room for a leading zero: punch `-.12345678E+06` or `-1.2345678E+05`.
 """
 
 
 def manual() -> str:
     """All groups: a table of contents, then each card."""
-    return "\n".join([_HEAD, _INPUT, *_contents(), *(line for group in GROUPS for line in _group(group))]) + "\n"
+    return (
+        "\n".join([_HEAD, _INPUT, *_contents(), *(line for group in GROUPS for line in _group(group))]) + "\n"
+    )
 
 
 def _contents() -> Iterator[str]:
     yield "| group | name | symbol | FORMAT | cards | ended by |"
     yield "|---|---|---|---|---|---|"
-    for group in GROUPS:
-        yield f"| {group.number} | {group.name} | {group.symbol} | {group.format} | {group.cards} | {group.ended} |"
+    for g in GROUPS:
+        yield f"| {g.number} | {g.name} | {g.symbol} | {g.format} | {g.cards} | {g.ended} |"
     yield ""
 
 
@@ -57,6 +61,6 @@ def _drawn(group: Group) -> str:
 
 
 def _row(field: Field, ordinal: int) -> str:
-    row = field.row
-    meaning = row.meaning.format(i=ordinal)
-    return f"| {field.columns} | {field.label(ordinal)} | {field.format} | {meaning} | {row.unit} | {row.legal} |"
+    row, label = field.row, field.label(ordinal)
+    cells = (field.columns, label, field.format, row.meaning.format(i=ordinal), row.unit, row.legal)
+    return f"| {' | '.join(map(str, cells))} |"

@@ -32,9 +32,17 @@ def _cards(cursor: Cursor) -> Iterator[list[str]]:
     """The lines of each card; a group is announced at its first."""
     shown = None
     for index, group, items in cursor.trace:
-        head = [] if group is shown else ["", f"Group {group.number}: {group.name}  {group.symbol}  {group.format}", *_ruler()]
+        head = (
+            []
+            if group is shown
+            else ["", f"Group {group.number}: {group.name}  {group.symbol}  {group.format}", *_ruler()]
+        )
         shown = group
-        yield [*head, f"{index + 1:>4} | {cursor.images.cards[index].rstrip()}", *_fields(cursor, index, group, items)]
+        yield [
+            *head,
+            f"{index + 1:>4} | {cursor.images.cards[index].rstrip()}",
+            *_fields(cursor, index, group, items),
+        ]
 
 
 def _ruler() -> list[str]:
@@ -60,13 +68,23 @@ def _fields(cursor: Cursor, index: int, group: Group, items: int) -> Iterator[st
 def _named(field: Field, card: str, ordinal: int) -> str:
     """Columns, name, value and meaning of one field."""
     unit = f" {field.row.unit}" if field.row.unit else ""
-    return _line(field.columns, field.label(ordinal), f"{_value(field, card)}{unit}", field.row.meaning.format(i=ordinal))
+    return _line(
+        field.columns,
+        field.label(ordinal),
+        f"{_value(field, card)}{unit}",
+        field.row.meaning.format(i=ordinal),
+    )
 
 
 def _element(group: Group, item: tuple[Field, Field, Field], card: str) -> str:
     row, col, value = item
     columns = f"{row.column}-{value.column + value.width - 1}"
-    return _line(columns, f"{group.symbol}({_value(row, card)},{_value(col, card)})", _value(value, card), value.row.meaning)
+    return _line(
+        columns,
+        f"{group.symbol}({_value(row, card)},{_value(col, card)})",
+        _value(value, card),
+        value.row.meaning,
+    )
 
 
 def _value(field: Field, card: str) -> str:

@@ -1,7 +1,9 @@
-"""The modal test of a card deck: groups 3, 5, 8, 9 and 10 put together, with the readings that the manual leaves open.
+"""The modal test of a card deck: groups 3, 5, 8, 9 and 10 put together, with the readings that the manual
+leaves open.
 
-The manual does not say whether the row of X is a degree of freedom or a position in INDIC, nor whether its column is a
-position in MODE or a system mode number. The first of each is meant unless the deck can only be read the other way.
+The manual does not say whether the row of X is a degree of freedom or a position in INDIC, nor whether its
+column is a position in MODE or a system mode number. The first of each is meant unless the deck can only be
+read the other way.
 """
 
 import numpy as np
@@ -18,9 +20,15 @@ Places = dict[tuple[int, int], tuple[int, int]]
 
 
 def test_draft(
-    cursor: Cursor, control: Control, modes: Listed, indic: Listed, lamtst: Listed, matrix: Matrix, var: Listed
+    cursor: Cursor,
+    control: Control,
+    modes: Listed,
+    indic: Listed,
+    lamtst: Listed,
+    matrix: Matrix,
+    var: Listed,
 ) -> TestDraft:
-    """Shapes (s, m) from X, standard deviations from VAR; elements that are not punched are measured zeros."""
+    """Shapes (s, m) from X, their standard deviations from VAR; what is not punched is a measured zero."""
     shapes, places = _shapes(cursor, control, modes, indic, matrix)
     end = cursor.images.span(matrix.end)
     nm, irow = control.NM, control.IROW
@@ -63,7 +71,7 @@ def _shapes(
 
 
 def _row_positions(cursor: Cursor, control: Control, indic: Listed, matrix: Matrix) -> dict[int, int]:
-    """Position of each row index: degrees of freedom, unless only positions 1 to IROW make sense (9.1 of the rules)."""
+    """Position of each row index: degrees of freedom, unless only positions 1 to IROW make sense."""
     used = {i for i, _ in matrix.elements}
     dofs = {int(dof): k for k, dof in enumerate(indic.values)}
     positions = {k: k - 1 for k in range(1, control.IROW + 1)}
@@ -90,7 +98,7 @@ def _warn_of_rows(cursor: Cursor, matrix: Matrix, taken: str, why: str) -> None:
 
 
 def _column_positions(cursor: Cursor, control: Control, modes: Listed, matrix: Matrix) -> dict[int, int]:
-    """Position of each column index: 1 to NM, unless all are system mode numbers (9.2); empty after an error."""
+    """Position of each column index: 1 to NM, unless all are system mode numbers; empty after an error."""
     positions = {k: k - 1 for k in range(1, control.NM + 1)}
     used = {j for _, j in matrix.elements}
     if used <= positions.keys():
@@ -123,8 +131,12 @@ def _refuse_columns(cursor: Cursor, control: Control, matrix: Matrix) -> None:
                 f"X({i},{j}) is in column {j}, but there are NM = {control.NM} measured modes "
                 f"(card {card + 1}, {X.title})",
                 slot_span(cursor, X, card, slot),
-                "all rows are within NM: X looks transposed" if exchanged else "the column is the position in MODE",
-                "punch the degree of freedom first, then the mode" if exchanged else f"give a column from 1 to {control.NM}",
+                "all rows are within NM: X looks transposed"
+                if exchanged
+                else "the column is the position in MODE",
+                "punch the degree of freedom first, then the mode"
+                if exchanged
+                else f"give a column from 1 to {control.NM}",
             )
         if exchanged and j > control.NM:
             return

@@ -18,7 +18,8 @@ Element = tuple[int, int, float]
 
 
 def write(problem: Problem) -> tuple[str, list[Diagnostic]]:
-    """The deck, and warnings of what is lost but does not change the answer (names) or can be given otherwise (options).
+    """The deck, and warnings of what is lost but does not change the answer (names) or can be given
+    otherwise (options).
 
     Raises DeckError with every loss that would change the problem.
     """
@@ -74,7 +75,7 @@ def _random_elements(problem: Problem) -> list[tuple[int, int]]:
 
 
 def _indic(test: ModalTest, found: Losses) -> Iterator[str]:
-    """Positions; a blank card after a full one, but for the seventh (and for the last when there are more)."""
+    """Positions; a blank card after a full one, unless it is the seventh or later."""
     cards = list(_list(layout.INDIC, (test.dofs + 1).tolist(), found))
     full = test.s % len(layout.INDIC.fields) == 0
     yield from cards
@@ -107,7 +108,9 @@ def _list(group: Group, values: Sequence[float], found: Losses) -> Iterator[str]
     fields = group.fields
     for start in range(0, len(values), len(fields)):
         chunk = zip(fields, values[start : start + len(fields)], strict=False)
-        yield _card(_punch(f, v, f.label(k), found) for k, (f, v) in enumerate(chunk, start // len(group.rows) + 1))
+        yield _card(
+            _punch(f, v, f.label(k), found) for k, (f, v) in enumerate(chunk, start // len(group.rows) + 1)
+        )
 
 
 def _matrix(group: Group, elements: Iterable[Element], found: Losses) -> Iterator[str]:

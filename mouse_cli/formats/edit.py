@@ -1,8 +1,9 @@
-"""FORTRAN edit descriptors: fields of a card read as FORTRAN V read them, and written so that they read back the same.
+"""FORTRAN edit descriptors: fields read as FORTRAN V read them, and written so that they read back.
 
-All-blank is 0; leading blanks are skipped; every other blank is the digit 0 (FORTRAN 66, `BLANK='ZERO'`). A real
-without a point has its last d digits after the point, also when an exponent is punched; the exponent may be written
-`E5 E+5 D5 +05`. What FORTRAN reads only by accident, or into nonsense, is refused with a reason.
+All-blank is 0; leading blanks are skipped; every other blank is the digit 0 (FORTRAN 66, `BLANK='ZERO'`). A
+real without a point has its last d digits after the point, also when an exponent is punched; the exponent
+may be written `E5 E+5 D5 +05`. What FORTRAN reads only by accident, or into nonsense, is refused with a
+reason.
 """
 
 import re
@@ -15,7 +16,15 @@ from mouse_cli.formats.edit_format import LARGEST, LARGEST_INTEGER, SMALLEST, Fi
 from mouse_cli.formats.edit_output import write_field
 from mouse_cli.formats.edit_reason import why_not
 
-__all__ = ["FieldError", "Suspicion", "clean_reader", "field_warnings", "read_field", "read_fields", "write_field"]
+__all__ = [
+    "FieldError",
+    "Suspicion",
+    "clean_reader",
+    "field_warnings",
+    "read_field",
+    "read_fields",
+    "write_field",
+]
 
 BLANKS = ("zero", "null")
 
@@ -23,6 +32,10 @@ _INTEGER = re.compile(r"([+-]?)([0-9 ]*)").fullmatch
 _REAL = re.compile(r"([+-]?)([0-9 ]*)(?:(\.)([0-9 ]*))?(?:([EeDd][+-]?|[+-])([0-9 ]*))?").fullmatch
 # Fields that Python reads as FORTRAN does: a point, no blank after the first character, exponent with E.
 _CLEAN_REAL = re.compile(r" *[+-]?(?:[0-9]+\.[0-9]*|\.[0-9]+)(?:[Ee][+-]?[0-9]+)?").fullmatch
+# The same with the exponents that only FORTRAN knows: 1.28872+04 and 1.28872D4.
+_CLEAN_AS_PRINTED = re.compile(
+    r"( *[+-]?(?:[0-9]+\.[0-9]*|\.[0-9]+))(?:[Dd](?=.)|(?=[+-]))([+-]?[0-9]+)"
+).fullmatch
 _BLANK_AFTER_EXPONENT = re.compile(r" *[0-9 ]*[1-9][0-9]*( )").match
 
 Value = float | int | str
@@ -52,7 +65,9 @@ def read_field(text: str, format: str, *, blanks: str = "zero") -> Value:
         raise ValueError(f"blanks is '{blanks}', expected one of {', '.join(BLANKS)}")
     text = text.removesuffix("\n").removesuffix("\r")
     if len(text) > descriptor.width:
-        raise FieldError(f"{len(text)} characters do not fit a field of {descriptor.width}", "keep within the columns")
+        raise FieldError(
+            f"{len(text)} characters do not fit a field of {descriptor.width}", "keep within the columns"
+        )
     text = text.ljust(descriptor.width)
     if descriptor.kind == "A":
         return text
@@ -62,7 +77,8 @@ def read_field(text: str, format: str, *, blanks: str = "zero") -> Value:
 
 
 def read_fields(texts: Sequence[str], format: str, *, blanks: str = "zero") -> np.ndarray:
-    """Many fields at once, as an array of int or float: the same values, and the same refusals, as `read_field`.
+    """Many fields at once, as an array of int or float: the same values, and the same refusals, as
+    `read_field`.
 
     Raises FieldError for the first refused field, with its `index`.
     """
@@ -104,9 +120,12 @@ def _clean_integer(text: str) -> int | None:
 
 
 def _clean_real(text: str) -> float | None:
-    if not _CLEAN_REAL(text):
+    if _CLEAN_REAL(text):
+        value = float(text)
+    elif match := _CLEAN_AS_PRINTED(text):
+        value = float(f"{match[1]}E{match[2]}")
+    else:
         return None
-    value = float(text)
     return value if 1e-30 < abs(value) < 1e30 else None  # near the limits, and zero, the exact path decides
 
 
@@ -148,7 +167,9 @@ def _refuse_blank_after_exponent(exponent: str, text: str, descriptor: Format) -
         trailing = len(text) - len(text.rstrip(" "))
         raise FieldError(
             "there is a blank after the exponent, which multiplies the exponent by ten",
-            f"move the number {trailing} column{'s' * (trailing > 1)} to the right" if trailing else "close the gap",
+            f"move the number {trailing} column{'s' * (trailing > 1)} to the right"
+            if trailing
+            else "close the gap",
             len(text) - len(exponent) + match.start(1) if len(text) == descriptor.width else None,
         )
 
@@ -175,7 +196,9 @@ def _suspicions(text: str, descriptor: Format):
         )
     gap = re.search(r"[0-9.] +(?=[0-9.])", text)
     if gap:
-        yield Suspicion("embedded-blank", "a blank inside a number is a zero", "punch the zero", gap.start() + 1)
+        yield Suspicion(
+            "embedded-blank", "a blank inside a number is a zero", "punch the zero", gap.start() + 1
+        )
     digits = mantissa.rstrip(" ")
     if "." not in mantissa and len(digits) < len(mantissa):
         count = len(mantissa) - len(digits)

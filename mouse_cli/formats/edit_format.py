@@ -1,4 +1,4 @@
-"""A FORTRAN edit descriptor (Iw, Ew.d, A4), what it accepts, and the error of a field that it does not accept."""
+"""A FORTRAN edit descriptor (Iw, Ew.d, A4) and the error of a field that it does not accept."""
 
 import re
 from dataclasses import dataclass
@@ -12,7 +12,8 @@ _DESCRIPTOR = re.compile(r"(?:(I|A)([0-9]{1,3})|(E)([0-9]{1,3})\.([0-9]{1,3}))")
 
 
 class FieldError(ValueError):
-    """A field cannot be read or written: `reason`, `help` and, when one column is to blame, its `offset` from 0.
+    """A field cannot be read or written: `reason`, `help` and, when one column is to blame, its `offset`
+    from 0.
 
     `index` is the position of the field in a bulk read.
     """
@@ -53,7 +54,8 @@ def parse(format: str) -> Format:
 
 @cache
 def expand(format: str) -> tuple[Format, ...]:
-    """The descriptors of a whole card, in order of the columns, with repeat counts and brackets multiplied out.
+    """The descriptors of a whole card, in order of the columns, with repeat counts and brackets multiplied
+    out.
 
     >>> [str(f) for f in expand("2(2I3,E14.8)")]
     ['I3', 'I3', 'E14.8', 'I3', 'I3', 'E14.8']

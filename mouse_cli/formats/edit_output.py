@@ -9,8 +9,8 @@ from mouse_cli.formats.edit_format import LARGEST, LARGEST_INTEGER, SMALLEST, Fi
 def write_field(value: float | int | str, format: str) -> str:
     """`value` in exactly w characters, right justified (text: left), with as many significant digits as fit.
 
-    Whenever some form of w columns holds a real exactly, such a form is chosen, so that reading it gives `value` again.
-    Raises FieldError when the value cannot be represented.
+    Whenever some form of w columns holds a real exactly, such a form is chosen, so that reading it gives
+    `value` again. Raises FieldError when the value cannot be represented.
 
     >>> write_field(-123456.78, "E14.8"), write_field(8485.2814, "E14.8"), write_field(1.25e-20, "E9.2")
     ('    -123456.78', '     8485.2814', ' 1.25E-20')
@@ -47,9 +47,10 @@ def _real(value: float, width: int, digits: int) -> str:
 
 
 def _roundings(value: float) -> Iterator[tuple[str, int]]:
-    """Digits and power of ten, value = digits * 10**power: first those that name the double exactly, then fewer."""
-    exact = len(_scientific(repr(value))[0])
-    for count in range(exact, 0, -1):
+    """Digits and power of ten, value = digits * 10**power: those that name the double, then fewer."""
+    exact = _scientific(repr(value))
+    yield exact
+    for count in range(len(exact[0]) - 1, 0, -1):
         yield _scientific(f"{value:.{count - 1}e}")
 
 
@@ -63,7 +64,7 @@ def _scientific(text: str) -> tuple[str, int]:
 
 
 def _forms(mantissa: str, power: int, implied: int) -> Iterator[str]:
-    """Every way to write the number that may save a column, the plainest first; those without a point come last."""
+    """Every way to write the number that may save a column, the plainest first, without a point last."""
     plain, scientific = _fixed(mantissa, power), _exponential(mantissa, power, len(mantissa) - 1, "E{:+03d}")
     yield min(plain, scientific, key=len)
     yield plain

@@ -6,7 +6,7 @@ from mouse_cli.formats.edit_format import FieldError, Format
 
 # Tried in order; the first pattern that is found names the fault and its column.
 _FAULTS = (
-    (r"^ *(\*+) *$", "a field of asterisks is FORTRAN's overflow mark: the program that wrote it had no room", "give the number itself"),
+    (r"^ *(\*+) *$", "asterisks are FORTRAN's overflow mark: the number did not fit", "give the number"),
     (r"(\t)", "a tab is not a card code", "replace the tab with blanks"),
     (r"([^\x20-\x7e])", "only printable ASCII characters can be punched", "retype the character"),
     (r"(,)", "a comma has no place in a field", "put the number in its columns; nothing separates fields"),
@@ -19,10 +19,22 @@ _INTEGER_FAULTS = (
     (r"[0-9] *([+-])", "a sign stands after the digits", "put the sign in front of the number"),
 )
 _REAL_FAULTS = (
-    (r"(?i)(?:[ed][+-]?|[0-9. ][+-])[0-9 ]*(\.)", "there is a point in the exponent", "give the exponent as an integer"),
+    (
+        r"(?i)(?:[ed][+-]?|[0-9. ][+-])[0-9 ]*(\.)",
+        "there is a point in the exponent",
+        "give the exponent as an integer",
+    ),
     (r"\.[^.]*(\.)", "there are two decimal points", "leave one point"),
-    (r"(?i)^ *[+-]?[. ]*([ed][+-]?[0-9 ]*)$", "there is an exponent, but no number before it", "punch the number"),
-    (r"(?i)[0-9. ]([ed] *[+-]?|[+-]) *$", "there are no digits after the exponent", "punch the exponent, or nothing"),
+    (
+        r"(?i)^ *[+-]?[. ]*([ed][+-]?[0-9 ]*)$",
+        "there is an exponent, but no number before it",
+        "punch the number",
+    ),
+    (
+        r"(?i)[0-9. ]([ed] *[+-]?|[+-]) *$",
+        "there are no digits after the exponent",
+        "punch the exponent, or nothing",
+    ),
 )
 _LAST_FAULTS = (
     (r"([+-]) *[+-]", "there are two signs", "leave one sign"),

@@ -1,9 +1,10 @@
 """Fields and whole cards against a FORTRAN compiler: the same bits, or the same refusal.
 
-A small program, compiled here, reads generated cards with BLANK='ZERO' and prints every value in hexadecimal. Its answers
-are kept in `gfortran_answers.json` under the hash of the cards, so that the comparison is also made without a compiler.
-Not generated: what gfortran reads and the 1972 rules refuse (NaN, Q exponents, commas, an exponent without mantissa or digits,
-values outside the 1108's range, a blank after the digits of a nonzero exponent).
+A small program, compiled here, reads generated cards with BLANK='ZERO' and prints every value in
+hexadecimal. Its answers are kept in `gfortran_answers.json` under the hash of the cards, so that the
+comparison is also made without a compiler.
+Not generated: what gfortran reads and the 1972 rules refuse (NaN, Q exponents, commas, an exponent without
+mantissa or digits, values outside the 1108's range, a blank after the digits of a nonzero exponent).
 """
 
 import hashlib
@@ -55,13 +56,16 @@ end program
 
 
 def _number(rng):
-    """A number in one of the forms that cards hold, with signs, points, exponents and blanks where they may be."""
+    """A number in one of the forms that cards hold, with signs, points, exponents and blanks where they may
+    be."""
     whole = "".join(rng.choices("0123456789", k=rng.randint(0, 6)))
     fraction = "".join(rng.choices("0123456789", k=rng.randint(0, 7)))
     point = rng.choice([".", ".", ""])
     if not point or not (whole + fraction):
         whole, fraction = whole or rng.choice("123456789"), fraction if point else ""
-    exponent = rng.choice(["", "", "E{}", "E+{:02d}", "D-{:02d}", "+{:02d}", "-{}", "e{}", "E 0{}", "D+ {}", "-{:03d}"])
+    exponent = rng.choice(
+        ["", "", "E{}", "E+{:02d}", "D-{:02d}", "+{:02d}", "-{}", "e{}", "E 0{}", "D+ {}", "-{:03d}"]
+    )
     number = rng.choice(["", "", "-", "+"]) + whole + point + fraction + exponent.format(rng.randint(0, 9))
     if rng.random() < 0.3:
         at = rng.randrange(len(number))
@@ -86,7 +90,8 @@ def _integer(rng, width):
 
 
 def _cases():
-    """(format, text) of every generated field: loose ones, and those of whole cards as the groups lay them out."""
+    """(format, text) of every generated field: loose ones, and those of whole cards as the groups lay them
+    out."""
     rng = random.Random(1972)
     for format in ("I3", "I4", "I8", "E14.8", "E16.8", "E20.5"):
         yield from ((format, _field(rng, format)) for _ in range(FIELDS))
@@ -108,7 +113,11 @@ def _lax(text):
     body = text.strip(" ")
     no_digit = body and not re.match(r"[+-]?[ ]*\.?[ ]*[0-9]", body)
     bare_exponent = re.search(r"[0-9. ](?:[EeDd][+-]?|[+-])$", body)
-    return bool(no_digit or bare_exponent or re.search(r"[EeDd+-][ ]*[0-9]*[1-9][0-9]*[ ]", body[1:] + (" " if text[-1] == " " else "")))
+    return bool(
+        no_digit
+        or bare_exponent
+        or re.search(r"[EeDd+-][ ]*[0-9]*[1-9][0-9]*[ ]", body[1:] + (" " if text[-1] == " " else ""))
+    )
 
 
 CASES = [case for case in _cases() if case[0][0] == "I" or not _lax(case[1])]

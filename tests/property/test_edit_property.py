@@ -1,9 +1,10 @@
-"""Edit descriptors: what is written reads back, whatever is legal can be written, bulk reading is single reading."""
+"""Edit descriptors: what is written reads back, whatever is legal can be written, bulk reading is single
+reading."""
 
 import math
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from mouse_cli.formats.edit import FieldError, read_field, read_fields, write_field
@@ -18,7 +19,9 @@ def _fields(format):
     """Texts of the field's width: numbers in every form, and noise."""
     width = parse(format).width
     number = st.from_regex(r"[+-]?(\d{0,9}\.\d{0,9}|\d{1,9})([ED][+-]?\d{1,2}|[+-]\d{1,2})?", fullmatch=True)
-    placed = st.tuples(number, st.integers(0, 3)).map(lambda pair: (pair[0] + " " * pair[1])[-width:].rjust(width))
+    placed = st.tuples(number, st.integers(0, 3)).map(
+        lambda pair: (pair[0] + " " * pair[1])[-width:].rjust(width)
+    )
     return placed | st.text(ALPHABET, min_size=width, max_size=width)
 
 
@@ -42,6 +45,7 @@ def test_whatever_a_field_holds_can_be_written_again(data, format):
 
 @settings(max_examples=400, deadline=None)
 @given(REALS, st.booleans())
+@example(5.960464477539063e-08, False)
 def test_a_wide_field_holds_every_double(value, negative):
     value = -value if negative else value
     assert read_field(write_field(value, "E24.17"), "E24.17") == value
@@ -74,7 +78,9 @@ def test_bulk_reading_is_single_reading(data, format):
             read_fields(texts, format)
         assert raised.value.index == expected.index(None)
     else:
-        assert [repr(value) for value in read_fields(texts, format).tolist()] == [repr(value) for value in expected]
+        assert [repr(value) for value in read_fields(texts, format).tolist()] == [
+            repr(value) for value in expected
+        ]
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, 1e-40, 2e38])

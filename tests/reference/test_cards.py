@@ -1,4 +1,5 @@
-"""Card decks: the three check decks, every damaged deck of the rules' section 10, and each reading that the manual leaves open.
+"""Card decks: the three check decks, every damaged deck of the rules' section 10, and each reading that the
+manual leaves open.
 
 The damaged decks are made here from `chain_noisy.dat`; the decks are not copied into the repository.
 """
@@ -88,7 +89,12 @@ def test_chain():
     assert problem.test.shapes[:, 0].tolist() == [0.320877, 0.483715, 0.558403, 0.652936]
     assert (problem.test.shape_sd == 0.05).all() and problem.test.frequency_sd_hz[3] == 1.12660245
     run = problem.run
-    assert (run.estimator, run.recursion, run.pairing, run.convergence) == ("bayes", "replaced", "number", "ratio")
+    assert (run.estimator, run.recursion, run.pairing, run.convergence) == (
+        "bayes",
+        "replaced",
+        "number",
+        "ratio",
+    )
     assert (run.partials, run.passes, run.confidence, run.print_partials) == (5, 1, 95, False)
     assert problem.test.scale == "least-squares" and draft.source.format == "cards"
 
@@ -177,7 +183,14 @@ def test_stripped_numbers_take_what_stood_there():
 
 def test_a_deck_that_keeps_clear_of_73_80_reads_with_numbers():
     """Three elements a card leave columns 61-80 free; VAR(5) and LAMTST(4) are given."""
-    lines = [*LINES[:5], *_three_a_card(LINES[5:9]), LINES[9][:60], *_three_a_card(LINES[10:15]), *_var(), *_three_a_card(LINES[19:])]
+    lines = [
+        *LINES[:5],
+        *_three_a_card(LINES[5:9]),
+        LINES[9][:60],
+        *_three_a_card(LINES[10:15]),
+        *_var(),
+        *_three_a_card(LINES[19:]),
+    ]
     numbered = "\n".join(f"{line[:72]:72}{10 * k:08d}" for k, line in enumerate(lines, 1))
     given = {"NPARD": 5, "LAMTST(4)": 115.25, **{f"VAR({k})": 0.05 for k in (5, 10, 15, 20)}}
     draft = cards.read(numbered, "c.dat", strip_73_80=True, overrides=given)
@@ -204,7 +217,7 @@ def _var():
     [
         (deck((6, LINES[5] + "  remark")), "MD102", 6, 83, "column 83"),
         (deck((2, "4,4,4,0,2,4,1,2,3,5")), "MD101", 2, 1, "comma"),
-        (deck((6, "1  1  8.4852814E+03 2  2  1.0000000E+04 ")), "MD110", 6, 1, "COV(100,100) is outside 2 x 2"),
+        (deck((6, "1  1  8.4852814E+03 2  2  1.0000000E+04 ")), "MD110", 6, 1, "COV(100,100) is outside 2"),
         (deck((7, None)), "MD110", 7, 61, "COV(3,2) is outside 2 x 2"),
         (deck((5, "  1    2   3   4")), "MD323", 5, 1, "10"),
         (deck((11, "\t1.79415+01")), "MD103", 11, 1, "a tab in column 1"),
@@ -289,9 +302,16 @@ def test_rows_of_x_are_degrees_of_freedom():
 
 def _two_positions(first, second, *, rows):
     """The chain measured at two degrees of freedom."""
-    x = [element(rows[0], 1, ".3") + element(rows[1], 1, ".4"), element(rows[0], 2, ".5") + element(rows[1], 2, ".6")]
-    x += [element(rows[0], 3, ".5") + element(rows[1], 3, ".6"), element(rows[0], 4, ".5") + element(rows[1], 4, ".6"), ""]
-    var = LINES[15:17] + ["".join(["          5.0-02"] * 2)]
+    x = [
+        element(rows[0], 1, ".3") + element(rows[1], 1, ".4"),
+        element(rows[0], 2, ".5") + element(rows[1], 2, ".6"),
+    ]
+    x += [
+        element(rows[0], 3, ".5") + element(rows[1], 3, ".6"),
+        element(rows[0], 4, ".5") + element(rows[1], 4, ".6"),
+        "",
+    ]
+    var = [*LINES[15:17], "".join(["          5.0-02"] * 2)]
     return deck(control(IROW=2), (5, f"{first:4d}{second:4d}"), lines=[*LINES[:10], *x, *var, *LINES[19:]])
 
 
@@ -327,7 +347,14 @@ def test_columns_of_x_are_mode_numbers_when_all_are_in_mode():
 
 
 def test_transposed_x():
-    found = errors(_two_modes(["".join(element(1, j, ".5") for j in range(1, 5)), "".join(element(2, j, ".5") for j in range(1, 5))]))
+    found = errors(
+        _two_modes(
+            [
+                "".join(element(1, j, ".5") for j in range(1, 5)),
+                "".join(element(2, j, ".5") for j in range(1, 5)),
+            ]
+        )
+    )
     assert [d.code for d in found] == ["MD118"] and "transposed" in found[0].note
 
 
@@ -365,7 +392,9 @@ def test_frequencies_alone():
 def test_duplicates():
     """9.16: equal values warn, unequal ones do not pass; (i,j) and (j,i) of K are one place."""
     same = deck((23, LINES[22][:60] + element(2, 1, "-1.500D+05")))
-    assert [d.code for d in findings(same)][:1] == ["MD112"] and all(d.severity == WARNING for d in findings(same)[:1])
+    assert [d.code for d in findings(same)][:1] == ["MD112"] and all(
+        d.severity == WARNING for d in findings(same)[:1]
+    )
     assert "MD112" in {d.code for d in errors(deck((23, LINES[22][:60] + element(2, 1, "-1.400D+05"))))}
 
 
@@ -384,7 +413,9 @@ def test_limits_of_1972(legacy):
 def test_indic_cards(irow):
     """A blank card follows 20, 40, ... 120 positions; the seventh card ends the list of 140."""
     draft = cards.read(big_deck(160, irow), "c.dat")
-    assert {d.code for d in draft.diagnostics} <= {"MD121"} and draft.test.dofs.tolist() == list(range(1, irow + 1))
+    assert {d.code for d in draft.diagnostics} <= {"MD121"} and draft.test.dofs.tolist() == list(
+        range(1, irow + 1)
+    )
 
 
 def test_indic_without_its_blank_card():
@@ -476,7 +507,11 @@ def test_names_and_options_are_lost_with_a_warning():
     import dataclasses
 
     sound = _problem()
-    _, warnings = card_writer.write(_problem(parameters=_first(sound, name="k1"), run=dataclasses.replace(sound.run, recursion="anchored")))
+    _, warnings = card_writer.write(
+        _problem(
+            parameters=_first(sound, name="k1"), run=dataclasses.replace(sound.run, recursion="anchored")
+        )
+    )
     assert {d.code for d in warnings} == {"MD150", "MD151"} and all(d.severity == WARNING for d in warnings)
 
 
@@ -497,7 +532,13 @@ def test_the_columns_are_those_of_the_manual():
 
 def test_show_names_and_values_every_field():
     text = describe(cards.read(CHAIN, "c.dat"))
-    for part in ("IROW               4", "COV(1,1)           8485.2814", "LAMTST(4)          115.25 Hz", "VAR(5)             0.05", "K(3,4)             -200000"):
+    for part in (
+        "IROW               4",
+        "COV(1,1)           8485.2814",
+        "LAMTST(4)          115.25 Hz",
+        "VAR(5)             0.05",
+        "K(3,4)             -200000",
+    ):
         assert part in text, part
     assert all(f"{k:>4} | {line.rstrip()}" in text for k, line in enumerate(LINES, 1))
 

@@ -1,4 +1,5 @@
-"""Edit descriptors against fields that a real FORTRAN reader has read, with the refusals of the card rules on top."""
+"""Edit descriptors against fields that a real FORTRAN reader has read, with the refusals of the card rules
+on top."""
 
 import json
 import math
@@ -27,8 +28,13 @@ LAX = {
     "INF",
     "Infinity",
 }
-# Records shorter than the field: gfortran pads them with nothing, a card always has its blanks, which are zeros.
-PADDED = {("I3", "4"): 400, ("E14.8", "85000"): 850000.0, ("E16.8", "85000"): 8.5e7, ("E20.5", "85000"): 8.5e14}
+# Records shorter than the field: gfortran adds nothing, a card always has its blanks, which are zeros.
+PADDED = {
+    ("I3", "4"): 400,
+    ("E14.8", "85000"): 850000.0,
+    ("E16.8", "85000"): 8.5e7,
+    ("E20.5", "85000"): 8.5e14,
+}
 PADDED[("I8", "4\r")] = 40000000
 
 
