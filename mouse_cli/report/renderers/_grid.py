@@ -34,9 +34,10 @@ class Strip:
 
 @dataclass(frozen=True)
 class Grid:
-    """Strips side by side."""
+    """Strips side by side, `gap` columns between them."""
 
     strips: tuple[Strip, ...]
+    gap: int = GAP
 
     def lines(self) -> Iterator[str]:
         """The lines of the page."""
@@ -51,11 +52,9 @@ class Grid:
         """One row, as many lines as its tallest cell."""
         cells = list(cells)
         for i in range(max(len(c) for c in cells)):
-            yield (
-                (" " * GAP)
-                .join(_placed(c[i] if i < len(c) else "", s) for c, s in zip(cells, self.strips, strict=True))
-                .rstrip()
-            )
+            pairs = zip(cells, self.strips, strict=True)
+            line = (" " * self.gap).join(_placed(c[i] if i < len(c) else "", s) for c, s in pairs)
+            yield line.rstrip()
 
 
 def _placed(text: str, strip: Strip) -> str:
@@ -82,7 +81,9 @@ def matrix_grids(matrix: Matrix, numbers: Numbers, width: int) -> Iterator[Grid]
         for j, label in enumerate(matrix.column_labels)
     ]
     strips = [s.folded(width // 3) if s.width > width // 3 else s for s in strips]
-    yield from (Grid((*first, *part)) for part in _parts(strips, width - _total(first), _ACROSS))
+    gap = GAP if _total([*first, *strips[:_ACROSS]]) - GAP <= width else 1
+    room = width - _total(first, gap)
+    yield from (Grid((*first, *part), gap) for part in _parts(strips, room, _ACROSS, gap))
 
 
 def _labels(matrix: Matrix) -> Strip:
@@ -104,9 +105,9 @@ def _strip(column: Column, cells: list, numbers: Numbers) -> Strip:
     return Strip(head + unit, texts, column.align == "left")
 
 
-def _total(strips: Iterable[Strip]) -> int:
+def _total(strips: Iterable[Strip], gap: int = GAP) -> int:
     """Columns that `strips` take, with the gap after each."""
-    return sum(s.width + GAP for s in strips)
+    return sum(s.width + gap for s in strips)
 
 
 def _fitted(strips: list[Strip], room: int) -> list[Strip]:
@@ -127,11 +128,11 @@ def _folded_words(strips: list[Strip], room: int) -> list[Strip]:
     return [s.folded(room) if s.width > room else s for s in strips]
 
 
-def _parts(strips: list[Strip], room: int, most: int) -> Iterator[list[Strip]]:
+def _parts(strips: list[Strip], room: int, most: int, gap: int = GAP) -> Iterator[list[Strip]]:
     """`strips` in order, in parts of at most `most` that take at most `room`."""
     part: list[Strip] = []
     for strip in strips:
-        if part and (len(part) == most or _total([*part, strip]) - GAP > room):
+        if part and (len(part) == most or _total([*part, strip], gap) - gap > room):
             yield part
             part = []
         part.append(strip)

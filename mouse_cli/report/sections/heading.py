@@ -35,13 +35,14 @@ _STEPS = {
 def heading(result: Result, options: Options) -> Iterator[Block]:
     """Everything that one needs to run the same run again."""
     problem = result.problem
+    rejected = " The form of the model is rejected." if result.rejected else ""
     yield Table(
         (Column("", align=LEFT), Column("", align=LEFT)),
         (
             ("program", f"mouse {result.versions.get('mouse', __version__)}"),
             ("title", problem.title.strip()),
             ("source", problem.source.path),
-            ("result", result.status.sentence),
+            ("result", result.status.sentence + rejected),
         ),
     )
     yield Text(_size(result))
