@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from mouse_cli.model.result import Result
-from mouse_cli.report.blocks import Block, Column, Table, Text
+from mouse_cli.report.blocks import Block, Cell, Column, Table, Text
 from mouse_cli.report.measured import NOT_MEASURED, eigenvalue_index, positions, shape_index
 from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._wording import counted
@@ -29,47 +29,47 @@ def comparison(result: Result, options: Options) -> Iterator[Block]:
     )
 
 
+_COLUMNS = (
+    Column("mode"),
+    Column("model mode"),
+    Column("revised eigenvalues", "rad2/s2"),
+    Column("test eigenvalues", "rad2/s2"),
+    Column("revised frequency", "Hz"),
+    Column("test frequency", "Hz"),
+    Column("test sd", "Hz"),
+    Column("interval", "Hz"),
+    Column("difference", "Hz"),
+    Column("prior MAC"),
+    Column("revised MAC"),
+    Column("*"),
+)
+
+
 def _eigenvalues(result: Result) -> Table:
     """One line a mode; the model's own number is shown where it differs from the test's."""
-    test = result.problem.test
-    columns = (
-        Column("mode"),
-        Column("model mode"),
-        Column("revised eigenvalues", "rad2/s2"),
-        Column("test eigenvalues", "rad2/s2"),
-        Column("revised frequency", "Hz"),
-        Column("test frequency", "Hz"),
-        Column("test sd", "Hz"),
-        Column("interval", "Hz"),
-        Column("difference", "Hz"),
-        Column("prior MAC"),
-        Column("revised MAC"),
-        Column("*"),
+    index = eigenvalue_index(result)
+    renumbered = bool((result.problem.test.number != result.revised.modes + 1).any())
+    rows = tuple(_mode(result, i, int(k), renumbered) for i, k in enumerate(index))
+    return Table(_COLUMNS, rows).without_empty_columns()
+
+
+def _mode(result: Result, i: int, k: int, renumbered: bool) -> tuple[Cell, ...]:
+    """Line of measured mode i, whose eigenvalue is datum k."""
+    test, mode, measured = result.problem.test, int(result.revised.modes[i]), k != NOT_MEASURED
+    revised = float(result.revised.eigenvalues[mode])
+    hz, test_hz, sd = np.sqrt(max(revised, 0.0)) / (2 * np.pi), test.frequency_hz[i], test.frequency_sd_hz[i]
+    frequency = (test_hz, sd, result.z * sd, test_hz - hz) if measured else (np.nan,) * 4
+    return (
+        int(test.number[i]),
+        mode + 1 if renumbered else None,
+        revised,
+        float(result.y[k]) if measured else None,
+        float(hz),
+        *map(float, frequency),
+        float(result.prior.mac[i]),
+        float(result.revised.mac[i]),
+        "*" if measured and result.exceeding[k] else None,
     )
-    renumbered = (test.number != result.revised.modes + 1).any()
-    rows = []
-    for i, (k, mode) in enumerate(zip(eigenvalue_index(result), result.revised.modes, strict=True)):
-        revised, measured = float(result.revised.eigenvalues[mode]), k != NOT_MEASURED
-        hz, test_hz, sd = (
-            np.sqrt(max(revised, 0.0)) / (2 * np.pi),
-            test.frequency_hz[i],
-            test.frequency_sd_hz[i],
-        )
-        frequency = (test_hz, sd, result.z * sd, test_hz - hz) if measured else (np.nan,) * 4
-        rows.append(
-            (
-                int(test.number[i]),
-                int(mode) + 1 if renumbered else None,
-                revised,
-                float(result.y[k]) if measured else None,
-                float(hz),
-                *map(float, frequency),
-                float(result.prior.mac[i]),
-                float(result.revised.mac[i]),
-                "*" if measured and result.exceeding[k] else None,
-            )
-        )
-    return Table(columns, tuple(rows)).without_empty_columns()
 
 
 def _eigenvectors(result: Result) -> Table:
