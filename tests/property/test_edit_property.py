@@ -91,3 +91,15 @@ def test_what_no_card_holds_is_refused(value):
 
 def test_negative_numbers_give_up_the_leading_zero():
     assert write_field(-1.2345678e-25, "E14.8") in ("-1.2345678E-25", "-.12345678E-24")
+
+
+@pytest.mark.parametrize("text", ["12345678901234", "-1234567890123", "12345678901+20", "-.12345678E+06"])
+def test_a_full_field_is_written_as_full_again(text):
+    value = read_field(text, "E14.8")
+    assert read_field(write_field(value, "E14.8"), "E14.8") == value
+
+
+@pytest.mark.parametrize("text", ["       1.4E-39", "       1.8E+38", "      1.0E-400", "      1.8E+400"])
+def test_bulk_reading_keeps_the_range_of_the_1108(text):
+    with pytest.raises(FieldError):
+        read_fields([text], "E14.8")

@@ -418,6 +418,13 @@ def test_indic_cards(irow):
     )
 
 
+@pytest.mark.parametrize("irow", [20, 40, 140, 160])
+def test_indic_comes_back_from_the_writer(irow):
+    draft = cards.read(big_deck(160, irow), "c.dat")
+    text, _ = card_writer.write(assemble(draft))
+    assert content(cards.read(text, "c.dat")) == content(draft)
+
+
 def test_indic_without_its_blank_card():
     lines = big_deck(30, 20).splitlines()
     del lines[5]
