@@ -143,7 +143,7 @@ def assert_same(one: Problem, other: Problem) -> None:
     assert same(one.structure.K, other.structure.K) and same(one.structure.M, other.structure.M)
     for name in ("is_mass", "row", "col"):
         assert same(getattr(one.elements, name), getattr(other.elements, name))
-    assert same(one.A, other.A) and same(one.prior.cov, other.prior.cov)
+    assert same(one.A, other.A) and same(one.prior.dense(), other.prior.dense())
     facts = ("name", "sd", "nominal", "unit", "lower", "upper", "transform")
     for a, b in zip(one.parameters, other.parameters, strict=True):
         assert [getattr(a, f) for f in facts] == [getattr(b, f) for f in facts]

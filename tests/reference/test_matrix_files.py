@@ -1,4 +1,4 @@
-"""Matrix files: SciPy and NumPy write them, the reader takes them; damaged ones are named and never trusted."""
+"""Matrix files: SciPy and NumPy write them, the reader takes them; damaged ones are named, never trusted."""
 
 import io
 import struct

@@ -21,7 +21,8 @@ mouse: 1
 title: Four-mass chain, imperfect test data (Table 5-3)
 source: NASA CR, Table 5-3
 model:
-  stiffness: {order: 4, entries: [[1,1,2.5e5],[1,2,-1.5e5],[2,2,2.65e5],[2,3,-1.15e5],[3,3,3.15e5],[3,4,-2.0e5],[4,4,2.0e5]]}
+  stiffness: {order: 4, entries: [[1,1,2.5e5],[1,2,-1.5e5],[2,2,2.65e5],
+    [2,3,-1.15e5],[3,3,3.15e5],[3,4,-2.0e5],[4,4,2.0e5]]}
   mass: {diagonal: [1, 1, 1, 1]}
 parameters:
   - {name: k1, sd: 8485.2814, stiffness: [[1,1,1]]}
@@ -233,7 +234,7 @@ def place(text: str, fault: str) -> tuple[int, int]:
     return before.count("\n") + 1, len(before) - before.rfind("\n")
 
 
-# fault code, text of SMALL, what stands in its place, the place of the caret, its width, a word of message or help
+# code, text of SMALL, what stands in its place, what the caret is under, its width, a word of message or help
 FAULTS = [
     ("MD210", "mass: {identity", "mas: {identity", "mas:", 3, "write 'mass'"),
     ("MD210", "run: {partials", "run: {partial", "partial:", 7, "write 'partials'"),
