@@ -34,5 +34,16 @@ CODES = {
         "A measured shape looks like another model mode than the one of its number.",
         "Use --pairing mac, or correct the mode numbers.",
     ),
+    "MD507": Code(
+        "fit closer than the accuracies",
+        "What remains of the data after the fit is far smaller than their stated accuracies: these are overstated, or the data "
+        "were computed and not measured.",
+        "State the accuracies that repeats of the test show.",
+    ),
+    "MD508": Code(
+        "total mass held in vain",
+        "fix_total_mass is set, but no property moves an element of M.",
+        "Leave it out.",
+    ),
     "MD512": Code("out of memory", "The model is too large for this machine.", "Use sparse matrices and fewer modes."),
 }

@@ -127,7 +127,7 @@ def _spread(setting: Setting, state: State, estimator: Estimator) -> tuple[Linea
     if at_limit.any():
         root_x, held = estimate.root(), at_limit.astype(int)
         in_u = replace(problem, L=np.eye(len(state.u)))
-        root, _ = conditioned(in_u, root_x, held)
+        root = np.where(at_limit[:, None], 0.0, conditioned(in_u, root_x, held)[0])
         estimate = replace(estimate, variance=np.einsum("ij,ij->i", root, root), root=lambda: root)
     return estimate, at_limit
 

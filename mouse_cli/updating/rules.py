@@ -8,11 +8,12 @@ from mouse_cli._errors import ERROR, WARNING, DeckError, Diagnostic, NumericalEr
 from mouse_cli.dynamics.correlation import mac
 from mouse_cli.dynamics.eigen import EigenSolution
 from mouse_cli.model.problem import Problem
-from mouse_cli.model.result import Result
+from mouse_cli.model.result import REJECT, Result
 from mouse_cli.updating.state import reference_eigenvalue
 
 _SILENT = 0.99  # revised over prior standard deviation: above this the data said nothing
 _TIED = 0.995  # correlation above which two properties are determined only together
+_FEW = 5  # degrees of freedom below which a close fit is nothing remarkable
 _MOST_RIGID_1972 = 3
 
 
@@ -87,11 +88,30 @@ def remarks(result: Result) -> Iterator[Diagnostic]:
     """What a careful reader of the answer should know."""
     if result.status.key in ("unobservable", "infeasible"):
         return
+    yield from _too_good(result)
+    yield from _idle_mass(result)
     yield from _silent(result)
     yield from _tied(result)
     yield from _limits(result)
     yield from _signs(result)
     yield from _places(result)
+
+
+def _too_good(result: Result) -> Iterator[Diagnostic]:
+    """A fit much closer than the accuracies let expect: they are overstated, and so is every standard deviation."""
+    if result.residual.dof >= _FEW and result.residual.p > 1 - REJECT:
+        yield _remark(
+            "MD507",
+            f"the data agree with the model better than their accuracies let expect (chi-square {result.residual.chi2:.3g} on "
+            f"{result.residual.dof} degrees of freedom)",
+            help="check the stated accuracies: if they are too large, so are the revised standard deviations",
+        )
+
+
+def _idle_mass(result: Result) -> Iterator[Diagnostic]:
+    problem = result.problem
+    if problem.run.fix_total_mass and not (problem.elements.is_mass & (np.abs(problem.A).sum(axis=1) > 0)).any():
+        yield _remark("MD508", "the total mass is held, but no property moves a mass", help="leave fix_total_mass out")
 
 
 def _silent(result: Result) -> Iterator[Diagnostic]:

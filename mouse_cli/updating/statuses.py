@@ -20,7 +20,7 @@ STATUSES = {
                 "not-converged",
                 "Not converged: all {cycles} computations of the partial derivatives are used up and {exceedances} of {data} "
                 "data lie outside their confidence limits ({allowed} are allowed).",
-                "Allow more partials (NPARD), or look at the data marked * below: one wrong datum is enough.",
+                "Allow more partials (NPARD), or look at the data marked *: one wrong datum is enough.",
                 1,
             ),
             Status(
