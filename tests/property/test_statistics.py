@@ -15,8 +15,8 @@ from scipy.stats import binomtest, kstest
 
 from mouse_cli.estimators import bayes
 from mouse_cli.estimators._linear import LinearProblem
-from mouse_cli.model.problem import Problem
 from mouse_cli.model.parameter import Gaussian
+from mouse_cli.model.problem import Problem
 from mouse_cli.model.structure import ListedElements, Structure
 from mouse_cli.updating import run
 
@@ -52,9 +52,7 @@ def narrow():
 def test_intervals_cover_the_truth(wide, confidence, parameter):
     """Of 500 intervals theta +- z sd the stated share contains the truth, for each property by itself."""
     z = QUANTILE[confidence]
-    hits = sum(
-        abs(r.revised.theta[parameter] - truth[parameter]) <= z * r.sd_theta[parameter] for truth, r in wide
-    )
+    hits = sum(abs(r.revised.theta[parameter] - truth[parameter]) <= z * r.sd_theta[parameter] for truth, r in wide)
     assert binomtest(hits, TRIALS, confidence / 100).pvalue > 1e-4, hits / TRIALS
 
 
@@ -94,9 +92,7 @@ def test_accuracies_stated_too_small_are_found_out(narrow):
 @pytest.mark.parametrize("key", ["least-squares", "weighted-least-squares"])
 def test_least_squares_is_unbiased(key):
     """Without a prior the mean error over 500 tests is zero within four standard errors, and the spread is what sd says."""
-    errors = np.array(
-        [(r.revised.theta - t) / r.sd_theta for t, r in trials(3, 0.01, 0.002, 0.002, estimator=key)]
-    )
+    errors = np.array([(r.revised.theta - t) / r.sd_theta for t, r in trials(3, 0.01, 0.002, 0.002, estimator=key)])
     assert (np.abs(errors.mean(axis=0)) < 4 / np.sqrt(TRIALS)).all()
     assert errors.std(axis=0, ddof=1) == pytest.approx(1, abs=4 / np.sqrt(2 * TRIALS))
 
@@ -110,9 +106,7 @@ def random_problem(q: int, p: int, seed: int) -> tuple[LinearProblem, np.random.
     T = rng.standard_normal((q, p)) * 10 ** rng.uniform(-3, 3, p)
     if seed % 3 == 0:
         T[:, 0] = 0.0
-    return LinearProblem(
-        T, rng.standard_normal(q), 10 ** rng.uniform(-2, 2, q), 10 ** rng.uniform(-1, 1, p)
-    ), rng
+    return LinearProblem(T, rng.standard_normal(q), 10 ** rng.uniform(-2, 2, q), 10 ** rng.uniform(-1, 1, p)), rng
 
 
 def never_wider(before: LinearProblem, after: LinearProblem) -> None:
@@ -234,9 +228,7 @@ def test_order_of_parameters_and_of_measured_points_does_not_matter():
 def test_scale_and_sign_in_which_a_shape_is_punched_do_not_matter(recursion, scale):
     p = simulated(scale=scale, recursion=recursion)
     factor = np.array([-1.0, 250.0, -3e-4])
-    changed = replace(
-        p, test=replace(p.test, shapes=p.test.shapes * factor, shape_sd=p.test.shape_sd * np.abs(factor))
-    )
+    changed = replace(p, test=replace(p.test, shapes=p.test.shapes * factor, shape_sd=p.test.shape_sd * np.abs(factor)))
     same(run(p), run(changed))
 
 
