@@ -71,10 +71,13 @@ def _one(draft: Draft, parameter: Parameter) -> None:
 
 def _semidefinite(draft: Draft, cov: np.ndarray) -> None:
     """A covariance is symmetric and has no negative eigenvalue."""
+    if not np.isfinite(cov).all():
+        draft.error("MD316", "prior covariance is not finite", draft.where_covariance)
+        return
     scale = np.sqrt(np.outer(np.abs(np.diag(cov)), np.abs(np.diag(cov))))
     correlation = np.divide(cov, scale, out=np.zeros_like(cov), where=scale > 0)
-    if not np.isfinite(cov).all() or not np.allclose(correlation, correlation.T, atol=1e-9):
-        draft.error("MD316", "prior covariance is not symmetric and finite", draft.where_covariance)
+    if not np.allclose(correlation, correlation.T, atol=1e-9):
+        draft.error("MD316", "prior covariance is not symmetric", draft.where_covariance)
     elif np.linalg.eigvalsh(correlation).min() < -1e-9:
         draft.error(
             "MD316",

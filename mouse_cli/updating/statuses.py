@@ -47,7 +47,7 @@ STATUSES = {
                 "indefinite",
                 "Stopped in cycle {cycle}: the revision makes the model unphysical ({reason}); the results are those of the last "
                 "good cycle.",
-                "A stiffness or mass was driven negative: the model form may be wrong (see the tests), or use --recursion anchored, "
+                "A stiffness or mass was driven negative: the model form may be wrong (see the tests); or use --recursion anchored, "
                 "limits, or transform: log.",
                 5,
             ),

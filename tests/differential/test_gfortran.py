@@ -18,9 +18,9 @@ from pathlib import Path
 
 import pytest
 
-from mouse_cli.formats.card_layout import GROUPS
+from mouse_cli.formats.cards.layout import GROUPS
 from mouse_cli.formats.edit import FieldError, read_field, write_field
-from mouse_cli.formats.edit_format import expand
+from mouse_cli.formats.edit.descriptor import expand
 
 ANSWERS = Path(__file__).with_name("gfortran_answers.json")
 FIELDS = 250  # of each format

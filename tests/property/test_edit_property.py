@@ -8,7 +8,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from mouse_cli.formats.edit import FieldError, read_field, read_fields, write_field
-from mouse_cli.formats.edit_format import LARGEST, SMALLEST, parse
+from mouse_cli.formats.edit.descriptor import LARGEST, SMALLEST, parse
 
 FORMATS = st.sampled_from(["E14.8", "E16.8", "E20.5", "E8.3"])
 REALS = st.floats(SMALLEST, LARGEST) | st.floats(1e-6, 1e6) | st.just(0.0)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from mouse_cli._errors import DeckError, frame
 from mouse_cli.formats import cards
-from mouse_cli.formats.card_show import describe
+from mouse_cli.formats.cards.show import describe
 from mouse_cli.formats.draft import Draft
 
 DECK = """\

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from mouse_cli.formats import matrix_files, read_deck, write_deck, yaml_deck
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.formats.matrix_files import market
-from mouse_cli.formats.yaml_text import real
+from mouse_cli.formats.yaml_deck.text import real
 from mouse_cli.model.modal_test import SCALES, ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.problem import (

@@ -12,10 +12,12 @@ import pytest
 
 from mouse_cli._errors import ERROR, WARNING, DeckError
 from mouse_cli.codes import catalogue
-from mouse_cli.formats import card_layout, card_writer, cards
+from mouse_cli.formats import cards
+from mouse_cli.formats.cards import layout as card_layout
+from mouse_cli.formats.cards import writer as card_writer
 from mouse_cli.formats.assemble import assemble
-from mouse_cli.formats.card_manual import manual
-from mouse_cli.formats.card_show import describe
+from mouse_cli.formats.cards.manual import manual
+from mouse_cli.formats.cards.show import describe
 
 FOLDER = Path(__file__).resolve().parents[2].parent / "shared" / "fortran"
 if not FOLDER.exists():
@@ -562,7 +564,7 @@ def test_manual_draws_every_group():
 
 
 def test_every_code_is_explained():
-    source = "".join(path.read_text() for path in Path(cards.__file__).parent.glob("card*.py"))
+    source = "".join(path.read_text() for path in Path(cards.__file__).parent.glob("*.py"))
     used = {source[k + 1 : k + 6] for k in range(len(source)) if source.startswith('"MD1', k)}
     explained = {code for code in catalogue() if code.startswith("MD1")}
     assert used == explained

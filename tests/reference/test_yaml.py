@@ -13,7 +13,7 @@ from mouse_cli.codes.yaml import CODES
 from mouse_cli.formats import read_deck, read_draft, write_deck, yaml_deck
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.formats.draft import Draft
-from mouse_cli.formats.yaml_nodes import MAX_DEPTH, MAX_FINDINGS
+from mouse_cli.formats.yaml_deck.nodes import MAX_DEPTH, MAX_FINDINGS
 
 # DESIGN section 4, completed with the data of Table 5-3 of the report.
 CHAIN = """\
@@ -425,7 +425,7 @@ def test_written_deck_keeps_source_and_is_whole(tmp_path):
 
 def test_each_code_is_explained_and_emitted():
     package = Path(mouse_cli.__file__).parent
-    sources = [*package.glob("formats/yaml_*.py"), *package.glob("formats/matrix_files/*.py")]
+    sources = [*package.glob("formats/yaml_deck/*.py"), *package.glob("formats/matrix_files/*.py")]
     sources += [package / "_atomic.py", package / "formats" / "__init__.py"]
     constants = [
         node.value

@@ -27,7 +27,7 @@ def command(
     problem = read_problem(deck, **reading(legacy, strip_73_80, overrides))
     show_diagnostics(problem.warnings)
     if (to or _format(output, problem.source.format)) == "cards":
-        from mouse_cli.formats import card_writer
+        from mouse_cli.formats.cards import writer as card_writer
 
         text, findings = card_writer.write(problem, lossy=lossy)
         show_diagnostics(findings)

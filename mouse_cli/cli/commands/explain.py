@@ -21,19 +21,19 @@ def _exit() -> str:
 
 
 def _schema() -> str:
-    from mouse_cli.formats import yaml_schema
+    from mouse_cli.formats.yaml_deck import reference
 
-    return json.dumps(yaml_schema.schema(), indent=1)
+    return json.dumps(reference.schema(), indent=1)
 
 
 def _yaml() -> str:
-    from mouse_cli.formats import yaml_reference
+    from mouse_cli.formats.yaml_deck import reference as yaml_reference
 
     return yaml_reference.reference()
 
 
 def _cards() -> str:
-    from mouse_cli.formats import card_manual
+    from mouse_cli.formats.cards import manual as card_manual
 
     return card_manual.manual()
 

@@ -52,7 +52,7 @@ def _groups() -> Iterator[tuple[str, str]]:
     from mouse_cli.formats.cards import layout
 
     for group in layout.GROUPS:
-        yield str(group.number), f"{group.symbol}, {group.format}: {group.title}"
+        yield str(group.number), f"{group.symbol}, {group.format}: {group.name}"
 
 
 KINDS: dict[str, Callable[[], Iterator[tuple[str, str]]]] = {

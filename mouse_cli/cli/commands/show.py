@@ -21,7 +21,7 @@ def command(deck: str, legacy: bool, strip_73_80: bool, overrides: tuple[str, ..
 
     data, how = deck_bytes(deck), reading(legacy, strip_73_80, overrides)
     if not is_yaml(data, deck):
-        from mouse_cli.formats import card_show
+        from mouse_cli.formats.cards import show as card_show
 
         click.echo(card_show.describe(data, **how))
     try:

@@ -1,0 +1,168 @@
+"""The `model:` of a YAML deck: K and M in any of their forms, and the names of the degrees of freedom."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.formats import matrix_files
+from mouse_cli.formats.draft import Entries
+from mouse_cli.formats.yaml_deck import values as yaml_values
+from mouse_cli.formats.yaml_deck.files import read_below
+from mouse_cli.formats.yaml_deck.nodes import Document, Node
+from mouse_cli.formats.yaml_deck.schema import KINDS
+from mouse_cli.formats.yaml_deck.sections import Section
+from mouse_cli.model._arrays import Matrix
+
+
+@dataclass
+class Model:
+    """K and M as read (None: refused), their order and labels."""
+
+    K: Entries | Matrix | None
+    M: Entries | Matrix | None
+    order: int
+    where_order: Node
+    labels: tuple[str, ...] = ()
+
+
+def model(section: Section) -> Model:
+    """K and M, of one order."""
+    K, n, place = _matrix(section, "stiffness")
+    M, other, mass_place = _matrix(section, "mass")
+    if n and other and n != other:
+        message = f"model.mass has order {other}, but model.stiffness has order {n}"
+        section.document.error("MD220", mass_place, message, "give both matrices the same order")
+    return Model(K, M, n or other, place, _labels(section, n or other))
+
+
+def _matrix(section: Section, key: str) -> tuple[Entries | Matrix | None, int, Node]:
+    """The matrix, its order (0: unknown) and the place that set it."""
+    below = section.section(key)
+    form = below.form() if below else None
+    if form is None:
+        return None, 0, section.node
+    found = _FORMS[form](below, below.nodes[form])
+    place = below.nodes["order" if form == "entries" else form]
+    return (*found, place) if found else (None, 0, place)
+
+
+def _entries(section: Section, node: Node) -> tuple[Entries, int] | None:
+    order = section.value("order", 0)
+    found = yaml_values.entries(section.document, node, section.what("entries"), KINDS["triples"].words)
+    return None if found is None or not order else (found, order)
+
+
+def _diagonal(section: Section, node: Node) -> tuple[Entries, int] | None:
+    values = section.value("diagonal")
+    if values is None or not len(values):
+        return _empty(section, node, "diagonal") if values is not None else None
+    index = np.arange(1, len(values) + 1)
+    return Entries(index, index, values, section.document.where(node.value)), len(values)
+
+
+def _empty(section: Section, node: Node, key: str) -> None:
+    section.document.error(
+        "MD216", node, f"{section.what(key)} holds no number", "give one number for each row"
+    )
+
+
+def _identity(section: Section, node: Node) -> tuple[Entries, int] | None:
+    order = section.value("identity")
+    if order is None:
+        return None
+    index = np.arange(1, order + 1)
+    return Entries(index, index, np.ones(order), lambda _: section.document.span(node)), order
+
+
+def _dense(section: Section, node: Node) -> tuple[Entries, int] | None:
+    values = square(section.document, node, section.what("dense"))
+    if values is None or not _symmetric(section.document, node, values, section.what("dense")):
+        return None
+    row, col = np.nonzero(np.triu(values))
+    where = lambda i: section.document.span(node.value[row[i]].value[col[i]])
+    return Entries(row + 1, col + 1, values[row, col], where), len(values)
+
+
+def square(document: Document, node: Node, what: str, order: int | None = None) -> np.ndarray | None:
+    """A list of n rows of n numbers; `order` is n when it is known from elsewhere."""
+    found = yaml_values.rows(document, node, what, KINDS["square"].words)
+    if found is None:
+        return None
+    nodes, values = found
+    n = len(nodes) if order is None else order
+    if len(nodes) != n or not n:
+        return document.error(
+            "MD216", node, f"{what} has {len(nodes)} rows; expected {n or 'some'}", f"give {n or 1} rows"
+        )
+    wrong = [(row, node) for row, node in zip(values, nodes, strict=True) if len(row) != n]
+    for row, place in wrong[:20]:
+        message = f"a row of {what} has {len(row)} values; expected {n}, as there are rows"
+        document.error("MD216", place, message, f"give {n} values in each row")
+    return None if wrong else np.array(values)
+
+
+def _symmetric(document: Document, node: Node, values: np.ndarray, what: str) -> bool:
+    """Whether every element equals its mirror image; a difference of rounding is no slip."""
+    close = np.isclose(values, values.T, rtol=1e-9, atol=0, equal_nan=True)
+    for i, j in np.argwhere(~close & (np.arange(len(values))[:, None] > np.arange(len(values))))[:20]:
+        document.error(
+            "MD221",
+            node.value[i].value[j],
+            f"{what}({i + 1},{j + 1}) is {values[i, j]:.10g}, "
+            f"but its mirror image ({j + 1},{i + 1}) is {values[j, i]:.10g}",
+            "make the two equal: K and M are symmetric",
+        )
+    return bool(close.all())
+
+
+def _file(section: Section, node: Node) -> tuple[Matrix, int] | None:
+    matrix = read_below(section.document, node, section.called, matrix_files.read_matrix)
+    return None if matrix is None else (matrix, matrix.shape[0])
+
+
+_FORMS = {"entries": _entries, "dense": _dense, "diagonal": _diagonal, "identity": _identity, "file": _file}
+
+
+def _labels(section: Section, order: int) -> tuple[str, ...]:
+    labels = section.value("labels", [])
+    if not labels:
+        return ()
+    node, document = section.nodes["labels"], section.document
+    if order and len(labels) != order:
+        message = f"model.labels has {len(labels)} names; the model has {order} degrees of freedom"
+        document.error("MD216", node, message, f"give {order} names")
+    seen: set[str] = set()
+    for item, label in zip(node.value, labels, strict=True):
+        if label in seen:
+            document.error(
+                "MD226", item, f"label '{label}' is given twice", "give each degree of freedom its own name"
+            )
+        seen.add(label)
+    return tuple(labels)
+
+
+def dofs(document: Document, node: Node, what: str, labels: tuple[str, ...]) -> np.ndarray | None:
+    """Degrees of freedom from 1: a plain number is one, anything else is a label of the model."""
+    nodes = yaml_values.items(document, node, what, KINDS["dofs"].words)
+    if nodes is None:
+        return None
+    place = {label: i for i, label in enumerate(labels, 1)}
+    found = [_dof(document, item, what, place) for item in nodes]
+    return None if None in found else np.array(found, dtype=int)
+
+
+def _dof(document: Document, node: Node, what: str, place: dict[str, int]) -> int | None:
+    if yaml_values.as_number(node) is not None:
+        return yaml_values.whole(document, node, f"a number in {what}")
+    name = yaml_values.text(
+        document, node, f"a value in {what}", "the number or the label of a degree of freedom"
+    )
+    if name is None or name in place:
+        return place.get(name)
+    known = f"the labels are {', '.join(list(place)[:12])}" if place else "the model has no labels"
+    return document.error(
+        "MD225",
+        node,
+        f"{what} names '{name[:40]}', which is no label of the model; {known}",
+        "give the number of the degree of freedom, or a label of model.labels",
+    )

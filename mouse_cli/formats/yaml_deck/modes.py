@@ -1,0 +1,198 @@
+"""The `test:` of a YAML deck: natural frequencies, mode shapes and their accuracies."""
+
+import warnings
+
+import numpy as np
+
+from mouse_cli.formats import matrix_files
+from mouse_cli.formats.draft import TestDraft, nowhere
+from mouse_cli.formats.yaml_deck import values as yaml_values
+from mouse_cli.formats.yaml_deck.files import named, read_below
+from mouse_cli.formats.yaml_deck.model import dofs as degrees_of_freedom
+from mouse_cli.formats.yaml_deck.schema import KINDS
+from mouse_cli.formats.yaml_deck.sections import Section
+
+
+def modal_test(section: Section | None, labels: tuple[str, ...]) -> TestDraft | None:
+    """The measured modes; None when there are none, or after an error that leaves no list of frequencies."""
+    modes = section.section("modes") if section else None
+    frequency = modes.value("frequency") if modes else None
+    if frequency is None:
+        return None
+    m, nodes, scale = len(frequency), modes.nodes, modes.value("scale", "fitted")
+    if not m:
+        return modes.document.error(
+            "MD216", nodes["frequency"], f"{modes.what('frequency')} is empty", "give a frequency"
+        )
+    sd = _frequency_sd(modes, frequency)
+    number = modes.value("number", np.arange(1, m + 1))
+    dofs = (
+        degrees_of_freedom(modes.document, nodes["dofs"], modes.what("dofs"), labels)
+        if "dofs" in modes
+        else None
+    )
+    _matching(modes, "number", len(number), m)
+    shapes, shape_sd = _shapes(modes, dofs, m)
+    if modes.document.incomplete:
+        return None
+    where = modes.document.where
+    return TestDraft(
+        number,
+        frequency,
+        sd,
+        np.zeros(0, int) if dofs is None else dofs,
+        shapes.values,
+        shape_sd.values,
+        scale,
+        where(nodes["number"].value if "number" in modes else nodes["frequency"].value),
+        where(nodes["frequency"].value),
+        _where_each(modes, "frequency_sd"),
+        _where_each(modes, "dofs"),
+        shapes.where,
+        shape_sd.where,
+    )
+
+
+def _where_each(modes: Section, key: str):
+    """Places of the values of a list; of a single value for all, its place."""
+    node = modes.nodes.get(key)
+    if node is None:
+        return nowhere
+    return (
+        modes.document.where(node.value) if yaml_values.is_list(node) else lambda _: modes.document.span(node)
+    )
+
+
+def _matching(modes: Section, key: str, count: int, m: int) -> bool:
+    if count != m:
+        message = f"{modes.what(key)} has {count} values; {modes.what('frequency')} has {m}"
+        modes.document.error("MD216", modes.nodes[key], message, f"give one value for each of the {m} modes")
+    return count == m
+
+
+def _frequency_sd(modes: Section, frequency: np.ndarray) -> np.ndarray:
+    """Standard deviations (m,), NaN where no frequency was measured and one value serves all."""
+    node, document = modes.nodes.get("frequency_sd"), modes.document
+    nothing = np.full(len(frequency), np.nan)
+    if node is None:
+        if not np.isnan(frequency).all():
+            message = f"{modes.called} has no frequency_sd"
+            document.error(
+                "MD211",
+                modes.nodes["frequency"],
+                message,
+                "give frequency_sd: a number in Hz, or a percentage",
+            )
+        return nothing
+    what, words = modes.what("frequency_sd"), KINDS["sds"].words
+    if not yaml_values.is_scalar(node):
+        values = yaml_values.numbers(document, node, what, words, missing=True)
+        if values is None or not _matching(modes, "frequency_sd", len(values), len(frequency)):
+            return nothing
+        return values
+    percent = yaml_values.as_percent(node)
+    if percent is not None:
+        return percent * frequency / 100
+    value = yaml_values.number(document, node, what, words)
+    return nothing if value is None else np.where(np.isnan(frequency), np.nan, value)
+
+
+class Grid:
+    """Values (s, m) and their places."""
+
+    def __init__(self, values: np.ndarray, where=lambda s, m: None):
+        self.values, self.where = values, where
+
+
+def _shapes(modes: Section, dofs: np.ndarray | None, m: int) -> tuple[Grid, Grid]:
+    """Shapes and their standard deviations; without dofs none are possible."""
+    nothing = Grid(np.zeros((0, m)))
+    if dofs is None:
+        for key in {"shapes", "shape_sd"} & set(modes.nodes):
+            if "dofs" not in modes:
+                message = f"{modes.called} gives {key}, but no dofs"
+                modes.document.error(
+                    "MD211", modes.nodes[key], message, "give dofs: where the shapes were measured"
+                )
+        return nothing, nothing
+    if len(dofs) and "shapes" not in modes:
+        message = f"{modes.called} gives dofs, but no shapes"
+        modes.document.error(
+            "MD211", modes.nodes["dofs"], message, "give shapes: one row for each of dofs; or delete dofs"
+        )
+    if not len(dofs) or "shapes" not in modes:
+        return nothing, nothing
+    shapes = _grid(modes, "shapes", len(dofs), m)
+    if shapes is None:
+        return nothing, nothing
+    return shapes, _shape_sd(modes, shapes.values) or nothing
+
+
+def _shape_sd(modes: Section, shapes: np.ndarray) -> Grid | None:
+    node, document = modes.nodes.get("shape_sd"), modes.document
+    if node is None:
+        message = f"{modes.called} has no shape_sd"
+        return document.error(
+            "MD211", modes.nodes["shapes"], message, "give shape_sd: a number, a percentage, or rows"
+        )
+    if not yaml_values.is_scalar(node):
+        return _grid(modes, "shape_sd", *shapes.shape)
+    percent = yaml_values.as_percent(node)
+    value = percent
+    if percent is None:
+        value = yaml_values.number(document, node, modes.what("shape_sd"), KINDS["sd grid"].words)
+    if value is None:
+        return None
+    each = np.full(shapes.shape, value) if percent is None else percent * _largest(shapes) / 100
+    return Grid(np.where(np.isnan(shapes), np.nan, each), lambda s, m: document.span(node))
+
+
+def _largest(shapes: np.ndarray) -> np.ndarray:
+    """Largest component of each mode (1, m); NaN for a mode without any."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)  # a mode of which only the frequency was measured
+        return np.nanmax(np.abs(shapes), axis=0, keepdims=True)
+
+
+def _grid(modes: Section, key: str, s: int, m: int) -> Grid | None:
+    """Rows inline or from a file, as (s, m)."""
+    document, node, what = modes.document, modes.nodes[key], modes.what(key)
+    if yaml_values.is_mapping(node):
+        path = named(document, node, what)
+        table = None if path is None else read_below(document, path, what, matrix_files.read_table)
+        return (
+            None
+            if table is None
+            else _oriented(modes, key, Grid(table, lambda i, j: document.span(path)), s, m)
+        )
+    found = yaml_values.rows(document, node, what, KINDS[modes.definition.keys[key].kind].words, missing=True)
+    if found is None:
+        return None
+    nodes, values = found
+    widths = {len(row) for row in values}
+    if len(widths) > 1:
+        expected = m if len(nodes) == s else s if len(nodes) == m else len(values[0])
+        for row, place in zip(values, nodes, strict=True):
+            if len(row) != expected:
+                message = f"a row of {what} has {len(row)} values; expected {expected}"
+                document.error("MD216", place, message, _layout(s, m))
+        return None
+    where = lambda i, j: document.span(nodes[i].value[j])
+    return _oriented(modes, key, Grid(np.array(values).reshape(len(nodes), -1), where), s, m)
+
+
+def _oriented(modes: Section, key: str, grid: Grid, s: int, m: int) -> Grid | None:
+    """The table as (s, m): one that is plainly (m, s) is turned, with a warning."""
+    node, what, shape = modes.nodes[key], modes.what(key), grid.values.shape
+    if shape == (s, m):
+        return grid
+    if shape == (m, s):
+        message = f"{what} has {m} rows of {s}, one for each mode; it was turned to one for each of dofs"
+        modes.document.warn("MD227", node, message, _layout(s, m))
+        return Grid(grid.values.T, lambda i, j: grid.where(j, i))
+    message = f"{what} has {shape[0]} rows of {shape[1]} values; expected {s} rows of {m}"
+    return modes.document.error("MD216", node, message, _layout(s, m))
+
+
+def _layout(s: int, m: int) -> str:
+    return f"give {s} rows, one for each of dofs, of {m} values, one for each mode"

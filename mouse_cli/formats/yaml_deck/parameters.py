@@ -1,0 +1,188 @@
+"""The `parameters:` and `elements:` of a YAML deck: the properties, and what of K and M they move."""
+
+from collections.abc import Callable
+from math import inf
+
+import numpy as np
+
+from mouse_cli.formats import matrix_files
+from mouse_cli.formats.draft import Entries
+from mouse_cli.formats.yaml_deck import values as yaml_values
+from mouse_cli.formats.yaml_deck.files import named, read_below
+from mouse_cli.formats.yaml_deck.nodes import Document, Node
+from mouse_cli.formats.yaml_deck.schema import KINDS
+from mouse_cli.formats.yaml_deck.sections import Section
+from mouse_cli.model.parameter import Parameter
+
+_KEYS = ("stiffness", "mass")
+
+
+def sections(deck: Section) -> list[Section]:
+    """One section for each parameter."""
+    node = deck.nodes.get("parameters")
+    if node is None:
+        return []
+    nodes = yaml_values.items(deck.document, node, "parameters", "a list, one item for each parameter")
+    return [
+        Section(deck.document, item, "parameter", f"parameters[{i}]") for i, item in enumerate(nodes or [], 1)
+    ]
+
+
+def parameter(section: Section, variance: float | None) -> Parameter | None:
+    """One property; a `variance` from prior.covariance replaces its sd. None when it has no name or sd."""
+    name, nominal = section.value("name"), section.value("nominal", 0.0)
+    sd = _sd(section, nominal, variance)
+    if name is None or sd is None:
+        return None
+    return Parameter(
+        name,
+        sd,
+        nominal,
+        section.value("unit", ""),
+        section.value("lower", -inf),
+        section.value("upper", inf),
+        section.value("transform", "identity"),
+        section.document.span(section.nodes["name"]),
+    )
+
+
+def _sd(section: Section, nominal: float, variance: float | None) -> float | None:
+    node, document = section.nodes.get("sd"), section.document
+    from_covariance = None if variance is None else max(variance, 0.0) ** 0.5
+    if node is None:
+        if variance is None and yaml_values.is_mapping(section.node):
+            message = f"{section.called} has no sd"
+            document.error(
+                "MD224", section.node, message, "give sd: the prior standard deviation; 0 holds the parameter"
+            )
+        return from_covariance
+    sd = fraction_of(document, node, section.what("sd"), abs(nominal), "the nominal value, which is 0")
+    if sd is None or variance is None or np.isclose(sd, from_covariance, rtol=1e-6, atol=0):
+        return sd
+    both = f"{section.what('sd')} is {sd:.8g}, but prior.covariance says {from_covariance:.8g}"
+    document.warn("MD224", node, f"{both}; the covariance is used", "give one of the two")
+    return from_covariance
+
+
+def fraction_of(document: Document, node: Node, what: str, whole: float, zero: str) -> float | None:
+    """A number, or a percentage of `whole`; one of 0 is refused, and `zero` says of what it was to be."""
+    percent = yaml_values.as_percent(node)
+    if percent is None:
+        return yaml_values.number(document, node, what, KINDS["sd"].words)
+    if whole == 0:
+        message = f"{what} is {node.value.strip()} of {zero}"
+        return document.error("MD223", node, message, "give the standard deviation as a number")
+    return percent * whole / 100
+
+
+def moves(deck: Section, parameters: list[Section], order: int) -> tuple[Entries, Entries]:
+    """The listed elements (value 0: stiffness, 1: mass) and A: (listed element, parameter, partial)."""
+    listing = deck.section("elements")
+    groups = [_moved(parameters, key, order) for key in _KEYS]
+    lists = [
+        _listed(deck.document, listing, key, group) for key, (group, _) in zip(_KEYS, groups, strict=True)
+    ]
+    offset = len(lists[0][0])
+    A = joined(
+        [
+            Entries(index + 1 + start, owner + 1, group.values, group.where)
+            for (group, owner), (_, index), start in zip(groups, lists, (0, offset), strict=True)
+        ]
+    )
+    elements = joined(
+        [
+            Entries(found.rows, found.cols, np.full(len(found), float(is_mass)), found.where)
+            for is_mass, (found, _) in enumerate(lists)
+        ]
+    )
+    return elements, A
+
+
+def joined(parts: list[Entries]) -> Entries:
+    """Several lists of entries as one; each entry keeps its place."""
+    starts = np.cumsum([0] + [len(part) for part in parts])
+
+    def where(i: int):
+        part = int(np.searchsorted(starts, i, side="right")) - 1
+        return parts[part].where(i - int(starts[part]))
+
+    gather: Callable = lambda name, dtype: np.concatenate(
+        [np.zeros(0, dtype)] + [getattr(p, name) for p in parts]
+    )
+    return Entries(gather("rows", int), gather("cols", int), gather("values", float), where)
+
+
+def _moved(parameters: list[Section], key: str, order: int) -> tuple[Entries, np.ndarray]:
+    """What all parameters move in one matrix, and which of them (from 0) moves it."""
+    parts = [_group(section, key, order) for section in parameters]
+    owner = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
+    return joined(parts), owner
+
+
+def _group(section: Section, key: str, order: int) -> Entries:
+    """dK or dM of one parameter; no entries when there are none, or after an error."""
+    node = section.nodes.get(key)
+    found = None
+    if node is not None and yaml_values.is_mapping(node):
+        found = _group_file(section, node, key, order)
+    elif node is not None:
+        found = yaml_values.entries(section.document, node, section.what(key), KINDS["triples or file"].words)
+    return found or Entries(np.zeros(0, int), np.zeros(0, int), np.zeros(0))
+
+
+def _group_file(section: Section, node: Node, key: str, order: int) -> Entries | None:
+    path = named(section.document, node, section.what(key))
+    if path is None:
+        return None
+    limits = {"order": order} if order else {}
+    matrix = read_below(section.document, path, section.what(key), matrix_files.read_matrix, **limits)
+    if matrix is None:
+        return None
+    row, col, value = matrix_files.upper_triangle(matrix)
+    return Entries(row + 1, col + 1, value, lambda _: section.document.span(path))
+
+
+def _listed(
+    document: Document, listing: Section | None, key: str, moved: Entries
+) -> tuple[Entries, np.ndarray]:
+    """The elements of one matrix in their order, and for each moved entry its element, from 0."""
+    given = listing is not None and key in listing
+    found = (
+        yaml_values.entries(document, listing.nodes[key], f"elements.{key}", KINDS["pairs"].words, 2)
+        if given
+        else None
+    )
+    if found is not None:
+        return found, _looked_up(document, key, found, moved)
+    _, first, index = np.unique(_place(moved), return_index=True, return_inverse=True)
+    order = np.argsort(first)  # by first appearance, not by place
+    rank = np.empty_like(order)
+    rank[order] = np.arange(len(order))
+    first = first[order]
+    elements = Entries(
+        moved.rows[first], moved.cols[first], moved.values[first], lambda i: moved.where(int(first[i]))
+    )
+    return elements, rank[index]
+
+
+def _place(entries: Entries) -> np.ndarray:
+    """One number for an element and its mirror image."""
+    return np.minimum(entries.rows, entries.cols) * 2**31 + np.maximum(entries.rows, entries.cols)
+
+
+def _looked_up(document: Document, key: str, listed: Entries, moved: Entries) -> np.ndarray:
+    """Position in the list of each moved entry; MD222 for each that is not there."""
+    if not len(listed) or not len(moved):
+        position, absent = np.zeros(len(moved), int), np.arange(len(moved))
+    else:
+        sorter = np.argsort(_place(listed), kind="stable")
+        places = _place(listed)[sorter]
+        found = np.minimum(np.searchsorted(places, _place(moved)), len(listed) - 1)
+        position, absent = sorter[found], np.flatnonzero(places[found] != _place(moved))
+    for i in absent[:20]:
+        pair = f"[{moved.rows[i]}, {moved.cols[i]}]"
+        message = f"a parameter moves element {pair} of {key}, which elements.{key} does not list"
+        document.error(
+            "MD222", moved.where(int(i)), message, f"add {pair} to elements.{key}, or leave that list out"
+        )
+    return position

@@ -1,0 +1,84 @@
+"""Decks in YAML (version 1): text to Draft, and Problem to text."""
+
+import numpy as np
+
+from mouse_cli._errors import DeckError
+from mouse_cli.formats.draft import Draft
+from mouse_cli.formats.yaml_deck import parameters as yaml_parameters
+from mouse_cli.formats.yaml_deck import prior as yaml_prior
+from mouse_cli.formats.yaml_deck.model import Model, model
+from mouse_cli.formats.yaml_deck.modes import modal_test
+from mouse_cli.formats.yaml_deck.nodes import compose
+from mouse_cli.formats.yaml_deck.run import run_options
+from mouse_cli.formats.yaml_deck.sections import Section
+from mouse_cli.formats.yaml_deck.writer import write
+from mouse_cli.model.parameter import Parameter
+from mouse_cli.model.problem import Source
+
+__all__ = ["read", "write"]
+
+
+def read(text: str | bytes, path: str) -> Draft:
+    """A deck as written; findings that leave no gap stand in `diagnostics` of the Draft.
+
+    Raises DeckError with all findings when text or values are missing or not what they should be.
+    """
+    document, root = compose(text, path)
+    deck = Section(document, root, "deck")
+    deck.value("mouse")
+    draft = _draft(deck)
+    if draft is None or document.incomplete:
+        raise DeckError(
+            sorted(document.diagnostics, key=lambda d: (d.span.line, d.span.column) if d.span else (0, 0))
+        )
+    draft.diagnostics.extend(document.diagnostics)
+    return draft
+
+
+def _draft(deck: Section) -> Draft | None:
+    """All sections are read, so that all errors are found, before it is known whether they make a whole."""
+    document = deck.document
+    below = deck.section("model")
+    matrices = model(below) if below else Model(None, None, 0, deck.node)
+    parameters, covariance, properties = _properties(deck)
+    elements, A = yaml_parameters.moves(deck, properties, matrices.order)
+    test = modal_test(deck.section("test"), matrices.labels)
+    run, where_total_mass = run_options(deck.section("run"), matrices.labels)
+    title = deck.value("title", "")
+    deck.value("source")
+    if document.incomplete or matrices.K is None or matrices.M is None:
+        return None
+    return Draft(
+        title=title,
+        order=matrices.order,
+        K=matrices.K,
+        M=matrices.M,
+        elements=elements,
+        A=A,
+        parameters=parameters,
+        run=run,
+        source=Source(document.path, "yaml", tuple(document.lines)),
+        covariance=covariance,
+        test=test,
+        labels=matrices.labels,
+        where_order=document.span(matrices.where_order),
+        where_covariance=document.span(deck.nodes["prior"]) if "prior" in deck else None,
+        where_total_mass=where_total_mass,
+    )
+
+
+def _properties(deck: Section) -> tuple[list[Parameter], np.ndarray | None, list[Section]]:
+    """The parameters, their covariance when they are correlated, and their sections."""
+    sections = yaml_parameters.sections(deck)
+    prior = deck.section("prior")
+    form = prior.form() if prior else None
+    covariance = yaml_prior.covariance(prior, form, len(sections))
+    variances = [None] * len(sections) if covariance is None else np.diag(covariance).tolist()
+    if covariance is None and form == "covariance":
+        variances = [1.0] * len(sections)  # the matrix was refused: a missing sd is no second error
+    found = [yaml_parameters.parameter(*pair) for pair in zip(sections, variances, strict=True)]
+    parameters = [parameter for parameter in found if parameter is not None]
+    if len(parameters) == len(sections) and form != "covariance":
+        names, sd = [p.name for p in parameters], np.array([p.sd for p in parameters])
+        covariance = yaml_prior.correlated(prior, form, names, sd)
+    return parameters, covariance, sections

@@ -1,0 +1,91 @@
+"""The definitions of the YAML deck for others: a JSON Schema for editors, a table for readers."""
+
+from typing import Any
+
+from mouse_cli.formats.yaml_deck.schema import KINDS, SECTIONS, VERSION, Key, Section
+
+
+def schema() -> dict[str, Any]:
+    """The JSON Schema of a deck, shipped as deck.schema.json and printed by `mouse explain schema`."""
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": f"mouse deck, version {VERSION}",
+        **_section(SECTIONS["deck"]),
+        "$defs": {name: _section(section) for name, section in SECTIONS.items() if name != "deck"},
+    }
+
+
+def reference() -> str:
+    """Every key in Markdown: one table for each section."""
+    parts = [_table(name, section) for name, section in SECTIONS.items()]
+    return "\n".join(["# The keys of a YAML deck", "", _NUMBERS, "", *parts])
+
+
+_NUMBERS = (
+    "Numbers are written as `1`, `2.5`, `1e5` or `2.5e+05`; `.inf` and `.nan` are read too. A leading "
+    "zero means nothing: `010` is ten. An empty value, `~` and `null` mean that the key is not given."
+)
+
+
+def _section(section: Section) -> dict[str, Any]:
+    if not section.forms:
+        return _object(
+            section.meaning, section.keys, [key for key in section.keys if section.keys[key].required]
+        )
+    forms = [_object("", {key: section.keys[key] for key in form}, list(form)) for form in section.forms]
+    return {"description": section.meaning, "oneOf": forms}
+
+
+def _object(meaning: str, keys: dict[str, Key], required: list[str]) -> dict[str, Any]:
+    described = {"description": meaning} if meaning else {}
+    properties = {name: _value(key, name in required) for name, key in keys.items()}
+    return {
+        **described,
+        "type": "object",
+        "additionalProperties": False,
+        "required": required,
+        "properties": properties,
+    }
+
+
+def _value(key: Key, required: bool) -> dict[str, Any]:
+    unit = f" [{key.unit}]" if key.unit else ""
+    default = f"; default: {key.default}" if key.default else ""
+    limits = {"minimum": key.low, "maximum": key.high}
+    bounds = {name: limit for name, limit in limits.items() if limit is not None}
+    checked = {**_kind(key), **bounds}
+    return {"description": f"{key.meaning}{unit}{default}"} | (
+        checked if required else {"anyOf": [checked, {"type": "null"}]}
+    )
+
+
+def _kind(key: Key) -> dict[str, Any]:
+    kind, _, name = key.kind.partition(" ")
+    if kind == "section":
+        return {"$ref": f"#/$defs/{name}"}
+    if kind == "list":
+        return {"type": "array", "items": {"$ref": f"#/$defs/{name}"}}
+    return {"enum": list(key.choices)} if key.choices else KINDS[key.kind].schema
+
+
+def _table(name: str, section: Section) -> str:
+    rows = [_row(key, definition) for key, definition in section.keys.items()]
+    head = ["| key | value | default | unit | meaning |", "|---|---|---|---|---|"]
+    forms = " or ".join("`" + "` with `".join(form) + "`" for form in section.forms)
+    rule = [f"Exactly one of: {forms}.", ""] if forms else []
+    return "\n".join([f"## {name}", "", section.meaning, "", *rule, *head, *rows, ""])
+
+
+def _row(name: str, key: Key) -> str:
+    default = "required" if key.required else key.default
+    return f"| `{name}` | {_words(key)} | {default} | {key.unit} | {key.meaning} |"
+
+
+def _words(key: Key) -> str:
+    kind, _, name = key.kind.partition(" ")
+    if kind in ("section", "list"):
+        link = f"[{name}](#{name})"
+        return link if kind == "section" else f"a list of {link}"
+    if key.choices:
+        return ", ".join(f"`{choice}`" for choice in key.choices)
+    return KINDS[key.kind].words

@@ -1,0 +1,119 @@
+"""A Problem as a YAML deck that reads back as the same problem; large matrices go to files beside it."""
+
+import os
+from dataclasses import fields
+
+import numpy as np
+
+from mouse_cli.formats.matrix_files import upper_triangle
+from mouse_cli.formats.yaml_deck.nodes import compose
+from mouse_cli.formats.yaml_deck.schema import MAX_WHOLE, VERSION
+from mouse_cli.formats.yaml_deck.text import flow, maybe, real, word, wrapped
+from mouse_cli.formats.yaml_deck.writer_parameters import parameters, prior
+from mouse_cli.model._arrays import Matrix
+from mouse_cli.model.modal_test import ModalTest
+from mouse_cli.model.problem import Problem, RunOptions
+
+LARGEST_INLINE = 2000  # stored entries of a matrix; more go to a file
+
+
+def write(problem: Problem, stem: str = "deck") -> tuple[str, dict[str, Matrix]]:
+    """The deck, and the matrices that belong beside it, by file name; names begin with `stem`.
+
+    Whatever a reader could take otherwise is written out, so the result stays the same when defaults change.
+    """
+    attachments: dict[str, Matrix] = {}
+    lines = [*_heading(problem), *_model(problem, stem, attachments), *parameters(problem, stem, attachments)]
+    lines += [*prior(problem), *_test(problem.test), *_run(problem.run)]
+    return "\n".join(lines) + "\n", attachments
+
+
+def _heading(problem: Problem) -> list[str]:
+    note = _source_note(problem)
+    return [
+        f"mouse: {VERSION}",
+        f"title: {word(problem.title, flow=False)}",
+        *([f"source: {word(note, flow=False)}"] if note else []),
+    ]
+
+
+def _source_note(problem: Problem) -> str:
+    """What the deck said of its source, or the card deck that it was converted from."""
+    source = problem.source
+    if source.format == "cards":
+        return f"converted from {os.path.basename(source.path)}"
+    if source.format != "yaml" or not source.lines:
+        return ""
+    _, root = compose("\n".join(source.lines), source.path)
+    return next(
+        (value.value for key, value in root.value if key.value == "source" and isinstance(value.value, str)),
+        "",
+    )
+
+
+def _model(problem: Problem, stem: str, attachments: dict[str, Matrix]) -> list[str]:
+    structure = problem.structure
+    lines = ["", "model:  # before the test: upper triangles, rows and columns from 1"]
+    for key, matrix in (("stiffness", structure.K), ("mass", structure.M)):
+        lines.append(f"  {key}: {_matrix(matrix, f'{stem}_{key}.mtx', attachments)}")
+    if structure.labels != tuple(str(i + 1) for i in range(structure.n)):
+        lines.append(f"  labels: {wrapped(map(word, structure.labels), 2)}")
+    return lines
+
+
+def _matrix(matrix: Matrix, name: str, attachments: dict[str, Matrix]) -> str:
+    row, col, values = upper_triangle(matrix)
+    if len(row) > LARGEST_INLINE:
+        attachments[name] = matrix
+        return f"{{file: {word(name)}}}"
+    n = matrix.shape[0]
+    if len(row) == n and (row == col).all():
+        return (
+            f"{{identity: {n}}}" if (values == 1).all() else f"{{diagonal: {wrapped(map(real, values), 2)}}}"
+        )
+    entries = [flow((str(i + 1), str(j + 1), real(v))) for i, j, v in zip(row, col, values, strict=True)]
+    return f"{{order: {n}, entries: {wrapped(entries, 2)}}}"
+
+
+def _test(test: ModalTest | None) -> list[str]:
+    if test is None:
+        return []
+    lines = ["", "test:", "  modes:", f"    number: {flow(map(str, test.number))}"]
+    lines.append(f"    frequency: {wrapped(map(maybe, test.frequency_hz), 4)}  # Hz")
+    lines.append(f"    frequency_sd: {wrapped(map(maybe, test.frequency_sd_hz), 4)}  # Hz")
+    if test.s:
+        lines.append(f"    dofs: {wrapped((str(dof + 1) for dof in test.dofs), 4)}")
+        lines += _grid("shapes", test.shapes, "one row for each of dofs, one column for each mode")
+        lines += _grid("shape_sd", test.shape_sd, "standard deviations of shapes")
+    return [*lines, f"    scale: {test.scale}"]
+
+
+def _grid(key: str, values: np.ndarray, comment: str) -> list[str]:
+    same = values.flat[0]
+    if key == "shape_sd" and (values == same).all():
+        return [f"    {key}: {real(same)}"]
+    return [f"    {key}:  # {comment}", *(f"      - {flow(map(maybe, row))}" for row in values)]
+
+
+def _run(run: RunOptions) -> list[str]:
+    lines = ["", "run:"]
+    for option in fields(run):
+        value = getattr(run, option.name)
+        if option.name == "total_mass_dofs":
+            continue
+        if option.name == "fix_total_mass" and run.fix_total_mass and run.total_mass_dofs:
+            dofs = flow(str(dof + 1) for dof in run.total_mass_dofs)
+            lines.append(f"  fix_total_mass: {{dofs: {dofs}}}")
+        else:
+            lines.append(f"  {option.name}: {_option(value)}")
+    return lines
+
+
+def _option(value: object) -> str:
+    if value is None:
+        return "null"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, float):
+        return real(value)
+    return str(min(value, MAX_WHOLE)) if isinstance(value, int) else word(str(value))

@@ -1,0 +1,113 @@
+"""The house as CONTRIBUTING.md describes it: layers, who may print and exit, what loads what."""
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).resolve().parents[1] / "mouse_cli"
+FILES = sorted(PACKAGE.rglob("*.py"))
+
+# From the top down: a folder imports its own rank and those below.
+RANKS = {
+    "cli": 6,
+    "report": 5,
+    "updating": 4,
+    "estimators": 3,
+    "observables": 3,
+    "terms": 2,
+    "dynamics": 2,
+    "formats": 2,
+    "codes": 1,
+    "model": 1,
+}
+OPTIONAL = {"matplotlib", "h5py", "pyuff", "pyyeti"}
+HEAVY = {"scipy", "yaml"}  # never at the head of a module: a small card deck needs neither
+
+
+def imported(path: Path, head_only: bool = False) -> set[str]:
+    """Dotted names that the module imports, anywhere or at its head."""
+    tree = ast.parse(path.read_text())
+    nodes = tree.body if head_only else ast.walk(tree)
+    names = set()
+    for node in nodes:
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            names |= {node.module} | {f"{node.module}.{alias.name}" for alias in node.names}
+    return names
+
+
+def rank(dotted: str) -> int:
+    """Rank of `mouse_cli.folder...`; 0 for the top-level modules that all may use."""
+    parts = dotted.split(".")
+    return RANKS.get(parts[1], 0) if len(parts) > 1 else 0
+
+
+def identity(path: Path) -> str:
+    """Name of a file below the package, for test output."""
+    return str(path.relative_to(PACKAGE))
+
+
+@pytest.mark.parametrize("path", FILES, ids=identity)
+def test_imports_go_down_only(path):
+    own = RANKS.get(path.relative_to(PACKAGE).parts[0], 0)
+    if path.parent == PACKAGE:
+        own = 99 if path.name in ("__init__.py", "__main__.py") else 0
+    upward = {name for name in imported(path) if name.startswith("mouse_cli.") and rank(name) > own}
+    assert not upward
+
+
+def test_every_folder_has_a_rank():
+    folders = {p.name for p in PACKAGE.iterdir() if p.is_dir() and any(p.glob("*.py"))}
+    assert folders == set(RANKS)
+
+
+@pytest.mark.parametrize("path", FILES, ids=identity)
+def test_nothing_below_the_command_line_prints_or_exits(path):
+    if "cli" in path.relative_to(PACKAGE).parts[:1] or path.name == "__main__.py":
+        return
+    calls = [n.func for n in ast.walk(ast.parse(path.read_text())) if isinstance(n, ast.Call)]
+    assert not [c for c in calls if isinstance(c, ast.Name) and c.id in ("print", "exit", "quit", "input")]
+    assert not [c for c in calls if isinstance(c, ast.Attribute) and ast.unparse(c) in ("sys.exit", "os._exit")]
+    assert "click" not in {name.split(".")[0] for name in imported(path)}
+
+
+@pytest.mark.parametrize("path", FILES, ids=identity)
+def test_heavy_packages_are_loaded_where_they_are_used(path):
+    heads = {name.split(".")[0] for name in imported(path, head_only=True)}
+    allowed = {"yaml"} if path.parent.name == "yaml_deck" else set()
+    assert not heads & (HEAVY | OPTIONAL) - allowed
+
+
+@pytest.mark.parametrize("path", FILES, ids=identity)
+def test_files_fit_a_mind_and_functions_a_screen(path):
+    text = path.read_text()
+    assert len(text.splitlines()) <= 300
+    functions = [n for n in ast.walk(ast.parse(text)) if isinstance(n, ast.FunctionDef)]
+    long = {f.name: f.end_lineno - f.lineno + 1 for f in functions if f.end_lineno - f.lineno + 1 > 60}
+    assert not long
+
+
+def loaded(statement: str) -> set[str]:
+    """Top-level packages in memory after `statement` in a fresh interpreter."""
+    code = f"import sys; {statement}; print(*{{m.split('.')[0] for m in sys.modules}})"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    return set(done.stdout.splitlines()[-1].split())
+
+
+def test_import_loads_nothing_heavy():
+    assert not loaded("import mouse_cli") & {"numpy", "scipy", "click", "yaml", "matplotlib"}
+
+
+def test_version_needs_no_numpy():
+    run = "from mouse_cli.cli.main import cli; cli.main(['--version'], standalone_mode=False)"
+    assert not loaded(run) & {"numpy", "scipy", "yaml", "matplotlib"}
+
+
+def test_small_card_deck_needs_numpy_alone():
+    deck = PACKAGE.parent / "decks" / "table_5_2.dat"
+    run = f"from mouse_cli.cli.main import cli; cli.main(['run', {str(deck)!r}, '-q'], standalone_mode=False)"
+    assert not loaded(run) & {"scipy", "yaml", "matplotlib"}
