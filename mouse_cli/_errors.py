@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from mouse_cli._span import Span
 
 ERROR, WARNING = "error", "warning"
+_WIDEST = 160  # columns of a line that are shown
 _RULER = (
     "         1         2         3         4         5         6         7         8",
     "12345678901234567890123456789012345678901234567890123456789012345678901234567890",
@@ -63,20 +64,16 @@ class WrittenError(MouseError):
     exit_code = 5
 
 
-def frame(diagnostic: Diagnostic, ruler: bool = False) -> str:
-    """Headline, the offending line with a caret under the whole field, then note and help.
-
-    `ruler` adds the column ruler of an 80-column card above the line.
-    """
-    lines = [diagnostic.headline]
+def frame(diagnostic: Diagnostic) -> str:
+    """Headline, the offending line (a card under its column ruler) with a caret under the whole field, note and help."""
     span = diagnostic.span
-    if span and span.text:
-        gutter = " " * len(str(span.line))
-        if ruler:
-            lines += [f"{gutter} |  {row}" for row in _RULER]
-        lines.append(f"{span.line} |  {_printable(span.text)}")
-        lines.append(f"{gutter} |  {' ' * (span.column - 1)}{'^' * max(1, span.width)}")
     gutter = " " * (len(str(span.line)) if span else 1)
+    lines = [diagnostic.headline]
+    if span and span.text:
+        lines += [f"{gutter} |  {row}" for row in _RULER if span.card]
+        caret = "^" * max(1, min(span.width, len(span.text) + 1 - span.column))
+        lines.append(f"{span.line} |  {_printable(span.text)}"[:_WIDEST].rstrip())
+        lines.append(f"{gutter} |  {' ' * (span.column - 1)}{caret}"[:_WIDEST])
     lines += [
         f"{gutter} = {name}: {text}"
         for name, text in (("note", diagnostic.note), ("help", diagnostic.help))
@@ -87,4 +84,4 @@ def frame(diagnostic: Diagnostic, ruler: bool = False) -> str:
 
 def _printable(text: str) -> str:
     """The line with one visible character per column, so that the caret stays under its field."""
-    return "".join(c if c.isprintable() else "?" for c in text[:200])
+    return "".join(c if c.isprintable() else "?" for c in text)

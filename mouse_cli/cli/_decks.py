@@ -7,33 +7,14 @@ from dataclasses import replace
 
 import click
 
-from mouse_cli._errors import ERROR, DeckError, Diagnostic
-from mouse_cli._span import Span
-from mouse_cli.formats import is_yaml, read_draft
+from mouse_cli.formats import file_bytes, is_yaml, read_draft
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.formats.draft import Draft
 from mouse_cli.model.problem import Problem
 
-_LARGEST = 256 * 1024 * 1024  # bytes of a deck's text; matrices larger than that belong into files of their own
-
-
 def deck_bytes(path: str) -> bytes:
     """Content of the file `path`, or of standard input for '-'. Raises DeckError."""
-    try:
-        if path == "-":
-            data = sys.stdin.buffer.read(_LARGEST + 1)
-        else:
-            with open(path, "rb") as file:
-                data = file.read(_LARGEST + 1)
-    except OSError as error:
-        raise _unreadable(path, f"the deck cannot be read: {error.strerror or error}") from error
-    if len(data) > _LARGEST:
-        raise _unreadable(path, f"the deck is larger than {_LARGEST // 2**20} MB")
-    return data
-
-
-def _unreadable(path: str, message: str) -> DeckError:
-    return DeckError(Diagnostic("MD201", ERROR, message, Span(shown(path), 1), help="check the name of the file"))
+    return sys.stdin.buffer.read() if path == "-" else file_bytes(path)
 
 
 def shown(path: str) -> str:

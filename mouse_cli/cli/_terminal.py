@@ -14,16 +14,11 @@ _COLOURS = {ERROR: "red", "warning": "yellow"}
 def show_diagnostics(diagnostics: Iterable[Diagnostic], brief: bool = False) -> None:
     """Print diagnostics to standard error, each with the line it is about; `brief`: the headline alone."""
     for diagnostic in diagnostics:
-        text = diagnostic.headline if brief else frame(diagnostic, ruler=_on_card(diagnostic))
+        text = diagnostic.headline if brief else frame(diagnostic)
         mark = f"{diagnostic.severity}[{diagnostic.code}]"
         if _coloured(sys.stderr):
             text = text.replace(mark, click.style(mark, fg=_COLOURS[diagnostic.severity], bold=True), 1)
         click.echo(text, err=True)
-
-
-def _on_card(diagnostic: Diagnostic) -> bool:
-    """Whether the diagnostic points at a punched card, whose columns matter."""
-    return diagnostic.code.startswith("MD1")
 
 
 def _coloured(stream) -> bool:

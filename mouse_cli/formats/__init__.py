@@ -20,7 +20,7 @@ def read_deck(path: str | os.PathLike[str], *, legacy: bool = False, **options: 
     """
     from mouse_cli.formats.assemble import assemble
 
-    return assemble(read_draft(_bytes(os.fspath(path)), os.fspath(path), legacy=legacy, **options))
+    return assemble(read_draft(file_bytes(os.fspath(path)), os.fspath(path), legacy=legacy, **options))
 
 
 def read_draft(data: str | bytes, path: str, *, legacy: bool = False, **options: object) -> Draft:
@@ -75,7 +75,8 @@ def is_yaml(data: str | bytes, path: str = "") -> bool:
     return any(_VERSION_KEY.match(line) for line in lines[:_LEADING_LINES])
 
 
-def _bytes(path: str) -> bytes:
+def file_bytes(path: str) -> bytes:
+    """Content of the file `path`. Raises DeckError when it cannot be read."""
     try:
         with open(path, "rb") as stream:
             return stream.read()

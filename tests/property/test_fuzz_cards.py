@@ -46,7 +46,7 @@ def _survives(deck, **options):
         assert isinstance(draft, Draft)
         found = draft.diagnostics
     for diagnostic in found:
-        assert diagnostic.code.startswith("MD1") and frame(diagnostic, ruler=True)
+        assert diagnostic.code.startswith("MD1") and frame(diagnostic)
     assert len(found) < 400
     assert time.perf_counter() - start < SECONDS
 

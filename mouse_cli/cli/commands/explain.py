@@ -65,8 +65,10 @@ def _entries() -> Iterator[tuple[str, str]]:
     from mouse_cli.updating.loop import RECURSIONS
     from mouse_cli.updating.statuses import STATUSES
 
-    for status in STATUSES.values():
-        yield status.key, f"status {status.key}, exit {status.exit_code}\n{status.sentence}\n{status.advice}".rstrip()
+    for key in {status.key: None for status in STATUSES.values()}:
+        ends = [status for status in STATUSES.values() if status.key == key]
+        told = "\n\n".join(f"{end.sentence}\n{end.advice}".rstrip() for end in ends)
+        yield key, f"status {key}, exit {ends[0].exit_code}\n\n{told}"
     for code, entry in catalogue().items():
         yield code, f"{code}: {entry.title}\n\n{entry.meaning}\n\n{entry.remedy}"
     for key, estimator in discover("mouse_cli.estimators", "ESTIMATOR").items():

@@ -37,8 +37,10 @@ def _commands() -> Iterator[tuple[str, str]]:
 def _statuses() -> Iterator[tuple[str, str]]:
     from mouse_cli.updating.statuses import STATUSES
 
-    for entry in STATUSES.values():
-        yield entry.key, f"exit {entry.exit_code}. {entry.advice}".strip()
+    codes = {entry.key: entry.exit_code for entry in STATUSES.values()}
+    for key, code in codes.items():
+        advice = " ".join(entry.advice for entry in STATUSES.values() if entry.key == key)
+        yield key, f"exit {code}. {advice}".strip()
 
 
 def _sections() -> Iterator[tuple[str, str]]:
@@ -52,7 +54,7 @@ def _groups() -> Iterator[tuple[str, str]]:
     from mouse_cli.formats.cards import layout
 
     for group in layout.GROUPS:
-        yield str(group.number), f"{group.symbol}, {group.format}: {group.name}"
+        yield str(group.number), f"{group.name} {group.symbol}".strip() + f", {group.format}"
 
 
 KINDS: dict[str, Callable[[], Iterator[tuple[str, str]]]] = {

@@ -32,7 +32,7 @@ class Images:
     def span(self, index: int, column: int = 1, width: int = COLUMNS) -> Span:
         """A place on a card; beyond the last card, the end of the deck."""
         text = self.lines[index] if index < len(self.lines) else ""
-        return Span(self.path, index + 1, column, width, text)
+        return Span(self.path, index + 1, column, width, text, card=True)
 
 
 def images(text: str | bytes, path: str, *, strip_73_80: bool = False) -> Images:

@@ -15,14 +15,14 @@ RULER = (
 )
 
 
-def describe(source: Draft | str | Sequence[str], **options: object) -> str:
+def describe(source: Draft | str | bytes | Sequence[str], **options: object) -> str:
     """Every card of a deck, group by group; also of a deck that cannot be read to its end, up to that place.
 
     `options` are those of the reader (legacy, strip_73_80, overrides).
     """
     if isinstance(source, Draft):
         source = source.source.lines
-    text = source if isinstance(source, str) else "".join(f"{line}\n" for line in source)
+    text = source if isinstance(source, (str, bytes)) else "".join(f"{line}\n" for line in source)
     cursor = trace(text, **options)
     lines = [line for card in _cards(cursor) for line in card]
     return "\n".join([*lines, *_unread(cursor), ""])

@@ -45,7 +45,8 @@ def _sd_hz(result: Result, hz: np.ndarray) -> np.ndarray:
     sd, index = np.full(len(hz), np.nan), eigenvalue_index(result)
     known = (index != NOT_MEASURED) & (result.revised.modes < len(hz)) & answered(result)
     modes = result.revised.modes[known]
-    sd[modes] = result.revised.sd_predicted[index[known]] / (8 * np.pi**2 * hz[modes])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        sd[modes] = result.revised.sd_predicted[index[known]] / (8 * np.pi**2 * hz[modes])
     return sd
 
 
