@@ -21,7 +21,7 @@ from mouse_cli.model.structure import ListedElements
 
 @dataclass(frozen=True)
 class ModalPartials:
-    """d_lambda (m, e) and d_shape (m, s, e): partial derivatives with respect to the e listed elements."""
+    """d_lambda (m, e) and d_shape (m, s, e): partial derivatives by the e listed elements, or by p properties."""
 
     d_lambda: np.ndarray
     d_shape: np.ndarray
@@ -34,45 +34,58 @@ def modal_partials(
     modes: np.ndarray,
     dofs: np.ndarray,
     elements: ListedElements,
+    A: Matrix | None = None,
 ) -> ModalPartials:
     """B = d(lambda, x)/d(k, m) for the measured `modes` (m,) and `dofs` (s,), both from 0; Eq. (3-1) of the report.
 
+    With A (e, p) it is T = B A, by p properties instead of e elements, and the whole of B is never held.
     A listed off-diagonal element moves together with its mirror image. Modes closer than 1e-6, relative, are treated
     as a subspace: derivatives within it are those of parallel transport.
     """
     m, s, e = len(modes), len(dofs), len(elements)
-    d_lambda, d_shape = np.empty((m, e)), np.empty((m, s, e))
-    a, b = elements.row, elements.col
-    twice = np.where(a == b, 0.0, 1.0)
+    columns = e if A is None else A.shape[1]
+    d_lambda, d_shape, block = np.empty((m, columns)), np.empty((m, s, columns)), np.empty((s, e))
+    a, b, mass = elements.row, elements.col, elements.is_mass
+    off = np.flatnonzero(a != b)
+    twice = np.where(a == b, 1.0, 2.0)
+    touched, place = np.unique(np.concatenate([a, b]), return_inverse=True)
+    at_a, at_b = place[:e], place[e:][off]
     family = clusters(solution.eigenvalues)
-    mass = elements.is_mass
-    any_mass = bool(mass.any())
     for i, mode in enumerate(modes):
         x, lam = solution.shapes[:, mode], solution.eigenvalues[mode]
         same = np.flatnonzero(family == family[mode])
         weight = np.where(mass, -lam, 1.0)
-        xa, xb = x[a], twice * x[b]
-        d_lambda[i] = weight * (x[a] * x[b] + xa * xb)
+        row = weight * twice * x[a] * x[b]
+        d_lambda[i] = row if A is None else row @ A
         if not s:
             continue
-        G = _reduced_inverse(solution, K, M, mode, same, dofs)
-        d_shape[i] = -(G[a].T * (weight * x[b]) + G[b].T * (weight * twice * xa))
-        if any_mass:  # the length of x_i follows the mass: -1/2 sum_k x_k (x_k' dM x_i) over its cluster
+        G = _reduced_inverse(solution, K, M, mode, same, dofs, touched)
+        np.multiply(G[:, at_a], -weight * x[b], out=block)
+        block[:, off] -= G[:, at_b] * (weight * x[a])[off]
+        if mass.any():  # the length of x_i follows the mass: -1/2 sum_k x_k (x_k' dM x_i) over its cluster
             X = solution.shapes[:, same]
-            along = X[a] * x[b][:, None] + twice[:, None] * X[b] * xa[:, None]
-            d_shape[i] -= 0.5 * X[dofs] @ np.where(mass[:, None], along, 0.0).T
+            along = x[b][:, None] * X[a]
+            along[off] += x[a][off, None] * X[b[off]]
+            block -= 0.5 * X[dofs] @ np.where(mass[:, None], along, 0.0).T
+        d_shape[i] = block if A is None else contract(block, A)
     return ModalPartials(d_lambda, d_shape)
 
 
 def _reduced_inverse(
-    solution: EigenSolution, K: Matrix, M: Matrix, mode: int, same: np.ndarray, dofs: np.ndarray
+    solution: EigenSolution,
+    K: Matrix,
+    M: Matrix,
+    mode: int,
+    same: np.ndarray,
+    dofs: np.ndarray,
+    touched: np.ndarray,
 ) -> np.ndarray:
-    """Columns G_i e_s (n, s) at the measured dofs: the inverse of K - lambda_i M outside the cluster of mode i."""
+    """Rows e_s'G_i (s, t) of the measured dofs at the `touched` ones: the inverse of K - lambda_i M outside the cluster."""
     if not solution.complete:
-        return _bordered(solution, K, M, mode, same, dofs)
+        return np.ascontiguousarray(_bordered(solution, K, M, mode, same, dofs)[touched].T)
     distance = solution.eigenvalues - solution.eigenvalues[mode]
     distance[same] = np.inf
-    return solution.shapes @ (solution.shapes[dofs] / distance).T
+    return (solution.shapes[dofs] / distance) @ solution.shapes[touched].T
 
 
 def _bordered(

@@ -4,7 +4,9 @@ import numpy as np
 
 from mouse_cli.estimators._linear import Estimator, LinearEstimate, LinearProblem, conditioned, limited
 
-_LARGE = 1e3  # size of B above which I + B'B would lose digits of the prior to rounding: then QR of [B; I]
+_LARGE = (
+    1e3  # length of a column of B above which I + B'B would lose digits of the prior to rounding: then QR of [B; I]
+)
 _SEEN = 1e-4  # share of a variance that the data do not see, below which it is not formed as a difference
 
 
@@ -30,12 +32,13 @@ def solve(problem: LinearProblem) -> LinearEstimate:
 def _mode(B: np.ndarray, r: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """z (k,) that minimises |r - B z|^2 + |z|^2; C (k, k), upper triangular, with C'C = I + B'B."""
     q, k = B.shape
-    if np.linalg.norm(B) > _LARGE:
+    gram = B.T @ B
+    if gram.diagonal().max(initial=0.0) > _LARGE**2:
         stacked = np.zeros((q + k, k + 1))
         stacked[:q, :k], stacked[:q, k], stacked[q:, :k] = B, r, np.eye(k)
         C = np.linalg.qr(stacked, mode="r")[:k]
         return np.linalg.solve(C[:, :k], C[:, k]), C[:, :k]
-    C = np.linalg.cholesky(np.eye(k) + B.T @ B).T
+    C = np.linalg.cholesky(np.eye(k) + gram).T
     return np.linalg.solve(C, np.linalg.solve(C.T, B.T @ r)), C
 
 

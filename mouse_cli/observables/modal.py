@@ -48,39 +48,34 @@ class ModalObservable:
         return int(self.has_shape.any(axis=0).sum()) if self.fitted else 0
 
     def stacked(self, eigenvalues: np.ndarray, shapes: np.ndarray) -> np.ndarray:
-        """Values (q, ...) of `eigenvalues` (m, ...) and `shapes` (s, m, ...) where there is a datum, in the order of y."""
-        return np.concatenate([eigenvalues[self.has_frequency], np.swapaxes(shapes, 0, 1)[self.has_shape.T]])
+        """Values (q, ...) of `eigenvalues` (m, ...) and `shapes` (m, s, ...) where there is a datum, in the order of y."""
+        have = self.has_shape.T
+        rows = shapes.reshape(have.size, *shapes.shape[2:]) if have.all() else shapes[have]
+        return np.concatenate([eigenvalues[self.has_frequency], rows])
 
     def measured(self) -> tuple[np.ndarray, np.ndarray]:
         """y (q,) and its standard deviations (q,): lambda = (2 pi f)^2, sd_lambda = 8 pi^2 f sd_f."""
         f, sd = self.test.frequency_hz, self.test.frequency_sd_hz
-        y = self.stacked((2 * np.pi * f) ** 2, self.shapes)
-        return y, self.stacked(8 * np.pi**2 * f * sd, self.shape_sd)
+        y = self.stacked((2 * np.pi * f) ** 2, self.shapes.T)
+        return y, self.stacked(8 * np.pi**2 * f * sd, self.shape_sd.T)
 
     def labels(self) -> list[str]:
         """Names of the data as the report writes them: `lambda 1`, `x(3,2)` = component at dof 2 of mode 3."""
         names = [f"lambda {n}" for n, have in zip(self.test.number, self.has_frequency, strict=True) if have]
-        return names + [
-            f"x({self.test.number[i]},{self.test.dofs[s] + 1})" for i, s in np.argwhere(self.has_shape.T)
-        ]
+        return names + [f"x({self.test.number[i]},{self.test.dofs[s] + 1})" for i, s in np.argwhere(self.has_shape.T)]
 
     def theory(self, solution: EigenSolution, modes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Model shapes (s, m) of the paired `modes` at the measured points, signed and scaled; and those factors (m,)."""
         shapes = solution.shapes[self.test.dofs[:, None], modes]
-        factor = np.array([self._amplitude(shapes[:, i], i) for i in range(len(modes))])
+        have = self.has_shape
+        x, t = np.where(have, shapes, 0.0), np.where(have, self.shapes, 0.0)
+        if not self.fitted:
+            factor = np.where(np.sum(x * (self.mass @ t), axis=0) < 0, -1.0, 1.0)
+            return shapes * factor, factor
+        w = np.where(have, self.shape_sd, 1.0) ** -2.0
+        size = np.sum(x * w * x, axis=0)
+        factor = np.divide(np.sum(x * w * t, axis=0), size, out=np.ones_like(size), where=size > 0)
         return shapes * factor, factor
-
-    def _amplitude(self, x: np.ndarray, i: int) -> float:
-        """Factor on the model's shape: its sign, and its amplitude when that is fitted."""
-        have = self.has_shape[:, i]
-        if not have.any():
-            return 1.0
-        x, t = x[have], self.shapes[have, i]
-        if self.fitted:
-            w = 1.0 / self.shape_sd[have, i] ** 2
-            size = float(x @ (w * x))
-            return float(x @ (w * t)) / size if size > 0 else 1.0
-        return -1.0 if x @ self.mass[np.ix_(have, have)] @ t < 0 else 1.0
 
     def partials(self, partials: ModalPartials, shapes: np.ndarray, factor: np.ndarray) -> np.ndarray:
         """B (q, e) in the order of y, for model `shapes` (s, m) with their `factor` (m,) as `theory` gives them.
@@ -88,14 +83,17 @@ class ModalObservable:
         With fitted scales the direction of each shape itself is projected out (variable projection, Golub and Pereyra
         1973): what a change of scale explains says nothing of the parameters.
         """
-        d_shape = np.swapaxes(partials.d_shape, 0, 1) * factor[:, None]
-        if self.fitted:
-            for i in range(self.test.m):
-                have = self.has_shape[:, i]
-                x, w = shapes[have, i], 1.0 / self.shape_sd[have, i] ** 2
-                size = float(x @ (w * x))
-                if size > 0:
-                    d_shape[have, i] -= np.outer(x, (w * x) @ d_shape[have, i]) / size
+        if not self.fitted:
+            B = self.stacked(partials.d_lambda, partials.d_shape)
+            B[np.count_nonzero(self.has_frequency) :] *= np.repeat(factor, self.has_shape.sum(axis=0))[:, None]
+            return B
+        d_shape = partials.d_shape * factor[:, None, None]
+        for i in range(self.test.m):
+            have = self.has_shape[:, i]
+            x, w = shapes[have, i], 1.0 / self.shape_sd[have, i] ** 2
+            size = float(x @ (w * x))
+            if size > 0:
+                d_shape[i, have] -= np.outer(x, (w * x) @ d_shape[i, have]) / size
         return self.stacked(partials.d_lambda, d_shape)
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from mouse_cli.dynamics.correlation import align, mac, pair
 from mouse_cli.dynamics.eigen import RIGID, EigenSolution, IndefiniteError, clusters, eigensolution
-from mouse_cli.dynamics.sensitivity import contract, modal_partials
+from mouse_cli.dynamics.sensitivity import modal_partials
 from mouse_cli.model._arrays import Matrix, is_sparse
 from mouse_cli.model.problem import Problem
 from mouse_cli.observables.modal import ModalObservable
@@ -47,7 +47,7 @@ class State:
     @cached_property
     def predicted(self) -> np.ndarray:
         """h(theta) (q,): the data as this model predicts them."""
-        return self.setting.observable.stacked(self.solution.eigenvalues[self.modes], self.shapes)
+        return self.setting.observable.stacked(self.solution.eigenvalues[self.modes], self.shapes.T)
 
     @cached_property
     def residual(self) -> np.ndarray:
@@ -61,17 +61,19 @@ class State:
 
     @cached_property
     def B(self) -> np.ndarray:
-        """d(data)/d(listed elements) (q, e), Eq. O-4."""
-        setting, problem = self.setting, self.setting.problem
-        partials = modal_partials(
-            self.solution, self.K, self.M, self.modes, setting.observable.test.dofs, problem.elements
-        )
-        return setting.observable.partials(partials, self.shapes, self.factor)
+        """d(data)/d(listed elements) (q, e), Eq. O-4; only for those who want to read it."""
+        return self._partials(None)
 
     @cached_property
     def T(self) -> np.ndarray:
-        """d(data)/du (q, p), Eq. O-5."""
-        return contract(self.B, self.setting.problem.A) * self.setting.coordinates.slope(self.u)
+        """d(data)/du (q, p), Eqs. O-4 and O-5."""
+        return self._partials(self.setting.problem.A) * self.setting.coordinates.slope(self.u)
+
+    def _partials(self, A: Matrix | None) -> np.ndarray:
+        """d(data)/d(listed elements), or with A by the properties."""
+        observable, elements = self.setting.observable, self.setting.problem.elements
+        partials = modal_partials(self.solution, self.K, self.M, self.modes, observable.test.dofs, elements, A)
+        return observable.partials(partials, self.shapes, self.factor)
 
     @cached_property
     def mac(self) -> np.ndarray:

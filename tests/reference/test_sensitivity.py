@@ -106,6 +106,18 @@ def test_partials_equal_fifty_digit_differences(free, full):
     assert np.abs(expected).min(axis=1).max() > 1e-4  # no row of zeros that would prove nothing
 
 
+def test_properties_instead_of_elements():
+    """With A the partials are those of the elements times A, dense or sparse."""
+    K, M, elements = chain(5, 3), masses(5, 4, full=True), every_element(5)
+    A = np.random.default_rng(1).standard_normal((len(elements), 3))
+    given = (eigensolution(K, M), K, M, np.arange(5), np.array([0, 3]), elements)
+    one = modal_partials(*given)
+    for form in (A, csr_array(A)):
+        two = modal_partials(*given, form)
+        assert two.d_lambda == pytest.approx(one.d_lambda @ A, rel=1e-12)
+        assert two.d_shape == pytest.approx(one.d_shape @ A, rel=1e-11, abs=1e-12)
+
+
 def plate(unequal: float = 0.0) -> np.ndarray:
     """3 x 3 masses in a square net of equal strings held at the frame: modes (1,2) and (2,1) have one frequency.
 
