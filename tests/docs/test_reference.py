@@ -1,0 +1,129 @@
+"""The reference is current and complete: commands, options, deck keys, codes, statuses, JSON keys."""
+
+import contextlib
+import importlib.util
+import io
+import json
+import re
+from collections.abc import Iterator
+
+import click
+import pytest
+from pages import DOCS, TOP
+
+from mouse_cli._registry import discover
+from mouse_cli.cli.main import cli, main
+from mouse_cli.codes import catalogue
+from mouse_cli.updating.statuses import STATUSES
+
+REFERENCE = DOCS / "reference"
+
+
+def _page(name: str) -> str:
+    return (REFERENCE / name).read_text("utf-8")
+
+
+def _told(*arguments: object) -> str:
+    told = io.StringIO()
+    with contextlib.redirect_stdout(told), contextlib.redirect_stderr(io.StringIO()), pytest.raises(SystemExit):
+        main([str(a) for a in arguments])
+    return told.getvalue()
+
+
+def test_generated_pages_are_current():
+    spec = importlib.util.spec_from_file_location("generate", DOCS / "generate.py")
+    generate = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(generate)
+    for path, text in generate.pages().items():
+        assert path.read_text("utf-8") == text, f"{path.relative_to(TOP)} is not current: run python docs/generate.py"
+
+
+def test_commands_and_options():
+    page = _page("cli.md")
+    context = click.Context(cli)
+    for name in cli.list_commands(context):
+        _, found, section = page.partition(f"## mouse {name}\n")
+        assert found, f"mouse {name} is not documented"
+        section = section.partition("\n## ")[0]
+        for parameter in cli.get_command(context, name).params:
+            for option in (*parameter.opts, *parameter.secondary_opts):
+                if option.startswith("-"):
+                    assert re.search(rf"(?<![\w-]){re.escape(option)}(?![\w-])", section), f"mouse {name} {option}"
+
+
+def _keys(schema: object) -> Iterator[str]:
+    """Every property name of a JSON Schema."""
+    if isinstance(schema, dict):
+        yield from schema.get("properties", {})
+        for value in schema.values():
+            yield from _keys(value)
+    elif isinstance(schema, list):
+        for value in schema:
+            yield from _keys(value)
+
+
+def test_deck_keys():
+    page = _page("yaml.md")
+    keys = set(_keys(json.loads(_told("explain", "schema"))))
+    assert {"mouse", "model", "frequency_sd", "recursion"} <= keys
+    assert not [key for key in sorted(keys) if f"| `{key}` |" not in page]
+
+
+def test_codes():
+    page = _page("codes.md")
+    literals = {
+        code
+        for path in (TOP / "mouse_cli").rglob("*.py")
+        if path.parent.name != "codes"
+        for code in re.findall(r"\bMD\d{3}\b", path.read_text("utf-8"))
+    }
+    known = set(catalogue())
+    assert literals - known == set(), "codes that the catalogue does not explain"
+    assert known - literals == set(), "codes that nothing raises"
+    for code in known:
+        assert f"### {code}\n" in page
+
+
+def test_statuses():
+    page, recipe = _page("statuses.md"), (DOCS / "how-to" / "not-converged.md").read_text("utf-8")
+    for status in STATUSES.values():
+        assert f"| `{status.key}` |" in page
+        if status.exit_code:
+            assert f"`{status.key}`" in recipe, f"no advice on {status.key}"
+
+
+def test_estimators():
+    page, text = _page("estimators.md"), (DOCS / "explanation" / "estimators.md").read_text("utf-8")
+    for key in discover("mouse_cli.estimators", "ESTIMATOR"):
+        assert f"`{key}`" in page
+        assert f"`{key}`" in text
+
+
+def _paths(value: object, path: str = "") -> Iterator[str]:
+    """Every key of a document, as `cycles[].theta`."""
+    if isinstance(value, dict):
+        for key, below in value.items():
+            yield f"{path}.{key}".lstrip(".")
+            yield from _paths(below, f"{path}.{key}".lstrip("."))
+    elif isinstance(value, list):
+        for below in value:
+            yield from _paths(below, f"{path}[]")
+
+
+def _documented(heading: str) -> set[str]:
+    """First column of the tables below `## heading` of json.md."""
+    section = _page("json.md").partition(f"## {heading}\n")[2].partition("\n## ")[0]
+    return set(re.findall(r"^\| `([^`]+)` \|", section, flags=re.MULTILINE))
+
+
+def test_json_of_run():
+    decks = [["table_5_2.yaml"], ["ground_spring.yaml"], ["single_frequency.yaml", "--estimator", "least-squares"]]
+    emitted: set[str] = set()
+    for deck, *more in decks:
+        emitted.update(_paths(json.loads(_told("run", TOP / "decks" / deck, "--json", *more))))
+    assert emitted == _documented("mouse.result/1")
+
+
+def test_json_of_modes():
+    emitted = set(_paths(json.loads(_told("modes", TOP / "decks" / "table_5_1.yaml", "--json"))))
+    assert emitted == _documented("mouse.modes/1")
