@@ -143,7 +143,7 @@ def _at_limit(setting: Setting, u: np.ndarray) -> np.ndarray:
 
 def _snapshot(setting: Setting, state: State, covariance: np.ndarray) -> Snapshot:
     """What a report needs of `state`, with `covariance` (p, p) of u carried to the data."""
-    spread = np.einsum("ij,jk,ik->i", state.T, covariance, state.T, optimize=True)
+    spread = np.sum((state.T @ covariance) * state.T, axis=1)
     return Snapshot(
         theta=state.theta,
         K=state.K,

@@ -34,9 +34,7 @@ class Chain:
         d = stretches(n)
         return ListedElements([False] * len(row), row, col), d[:, row].T * d[:, col].T
 
-    def problem(
-        self, test: ModalTest, sd: np.ndarray, transform: str = "identity", **options: object
-    ) -> Problem:
+    def problem(self, test: ModalTest, sd: np.ndarray, transform: str = "identity", **options: object) -> Problem:
         """A deck that knows the springs to within `sd`."""
         elements, A = self.elements()
         parameters = tuple(

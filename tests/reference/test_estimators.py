@@ -1,8 +1,7 @@
 """Every row of Table 3-1 of the report against its textbook formula in 60-digit arithmetic.
 
 Where the formula itself fails in double precision (accurate or correlated data, columns over four decades, a rank-deficient
-prior) the tests show that it does and that the square-root form does not. Limits: scipy.optimize.lsq_linear. A fixed total
-mass: conditioning of the normal distribution in closed form.
+prior) the tests show that it does and that the square-root form does not. Limits: scipy.optimize.lsq_linear.
 """
 
 from dataclasses import replace
@@ -14,11 +13,6 @@ from scipy.optimize import lsq_linear
 
 from mouse_cli.estimators import estimator
 from mouse_cli.estimators._linear import Infeasible, LinearProblem, Unobservable
-from mouse_cli.model.modal_test import ModalTest
-from mouse_cli.model.parameter import Gaussian, Parameter
-from mouse_cli.model.problem import Problem, RunOptions
-from mouse_cli.model.structure import ListedElements, Structure
-from mouse_cli.updating import run
 
 WITHOUT_PRIOR = ("least-squares", "weighted-least-squares", "minimum-variance", "maximum-likelihood")
 EVERY = (*WITHOUT_PRIOR, "bayes")
@@ -98,23 +92,23 @@ def test_bayes_with_fewer_data_than_properties(q, p):
     assert np.diag(answer.covariance()) == pytest.approx(variance, rel=1e-10)
 
 
-def ill_conditioned(case: str, q: int = 40, p: int = 25) -> tuple[LinearProblem, float]:
-    """The hard problems: 40 data, 25 properties, columns over four decades; and the floor of checked variances."""
+def ill_conditioned(case: str, q: int = 40, p: int = 25) -> LinearProblem:
+    """The hard problems: 40 data, 25 properties, columns over four decades."""
     rng = np.random.default_rng(40)
     T = rng.standard_normal((q, p)) * np.logspace(-2, 2, p)
     d, L = rng.standard_normal(q), np.ones(p)
-    sd = {"R = 1e-4": 1e-2, "R = 1e-8": 1e-4, "R = 1e-12": 1e-6}.get(case, 1e-4)
+    sd = 1e-6 if case == "R = 1e-12" else 1e-4
     noise = np.full(q, sd)
     if case == "S rank deficient":
         L = rng.standard_normal((p, 15)) / 4
     if case == "R correlated":
         noise = sd**2 * (0.9 * np.ones((q, q)) + 0.1 * np.eye(q))
-    return LinearProblem(T, d, noise, L), sd
+    return LinearProblem(T, d, noise, L)
 
 
 @pytest.mark.parametrize("case", ["R = 1e-8", "R = 1e-12", "S rank deficient", "R correlated"])
 def test_accurate_data_and_columns_over_four_decades(case):
-    problem, _ = ill_conditioned(case)
+    problem = ill_conditioned(case)
     R, S = covariances(problem)
     with mp.workdps(60):
         root = mp.matrix((np.diag(problem.L) if problem.L.ndim == 1 else problem.L).tolist())
@@ -234,8 +228,8 @@ def test_limits_that_contradict_a_fixed_sum(key):
 def test_weights_are_unbiased(key):
     """WT = I: data T x without error give x back, for every x."""
     problem = linear(6)
-    columns = [estimator(key).solve(replace(problem, d=column)).x for column in problem.T.T]
-    assert np.array(columns).T == pytest.approx(np.eye(5), abs=1e-12)
+    WT = np.array([estimator(key).solve(replace(problem, d=column)).x for column in problem.T.T]).T
+    assert np.abs(WT - np.eye(5)).max() < 1e-12
 
 
 @pytest.mark.parametrize("key", WITHOUT_PRIOR)
@@ -255,51 +249,3 @@ def test_gauss_markov():
     problem = linear(8)
     plain, best = (estimator(key).solve(problem).variance for key in ("least-squares", "minimum-variance"))
     assert (best < 0.99 * plain).all()
-
-
-def mass_problem(**options: object) -> Problem:
-    """Three masses on springs; all three masses uncertain, correlated; two frequencies measured."""
-    K = np.array([[3.0, -1.0, 0], [-1.0, 2.0, -1.0], [0, -1.0, 2.5]]) * 1e4
-    cov = np.array([[0.04, 0.01, 0.0], [0.01, 0.09, -0.01], [0.0, -0.01, 0.05]])
-    lam = np.linalg.eigvalsh(K)[:2] * 1.002
-    hz = np.sqrt(lam) / (2 * np.pi)
-    test = ModalTest([1, 2], hz, 2e-3 * hz, np.zeros(0, int), np.zeros((0, 2)), np.zeros((0, 2)), "none")
-    parameters = tuple(Parameter(f"m{i}", np.sqrt(cov[i, i]), 1.0) for i in range(3))
-    elements = ListedElements([True] * 3, range(3), range(3))
-    prior = Gaussian(np.ones(3), cov)
-    return Problem(
-        "", Structure(K, np.eye(3)), elements, np.eye(3), parameters, prior, test, RunOptions(**options)
-    )
-
-
-def test_total_mass_held_equals_conditioning_on_the_sum():
-    """S given 1'x = 0 is S - S1(1'S1)^-1 1'S; then one Bayes step, all in closed form."""
-    problem = mass_problem(fix_total_mass=True, recursion="replaced", cycles=1, print_partials=True)
-    free = run(replace(problem, run=replace(problem.run, fix_total_mass=False)))
-    result = run(problem)
-    S, one = problem.prior.cov, np.ones(3)
-    S = S - np.outer(S @ one, S @ one) / (one @ S @ one)
-    K = problem.structure.K
-    lam, X = np.linalg.eigh(K)
-    T = -(lam[:2, None] * (X[:, :2] ** 2).T)  # d lambda / d m_i = -lambda x_i^2
-    noise = np.diag(result.sd**2)
-    expected = S @ T.T @ np.linalg.solve(T @ S @ T.T + noise, result.y - lam[:2])
-    assert result.revised.theta - 1 == pytest.approx(expected, rel=1e-9)
-    assert abs(result.revised.theta.sum() - 3) < 1e-14
-    T = result.T
-    S_revised = S - S @ T.T @ np.linalg.solve(T @ S @ T.T + noise, T @ S)
-    assert result.covariance == pytest.approx(S_revised, abs=1e-12)
-    assert abs(one @ result.covariance @ one) < 1e-16
-    assert abs(free.revised.theta.sum() - 3) > 1e-3, "the total would change if it were not held"
-
-
-@pytest.mark.parametrize("recursion", ["replaced", "anchored"])
-def test_total_mass_is_held_through_every_cycle(recursion):
-    cycles = run(mass_problem(fix_total_mass=True, recursion=recursion, cycles=4)).cycles
-    assert len(cycles) == 5 and all(abs(c.theta.sum() - 3) < 1e-13 for c in cycles)
-
-
-def test_total_mass_of_some_degrees_of_freedom():
-    problem = mass_problem(fix_total_mass=True, total_mass_dofs=(0, 2))
-    theta = run(problem).revised.theta
-    assert abs(theta[0] + theta[2] - 2) < 1e-14 and abs(theta[1] - 1) > 1e-4

@@ -19,9 +19,7 @@ from mouse_cli.model.problem import Problem, RunOptions
 from mouse_cli.model.structure import ListedElements, Structure
 from mouse_cli.updating import run
 
-TRUE_K = (
-    np.array([[2.25, -1.40, 0, 0], [-1.40, 2.55, -1.15, 0], [0, -1.15, 3.15, -2.0], [0, 0, -2.0, 2.0]]) * 1e5
-)
+TRUE_K = np.array([[2.25, -1.40, 0, 0], [-1.40, 2.55, -1.15, 0], [0, -1.15, 3.15, -2.0], [0, 0, -2.0, 2.0]]) * 1e5
 EIGENVALUES = ("1.28872+04", "1.17816+05", "3.51608+05", "5.12689+05")
 FREQUENCIES = ("1.80676+01", "5.46288+01", "9.43734+01", "1.13959+02")  # the second is printed 5.46289+01
 MODAL_MATRIX = (
@@ -92,9 +90,7 @@ def independent_residual(theta: np.ndarray) -> np.ndarray:
     """Whitened misfit (20,) of the noisy test, by scipy alone; shapes signed along the test's."""
     lam, X = eigh(stiffness(*theta))
     X = X * np.sign(np.sum(X * TEST_SHAPES, axis=0))
-    return np.concatenate(
-        [(TEST_EIGENVALUES - lam) / np.sqrt(VARIANCES), ((TEST_SHAPES - X) / SHAPE_SD).T.ravel()]
-    )
+    return np.concatenate([(TEST_EIGENVALUES - lam) / np.sqrt(VARIANCES), ((TEST_SHAPES - X) / SHAPE_SD).T.ravel()])
 
 
 def test_table_5_1_true_system():
