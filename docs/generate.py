@@ -83,7 +83,10 @@ def _cli() -> Iterator[str]:
 def _codes() -> Iterator[str]:
     yield _NOTE
     yield "# Diagnostic codes\n"
-    yield "`mouse explain CODE` prints the same. An error ends the command without an answer (exit 4, or 5 where the numbers fail); a warning does not.\n"
+    yield (
+        "`mouse explain CODE` prints the same. An error ends the command without an answer (exit 4, or 5 where the "
+        "numbers fail); a warning does not.\n"
+    )
     heading = None
     for code, entry in catalogue().items():
         if heading != code[:3]:
