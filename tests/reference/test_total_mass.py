@@ -1,4 +1,4 @@
-"""A fixed total mass: the revision is that of the prior conditioned on the sum of the masses, in closed form."""
+"""Directions that may not vary: a fixed total mass (the prior conditioned on the sum, in closed form), a rank-deficient S."""
 
 from dataclasses import replace
 
@@ -56,3 +56,13 @@ def test_total_mass_of_some_degrees_of_freedom():
     problem = mass_problem(fix_total_mass=True, total_mass_dofs=(0, 2))
     theta = run(problem).revised.theta
     assert abs(theta[0] + theta[2] - 2) < 1e-14 and abs(theta[1] - 1) > 1e-4
+
+
+@pytest.mark.parametrize("key", ["bayes", "weighted-least-squares"])
+def test_properties_that_the_prior_ties_stay_tied(key):
+    """S of rank 2: mass 2 deviates twice as much as mass 1. Two free directions, two data: least squares has an answer."""
+    problem = mass_problem(estimator=key)
+    ties = np.array([[1.0, 0.0], [2.0, 0.0], [0.0, 1.0]])
+    cov = 0.01 * ties @ ties.T
+    change = run(replace(problem, prior=Gaussian(np.ones(3), cov))).revised.theta - 1
+    assert change[1] == pytest.approx(2 * change[0], rel=1e-9) and np.abs(change).min() > 1e-4
