@@ -3,7 +3,7 @@
 import numpy as np
 
 from mouse_cli.dynamics.eigen import IndefiniteError
-from mouse_cli.dynamics.sensitivity import contract, modal_partials
+from mouse_cli.dynamics.sensitivity import modal_partials
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import Forecast
 from mouse_cli.terms.matrix_entries import MatrixEntries
@@ -27,9 +27,9 @@ def forecast(problem: Problem, count: int | None = None) -> Forecast:
     root = coordinates(problem, MatrixEntries(problem.structure, problem.elements, problem.A))
     sd_lambda, sd_shape = np.zeros(k), np.zeros((len(dofs), k))
     for i in modes:  # mode by mode: the partials of all shapes at once would be n times larger than the model
-        partials = modal_partials(solution, K, M, modes[i : i + 1], dofs, problem.elements)
-        sd_lambda[i] = _sd(contract(partials.d_lambda, problem.A), root)[0]
-        sd_shape[:, i] = _sd(contract(partials.d_shape[0], problem.A), root)
+        partials = modal_partials(solution, K, M, modes[i : i + 1], dofs, problem.elements, problem.A)
+        sd_lambda[i] = _sd(partials.d_lambda, root)[0]
+        sd_shape[:, i] = _sd(partials.d_shape[0], root)
     hz = solution.frequencies_hz[:k]
     with np.errstate(divide="ignore", invalid="ignore"):
         sd_hz = np.where(hz > 0, sd_lambda / (8 * np.pi**2 * hz), 0.0)
