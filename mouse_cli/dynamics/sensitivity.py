@@ -22,10 +22,25 @@ from mouse_cli.model.structure import ListedElements
 
 @dataclass(frozen=True)
 class ModalPartials:
-    """d_lambda (m, e) and d_shape (m, s, e): partial derivatives by the e listed elements, or by p properties."""
+    """Partial derivatives by the e listed elements, or by p properties, in the order of the data of a test.
 
-    d_lambda: np.ndarray
-    d_shape: np.ndarray
+    values (m + m s, e): all eigenvalues, then mode 1 at its s points, mode 2, ...; d_lambda (m, e) and d_shape (m, s, e)
+    are views of it.
+    """
+
+    values: np.ndarray
+    modes: int
+
+    @property
+    def d_lambda(self) -> np.ndarray:
+        """Derivatives (m, e) of the eigenvalues."""
+        return self.values[: self.modes]
+
+    @property
+    def d_shape(self) -> np.ndarray:
+        """Derivatives (m, s, e) of the shape components."""
+        points = len(self.values) // max(self.modes, 1) - 1
+        return self.values[self.modes :].reshape(self.modes, points, self.values.shape[1])
 
 
 def modal_partials(
@@ -45,8 +60,8 @@ def modal_partials(
     """
     pattern = forces(solution.shapes.shape[0], elements, A)
     touched, any_mass = pattern.touched, bool(pattern.mass.any())
-    d_lambda = np.empty((len(modes), pattern.properties))
-    d_shape = np.empty((len(modes), len(dofs), pattern.properties))
+    partials = ModalPartials(np.empty((len(modes) * (1 + len(dofs)), pattern.properties)), len(modes))
+    d_lambda, d_shape = partials.d_lambda, partials.d_shape
     family = clusters(solution.eigenvalues)
     for i, mode in enumerate(modes):
         x, same = solution.shapes[:, mode], np.flatnonzero(family == family[mode])
@@ -57,7 +72,7 @@ def modal_partials(
         if any_mass:  # the length of x_i follows the mass: -1/2 sum_k x_k (x_k' dM x_i) over its cluster
             X = solution.shapes[:, same]
             d_shape[i] -= 0.5 * X[dofs] @ (pattern.inertial(x).T @ X[touched]).T
-    return ModalPartials(d_lambda, d_shape)
+    return partials
 
 
 def _response(

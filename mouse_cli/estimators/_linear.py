@@ -43,6 +43,15 @@ class LinearProblem:
             return (values.T / self.noise).T
         return np.linalg.solve(np.linalg.cholesky(self.noise), values)
 
+    def whitened(self) -> tuple[np.ndarray, np.ndarray]:
+        """B = R^-1/2 T L (q, k) and r = R^-1/2 d (q,)."""
+        B = self.in_prior_units()
+        if self.noise.ndim == 1:
+            B /= self.noise[:, None]  # in its own memory: B is the largest array there is
+        else:
+            B = self.whiten(B)
+        return B, self.whiten(self.d)
+
     def carried(self, rows: np.ndarray) -> np.ndarray:
         """`rows` (k, q) times R^1/2, so that carried carried' = rows R rows'."""
         return rows * self.noise if self.noise.ndim == 1 else rows @ np.linalg.cholesky(self.noise)
@@ -111,9 +120,7 @@ def without_prior(problem: LinearProblem, weighted: bool) -> LinearEstimate:
     W = (T'PT)^-1 T'P and covariance W R W', with P = R^-1 (`weighted`) or P = I. By singular values, T'PT is not formed.
     Raises Unobservable.
     """
-    columns = problem.in_prior_units()
-    B = problem.whiten(columns) if weighted else columns
-    r = problem.whiten(problem.d) if weighted else problem.d
+    B, r = problem.whitened() if weighted else (problem.in_prior_units(), problem.d)
     U, s, Vt, scale = determined(B, problem)
     inverse = (Vt.T / s) / scale[:, None]  # R^-1 B = V s^-1 U': inverse @ U' is the pseudo-inverse
     z = inverse @ (U.T @ r)

@@ -14,7 +14,7 @@ def solve(problem: LinearProblem) -> LinearEstimate:
     With B = R^-1/2 T L: z = (I + B'B)^-1 B'r, within the row space of B where that is smaller. Never fails for want of
     data: where they say nothing, the prior stays.
     """
-    B, r = problem.whiten(problem.in_prior_units()), problem.whiten(problem.d)
+    B, r = problem.whitened()
     q, k = B.shape
     if q < k and problem.lower is None:
         return _within_row_space(problem, B, r)

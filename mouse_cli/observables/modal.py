@@ -81,20 +81,18 @@ class ModalObservable:
         """B (q, e) in the order of y, for model `shapes` (s, m) with their `factor` (m,) as `theory` gives them.
 
         With fitted scales the direction of each shape itself is projected out (variable projection, Golub and Pereyra
-        1973): what a change of scale explains says nothing of the parameters.
+        1973): what a change of scale explains says nothing of the parameters. Works in the memory of `partials`.
         """
-        if not self.fitted:
-            B = self.stacked(partials.d_lambda, partials.d_shape)
-            B[np.count_nonzero(self.has_frequency) :] *= np.repeat(factor, self.has_shape.sum(axis=0))[:, None]
-            return B
-        d_shape = partials.d_shape * factor[:, None, None]
-        for i in range(self.test.m):
-            have = self.has_shape[:, i]
-            x, w = shapes[have, i], 1.0 / self.shape_sd[have, i] ** 2
+        d_shape, have = partials.d_shape, self.has_shape
+        d_shape *= factor[:, None, None]
+        for i in np.flatnonzero(have.any(axis=0)) if self.fitted else ():
+            x = np.where(have[:, i], shapes[:, i], 0.0)
+            w = np.where(have[:, i], self.shape_sd[:, i], 1.0) ** -2.0
             size = float(x @ (w * x))
             if size > 0:
-                d_shape[i, have] -= np.outer(x, (w * x) @ d_shape[i, have]) / size
-        return self.stacked(partials.d_lambda, d_shape)
+                d_shape[i] -= np.outer(x, (w * x) @ d_shape[i]) / size
+        kept = np.concatenate([self.has_frequency, have.T.ravel()])
+        return partials.values if kept.all() else partials.values[kept]
 
 
 def observe(test: ModalTest, M: Matrix, solution: EigenSolution, modes: np.ndarray) -> ModalObservable:

@@ -35,7 +35,7 @@ def residual_and_shift(
     problem = LinearProblem(
         state.T * ~at_limit, state.residual + state.T @ shift, setting.sd, setting.coordinates.L
     )
-    B, d = problem.whiten(problem.in_prior_units()), problem.whiten(problem.d)
+    B, d = problem.whitened()
     U, s, _ = np.linalg.svd(B, full_matrices=False)
     seen = s > 1e-10 * s.max(initial=0.0)
     U, s = U[:, seen], s[seen]

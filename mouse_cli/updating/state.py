@@ -67,7 +67,8 @@ class State:
     @cached_property
     def T(self) -> np.ndarray:
         """d(data)/du (q, p), Eqs. O-4 and O-5."""
-        return self._partials(self.setting.problem.A) * self.setting.coordinates.slope(self.u)
+        T, coordinates = self._partials(self.setting.problem.A), self.setting.coordinates
+        return T * coordinates.slope(self.u) if coordinates.logarithmic.any() else T
 
     def _partials(self, A: Matrix | None) -> np.ndarray:
         """d(data)/d(listed elements), or with A by the properties."""
