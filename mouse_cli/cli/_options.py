@@ -40,7 +40,7 @@ READING = (
         "overrides",
         multiple=True,
         metavar="NAME=VALUE",
-        help="A control integer of a card deck, e.g. NPARD=5, in place of the punched one.",
+        help="A number of a card deck, e.g. NPARD=5 or VAR(5)=0.02, in place of the punched one.",
     ),
 )
 
@@ -58,13 +58,13 @@ def options(*groups: tuple[Callable, ...]) -> Callable:
 
 def reading(legacy: bool, strip_73_80: bool, overrides: tuple[str, ...]) -> dict[str, object]:
     """Arguments of the readers from the options READING. Raises click.BadParameter."""
-    values: dict[str, int] = {}
+    values: dict[str, float] = {}
     for item in overrides:
         name, _, value = item.partition("=")
         try:
-            values[name.strip().upper()] = int(value)
+            values[name.strip()] = float(value) if "." in value else int(value)
         except ValueError:
-            raise click.BadParameter(f"'{item}' is not NAME=INTEGER", param_hint="--set") from None
+            raise click.BadParameter(f"'{item}' is not NAME=NUMBER", param_hint="--set") from None
     return {"legacy": legacy, "strip_73_80": strip_73_80, "overrides": values}
 
 

@@ -110,7 +110,7 @@ def determined(
         null = np.eye(k) - Vt[:rank].T @ Vt[:rank]
         loose = np.abs(problem.expand(null / scale[:, None])) @ np.ones(k)
         loose = loose > 1e-6 * loose.max(initial=0.0)
-        raise Unobservable(f"{q} data determine only {rank} of {k} free directions of the properties", loose)
+        raise Unobservable(f"of {k} free directions of the properties only {rank} can be told from the data ({q})", loose)
     return U, s, Vt, scale
 
 

@@ -14,6 +14,7 @@ from mouse_cli.model.structure import ListedElements, Structure
 LARGEST_DENSE = (
     1500  # orders up to this are kept as dense arrays: eigh of the whole matrix is then the fastest way
 )
+_LISTED = 3  # findings of one kind that are told one by one where one cause is likely to make many
 LARGEST_PARTIALS = 5_000_000  # entries of A above this are kept sparse
 
 
@@ -22,6 +23,7 @@ def assemble(draft: Draft) -> Problem:
 
     Raises DeckError with every error found, warnings included, in the order of the file.
     """
+    unread = has_errors(draft)
     K = _matrix(draft, draft.K, "K")
     M = _matrix(draft, draft.M, "M")
     if not has_errors(draft):
@@ -31,6 +33,8 @@ def assemble(draft: Draft) -> Problem:
     prior = _prior_rules.prior(draft)
     test = _test_rules.modal_test(draft)
     _test_rules.total_mass_dofs(draft)
+    if unread:  # what was not read seems to be missing: remarks on that would only mislead
+        draft.diagnostics = [d for d in draft.diagnostics if d.severity == ERROR or not d.code.startswith("MD3")]
     stop_on_errors(draft)
     return Problem(
         title=draft.title,
@@ -129,12 +133,19 @@ def _positive_masses(draft: Draft, M: Matrix) -> None:
     """Every diagonal element of M must be positive: a massless degree of freedom has an infinite eigenvalue."""
     diagonal = M.diagonal()
     missing = np.flatnonzero(~(diagonal > 0))
-    for i in missing[:20]:
+    for i in missing[:_LISTED]:
         draft.error(
             "MD304",
             f"mass of degree of freedom {i + 1} is {diagonal[i]:.8g}; it must be positive",
             _where_diagonal(draft.M, i + 1) or draft.where_order,
             help=f"give M({i + 1},{i + 1}) a positive value, or condense that degree of freedom out",
+        )
+    if len(missing) > _LISTED:
+        draft.error(
+            "MD304",
+            f"{len(missing)} of {draft.order} degrees of freedom have no positive mass",
+            draft.where_order,
+            help=f"check the order of the model: is it {draft.order}?",
         )
 
 

@@ -40,5 +40,4 @@ def model_form(result: Result) -> str:
     """`rejected`, `accepted`, or `untested`: no answer to judge by, or no datum more than properties."""
     if result.rejected:
         return "rejected"
-    tested = result.residual.dof > 0 or result.prior_shift.dof > 0
-    return "accepted" if tested and result.status.exit_code < 5 else "untested"
+    return "accepted" if result.residual.dof > 0 and result.status.exit_code < 5 else "untested"

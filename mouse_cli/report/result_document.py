@@ -8,6 +8,7 @@ import numpy as np
 from mouse_cli import __version__
 from mouse_cli._errors import Diagnostic
 from mouse_cli.model._arrays import Matrix, is_sparse
+from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import ChiSquareTest, Result
 from mouse_cli.report._plain import dof_name, plain
 from mouse_cli.report.measured import NOT_MEASURED, answered, eigenvalue_index, model_form, shape_index
@@ -32,7 +33,7 @@ def document(result: Result) -> dict[str, Any]:
             "exit_code": result.exit_code,
             "estimator": problem.run.estimator,
             "recursion": problem.run.recursion,
-            "options": {**asdict(problem.run), "scale": problem.test.scale},
+            "options": _options(problem),
             "confidence": problem.run.confidence,
             "cycles": [_cycle(cycle) for cycle in result.cycles],
             "parameters": _parameters(result),
@@ -48,10 +49,25 @@ def document(result: Result) -> dict[str, Any]:
             "residual": _test(result.residual),
             "prior_shift": _test(result.prior_shift),
             "model_form": model_form(result),
+            **_partials(result),
             "warnings": [_warning(d) for d in (*problem.warnings, *result.warnings)],
             "versions": result.versions,
         }
     )
+
+
+def _options(problem: Problem) -> dict[str, Any]:
+    """Every option of the run; degrees of freedom count from 1, as in decks."""
+    dofs = [dof + 1 for dof in problem.run.total_mass_dofs]
+    return {**asdict(problem.run), "total_mass_dofs": dofs, "scale": problem.test.scale}
+
+
+def _partials(result: Result) -> dict[str, Any]:
+    """Partial derivatives of the data at the revised model, when they were asked for."""
+    if result.B is None:
+        return {}
+    elements, names = result.problem.elements.labels(), [p.name for p in result.problem.parameters]
+    return {"partials": {"data": result.labels, "elements": elements, "B": result.B, "parameters": names, "T": result.T}}
 
 
 def _cycle(cycle) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from mouse_cli.updating.state import State, attempt
 from mouse_cli.updating.trace import Trace
 
 MEANING = (
-    "anchored: the prior keeps its mean and S throughout; the result is the mode of the posterior distribution, each step "
+    "the prior keeps its mean and S throughout; the result is the mode of the posterior distribution, each step "
     "checked by an exact re-solution"
 )
 TOLERANCE = 1e-4  # a step this small, in revised standard deviations, is the end
@@ -102,18 +102,17 @@ class _Descent:
         else:
             change = bayes.solve(replace(problem, L=coordinates.L / np.sqrt(total))).z / np.sqrt(total)
         change = centre + change - self.z
-        if (
-            self.setting.problem.run.step == "second-order"
-            and self.damping == 0.0
-            and coordinates.lower is None
-        ):
+        if self.setting.problem.run.step == "second-order" and self.damping == 0.0:
             change = change + self._curved(state, change)
         return change
 
     def _curved(self, state: State, change: np.ndarray) -> np.ndarray:
         """Second-order correction of `change`, in z."""
+        coordinates, L = self.setting.coordinates, self.setting.coordinates.L
         x = acceleration(self.setting, state, self._expand(change), self.estimator)
-        L = self.setting.coordinates.L
+        there = coordinates.mean + self._expand(self.z + change) + x
+        if coordinates.lower is not None and not np.all((there >= coordinates.lower) & (there <= coordinates.upper)):
+            return np.zeros_like(change)
         return x / L if L.ndim == 1 else np.linalg.lstsq(L, x, rcond=None)[0]
 
     def _length(self, state: State, change: np.ndarray) -> float:

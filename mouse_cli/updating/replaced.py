@@ -14,7 +14,7 @@ from mouse_cli.updating.state import State
 from mouse_cli.updating.trace import Trace
 
 MEANING = (
-    "replaced (1972): the values revised in each cycle replace the prior mean and S is kept; the result tends to the weighted "
+    "the values revised in each cycle replace the prior mean and S is kept; the result tends to the weighted "
     "least squares solution, the prior only damps the steps"
 )
 _STILL = 1e-4  # a step below this many revised standard deviations changes nothing that anyone reads

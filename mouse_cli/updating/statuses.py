@@ -18,15 +18,16 @@ STATUSES = {
         for status in (
             Status(
                 "not-converged",
-                "Not converged: all {cycles} computations of the partial derivatives are used up and {exceedances} of {data} "
-                "data lie outside their confidence limits ({allowed} are allowed).",
-                "Allow more partials (NPARD), or look at the data marked *: one wrong datum is enough.",
+                "Not converged: all {cycles} computations of the partial derivatives are used up; outside their confidence "
+                "limits: {exceedances} of {data} data ({allowed} allowed).",
+                "Allow more partials (NPARD), or look at the data marked *: one wrong datum is enough, and many speak against the "
+                "form of the model.",
                 1,
             ),
             Status(
                 "stalled",
-                "Stalled: further cycles change nothing, yet {exceedances} of {data} data lie outside their confidence limits "
-                "({allowed} are allowed).",
+                "Stalled: further cycles change nothing, yet there are data outside their confidence limits: {exceedances} of {data} "
+                "({allowed} allowed).",
                 "The recursion is at its limit point; no revision of these properties fits better. Check the accuracies and the "
                 "data marked *, or the form of the model.",
                 1,

@@ -20,7 +20,9 @@ def command(
     strip_73_80: bool,
     overrides: tuple[str, ...],
 ) -> int:
-    """Check DECKS (files, folders, '-'): findings to standard error, a count line to standard output.
+    """Find what is wrong with DECKS (files, folders, '-') without running them.
+
+    Findings go to standard error, a count line to standard output.
 
     Exit 0: every deck is sound. 4: at least one was rejected.
     """
@@ -34,7 +36,7 @@ def command(
         errors = any(d.severity == "error" for d in findings) or (strict and bool(findings))
         checked, rejected, warned = checked + 1, rejected + errors, warned + (bool(findings) and not errors)
         show_diagnostics((d for d in findings if d.severity == "error" or not quiet), brief)
-    click.echo(f"{checked} decks checked: {checked - rejected} sound, {rejected} rejected, {warned} with warnings")
+    click.echo(f"{checked} deck{'s' if checked != 1 else ''} checked: {checked - rejected} sound, {rejected} rejected, {warned} with warnings")
     return 4 if rejected else 0
 
 

@@ -20,7 +20,10 @@ def command(
     strip_73_80: bool,
     overrides: tuple[str, ...],
 ) -> int:
-    """Convert DECK to the other format without loss; exit 4 when cards cannot hold what it says."""
+    """Convert DECK to the other format, cards to YAML or back.
+
+    Exit 4 when cards cannot hold what the deck says.
+    """
     from mouse_cli.cli._decks import read_problem
     from mouse_cli.cli._terminal import deliver, show_diagnostics
 

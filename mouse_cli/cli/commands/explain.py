@@ -2,17 +2,18 @@
 
 import difflib
 import json
+import re
 from collections.abc import Callable, Iterator
 
 import click
 
+_FACT = re.compile(r"\{\w+\}")  # what a status fills in when it is reached
 _EXIT = """\
 0    answer found and trusted: converged, and the model explains the data
 1    finished, but do not trust it: not converged, or the data show physics that the model lacks
 2    wrong command line
-3    batch: some job missed its expectation
 4    a deck was rejected (diagnostics printed, nothing written)
-5    no answer: numerical failure
+5    no answer: numerical failure, or the answer could not be written
 130  interrupted; nothing half-written"""
 
 
@@ -44,7 +45,7 @@ TOPICS: dict[str, Callable[[], str]] = {"cards": _cards, "exit": _exit, "schema"
 @click.command()
 @click.argument("topic")
 def command(topic: str) -> int:
-    """Explain TOPIC: a diagnostic code (MD104), an estimator, a recursion, a status; or cards, yaml, schema, exit."""
+    """Explain a code (MD104), an estimator, recursion or status, or: cards, yaml, schema, exit."""
     if topic in TOPICS:
         click.echo(TOPICS[topic]())
         return 0
@@ -67,11 +68,11 @@ def _entries() -> Iterator[tuple[str, str]]:
 
     for key in {status.key: None for status in STATUSES.values()}:
         ends = [status for status in STATUSES.values() if status.key == key]
-        told = "\n\n".join(f"{end.sentence}\n{end.advice}".rstrip() for end in ends)
+        told = "\n\n".join(f"{_FACT.sub('...', end.sentence)}\n{end.advice}".rstrip() for end in ends)
         yield key, f"status {key}, exit {ends[0].exit_code}\n\n{told}"
     for code, entry in catalogue().items():
         yield code, f"{code}: {entry.title}\n\n{entry.meaning}\n\n{entry.remedy}"
     for key, estimator in discover("mouse_cli.estimators", "ESTIMATOR").items():
         yield key, f"{estimator.title}\n\n{estimator.equation}"
     for key, recursion in RECURSIONS.items():
-        yield key, recursion.MEANING
+        yield key, f"{key}: {recursion.MEANING}"

@@ -16,7 +16,7 @@ def _recursions() -> Iterator[tuple[str, str]]:
     from mouse_cli.updating.loop import RECURSIONS
 
     for key, recursion in RECURSIONS.items():
-        yield key, recursion.MEANING.partition(": ")[2]
+        yield key, recursion.MEANING
 
 
 def _codes() -> Iterator[tuple[str, str]]:
@@ -71,7 +71,7 @@ KINDS: dict[str, Callable[[], Iterator[tuple[str, str]]]] = {
 @click.command()
 @click.argument("kind", type=click.Choice(sorted(KINDS)), required=False)
 def command(kind: str | None) -> int:
-    """List the estimators, recursions, diagnostic codes, card groups, ... that there are; without KIND all of them."""
+    """List what there is to choose from: estimators, recursions, codes, card groups and so on."""
     for name in [kind] if kind else sorted(KINDS):
         if not kind:
             click.echo(f"{name}:")

@@ -25,7 +25,10 @@ def command(
     strip_73_80: bool,
     overrides: tuple[str, ...],
 ) -> int:
-    """Natural frequencies and mode shapes of DECK before any test, with standard deviations from those of its properties."""
+    """Frequencies and shapes of DECK before any test, and their uncertainty.
+
+    The standard deviations follow from those of the properties.
+    """
     import json
 
     from mouse_cli import report

@@ -9,7 +9,7 @@ from mouse_cli.cli._options import READING, options, reading
 @click.argument("deck")
 @options(READING)
 def command(deck: str, legacy: bool, strip_73_80: bool, overrides: tuple[str, ...]) -> int:
-    """Show DECK: every card under a column ruler with its fields named and valued; a YAML deck in its canonical form.
+    """Show DECK as it is understood: cards with their fields named, YAML in canonical form.
 
     A card deck is shown even when it has errors, so that one sees what was read.
     """

@@ -65,7 +65,7 @@ def _method(problem: Problem) -> tuple[tuple[Cell, ...], ...]:
     run, method = problem.run, estimator(problem.run.estimator)
     return (
         ("estimator", run.estimator, f"{method.title}: {method.equation}"),
-        ("recursion", run.recursion, RECURSIONS[run.recursion].MEANING.split(": ", 1)[-1]),
+        ("recursion", run.recursion, RECURSIONS[run.recursion].MEANING),
         ("scale", problem.test.scale, _SCALES[problem.test.scale]),
         ("pairing", run.pairing, _PAIRINGS[run.pairing]),
         ("step", run.step, _STEPS[run.step]),

@@ -38,8 +38,9 @@ def _residual(result: Result) -> str:
     if test.dof == 0:
         return "Residual: there are no more data than properties, so nothing is left over that could contradict the model."
     if test.rejects:
+        within = " within their limits" if result.at_limit.any() else ""
         return (
-            "Residual: no values of these properties explain the data; by chance a misfit as large as what remains would come "
+            f"Residual: no values of these properties{within} explain the data; by chance a misfit as large as what remains would come "
             f"{chance(test.p)}."
         )
     return (
