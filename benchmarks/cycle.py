@@ -78,4 +78,6 @@ for parameters, modes, sensors in ((60, 15, 30), (140, 20, 60)):
     cycle, alone = (1e3 * statistics.median(column) for column in zip(*seconds, strict=True))
     ratio = statistics.median(a / b for a, b in seconds)
     data = modes * (1 + sensors)
-    print(f"{parameters} parameters, {data} data: cycle {cycle:.2f} ms, eigensolution {alone:.2f} ms, ratio {ratio:.2f}")
+    print(
+        f"{parameters} parameters, {data} data: cycle {cycle:.2f} ms, eigensolution {alone:.2f} ms, ratio {ratio:.2f}"
+    )

@@ -130,7 +130,7 @@ def _estimators() -> Iterator[str]:
     yield "| `--recursion` | meaning |"
     yield "|---|---|"
     for key, recursion in RECURSIONS.items():
-        yield f"| `{key}` | {recursion.MEANING.partition(': ')[2]} |"
+        yield f"| `{key}` | {recursion.MEANING} |"
     yield ""
 
 

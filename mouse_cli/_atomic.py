@@ -29,14 +29,10 @@ def write_text_atomically(path: str | Path, text: str) -> None:
 
 
 def _replace(target: str, data: bytes) -> None:
-    if os.path.exists(target) and not os.path.isfile(
-        target
-    ):  # /dev/stdout or a pipe has nothing to be kept whole
+    if os.path.exists(target) and not os.path.isfile(target):  # /dev/stdout or a pipe has nothing to be kept whole
         Path(target).write_bytes(data)
         return
-    handle, temporary = tempfile.mkstemp(
-        prefix=f".{os.path.basename(target)}.", dir=os.path.dirname(target) or "."
-    )
+    handle, temporary = tempfile.mkstemp(prefix=f".{os.path.basename(target)}.", dir=os.path.dirname(target) or ".")
     try:
         with os.fdopen(handle, "wb") as stream:
             stream.write(data)

@@ -75,9 +75,7 @@ def frame(diagnostic: Diagnostic) -> str:
         lines.append(f"{span.line} |  {_printable(span.text)}"[:_WIDEST].rstrip())
         lines.append(f"{gutter} |  {' ' * (span.column - 1)}{caret}"[:_WIDEST])
     lines += [
-        f"{gutter} = {name}: {text}"
-        for name, text in (("note", diagnostic.note), ("help", diagnostic.help))
-        if text
+        f"{gutter} = {name}: {text}" for name, text in (("note", diagnostic.note), ("help", diagnostic.help)) if text
     ]
     return "\n".join(lines)
 

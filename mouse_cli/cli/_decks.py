@@ -12,6 +12,7 @@ from mouse_cli.formats.assemble import assemble
 from mouse_cli.formats.draft import Draft
 from mouse_cli.model.problem import Problem
 
+
 def deck_bytes(path: str) -> bytes:
     """Content of the file `path`, or of standard input for '-'. Raises DeckError."""
     return sys.stdin.buffer.read() if path == "-" else file_bytes(path)

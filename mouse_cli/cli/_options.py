@@ -14,21 +14,35 @@ RUN = (
     click.option("--recursion", type=click.Choice(RECURSIONS), help="The loop of 1972, or the true posterior mode."),
     click.option("--scale", type=click.Choice(SCALES), help="How test shapes are brought to the scale of the theory."),
     click.option("--pairing", type=click.Choice(PAIRINGS), help="Pair modes by number, or by MAC and frequency."),
-    click.option("--confidence", type=click.Choice(["90", "95", "99"]), help="Confidence level of the limits, per cent."),
+    click.option(
+        "--confidence", type=click.Choice(["90", "95", "99"]), help="Confidence level of the limits, per cent."
+    ),
     click.option("--partials", type=_POSITIVE, help="Most computations of the partial derivatives (NPARD)."),
     click.option("--passes", type=_POSITIVE, help="Passes of O-7/O-8 before the partials are recomputed (ITERMX)."),
-    click.option("--cycles", type=click.IntRange(min=0), help="Exactly so many cycles, whatever the convergence test says."),
+    click.option(
+        "--cycles", type=click.IntRange(min=0), help="Exactly so many cycles, whatever the convergence test says."
+    ),
     click.option(
         "--convergence",
         type=click.Choice(CONVERGENCE_RULES),
         help="Exceedances against non-exceedances (ratio) or against all data (fraction).",
     ),
     click.option(
-        "--legacy-extra-update", "extra_update", is_flag=True, default=None, help="One more cycle after the test passed."
+        "--legacy-extra-update",
+        "extra_update",
+        is_flag=True,
+        default=None,
+        help="One more cycle after the test passed.",
     ),
-    click.option("--step", type=click.Choice(STEPS), help="First-order step, or with the curvature of the data along it."),
-    click.option("--limit-sd", type=click.FloatRange(min=0, min_open=True), help="No correction beyond so many prior sd."),
-    click.option("--fix-total-mass", is_flag=True, default=None, help="Hold the total mass while component masses vary."),
+    click.option(
+        "--step", type=click.Choice(STEPS), help="First-order step, or with the curvature of the data along it."
+    ),
+    click.option(
+        "--limit-sd", type=click.FloatRange(min=0, min_open=True), help="No correction beyond so many prior sd."
+    ),
+    click.option(
+        "--fix-total-mass", is_flag=True, default=None, help="Hold the total mass while component masses vary."
+    ),
     click.option("--print-partials", is_flag=True, default=None, help="Print the partial derivatives (JFLAG)."),
 )
 

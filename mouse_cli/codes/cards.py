@@ -8,8 +8,7 @@ CODES = {
         "All twelve groups are always present, in order. A group read by INPUT (6, 7, 9, 11 and "
         "12) ends with its own blank card, and so does the last one of the deck. A missing blank "
         "card makes two groups one, and the last is then missing.",
-        "Look for a missing blank card before the group named, and add the blank card at the end "
-        "of the deck.",
+        "Look for a missing blank card before the group named, and add the blank card at the end of the deck.",
     ),
     "MD101": Code(
         "A field cannot be read",
@@ -26,8 +25,7 @@ CODES = {
     ),
     "MD103": Code(
         "A character that no card can hold",
-        "A card holds printable ASCII, one character a column. A tab would shift the columns by "
-        "an unknown amount.",
+        "A card holds printable ASCII, one character a column. A tab would shift the columns by an unknown amount.",
         "Replace tabs with blanks and retype other characters.",
     ),
     "MD104": Code(
@@ -89,8 +87,7 @@ CODES = {
     ),
     "MD113": Code(
         "A component of a test eigenvector is not punched",
-        "Card decks have no mark for a missing datum: what is not punched at a position of INDIC "
-        "is a measured zero.",
+        "Card decks have no mark for a missing datum: what is not punched at a position of INDIC is a measured zero.",
         "Punch the component; convert the deck to YAML if it was not measured.",
     ),
     "MD114": Code(
@@ -106,8 +103,7 @@ CODES = {
     ),
     "MD116": Code(
         "A matrix has no elements",
-        "A, M or K ended before its first element: there is a blank card too many, and what "
-        "follows belongs to it.",
+        "A, M or K ended before its first element: there is a blank card too many, and what follows belongs to it.",
         "Delete the blank card.",
     ),
     "MD117": Code(
@@ -185,8 +181,7 @@ CODES = {
     ),
     "MD130": Code(
         "A value is given for a field that the deck does not have",
-        "Values may replace fields by name: a control integer such as NPARD, or an item of a list"
-        " such as MODE(10).",
+        "Values may replace fields by name: a control integer such as NPARD, or an item of a list such as MODE(10).",
         "Use a name that `mouse show` prints for the deck.",
     ),
     "MD140": Code(

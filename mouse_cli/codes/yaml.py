@@ -46,8 +46,7 @@ CODES = {
     ),
     "MD210": Code(
         "unknown key",
-        "The key is not one of those that this section has. It would be without effect, which is never "
-        "what was meant.",
+        "The key is not one of those that this section has. It would be without effect, which is never what was meant.",
         "Correct the spelling; the message names the nearest key. `mouse explain schema` lists all.",
     ),
     "MD211": Code(
@@ -57,8 +56,7 @@ CODES = {
     ),
     "MD212": Code(
         "key of a later release",
-        "The key belongs to the format but this release does not read it. The message says what is "
-        "possible instead.",
+        "The key belongs to the format but this release does not read it. The message says what is possible instead.",
         "Give bare matrices and measured modes.",
     ),
     "MD213": Code(
@@ -201,8 +199,7 @@ CODES = {
     ),
     "MD258": Code(
         "matrix file too large",
-        "The file promises more than can be read into memory. Orders up to a million and files up to 2 GB "
-        "are read.",
+        "The file promises more than can be read into memory. Orders up to a million and files up to 2 GB are read.",
         "Condense the model.",
     ),
     "MD259": Code(

@@ -35,9 +35,7 @@ class EigenSolution:
         return int(np.count_nonzero(np.abs(self.eigenvalues) <= RIGID * reference))
 
 
-def eigensolution(
-    K: Matrix, M: Matrix, count: int | None = None, shift: float | None = None
-) -> EigenSolution:
+def eigensolution(K: Matrix, M: Matrix, count: int | None = None, shift: float | None = None) -> EigenSolution:
     """Lowest `count` modes of symmetric K and positive definite M (all of them for dense matrices).
 
     Dense matrices go to LAPACK through the Cholesky factor of M; sparse ones to shift-invert Lanczos at `shift` < 0,
@@ -59,9 +57,7 @@ def _dense(K: np.ndarray, M: np.ndarray) -> EigenSolution:
     masses = M.diagonal()
     if np.count_nonzero(M) == np.count_nonzero(masses):
         if not (masses > 0).all():
-            raise IndefiniteError(
-                f"mass of degree of freedom {int(np.argmin(masses)) + 1} is {masses.min():.6g}"
-            )
+            raise IndefiniteError(f"mass of degree of freedom {int(np.argmin(masses)) + 1} is {masses.min():.6g}")
         scale = 1.0 / np.sqrt(masses)
         eigenvalues, vectors = np.linalg.eigh(K * scale[:, None] * scale)
         return EigenSolution(eigenvalues, vectors * scale[:, None])
@@ -101,9 +97,7 @@ def symmetric_factor(matrix: Matrix):
     from scipy.sparse import csc_array
     from scipy.sparse.linalg import splu
 
-    return splu(
-        csc_array(matrix), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
-    )
+    return splu(csc_array(matrix), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 
 
 def _positive(factor) -> bool:

@@ -93,9 +93,7 @@ class Estimator:
     solve: Callable[[LinearProblem], LinearEstimate]
 
 
-def determined(
-    B: np.ndarray, problem: LinearProblem
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def determined(B: np.ndarray, problem: LinearProblem) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Singular value decomposition U s V' of B (q, k) with unit columns, and those column lengths (k,).
 
     Raises Unobservable when B has not full column rank, naming the properties that take part in its null space.
@@ -110,7 +108,9 @@ def determined(
         null = np.eye(k) - Vt[:rank].T @ Vt[:rank]
         loose = np.abs(problem.expand(null / scale[:, None])) @ np.ones(k)
         loose = loose > 1e-6 * loose.max(initial=0.0)
-        raise Unobservable(f"of {k} free directions of the properties only {rank} can be told from the data ({q})", loose)
+        raise Unobservable(
+            f"of {k} free directions of the properties only {rank} can be told from the data ({q})", loose
+        )
     return U, s, Vt, scale
 
 
@@ -164,9 +164,7 @@ def limited(problem: LinearProblem, z: np.ndarray, C: np.ndarray) -> tuple[np.nd
     return z + step, active
 
 
-def conditioned(
-    problem: LinearProblem, root_z: np.ndarray, active: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
+def conditioned(problem: LinearProblem, root_z: np.ndarray, active: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """`root_z` (k, c) given that the properties `active` (p,) stay at their limits, and that mask (p,)."""
     held = active != 0
     if held.any():

@@ -42,9 +42,7 @@ def _one(draft: Draft, parameter: Parameter) -> None:
     elif parameter.sd == 0:
         draft.warn("MD312", f"{name} has no standard deviation: it stays at its prior value", where)
     if not math.isfinite(parameter.nominal):
-        draft.error(
-            "MD302", f"nominal value of {name} is {parameter.nominal}", where, help="give a finite number"
-        )
+        draft.error("MD302", f"nominal value of {name} is {parameter.nominal}", where, help="give a finite number")
     if not parameter.lower <= parameter.nominal <= parameter.upper or parameter.lower == parameter.upper:
         draft.error(
             "MD313",

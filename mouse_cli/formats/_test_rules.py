@@ -116,6 +116,4 @@ def _accuracies(draft: Draft, test: TestDraft) -> None:
     for s, m in np.argwhere(np.isinf(test.shapes))[:20]:
         draft.error("MD302", f"x({m + 1},{s + 1}) is not finite", test.where_shape(int(s), int(m)))
     if not (np.isfinite(test.frequency_hz).any() or np.isfinite(test.shapes).any()):
-        draft.error(
-            "MD327", "the test holds no datum", test.where_frequency(0), help="give a frequency or a shape"
-        )
+        draft.error("MD327", "the test holds no datum", test.where_frequency(0), help="give a frequency or a shape")

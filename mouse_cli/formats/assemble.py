@@ -11,9 +11,7 @@ from mouse_cli.model._arrays import Matrix
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.structure import ListedElements, Structure
 
-LARGEST_DENSE = (
-    1500  # orders up to this are kept as dense arrays: eigh of the whole matrix is then the fastest way
-)
+LARGEST_DENSE = 1500  # orders up to this are kept as dense arrays: eigh of the whole matrix is then the fastest way
 _LISTED = 3  # findings of one kind that are told one by one where one cause is likely to make many
 LARGEST_PARTIALS = 5_000_000  # entries of A above this are kept sparse
 
@@ -173,9 +171,7 @@ def _elements(draft: Draft) -> ListedElements | None:
                 help="list the upper triangle: row before column",
             )
         if seen.setdefault((mass, min(row, col), max(row, col)), i) != i:
-            draft.error(
-                "MD306", f"element {name} is listed twice", listed.where(i), help="list each element once"
-            )
+            draft.error("MD306", f"element {name} is listed twice", listed.where(i), help="list each element once")
     low, high = np.minimum(listed.rows, listed.cols), np.maximum(listed.rows, listed.cols)
     return ListedElements(listed.values > 0, low - 1, high - 1)
 

@@ -81,9 +81,7 @@ class Draft:
     where_total_mass: Span | None = None
     diagnostics: list[Diagnostic] = field(default_factory=list)
 
-    def error(
-        self, code: str, message: str, span: Span | None = None, note: str = "", help: str = ""
-    ) -> None:
+    def error(self, code: str, message: str, span: Span | None = None, note: str = "", help: str = "") -> None:
         """Note an error and go on reading."""
         self.diagnostics.append(Diagnostic(code, ERROR, message, span, note, help))
 

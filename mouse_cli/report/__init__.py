@@ -8,9 +8,7 @@ from mouse_cli.report.section import Options
 __all__ = ["Options", "document", "markdown", "printout", "written"]
 
 
-def written(
-    subject: Result | Forecast, form: str, numbers: str | None = None, options: Options | None = None
-) -> str:
+def written(subject: Result | Forecast, form: str, numbers: str | None = None, options: Options | None = None) -> str:
     """The report of `subject` in a `form` of `report.renderers`, numbers in its own style or in another.
 
     Raises ValueError for a form or a style that does not exist.

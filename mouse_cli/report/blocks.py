@@ -53,11 +53,7 @@ class Table:
 
     def without_empty_columns(self) -> "Table":
         """The same table without the columns that hold nothing in any row; the first `keys` columns stay."""
-        kept = [
-            j
-            for j in range(len(self.columns))
-            if j < self.keys or any(not is_blank(row[j]) for row in self.rows)
-        ]
+        kept = [j for j in range(len(self.columns)) if j < self.keys or any(not is_blank(row[j]) for row in self.rows)]
         rows = tuple(tuple(row[j] for j in kept) for row in self.rows)
         return Table(tuple(self.columns[j] for j in kept), rows, self.keys)
 

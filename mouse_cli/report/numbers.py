@@ -22,9 +22,7 @@ class Numbers:
 
     def __post_init__(self) -> None:
         if self.style not in STYLES:
-            raise ValueError(
-                f"numbers are written in one of the styles {', '.join(STYLES)}, not '{self.style}'"
-            )
+            raise ValueError(f"numbers are written in one of the styles {', '.join(STYLES)}, not '{self.style}'")
 
     def __call__(self, value: float) -> str:
         """`value` as text: whole numbers as they are, NaN as nothing, others in the style."""

@@ -67,7 +67,9 @@ def _partials(result: Result) -> dict[str, Any]:
     if result.B is None:
         return {}
     elements, names = result.problem.elements.labels(), [p.name for p in result.problem.parameters]
-    return {"partials": {"data": result.labels, "elements": elements, "B": result.B, "parameters": names, "T": result.T}}
+    return {
+        "partials": {"data": result.labels, "elements": elements, "B": result.B, "parameters": names, "T": result.T}
+    }
 
 
 def _cycle(cycle) -> dict[str, Any]:

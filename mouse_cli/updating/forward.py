@@ -21,9 +21,7 @@ def forecast(problem: Problem, count: int | None = None) -> Forecast:
         raise rules.unphysical(problem, str(reason)) from None
     k = min(count or len(solution.eigenvalues), len(solution.eigenvalues))
     modes, dofs = np.arange(k), np.arange(problem.structure.n)
-    sign = np.sign(
-        solution.shapes[np.abs(solution.shapes).argmax(axis=0), np.arange(len(solution.eigenvalues))]
-    )
+    sign = np.sign(solution.shapes[np.abs(solution.shapes).argmax(axis=0), np.arange(len(solution.eigenvalues))])
     root = coordinates(problem, MatrixEntries(problem.structure, problem.elements, problem.A))
     sd_lambda, sd_shape = np.zeros(k), np.zeros((len(dofs), k))
     for i in modes:  # mode by mode: the partials of all shapes at once would be n times larger than the model

@@ -69,9 +69,7 @@ def _run(problem: Problem, estimator: Estimator, progress: Progress) -> Result:
         problem=problem,
         status=status,
         cycles=tuple(trace.cycles),
-        prior=_snapshot(
-            setting, start, problem.prior.dense() / np.outer(*2 * [setting.coordinates.slope(start.u)])
-        ),
+        prior=_snapshot(setting, start, problem.prior.dense() / np.outer(*2 * [setting.coordinates.slope(start.u)])),
         revised=_snapshot(setting, end, estimate.covariance()),
         y=setting.y,
         sd=setting.sd,

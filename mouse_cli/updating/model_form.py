@@ -32,9 +32,7 @@ def residual_and_shift(
     degrees of freedom, shift sum (u'd)^2 / (1 + s^2) on rank. Without a prior in the estimate the shift is not tested.
     """
     shift = np.where(at_limit, 0.0, state.u - setting.coordinates.mean)
-    problem = LinearProblem(
-        state.T * ~at_limit, state.residual + state.T @ shift, setting.sd, setting.coordinates.L
-    )
+    problem = LinearProblem(state.T * ~at_limit, state.residual + state.T @ shift, setting.sd, setting.coordinates.L)
     B, d = problem.whitened()
     U, s, _ = np.linalg.svd(B, full_matrices=False)
     seen = s > 1e-10 * s.max(initial=0.0)

@@ -27,8 +27,7 @@ def check_rigid_modes(problem: Problem, solution: EigenSolution) -> None:
                 "MD330",
                 ERROR,
                 f"mode {named[0]} is named as measured, but the model has {rigid} rigid-body mode(s) and this is one of them",
-                note="mode numbers count the rigid-body modes; the first flexural mode is number "
-                f"{rigid + 1}",
+                note=f"mode numbers count the rigid-body modes; the first flexural mode is number {rigid + 1}",
                 help="add the number of rigid-body modes to the mode numbers of the test",
             )
         )
@@ -140,9 +139,7 @@ def _tied(result: Result) -> Iterator[Diagnostic]:
 
 
 def _limits(result: Result) -> Iterator[Diagnostic]:
-    for parameter, value, stopped in zip(
-        result.problem.parameters, result.revised.theta, result.at_limit, strict=True
-    ):
+    for parameter, value, stopped in zip(result.problem.parameters, result.revised.theta, result.at_limit, strict=True):
         if stopped:
             yield _remark(
                 "MD504",

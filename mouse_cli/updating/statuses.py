@@ -4,9 +4,7 @@ from mouse_cli.model.result import Status
 
 STATUSES = {
     "passed": Status("converged", "Converged: the model meets the test within its confidence limits."),
-    "stationary": Status(
-        "converged", "Converged: no further step along the partial derivatives changes the answer."
-    ),
+    "stationary": Status("converged", "Converged: no further step along the partial derivatives changes the answer."),
     "restless": Status(
         "not-converged",
         "Not converged: all {cycles} computations of the partial derivatives are used up and the steps are not yet negligible.",

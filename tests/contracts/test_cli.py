@@ -63,7 +63,9 @@ def test_json_keeps_the_contract(capsys):
     answer = json.loads(out)
     assert status == answer["exit_code"] == 1
     assert answer["schema"] == "mouse.result/1" and answer["model_form"] == "rejected"
-    contract = "title status recursion estimator cycles parameters covariance stiffness mass modes exceedances confidence"
+    contract = (
+        "title status recursion estimator cycles parameters covariance stiffness mass modes exceedances confidence"
+    )
     assert set(contract.split()) | {"innovation", "warnings", "version"} <= set(answer)
     assert set(answer["cycles"][0]) >= {"theta", "chi2", "exceedances", "allowed"}
     assert set(answer["parameters"][0]) >= {"name", "prior", "prior_sd", "posterior", "posterior_sd"}

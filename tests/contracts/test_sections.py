@@ -130,9 +130,9 @@ def test_document(name: str) -> None:
     assert document["exit_code"] == result.exit_code
     assert len(document["modes"]) == result.problem.test.m
     assert len(document["shapes"]) + np.isfinite(result.problem.test.frequency_hz).sum() == len(result.y)
-    assert sum(m["exceeds"] for m in document["modes"]) + sum(
-        s["exceeds"] for s in document["shapes"]
-    ) == len(document["exceedances"])
+    assert sum(m["exceeds"] for m in document["modes"]) + sum(s["exceeds"] for s in document["shapes"]) == len(
+        document["exceedances"]
+    )
     assert ("stiffness" in document) == (result.problem.structure.n <= 140)
     assert plain_python(document)
 
@@ -143,9 +143,7 @@ def plain_python(value) -> bool:
         return all(type(k) is str and plain_python(v) for k, v in value.items())
     if isinstance(value, list):
         return all(map(plain_python, value))
-    return (
-        value is None or (type(value) in (int, str, bool)) or (type(value) is float and math.isfinite(value))
-    )
+    return value is None or (type(value) in (int, str, bool)) or (type(value) is float and math.isfinite(value))
 
 
 def test_data_are_where_they_belong() -> None:
@@ -162,9 +160,7 @@ def test_data_are_where_they_belong() -> None:
     modes = {m["mode"]: m for m in report.document(result)["modes"]}
     assert modes[2]["test_hz"] is None and modes[2]["sd_hz"] is None and modes[2]["revised_hz"] > 0
     assert modes[3]["mac"] is None
-    assert (2 * math.pi * modes[4]["test_hz"]) ** 2 == pytest.approx(
-        result.y[result.labels.index("lambda 4")]
-    )
+    assert (2 * math.pi * modes[4]["test_hz"]) ** 2 == pytest.approx(result.y[result.labels.index("lambda 4")])
 
 
 def test_no_answer_gives_no_values() -> None:

@@ -63,9 +63,7 @@ def _number(rng):
     point = rng.choice([".", ".", ""])
     if not point or not (whole + fraction):
         whole, fraction = whole or rng.choice("123456789"), fraction if point else ""
-    exponent = rng.choice(
-        ["", "", "E{}", "E+{:02d}", "D-{:02d}", "+{:02d}", "-{}", "e{}", "E 0{}", "D+ {}", "-{:03d}"]
-    )
+    exponent = rng.choice(["", "", "E{}", "E+{:02d}", "D-{:02d}", "+{:02d}", "-{}", "e{}", "E 0{}", "D+ {}", "-{:03d}"])
     number = rng.choice(["", "", "-", "+"]) + whole + point + fraction + exponent.format(rng.randint(0, 9))
     if rng.random() < 0.3:
         at = rng.randrange(len(number))

@@ -19,9 +19,7 @@ def _fields(format):
     """Texts of the field's width: numbers in every form, and noise."""
     width = parse(format).width
     number = st.from_regex(r"[+-]?(\d{0,9}\.\d{0,9}|\d{1,9})([ED][+-]?\d{1,2}|[+-]\d{1,2})?", fullmatch=True)
-    placed = st.tuples(number, st.integers(0, 3)).map(
-        lambda pair: (pair[0] + " " * pair[1])[-width:].rjust(width)
-    )
+    placed = st.tuples(number, st.integers(0, 3)).map(lambda pair: (pair[0] + " " * pair[1])[-width:].rjust(width))
     return placed | st.text(ALPHABET, min_size=width, max_size=width)
 
 
@@ -78,9 +76,7 @@ def test_bulk_reading_is_single_reading(data, format):
             read_fields(texts, format)
         assert raised.value.index == expected.index(None)
     else:
-        assert [repr(value) for value in read_fields(texts, format).tolist()] == [
-            repr(value) for value in expected
-        ]
+        assert [repr(value) for value in read_fields(texts, format).tolist()] == [repr(value) for value in expected]
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, 1e-40, 2e38])

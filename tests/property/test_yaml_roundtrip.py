@@ -65,9 +65,7 @@ def listings(draw, n, p):
     listed = [(False, *place) for place in stiffness] + [(True, *place) for place in mass]
     is_mass, row, col = zip(*listed, strict=True) if listed else ((), (), ())
     e = len(listed)
-    A = np.array(draw(st.lists(st.just(0.0) | finite, min_size=e * p, max_size=e * p)), dtype=float).reshape(
-        e, p
-    )
+    A = np.array(draw(st.lists(st.just(0.0) | finite, min_size=e * p, max_size=e * p)), dtype=float).reshape(e, p)
     return ListedElements(is_mass, row, col), A
 
 
@@ -126,9 +124,7 @@ def problems(draw):
     test = draw(st.none() | modal_tests(structure.n))
     if test is not None and not (np.isfinite(test.frequency_hz).any() or np.isfinite(test.shapes).any()):
         test = None
-    return Problem(
-        draw(text), structure, elements, A, parameters, prior, test, run, Source("chain.dat", "cards")
-    )
+    return Problem(draw(text), structure, elements, A, parameters, prior, test, run, Source("chain.dat", "cards"))
 
 
 def same(one, other) -> bool:
@@ -137,9 +133,7 @@ def same(one, other) -> bool:
 
 def assert_same(one: Problem, other: Problem) -> None:
     """Everything but warnings and places."""
-    assert (
-        one.title == other.title and one.structure.labels == other.structure.labels and one.run == other.run
-    )
+    assert one.title == other.title and one.structure.labels == other.structure.labels and one.run == other.run
     assert same(one.structure.K, other.structure.K) and same(one.structure.M, other.structure.M)
     for name in ("is_mass", "row", "col"):
         assert same(getattr(one.elements, name), getattr(other.elements, name))
@@ -154,9 +148,7 @@ def assert_same(one: Problem, other: Problem) -> None:
         assert one.test.scale == other.test.scale
 
 
-@settings(
-    max_examples=250, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large]
-)
+@settings(max_examples=250, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
 @given(problems())
 def test_write_then_read_is_the_same_problem(problem):
     written, attachments = yaml_deck.write(problem)
@@ -186,9 +178,7 @@ def test_large_problems_go_to_files_and_come_back(tmp_path):
     A = np.stack([np.ones(len(row)), np.where(row == 0, 0.5, 0.0)], axis=1)
     parameters = (Parameter("all", 0.1), Parameter("first", 0.2))
     prior = Gaussian(np.zeros(2), np.array([q.sd**2 for q in parameters]))
-    problem = Problem(
-        "large", Structure(K, diags_array(np.ones(n)).tocsr()), elements, A, parameters, prior, None
-    )
+    problem = Problem("large", Structure(K, diags_array(np.ones(n)).tocsr()), elements, A, parameters, prior, None)
     files = write_deck(problem, tmp_path / "large.yaml")
     assert sorted(p.name for p in tmp_path.iterdir()) == [
         "large.yaml",

@@ -13,9 +13,9 @@ import pytest
 from mouse_cli._errors import ERROR, WARNING, DeckError
 from mouse_cli.codes import catalogue
 from mouse_cli.formats import cards
+from mouse_cli.formats.assemble import assemble
 from mouse_cli.formats.cards import layout as card_layout
 from mouse_cli.formats.cards import writer as card_writer
-from mouse_cli.formats.assemble import assemble
 from mouse_cli.formats.cards.manual import manual
 from mouse_cli.formats.cards.show import describe
 
@@ -394,9 +394,7 @@ def test_frequencies_alone():
 def test_duplicates():
     """9.16: equal values warn, unequal ones do not pass; (i,j) and (j,i) of K are one place."""
     same = deck((23, LINES[22][:60] + element(2, 1, "-1.500D+05")))
-    assert [d.code for d in findings(same)][:1] == ["MD112"] and all(
-        d.severity == WARNING for d in findings(same)[:1]
-    )
+    assert [d.code for d in findings(same)][:1] == ["MD112"] and all(d.severity == WARNING for d in findings(same)[:1])
     assert "MD112" in {d.code for d in errors(deck((23, LINES[22][:60] + element(2, 1, "-1.400D+05"))))}
 
 
@@ -415,9 +413,7 @@ def test_limits_of_1972(legacy):
 def test_indic_cards(irow):
     """A blank card follows 20, 40, ... 120 positions; the seventh card ends the list of 140."""
     draft = cards.read(big_deck(160, irow), "c.dat")
-    assert {d.code for d in draft.diagnostics} <= {"MD121"} and draft.test.dofs.tolist() == list(
-        range(1, irow + 1)
-    )
+    assert {d.code for d in draft.diagnostics} <= {"MD121"} and draft.test.dofs.tolist() == list(range(1, irow + 1))
 
 
 @pytest.mark.parametrize("irow", [20, 40, 140, 160])
@@ -517,9 +513,7 @@ def test_names_and_options_are_lost_with_a_warning():
 
     sound = _problem()
     _, warnings = card_writer.write(
-        _problem(
-            parameters=_first(sound, name="k1"), run=dataclasses.replace(sound.run, recursion="anchored")
-        )
+        _problem(parameters=_first(sound, name="k1"), run=dataclasses.replace(sound.run, recursion="anchored"))
     )
     assert {d.code for d in warnings} == {"MD150", "MD151"} and all(d.severity == WARNING for d in warnings)
 

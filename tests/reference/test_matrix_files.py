@@ -49,9 +49,7 @@ def stored(path, kind: str):
     else:
         row, col = np.nonzero(np.triu(K))
         lines = [f"{i + 1},{j + 1},{K[i, j]!r}" for i, j in zip(row.tolist(), col.tolist(), strict=True)]
-        (path / "k.csv").write_text(
-            "\n".join(["i,j,value", *lines]).replace("np.float64(", "").replace(")", "")
-        )
+        (path / "k.csv").write_text("\n".join(["i,j,value", *lines]).replace("np.float64(", "").replace(")", ""))
     return name
 
 

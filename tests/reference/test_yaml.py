@@ -101,9 +101,7 @@ def test_defaults_and_percentages():
     assert small.parameters[0].sd == 0.1  # 5 % of 2.0
     np.testing.assert_array_equal(small.test.number, [1, 2])
     np.testing.assert_allclose(small.test.frequency_sd_hz, [0.01, 0.02], rtol=1e-15)
-    np.testing.assert_allclose(
-        small.test.shape_sd, [[0.04, 0.02], [0.04, 0.02]], rtol=1e-15
-    )  # of each largest
+    np.testing.assert_allclose(small.test.shape_sd, [[0.04, 0.02], [0.04, 0.02]], rtol=1e-15)  # of each largest
     assert small.test.scale == "fitted" and small.run.recursion == "anchored"
     assert small.elements.labels() == ("k(1,1)", "k(1,2)", "k(2,2)", "m(2,2)")
 
@@ -137,9 +135,7 @@ def test_numbers_are_decimal_whatever_yaml_1_1_thinks(written, value):
     ],
 )
 def test_forms_of_a_matrix_agree(form, tmp_path):
-    (tmp_path / "k.mtx").write_text(
-        "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 3\n2 1 -1\n2 2 1\n"
-    )
+    (tmp_path / "k.mtx").write_text("%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 3\n2 1 -1\n2 2 1\n")
     (tmp_path / "k.csv").write_text("3,-1\n-1,1\n")
     deck = tmp_path / "deck.yaml"
     deck.write_text(swapped("{order: 2, entries: [[1,1,3.0],[1,2,-1.0],[2,2,1.0]]}", form))
@@ -147,9 +143,7 @@ def test_forms_of_a_matrix_agree(form, tmp_path):
 
 
 def test_a_parameter_may_move_a_whole_matrix(tmp_path):
-    (tmp_path / "g.mtx").write_text(
-        "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 7\n2 1 -5\n2 2 4\n"
-    )
+    (tmp_path / "g.mtx").write_text("%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 7\n2 1 -5\n2 2 4\n")
     deck = tmp_path / "deck.yaml"
     deck.write_text(swapped("stiffness: [[1,1,1]]", "stiffness: {file: g.mtx}"))
     read = read_deck(deck)
@@ -181,9 +175,7 @@ def test_covariance_replaces_sd():
     text = swapped("sd: 0.5, ", "") + "prior: {covariance: [[4, 1], [1, 9]]}\n"
     draft = yaml_deck.read(text, "deck.yaml")
     assert [p.sd for p in draft.parameters] == [2.0, 3.0]
-    assert [(d.code, d.severity) for d in draft.diagnostics] == [
-        ("MD224", "warning")
-    ]  # a says 5 %, which is 0.1
+    assert [(d.code, d.severity) for d in draft.diagnostics] == [("MD224", "warning")]  # a says 5 %, which is 0.1
 
 
 def test_labels_name_degrees_of_freedom():
@@ -223,9 +215,7 @@ def test_shapes_by_rows_of_modes_are_turned_with_a_warning():
     np.testing.assert_array_equal(straight.test.shapes, [[3, 4]])
     np.testing.assert_array_equal(warned.test.shapes, [[3, 4]])
     assert not straight.warnings
-    assert [(d.code, d.span.line, d.span.column) for d in warned.warnings] == [
-        ("MD227", *place(turned, "[[3], [4]]"))
-    ]
+    assert [(d.code, d.span.line, d.span.column) for d in warned.warnings] == [("MD227", *place(turned, "[[3], [4]]"))]
 
 
 def place(text: str, fault: str) -> tuple[int, int]:
@@ -334,9 +324,7 @@ SYNTAX = [
     (
         "MD202",
         "a: &a [1,1,1,1,1,1,1,1,1,1]\n"
-        + "".join(
-            f"{chr(98 + i)}: &{chr(98 + i)} [{','.join(['*' + chr(97 + i)] * 10)}]\n" for i in range(9)
-        ),
+        + "".join(f"{chr(98 + i)}: &{chr(98 + i)} [{','.join(['*' + chr(97 + i)] * 10)}]\n" for i in range(9)),
         1,
         1,
     ),

@@ -113,8 +113,7 @@ def _check_limit(cursor: Cursor, card: int, field: Field, value: int) -> None:
     note_it = cursor.findings.error if cursor.legacy else cursor.findings.warn
     note_it(
         "MD121",
-        f"{field.row.name} is {value}; the 1972 program holds at most {limit} "
-        f"({cursor.place(card, field, CONTROLS)})",
+        f"{field.row.name} is {value}; the 1972 program holds at most {limit} ({cursor.place(card, field, CONTROLS)})",
         cursor.span(card, field),
         help="read the deck without --legacy"
         if cursor.legacy

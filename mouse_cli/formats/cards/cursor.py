@@ -48,9 +48,7 @@ class Cursor:
         text = field.cut(self.images.cards[index])
         return f'card {index + 1}, {group.title}, columns {field.columns}: "{text}"'
 
-    def value(
-        self, index: int, field: Field, ordinal: int, group: Group, warn: bool = True
-    ) -> float | int | None:
+    def value(self, index: int, field: Field, ordinal: int, group: Group, warn: bool = True) -> float | int | None:
         """What a field holds; None after an error. `overrides` come first, by the name of the field."""
         if self.overrides or self.images.stripped:
             label = field.label(ordinal)
@@ -126,9 +124,7 @@ class Cursor:
             f"ended by: {group.ended}",
             self.images.span(max(0, last - 1)),
             "all twelve groups are always present; each group read by INPUT ends with its own blank card",
-            f"add a blank card at the end of group {group.number}"
-            if group.is_input and items
-            else _missing(group),
+            f"add a blank card at the end of group {group.number}" if group.is_input and items else _missing(group),
         )
 
 
@@ -148,9 +144,7 @@ def blanks_are_zeros(field: Field, card: str, value: int) -> tuple[str, str]:
     column = field.column + field.width - 1
     return (
         f'a blank inside or after a number is a zero (trailing blanks are zeros), so "{text}" is {value}',
-        f"move the {digits} to column {column}"
-        if len(digits) == 1
-        else f"end the {digits} in column {column}",
+        f"move the {digits} to column {column}" if len(digits) == 1 else f"end the {digits} in column {column}",
     )
 
 

@@ -20,9 +20,7 @@ class Findings:
     warned: Counter = field(default_factory=Counter)
     last: dict[str, Span | None] = field(default_factory=dict)
 
-    def error(
-        self, code: str, message: str, span: Span | None = None, note: str = "", help: str = ""
-    ) -> None:
+    def error(self, code: str, message: str, span: Span | None = None, note: str = "", help: str = "") -> None:
         """Note an error. Raises DeckError when there are too many to be of use."""
         self.diagnostics.append(Diagnostic(code, ERROR, message, span, note, help))
         self.errors += 1
@@ -51,9 +49,7 @@ class Findings:
                 self.warned[diagnostic.code] -= 1
         del self.diagnostics[since:]
 
-    def stop(
-        self, code: str, message: str, span: Span | None = None, note: str = "", help: str = ""
-    ) -> NoReturn:
+    def stop(self, code: str, message: str, span: Span | None = None, note: str = "", help: str = "") -> NoReturn:
         """Note an error after which the rest of the deck has no meaning, and raise everything found."""
         self.diagnostics.append(Diagnostic(code, ERROR, message, span, note, help))
         self.give_up()
@@ -65,9 +61,7 @@ class Findings:
     def finished(self) -> list[Diagnostic]:
         """All diagnostics, with one line for the warnings that were counted only."""
         extra = [
-            Diagnostic(
-                code, WARNING, f"{self.warned[code] - MOST_WARNINGS} more warnings like this one", span
-            )
+            Diagnostic(code, WARNING, f"{self.warned[code] - MOST_WARNINGS} more warnings like this one", span)
             for code, span in self.last.items()
         ]
         return self.diagnostics + extra

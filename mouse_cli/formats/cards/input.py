@@ -31,9 +31,7 @@ class Matrix:
         indices = np.array(list(self.elements), dtype=np.int64).reshape(-1, 2)
         values = np.array([value for value, _, _ in self.elements.values()], dtype=float)
         places = [(card, slot) for _, card, slot in self.elements.values()]
-        return Entries(
-            indices[:, 0], indices[:, 1], values, lambda i: slot_span(cursor, self.group, *places[i])
-        )
+        return Entries(indices[:, 0], indices[:, 1], values, lambda i: slot_span(cursor, self.group, *places[i]))
 
 
 def slot_span(cursor: Cursor, group: Group, card: int, slot: int) -> Span:
@@ -68,9 +66,7 @@ def _read_card(cursor: Cursor, matrix: Matrix, card: int) -> bool:
     """The elements of one card; False when the card holds only zeros and so ends the group."""
     errors, before = cursor.findings.errors, len(cursor.findings.diagnostics)
     used = [
-        slot
-        for slot, item in enumerate(matrix.group.items)
-        if _read_slot(cursor, matrix, card, slot, item, before)
+        slot for slot, item in enumerate(matrix.group.items) if _read_slot(cursor, matrix, card, slot, item, before)
     ]
     if not used and cursor.findings.errors == errors:
         cursor.findings.warn(
@@ -140,17 +136,13 @@ def _warn_of_indices(cursor: Cursor, matrix: Matrix, card: int, slot: int) -> No
             cursor.warn_of(card, place, place.row.name, matrix.group)
 
 
-def _refuse_twice(
-    cursor: Cursor, matrix: Matrix, card: int, slot: int, element: tuple, key: tuple[int, int]
-) -> None:
+def _refuse_twice(cursor: Cursor, matrix: Matrix, card: int, slot: int, element: tuple, key: tuple[int, int]) -> None:
     """The same place twice: an error, unless both say the same."""
     row, col, value = element
     symbol, (first, first_card, _) = matrix.group.symbol, matrix.elements[key]
     note_it = cursor.findings.warn if first == value else cursor.findings.error
     following = _following(matrix.group)
-    missing = (
-        f"; missing blank card before group {following.number}?" if following and following.is_input else ""
-    )
+    missing = f"; missing blank card before group {following.number}?" if following and following.is_input else ""
     mirror = ", its mirror image" if key != (row, col) else ""
     note_it(
         "MD112",
@@ -177,12 +169,9 @@ def _refuse_index(cursor: Cursor, matrix: Matrix, card: int, slot: int, element:
         cursor.findings.forget(before)
         following = _following(matrix.group)
         note = f"it would fit {following.symbol}, which comes next"
-        cursor.findings.stop(
-            code, message, span, note, f"missing blank card before group {following.number}?"
-        )
+        cursor.findings.stop(code, message, span, note, f"missing blank card before group {following.number}?")
     hints = (
-        blanks_are_zeros(place, text, index)
-        for place, index in zip(matrix.group.items[slot], (row, col), strict=False)
+        blanks_are_zeros(place, text, index) for place, index in zip(matrix.group.items[slot], (row, col), strict=False)
     )
     note, help = next((hint for hint in hints if hint[0]), ("", ""))
     fallback = f"give a row from 1 to {matrix.rows} and a column from 1 to {matrix.cols}, right justified"

@@ -92,8 +92,7 @@ class Group:
     def cuts(self) -> tuple[tuple[slice, ...], ...]:
         """Where each field of each item stands on a card, for reading many at once."""
         return tuple(
-            tuple(slice(field.column - 1, field.column - 1 + field.width) for field in item)
-            for item in self.items
+            tuple(slice(field.column - 1, field.column - 1 + field.width) for field in item) for item in self.items
         )
 
     @property

@@ -94,9 +94,7 @@ def _split(control: Control, pairs: np.ndarray, zeros: np.ndarray, places: Liste
     """Take out the pair 0 0 that stands between stiffness and mass."""
     at = int(zeros[0]) if len(zeros) else control.NRS
     keep = np.delete(np.arange(control.NRS + 1), at)
-    where = lambda i: places.cursor.images.span(
-        places.places[keep[i]][0], places.places[keep[i]][1].column, 8
-    )
+    where = lambda i: places.cursor.images.span(places.places[keep[i]][0], places.places[keep[i]][1].column, 8)
     return Entries(pairs[0, keep], pairs[1, keep], (keep > at).astype(float), where)
 
 
@@ -108,8 +106,7 @@ def _refuse_separators(cursor: Cursor, control: Control, zeros: np.ndarray, plac
         f"{len(zeros) or 'none'} of the NRS+1 = {control.NRS + 1} pairs are 0 0; expected one "
         f"({cursor.place(card, place, RS)})",
         cursor.images.span(card, place.column, 2 * place.width),
-        "one pair 0 0 separates the stiffness elements from the mass elements; without mass elements it "
-        "comes last",
+        "one pair 0 0 separates the stiffness elements from the mass elements; without mass elements it comes last",
         "give NRS pairs and one pair 0 0, or mend NRS on the control card",
     )
 
@@ -161,8 +158,7 @@ def _check_indic(cursor: Cursor, control: Control, listed: Listed) -> None:
     at = next((i for i, value in enumerate(listed.values) if not value), len(listed.values) - 1)
     cursor.findings.error(
         "MD109",
-        f"INDIC holds {found} positions, but IROW = {control.IROW} "
-        f"({cursor.place(*listed.places[at], INDIC)})",
+        f"INDIC holds {found} positions, but IROW = {control.IROW} ({cursor.place(*listed.places[at], INDIC)})",
         listed.where(at),
         "the list ends at a card whose 20th value (columns 77-80) is 0",
         "punch one position in each field, without gaps, or mend IROW on the control card",

@@ -99,9 +99,7 @@ def _sizes(found: Losses, problem: Problem) -> None:
     for row in layout.CONTROL:
         size = sizes.get(row.name, row.low)
         if size < row.low or size > (row.high or size):
-            found.error(
-                "MD146", f"{row.name}, the {row.meaning}, is {size}; cards hold {row.low} to {row.high}"
-            )
+            found.error("MD146", f"{row.name}, the {row.meaning}, is {size}; cards hold {row.low} to {row.high}")
     if np.any(np.diff(problem.elements.is_mass.astype(int)) < 0):
         found.error("MD146", "mass elements stand before stiffness elements; cards list stiffness first")
     test = problem.test
@@ -117,13 +115,9 @@ def _parameter(found: Losses, parameter: Parameter) -> None:
     """Value, limits and transform: cards know only the change of a property."""
     name = parameter.name
     if parameter.nominal != 0:
-        found.error(
-            "MD141", f"{name} has the prior value {parameter.nominal:.8g}; cards hold no values of properties"
-        )
+        found.error("MD141", f"{name} has the prior value {parameter.nominal:.8g}; cards hold no values of properties")
     if parameter.lower != -inf or parameter.upper != inf:
-        found.error(
-            "MD142", f"{name} has limits, {parameter.lower:.8g} to {parameter.upper:.8g}; cards hold none"
-        )
+        found.error("MD142", f"{name} has limits, {parameter.lower:.8g} to {parameter.upper:.8g}; cards hold none")
     if parameter.transform != "identity":
         found.error("MD143", f"{name} has transform {parameter.transform}; cards hold none")
 
@@ -131,18 +125,12 @@ def _parameter(found: Losses, parameter: Parameter) -> None:
 def _test(found: Losses, test: ModalTest) -> None:
     missing = int(np.count_nonzero(np.isnan(test.frequency_hz)))
     if missing or test.m == 0:
-        found.error(
-            "MD145", f"{missing} of {test.m} modes have no frequency; every mode of a card deck has one"
-        )
+        found.error("MD145", f"{missing} of {test.m} modes have no frequency; every mode of a card deck has one")
     blank = int(np.count_nonzero(np.isnan(test.shapes)))
     if blank:
-        found.error(
-            "MD145", f"{blank} components of mode shapes are missing; on cards they would be measured zeros"
-        )
+        found.error("MD145", f"{blank} components of mode shapes are missing; on cards they would be measured zeros")
     if test.scale != "least-squares":
-        found.warn(
-            "MD151", f"scale: {test.scale} is not on cards", f"run the cards with --scale {test.scale}"
-        )
+        found.warn("MD151", f"scale: {test.scale} is not on cards", f"run the cards with --scale {test.scale}")
 
 
 def _options(found: Losses, run: RunOptions) -> None:

@@ -24,9 +24,7 @@ number leaves no room for a leading zero: punch `-.12345678E+06` or `-1.2345678E
 
 def manual() -> str:
     """All groups: a table of contents, then each card."""
-    return (
-        "\n".join([_HEAD, _INPUT, *_contents(), *(line for group in GROUPS for line in _group(group))]) + "\n"
-    )
+    return "\n".join([_HEAD, _INPUT, *_contents(), *(line for group in GROUPS for line in _group(group))]) + "\n"
 
 
 def _contents() -> Iterator[str]:

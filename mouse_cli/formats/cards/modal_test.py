@@ -131,9 +131,7 @@ def _refuse_columns(cursor: Cursor, control: Control, matrix: Matrix) -> None:
                 f"X({i},{j}) is in column {j}, but there are NM = {control.NM} measured modes "
                 f"(card {card + 1}, {X.title})",
                 slot_span(cursor, X, card, slot),
-                "all rows are within NM: X looks transposed"
-                if exchanged
-                else "the column is the position in MODE",
+                "all rows are within NM: X looks transposed" if exchanged else "the column is the position in MODE",
                 "punch the degree of freedom first, then the mode"
                 if exchanged
                 else f"give a column from 1 to {control.NM}",

@@ -130,9 +130,7 @@ def _parameters(cursor: Cursor, control: Control, cov: Matrix) -> list[Parameter
     found = []
     for r in range(1, control.INTR + 1):
         sd, *place = cov.elements.get((r, r), (0.0,))
-        found.append(
-            Parameter(f"p{r}", float(sd), span=slot_span(cursor, layout.COV, *place) if place else end)
-        )
+        found.append(Parameter(f"p{r}", float(sd), span=slot_span(cursor, layout.COV, *place) if place else end))
     return found
 
 
@@ -158,8 +156,7 @@ def _refuse_correlation(cursor: Cursor, cov: Matrix) -> None:
                 "MD122",
                 f"COV({i},{j}) = {value:.8g} is off the diagonal (card {card + 1}, {layout.COV.title})",
                 slot_span(cursor, layout.COV, card, slot),
-                "the group holds standard deviations of uncorrelated properties; no form for correlations "
-                "is known",
+                "the group holds standard deviations of uncorrelated properties; no form for correlations is known",
                 "delete the element (or is the blank card before group 7 missing?)",
             )
 
@@ -186,15 +183,12 @@ def _finish(cursor: Cursor, control: Control, stacked: bool) -> None:
             f"there are cards after the end of group 12 (card {at + 1})",
             cursor.images.span(at),
             "after group 12 only blank cards may follow",
-            "delete them, look for a blank card too many before group 12, or read stacked cases with "
-            "--stacked",
+            "delete them, look for a blank card too many before group 12, or read stacked cases with --stacked",
         )
     for name in sorted(cursor.overrides.keys() - cursor.overridden):
         cursor.findings.error("MD130", f"'{name}' is given, but no field of this deck is called so")
     if control.data > DATA_OF_1972:
-        cursor.findings.warn(
-            "MD121", f"the test has {control.data} data; the 1972 program hardly held more than 140"
-        )
+        cursor.findings.warn("MD121", f"the test has {control.data} data; the 1972 program hardly held more than 140")
 
 
 def _next_case(cards: list[str], at: int) -> int:

@@ -109,9 +109,7 @@ def _list(group: Group, values: Sequence[float], found: Losses) -> Iterator[str]
     fields = group.fields
     for start in range(0, len(values), len(fields)):
         chunk = zip(fields, values[start : start + len(fields)], strict=False)
-        yield _card(
-            _punch(f, v, f.label(k), found) for k, (f, v) in enumerate(chunk, start // len(group.rows) + 1)
-        )
+        yield _card(_punch(f, v, f.label(k), found) for k, (f, v) in enumerate(chunk, start // len(group.rows) + 1))
 
 
 def _matrix(group: Group, elements: Iterable[Element], found: Losses) -> Iterator[str]:

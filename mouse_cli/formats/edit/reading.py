@@ -33,9 +33,7 @@ _REAL = re.compile(r"([+-]?)([0-9 ]*)(?:(\.)([0-9 ]*))?(?:([EeDd][+-]?|[+-])([0-
 # Fields that Python reads as FORTRAN does: a point, no blank after the first character, exponent with E.
 _CLEAN_REAL = re.compile(r" *[+-]?(?:[0-9]+\.[0-9]*|\.[0-9]+)(?:[Ee][+-]?[0-9]+)?").fullmatch
 # The same with the exponents that only FORTRAN knows: 1.28872+04 and 1.28872D4.
-_CLEAN_AS_PRINTED = re.compile(
-    r"( *[+-]?(?:[0-9]+\.[0-9]*|\.[0-9]+))(?:[Dd](?=.)|(?=[+-]))([+-]?[0-9]+)"
-).fullmatch
+_CLEAN_AS_PRINTED = re.compile(r"( *[+-]?(?:[0-9]+\.[0-9]*|\.[0-9]+))(?:[Dd](?=.)|(?=[+-]))([+-]?[0-9]+)").fullmatch
 _BLANK_AFTER_EXPONENT = re.compile(r" *[0-9 ]*[1-9][0-9]*( )").match
 
 Value = float | int | str
@@ -65,9 +63,7 @@ def read_field(text: str, format: str, *, blanks: str = "zero") -> Value:
         raise ValueError(f"blanks is '{blanks}', expected one of {', '.join(BLANKS)}")
     text = text.removesuffix("\n").removesuffix("\r")
     if len(text) > descriptor.width:
-        raise FieldError(
-            f"{len(text)} characters do not fit a field of {descriptor.width}", "keep within the columns"
-        )
+        raise FieldError(f"{len(text)} characters do not fit a field of {descriptor.width}", "keep within the columns")
     text = text.ljust(descriptor.width)
     if descriptor.kind == "A":
         return text
@@ -167,9 +163,7 @@ def _refuse_blank_after_exponent(exponent: str, text: str, descriptor: Format) -
         trailing = len(text) - len(text.rstrip(" "))
         raise FieldError(
             "there is a blank after the exponent, which multiplies the exponent by ten",
-            f"move the number {trailing} column{'s' * (trailing > 1)} to the right"
-            if trailing
-            else "close the gap",
+            f"move the number {trailing} column{'s' * (trailing > 1)} to the right" if trailing else "close the gap",
             len(text) - len(exponent) + match.start(1) if len(text) == descriptor.width else None,
         )
 
@@ -196,9 +190,7 @@ def _suspicions(text: str, descriptor: Format):
         )
     gap = re.search(r"[0-9.] +(?=[0-9.])", text)
     if gap:
-        yield Suspicion(
-            "embedded-blank", "a blank inside a number is a zero", "punch the zero", gap.start() + 1
-        )
+        yield Suspicion("embedded-blank", "a blank inside a number is a zero", "punch the zero", gap.start() + 1)
     digits = mantissa.rstrip(" ")
     if "." not in mantissa and len(digits) < len(mantissa):
         count = len(mantissa) - len(digits)

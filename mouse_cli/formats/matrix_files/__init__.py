@@ -106,9 +106,7 @@ def _check_file(path: str) -> None:
         reject("MD250", path, "this is not a file", "give the name of a matrix file")
     size = os.path.getsize(path)
     if size > MAX_BYTES:
-        reject(
-            "MD258", path, f"the file has {size} bytes; at most {MAX_BYTES} are read", "condense the model"
-        )
+        reject("MD258", path, f"the file has {size} bytes; at most {MAX_BYTES} are read", "condense the model")
 
 
 def _csr(matrix: Matrix) -> Matrix:
@@ -150,7 +148,5 @@ def _symmetric(path: str, matrix: Matrix) -> Matrix:
             f"the matrix is not symmetric: ({i + 1},{j + 1}) is {matrix[i, j]:.10g}, "
             f"but ({j + 1},{i + 1}) is {matrix[j, i]:.10g}; {len(wrong)} such pairs"
         )
-        reject(
-            "MD255", path, message, "give both triangles, or in Matrix Market the lower one and 'symmetric'"
-        )
+        reject("MD255", path, message, "give both triangles, or in Matrix Market the lower one and 'symmetric'")
     return (matrix + matrix.T) / 2

@@ -31,11 +31,7 @@ def _lines(path: str) -> list[tuple[int, str]]:
     try:
         with open(path, encoding="utf-8-sig") as stream:
             numbered = enumerate((line.rstrip("\r\n") for line in stream), 1)
-            return [
-                (number, line)
-                for number, line in numbered
-                if line.strip() and not line.lstrip().startswith("#")
-            ]
+            return [(number, line) for number, line in numbered if line.strip() and not line.lstrip().startswith("#")]
     except UnicodeDecodeError:
         reject("MD252", path, "the file is not UTF-8 text", "save it as text with commas")
 
@@ -93,9 +89,7 @@ def _triples(path: str, rows: list[tuple[int, str, list[str]]]) -> Matrix:
 
     table = _table(path, rows)
     indices = table[:, :2] if len(table) else np.zeros((0, 2))
-    bad = np.flatnonzero(
-        ~((indices >= 1) & (indices <= MAX_ORDER) & (indices == np.floor(indices))).all(axis=1)
-    )
+    bad = np.flatnonzero(~((indices >= 1) & (indices <= MAX_ORDER) & (indices == np.floor(indices))).all(axis=1))
     for i in [*bad[:1], *([0] if not len(table) else [])]:
         number, line, _ = rows[i] if len(rows) else (1, "", [])
         span = Span(path, number, 1, max(1, len(line)), line)
@@ -110,9 +104,7 @@ def _triples(path: str, rows: list[tuple[int, str, list[str]]]) -> Matrix:
     return coo_array((values, (row, col)), shape=(order, order))
 
 
-def _no_repetition(
-    path: str, rows: list[tuple[int, str, list[str]]], row: np.ndarray, col: np.ndarray
-) -> None:
+def _no_repetition(path: str, rows: list[tuple[int, str, list[str]]], row: np.ndarray, col: np.ndarray) -> None:
     _, first = np.unique(row * MAX_ORDER + col, return_index=True)
     again = np.setdiff1d(np.arange(len(row)), first)
     if len(again):

@@ -51,18 +51,12 @@ def _check_header(path: str) -> None:
 def _check_banner(path: str, words: list[str], banner: bytes) -> None:
     text = banner.decode("latin-1").rstrip()
     span = Span(path, 1, 1, max(1, len(text[:80])), text[:200])
-    if (
-        words[:2] != ["%%matrixmarket", "matrix"]
-        or len(words) != 5
-        or words[2] not in ("coordinate", "array")
-    ):
+    if words[:2] != ["%%matrixmarket", "matrix"] or len(words) != 5 or words[2] not in ("coordinate", "array"):
         reject("MD252", path, "the first line is not that of a Matrix Market file", _HELP, span)
     if words[3] not in ("real", "integer", "double"):
         reject("MD253", path, f"the matrix is '{words[3]}'; K and M are real", "write it as real", span)
     if words[4] not in ("general", "symmetric"):
-        reject(
-            "MD255", path, f"the matrix is '{words[4]}'; K and M are symmetric", "write it as symmetric", span
-        )
+        reject("MD255", path, f"the matrix is '{words[4]}'; K and M are symmetric", "write it as symmetric", span)
 
 
 def _size_line(stream) -> tuple[str, int]:
@@ -89,9 +83,7 @@ def text(matrix: Matrix, comment: str = "") -> str:
     row, col, values = upper_triangle(matrix)  # its mirror image is the lower triangle, column by column
     lines = ["%%MatrixMarket matrix coordinate real symmetric", *([f"% {comment}"] if comment else [])]
     lines.append(f"{matrix.shape[0]} {matrix.shape[1]} {len(row)}")
-    triples = zip(
-        (col + 1).tolist(), (row + 1).tolist(), np.asarray(values, dtype=float).tolist(), strict=True
-    )
+    triples = zip((col + 1).tolist(), (row + 1).tolist(), np.asarray(values, dtype=float).tolist(), strict=True)
     lines += [f"{i} {j} {value!r}" for i, j, value in triples]
     return "\n".join(lines) + "\n"
 

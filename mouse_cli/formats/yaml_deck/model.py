@@ -61,9 +61,7 @@ def _diagonal(section: Section, node: Node) -> tuple[Entries, int] | None:
 
 
 def _empty(section: Section, node: Node, key: str) -> None:
-    section.document.error(
-        "MD216", node, f"{section.what(key)} holds no number", "give one number for each row"
-    )
+    section.document.error("MD216", node, f"{section.what(key)} holds no number", "give one number for each row")
 
 
 def _identity(section: Section, node: Node) -> tuple[Entries, int] | None:
@@ -134,9 +132,7 @@ def _labels(section: Section, order: int) -> tuple[str, ...]:
     seen: set[str] = set()
     for item, label in zip(node.value, labels, strict=True):
         if label in seen:
-            document.error(
-                "MD226", item, f"label '{label}' is given twice", "give each degree of freedom its own name"
-            )
+            document.error("MD226", item, f"label '{label}' is given twice", "give each degree of freedom its own name")
         seen.add(label)
     return tuple(labels)
 
@@ -154,9 +150,7 @@ def dofs(document: Document, node: Node, what: str, labels: tuple[str, ...]) -> 
 def _dof(document: Document, node: Node, what: str, place: dict[str, int]) -> int | None:
     if yaml_values.as_number(node) is not None:
         return yaml_values.whole(document, node, f"a number in {what}")
-    name = yaml_values.text(
-        document, node, f"a value in {what}", "the number or the label of a degree of freedom"
-    )
+    name = yaml_values.text(document, node, f"a value in {what}", "the number or the label of a degree of freedom")
     if name is None or name in place:
         return place.get(name)
     known = f"the labels are {', '.join(list(place)[:12])}" if place else "the model has no labels"

@@ -26,11 +26,7 @@ def modal_test(section: Section | None, labels: tuple[str, ...]) -> TestDraft | 
         )
     sd = _frequency_sd(modes, frequency)
     number = modes.value("number", np.arange(1, m + 1))
-    dofs = (
-        degrees_of_freedom(modes.document, nodes["dofs"], modes.what("dofs"), labels)
-        if "dofs" in modes
-        else None
-    )
+    dofs = degrees_of_freedom(modes.document, nodes["dofs"], modes.what("dofs"), labels) if "dofs" in modes else None
     _matching(modes, "number", len(number), m)
     shapes, shape_sd = _shapes(modes, dofs, m)
     if modes.document.incomplete:
@@ -58,9 +54,7 @@ def _where_each(modes: Section, key: str):
     node = modes.nodes.get(key)
     if node is None:
         return nowhere
-    return (
-        modes.document.where(node.value) if yaml_values.is_list(node) else lambda _: modes.document.span(node)
-    )
+    return modes.document.where(node.value) if yaml_values.is_list(node) else lambda _: modes.document.span(node)
 
 
 def _matching(modes: Section, key: str, count: int, m: int) -> bool:
@@ -111,9 +105,7 @@ def _shapes(modes: Section, dofs: np.ndarray | None, m: int) -> tuple[Grid, Grid
         for key in {"shapes", "shape_sd"} & set(modes.nodes):
             if "dofs" not in modes:
                 message = f"{modes.called} gives {key}, but no dofs"
-                modes.document.error(
-                    "MD211", modes.nodes[key], message, "give dofs: where the shapes were measured"
-                )
+                modes.document.error("MD211", modes.nodes[key], message, "give dofs: where the shapes were measured")
         return nothing, nothing
     if len(dofs) and "shapes" not in modes:
         message = f"{modes.called} gives dofs, but no shapes"
@@ -132,9 +124,7 @@ def _shape_sd(modes: Section, shapes: np.ndarray) -> Grid | None:
     node, document = modes.nodes.get("shape_sd"), modes.document
     if node is None:
         message = f"{modes.called} has no shape_sd"
-        return document.error(
-            "MD211", modes.nodes["shapes"], message, "give shape_sd: a number, a percentage, or rows"
-        )
+        return document.error("MD211", modes.nodes["shapes"], message, "give shape_sd: a number, a percentage, or rows")
     if not yaml_values.is_scalar(node):
         return _grid(modes, "shape_sd", *shapes.shape)
     percent = yaml_values.as_percent(node)
@@ -160,11 +150,7 @@ def _grid(modes: Section, key: str, s: int, m: int) -> Grid | None:
     if yaml_values.is_mapping(node):
         path = named(document, node, what)
         table = None if path is None else read_below(document, path, what, matrix_files.read_table)
-        return (
-            None
-            if table is None
-            else _oriented(modes, key, Grid(table, lambda i, j: document.span(path)), s, m)
-        )
+        return None if table is None else _oriented(modes, key, Grid(table, lambda i, j: document.span(path)), s, m)
     found = yaml_values.rows(document, node, what, KINDS[modes.definition.keys[key].kind].words, missing=True)
     if found is None:
         return None

@@ -238,9 +238,7 @@ def _check_aliases(document: Document, root: Node) -> None:
     if "*" not in document.text or "&" not in document.text:
         return
     if _size(root, {}) > MAX_VALUES:
-        message = (
-            f"the aliases (*name) of the deck stand for more than {MAX_VALUES} values, or hold themselves"
-        )
+        message = f"the aliases (*name) of the deck stand for more than {MAX_VALUES} values, or hold themselves"
         _stop("MD202", document.at(0, 0), message, "write the values out, or put them in a file")
 
 

@@ -23,9 +23,7 @@ def sections(deck: Section) -> list[Section]:
     if node is None:
         return []
     nodes = yaml_values.items(deck.document, node, "parameters", "a list, one item for each parameter")
-    return [
-        Section(deck.document, item, "parameter", f"parameters[{i}]") for i, item in enumerate(nodes or [], 1)
-    ]
+    return [Section(deck.document, item, "parameter", f"parameters[{i}]") for i, item in enumerate(nodes or [], 1)]
 
 
 def parameter(section: Section, variance: float | None) -> Parameter | None:
@@ -79,9 +77,7 @@ def moves(deck: Section, parameters: list[Section], order: int) -> tuple[Entries
     """The listed elements (value 0: stiffness, 1: mass) and A: (listed element, parameter, partial)."""
     listing = deck.section("elements")
     groups = [_moved(parameters, key, order) for key in _KEYS]
-    lists = [
-        _listed(deck.document, listing, key, group) for key, (group, _) in zip(_KEYS, groups, strict=True)
-    ]
+    lists = [_listed(deck.document, listing, key, group) for key, (group, _) in zip(_KEYS, groups, strict=True)]
     offset = len(lists[0][0])
     A = joined(
         [
@@ -106,9 +102,7 @@ def joined(parts: list[Entries]) -> Entries:
         part = int(np.searchsorted(starts, i, side="right")) - 1
         return parts[part].where(i - int(starts[part]))
 
-    gather: Callable = lambda name, dtype: np.concatenate(
-        [np.zeros(0, dtype)] + [getattr(p, name) for p in parts]
-    )
+    gather: Callable = lambda name, dtype: np.concatenate([np.zeros(0, dtype)] + [getattr(p, name) for p in parts])
     return Entries(gather("rows", int), gather("cols", int), gather("values", float), where)
 
 
@@ -142,15 +136,11 @@ def _group_file(section: Section, node: Node, key: str, order: int) -> Entries |
     return Entries(row + 1, col + 1, value, lambda _: section.document.span(path))
 
 
-def _listed(
-    document: Document, listing: Section | None, key: str, moved: Entries
-) -> tuple[Entries, np.ndarray]:
+def _listed(document: Document, listing: Section | None, key: str, moved: Entries) -> tuple[Entries, np.ndarray]:
     """The elements of one matrix in their order, and for each moved entry its element, from 0."""
     given = listing is not None and key in listing
     found = (
-        yaml_values.entries(document, listing.nodes[key], f"elements.{key}", KINDS["pairs"].words, 2)
-        if given
-        else None
+        yaml_values.entries(document, listing.nodes[key], f"elements.{key}", KINDS["pairs"].words, 2) if given else None
     )
     if found is not None:
         return found, _looked_up(document, key, found, moved)
@@ -159,9 +149,7 @@ def _listed(
     rank = np.empty_like(order)
     rank[order] = np.arange(len(order))
     first = first[order]
-    elements = Entries(
-        moved.rows[first], moved.cols[first], moved.values[first], lambda i: moved.where(int(first[i]))
-    )
+    elements = Entries(moved.rows[first], moved.cols[first], moved.values[first], lambda i: moved.where(int(first[i])))
     return elements, rank[index]
 
 
@@ -182,7 +170,5 @@ def _looked_up(document: Document, key: str, listed: Entries, moved: Entries) ->
     for i in absent[:20]:
         pair = f"[{moved.rows[i]}, {moved.cols[i]}]"
         message = f"a parameter moves element {pair} of {key}, which elements.{key} does not list"
-        document.error(
-            "MD222", moved.where(int(i)), message, f"add {pair} to elements.{key}, or leave that list out"
-        )
+        document.error("MD222", moved.where(int(i)), message, f"add {pair} to elements.{key}, or leave that list out")
     return position

@@ -16,9 +16,7 @@ def covariance(section: Section | None, form: str | None, p: int) -> np.ndarray 
     return square(section.document, section.nodes[form], section.what(form), p)
 
 
-def correlated(
-    section: Section | None, form: str | None, names: list[str], sd: np.ndarray
-) -> np.ndarray | None:
+def correlated(section: Section | None, form: str | None, names: list[str], sd: np.ndarray) -> np.ndarray | None:
     """The covariance (p, p) that correlations and standard deviations make; None in any other case."""
     if section is None or form not in _CORRELATIONS:
         return None
@@ -32,9 +30,7 @@ def _whole(section: Section, node: Node, names: list[str]) -> np.ndarray | None:
     if found is None:
         return None
     for i, j in np.argwhere(~(np.abs(found) <= 1) | (np.eye(len(names), dtype=bool) & (found != 1)))[:20]:
-        message = (
-            f"{what}({i + 1},{j + 1}) is {found[i, j]:.8g}; it must be {'1' if i == j else 'within -1 to 1'}"
-        )
+        message = f"{what}({i + 1},{j + 1}) is {found[i, j]:.8g}; it must be {'1' if i == j else 'within -1 to 1'}"
         section.document.error("MD230", node.value[i].value[j], message, "give correlations, not covariances")
     return found
 
@@ -49,9 +45,7 @@ def _pairs(section: Section, node: Node, names: list[str]) -> np.ndarray | None:
             continue
         i, j, value = link
         if (min(i, j), max(i, j)) in seen:
-            document.error(
-                "MD230", item, f"{names[i]} and {names[j]} are correlated twice", "delete one of the two"
-            )
+            document.error("MD230", item, f"{names[i]} and {names[j]} are correlated twice", "delete one of the two")
         seen.add((min(i, j), max(i, j)))
         found[i, j] = found[j, i] = value
     return found
@@ -62,9 +56,7 @@ _CORRELATIONS = {"correlation": _whole, "correlations": _pairs}
 
 def _link(document: Document, item: Node, what: str, names: list[str]) -> tuple[int, int, float] | None:
     if not yaml_values.is_list(item) or len(item.value) != 3:
-        return yaml_values.mistyped(
-            document, item, f"an item of {what}", "[parameter, parameter, correlation]"
-        )
+        return yaml_values.mistyped(document, item, f"an item of {what}", "[parameter, parameter, correlation]")
     i, j = (_index(document, node, what, names) for node in item.value[:2])
     value = yaml_values.number(document, item.value[2], f"a correlation in {what}")
     if i is None or j is None or value is None:

@@ -28,9 +28,7 @@ def read(text: str | bytes, path: str) -> Draft:
     deck.value("mouse")
     draft = _draft(deck)
     if draft is None or document.incomplete:
-        raise DeckError(
-            sorted(document.diagnostics, key=lambda d: (d.span.line, d.span.column) if d.span else (0, 0))
-        )
+        raise DeckError(sorted(document.diagnostics, key=lambda d: (d.span.line, d.span.column) if d.span else (0, 0)))
     draft.diagnostics.extend(document.diagnostics)
     return draft
 

@@ -29,9 +29,7 @@ _NUMBERS = (
 
 def _section(section: Section) -> dict[str, Any]:
     if not section.forms:
-        return _object(
-            section.meaning, section.keys, [key for key in section.keys if section.keys[key].required]
-        )
+        return _object(section.meaning, section.keys, [key for key in section.keys if section.keys[key].required])
     forms = [_object("", {key: section.keys[key] for key in form}, list(form)) for form in section.forms]
     return {"description": section.meaning, "oneOf": forms}
 

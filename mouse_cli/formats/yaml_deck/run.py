@@ -31,8 +31,6 @@ def _total_mass(section: Section, labels: tuple[str, ...]) -> dict[str, object]:
         fixed = yaml_values.flag(section.document, node, what, KINDS["flag or dofs"].words)
         return {"fix_total_mass": bool(fixed)}
     below = Section(section.document, node, "total_mass", what)
-    found = (
-        dofs(section.document, below.nodes["dofs"], below.what("dofs"), labels) if "dofs" in below else None
-    )
+    found = dofs(section.document, below.nodes["dofs"], below.what("dofs"), labels) if "dofs" in below else None
     numbers = () if found is None else tuple(int(dof) - 1 for dof in found)
     return {"fix_total_mass": True, "total_mass_dofs": numbers}

@@ -8,9 +8,7 @@ from mouse_cli.model.parameter import TRANSFORMS
 from mouse_cli.model.problem import CONFIDENCES, CONVERGENCE_RULES, PAIRINGS, RECURSIONS, STEPS, RunOptions
 
 VERSION = 1
-MAX_ORDER = (
-    1_000_000  # a matrix of this order fits a workstation only when sparse; beyond it an order is a slip
-)
+MAX_ORDER = 1_000_000  # a matrix of this order fits a workstation only when sparse; beyond it an order is a slip
 MAX_WHOLE = 2**31 - 1
 
 PERCENT = r"^\s*[0-9]*\.?[0-9]+([eE][-+]?[0-9]+)?\s*%\s*$"
@@ -125,13 +123,9 @@ SECTIONS = {
             "title": Key("text", "heading of the printout", "empty"),
             "source": Key("text", "where the deck or its numbers come from", "empty"),
             "model": Key("section model", "the matrices before the test", required=True),
-            "elements": Key(
-                "section elements", "order in which the varying elements are listed (RS)", "see below"
-            ),
+            "elements": Key("section elements", "order in which the varying elements are listed (RS)", "see below"),
             "parameters": Key("list parameter", "what may be revised: one entry is one column of A", "none"),
-            "prior": Key(
-                "section prior", "how the parameters are correlated before the test", "uncorrelated"
-            ),
+            "prior": Key("section prior", "how the parameters are correlated before the test", "uncorrelated"),
             "test": Key("section test", "what was measured", "none: the deck asks only for modes"),
             "run": Key("section run", "how to run", "the defaults below"),
         },
@@ -149,9 +143,7 @@ SECTIONS = {
         "A symmetric matrix, in one of five forms.",
         {
             "order": Key("whole", "number of rows", low=1, high=MAX_ORDER),
-            "entries": Key(
-                "triples", "diagonal and upper triangle as [row, column, value], from 1; the rest is 0"
-            ),
+            "entries": Key("triples", "diagonal and upper triangle as [row, column, value], from 1; the rest is 0"),
             "dense": Key("square", "all rows"),
             "diagonal": Key("numbers", "the diagonal; the rest is 0"),
             "identity": Key("whole", "order of a unit matrix", low=1, high=MAX_ORDER),
@@ -185,9 +177,7 @@ SECTIONS = {
             "lower": Key("number", "least value allowed", "none"),
             "upper": Key("number", "largest value allowed", "none"),
             "transform": Key("choice", "log keeps the value positive", "identity", choices=TRANSFORMS),
-            "stiffness": Key(
-                "triples or file", "dK/d(parameter): [row, column, value], upper triangle", "[]"
-            ),
+            "stiffness": Key("triples or file", "dK/d(parameter): [row, column, value], upper triangle", "[]"),
             "mass": Key("triples or file", "dM/d(parameter): [row, column, value], upper triangle", "[]"),
         },
         later={"elements": _NO_STRUCTURE, "property": _NO_STRUCTURE},
@@ -209,12 +199,8 @@ SECTIONS = {
     "modes": Section(
         "m measured modes at s degrees of freedom.",
         {
-            "number": Key(
-                "wholes", "system mode number of each measured mode, rigid-body modes counted", "1 to m"
-            ),
-            "frequency": Key(
-                "maybes", "natural frequencies, null where not measured", unit="Hz", required=True
-            ),
+            "number": Key("wholes", "system mode number of each measured mode, rigid-body modes counted", "1 to m"),
+            "frequency": Key("maybes", "natural frequencies, null where not measured", unit="Hz", required=True),
             "frequency_sd": Key(
                 "sds",
                 "their standard deviations; a percentage is of each frequency",
@@ -229,9 +215,7 @@ SECTIONS = {
                 "largest component of the mode",
                 "required with shapes",
             ),
-            "scale": Key(
-                "choice", "how shapes are brought to the scale of the theory", "fitted", choices=SCALES
-            ),
+            "scale": Key("choice", "how shapes are brought to the scale of the theory", "fitted", choices=SCALES),
         },
     ),
     "run": Section(
@@ -249,9 +233,7 @@ SECTIONS = {
             ),
             "partials": _option("partials", "whole", "most computations of the partial derivatives (NPARD)"),
             "passes": _option("passes", "whole", "passes of O-7 and O-8 for each of them (ITERMX)"),
-            "cycles": _option(
-                "cycles", "whole", "exactly so many cycles, whatever the convergence test says", low=0
-            ),
+            "cycles": _option("cycles", "whole", "exactly so many cycles, whatever the convergence test says", low=0),
             "convergence": _option(
                 "convergence",
                 "choice",
@@ -272,9 +254,7 @@ SECTIONS = {
                 "no correction beyond so many prior standard deviations; null: no limit",
                 low=0.001,
             ),
-            "fix_total_mass": _option(
-                "fix_total_mass", "flag or dofs", "component masses vary, their total does not"
-            ),
+            "fix_total_mass": _option("fix_total_mass", "flag or dofs", "component masses vary, their total does not"),
             "print_partials": _option("print_partials", "flag", "print the partial derivatives (JFLAG)"),
             "legacy": _option("legacy", "flag", "the limits of the 1972 program are errors"),
         },

@@ -26,9 +26,7 @@ class Section:
         self.definition = yaml_schema.SECTIONS[name]
         self.nodes: dict[str, Node] = {}
         if not yaml_values.is_mapping(node) or ":" in node.tag:
-            yaml_values.mistyped(
-                document, node, called or "the deck", f"a mapping of {_listed(self.definition.keys)}"
-            )
+            yaml_values.mistyped(document, node, called or "the deck", f"a mapping of {_listed(self.definition.keys)}")
             return
         self._take()
         self._require()
@@ -65,9 +63,7 @@ class Section:
                 self._missing(key)
             return None if absent else given[0][-1]
         choices = "; ".join(" with ".join(form) for form in forms)
-        message = (
-            f"{self.called} gives {_listed(used) if used else 'none of its forms'}; expected exactly one form"
-        )
+        message = f"{self.called} gives {_listed(used) if used else 'none of its forms'}; expected exactly one form"
         if self.nodes or yaml_values.is_mapping(self.node):
             self.document.error("MD217", self.node, message, f"give one of: {choices}")
         return None
@@ -106,9 +102,7 @@ class Section:
     def _missing(self, key: str) -> None:
         place = next((k for k, _ in self.node.value if k.value == key), self.node)
         definition = self.definition.keys[key]
-        self.document.error(
-            "MD211", place, f"{self.what(key)} is missing", f"give {key}: {definition.meaning}"
-        )
+        self.document.error("MD211", place, f"{self.what(key)} is missing", f"give {key}: {definition.meaning}")
 
     def _read(self, node: Node, key: str, definition: Key) -> object:
         what, words = self.what(key), KINDS[definition.kind].words
@@ -117,9 +111,7 @@ class Section:
         if definition.kind == "maybes":
             return yaml_values.numbers(self.document, node, what, words, missing=True)
         value = _SIMPLE[definition.kind](self.document, node, what, words)
-        return (
-            self._limited(node, what, value, definition) if definition.kind in ("whole", "number") else value
-        )
+        return self._limited(node, what, value, definition) if definition.kind in ("whole", "number") else value
 
     def _choice(self, node: Node, what: str, definition: Key) -> object:
         word = yaml_values.text(self.document, node, what, f"one of {_listed(definition.choices)}")
@@ -136,9 +128,7 @@ class Section:
         if value is None or ((low is None or value >= low) and (high is None or value <= high)):
             return value
         limits = f"at least {low}" if high is None else f"{low}" if low == high else f"from {low} to {high}"
-        return self.document.error(
-            "MD215", node, f"{what} is {value}; it must be {limits}", f"give a number {limits}"
-        )
+        return self.document.error("MD215", node, f"{what} is {value}; it must be {limits}", f"give a number {limits}")
 
 
 def _listed(words: object) -> str:

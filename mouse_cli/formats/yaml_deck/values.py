@@ -161,9 +161,7 @@ def _all_of_width(document: Document, nodes: Sequence[Node], what: str, width: i
     bad = [node for node in nodes if not is_list(node) or len(node.value) != width]
     words = "[row, column, value]" if width == 3 else "[row, column]"
     for node in bad[:_MOST_SHOWN]:
-        document.error(
-            "MD213", node, f"an item of {what} is {shown(node)}; expected {words}", f"give {words}"
-        )
+        document.error("MD213", node, f"an item of {what} is {shown(node)}; expected {words}", f"give {words}")
     return not bad
 
 
@@ -188,11 +186,7 @@ def _array(document: Document, nodes: list[Node], what: str, missing: bool = Fal
     words = "a number or null" if missing else "a number"
     for node in wrong:
         number(document, node, f"a value in {what}", words)
-    return (
-        None
-        if wrong
-        else np.array([np.nan if is_null(node) else as_number(node) for node in nodes], dtype=float)
-    )
+    return None if wrong else np.array([np.nan if is_null(node) else as_number(node) for node in nodes], dtype=float)
 
 
 def _wrong(nodes: list[Node], right) -> list[Node]:

@@ -68,9 +68,7 @@ def _matrix(matrix: Matrix, name: str, attachments: dict[str, Matrix]) -> str:
         return f"{{file: {word(name)}}}"
     n = matrix.shape[0]
     if len(row) == n and (row == col).all():
-        return (
-            f"{{identity: {n}}}" if (values == 1).all() else f"{{diagonal: {wrapped(map(real, values), 2)}}}"
-        )
+        return f"{{identity: {n}}}" if (values == 1).all() else f"{{diagonal: {wrapped(map(real, values), 2)}}}"
     entries = [flow((str(i + 1), str(j + 1), real(v))) for i, j, v in zip(row, col, values, strict=True)]
     return f"{{order: {n}, entries: {wrapped(entries, 2)}}}"
 

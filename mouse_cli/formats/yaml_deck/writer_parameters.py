@@ -78,15 +78,11 @@ def _parameter(
     if parameter.unit:
         facts.append(f"unit: {word(parameter.unit)}")
     facts.append(f"sd: {real(parameter.sd)}")
-    facts += [
-        f"{key}: {real(limit)}" for key in ("lower", "upper") if np.isfinite(limit := getattr(parameter, key))
-    ]
+    facts += [f"{key}: {real(limit)}" for key in ("lower", "upper") if np.isfinite(limit := getattr(parameter, key))]
     if parameter.transform != "identity":
         facts.append(f"transform: {parameter.transform}")
     groups = [
-        _group(problem, key, *column[key], f"{stem}_{key}.mtx", attachments)
-        for key in _KEYS
-        if len(column[key][0])
+        _group(problem, key, *column[key], f"{stem}_{key}.mtx", attachments) for key in _KEYS if len(column[key][0])
     ]
     short = f"  - {{{', '.join(facts + groups)}}}"
     if len(short) <= 110 and "\n" not in short:

@@ -63,9 +63,7 @@ def _placed(text: str, strip: Strip) -> str:
 
 def table_grids(table: Table, numbers: Numbers, width: int) -> Iterator[Grid]:
     """`table` in one part, or in as many as `width` asks for, its key columns in front of each."""
-    strips = [
-        _strip(column, [row[j] for row in table.rows], numbers) for j, column in enumerate(table.columns)
-    ]
+    strips = [_strip(column, [row[j] for row in table.rows], numbers) for j, column in enumerate(table.columns)]
     keys, rest = _fitted(strips[: table.keys], width // 2), strips[table.keys :]
     room = width - _total(keys)
     rest = _folded_words(rest, room)

@@ -48,7 +48,9 @@ def _explained(data: int, searched: bool, short: bool, shown: int) -> str:
     """What the columns are."""
     text = f"Cycle 0 is the prior model. Chi-square is the sum over {data} data of ((test - model) / standard deviation) squared."
     if searched:
-        text += " The cost, which each cycle lowers, adds the squared distance of the properties from their prior values."
+        text += (
+            " The cost, which each cycle lowers, adds the squared distance of the properties from their prior values."
+        )
     if short:
         text += f" Of the properties the first {shown} are shown."
     return text

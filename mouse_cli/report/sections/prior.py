@@ -18,9 +18,7 @@ def prior(subject: Result | Forecast, options: Options) -> Iterator[Block]:
     yield Heading("Properties", 2)
     yield _properties(problem)
     if changes_only(problem):
-        yield Text(
-            "The deck gives no values of the properties; they are counted as changes from the model as given."
-        )
+        yield Text("The deck gives no values of the properties; they are counted as changes from the model as given.")
     yield from _correlations(problem, options)
     if isinstance(subject, Result):
         yield Heading("Measured data", 2)

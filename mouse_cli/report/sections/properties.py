@@ -33,9 +33,7 @@ def properties(result: Result, options: Options) -> Iterator[Block]:
     yield Table(columns, rows).without_empty_columns()
     yield Text(f"The interval holds the property with {result.problem.run.confidence} per cent confidence.")
     if result.at_limit.any():
-        yield Text(
-            "A property at its limit has no standard deviation: the limit, and not the test, decides it."
-        )
+        yield Text("A property at its limit has no standard deviation: the limit, and not the test, decides it.")
 
 
 def _row(result: Result, i: int) -> tuple[Cell, ...]:

@@ -36,7 +36,9 @@ def verdict(result: Result, options: Options) -> Iterator[Block]:
 def _residual(result: Result) -> str:
     test = result.residual
     if test.dof == 0:
-        return "Residual: there are no more data than properties, so nothing is left over that could contradict the model."
+        return (
+            "Residual: there are no more data than properties, so nothing is left over that could contradict the model."
+        )
     if test.rejects:
         within = " within their limits" if result.at_limit.any() else ""
         return (
