@@ -55,7 +55,7 @@ def _ending(trace: Trace, step: float) -> Status:
         return trace.end("stalled")
     if trace.state.chi2 > 10 * trace.cycles[0].chi2:
         return trace.end("diverged")
-    return trace.end("not-converged")
+    return trace.end("exceeded")
 
 
 def revise(trace: Trace, state: State, estimator: Estimator) -> tuple[np.ndarray, float]:

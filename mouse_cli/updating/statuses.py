@@ -1,73 +1,65 @@
-"""How a run can end: one sentence that says it, one that says what to do."""
+"""How a run can end: one sentence that says it, one that says what to do. Keyed by the way of ending; two may share a status."""
 
 from mouse_cli.model.result import Status
+
+_UNTRUSTED, _NO_ANSWER = 1, 5
 
 STATUSES = {
     "passed": Status("converged", "Converged: the model meets the test within its confidence limits."),
     "stationary": Status("converged", "Converged: no further step along the partial derivatives changes the answer."),
+    "exceeded": Status(
+        "not-converged",
+        "Not converged: all {cycles} computations of the partial derivatives are used up; outside their confidence limits: "
+        "{exceedances} of {data} data ({allowed} allowed).",
+        "Allow more partials (NPARD), or look at the data marked *: one wrong datum is enough, and many speak against the form "
+        "of the model.",
+        _UNTRUSTED,
+    ),
     "restless": Status(
         "not-converged",
         "Not converged: all {cycles} computations of the partial derivatives are used up and the steps are not yet negligible.",
         "Allow more partials.",
-        1,
+        _UNTRUSTED,
     ),
-    **{
-        status.key: status
-        for status in (
-            Status(
-                "not-converged",
-                "Not converged: all {cycles} computations of the partial derivatives are used up; outside their confidence "
-                "limits: {exceedances} of {data} data ({allowed} allowed).",
-                "Allow more partials (NPARD), or look at the data marked *: one wrong datum is enough, and many speak against the "
-                "form of the model.",
-                1,
-            ),
-            Status(
-                "stalled",
-                "Stalled: further cycles change nothing, yet there are data outside their confidence limits: {exceedances} of {data} "
-                "({allowed} allowed).",
-                "The recursion is at its limit point; no revision of these properties fits better. Check the accuracies and the "
-                "data marked *, or the form of the model.",
-                1,
-            ),
-            Status(
-                "no-descent",
-                "Stopped: no step along the partial derivatives improves the fit any more, and the mode is not reached.",
-                "Check for mode shapes that change places (pairing) and for data that contradict each other.",
-                1,
-            ),
-            Status(
-                "diverged",
-                "Diverged: the misfit grew from cycle to cycle ({chi2_first:.4g} to {chi2_last:.4g}).",
-                "The perturbation exceeds the linear range: use --recursion anchored, --step second-order, or limits.",
-                1,
-            ),
-            Status(
-                "indefinite",
-                "Stopped in cycle {cycle}: the revision makes the model unphysical ({reason}); the results are those of the last "
-                "good cycle.",
-                "A stiffness or mass was driven negative: the model form may be wrong (see the tests); or use --recursion anchored, "
-                "limits, or transform: log.",
-                5,
-            ),
-            Status(
-                "unobservable",
-                "No answer: {reason}; undetermined: {names}.",
-                "Measure more, hold those properties (sd 0), or use the Bayes estimator, which keeps the prior where data are silent.",
-                5,
-            ),
-            Status(
-                "infeasible",
-                "No answer: {reason}.",
-                "Widen the limits.",
-                5,
-            ),
-        )
-    },
+    "stalled": Status(
+        "stalled",
+        "Stalled: further cycles change nothing, yet there are data outside their confidence limits: {exceedances} of {data} "
+        "({allowed} allowed).",
+        "The recursion is at its limit point; no revision of these properties fits better. Check the accuracies and the data "
+        "marked *, or the form of the model.",
+        _UNTRUSTED,
+    ),
+    "no-descent": Status(
+        "no-descent",
+        "Stopped: no step along the partial derivatives improves the fit any more, and the mode is not reached.",
+        "Check for mode shapes that change places (pairing) and for data that contradict each other.",
+        _UNTRUSTED,
+    ),
+    "diverged": Status(
+        "diverged",
+        "Diverged: the misfit grew from cycle to cycle ({chi2_first:.4g} to {chi2_last:.4g}).",
+        "The perturbation exceeds the linear range: use --recursion anchored, --step second-order, or limits.",
+        _UNTRUSTED,
+    ),
+    "indefinite": Status(
+        "indefinite",
+        "Stopped in cycle {cycle}: the revision makes the model unphysical ({reason}); the results are those of the last good "
+        "cycle.",
+        "A stiffness or mass was driven negative: the model form may be wrong (see the tests); or use --recursion anchored, "
+        "limits, or transform: log.",
+        _NO_ANSWER,
+    ),
+    "unobservable": Status(
+        "unobservable",
+        "No answer: {reason}; undetermined: {names}.",
+        "Measure more, hold those properties (sd 0), or use the Bayes estimator, which keeps the prior where the data are silent.",
+        _NO_ANSWER,
+    ),
+    "infeasible": Status("infeasible", "No answer: {reason}.", "Widen the limits.", _NO_ANSWER),
 }
 
 
-def status(key: str, **facts: object) -> Status:
-    """The status `key` with its sentence filled in."""
-    template = STATUSES[key]
+def status(ending: str, **facts: object) -> Status:
+    """The status of that `ending` with its sentence filled in."""
+    template = STATUSES[ending]
     return Status(template.key, template.sentence.format(**facts), template.advice, template.exit_code)

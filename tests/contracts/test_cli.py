@@ -156,7 +156,7 @@ def test_stacked_cases(tmp_path, capsys):
 
 def test_sequence_numbers_can_be_stripped(tmp_path, capsys):
     deck = tmp_path / "numbered.dat"
-    short = [line for line in (DECKS / "single_frequency.dat").read_text().splitlines()]
+    short = (DECKS / "single_frequency.dat").read_text().splitlines()
     deck.write_text("".join(f"{line:80}"[:72] + f"{10 * k:08d}\n" for k, line in enumerate(short, 1)))
     status, _, err = code(capsys, "check", str(deck))
     assert status == 4 and "MD105" in err

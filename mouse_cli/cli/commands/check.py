@@ -36,9 +36,8 @@ def command(
         errors = any(d.severity == "error" for d in findings) or (strict and bool(findings))
         checked, rejected, warned = checked + 1, rejected + errors, warned + (bool(findings) and not errors)
         show_diagnostics((d for d in findings if d.severity == "error" or not quiet), brief)
-    click.echo(
-        f"{checked} deck{'s' if checked != 1 else ''} checked: {checked - rejected} sound, {rejected} rejected, {warned} with warnings"
-    )
+    decks_checked = f"{checked} deck{'s' if checked != 1 else ''} checked"
+    click.echo(f"{decks_checked}: {checked - rejected} sound, {rejected} rejected, {warned} with warnings")
     return 4 if rejected else 0
 
 

@@ -50,7 +50,7 @@ class Suspicion:
 
 
 def read_field(text: str, format: str, *, blanks: str = "zero") -> Value:
-    """The value of one field; a text shorter than the field is padded with blanks, as a card is.
+    """The value of one field. A text shorter than the field is a record that ends there; a card never does: pad it first.
 
     blanks: `zero` as in FORTRAN 66, or `null`: blanks are ignored as in FORTRAN 77.
     Raises FieldError when the field is refused.
@@ -64,9 +64,8 @@ def read_field(text: str, format: str, *, blanks: str = "zero") -> Value:
     text = text.removesuffix("\n").removesuffix("\r")
     if len(text) > descriptor.width:
         raise FieldError(f"{len(text)} characters do not fit a field of {descriptor.width}", "keep within the columns")
-    text = text.ljust(descriptor.width)
     if descriptor.kind == "A":
-        return text
+        return text.ljust(descriptor.width)
     body = text.replace(" ", "") if blanks == "null" else text.lstrip(" ")
     read = _integer if descriptor.kind == "I" else _real
     return read(body, text, descriptor)
@@ -97,7 +96,7 @@ def clean_reader(kind: str) -> Callable[[str], Value | None]:
 def field_warnings(text: str, format: str) -> tuple[Suspicion, ...]:
     """What is legal but suspicious in a field that `read_field` accepts; a zero is never suspicious."""
     descriptor = parse(format)
-    text = text.removesuffix("\n").removesuffix("\r").ljust(descriptor.width)
+    text = text.removesuffix("\n").removesuffix("\r")
     if descriptor.kind == "A" or not re.search(r"[1-9]", text):
         return ()
     return tuple(_suspicions(text, descriptor))

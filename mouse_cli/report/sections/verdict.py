@@ -42,8 +42,8 @@ def _residual(result: Result) -> str:
     if test.rejects:
         within = " within their limits" if result.at_limit.any() else ""
         return (
-            f"Residual: no values of these properties{within} explain the data; by chance a misfit as large as what remains would come "
-            f"{chance(test.p)}."
+            f"Residual: no values of these properties{within} explain the data; by chance a misfit as large as what remains "
+            f"would come {chance(test.p)}."
         )
     return (
         "Residual: what no values of these properties explain is no more than the accuracies of the test let expect; by "
