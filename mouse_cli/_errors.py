@@ -7,7 +7,7 @@ from mouse_cli._span import Span
 
 ERROR, WARNING = "error", "warning"
 _WIDEST = 160  # columns of a line that are shown
-_RULER = (
+RULER = (  # above a card
     "         1         2         3         4         5         6         7         8",
     "12345678901234567890123456789012345678901234567890123456789012345678901234567890",
 )
@@ -48,20 +48,12 @@ class DeckError(MouseError):
     exit_code = 4
 
 
-class RecordError(MouseError):
-    """A recording was rejected."""
-
-    exit_code = 4
-
-
 class NumericalError(MouseError):
     """The numbers allow no answer: names the parameter, the cycle and the card or line that set it."""
 
 
 class WrittenError(MouseError):
     """An output could not be written; whatever stood there before is untouched."""
-
-    exit_code = 5
 
 
 def frame(diagnostic: Diagnostic) -> str:
@@ -70,7 +62,7 @@ def frame(diagnostic: Diagnostic) -> str:
     gutter = " " * (len(str(span.line)) if span else 1)
     lines = [diagnostic.headline]
     if span and span.text:
-        lines += [f"{gutter} |  {row}" for row in _RULER if span.card]
+        lines += [f"{gutter} |  {row}" for row in RULER if span.card]
         caret = "^" * max(1, min(span.width, len(span.text) + 1 - span.column))
         lines.append(f"{span.line} |  {_printable(span.text)}"[:_WIDEST].rstrip())
         lines.append(f"{gutter} |  {' ' * (span.column - 1)}{caret}"[:_WIDEST])

@@ -35,6 +35,22 @@ def discover(package: str, attribute: str) -> dict[str, Any]:
     return dict(sorted(members.items()))
 
 
+def member(package: str, attribute: str, key: str, kind: str) -> Any:
+    """The member called `key`; its file alone is loaded when it bears that name.
+
+    Raises ValueError that lists the known ones, as members of that `kind`.
+    """
+    file = key.replace("-", "_")
+    if file in names(package):
+        found = getattr(import_module(f"{package}.{file}"), attribute, None)
+        if found is not None and found.key == key:
+            return found
+    known = discover(package, attribute)
+    if key not in known:
+        raise ValueError(f"no {kind} is called '{key}'; there are {', '.join(known)}")
+    return known[key]
+
+
 def _plugins(package: str) -> list[Any]:
     """Members that other installed distributions register for `package`.
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.model._arrays import Matrix, is_sparse
+from mouse_cli.model.arrays import Matrix, dense, is_sparse
 
 RIGID = 1e-6  # |lambda| up to this share of the first measured eigenvalue is a rigid-body mode
 
@@ -76,7 +76,7 @@ def _sparse(K: Matrix, M: Matrix, count: int, shift: float | None) -> EigenSolut
 
     n = K.shape[0]
     if n < 3 * count + 10:
-        return _dense(_array(K), _array(M))
+        return _dense(dense(K), dense(M))
     if M.diagonal().min() < 0:
         raise IndefiniteError("the mass matrix is not positive definite")
     if shift is None:
@@ -103,10 +103,6 @@ def symmetric_factor(matrix: Matrix):
 def _positive(factor) -> bool:
     """Whether the factorised symmetric matrix is positive definite: all pivots positive, on the diagonal (Sylvester)."""
     return bool((factor.perm_r == factor.perm_c).all() and (factor.U.diagonal() > 0).all())
-
-
-def _array(matrix: Matrix) -> np.ndarray:
-    return matrix.toarray() if is_sparse(matrix) else matrix
 
 
 def clusters(eigenvalues: np.ndarray, tolerance: float = 1e-6) -> np.ndarray:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.model._arrays import Matrix, is_sparse
+from mouse_cli.model.arrays import Matrix, is_sparse
 from mouse_cli.model.structure import ListedElements
 
 _LARGEST_DENSE = 4_000_000  # forces on all touched degrees of freedom by all properties; more are kept sparse

@@ -16,7 +16,7 @@ import numpy as np
 
 from mouse_cli.dynamics.eigen import EigenSolution, clusters
 from mouse_cli.dynamics.forces import forces
-from mouse_cli.model._arrays import Matrix, is_sparse
+from mouse_cli.model.arrays import Matrix, is_sparse
 from mouse_cli.model.structure import ListedElements
 
 

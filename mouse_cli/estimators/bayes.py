@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mouse_cli.estimators._linear import Estimator, LinearEstimate, LinearProblem, conditioned, limited
+from mouse_cli.estimators.linear import Estimator, LinearEstimate, LinearProblem, conditioned, limited
 
 _LARGE = 1e3  # length of a column of B above which I + B'B would lose digits of the prior: then QR of [B; I]
 _SEEN = 1e-4  # share of a variance that the data do not see, below which it is not formed as a difference

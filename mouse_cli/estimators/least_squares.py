@@ -1,6 +1,6 @@
 """Least squares: every datum counts alike. x* = (T'T)^-1 T'y, Eqs. (3-12) to (3-14)."""
 
-from mouse_cli.estimators._linear import Estimator, LinearEstimate, LinearProblem, without_prior
+from mouse_cli.estimators.linear import Estimator, LinearEstimate, LinearProblem, without_prior
 
 
 def solve(problem: LinearProblem) -> LinearEstimate:

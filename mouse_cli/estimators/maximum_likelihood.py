@@ -1,6 +1,6 @@
 """Maximum likelihood: the x* under which the measured data are most probable, for normal errors. Eqs. (3-39) to (3-44)."""
 
-from mouse_cli.estimators._linear import Estimator, LinearEstimate, LinearProblem, without_prior
+from mouse_cli.estimators.linear import Estimator, LinearEstimate, LinearProblem, without_prior
 
 
 def solve(problem: LinearProblem) -> LinearEstimate:

@@ -3,7 +3,7 @@
 Its weight matrix is that of weighted least squares with P = R^-1, as the report shows by Lagrange multipliers.
 """
 
-from mouse_cli.estimators._linear import Estimator, LinearEstimate, LinearProblem, without_prior
+from mouse_cli.estimators.linear import Estimator, LinearEstimate, LinearProblem, without_prior
 
 
 def solve(problem: LinearProblem) -> LinearEstimate:

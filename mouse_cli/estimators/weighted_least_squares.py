@@ -1,6 +1,6 @@
 """Weighted least squares: data weighed by the inverse of their variances. x* = (T'R^-1T)^-1 T'R^-1 y, Eqs. (3-33) to (3-38)."""
 
-from mouse_cli.estimators._linear import Estimator, LinearEstimate, LinearProblem, without_prior
+from mouse_cli.estimators.linear import Estimator, LinearEstimate, LinearProblem, without_prior
 
 
 def solve(problem: LinearProblem) -> LinearEstimate:

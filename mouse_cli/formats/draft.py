@@ -10,7 +10,7 @@ import numpy as np
 
 from mouse_cli._errors import ERROR, WARNING, Diagnostic
 from mouse_cli._span import Span
-from mouse_cli.model._arrays import Matrix
+from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.parameter import Parameter
 from mouse_cli.model.problem import RunOptions, Source
 
@@ -80,6 +80,11 @@ class Draft:
     where_covariance: Span | None = None
     where_total_mass: Span | None = None
     diagnostics: list[Diagnostic] = field(default_factory=list)
+
+    @property
+    def has_errors(self) -> bool:
+        """Whether anything found so far forbids a run."""
+        return any(d.severity == ERROR for d in self.diagnostics)
 
     def error(self, code: str, message: str, span: Span | None = None, note: str = "", help: str = "") -> None:
         """Note an error and go on reading."""

@@ -6,7 +6,7 @@ from math import inf
 import numpy as np
 
 from mouse_cli._span import Span
-from mouse_cli.model._arrays import frozen
+from mouse_cli.model.arrays import frozen
 
 TRANSFORMS = ("identity", "log")
 

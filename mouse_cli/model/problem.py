@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 from mouse_cli._errors import Diagnostic
-from mouse_cli.model._arrays import Matrix, frozen
+from mouse_cli.model.arrays import Matrix, frozen
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.structure import ListedElements, Structure

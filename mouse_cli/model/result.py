@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mouse_cli._errors import Diagnostic
-from mouse_cli.model._arrays import Matrix
+from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.problem import Problem
 
 

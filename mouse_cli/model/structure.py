@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.model._arrays import Matrix, frozen
+from mouse_cli.model.arrays import Matrix, frozen
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ import numpy as np
 from mouse_cli.dynamics.correlation import least_squares_scale
 from mouse_cli.dynamics.eigen import EigenSolution
 from mouse_cli.dynamics.sensitivity import ModalPartials
-from mouse_cli.model._arrays import Matrix, is_sparse
+from mouse_cli.model.arrays import Matrix, dense
 from mouse_cli.model.modal_test import ModalTest
 
 UNRELATED = 0.1  # least ratio |c t| / |x| of a test vector that has anything to do with the theory's
@@ -101,7 +101,7 @@ def observe(test: ModalTest, M: Matrix, solution: EigenSolution, modes: np.ndarr
     Scale `least-squares` (and the start of `fitted`): c = x'Mt / t'Mt over the measured points; `unit`: t'Mt = 1, signed;
     `none`: as punched. Accuracies are scaled with the shapes. Raises UnrelatedShapes when c would be about 0.
     """
-    mass = M[test.dofs][:, test.dofs].toarray() if is_sparse(M) else M[np.ix_(test.dofs, test.dofs)]
+    mass = dense(M[test.dofs][:, test.dofs])
     theory = solution.shapes[test.dofs[:, None], modes]
     factor = np.array([_factor(test, mass, theory[:, i], i) for i in range(test.m)])
     return ModalObservable(test, test.shapes * factor, test.shape_sd * np.abs(factor), factor, mass)

@@ -4,7 +4,7 @@ from typing import Any
 
 from mouse_cli import __version__
 from mouse_cli.model.result import Forecast
-from mouse_cli.report._plain import dof_name, plain
+from mouse_cli.report.json_values import dof_name, plain
 
 SCHEMA = "mouse.modes/1"
 

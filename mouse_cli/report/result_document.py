@@ -7,10 +7,10 @@ import numpy as np
 
 from mouse_cli import __version__
 from mouse_cli._errors import Diagnostic
-from mouse_cli.model._arrays import Matrix, is_sparse
+from mouse_cli.model.arrays import dense
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import ChiSquareTest, Result
-from mouse_cli.report._plain import dof_name, plain
+from mouse_cli.report.json_values import dof_name, plain
 from mouse_cli.report.measured import NOT_MEASURED, answered, eigenvalue_index, model_form, shape_index
 
 SCHEMA = "mouse.result/1"
@@ -104,11 +104,7 @@ def _matrices(result: Result) -> dict[str, Any]:
     """Revised K and M while they are small enough for a document."""
     if result.problem.structure.n > _LARGEST_MATRIX:
         return {}
-    return {"stiffness": _dense(result.revised.K), "mass": _dense(result.revised.M)}
-
-
-def _dense(matrix: Matrix) -> np.ndarray:
-    return matrix.toarray() if is_sparse(matrix) else matrix
+    return {"stiffness": dense(result.revised.K), "mass": dense(result.revised.M)}
 
 
 def _modes(result: Result) -> list[dict[str, Any]]:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.model._arrays import Matrix, is_sparse
+from mouse_cli.model.arrays import Matrix, is_sparse, sparse_symmetric
 from mouse_cli.model.structure import ListedElements, Structure
 
 
@@ -31,7 +31,7 @@ class MatrixEntries:
             return base
         row, col, value = self.elements.row[which], self.elements.col[which], moved[which]
         if is_sparse(base):
-            return base + _sparse_change(row, col, value, base.shape)
+            return base + sparse_symmetric(row, col, value, base.shape[0])
         changed = base.copy()
         changed[row, col] += value
         off = row != col
@@ -44,11 +44,3 @@ class MatrixEntries:
         counted = listed.is_mass & np.isin(listed.row, dofs) & np.isin(listed.col, dofs)
         weight = np.where(counted, np.where(listed.row == listed.col, 1.0, 2.0), 0.0)
         return self.A.T @ weight
-
-
-def _sparse_change(row: np.ndarray, col: np.ndarray, value: np.ndarray, shape: tuple[int, int]) -> Matrix:
-    from scipy.sparse import coo_array
-
-    off = row != col
-    rows, cols = np.concatenate([row, col[off]]), np.concatenate([col, row[off]])
-    return coo_array((np.concatenate([value, value[off]]), (rows, cols)), shape=shape).tocsr()

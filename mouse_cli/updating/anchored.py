@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli.estimators import bayes
-from mouse_cli.estimators._linear import Estimator, Infeasible, LinearProblem, Unobservable
+from mouse_cli.estimators.linear import Estimator, Infeasible, LinearProblem, Unobservable
 from mouse_cli.model.result import Status
 from mouse_cli.updating.second_order import acceleration
 from mouse_cli.updating.state import State, attempt

@@ -8,8 +8,8 @@ import numpy as np
 from mouse_cli import __version__
 from mouse_cli.dynamics.eigen import IndefiniteError
 from mouse_cli.estimators import estimator as find_estimator
-from mouse_cli.estimators._linear import Estimator, LinearEstimate, LinearProblem, Unobservable, conditioned
-from mouse_cli.model._arrays import is_sparse
+from mouse_cli.estimators.linear import Estimator, LinearEstimate, LinearProblem, Unobservable, conditioned
+from mouse_cli.model.arrays import is_sparse
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import Cycle, Forecast, Result, Snapshot
 from mouse_cli.observables.modal import UnrelatedShapes, observe

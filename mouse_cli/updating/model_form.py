@@ -8,7 +8,7 @@ what no values of the parameters can explain, and the *prior shift*, how improba
 import numpy as np
 
 from mouse_cli.estimators import bayes
-from mouse_cli.estimators._linear import LinearProblem
+from mouse_cli.estimators.linear import LinearProblem
 from mouse_cli.model.result import ChiSquareTest
 from mouse_cli.updating.chi_square import upper_tail
 from mouse_cli.updating.state import Setting, State

@@ -7,7 +7,7 @@ and S only damps its steps.
 import numpy as np
 
 from mouse_cli.dynamics.eigen import IndefiniteError
-from mouse_cli.estimators._linear import Estimator, Infeasible, LinearProblem, Unobservable
+from mouse_cli.estimators.linear import Estimator, Infeasible, LinearProblem, Unobservable
 from mouse_cli.model.result import Status
 from mouse_cli.updating.second_order import acceleration
 from mouse_cli.updating.state import State

@@ -6,7 +6,7 @@ linear answer to the residual -h'' (geodesic acceleration; Transtrum and Sethna 
 
 import numpy as np
 
-from mouse_cli.estimators._linear import Estimator, LinearProblem
+from mouse_cli.estimators.linear import Estimator, LinearProblem
 from mouse_cli.updating.state import Setting, State, attempt
 
 _PROBE = 0.1  # share of the step at which the curvature is taken

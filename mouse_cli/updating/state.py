@@ -8,7 +8,7 @@ import numpy as np
 from mouse_cli.dynamics.correlation import align, mac, pair
 from mouse_cli.dynamics.eigen import RIGID, EigenSolution, IndefiniteError, clusters, eigensolution
 from mouse_cli.dynamics.sensitivity import modal_partials
-from mouse_cli.model._arrays import Matrix, is_sparse
+from mouse_cli.model.arrays import Matrix, is_sparse
 from mouse_cli.model.problem import Problem
 from mouse_cli.observables.modal import ModalObservable
 from mouse_cli.terms.matrix_entries import MatrixEntries

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from scipy.stats import binomtest, kstest
 
 from mouse_cli.estimators import bayes
-from mouse_cli.estimators._linear import LinearProblem
+from mouse_cli.estimators.linear import LinearProblem
 from mouse_cli.model.parameter import Gaussian
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.structure import ListedElements, Structure

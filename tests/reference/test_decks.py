@@ -4,8 +4,10 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
+import jsonschema
 import numpy as np
 import pytest
+import yaml
 
 from mouse_cli.formats import read_deck
 from mouse_cli.updating import run
@@ -74,8 +76,6 @@ def test_the_alarm():
 
 
 def test_decks_follow_the_schema():
-    jsonschema = pytest.importorskip("jsonschema")
-    yaml = pytest.importorskip("yaml")
     schema = json.loads((DECKS.parent / "mouse_cli" / "formats" / "deck.schema.json").read_text())
     for path in YAML:
         jsonschema.validate(yaml.safe_load(path.read_text()), schema)

@@ -12,7 +12,7 @@ from mpmath import mp
 from scipy.optimize import lsq_linear
 
 from mouse_cli.estimators import estimator
-from mouse_cli.estimators._linear import Infeasible, LinearProblem, Unobservable
+from mouse_cli.estimators.linear import Infeasible, LinearProblem, Unobservable
 
 WITHOUT_PRIOR = ("least-squares", "weighted-least-squares", "minimum-variance", "maximum-likelihood")
 EVERY = (*WITHOUT_PRIOR, "bayes")

@@ -11,8 +11,8 @@ from scipy.sparse import coo_array, csc_array, csr_array, save_npz
 
 from mouse_cli._atomic import write_text_atomically
 from mouse_cli._errors import DeckError, WrittenError
-from mouse_cli.formats.matrix_files import LARGEST_DENSE, market, read_matrix, read_table, upper_triangle
-from mouse_cli.model._arrays import is_sparse
+from mouse_cli.formats.matrix_files import LARGEST_DENSE, market, read_matrix, read_table
+from mouse_cli.model.arrays import is_sparse, upper_triangle
 
 K = np.array([[2.5e5, -1.5e5, 0], [-1.5e5, 2.65e5, -1.15e5], [0, -1.15e5, 1 / 3]])
 REAL = "%%MatrixMarket matrix coordinate real symmetric\n"

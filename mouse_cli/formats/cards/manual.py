@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
+from mouse_cli._errors import RULER
 from mouse_cli.formats.cards.layout import COLUMNS, GROUPS, Field, Group
-from mouse_cli.formats.cards.show import RULER
 
 _HEAD = """# Card decks
 

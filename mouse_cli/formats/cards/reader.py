@@ -1,4 +1,4 @@
-"""Card decks of 1972: text in, Draft out. The order of the groups is here, their fields in `card_layout`."""
+"""Card decks of 1972: text in, Draft out. The order of the groups is here, their fields in `layout`."""
 
 from collections.abc import Iterator
 from contextlib import suppress

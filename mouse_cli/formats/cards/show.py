@@ -2,17 +2,13 @@
 
 from collections.abc import Iterator, Sequence
 
+from mouse_cli._errors import RULER
 from mouse_cli.formats.cards import layout
 from mouse_cli.formats.cards.cursor import BLANK, Cursor
 from mouse_cli.formats.cards.layout import Field, Group
 from mouse_cli.formats.cards.reader import trace
 from mouse_cli.formats.draft import Draft
 from mouse_cli.formats.edit import FieldError, read_field
-
-RULER = (
-    "".join(f"{tens:>10}" for tens in range(1, layout.COLUMNS // 10 + 1)),
-    "1234567890" * (layout.COLUMNS // 10),
-)
 
 
 def describe(source: Draft | str | bytes | Sequence[str], **options: object) -> str:

@@ -10,7 +10,7 @@ from mouse_cli.formats.cards.cursor import BLANK
 from mouse_cli.formats.cards.layout import Field, Group
 from mouse_cli.formats.cards.losses import Losses, losses
 from mouse_cli.formats.edit import FieldError, read_field, write_field
-from mouse_cli.model._arrays import Matrix, is_sparse
+from mouse_cli.model.arrays import Matrix, dense, upper_triangle
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.problem import Problem
 
@@ -40,7 +40,7 @@ def _cards(problem: Problem, found: Losses) -> Iterator[str]:
     yield from _list(layout.RS, [index for pair in _random_elements(problem) for index in pair], found)
     yield from _indic(test, found)
     yield from _matrix(layout.COV, ((i, i, p.sd) for i, p in enumerate(problem.parameters, 1) if p.sd), found)
-    yield from _matrix(layout.A, _nonzeros(problem.A), found)
+    yield from _matrix(layout.A, _partials(problem.A), found)
     yield from _list(layout.LAMTST, test.frequency_hz.tolist(), found)
     yield from _matrix(layout.X, _components(test), found)
     yield from _list(layout.VAR, [*test.frequency_sd_hz.tolist(), *test.shape_sd.T.ravel().tolist()], found)
@@ -91,17 +91,17 @@ def _components(test: ModalTest) -> Iterator[Element]:
             yield dof, j + 1, float(test.shapes[i, j])
 
 
-def _nonzeros(matrix: Matrix) -> Iterator[Element]:
-    """Nonzero elements, row by row."""
-    dense = matrix.toarray() if is_sparse(matrix) else np.asarray(matrix)
-    for i, j in np.argwhere(dense):
-        yield int(i) + 1, int(j) + 1, float(dense[i, j])
+def _partials(A: Matrix) -> Iterator[Element]:
+    """Nonzero elements of A, row by row."""
+    whole = dense(A)
+    for i, j in np.argwhere(whole):
+        yield int(i) + 1, int(j) + 1, float(whole[i, j])
 
 
 def _upper(matrix: Matrix) -> Iterator[Element]:
-    """Diagonal and upper triangle without zeros."""
-    dense = matrix.toarray() if is_sparse(matrix) else np.asarray(matrix)
-    return _nonzeros(np.triu(dense))
+    """Diagonal and upper triangle without zeros, row by row."""
+    row, col, values = upper_triangle(matrix)
+    return zip((row + 1).tolist(), (col + 1).tolist(), values.tolist(), strict=True)
 
 
 def _list(group: Group, values: Sequence[float], found: Losses) -> Iterator[str]:

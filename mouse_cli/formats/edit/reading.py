@@ -1,4 +1,4 @@
-"""FORTRAN edit descriptors: fields read as FORTRAN V read them, and written so that they read back.
+"""Fields read as FORTRAN V read them.
 
 All-blank is 0; leading blanks are skipped; every other blank is the digit 0 (FORTRAN 66, `BLANK='ZERO'`). A
 real without a point has its last d digits after the point, also when an exponent is punched; the exponent
@@ -14,17 +14,6 @@ import numpy as np
 
 from mouse_cli.formats.edit.descriptor import LARGEST, LARGEST_INTEGER, SMALLEST, FieldError, Format, parse
 from mouse_cli.formats.edit.reasons import why_not
-from mouse_cli.formats.edit.writing import write_field
-
-__all__ = [
-    "FieldError",
-    "Suspicion",
-    "clean_reader",
-    "field_warnings",
-    "read_field",
-    "read_fields",
-    "write_field",
-]
 
 BLANKS = ("zero", "null")
 

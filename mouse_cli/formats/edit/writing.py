@@ -1,4 +1,4 @@
-"""Numbers written into fields of a fixed width: the twin of the reader in `edit`."""
+"""Numbers written into fields of a fixed width: the twin of `reading`."""
 
 from collections.abc import Iterator
 from math import isfinite

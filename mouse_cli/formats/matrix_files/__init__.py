@@ -9,7 +9,7 @@ import numpy as np
 from mouse_cli import _registry
 from mouse_cli._errors import ERROR, DeckError, Diagnostic
 from mouse_cli._span import Span
-from mouse_cli.model._arrays import Matrix, is_sparse
+from mouse_cli.model.arrays import Matrix, dense, is_sparse, upper_triangle
 
 MAX_BYTES = 2_000_000_000  # of a file, and of what is packed in it
 MAX_ORDER = 1_000_000
@@ -50,14 +50,14 @@ def read_matrix(path: str, order: int | None = None) -> Matrix:
             f"give a matrix of order {order}",
         )
     if n <= LARGEST_DENSE:
-        return _symmetric(path, _finite(path, matrix.toarray() if is_sparse(matrix) else matrix))
+        return _symmetric(path, _finite(path, dense(matrix)))
     return _symmetric(path, _finite(path, _csr(matrix)))
 
 
 def read_table(path: str) -> np.ndarray:
     """A dense table of any shape, NaN where a value is missing, e.g. mode shapes."""
     table = _read(path)
-    table = table.toarray() if is_sparse(table) else np.asarray(table, dtype=float)
+    table = np.asarray(dense(table), dtype=float)
     if table.ndim != 2:
         reject(
             "MD254",
@@ -66,19 +66,6 @@ def read_table(path: str) -> np.ndarray:
             "save a 2-D array",
         )
     return table
-
-
-def upper_triangle(matrix: Matrix) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Rows and columns (from 0) and values of the nonzero elements on and above the diagonal, row by row."""
-    if not is_sparse(matrix):
-        row, col = np.nonzero(np.triu(matrix))
-        return row, col, matrix[row, col]
-    stored = matrix.tocoo()
-    row, col = (np.asarray(index, dtype=np.int64) for index in (stored.row, stored.col))
-    keep = (row <= col) & (stored.data != 0)
-    row, col, values = row[keep], col[keep], stored.data[keep]
-    order = np.lexsort((col, row))
-    return row[order], col[order], values[order]
 
 
 def reject(code: str, path: str, message: str, help: str = "", span: Span | None = None) -> None:

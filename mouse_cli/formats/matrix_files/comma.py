@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli._span import Span
 from mouse_cli.formats.matrix_files import MAX_ORDER, MatrixFormat, reject
-from mouse_cli.model._arrays import Matrix
+from mouse_cli.model.arrays import Matrix, sparse_symmetric
 
 _HEADERS = (("i", "j"), ("row", "col"), ("row", "column"))  # and a third word for the value
 _MISSING = ("", "nan", "null", "na")
@@ -85,8 +85,6 @@ def _row(path: str, row: tuple[int, str, list[str]], width: int) -> list[float]:
 
 
 def _triples(path: str, rows: list[tuple[int, str, list[str]]]) -> Matrix:
-    from scipy.sparse import coo_array
-
     table = _table(path, rows)
     indices = table[:, :2] if len(table) else np.zeros((0, 2))
     bad = np.flatnonzero(~((indices >= 1) & (indices <= MAX_ORDER) & (indices == np.floor(indices))).all(axis=1))
@@ -96,11 +94,11 @@ def _triples(path: str, rows: list[tuple[int, str, list[str]]]) -> Matrix:
         reject("MD252", path, "no row and column from 1 stand here", "give i,j,value on each line", span)
     row, col, values = table[:, 0].astype(int) - 1, table[:, 1].astype(int) - 1, table[:, 2]
     _no_repetition(path, rows, row, col)
-    if (row <= col).all() or (row >= col).all():  # one triangle stands for both
-        off = row != col
-        row, col = np.concatenate([row, col[off]]), np.concatenate([col, row[off]])
-        values = np.concatenate([values, values[off]])
     order = int(max(row.max(), col.max())) + 1
+    if (row <= col).all() or (row >= col).all():  # one triangle stands for both
+        return sparse_symmetric(row, col, values, order)
+    from scipy.sparse import coo_array
+
     return coo_array((values, (row, col)), shape=(order, order))
 
 

@@ -5,8 +5,8 @@ import os
 import numpy as np
 
 from mouse_cli._span import Span
-from mouse_cli.formats.matrix_files import MAX_BYTES, MAX_ORDER, MatrixFormat, reject, upper_triangle
-from mouse_cli.model._arrays import Matrix
+from mouse_cli.formats.matrix_files import MAX_BYTES, MAX_ORDER, MatrixFormat, reject
+from mouse_cli.model.arrays import Matrix, upper_triangle
 
 _HELP = "begin with '%%MatrixMarket matrix coordinate real symmetric' and a line of rows, columns, entries"
 _SHORTEST_ENTRY, _SHORTEST_VALUE = 6, 2  # "1 1 1\n", "1\n"

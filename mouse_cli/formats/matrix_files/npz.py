@@ -6,7 +6,7 @@ import zlib
 import numpy as np
 
 from mouse_cli.formats.matrix_files import MAX_BYTES, MatrixFormat, reject
-from mouse_cli.model._arrays import Matrix
+from mouse_cli.model.arrays import Matrix
 
 _HELP = "write it with scipy.sparse.save_npz, or with numpy.savez and one array"
 _DAMAGE = (

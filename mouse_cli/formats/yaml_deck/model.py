@@ -11,7 +11,7 @@ from mouse_cli.formats.yaml_deck.files import read_below
 from mouse_cli.formats.yaml_deck.nodes import Document, Node
 from mouse_cli.formats.yaml_deck.schema import KINDS
 from mouse_cli.formats.yaml_deck.sections import Section
-from mouse_cli.model._arrays import Matrix
+from mouse_cli.model.arrays import Matrix
 
 
 @dataclass

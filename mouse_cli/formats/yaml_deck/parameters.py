@@ -12,6 +12,7 @@ from mouse_cli.formats.yaml_deck.files import named, read_below
 from mouse_cli.formats.yaml_deck.nodes import Document, Node
 from mouse_cli.formats.yaml_deck.schema import KINDS
 from mouse_cli.formats.yaml_deck.sections import Section
+from mouse_cli.model.arrays import upper_triangle
 from mouse_cli.model.parameter import Parameter
 
 _KEYS = ("stiffness", "mass")
@@ -132,7 +133,7 @@ def _group_file(section: Section, node: Node, key: str, order: int) -> Entries |
     matrix = read_below(section.document, path, section.what(key), matrix_files.read_matrix, **limits)
     if matrix is None:
         return None
-    row, col, value = matrix_files.upper_triangle(matrix)
+    row, col, value = upper_triangle(matrix)
     return Entries(row + 1, col + 1, value, lambda _: section.document.span(path))
 
 

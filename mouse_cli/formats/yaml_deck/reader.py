@@ -1,4 +1,4 @@
-"""Decks in YAML (version 1): text to Draft, and Problem to text."""
+"""Decks in YAML (version 1): text in, Draft out."""
 
 import numpy as np
 
@@ -11,11 +11,8 @@ from mouse_cli.formats.yaml_deck.modes import modal_test
 from mouse_cli.formats.yaml_deck.nodes import compose
 from mouse_cli.formats.yaml_deck.run import run_options
 from mouse_cli.formats.yaml_deck.sections import Section
-from mouse_cli.formats.yaml_deck.writer import write
 from mouse_cli.model.parameter import Parameter
 from mouse_cli.model.problem import Source
-
-__all__ = ["read", "write"]
 
 
 def read(text: str | bytes, path: str) -> Draft:

@@ -5,12 +5,11 @@ from dataclasses import fields
 
 import numpy as np
 
-from mouse_cli.formats.matrix_files import upper_triangle
 from mouse_cli.formats.yaml_deck.nodes import compose
 from mouse_cli.formats.yaml_deck.schema import MAX_WHOLE, VERSION
 from mouse_cli.formats.yaml_deck.text import flow, maybe, real, word, wrapped
 from mouse_cli.formats.yaml_deck.writer_parameters import parameters, prior
-from mouse_cli.model._arrays import Matrix
+from mouse_cli.model.arrays import Matrix, upper_triangle
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.problem import Problem, RunOptions
 

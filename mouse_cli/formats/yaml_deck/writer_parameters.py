@@ -3,7 +3,7 @@
 import numpy as np
 
 from mouse_cli.formats.yaml_deck.text import flow, real, word, wrapped
-from mouse_cli.model._arrays import Matrix, is_sparse
+from mouse_cli.model.arrays import Matrix, dense, sparse_symmetric
 from mouse_cli.model.parameter import Parameter
 from mouse_cli.model.problem import Problem
 
@@ -37,7 +37,7 @@ Column = dict[str, tuple[np.ndarray, np.ndarray]]  # for each matrix: listed ele
 
 def _column(problem: Problem, j: int) -> Column:
     """What parameter `j` moves, in the order of the listed elements."""
-    column = problem.A[:, [j]].toarray().ravel() if is_sparse(problem.A) else problem.A[:, j]
+    column = dense(problem.A[:, [j]]).ravel()
     moved = np.flatnonzero(column)
     is_mass = problem.elements.is_mass[moved]
     return {key: (moved[is_mass == mass], column[moved[is_mass == mass]]) for mass, key in enumerate(_KEYS)}
@@ -106,9 +106,5 @@ def _group(
 
 
 def _group_matrix(problem: Problem, index: np.ndarray, values: np.ndarray) -> Matrix:
-    from scipy.sparse import coo_array
-
-    row, col, n = problem.elements.row[index], problem.elements.col[index], problem.structure.n
-    off = row != col
-    places = np.concatenate([row, col[off]]), np.concatenate([col, row[off]])
-    return coo_array((np.concatenate([values, values[off]]), places), shape=(n, n)).tocsr()
+    row, col = problem.elements.row[index], problem.elements.col[index]
+    return sparse_symmetric(row, col, values, problem.structure.n)

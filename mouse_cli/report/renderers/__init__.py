@@ -20,7 +20,4 @@ class Renderer:
 
 def renderer(key: str) -> Renderer:
     """The renderer called `key`. Raises ValueError that lists the known ones."""
-    known = _registry.discover(__name__, "RENDERER")
-    if key not in known:
-        raise ValueError(f"no form of the report is called '{key}'; there are {', '.join(known)}")
-    return known[key]
+    return _registry.member(__name__, "RENDERER", key, "form of the report")

@@ -4,7 +4,7 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import ChiSquareTest
 from mouse_cli.report.blocks import Column, Table
 
-RIGHT, LEFT = "right", "left"
+LEFT = "left"  # side at which a column of words starts
 
 
 def names(problem: Problem) -> tuple[str, ...]:

@@ -2,14 +2,10 @@
 
 from collections.abc import Iterator
 
+from mouse_cli._errors import RULER
 from mouse_cli.model.result import Forecast, Result
 from mouse_cli.report.blocks import Block, Lines
 from mouse_cli.report.section import Options, Section
-
-_RULER = (
-    "            1         2         3         4         5         6         7         8",
-    "   12345678901234567890123456789012345678901234567890123456789012345678901234567890",
-)
 
 
 def cards(subject: Result | Forecast, options: Options) -> Iterator[Block]:
@@ -18,7 +14,7 @@ def cards(subject: Result | Forecast, options: Options) -> Iterator[Block]:
     if source.format != "cards" or not source.lines:
         return
     digits = max(4, len(str(len(source.lines))))
-    ruler = tuple(f"{'':{digits}}{line}" for line in _RULER)
+    ruler = tuple(f"{'':{digits}}   {line}" for line in RULER)
     yield Lines(ruler + tuple(f"{i:{digits}}   {line}" for i, line in enumerate(source.lines, 1)))
 
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mouse_cli.model._arrays import is_sparse
+from mouse_cli.model.arrays import dense, is_sparse
 from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block, Column, Heading, Matrix, Table, Text
 from mouse_cli.report.section import Options, Section
@@ -20,8 +20,7 @@ def matrices(result: Result, options: Options) -> Iterator[Block]:
         moved = np.flatnonzero((result.problem.elements.is_mass == mass) & (_change(result) != 0))
         if result.problem.structure.n <= options.matrix_dofs:
             labels = result.problem.structure.labels
-            full = after.toarray() if is_sparse(after) else after
-            yield Matrix(f"{name} after optimization", full, labels, labels)
+            yield Matrix(f"{name} after optimization", dense(after), labels, labels)
         if not len(moved):
             yield Text(f"No element of the {name} was revised.")
         elif result.problem.structure.n > options.matrix_dofs:

@@ -26,18 +26,6 @@ def modal_test(draft: Draft) -> ModalTest | None:
     )
 
 
-def total_mass_dofs(draft: Draft) -> None:
-    """The degrees of freedom whose mass is summed must exist."""
-    for dof in draft.run.total_mass_dofs:
-        if not 0 <= dof < draft.order:
-            draft.error(
-                "MD317",
-                f"degree of freedom {dof + 1} of fix_total_mass is outside 1 to {draft.order}",
-                draft.where_total_mass,
-                help=f"give numbers from 1 to {draft.order}",
-            )
-
-
 def _mode_numbers(draft: Draft, test: TestDraft) -> None:
     previous = 0
     for i, number in enumerate(test.number.tolist()):

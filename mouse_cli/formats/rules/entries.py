@@ -1,0 +1,31 @@
+"""Rules for any list of matrix elements: indices within the matrix, values finite."""
+
+import numpy as np
+
+from mouse_cli.formats.draft import Draft, Entries
+
+MOST = 20  # findings of one list that are told one by one
+
+
+def inside(draft: Draft, entries: Entries, rows: int, cols: int, what: str) -> np.ndarray:
+    """Mask of the entries within (rows, cols), after noting MD301 for each that is not."""
+    found = (entries.rows >= 1) & (entries.rows <= rows) & (entries.cols >= 1) & (entries.cols <= cols)
+    for i in np.flatnonzero(~found)[:MOST]:
+        draft.error(
+            "MD301",
+            f"{what} ({entries.rows[i]},{entries.cols[i]}) is outside {rows} x {cols}",
+            entries.where(int(i)),
+            help=f"give a row from 1 to {rows} and a column from 1 to {cols}",
+        )
+    return found
+
+
+def finite(draft: Draft, entries: Entries, name: str) -> None:
+    """Note MD302 for each value that is infinite or not a number."""
+    for i in np.flatnonzero(~np.isfinite(entries.values))[:MOST]:
+        draft.error(
+            "MD302",
+            f"{name}({entries.rows[i]},{entries.cols[i]}) is {entries.values[i]}, not a finite number",
+            entries.where(int(i)),
+            help="give a finite number",
+        )

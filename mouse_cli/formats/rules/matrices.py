@@ -1,0 +1,91 @@
+"""Rules for K and M: every element once, finite, and masses that are positive."""
+
+import numpy as np
+
+from mouse_cli._span import Span
+from mouse_cli.formats.draft import Draft, Entries
+from mouse_cli.formats.rules.entries import finite, inside
+from mouse_cli.model.arrays import Matrix, sparse_symmetric
+
+LARGEST_DENSE = 1500  # orders up to this are kept as dense arrays: eigh of the whole matrix is then the fastest way
+_LISTED = 3  # findings of one kind that are told one by one where one cause is likely to make many
+
+
+def matrix(draft: Draft, source: Entries | Matrix, name: str) -> Matrix | None:
+    """K or M (n, n) as a whole symmetric matrix, from listed entries or from a file; None when a rule is broken."""
+    if not isinstance(source, Entries):
+        return source
+    within = inside(draft, source, draft.order, draft.order, name)
+    if not within.all() or draft.has_errors:
+        return None
+    finite(draft, source, name)
+    _mirror_images(draft, source, name)
+    return None if draft.has_errors else _symmetric(source, draft.order)
+
+
+def _symmetric(entries: Entries, order: int) -> Matrix:
+    """The full symmetric matrix (order, order) of diagonal and triangle entries; a place given twice counts once."""
+    low, high = np.minimum(entries.rows, entries.cols) - 1, np.maximum(entries.rows, entries.cols) - 1
+    if order > LARGEST_DENSE:
+        _, first = np.unique(low.astype(np.int64) * order + high, return_index=True)
+        return sparse_symmetric(low[first], high[first], entries.values[first], order)
+    full = np.zeros((order, order))
+    full[low, high] = entries.values
+    full[high, low] = entries.values
+    return full
+
+
+def _mirror_images(draft: Draft, entries: Entries, name: str) -> None:
+    """(i, j) and (j, i) are one place: equal values are a warning, unequal ones an error."""
+    seen: dict[tuple[int, int], int] = {}
+    for i, (row, col) in enumerate(zip(entries.rows.tolist(), entries.cols.tolist(), strict=True)):
+        first = seen.setdefault((min(row, col), max(row, col)), i)
+        if first == i:
+            continue
+        one, other = entries.values[first], entries.values[i]
+        message = f"{name}({row},{col}) is given twice, first as {one:.8g}, then as {other:.8g}"
+        note = "an element and its mirror image are one place"
+        if one == other:
+            draft.warn("MD303", message, entries.where(i), note, "give each element once")
+        else:
+            draft.error("MD303", message, entries.where(i), note, "delete one of the two")
+
+
+def positive_masses(draft: Draft, M: Matrix) -> None:
+    """Every diagonal element of M must be positive: a massless degree of freedom has an infinite eigenvalue."""
+    diagonal = M.diagonal()
+    missing = np.flatnonzero(~(diagonal > 0))
+    for i in missing[:_LISTED]:
+        draft.error(
+            "MD304",
+            f"mass of degree of freedom {i + 1} is {diagonal[i]:.8g}; it must be positive",
+            _where_diagonal(draft.M, i + 1) or draft.where_order,
+            help=f"give M({i + 1},{i + 1}) a positive value, or condense that degree of freedom out",
+        )
+    if len(missing) > _LISTED:
+        draft.error(
+            "MD304",
+            f"{len(missing)} of {draft.order} degrees of freedom have no positive mass",
+            draft.where_order,
+            help=f"check the order of the model: is it {draft.order}?",
+        )
+
+
+def _where_diagonal(source: Entries | Matrix, index: int) -> Span | None:
+    """Place of the diagonal entry `index`, when it was listed at all."""
+    if not isinstance(source, Entries):
+        return None
+    listed = np.flatnonzero((source.rows == index) & (source.cols == index))
+    return source.where(int(listed[0])) if len(listed) else None
+
+
+def total_mass_dofs(draft: Draft) -> None:
+    """The degrees of freedom whose mass is summed must exist."""
+    for dof in draft.run.total_mass_dofs:
+        if not 0 <= dof < draft.order:
+            draft.error(
+                "MD317",
+                f"degree of freedom {dof + 1} of fix_total_mass is outside 1 to {draft.order}",
+                draft.where_total_mass,
+                help=f"give numbers from 1 to {draft.order}",
+            )
