@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mouse_cli.dynamics.frequency import frequency_hz
 from mouse_cli.model.arrays import Matrix, dense, is_sparse
 
 RIGID = 1e-6  # |lambda| up to this share of the first measured eigenvalue is a rigid-body mode
@@ -28,7 +29,7 @@ class EigenSolution:
     @property
     def frequencies_hz(self) -> np.ndarray:
         """Natural frequencies (k,) in Hz; 0 for eigenvalues that are negative by rounding."""
-        return np.sqrt(np.maximum(self.eigenvalues, 0.0)) / (2 * np.pi)
+        return frequency_hz(self.eigenvalues)
 
     def rigid(self, reference: float) -> int:
         """Number of rigid-body modes: eigenvalues within RIGID of zero, measured by a `reference` eigenvalue."""

@@ -57,12 +57,22 @@ class LinearProblem:
         return rows * self.noise if self.noise.ndim == 1 else rows @ np.linalg.cholesky(self.noise)
 
     def in_prior_units(self) -> np.ndarray:
-        """T L (q, k): columns in units of what the prior leaves uncertain."""
-        return self.T * self.L if self.L.ndim == 1 else self.T @ self.L
+        """T L (q, k)."""
+        return in_prior_units(self.T, self.L)
 
     def expand(self, z: np.ndarray) -> np.ndarray:
         """x = L z, for z (k,) or (k, c)."""
-        return (self.L * z.T).T if self.L.ndim == 1 else self.L @ z
+        return expand(self.L, z)
+
+
+def in_prior_units(T: np.ndarray, L: np.ndarray) -> np.ndarray:
+    """T L (q, k), for L (p, k) or its diagonal (p,): derivatives by what the prior leaves uncertain, in its units."""
+    return T * L if L.ndim == 1 else T @ L
+
+
+def expand(L: np.ndarray, z: np.ndarray) -> np.ndarray:
+    """x = L z, for L (p, k) or its diagonal (p,), and z (k,) or (k, c)."""
+    return (L * z.T).T if L.ndim == 1 else L @ z
 
 
 @dataclass(frozen=True)

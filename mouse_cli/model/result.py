@@ -25,16 +25,21 @@ class ChiSquareTest:
 
 
 REJECT = 1e-3  # gate of the model-form tests
+UNTRUSTED, NO_ANSWER = 1, 5  # exit codes of runs whose answer is not to be used, and of those that broke off
 
 
 @dataclass(frozen=True)
 class Status:
-    """How a run ended: `key`, one sentence that says it, one that says what to do; `exit_code` of the command."""
+    """How a run ended: `key`, one sentence that says it, one that says what to do; `exit_code` of the command.
+
+    answered: whether there are values of the parameters to report, trusted or not.
+    """
 
     key: str
     sentence: str
     advice: str = ""
     exit_code: int = 0
+    answered: bool = True
 
 
 @dataclass(frozen=True)
@@ -58,7 +63,7 @@ class Snapshot:
     """The model at given values theta (p,).
 
     K, M; eigenvalues (k,) and shapes (n, k), all modes of a dense model; modes (m,) from 0: which of them was paired with
-    each measured one; test_shapes, model_shapes (s, m) at one scale; y, predicted (q,) data and sd_predicted (q,) from the
+    each measured one; model_shapes (s, m) at the scale of the test; predicted (q,) data and sd_predicted (q,) from the
     covariance of theta; mac (m,).
     """
 
@@ -114,6 +119,13 @@ class Result:
     def rejected(self) -> bool:
         """Whether the data contradict the form of the model, as far as the tests after the cycles can tell."""
         return self.residual.rejects or self.prior_shift.rejects
+
+    @property
+    def model_form(self) -> str:
+        """`rejected`, `accepted`, or `untested`: no answer to judge by, or no datum more than properties."""
+        if self.rejected:
+            return "rejected"
+        return "accepted" if self.residual.dof > 0 and self.status.exit_code < NO_ANSWER else "untested"
 
     @property
     def exit_code(self) -> int:

@@ -6,6 +6,7 @@ import numpy as np
 
 from mouse_cli.dynamics.correlation import least_squares_scale
 from mouse_cli.dynamics.eigen import EigenSolution
+from mouse_cli.dynamics.frequency import eigenvalue, sd_eigenvalue
 from mouse_cli.dynamics.sensitivity import ModalPartials
 from mouse_cli.model.arrays import Matrix, dense
 from mouse_cli.model.modal_test import ModalTest
@@ -56,8 +57,8 @@ class ModalObservable:
     def measured(self) -> tuple[np.ndarray, np.ndarray]:
         """y (q,) and its standard deviations (q,): lambda = (2 pi f)^2, sd_lambda = 8 pi^2 f sd_f."""
         f, sd = self.test.frequency_hz, self.test.frequency_sd_hz
-        y = self.stacked((2 * np.pi * f) ** 2, self.shapes.T)
-        return y, self.stacked(8 * np.pi**2 * f * sd, self.shape_sd.T)
+        y = self.stacked(eigenvalue(f), self.shapes.T)
+        return y, self.stacked(sd_eigenvalue(f, sd), self.shape_sd.T)
 
     def labels(self) -> list[str]:
         """Names of the data as the report writes them: `lambda 1`, `x(3,2)` = component at dof 2 of mode 3."""

@@ -29,15 +29,3 @@ def positions(result: Result) -> tuple[str, ...]:
     """Names (s,) of the measured degrees of freedom."""
     labels = result.problem.structure.labels
     return tuple(labels[d] for d in result.problem.test.dofs)
-
-
-def answered(result: Result) -> bool:
-    """Whether the run gave values of the properties at all."""
-    return result.status.key not in ("unobservable", "infeasible")
-
-
-def model_form(result: Result) -> str:
-    """`rejected`, `accepted`, or `untested`: no answer to judge by, or no datum more than properties."""
-    if result.rejected:
-        return "rejected"
-    return "accepted" if result.residual.dof > 0 and result.status.exit_code < 5 else "untested"

@@ -7,11 +7,12 @@ import numpy as np
 
 from mouse_cli import __version__
 from mouse_cli._errors import Diagnostic
+from mouse_cli.dynamics.frequency import frequency_hz, sd_frequency_hz
 from mouse_cli.model.arrays import dense
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import ChiSquareTest, Result
 from mouse_cli.report.json_values import dof_name, plain
-from mouse_cli.report.measured import NOT_MEASURED, answered, eigenvalue_index, model_form, shape_index
+from mouse_cli.report.measured import NOT_MEASURED, eigenvalue_index, shape_index
 
 SCHEMA = "mouse.result/1"
 _LARGEST_COVARIANCE = 200
@@ -48,7 +49,7 @@ def document(result: Result) -> dict[str, Any]:
             "innovation": _test(result.innovation),
             "residual": _test(result.residual),
             "prior_shift": _test(result.prior_shift),
-            "model_form": model_form(result),
+            "model_form": result.model_form,
             **_partials(result),
             "warnings": [_warning(d) for d in (*problem.warnings, *result.warnings)],
             "versions": result.versions,
@@ -79,7 +80,7 @@ def _cycle(cycle) -> dict[str, Any]:
 
 def _parameters(result: Result) -> list[dict[str, Any]]:
     """One entry a property; a run without an answer has no posterior, a property at its limit no standard deviation."""
-    have, prior_sd = answered(result), result.problem.prior.sd
+    have, prior_sd = result.status.answered, result.problem.prior.sd
     return [
         {
             "name": parameter.name,
@@ -95,7 +96,7 @@ def _parameters(result: Result) -> list[dict[str, Any]]:
 
 
 def _covariance(result: Result) -> np.ndarray | None:
-    if not answered(result) or len(result.problem.parameters) > _LARGEST_COVARIANCE:
+    if not result.status.answered or len(result.problem.parameters) > _LARGEST_COVARIANCE:
         return None
     return result.covariance
 
@@ -108,21 +109,21 @@ def _matrices(result: Result) -> dict[str, Any]:
 
 
 def _modes(result: Result) -> list[dict[str, Any]]:
-    """One entry a measured mode. sd_hz: of the revised prediction, sd_lambda / (8 pi^2 f)."""
+    """One entry a measured mode. sd_hz: of the revised prediction."""
     test, prior, revised = result.problem.test, result.prior, result.revised
     modes = []
     for i, k in enumerate(eigenvalue_index(result)):
-        hz = _hz(revised.eigenvalues[revised.modes[i]])
-        known = k != NOT_MEASURED and hz > 0 and answered(result)
+        hz = float(frequency_hz(revised.eigenvalues[revised.modes[i]]))
+        known = k != NOT_MEASURED and hz > 0 and result.status.answered
         modes.append(
             {
                 "mode": test.number[i],
                 "model_mode": revised.modes[i] + 1,
                 "test_hz": test.frequency_hz[i],
                 "test_sd_hz": test.frequency_sd_hz[i] if k != NOT_MEASURED else None,
-                "prior_hz": _hz(prior.eigenvalues[prior.modes[i]]),
+                "prior_hz": float(frequency_hz(prior.eigenvalues[prior.modes[i]])),
                 "revised_hz": hz,
-                "sd_hz": revised.sd_predicted[k] / (8 * np.pi**2 * hz) if known else None,
+                "sd_hz": sd_frequency_hz(hz, revised.sd_predicted[k]) if known else None,
                 "mac": revised.mac[i],
                 "prior_mac": prior.mac[i],
                 "exceeds": bool(k != NOT_MEASURED and result.exceeding[k]),
@@ -131,14 +132,10 @@ def _modes(result: Result) -> list[dict[str, Any]]:
     return modes
 
 
-def _hz(eigenvalue: float) -> float:
-    return float(np.sqrt(max(eigenvalue, 0.0)) / (2 * np.pi))
-
-
 def _shapes(result: Result) -> list[dict[str, Any]]:
     """One entry a measured component, at the scale of the theory. test_sd: of the test; sd: of the revised prediction."""
     test, labels = result.problem.test, result.problem.structure.labels
-    index, have = shape_index(result), answered(result)
+    index, have = shape_index(result), result.status.answered
     return [
         {
             "mode": test.number[i],

@@ -1,5 +1,6 @@
 """The loop of Figure 4-1: from a problem to a result."""
 
-from mouse_cli.updating.loop import forecast, run
+from mouse_cli.updating.forward import forecast
+from mouse_cli.updating.loop import run
 
 __all__ = ["forecast", "run"]

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli.estimators import bayes
-from mouse_cli.estimators.linear import Estimator, Infeasible, LinearProblem, Unobservable
+from mouse_cli.estimators.linear import Estimator, Infeasible, LinearProblem, Unobservable, expand, in_prior_units
 from mouse_cli.model.result import Status
 from mouse_cli.updating.second_order import acceleration
 from mouse_cli.updating.state import State, attempt
@@ -125,10 +125,10 @@ class _Descent:
         return max(1.0, cost / len(self.noise)) ** 0.5 if self.estimator.weighted else 1.0
 
     def _scale(self, state: State) -> float:
-        L = self.setting.coordinates.L
-        B = (state.T * L if L.ndim == 1 else state.T @ L) / self.noise[:, None]
+        """Square of the longest column of B = R^-1/2 T L: what damping is measured by."""
+        B = in_prior_units(state.T, self.setting.coordinates.L) / self.noise[:, None]
         return max(float(np.einsum("ij,ij->j", B, B).max(initial=0.0)), 1e-300)
 
     def _expand(self, z: np.ndarray) -> np.ndarray:
-        L = self.setting.coordinates.L
-        return L * z if L.ndim == 1 else L @ z
+        """u - u_p (p,) = L z."""
+        return expand(self.setting.coordinates.L, z)

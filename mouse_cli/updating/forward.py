@@ -3,12 +3,14 @@
 import numpy as np
 
 from mouse_cli.dynamics.eigen import IndefiniteError
+from mouse_cli.dynamics.frequency import sd_frequency_hz
 from mouse_cli.dynamics.sensitivity import modal_partials
+from mouse_cli.estimators.linear import in_prior_units
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import Forecast
 from mouse_cli.terms.matrix_entries import MatrixEntries
-from mouse_cli.updating import rules
-from mouse_cli.updating.coordinates import coordinates
+from mouse_cli.updating import refusals
+from mouse_cli.updating.coordinates import Coordinates, coordinates
 from mouse_cli.updating.state import reference_eigenvalue, solve
 
 
@@ -18,26 +20,24 @@ def forecast(problem: Problem, count: int | None = None) -> Forecast:
     try:
         solution = solve(problem, K, M, count)
     except IndefiniteError as reason:
-        raise rules.unphysical(problem, str(reason)) from None
+        raise refusals.unphysical(problem, str(reason)) from None
     k = min(count or len(solution.eigenvalues), len(solution.eigenvalues))
     modes, dofs = np.arange(k), np.arange(problem.structure.n)
     sign = np.sign(solution.shapes[np.abs(solution.shapes).argmax(axis=0), np.arange(len(solution.eigenvalues))])
-    root = coordinates(problem, MatrixEntries(problem.structure, problem.elements, problem.A))
+    prior = coordinates(problem, MatrixEntries(problem.structure, problem.elements, problem.A))
     sd_lambda, sd_shape = np.zeros(k), np.zeros((len(dofs), k))
     for i in modes:  # mode by mode: the partials of all shapes at once would be n times larger than the model
         partials = modal_partials(solution, K, M, modes[i : i + 1], dofs, problem.elements, problem.A)
-        sd_lambda[i] = _sd(partials.d_lambda, root)[0]
-        sd_shape[:, i] = _sd(partials.d_shape[0], root)
+        sd_lambda[i] = _sd(partials.d_lambda, prior)[0]
+        sd_shape[:, i] = _sd(partials.d_shape[0], prior)
     hz = solution.frequencies_hz[:k]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        sd_hz = np.where(hz > 0, sd_lambda / (8 * np.pi**2 * hz), 0.0)
+    sd_hz = np.where(hz > 0, sd_frequency_hz(hz, sd_lambda), 0.0)
     rigid = solution.rigid(reference_eigenvalue(problem, solution.eigenvalues))
     sd_hz[: min(rigid, k)] = 0.0
     return Forecast(problem, hz, sd_hz, (solution.shapes * sign)[:, :k], sd_shape, rigid)
 
 
-def _sd(T: np.ndarray, root) -> np.ndarray:
+def _sd(T: np.ndarray, prior: Coordinates) -> np.ndarray:
     """Standard deviations (q,) of data whose derivatives by the values of the parameters are T (q, p)."""
-    T = T * root.slope(root.mean)
-    B = T * root.L if root.L.ndim == 1 else T @ root.L
+    B = in_prior_units(T * prior.slope(prior.mean), prior.L)
     return np.sqrt(np.einsum("ij,ij->i", B, B))

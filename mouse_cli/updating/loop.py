@@ -11,12 +11,13 @@ from mouse_cli.estimators import estimator as find_estimator
 from mouse_cli.estimators.linear import Estimator, LinearEstimate, LinearProblem, Unobservable, conditioned
 from mouse_cli.model.arrays import is_sparse
 from mouse_cli.model.problem import Problem
-from mouse_cli.model.result import Cycle, Forecast, Result, Snapshot
+from mouse_cli.model.result import ChiSquareTest, Result, Snapshot, Status
 from mouse_cli.observables.modal import UnrelatedShapes, observe
 from mouse_cli.terms.matrix_entries import MatrixEntries
-from mouse_cli.updating import anchored, model_form, replaced, rules
+from mouse_cli.updating import anchored, model_form, refusals, replaced
 from mouse_cli.updating.convergence import ExceedanceTest
 from mouse_cli.updating.coordinates import coordinates
+from mouse_cli.updating.remarks import remarks
 from mouse_cli.updating.state import Setting, State, paired, reference_eigenvalue, solve
 from mouse_cli.updating.trace import Progress, Trace
 
@@ -33,7 +34,7 @@ def run(problem: Problem, progress: Progress = lambda cycle: None) -> Result:
     try:
         return _run(problem, estimator, progress)
     except np.linalg.LinAlgError as reason:
-        raise rules.unphysical(problem, f"{reason} (values beyond what can be computed with)") from None
+        raise refusals.unphysical(problem, f"{reason} (values beyond what can be computed with)") from None
 
 
 def examine(problem: Problem) -> None:
@@ -49,7 +50,7 @@ def examine(problem: Problem) -> None:
         else:
             _begin(problem)
     except (IndefiniteError, np.linalg.LinAlgError) as reason:
-        raise rules.unphysical(problem, str(reason)) from None
+        raise refusals.unphysical(problem, str(reason)) from None
 
 
 def _run(problem: Problem, estimator: Estimator, progress: Progress) -> Result:
@@ -58,19 +59,27 @@ def _run(problem: Problem, estimator: Estimator, progress: Progress) -> Result:
     innovation = model_form.innovation(setting, start)
     trace = Trace(setting, ExceedanceTest(problem.run.confidence, problem.run.convergence), progress, start)
     status = RECURSIONS[problem.run.recursion].recur(trace, estimator)
-    end = trace.state
-    answered = status.key not in ("unobservable", "infeasible")
-    estimate, at_limit = _spread(setting, end, estimator if answered else find_estimator("bayes"))
+    result = _result(trace, start, status, estimator, innovation)
+    return replace(result, warnings=tuple(remarks(result)))
+
+
+def _result(trace: Trace, start: State, status: Status, estimator: Estimator, innovation: ChiSquareTest) -> Result:
+    """Everything that is reported of a run that began at `start` and left `trace`."""
+    setting, problem, end = trace.setting, trace.setting.problem, trace.state
+    estimate, at_limit = _spread(setting, end, estimator if status.answered else find_estimator("bayes"))
     residual, shift = model_form.residual_and_shift(setting, end, at_limit, estimator.uses_prior)
-    slope = setting.coordinates.slope(end.u)
-    covariance = estimate.covariance() * np.outer(slope, slope)
-    exceeding = trace.test.exceeding(end.residual, setting.sd)
-    result = Result(
+    cov_u, slope, slope_prior = (
+        estimate.covariance(),
+        setting.coordinates.slope(end.u),
+        setting.coordinates.slope(start.u),
+    )
+    covariance = cov_u * np.outer(slope, slope)
+    return Result(
         problem=problem,
         status=status,
         cycles=tuple(trace.cycles),
-        prior=_snapshot(setting, start, problem.prior.dense() / np.outer(*2 * [setting.coordinates.slope(start.u)])),
-        revised=_snapshot(setting, end, estimate.covariance()),
+        prior=_snapshot(setting, start, problem.prior.dense() / np.outer(slope_prior, slope_prior)),
+        revised=_snapshot(setting, end, cov_u),
         y=setting.y,
         sd=setting.sd,
         labels=tuple(setting.observable.labels()),
@@ -86,29 +95,28 @@ def _run(problem: Problem, estimator: Estimator, progress: Progress) -> Result:
         rigid_modes=start.solution.rigid(reference_eigenvalue(problem, start.solution.eigenvalues)),
         z=trace.test.z,
         allowed=trace.cycles[-1].allowed,
-        exceeding=exceeding,
+        exceeding=trace.test.exceeding(end.residual, setting.sd),
         B=end.B if problem.run.print_partials else None,
         T=end.T if problem.run.print_partials else None,
         versions=_versions(),
     )
-    return replace(result, warnings=tuple(rules.remarks(result)))
 
 
 def _begin(problem: Problem) -> tuple[Setting, State]:
     """O-1 for the prior model, and the test brought to its scale."""
     if problem.test is None:
-        raise rules.no_test(problem)
+        raise refusals.no_test(problem)
     term = MatrixEntries(problem.structure, problem.elements, problem.A)
     try:
         solution = solve(problem, problem.structure.K, problem.structure.M)
     except IndefiniteError as reason:
-        raise rules.unphysical(problem, str(reason)) from None
-    rules.check_rigid_modes(problem, solution)
+        raise refusals.unphysical(problem, str(reason)) from None
+    refusals.check_rigid_modes(problem, solution)
     modes = paired(problem, solution)
     try:
         observable = observe(problem.test, problem.structure.M, solution, modes)
     except UnrelatedShapes as reason:
-        raise rules.unrelated(problem, solution, reason.mode, reason.ratio) from None
+        raise refusals.unrelated(problem, solution, reason.mode, reason.ratio) from None
     y, sd = observable.measured()
     setting = Setting(problem, term, coordinates(problem, term), observable, y, sd)
     return setting, setting.state(setting.coordinates.mean)
@@ -158,16 +166,3 @@ def _snapshot(setting: Setting, state: State, covariance: np.ndarray) -> Snapsho
 
 def _versions() -> dict[str, str]:
     return {"mouse": __version__, "numpy": np.__version__, "python": sys.version.split()[0]}
-
-
-def forecast(problem: Problem, count: int | None = None) -> Forecast:
-    """VIDAP's forward problem: natural frequencies and shapes of the prior model and the uncertainty that S gives them.
-
-    count: how many modes, from the lowest; all of a dense model when None. Raises NumericalError.
-    """
-    from mouse_cli.updating.forward import forecast as _forecast
-
-    return _forecast(problem, count)
-
-
-__all__ = ["Cycle", "forecast", "run"]

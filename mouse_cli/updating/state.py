@@ -7,6 +7,7 @@ import numpy as np
 
 from mouse_cli.dynamics.correlation import align, mac, pair
 from mouse_cli.dynamics.eigen import RIGID, EigenSolution, IndefiniteError, clusters, eigensolution
+from mouse_cli.dynamics.frequency import eigenvalue
 from mouse_cli.dynamics.sensitivity import modal_partials
 from mouse_cli.model.arrays import Matrix, is_sparse
 from mouse_cli.model.problem import Problem
@@ -79,20 +80,15 @@ class State:
     @cached_property
     def mac(self) -> np.ndarray:
         """MAC (m,) of each measured shape with its model mode; NaN where no shape was measured."""
-        test = self.setting.observable.test.shapes
-        model = np.where(
-            np.isfinite(test),
-            self.solution.shapes[self.setting.observable.test.dofs[:, None], self.modes],
-            np.nan,
-        )
-        values = np.array([mac(test[:, [i]], model[:, [i]])[0, 0] for i in range(test.shape[1])])
-        return np.where(np.isfinite(test).any(axis=0), values, np.nan)
+        test = self.setting.observable.test
+        values = mac(test.shapes, self.solution.shapes[test.dofs[:, None], self.modes]).diagonal()
+        return np.where(np.isfinite(test.shapes).any(axis=0), values, np.nan)
 
 
 def reference_eigenvalue(problem: Problem, eigenvalues: np.ndarray) -> float:
     """The eigenvalue by which zero is judged: that of the first measured mode, else a share of the largest."""
     if problem.test is not None and np.isfinite(problem.test.frequency_hz).any():
-        return float((2 * np.pi * np.nanmin(problem.test.frequency_hz)) ** 2)
+        return float(eigenvalue(np.nanmin(problem.test.frequency_hz)))
     return float(np.abs(eigenvalues).max()) * 1e-4
 
 

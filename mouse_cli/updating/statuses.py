@@ -1,8 +1,8 @@
 """How a run can end: one sentence that says it, one that says what to do. Keyed by the way of ending; two may share a status."""
 
-from mouse_cli.model.result import Status
+from dataclasses import replace
 
-_UNTRUSTED, _NO_ANSWER = 1, 5
+from mouse_cli.model.result import NO_ANSWER, UNTRUSTED, Status
 
 STATUSES = {
     "passed": Status("converged", "Converged: the model meets the test within its confidence limits."),
@@ -13,13 +13,13 @@ STATUSES = {
         "{exceedances} of {data} data ({allowed} allowed).",
         "Allow more partials (NPARD), or look at the data marked *: one wrong datum is enough, and many speak against the form "
         "of the model.",
-        _UNTRUSTED,
+        UNTRUSTED,
     ),
     "restless": Status(
         "not-converged",
         "Not converged: all {cycles} computations of the partial derivatives are used up and the steps are not yet negligible.",
         "Allow more partials.",
-        _UNTRUSTED,
+        UNTRUSTED,
     ),
     "stalled": Status(
         "stalled",
@@ -27,19 +27,19 @@ STATUSES = {
         "({allowed} allowed).",
         "The recursion is at its limit point; no revision of these properties fits better. Check the accuracies and the data "
         "marked *, or the form of the model.",
-        _UNTRUSTED,
+        UNTRUSTED,
     ),
     "no-descent": Status(
         "no-descent",
         "Stopped: no step along the partial derivatives improves the fit any more, and the mode is not reached.",
         "Check for mode shapes that change places (pairing) and for data that contradict each other.",
-        _UNTRUSTED,
+        UNTRUSTED,
     ),
     "diverged": Status(
         "diverged",
         "Diverged: the misfit grew from cycle to cycle ({chi2_first:.4g} to {chi2_last:.4g}).",
         "The perturbation exceeds the linear range: use --recursion anchored, --step second-order, or limits.",
-        _UNTRUSTED,
+        UNTRUSTED,
     ),
     "indefinite": Status(
         "indefinite",
@@ -47,19 +47,20 @@ STATUSES = {
         "cycle.",
         "A stiffness or mass was driven negative: the model form may be wrong (see the tests); or use --recursion anchored, "
         "limits, or transform: log.",
-        _NO_ANSWER,
+        NO_ANSWER,
     ),
     "unobservable": Status(
         "unobservable",
         "No answer: {reason}; undetermined: {names}.",
         "Measure more, hold those properties (sd 0), or use the Bayes estimator, which keeps the prior where the data are silent.",
-        _NO_ANSWER,
+        NO_ANSWER,
+        answered=False,
     ),
-    "infeasible": Status("infeasible", "No answer: {reason}.", "Widen the limits.", _NO_ANSWER),
+    "infeasible": Status("infeasible", "No answer: {reason}.", "Widen the limits.", NO_ANSWER, answered=False),
 }
 
 
 def status(ending: str, **facts: object) -> Status:
     """The status of that `ending` with its sentence filled in."""
     template = STATUSES[ending]
-    return Status(template.key, template.sentence.format(**facts), template.advice, template.exit_code)
+    return replace(template, sentence=template.sentence.format(**facts))

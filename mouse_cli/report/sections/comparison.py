@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from mouse_cli.dynamics.frequency import frequency_hz
 from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block, Cell, Column, Table, Text
 from mouse_cli.report.measured import NOT_MEASURED, eigenvalue_index, positions, shape_index
@@ -17,11 +18,9 @@ def comparison(result: Result, options: Options) -> Iterator[Block]:
     if (shape_index(result) != NOT_MEASURED).any():
         yield _eigenvectors(result)
     count = int(result.exceeding.sum())
-    outside = (
-        ("none lies outside", "1 lies outside and is marked *")[count]
-        if count < 2
-        else f"{count} lie outside, marked *"
-    )
+    outside = f"{count} lie outside, marked *" if count else "none lies outside"
+    if count == 1:
+        outside = "1 lies outside and is marked *"
     yield Text(
         f"The interval is the half width of the {result.problem.run.confidence} per cent confidence interval of the test, "
         f"{result.z:.3f} standard deviations. Of {counted(len(result.y), 'datum', 'data')} {outside}; "
@@ -57,7 +56,7 @@ def _mode(result: Result, i: int, k: int, renumbered: bool) -> tuple[Cell, ...]:
     """Line of measured mode i, whose eigenvalue is datum k."""
     test, mode, measured = result.problem.test, int(result.revised.modes[i]), k != NOT_MEASURED
     revised = float(result.revised.eigenvalues[mode])
-    hz, test_hz, sd = np.sqrt(max(revised, 0.0)) / (2 * np.pi), test.frequency_hz[i], test.frequency_sd_hz[i]
+    hz, test_hz, sd = frequency_hz(revised), test.frequency_hz[i], test.frequency_sd_hz[i]
     frequency = (test_hz, sd, result.z * sd, test_hz - hz) if measured else (np.nan,) * 4
     return (
         int(test.number[i]),

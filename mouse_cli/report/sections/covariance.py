@@ -6,14 +6,13 @@ import numpy as np
 
 from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block, Column, Matrix, Table, Text
-from mouse_cli.report.measured import answered
 from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._wording import LEFT, names
 
 
 def covariance(result: Result, options: Options) -> Iterator[Block]:
     """S* and correlations in full for a few properties, else the strongest correlations."""
-    if not answered(result):
+    if not result.status.answered:
         return
     labels, correlation = names(result.problem), _correlation(result)
     if len(labels) <= options.properties:

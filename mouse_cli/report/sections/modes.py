@@ -4,9 +4,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from mouse_cli.dynamics.frequency import frequency_hz, sd_frequency_hz
 from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block, Column, Matrix, Table, Text
-from mouse_cli.report.measured import NOT_MEASURED, answered, eigenvalue_index
+from mouse_cli.report.measured import NOT_MEASURED, eigenvalue_index
 from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._wording import counted
 
@@ -41,18 +42,17 @@ def _eigenvalues(result: Result, count: int) -> Table:
 
 
 def _sd_hz(result: Result, hz: np.ndarray) -> np.ndarray:
-    """sd_lambda / (8 pi^2 f) of the modes whose frequency was measured; NaN for others and without an answer."""
+    """Standard deviations (count,) of `hz` for the modes whose frequency was measured; NaN for others and without an answer."""
     sd, index = np.full(len(hz), np.nan), eigenvalue_index(result)
-    known = (index != NOT_MEASURED) & (result.revised.modes < len(hz)) & answered(result)
+    known = (index != NOT_MEASURED) & (result.revised.modes < len(hz)) & result.status.answered
     modes = result.revised.modes[known]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        sd[modes] = result.revised.sd_predicted[index[known]] / (8 * np.pi**2 * hz[modes])
+    sd[modes] = sd_frequency_hz(hz[modes], result.revised.sd_predicted[index[known]])
     return sd
 
 
 def _hz(eigenvalues: np.ndarray, rigid: int) -> np.ndarray:
     """Natural frequencies of `eigenvalues`; zero for the `rigid` lowest."""
-    hz = np.sqrt(np.maximum(eigenvalues, 0.0)) / (2 * np.pi)
+    hz = frequency_hz(eigenvalues)
     hz[:rigid] = 0.0
     return hz
 

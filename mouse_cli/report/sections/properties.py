@@ -6,14 +6,13 @@ import numpy as np
 
 from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block, Cell, Column, Table, Text
-from mouse_cli.report.measured import answered
 from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._wording import LEFT
 
 
 def properties(result: Result, options: Options) -> Iterator[Block]:
     """One line a property."""
-    if not answered(result):
+    if not result.status.answered:
         yield Text("The run gave no answer; the properties stand unrevised.")
         return
     columns = (

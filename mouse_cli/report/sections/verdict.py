@@ -3,9 +3,8 @@
 from collections.abc import Iterator
 
 from mouse_cli.estimators import estimator
-from mouse_cli.model.result import Result
+from mouse_cli.model.result import NO_ANSWER, Result
 from mouse_cli.report.blocks import Block, Heading, Text
-from mouse_cli.report.measured import answered, model_form
 from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._wording import chance, test_table
 
@@ -70,7 +69,7 @@ def _prior_shift(result: Result) -> str:
 
 def _conclusion(result: Result) -> str:
     """The plain statement."""
-    form = model_form(result)
+    form = result.model_form
     if form == "rejected" and result.residual.rejects:
         return (
             "The form of the model is rejected: the data show what the model lacks, or are less accurate than they are said to "
@@ -83,8 +82,8 @@ def _conclusion(result: Result) -> str:
             "the model lacks."
         )
     if form == "untested":
-        reason = "the run gave no answer" if not answered(result) else "the run broke off"
-        if result.status.exit_code < 5:
+        reason = "the run gave no answer" if not result.status.answered else "the run broke off"
+        if result.status.exit_code < NO_ANSWER:
             reason = "the data leave nothing to test it by"
         return f"Nothing is said of the form of the model: {reason}."
     if result.status.exit_code:

@@ -1,91 +1,22 @@
-"""What can only be judged with an eigensolution: tests that cannot belong to the model, and remarks on an answer."""
+"""What a careful reader of an answer should know: properties the data do not determine, limits, signs, modes mistaken."""
 
 from collections.abc import Iterator
 
 import numpy as np
 
-from mouse_cli._errors import ERROR, WARNING, DeckError, Diagnostic, NumericalError
+from mouse_cli._errors import WARNING, Diagnostic
+from mouse_cli._span import Span
 from mouse_cli.dynamics.correlation import mac
-from mouse_cli.dynamics.eigen import EigenSolution
-from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import REJECT, Result
-from mouse_cli.updating.state import reference_eigenvalue
 
 _SILENT = 0.99  # revised over prior standard deviation: above this the data said nothing
 _TIED = 0.995  # correlation above which two properties are determined only together
 _FEW = 5  # degrees of freedom below which a close fit is nothing remarkable
-_MOST_RIGID_1972 = 3
-
-
-def check_rigid_modes(problem: Problem, solution: EigenSolution) -> None:
-    """Raise DeckError when a rigid-body mode is named as measured: its accuracy would become a zero variance."""
-    rigid = solution.rigid(reference_eigenvalue(problem, solution.eigenvalues))
-    named = [int(n) for n in problem.test.number if n <= rigid]
-    if named:
-        raise DeckError(
-            Diagnostic(
-                "MD330",
-                ERROR,
-                f"mode {named[0]} is named as measured, but the model has {rigid} rigid-body mode(s) and this is one of them",
-                note=f"mode numbers count the rigid-body modes; the first flexural mode is number {rigid + 1}",
-                help="add the number of rigid-body modes to the mode numbers of the test",
-            )
-        )
-    if problem.run.legacy and rigid > _MOST_RIGID_1972:
-        raise DeckError(
-            Diagnostic(
-                "MD332",
-                ERROR,
-                f"the model has {rigid} rigid-body modes; the program of 1972 allowed {_MOST_RIGID_1972}",
-                help="run without --legacy",
-            )
-        )
-
-
-def no_test(problem: Problem) -> DeckError:
-    """The error for a deck that states no test, and so nothing to revise the model by."""
-    return DeckError(
-        Diagnostic(
-            "MD333",
-            ERROR,
-            f"the deck '{problem.title.strip()}' holds no test: there is nothing to revise the model by",
-            help="add `test:` with measured modes, or ask for `mouse modes`",
-        )
-    )
-
-
-def unphysical(problem: Problem, reason: str) -> NumericalError:
-    """The error for a prior model that has no real natural frequencies."""
-    return NumericalError(
-        Diagnostic(
-            "MD501",
-            ERROR,
-            f"the prior model of '{problem.title.strip()}' is not physical: {reason}",
-            help="check the signs of the off-diagonal stiffnesses and that every mass is positive",
-        )
-    )
-
-
-def unrelated(problem: Problem, solution: EigenSolution, mode: int, ratio: float) -> DeckError:
-    """The error for a test vector that has nothing in common with the mode it is said to be."""
-    test = problem.test
-    likeness = mac(test.shapes[:, [mode]], solution.shapes[test.dofs])[0]
-    best = int(np.argmax(likeness))
-    return DeckError(
-        Diagnostic(
-            "MD331",
-            ERROR,
-            f"the shape measured for mode {test.number[mode]} is unrelated to the model's: |c t| / |x| is {ratio:.3g}, "
-            "at least 0.1 is expected",
-            note=f"it looks most like model mode {best + 1} (MAC {likeness[best]:.2f})",
-            help="check the mode numbers and the order of the measured points, or use --pairing mac or --scale none",
-        )
-    )
 
 
 def remarks(result: Result) -> Iterator[Diagnostic]:
     """What a careful reader of the answer should know."""
-    if result.status.key in ("unobservable", "infeasible"):
+    if not result.status.answered:
         return
     yield from _too_good(result)
     yield from _idle_mass(result)
@@ -177,5 +108,5 @@ def _places(result: Result) -> Iterator[Diagnostic]:
             )
 
 
-def _remark(code: str, message: str, span=None, help: str = "") -> Diagnostic:
+def _remark(code: str, message: str, span: Span | None = None, help: str = "") -> Diagnostic:
     return Diagnostic(code, WARNING, message, span, help=help)
