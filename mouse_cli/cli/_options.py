@@ -59,6 +59,18 @@ READING = (
 )
 
 
+def answer(schema: str) -> tuple[Callable, ...]:
+    """Where the answer goes and in what form; `schema` is that of its JSON document."""
+    return (
+        click.option("-o", "--output", metavar="FILE", help="Write the answer to FILE instead of standard output."),
+        click.option(
+            "--json", "form", flag_value="json", help=f"One JSON document ({schema}) in place of the printout."
+        ),
+        click.option("--markdown", "form", flag_value="markdown", help="Markdown in place of the printout."),
+        click.option("--numbers", type=click.Choice(["legacy", "modern"]), help="1.28872+04 as in 1972, or 12887.2."),
+    )
+
+
 def options(*groups: tuple[Callable, ...]) -> Callable:
     """Decorator that adds groups of options to a command, in their order."""
 

@@ -28,6 +28,13 @@ def _coloured(stream) -> bool:
     return stream.isatty() and "NO_COLOR" not in os.environ
 
 
+def json_text(document: dict[str, object]) -> str:
+    """A document of the report as text."""
+    import json
+
+    return json.dumps(document, indent=1, allow_nan=False)
+
+
 def deliver(text: str, output: str | None) -> None:
     """Print `text`, or write it to the file `output`, whole or not at all. Raises WrittenError."""
     if not text.endswith("\n"):

@@ -51,10 +51,7 @@ def write_deck(problem: Problem, path: str | os.PathLike[str]) -> list[str]:
     folder, name = os.path.split(path)
     text, attachments = yaml_deck.write(problem, os.path.splitext(name)[0])
     written = []
-    for (
-        attachment,
-        matrix,
-    ) in attachments.items():  # before the deck, which must not name files that are not there
+    for attachment, matrix in attachments.items():  # before the deck: it must not name files that are not there
         written.append(os.path.join(folder, attachment))
         write_text_atomically(written[-1], market.text(matrix, problem.title))
     write_text_atomically(path, text)

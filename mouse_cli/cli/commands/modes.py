@@ -2,16 +2,13 @@
 
 import click
 
-from mouse_cli.cli._options import READING, options, reading
+from mouse_cli.cli._options import READING, answer, options, reading
 
 
 @click.command()
 @click.argument("deck")
 @click.option("-n", "--count", type=click.IntRange(min=1), help="How many modes, from the lowest.")
-@click.option("-o", "--output", metavar="FILE", help="Write the answer to FILE instead of standard output.")
-@click.option("--json", "form", flag_value="json", help="One JSON document (mouse.modes/1) in place of the printout.")
-@click.option("--markdown", "form", flag_value="markdown", help="Markdown in place of the printout.")
-@click.option("--numbers", type=click.Choice(["legacy", "modern"]), help="1.28872+04 as in 1972, or 12887.2.")
+@options(answer("mouse.modes/1"))
 @click.option("-q", "--quiet", is_flag=True, help="No warnings on standard error.")
 @options(READING)
 def command(
@@ -29,22 +26,14 @@ def command(
 
     The standard deviations follow from those of the properties.
     """
-    import json
-
-    from mouse_cli import report
     from mouse_cli.cli._decks import read_problem
-    from mouse_cli.cli._terminal import deliver, show_diagnostics
+    from mouse_cli.cli._terminal import deliver, json_text, show_diagnostics
+    from mouse_cli.report import document, written
     from mouse_cli.updating import forecast
 
     problem = read_problem(deck, **reading(legacy, strip_73_80, overrides))
     if not quiet:
         show_diagnostics(problem.warnings)
-    answer = forecast(problem, count)
-    if form == "json":
-        text = json.dumps(report.document(answer), indent=1, allow_nan=False)
-    elif form == "markdown":
-        text = report.markdown(answer, numbers or "modern")
-    else:
-        text = report.printout(answer, numbers or "legacy")
-    deliver(text, output)
+    found = forecast(problem, count)
+    deliver(json_text(document(found)) if form == "json" else written(found, form or "printout", numbers), output)
     return 0

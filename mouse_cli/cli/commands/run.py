@@ -2,15 +2,12 @@
 
 import click
 
-from mouse_cli.cli._options import READING, RUN, options, reading, run_changes
+from mouse_cli.cli._options import READING, RUN, answer, options, reading, run_changes
 
 
 @click.command()
 @click.argument("deck")
-@click.option("-o", "--output", metavar="FILE", help="Write the answer to FILE instead of standard output.")
-@click.option("--json", "form", flag_value="json", help="One JSON document (mouse.result/1) in place of the printout.")
-@click.option("--markdown", "form", flag_value="markdown", help="Markdown in place of the printout.")
-@click.option("--numbers", type=click.Choice(["legacy", "modern"]), help="1.28872+04 as in 1972, or 12887.2.")
+@options(answer("mouse.result/1"))
 @click.option("--stacked", is_flag=True, help="The file holds several card decks, one after another.")
 @click.option("-q", "--quiet", is_flag=True, help="No warnings on standard error.")
 @options(RUN, READING)
@@ -47,14 +44,10 @@ def command(
 
 def _text(results: list, form: str | None, numbers: str | None, stacked: bool) -> str:
     """The answer in the form asked for."""
-    from mouse_cli import report
+    from mouse_cli.cli._terminal import json_text
+    from mouse_cli.report import document, written
 
     if form == "json":
-        import json
-
-        documents = [report.document(result) for result in results]
-        whole = {"schema": "mouse.results/1", "cases": documents} if stacked else documents[0]
-        return json.dumps(whole, indent=1, allow_nan=False)
-    if form == "markdown":
-        return "\n".join(report.markdown(result, numbers or "modern") for result in results)
-    return "\n".join(report.printout(result, numbers or "legacy") for result in results)
+        documents = [document(result) for result in results]
+        return json_text({"schema": "mouse.results/1", "cases": documents} if stacked else documents[0])
+    return "\n".join(written(result, form or "printout", numbers) for result in results)

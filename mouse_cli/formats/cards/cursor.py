@@ -45,8 +45,13 @@ class Cursor:
 
     def place(self, index: int, field: Field, group: Group) -> str:
         """Card, group, columns and text of a field, for messages."""
-        text = field.cut(self.images.cards[index])
-        return f'card {index + 1}, {group.title}, columns {field.columns}: "{text}"'
+        return self.place_at(index, group, field.column, field.width)
+
+    def place_at(self, index: int, group: Group, column: int, width: int) -> str:
+        """Card, group, columns and text of `width` columns from `column`, for messages."""
+        last = column + width - 1
+        text = self.images.cards[index][column - 1 : last]
+        return f'card {index + 1}, {group.title}, columns {column}-{last}: "{text}"'
 
     def value(self, index: int, field: Field, ordinal: int, group: Group, warn: bool = True) -> float | int | None:
         """What a field holds; None after an error. `overrides` come first, by the name of the field."""

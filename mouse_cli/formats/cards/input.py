@@ -146,8 +146,7 @@ def _refuse_twice(cursor: Cursor, matrix: Matrix, card: int, slot: int, element:
     mirror = ", its mirror image" if key != (row, col) else ""
     note_it(
         "MD112",
-        f"{symbol}({row},{col}) is given twice: {first:.8g} on card {first_card + 1}{mirror}, {value:.8g} "
-        f"here "
+        f"{symbol}({row},{col}) is given twice: {first:.8g} on card {first_card + 1}{mirror}, {value:.8g} here "
         f"({_slot_place(cursor, matrix, card, slot)})",
         slot_span(cursor, matrix.group, card, slot),
         "whether the first, the last or the sum was meant cannot be known",
@@ -199,6 +198,4 @@ def _following(group: Group) -> Group | None:
 
 def _slot_place(cursor: Cursor, matrix: Matrix, card: int, slot: int) -> str:
     span = slot_span(cursor, matrix.group, card, slot)
-    first, last = span.column, span.column + span.width - 1
-    text = cursor.images.cards[card][first - 1 : last]
-    return f'card {card + 1}, {matrix.group.title}, columns {first}-{last}: "{text}"'
+    return cursor.place_at(card, matrix.group, span.column, span.width)

@@ -12,7 +12,7 @@ from mouse_cli._span import Span
 from mouse_cli.model.arrays import Matrix, dense, is_sparse, upper_triangle
 
 MAX_BYTES = 2_000_000_000  # of a file, and of what is packed in it
-MAX_ORDER = 1_000_000
+MAX_ORDER = 1_000_000  # fits a workstation only when sparse; beyond it an order is a slip
 LARGEST_DENSE = 500  # smaller matrices are kept dense: sparse bookkeeping would cost more than the zeros
 # Mirror images may differ by so much of the geometric mean of their diagonals: printed digits, no slip.
 ROUNDING = 1e-8

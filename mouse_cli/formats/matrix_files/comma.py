@@ -88,8 +88,8 @@ def _triples(path: str, rows: list[tuple[int, str, list[str]]]) -> Matrix:
     table = _table(path, rows)
     indices = table[:, :2] if len(table) else np.zeros((0, 2))
     bad = np.flatnonzero(~((indices >= 1) & (indices <= MAX_ORDER) & (indices == np.floor(indices))).all(axis=1))
-    for i in [*bad[:1], *([0] if not len(table) else [])]:
-        number, line, _ = rows[i] if len(rows) else (1, "", [])
+    if not rows or len(bad):
+        number, line, _ = rows[bad[0]] if rows else (1, "", [])
         span = Span(path, number, 1, max(1, len(line)), line)
         reject("MD252", path, "no row and column from 1 stand here", "give i,j,value on each line", span)
     row, col, values = table[:, 0].astype(int) - 1, table[:, 1].astype(int) - 1, table[:, 2]

@@ -3,12 +3,12 @@
 from dataclasses import dataclass
 from typing import Any
 
+from mouse_cli.formats.matrix_files import MAX_ORDER
 from mouse_cli.model.modal_test import SCALES
 from mouse_cli.model.parameter import TRANSFORMS
 from mouse_cli.model.problem import CONFIDENCES, CONVERGENCE_RULES, PAIRINGS, RECURSIONS, STEPS, RunOptions
 
 VERSION = 1
-MAX_ORDER = 1_000_000  # a matrix of this order fits a workstation only when sparse; beyond it an order is a slip
 MAX_WHOLE = 2**31 - 1
 
 PERCENT = r"^\s*[0-9]*\.?[0-9]+([eE][-+]?[0-9]+)?\s*%\s*$"
