@@ -5,7 +5,7 @@ from collections.abc import Callable
 import click
 
 from mouse_cli.model.modal_test import SCALES
-from mouse_cli.model.problem import CONVERGENCE_RULES, PAIRINGS, RECURSIONS, STEPS
+from mouse_cli.model.problem import CONFIDENCES, CONVERGENCE_RULES, PAIRINGS, RECURSIONS, STEPS
 
 _POSITIVE = click.IntRange(min=1)
 
@@ -15,7 +15,9 @@ RUN = (
     click.option("--scale", type=click.Choice(SCALES), help="How test shapes are brought to the scale of the theory."),
     click.option("--pairing", type=click.Choice(PAIRINGS), help="Pair modes by number, or by MAC and frequency."),
     click.option(
-        "--confidence", type=click.Choice(["90", "95", "99"]), help="Confidence level of the limits, per cent."
+        "--confidence",
+        type=click.Choice([str(level) for level in CONFIDENCES]),
+        help="Confidence level of the limits, per cent.",
     ),
     click.option("--partials", type=_POSITIVE, help="Most computations of the partial derivatives (NPARD)."),
     click.option("--passes", type=_POSITIVE, help="Passes of O-7/O-8 before the partials are recomputed (ITERMX)."),
@@ -61,13 +63,15 @@ READING = (
 
 def answer(schema: str) -> tuple[Callable, ...]:
     """Where the answer goes and in what form; `schema` is that of its JSON document."""
+    from mouse_cli.report.numbers import STYLES
+
     return (
         click.option("-o", "--output", metavar="FILE", help="Write the answer to FILE instead of standard output."),
         click.option(
             "--json", "form", flag_value="json", help=f"One JSON document ({schema}) in place of the printout."
         ),
         click.option("--markdown", "form", flag_value="markdown", help="Markdown in place of the printout."),
-        click.option("--numbers", type=click.Choice(["legacy", "modern"]), help="1.28872+04 as in 1972, or 12887.2."),
+        click.option("--numbers", type=click.Choice(STYLES), help="1.28872+04 as in 1972, or 12887.2."),
     )
 
 

@@ -14,14 +14,16 @@ from mouse_cli.terms.matrix_entries import MatrixEntries
 
 @dataclass(frozen=True)
 class Coordinates:
-    """mean (p,) of the prior in u; L its root, (p, k) or the diagonal (p,); lower, upper (p,) limits in u, or None."""
+    """mean (p,) of the prior in u; L its root, (p, k) or the diagonal (p,); lower, upper (p,) limits in u, or None.
+
+    logarithmic (p,): mask of the parameters whose u is the logarithm of their value.
+    """
 
     logarithmic: np.ndarray
     mean: np.ndarray
     L: np.ndarray
     lower: np.ndarray | None
     upper: np.ndarray | None
-    held: np.ndarray
 
     def value(self, u: np.ndarray) -> np.ndarray:
         """Values (p,) in the units of the properties."""
@@ -41,7 +43,7 @@ def coordinates(problem: Problem, term: MatrixEntries) -> Coordinates:
     sd = problem.prior.sd / slope
     held = _total_mass(problem, term)
     lower, upper = _limits(problem, logarithmic, mean, sd)
-    return Coordinates(logarithmic, mean, _root(problem, slope, sd, held), lower, upper, held)
+    return Coordinates(logarithmic, mean, _root(problem, slope, sd, held), lower, upper)
 
 
 def _total_mass(problem: Problem, term: MatrixEntries) -> np.ndarray:

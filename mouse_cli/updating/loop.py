@@ -78,8 +78,8 @@ def _result(trace: Trace, start: State, status: Status, estimator: Estimator, in
         problem=problem,
         status=status,
         cycles=tuple(trace.cycles),
-        prior=_snapshot(setting, start, problem.prior.dense() / np.outer(slope_prior, slope_prior)),
-        revised=_snapshot(setting, end, cov_u),
+        prior=_snapshot(start, problem.prior.dense() / np.outer(slope_prior, slope_prior)),
+        revised=_snapshot(end, cov_u),
         y=setting.y,
         sd=setting.sd,
         labels=tuple(setting.observable.labels()),
@@ -147,7 +147,7 @@ def _at_limit(setting: Setting, u: np.ndarray) -> np.ndarray:
     return (u - lower <= near) | (upper - u <= near)
 
 
-def _snapshot(setting: Setting, state: State, covariance: np.ndarray) -> Snapshot:
+def _snapshot(state: State, covariance: np.ndarray) -> Snapshot:
     """What a report needs of `state`, with `covariance` (p, p) of u carried to the data."""
     spread = np.sum((state.T @ covariance) * state.T, axis=1)
     return Snapshot(

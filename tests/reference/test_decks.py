@@ -1,13 +1,10 @@
 """The decks of `decks/`: each runs, the cards say what the YAML says, and the answers are those of their sources."""
 
-import json
 from dataclasses import replace
 from pathlib import Path
 
-import jsonschema
 import numpy as np
 import pytest
-import yaml
 
 from mouse_cli.formats import read_deck
 from mouse_cli.updating import run
@@ -73,9 +70,3 @@ def test_the_alarm():
     assert wrong.residual.p < 1e-10 and wrong.innovation.p < 1e-10
     sound = run(read_deck(DECKS / "sound_chain.yaml"))
     assert np.abs((sound.revised.theta - truth) / sound.sd_theta).max() < 3
-
-
-def test_decks_follow_the_schema():
-    schema = json.loads((DECKS.parent / "mouse_cli" / "formats" / "deck.schema.json").read_text())
-    for path in YAML:
-        jsonschema.validate(yaml.safe_load(path.read_text()), schema)

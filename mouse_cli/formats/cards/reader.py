@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass, field
 
 from mouse_cli._errors import DeckError
 from mouse_cli.formats.cards import layout
@@ -70,40 +69,26 @@ def trace(text: str | bytes, *, strip_73_80: bool = False, **options: object) ->
     return cursor
 
 
-@dataclass
-class _Case:
-    """One case while it is read."""
-
-    cursor: Cursor
-    control: Control
-    matrices: dict[str, Matrix] = field(default_factory=dict)
-
-    def input(self, group: layout.Group, rows: int, cols: int, **more: object) -> Matrix:
-        """Read one matrix by INPUT."""
-        matrix = Matrix(group, rows, cols, **more)
-        return self.matrices.setdefault(group.symbol, read_input(self.cursor, matrix))
-
-
 def _read_case(cursor: Cursor, stacked: bool) -> Draft:
     """The twelve groups, in order."""
     start = cursor.at
     heading = cursor.take(layout.HEADING)
     control = read_control(cursor)
-    n, case = control.N, _Case(cursor, control)
+    n = control.N
     modes = read_mode(cursor, control)
     elements = read_rs(cursor, control)
     indic = read_indic(cursor, control)
-    cov = case.input(layout.COV, control.INTR, control.INTR, next_shape=(control.NRS, control.INTR))
+    cov = read_input(cursor, Matrix(layout.COV, control.INTR, control.INTR, next_shape=(control.NRS, control.INTR)))
     _refuse_correlation(cursor, cov)
-    partials = case.input(layout.A, control.NRS, control.INTR)
+    partials = read_input(cursor, Matrix(layout.A, control.NRS, control.INTR))
     refuse_empty(cursor, partials)
     lamtst = read_lamtst(cursor, control)
-    shapes = case.input(layout.X, n, n)
+    shapes = read_input(cursor, Matrix(layout.X, n, n))
     var = read_var(cursor, control)
-    mass = case.input(layout.M, n, n, symmetric=True)
+    mass = read_input(cursor, Matrix(layout.M, n, n, symmetric=True))
     refuse_empty(cursor, mass)
     _refuse_coupled_mass(cursor, mass)
-    stiffness = case.input(layout.K, n, n, symmetric=True)
+    stiffness = read_input(cursor, Matrix(layout.K, n, n, symmetric=True))
     refuse_empty(cursor, stiffness)
     test = test_draft(cursor, control, modes, indic, lamtst, shapes, var)
     _finish(cursor, control, stacked)

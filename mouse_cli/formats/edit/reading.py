@@ -7,7 +7,7 @@ reason.
 """
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -35,7 +35,6 @@ class Suspicion:
     kind: str
     reason: str
     help: str
-    offset: int
 
 
 def read_field(text: str, format: str, *, blanks: str = "zero") -> Value:
@@ -165,20 +164,17 @@ def _in_range(value: float, mantissa: str) -> float:
     )
 
 
-def _suspicions(text: str, descriptor: Format):
+def _suspicions(text: str, descriptor: Format) -> Iterator[Suspicion]:
     """The warnings of a nonzero field, found in the mantissa (reals) or in the whole number (integers)."""
     mantissa = re.split(r"[EeDd]|(?<=[0-9. ])[+-]", text.lstrip(" "))[0] if descriptor.kind == "E" else text
-    start = text.index(mantissa.strip(" ")) if mantissa.strip(" ") else 0
     if descriptor.kind == "E" and "." not in mantissa:
         yield Suspicion(
             "no-point",
             f"no decimal point: the last {descriptor.digits} digits are taken as the fraction",
             "punch the decimal point",
-            start,
         )
-    gap = re.search(r"[0-9.] +(?=[0-9.])", text)
-    if gap:
-        yield Suspicion("embedded-blank", "a blank inside a number is a zero", "punch the zero", gap.start() + 1)
+    if re.search(r"[0-9.] +(?=[0-9.])", text):
+        yield Suspicion("embedded-blank", "a blank inside a number is a zero", "punch the zero")
     digits = mantissa.rstrip(" ")
     if "." not in mantissa and len(digits) < len(mantissa):
         count = len(mantissa) - len(digits)
@@ -186,5 +182,4 @@ def _suspicions(text: str, descriptor: Format):
             "trailing-blank",
             f"each blank after an integer multiplies it by ten, here {count} time{'s' * (count > 1)}",
             f"move the number {count} column{'s' * (count > 1)} to the right",
-            start + len(digits.lstrip(" ")),
         )

@@ -6,7 +6,7 @@ from mouse_cli.formats.yaml_deck.schema import KINDS, SECTIONS, VERSION, Key, Se
 
 
 def schema() -> dict[str, Any]:
-    """The JSON Schema of a deck, shipped as formats/deck.schema.json and printed by `mouse explain schema`."""
+    """The JSON Schema of a deck, shipped beside this file as deck.schema.json and printed by `mouse explain schema`."""
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": f"mouse deck, version {VERSION}",

@@ -13,7 +13,6 @@ class Renderer:
     """`render(blocks, numbers)` gives the report's text; `numbers`: the style it uses when nobody asks for another."""
 
     key: str
-    suffix: str
     numbers: str
     render: Callable[[Iterable[Block], Numbers], str]
 

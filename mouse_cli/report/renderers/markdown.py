@@ -73,4 +73,4 @@ _RENDER: dict[type, Callable[..., list[str]]] = {
     Matrix: _matrix,
 }
 
-RENDERER = Renderer("markdown", ".md", "modern", render)
+RENDERER = Renderer("markdown", "modern", render)

@@ -73,4 +73,4 @@ _RENDER: dict[type, Callable[..., list[str]]] = {
     Matrix: _matrix,
 }
 
-RENDERER = Renderer("printout", ".txt", "legacy", render)
+RENDERER = Renderer("printout", "legacy", render)
