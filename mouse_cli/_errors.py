@@ -52,6 +52,10 @@ class NumericalError(MouseError):
     """The numbers allow no answer: names the parameter, the cycle and the card or line that set it."""
 
 
+class PluginError(MouseError):
+    """A member that another distribution registers cannot be used."""
+
+
 class WrittenError(MouseError):
     """An output could not be written; whatever stood there before is untouched."""
 

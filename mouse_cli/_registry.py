@@ -7,6 +7,8 @@ from importlib import import_module
 from pkgutil import iter_modules
 from typing import Any
 
+from mouse_cli._errors import ERROR, Diagnostic, PluginError
+
 
 @cache
 def names(package: str) -> tuple[str, ...]:
@@ -22,7 +24,7 @@ def discover(package: str, attribute: str) -> dict[str, Any]:
     A module without the attribute is support code and is passed over. A member has a `key`.
     Third parties register under the entry-point group named like the package, e.g. `mouse_cli.estimators`.
 
-    Raises ValueError when two members claim one key.
+    Raises ValueError when two members claim one key, PluginError when a third party's cannot be used.
     """
     modules = (import_module(f"{package}.{name}") for name in names(package))
     found = [getattr(module, attribute) for module in modules if hasattr(module, attribute)]
@@ -62,7 +64,24 @@ def _plugins(package: str) -> list[Any]:
         return []
     from importlib.metadata import entry_points
 
-    return [entry.load() for entry in entry_points(group=package)]
+    return [_loaded(entry) for entry in entry_points(group=package)]
+
+
+def _loaded(entry: Any) -> Any:
+    """The member that an entry point names. Raises PluginError when there is none."""
+    try:
+        member = entry.load()
+    except Exception as reason:  # whatever a stranger's module does on import
+        raise _unusable(entry, f"cannot be loaded: {reason}") from reason
+    if not isinstance(getattr(member, "key", None), str):
+        raise _unusable(entry, "names something that has no `key`")
+    return member
+
+
+def _unusable(entry: Any, why: str) -> PluginError:
+    place = f"{entry.name} = {entry.value} in group {entry.group}"
+    help = "let the entry point name the object itself, package.module:OBJECT, or uninstall its distribution"
+    return PluginError(Diagnostic("MD511", ERROR, f"the entry point {place} {why}", help=help))
 
 
 def _text(path: str) -> str:

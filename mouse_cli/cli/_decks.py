@@ -25,19 +25,28 @@ def shown(path: str) -> str:
 
 def read_problem(path: str, changes: dict[str, object] | None = None, **reading: object) -> Problem:
     """The problem of one deck; `changes` are options of the command line that replace those of the deck."""
-    draft = read_draft(deck_bytes(path), shown(path), **reading)
+    data = deck_bytes(path)
+    if is_yaml(data, path) and (reading.get("overrides") or reading.get("strip_73_80")):
+        raise click.UsageError("--set and --strip-73-80 are for card decks; a YAML deck has keys and options for that")
+    draft = read_draft(data, shown(path), **reading)
     return assemble(changed(draft, changes or {}))
 
 
 def read_cases(path: str, changes: dict[str, object], **reading: object) -> Iterator[Problem]:
     """The problems of a file of stacked card decks, one after another."""
+    for draft in read_drafts(path, stacked=True, **reading):
+        yield assemble(changed(draft, changes))
+
+
+def read_drafts(path: str, stacked: bool, **reading: object) -> Iterator[Draft]:
+    """The deck of a file, or all of them where card decks are stacked."""
+    data = deck_bytes(path)
+    if not stacked or is_yaml(data, path):
+        yield read_draft(data, shown(path), **reading)
+        return
     from mouse_cli.formats import cards
 
-    data = deck_bytes(path)
-    if is_yaml(data, path):
-        raise click.UsageError("--stacked is for card decks; a YAML file holds one deck")
-    for draft in cards.read_all(data, shown(path), stacked=True, **reading):
-        yield assemble(changed(draft, changes))
+    yield from cards.read_all(data, shown(path), stacked=True, **reading)
 
 
 def changed(draft: Draft, changes: dict[str, object]) -> Draft:

@@ -1,6 +1,7 @@
 """Options shared by commands: each replaces a key of `run:` in the deck, and is echoed in the printout and the JSON."""
 
 from collections.abc import Callable
+from math import isfinite
 
 import click
 
@@ -8,6 +9,14 @@ from mouse_cli.model.modal_test import SCALES
 from mouse_cli.model.problem import CONFIDENCES, CONVERGENCE_RULES, PAIRINGS, RECURSIONS, STEPS
 
 _POSITIVE = click.IntRange(min=1)
+
+
+def _finite(context: click.Context, option: click.Parameter, value: float | None) -> float | None:
+    """A number that is one: nan is within every range."""
+    if value is not None and not isfinite(value):
+        raise click.BadParameter(f"{value} is not a finite number", context, option)
+    return value
+
 
 RUN = (
     click.option("--estimator", metavar="NAME", help="Row of Table 3-1; see `mouse list estimators`."),
@@ -40,7 +49,10 @@ RUN = (
         "--step", type=click.Choice(STEPS), help="First-order step, or with the curvature of the data along it."
     ),
     click.option(
-        "--limit-sd", type=click.FloatRange(min=0, min_open=True), help="No correction beyond so many prior sd."
+        "--limit-sd",
+        type=click.FloatRange(min=0, min_open=True),
+        callback=_finite,
+        help="No correction beyond so many prior sd.",
     ),
     click.option(
         "--fix-total-mass", is_flag=True, default=None, help="Hold the total mass while component masses vary."

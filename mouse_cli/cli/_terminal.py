@@ -1,7 +1,9 @@
 """What goes to the terminal besides the answer: diagnostics, progress, and where the answer itself goes."""
 
+import os
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 
 import click
 
@@ -23,8 +25,6 @@ def show_diagnostics(diagnostics: Iterable[Diagnostic], brief: bool = False) -> 
 
 def _coloured(stream) -> bool:
     """Colour only on a terminal, and never where NO_COLOR is set (no-color.org)."""
-    import os
-
     return stream.isatty() and "NO_COLOR" not in os.environ
 
 
@@ -35,24 +35,31 @@ def json_text(document: dict[str, object]) -> str:
     return json.dumps(document, indent=1, allow_nan=False)
 
 
-def deliver(text: str, output: str | None) -> None:
-    """Print `text`, or write it to the file `output`, whole or not at all. Raises WrittenError."""
+def deliver(text: str, output: str | None, deck: str) -> None:
+    """Print `text`, or write it to the file `output`, whole or not at all; never over the deck it came from.
+
+    Raises WrittenError.
+    """
     if not text.endswith("\n"):
         text += "\n"
     if output in (None, "-"):
         click.echo(text, nl=False)
         return
+    if os.path.exists(output) and os.path.exists(deck) and os.path.samefile(output, deck):
+        raise click.UsageError(f"-o {output} would overwrite the deck")
     from mouse_cli._atomic import write_text_atomically
 
     write_text_atomically(output, text)
 
 
-def progress() -> Callable[[Cycle], None]:
-    """Shows each cycle while it runs, on a terminal only."""
+@contextmanager
+def progress() -> Iterator[Callable[[Cycle], None]]:
+    """Shows each cycle while it runs, on a terminal only, and leaves no trace of it."""
     if not sys.stderr.isatty():
-        return lambda cycle: None
-
-    def show(cycle: Cycle) -> None:
-        click.echo(f"\r\033[Kcycle {cycle.index}: chi2 {cycle.chi2:.6g}\r", err=True, nl=False)
-
-    return show
+        yield lambda cycle: None
+        return
+    line = "\r\033[K"  # back to its beginning, and cleared
+    try:
+        yield lambda cycle: click.echo(f"{line}cycle {cycle.index}: chi2 {cycle.chi2:.6g}", err=True, nl=False)
+    finally:
+        click.echo(line, err=True, nl=False)

@@ -71,8 +71,17 @@ def _run(arguments: list[str] | None) -> int:
         click.echo("mouse: interrupted", err=True)
         return INTERRUPTED
     except BrokenPipeError:  # the reader of our output has gone, e.g. `mouse show deck | head`
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+        _close_stdout()
         return 1
+    except OSError as error:  # standard output cannot take the answer, e.g. the disk is full
+        _close_stdout()
+        click.echo(f"mouse: error[MD290]: the answer cannot be written: {error.strerror or error}", err=True)
+        return 5
     except MemoryError:
         click.echo("mouse: error[MD512]: not enough memory for a model of this size", err=True)
         return 5
+
+
+def _close_stdout() -> None:
+    """Send what is still to be flushed to nowhere, so that the interpreter does not fail on it at its end."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)

@@ -120,6 +120,11 @@ CODES = {
         "The program of 1972 allowed three rigid-body modes; --legacy enforces that.",
         "Run without --legacy.",
     ),
+    "MD334": Code(
+        "unknown estimator",
+        "The deck asks for an estimator that neither mouse nor an installed plug-in has.",
+        "Choose one that `mouse list estimators` shows.",
+    ),
     "MD333": Code(
         "deck without a test",
         "`mouse run` revises a model by a test, and the deck has none.",

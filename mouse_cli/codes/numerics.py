@@ -45,5 +45,11 @@ CODES = {
         "fix_total_mass is set, but no property moves an element of M.",
         "Leave it out.",
     ),
+    "MD511": Code(
+        "plug-in that cannot be used",
+        "A distribution registers a member under an entry point of mouse, but it cannot be loaded, or has no `key`. The entry "
+        "point must name the object itself, e.g. `package.module:ESTIMATOR`.",
+        "Mend or uninstall the distribution that is named.",
+    ),
     "MD512": Code("out of memory", "The model is too large for this machine.", "Use sparse matrices and fewer modes."),
 }

@@ -16,10 +16,14 @@ class IndefiniteError(ArithmeticError):
 
 @dataclass(frozen=True)
 class EigenSolution:
-    """eigenvalues (k,) ascending, (rad/s)^2; shapes (n, k), mass-normalised. k = n for a dense model, else the lowest k."""
+    """eigenvalues (k,) ascending, (rad/s)^2; shapes (n, k), mass-normalised. k = n for a dense model, else the lowest k.
+
+    zero: eigenvalues this near to zero differ from it, and from one another, by rounding alone.
+    """
 
     eigenvalues: np.ndarray
     shapes: np.ndarray
+    zero: float = 0.0
 
     @property
     def complete(self) -> bool:
@@ -90,7 +94,8 @@ def _sparse(K: Matrix, M: Matrix, count: int, shift: float | None) -> EigenSolut
     eigenvalues, vectors = eigsh(K, count, M, sigma=shift, OPinv=inverse, v0=start, tol=1e-11)
     order = np.argsort(eigenvalues)
     vectors = vectors[:, order]
-    return EigenSolution(eigenvalues[order], vectors / np.sqrt(np.einsum("ij,ij->j", vectors, M @ vectors)))
+    length = np.sqrt(np.einsum("ij,ij->j", vectors, M @ vectors))
+    return EigenSolution(eigenvalues[order], vectors / length, zero=1e-8 * abs(shift))
 
 
 def symmetric_factor(matrix: Matrix):
@@ -106,12 +111,12 @@ def _positive(factor) -> bool:
     return bool((factor.perm_r == factor.perm_c).all() and (factor.U.diagonal() > 0).all())
 
 
-def clusters(eigenvalues: np.ndarray, tolerance: float = 1e-6) -> np.ndarray:
-    """Cluster number (k,) of each ascending eigenvalue: neighbours closer than `tolerance`, relative, share one.
+def clusters(eigenvalues: np.ndarray, zero: float = 0.0, tolerance: float = 1e-6) -> np.ndarray:
+    """Cluster number (k,) of each ascending eigenvalue: neighbours closer than `tolerance`, relative, or `zero` share one.
 
     Within a cluster single vectors are not defined, only their span; derivatives are taken for the span.
     """
     gap = np.diff(eigenvalues)
     size = np.maximum(np.abs(eigenvalues[1:]), np.abs(eigenvalues[:-1]))
     floor = np.finfo(float).eps * np.abs(eigenvalues).max(initial=0.0) * len(eigenvalues)
-    return np.concatenate([[0], np.cumsum(gap > tolerance * size + floor)]).astype(int)
+    return np.concatenate([[0], np.cumsum(gap > tolerance * size + floor + zero)]).astype(int)

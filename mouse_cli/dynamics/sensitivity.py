@@ -62,7 +62,7 @@ def modal_partials(
     touched, any_mass = pattern.touched, bool(pattern.mass.any())
     partials = ModalPartials(np.empty((len(modes) * (1 + len(dofs)), pattern.properties)), len(modes))
     d_lambda, d_shape = partials.d_lambda, partials.d_shape
-    family = clusters(solution.eigenvalues)
+    family = clusters(solution.eigenvalues, solution.zero)
     for i, mode in enumerate(modes):
         x, same = solution.shapes[:, mode], np.flatnonzero(family == family[mode])
         F = pattern.on(x, solution.eigenvalues[mode])
@@ -115,7 +115,10 @@ def _bordered(
     border = M @ X
     shifted = csc_array(K) - solution.eigenvalues[mode] * csc_array(M)
     matrix = block_array([[shifted, csc_array(border)], [csc_array(border.T), None]], format="csc")
-    factor = splu(matrix, permc_spec="MMD_AT_PLUS_A")
+    try:
+        factor = splu(matrix, permc_spec="MMD_AT_PLUS_A")
+    except RuntimeError as reason:  # SuperLU's word for an exactly singular matrix
+        raise np.linalg.LinAlgError(f"mode {mode + 1}: {reason}") from None
 
     def inverse(at: np.ndarray, values: np.ndarray) -> np.ndarray:
         right = np.zeros((n + len(same), values.shape[1]))

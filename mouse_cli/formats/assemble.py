@@ -1,6 +1,7 @@
 """A Draft becomes a Problem, or one DeckError with all that is wrong."""
 
 from mouse_cli._errors import ERROR, WARNING, DeckError
+from mouse_cli._span import Span
 from mouse_cli.formats.draft import Draft
 from mouse_cli.formats.rules import matrices, modal_test, partials, prior
 from mouse_cli.model.problem import Problem
@@ -37,4 +38,13 @@ def assemble(draft: Draft) -> Problem:
         run=draft.run,
         source=draft.source,
         warnings=tuple(d for d in draft.diagnostics if d.severity == WARNING),
+        places=_places(draft),
     )
+
+
+def _places(draft: Draft) -> dict[str, Span]:
+    """Where the things stand that only a run can judge."""
+    found = {"order": draft.where_order, "estimator": draft.where_estimator}
+    if draft.test is not None:
+        found |= {f"mode {number}": draft.test.where_number(i) for i, number in enumerate(draft.test.number.tolist())}
+    return {key: span for key, span in found.items() if span is not None}

@@ -79,6 +79,7 @@ class Draft:
     where_order: Span | None = None
     where_covariance: Span | None = None
     where_total_mass: Span | None = None
+    where_estimator: Span | None = None
     diagnostics: list[Diagnostic] = field(default_factory=list)
 
     @property

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 
 from mouse_cli._errors import Diagnostic
+from mouse_cli._span import Span
 from mouse_cli.model.arrays import Matrix, frozen
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
@@ -71,6 +72,11 @@ class Problem:
     run: RunOptions = field(default_factory=RunOptions)
     source: Source = field(default_factory=Source)
     warnings: tuple[Diagnostic, ...] = ()
+    places: dict[str, Span] = field(default_factory=dict)
+
+    def place(self, key: str) -> Span:
+        """Where `key` (`order`, `estimator`, `mode 3`) stands in the deck; its first line when that is not known."""
+        return self.places.get(key) or Span(self.source.path, 1)
 
     def __post_init__(self) -> None:
         e, p = len(self.elements), len(self.parameters)

@@ -19,7 +19,7 @@ def forecast(problem: Problem, count: int | None = None) -> Forecast:
     K, M = problem.structure.K, problem.structure.M
     try:
         solution = solve(problem, K, M, count)
-    except IndefiniteError as reason:
+    except (IndefiniteError, np.linalg.LinAlgError) as reason:
         raise refusals.unphysical(problem, str(reason)) from None
     k = min(count or len(solution.eigenvalues), len(solution.eigenvalues))
     modes, dofs = np.arange(k), np.arange(problem.structure.n)

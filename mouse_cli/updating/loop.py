@@ -30,7 +30,7 @@ def run(problem: Problem, progress: Progress = lambda cycle: None) -> Result:
     progress is called with each Cycle as it ends. Raises DeckError for a deck whose test cannot belong to its model
     (a rigid-body mode named as measured, shapes that are unrelated), NumericalError where no eigensolution exists.
     """
-    estimator = find_estimator(problem.run.estimator)
+    estimator = _estimator(problem)
     try:
         return _run(problem, estimator, progress)
     except np.linalg.LinAlgError as reason:
@@ -42,6 +42,7 @@ def examine(problem: Problem) -> None:
 
     Raises DeckError and NumericalError as `run` does before its first cycle.
     """
+    _estimator(problem)
     if is_sparse(problem.structure.K) or is_sparse(problem.structure.M):
         return
     try:
@@ -51,6 +52,13 @@ def examine(problem: Problem) -> None:
             _begin(problem)
     except (IndefiniteError, np.linalg.LinAlgError) as reason:
         raise refusals.unphysical(problem, str(reason)) from None
+
+
+def _estimator(problem: Problem) -> Estimator:
+    try:
+        return find_estimator(problem.run.estimator)
+    except ValueError as reason:
+        raise refusals.unknown_estimator(problem, str(reason)) from None
 
 
 def _run(problem: Problem, estimator: Estimator, progress: Progress) -> Result:

@@ -21,6 +21,7 @@ def check_rigid_modes(problem: Problem, solution: EigenSolution) -> None:
                 "MD330",
                 ERROR,
                 f"mode {named[0]} is named as measured, but the model has {rigid} rigid-body mode(s) and this is one of them",
+                problem.place(f"mode {named[0]}"),
                 note=f"mode numbers count the rigid-body modes; the first flexural mode is number {rigid + 1}",
                 help="add the number of rigid-body modes to the mode numbers of the test",
             )
@@ -31,9 +32,16 @@ def check_rigid_modes(problem: Problem, solution: EigenSolution) -> None:
                 "MD332",
                 ERROR,
                 f"the model has {rigid} rigid-body modes; the program of 1972 allowed {_MOST_RIGID_1972}",
+                problem.place("order"),
                 help="run without --legacy",
             )
         )
+
+
+def unknown_estimator(problem: Problem, reason: str) -> DeckError:
+    """The error for a deck that asks for an estimator there is not."""
+    help = "choose one of those that `mouse list estimators` shows"
+    return DeckError(Diagnostic("MD334", ERROR, reason, problem.place("estimator"), help=help))
 
 
 def no_test(problem: Problem) -> DeckError:
@@ -43,6 +51,7 @@ def no_test(problem: Problem) -> DeckError:
             "MD333",
             ERROR,
             f"the deck '{problem.title.strip()}' holds no test: there is nothing to revise the model by",
+            problem.place("test"),
             help="add `test:` with measured modes, or ask for `mouse modes`",
         )
     )
@@ -55,6 +64,7 @@ def unphysical(problem: Problem, reason: str) -> NumericalError:
             "MD501",
             ERROR,
             f"the prior model of '{problem.title.strip()}' is not physical: {reason}",
+            problem.place("order"),
             help="check the signs of the off-diagonal stiffnesses and that every mass is positive",
         )
     )
@@ -71,6 +81,7 @@ def unrelated(problem: Problem, solution: EigenSolution, mode: int, ratio: float
             ERROR,
             f"the shape measured for mode {test.number[mode]} is unrelated to the model's: |c t| / |x| is {ratio:.3g}, "
             "at least 0.1 is expected",
+            problem.place(f"mode {test.number[mode]}"),
             note=f"it looks most like model mode {best + 1} (MAC {likeness[best]:.2f})",
             help="check the mode numbers and the order of the measured points, or use --pairing mac or --scale none",
         )

@@ -1,6 +1,6 @@
 """The model at given values of its parameters, and what follows from that: eigensolution, predictions, partials."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -128,7 +128,7 @@ def paired(problem: Problem, solution: EigenSolution) -> np.ndarray:
 
 def aligned(solution: EigenSolution, modes: np.ndarray, observable: ModalObservable) -> EigenSolution:
     """The solution with the shapes of equal frequencies rotated within their subspace onto the measured ones."""
-    family = clusters(solution.eigenvalues)
+    family = clusters(solution.eigenvalues, solution.zero)
     if family[-1] == len(family) - 1:  # every eigenvalue stands alone
         return solution
     crowded = [c for c in np.unique(family[modes]) if np.count_nonzero(family == c) > 1]
@@ -144,7 +144,7 @@ def aligned(solution: EigenSolution, modes: np.ndarray, observable: ModalObserva
             order = [int(np.flatnonzero(members == modes[i])[0]) for i in measured]
             rest = [j for j in range(len(members)) if j not in order]
             shapes[:, members[order + rest]] = rotated
-    return EigenSolution(solution.eigenvalues, shapes)
+    return replace(solution, shapes=shapes)
 
 
 def attempt(setting: Setting, u: np.ndarray) -> State | None:

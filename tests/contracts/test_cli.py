@@ -168,3 +168,90 @@ def test_completion_knows_the_commands():
     environment = {"_MOUSE_COMPLETE": "bash_complete", "COMP_WORDS": "mouse c", "COMP_CWORD": "1"}
     shown = CliRunner().invoke(cli, [], env=environment, prog_name="mouse").output
     assert {"check", "completion", "convert"} <= {line.partition(",")[2] for line in shown.splitlines()}
+
+
+def altered(tmp_path: Path, deck: str, *changes: tuple[str, str]) -> str:
+    """A copy of `deck` with texts replaced."""
+    text = Path(deck).read_text()
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new, 1)
+    copy = tmp_path / Path(deck).name
+    copy.write_text(text)
+    return str(copy)
+
+
+def test_an_unknown_estimator_is_a_fault_of_the_deck(tmp_path, capsys):
+    deck = altered(tmp_path, SOUND, ("recursion: anchored", "estimator: bays"))
+    line = 1 + Path(deck).read_text()[: Path(deck).read_text().index("bays")].count("\n")
+    for command in ("check", "run"):
+        status, _, err = code(capsys, command, deck)
+        assert status == 4 and f"{deck}:{line}:" in err and "error[MD334]" in err and "maximum-likelihood" in err
+
+
+@pytest.mark.parametrize("key", ["partials: 0", "passes: 0"])
+def test_no_cycles_at_all_is_refused(tmp_path, capsys, key):
+    deck = altered(tmp_path, SOUND, ("recursion: anchored", f"recursion: anchored, {key}"))
+    assert code(capsys, "check", deck)[0] == 4
+
+
+def test_what_the_eigensolution_shows_has_a_place(tmp_path, capsys):
+    deck = altered(tmp_path, str(DECKS / "rigid_body.yaml"), ("number: [2, 3]", "number: [1, 3]"))
+    row = Path(deck).read_text().splitlines().index("    number: [1, 3]") + 1
+    assert f"{deck}:{row}:14: error[MD330]" in code(capsys, "check", deck)[2]
+    negative = altered(tmp_path, str(DECKS / "table_5_2.dat"), ("  1  1       250000.", "  1  1      -250000."))
+    status, _, err = code(capsys, "check", negative)
+    assert status == 4 and f"{negative}:2:1: error[MD501]" in err
+
+
+def test_options_that_cannot_act_are_refused(tmp_path, capsys):
+    assert code(capsys, "run", SOUND, "--set", "NPARD=4")[0] == 2
+    assert code(capsys, "run", SOUND, "--limit-sd", "nan")[0] == 2
+    deck = altered(tmp_path, SOUND)
+    before = Path(deck).read_text()
+    assert code(capsys, "run", deck, "-o", deck)[0] == 2 and Path(deck).read_text() == before
+
+
+def test_stacked_decks_can_be_checked(tmp_path, capsys):
+    stack = tmp_path / "stack.dat"
+    stack.write_text(Path(CARDS).read_text() * 2)
+    assert code(capsys, "check", str(stack))[0] == 4
+    assert code(capsys, "check", "--stacked", str(stack))[0] == 0
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="the system has no /dev/full")
+@pytest.mark.parametrize("arguments", [("run", CARDS), ("list",)])
+def test_a_full_disk_behind_standard_output_is_said(arguments):
+    with open("/dev/full", "w") as full:
+        command = [sys.executable, "-m", "mouse_cli", *arguments]
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, env=ENVIRONMENT, timeout=60)
+    assert done.returncode == 5 and b"MD290" in done.stderr and b"Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("target", ["toy_plugin", "toy_plugin:ABSENT", "no_such_module:ESTIMATOR"])
+def test_a_plugin_that_cannot_be_used_is_named(tmp_path, target):
+    (tmp_path / "toy_plugin.py").write_text("")
+    told = tmp_path / "toy-1.0.dist-info"
+    told.mkdir()
+    (told / "METADATA").write_text("Metadata-Version: 2.1\nName: toy\nVersion: 1.0\n")
+    (told / "entry_points.txt").write_text(f"[mouse_cli.estimators]\ntoy = {target}\n")
+    command = [sys.executable, "-m", "mouse_cli", "list", "estimators"]
+    paths = os.pathsep.join([str(tmp_path), str(DECKS.parent)])
+    done = subprocess.run(command, capture_output=True, text=True, env={**ENVIRONMENT, "PYTHONPATH": paths}, timeout=60)
+    assert done.returncode == 5 and "MD511" in done.stderr and target in done.stderr
+
+
+def test_a_third_party_estimator_serves(tmp_path):
+    (tmp_path / "toy_plugin.py").write_text(
+        "from dataclasses import replace\n"
+        "from mouse_cli.estimators.bayes import ESTIMATOR as BAYES\n"
+        "ESTIMATOR = replace(BAYES, key='toy', title='Toy')\n"
+    )
+    told = tmp_path / "toy-1.0.dist-info"
+    told.mkdir()
+    (told / "METADATA").write_text("Metadata-Version: 2.1\nName: toy\nVersion: 1.0\n")
+    (told / "entry_points.txt").write_text("[mouse_cli.estimators]\ntoy = toy_plugin:ESTIMATOR\n")
+    command = [sys.executable, "-m", "mouse_cli", "run", SOUND, "--estimator", "toy", "--json"]
+    paths = os.pathsep.join([str(tmp_path), str(DECKS.parent)])
+    done = subprocess.run(command, capture_output=True, text=True, env={**ENVIRONMENT, "PYTHONPATH": paths}, timeout=60)
+    assert done.returncode == 0 and json.loads(done.stdout)["estimator"] == "toy"

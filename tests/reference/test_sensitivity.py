@@ -8,7 +8,7 @@ both below 1e-25. Formulas: Fox and Kapoor 1968; for equal eigenvalues the proje
 import numpy as np
 import pytest
 from mpmath import mp
-from scipy.sparse import csr_array
+from scipy.sparse import block_diag, csr_array, diags_array, eye_array
 
 from mouse_cli.dynamics.eigen import EigenSolution, IndefiniteError, clusters, eigensolution
 from mouse_cli.dynamics.sensitivity import modal_partials
@@ -262,3 +262,21 @@ def test_sparse_negative_stiffness_is_not_overlooked():
     except IndefiniteError:
         return
     assert lowest < -1e6
+
+
+@pytest.mark.parametrize("bodies", [2, 3, 6])
+def test_sparse_model_of_several_free_bodies(bodies):
+    """As many rigid-body modes as bodies: their span is one cluster, however rounding scatters their eigenvalues."""
+    n = 60
+    body = diags_array([np.r_[1.0, np.full(n - 2, 2.0), 1.0], -np.ones(n - 1), -np.ones(n - 1)], offsets=[0, 1, -1])
+    K, M = csr_array(block_diag([(1 + 0.01 * i) * body for i in range(bodies)])), csr_array(eye_array(n * bodies))
+    elements = ListedElements([False], [0], [0])
+    sparse = eigensolution(K, M, count=bodies + 2)
+    full = eigensolution(K.toarray(), M.toarray())
+    assert not sparse.complete and len(set(clusters(sparse.eigenvalues, sparse.zero)[:bodies])) == 1
+    modes, dofs = np.arange(bodies, bodies + 2), np.arange(0, n, 7)
+    one = modal_partials(sparse, K, M, modes, dofs, elements)
+    two = modal_partials(full, K.toarray(), M.toarray(), modes, dofs, elements)
+    np.testing.assert_allclose(one.d_lambda, two.d_lambda, rtol=1e-6, atol=1e-12)
+    sign = np.sign(np.sum(sparse.shapes[:, modes] * full.shapes[:, modes], axis=0))
+    np.testing.assert_allclose(one.d_shape, two.d_shape * sign[:, None, None], rtol=1e-5, atol=1e-8)

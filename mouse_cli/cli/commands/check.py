@@ -9,12 +9,14 @@ from mouse_cli.cli._options import READING, options, reading
 @click.argument("decks", nargs=-1, required=True)
 @click.option("--brief", is_flag=True, help="One line for each finding, without the card.")
 @click.option("--strict", is_flag=True, help="Warnings count as errors.")
+@click.option("--stacked", is_flag=True, help="Files of cards may hold several decks, one after another.")
 @click.option("-q", "--quiet", is_flag=True, help="Errors only, no warnings.")
 @options(READING)
 def command(
     decks: tuple[str, ...],
     brief: bool,
     strict: bool,
+    stacked: bool,
     quiet: bool,
     legacy: bool,
     strip_73_80: bool,
@@ -32,7 +34,7 @@ def command(
     how = reading(legacy, strip_73_80, overrides)
     checked = rejected = warned = 0
     for path in expanded(decks):
-        findings = _findings(path, how)
+        findings = _findings(path, how, stacked)
         errors = any(d.severity == "error" for d in findings) or (strict and bool(findings))
         checked, rejected, warned = checked + 1, rejected + errors, warned + (bool(findings) and not errors)
         show_diagnostics((d for d in findings if d.severity == "error" or not quiet), brief)
@@ -41,15 +43,19 @@ def command(
     return 4 if rejected else 0
 
 
-def _findings(path: str, how: dict[str, object]) -> tuple:
-    """Everything found in one deck."""
+def _findings(path: str, how: dict[str, object], stacked: bool) -> tuple:
+    """Everything found in one file."""
     from mouse_cli._errors import MouseError
-    from mouse_cli.cli._decks import read_problem
+    from mouse_cli.cli._decks import read_drafts
+    from mouse_cli.formats.assemble import assemble
     from mouse_cli.updating.loop import examine
 
+    found: tuple = ()
     try:
-        problem = read_problem(path, **how)
-        examine(problem)
+        for draft in read_drafts(path, stacked, **how):
+            problem = assemble(draft)
+            found += problem.warnings
+            examine(problem)
     except MouseError as error:
-        return error.diagnostics
-    return problem.warnings
+        return found + error.diagnostics
+    return found

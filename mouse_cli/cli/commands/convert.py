@@ -36,14 +36,14 @@ def command(
 
         text, findings = card_writer.write(problem, lossy=lossy)
         show_diagnostics(findings)
-        deliver(text, output)
+        deliver(text, output, deck)
     elif output in (None, "-"):
         from mouse_cli.formats import yaml_deck
 
         text, attachments = yaml_deck.write(problem)
         if attachments:
             raise click.UsageError("the deck has matrices that go to files of their own: name the deck with -o")
-        deliver(text, output)
+        deliver(text, output, deck)
     else:
         from mouse_cli.formats import write_deck
 

@@ -35,5 +35,5 @@ def command(
     if not quiet:
         show_diagnostics(problem.warnings)
     found = forecast(problem, count)
-    deliver(json_text(document(found)) if form == "json" else written(found, form or "printout", numbers), output)
+    deliver(json_text(document(found)) if form == "json" else written(found, form or "printout", numbers), output, deck)
     return 0

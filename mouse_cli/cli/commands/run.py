@@ -37,8 +37,9 @@ def command(
     for problem in problems:
         if not quiet:
             show_diagnostics(problem.warnings)
-        results.append(run(problem, progress()))
-    deliver(_text(results, form, numbers, stacked), output)
+        with progress() as show:
+            results.append(run(problem, show))
+    deliver(_text(results, form, numbers, stacked), output, deck)
     return max((result.exit_code for result in results), default=0)
 
 

@@ -30,6 +30,7 @@ _REAL_FAULTS = (
         "there is an exponent, but no number before it",
         "punch the number",
     ),
+    (r"^ *([+-]) *$", "there is a sign, but no digit", "punch the number, or leave the field blank"),
     (
         r"(?i)[0-9. ]([ed] *[+-]?|[+-]) *$",
         "there are no digits after the exponent",

@@ -8,6 +8,8 @@ from mouse_cli.formats.yaml_deck.nodes import Document, Node
 from mouse_cli.formats.yaml_deck.schema import KINDS
 from mouse_cli.formats.yaml_deck.sections import Section
 
+_ROUNDING = 1e-9  # what normalising a covariance leaves on the diagonal
+
 
 def covariance(section: Section | None, form: str | None, p: int) -> np.ndarray | None:
     """The covariance (p, p) of `prior: {covariance: ...}`; None in any other case."""
@@ -29,7 +31,9 @@ def _whole(section: Section, node: Node, names: list[str]) -> np.ndarray | None:
     found = square(section.document, node, what, len(names))
     if found is None:
         return None
-    for i, j in np.argwhere(~(np.abs(found) <= 1) | (np.eye(len(names), dtype=bool) & (found != 1)))[:20]:
+    diagonal = np.eye(len(names), dtype=bool)
+    found[diagonal & (np.abs(found - 1) < _ROUNDING)] = 1.0
+    for i, j in np.argwhere(~(np.abs(found) <= 1 + _ROUNDING) | (diagonal & (found != 1)))[:20]:
         message = f"{what}({i + 1},{j + 1}) is {found[i, j]:.8g}; it must be {'1' if i == j else 'within -1 to 1'}"
         section.document.error("MD230", node.value[i].value[j], message, "give correlations, not covariances")
     return found

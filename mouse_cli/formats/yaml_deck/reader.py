@@ -38,7 +38,7 @@ def _draft(deck: Section) -> Draft | None:
     parameters, covariance, properties = _properties(deck)
     elements, A = yaml_parameters.moves(deck, properties, matrices.order)
     test = modal_test(deck.section("test"), matrices.labels)
-    run, where_total_mass = run_options(deck.section("run"), matrices.labels)
+    run, where = run_options(deck.section("run"), matrices.labels)
     title = deck.value("title", "")
     deck.value("source")
     if document.incomplete or matrices.K is None or matrices.M is None:
@@ -58,7 +58,8 @@ def _draft(deck: Section) -> Draft | None:
         labels=matrices.labels,
         where_order=document.span(matrices.where_order),
         where_covariance=document.span(deck.nodes["prior"]) if "prior" in deck else None,
-        where_total_mass=where_total_mass,
+        where_total_mass=where.get("fix_total_mass"),
+        where_estimator=where.get("estimator"),
     )
 
 

@@ -8,18 +8,17 @@ from mouse_cli.formats.yaml_deck.sections import Section
 from mouse_cli.model.problem import RunOptions
 
 
-def run_options(section: Section | None, labels: tuple[str, ...]) -> tuple[RunOptions, Span | None]:
-    """The options, and the place of fix_total_mass."""
+def run_options(section: Section | None, labels: tuple[str, ...]) -> tuple[RunOptions, dict[str, Span]]:
+    """The options, and the place of each key that is given."""
     if section is None:
-        return RunOptions(), None
+        return RunOptions(), {}
     simple = {key: section.value(key) for key in section.nodes if key != "fix_total_mass"}
     given = {key: value for key, value in simple.items() if value is not None}
     return RunOptions(**given, **_total_mass(section, labels)), _where(section)
 
 
-def _where(section: Section) -> Span | None:
-    node = section.nodes.get("fix_total_mass")
-    return None if node is None else section.document.span(node)
+def _where(section: Section) -> dict[str, Span]:
+    return {key: section.document.span(node) for key, node in section.nodes.items()}
 
 
 def _total_mass(section: Section, labels: tuple[str, ...]) -> dict[str, object]:
