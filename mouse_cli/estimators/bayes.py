@@ -19,12 +19,15 @@ def solve(problem: LinearProblem) -> LinearEstimate:
     if q < k and problem.lower is None:
         return _within_row_space(problem, B, r)
     z, C = _mode(B, r)
-    root_z, at_limit = np.linalg.inv(C), np.zeros(problem.T.shape[1], bool)
+    active = np.zeros(problem.T.shape[1], int)
     if problem.lower is not None:
         z, active = limited(problem, z, C)
-        root_z, at_limit = conditioned(problem, root_z, active)
-    U = problem.expand(root_z)
-    return LinearEstimate(problem.expand(z), z, np.sum(U * U, axis=1), lambda: U, at_limit)
+
+    def root() -> np.ndarray:
+        """L C^-1, given that the properties at their limits stay there."""
+        return problem.expand(conditioned(problem, np.linalg.inv(C), active)[0])
+
+    return LinearEstimate(problem.expand(z), z, root, active != 0)
 
 
 def _mode(B: np.ndarray, r: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -49,19 +52,22 @@ def _within_row_space(problem: LinearProblem, B: np.ndarray, r: np.ndarray) -> L
     w, C = _mode(F.T, r)
     z = Q @ w
     seen = problem.expand(Q)
-    revised = seen @ np.linalg.inv(C)
-    prior = problem.L**2 if problem.L.ndim == 1 else np.sum(problem.L**2, axis=1)
-    unseen = prior - np.sum(seen * seen, axis=1)
-    small = np.flatnonzero(unseen < _SEEN * prior)  # at most about q of them
-    rows = problem.L[small, None] * np.eye(len(z))[small] if problem.L.ndim == 1 else problem.L[small]
-    unseen[small] = np.sum((rows - seen[small] @ Q.T) ** 2, axis=1)
 
     def root() -> np.ndarray:
         """[L Q C^-1, L (I - Q Q')]."""
-        return np.hstack([revised, problem.expand(np.eye(len(z)) - Q @ Q.T)])
+        return np.hstack([seen @ np.linalg.inv(C), problem.expand(np.eye(len(z)) - Q @ Q.T)])
 
-    variance = unseen + np.sum(revised * revised, axis=1)
-    return LinearEstimate(problem.expand(z), z, variance, root, np.zeros(len(variance), bool))
+    def variances() -> np.ndarray:
+        """Row sums of squares of the root, without the second block where a difference does as well."""
+        revised = seen @ np.linalg.inv(C)
+        prior = problem.L**2 if problem.L.ndim == 1 else np.sum(problem.L**2, axis=1)
+        unseen = prior - np.sum(seen * seen, axis=1)
+        small = np.flatnonzero(unseen < _SEEN * prior)  # at most about q of them
+        rows = problem.L[small, None] * np.eye(len(z))[small] if problem.L.ndim == 1 else problem.L[small]
+        unseen[small] = np.sum((rows - seen[small] @ Q.T) ** 2, axis=1)
+        return unseen + np.sum(revised * revised, axis=1)
+
+    return LinearEstimate(problem.expand(z), z, root, np.zeros(len(seen), bool), variances)
 
 
 ESTIMATOR = Estimator(

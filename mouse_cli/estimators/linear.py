@@ -6,7 +6,8 @@ r = R^-1/2 d everything below is small, dimensionless and well scaled; neither R
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -77,13 +78,25 @@ def expand(L: np.ndarray, z: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True)
 class LinearEstimate:
-    """x (p,); z (k,) with x = L z; root(): matrix (p, ...) with covariance = root root'; variance (p,); at_limit (p,)."""
+    """x (p,); z (k,) with x = L z; root(): matrix (p, ...) with covariance = root root'; at_limit (p,).
+
+    Covariance and variances are computed when asked for: most cycles of a run need neither. variances() is given where there is
+    a cheaper way to them than the rows of the root.
+    """
 
     x: np.ndarray
     z: np.ndarray
-    variance: np.ndarray
     root: Callable[[], np.ndarray]
-    at_limit: np.ndarray = field(default_factory=lambda: np.zeros(0, bool))
+    at_limit: np.ndarray
+    variances: Callable[[], np.ndarray] | None = None
+
+    @cached_property
+    def variance(self) -> np.ndarray:
+        """Diagonal (p,) of S*."""
+        if self.variances is not None:
+            return self.variances()
+        U = self.root()
+        return np.sum(U * U, axis=1)
 
     def covariance(self) -> np.ndarray:
         """S* (p, p)."""
@@ -139,8 +152,7 @@ def without_prior(problem: LinearProblem, weighted: bool) -> LinearEstimate:
     if problem.lower is not None:
         z, active = limited(problem, z, (Vt * s[:, None]) * scale)
         root_z, at_limit = conditioned(problem, root_z, active)
-    U_x = problem.expand(root_z)
-    return LinearEstimate(problem.expand(z), z, np.einsum("ij,ij->i", U_x, U_x), lambda: U_x, at_limit)
+    return LinearEstimate(problem.expand(z), z, lambda: problem.expand(root_z), at_limit)
 
 
 def limited(problem: LinearProblem, z: np.ndarray, C: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

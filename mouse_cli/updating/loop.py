@@ -142,7 +142,7 @@ def _spread(setting: Setting, state: State, estimator: Estimator) -> tuple[Linea
         root_x, held = estimate.root(), at_limit.astype(int)
         in_u = replace(problem, L=np.eye(len(state.u)))
         root = np.where(at_limit[:, None], 0.0, conditioned(in_u, root_x, held)[0])
-        estimate = replace(estimate, variance=np.einsum("ij,ij->i", root, root), root=lambda: root)
+        estimate = replace(estimate, root=lambda: root, variances=None)
     return estimate, at_limit
 
 

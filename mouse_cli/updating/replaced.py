@@ -17,7 +17,7 @@ MEANING = (
     "the values revised in each cycle replace the prior mean and S is kept; the result tends to the weighted "
     "least squares solution, the prior only damps the steps"
 )
-_STILL = 1e-4  # a step below this many revised standard deviations changes nothing that anyone reads
+_STILL = 1e-4  # a step that moves the data by less than this many standard deviations changes nothing that anyone reads
 _GROWTH = 1e6  # a misfit grown so many times over the first one will not come back
 
 
@@ -59,11 +59,10 @@ def _ending(trace: Trace, step: float) -> Status:
 
 
 def revise(trace: Trace, state: State, estimator: Estimator) -> tuple[np.ndarray, float]:
-    """Change of u (p,) by O-4 to O-8, `passes` times over one T; and its length in revised standard deviations."""
+    """Change of u (p,) by O-4 to O-8, `passes` times over one T; and its length: how far it moves the data, in their sd."""
     setting, options = trace.setting, trace.setting.problem.run
     lower, upper = setting.coordinates.lower, setting.coordinates.upper
     change = np.zeros(len(state.u))
-    spread = np.ones(len(state.u))
     for _ in range(options.passes):
         left = None if lower is None else lower - state.u - change
         right = None if upper is None else upper - state.u - change
@@ -72,12 +71,10 @@ def revise(trace: Trace, state: State, estimator: Estimator) -> tuple[np.ndarray
         )
         estimate = estimator.solve(problem)
         change = change + estimate.x
-        spread = np.sqrt(estimate.variance)
         if np.all(np.abs(estimate.x) <= 1e-15 * np.abs(change)):
             break  # later passes would add nothing
     if options.step == "second-order":
         change = change + acceleration(setting, state, change, estimator)
         if lower is not None:
             change = np.clip(change, lower - state.u, upper - state.u)
-    moved = np.abs(change[spread > 0]) / spread[spread > 0]
-    return change, float(moved.max(initial=0.0))
+    return change, float(np.linalg.norm(state.T @ change / setting.sd))

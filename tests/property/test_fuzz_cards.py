@@ -1,7 +1,6 @@
 """Card decks with random damage: a Draft or a DeckError, soon, and nothing else."""
 
 import random
-import time
 
 import pytest
 from hypothesis import example, given, settings
@@ -32,11 +31,10 @@ FOUR MASSES
   1  1     2.500D+02  1  2    -1.500D+02  2  2     2.650D+02
 
 """
-SECONDS = 2.0
+pytestmark = pytest.mark.usefixtures("no_hang")
 
 
 def _survives(deck, **options):
-    start = time.perf_counter()
     try:
         draft = cards.read(deck, "deck.dat", **options)
     except DeckError as error:
@@ -48,7 +46,6 @@ def _survives(deck, **options):
     for diagnostic in found:
         assert diagnostic.code.startswith("MD1") and frame(diagnostic)
     assert len(found) < 400
-    assert time.perf_counter() - start < SECONDS
 
 
 def test_the_deck_itself_is_sound():

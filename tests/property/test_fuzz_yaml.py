@@ -1,7 +1,6 @@
 """Damaged decks: whatever is done to the bytes, the answer is a Draft or a DeckError, and soon."""
 
 import random
-import time
 
 import pytest
 
@@ -77,6 +76,8 @@ TOKENS = [
     b"{file: .}",
 ]
 
+pytestmark = pytest.mark.usefixtures("no_hang")
+
 
 def byte_damage(rng: random.Random, deck: bytes) -> bytes:
     at, stop = sorted((rng.randrange(len(deck)), rng.randrange(len(deck))))
@@ -129,16 +130,12 @@ def test_the_deck_is_good(tmp_path):
 def test_damage_is_answered(seed, tmp_path):
     rng = random.Random(seed)
     outcomes = set()
-    slowest = 0.0
     for _ in range(1000):
         deck = DECK
         for _ in range(rng.choice((1, 1, 1, 2, 4))):
             deck = rng.choice((byte_damage, byte_damage, line_damage))(rng, deck) or b"x"
-        begun = time.perf_counter()
         outcomes.add(outcome(deck, str(tmp_path / "deck.yaml")))
-        slowest = max(slowest, time.perf_counter() - begun)
     assert len(outcomes) > 10, "the damage must reach many checks"
-    assert slowest < 2
 
 
 @pytest.mark.parametrize(
@@ -160,14 +157,10 @@ def test_damage_is_answered(seed, tmp_path):
     ids=range(12),
 )
 def test_hostile_decks_are_refused_soon(deck):
-    begun = time.perf_counter()
     assert outcome(deck, "deck.yaml") != "good"
-    assert time.perf_counter() - begun < 5
 
 
 def test_an_alias_bomb_is_refused_before_it_is_unfolded():
     lines = ["a0: &a0 [" + ",".join("[1,1,1]" for _ in range(10)) + "]"]
     lines += [f"a{i}: &a{i} [" + ",".join([f"*a{i - 1}"] * 10) + "]" for i in range(1, 12)]
-    begun = time.perf_counter()
     assert outcome("\n".join(lines).encode(), "deck.yaml") == "MD202"
-    assert time.perf_counter() - begun < 1

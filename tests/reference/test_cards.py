@@ -4,7 +4,6 @@ manual leaves open.
 The damaged decks are made here from `chain_noisy.dat`; the decks are not copied into the repository.
 """
 
-import time
 from pathlib import Path
 
 import numpy as np
@@ -132,14 +131,6 @@ def test_every_value_knows_its_columns():
     ]
     for span, (line, column, width) in places:
         assert (span.line, span.column, span.width, span.text) == (line, column, width, LINES[line - 1])
-
-
-def test_reading_is_fast():
-    beam = (FOLDER / "beam58.dat").read_text()
-    start = time.perf_counter()
-    for _ in range(10):
-        cards.read(beam, "beam58.dat")
-    assert time.perf_counter() - start < 1.0
 
 
 # Damaged decks, section 10.
