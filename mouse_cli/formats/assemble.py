@@ -1,9 +1,9 @@
 """A Draft becomes a Problem, or one DeckError with all that is wrong."""
 
-from mouse_cli._errors import ERROR, WARNING, DeckError
+from mouse_cli._errors import WARNING
 from mouse_cli._span import Span
 from mouse_cli.formats.draft import Draft
-from mouse_cli.formats.rules import matrices, modal_test, partials, prior
+from mouse_cli.formats.rules import matrices, modal_test, partials, prior, refusal
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.structure import Structure
 
@@ -23,10 +23,8 @@ def assemble(draft: Draft) -> Problem:
     believed = prior.prior(draft)
     test = modal_test.modal_test(draft)
     matrices.total_mass_dofs(draft)
-    if unread:  # what was not read seems to be missing: remarks on that would only mislead
-        draft.diagnostics = [d for d in draft.diagnostics if d.severity == ERROR or not d.code.startswith("MD3")]
     if draft.has_errors:
-        raise DeckError(sorted(draft.diagnostics, key=lambda d: d.span.line if d.span else 0))
+        raise refusal(draft, unread)
     return Problem(
         title=draft.title,
         structure=Structure(K, M, draft.labels),

@@ -424,3 +424,21 @@ def test_each_code_is_explained_and_emitted():
     emitted = {value for value in constants if isinstance(value, str) and re.fullmatch(r"MD\d\d\d", value)}
     assert emitted == set(CODES)
     assert all(code.title and code.meaning and code.remedy for code in CODES.values())
+
+
+def test_faults_of_reading_do_not_hide_faults_of_meaning():
+    deck = """\
+mouse: 1
+title: faults of both kinds
+model:
+  stiffness: {order: 2, entries: [[1,1,2.0],[1,2,-1.0],[2,2,2.0],[3,3,1.0]]}
+  mass: {diagonal: [1, x]}
+parameters:
+  - {name: k, sd: -1, nominal: 1.0, stiffness: [[1,1,1]]}
+test:
+  modes: {number: [1, 5], dofs: [1, 7], frequency: [0.1, -0.2], frequency_sd: 0.01, shapes: [[1, 1],[1, -1]], shape_sd: 1}
+run: {partials: 0}
+"""
+    told = [(found.code, found.span.line) for found in findings(deck)]
+    expected = [("MD301", 4), ("MD213", 5), ("MD311", 7), ("MD320", 9), ("MD323", 9), ("MD321", 9), ("MD215", 10)]
+    assert told == expected

@@ -15,7 +15,17 @@ from mouse_cli.formats.yaml_deck.sections import Section
 
 def modal_test(section: Section | None, labels: tuple[str, ...]) -> TestDraft | None:
     """The measured modes; None when there are none, or after an error that leaves no list of frequencies."""
-    modes = section.section("modes") if section else None
+    if section is None:
+        return None
+    before, section.document.incomplete = section.document.incomplete, False  # gaps elsewhere are no gaps of the test
+    try:
+        return _measured(section, labels)
+    finally:
+        section.document.incomplete |= before
+
+
+def _measured(section: Section, labels: tuple[str, ...]) -> TestDraft | None:
+    modes = section.section("modes")
     frequency = modes.value("frequency") if modes else None
     if frequency is None:
         return None

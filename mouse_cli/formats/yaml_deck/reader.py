@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from mouse_cli._errors import DeckError
 from mouse_cli.formats.draft import Draft
+from mouse_cli.formats.rules import review
 from mouse_cli.formats.yaml_deck import parameters as yaml_parameters
 from mouse_cli.formats.yaml_deck import prior as yaml_prior
 from mouse_cli.formats.yaml_deck.model import Model, model
@@ -24,14 +24,14 @@ def read(text: str | bytes, path: str) -> Draft:
     deck = Section(document, root, "deck")
     deck.value("mouse")
     draft = _draft(deck)
-    if draft is None or document.incomplete:
-        raise DeckError(sorted(document.diagnostics, key=lambda d: (d.span.line, d.span.column) if d.span else (0, 0)))
     draft.diagnostics.extend(document.diagnostics)
+    if document.incomplete:
+        raise review(draft)
     return draft
 
 
-def _draft(deck: Section) -> Draft | None:
-    """All sections are read, so that all errors are found, before it is known whether they make a whole."""
+def _draft(deck: Section) -> Draft:
+    """All sections are read, so that all errors are found; what could not be read is missing."""
     document = deck.document
     below = deck.section("model")
     matrices = model(below) if below else Model(None, None, 0, deck.node)
@@ -41,8 +41,6 @@ def _draft(deck: Section) -> Draft | None:
     run, where = run_options(deck.section("run"), matrices.labels)
     title = deck.value("title", "")
     deck.value("source")
-    if document.incomplete or matrices.K is None or matrices.M is None:
-        return None
     return Draft(
         title=title,
         order=matrices.order,
@@ -53,7 +51,7 @@ def _draft(deck: Section) -> Draft | None:
         parameters=parameters,
         run=run,
         source=Source(document.path, "yaml", tuple(document.lines)),
-        covariance=covariance,
+        covariance=None if document.incomplete else covariance,  # a parameter may be missing
         test=test,
         labels=matrices.labels,
         where_order=document.span(matrices.where_order),
