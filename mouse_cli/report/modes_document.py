@@ -3,6 +3,7 @@
 from typing import Any
 
 from mouse_cli import __version__
+from mouse_cli.dynamics.frequency import eigenvalue
 from mouse_cli.model.result import Forecast
 from mouse_cli.report.json_values import dof_name, plain
 
@@ -24,6 +25,7 @@ def document(forecast: Forecast) -> dict[str, Any]:
             "modes": [
                 {
                     "mode": i,
+                    "eigenvalue": eigenvalue(hz) if i > forecast.rigid_modes else 0.0,
                     "hz": hz if i > forecast.rigid_modes else 0.0,
                     "sd_hz": sd,
                     "shape": shape,

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from mouse_cli.dynamics.frequency import eigenvalue
 from mouse_cli.model.result import Forecast
 from mouse_cli.report.blocks import Block, Column, Table, Text
 from mouse_cli.report.section import Options, Section
@@ -12,6 +13,7 @@ def frequencies(forecast: Forecast, options: Options) -> Iterator[Block]:
     """One line a mode."""
     columns = (
         Column("mode"),
+        Column("eigenvalue", "rad2/s2"),
         Column("frequency", "Hz"),
         Column("standard deviation", "Hz"),
         Column("coefficient of variation", "per cent"),
@@ -19,7 +21,8 @@ def frequencies(forecast: Forecast, options: Options) -> Iterator[Block]:
     rows = []
     for i, (hz, sd) in enumerate(zip(forecast.frequencies_hz, forecast.sd_hz, strict=True), 1):
         elastic = i > forecast.rigid_modes and hz > 0
-        rows.append((i, float(hz) if elastic else 0.0, float(sd), float(100 * sd / hz) if elastic else None))
+        hz = float(hz) if elastic else 0.0
+        rows.append((i, float(eigenvalue(hz)), hz, float(sd), float(100 * sd / hz) if elastic else None))
     yield Table(columns, tuple(rows))
     rigid = counted(forecast.rigid_modes, "rigid-body mode") if forecast.rigid_modes else "no rigid-body mode"
     yield Text(f"The model has {rigid}.")
