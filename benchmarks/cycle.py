@@ -1,6 +1,8 @@
 """One cycle at 140 DOF - eigensolution, partials, estimate, tests - against its eigensolution alone, on one thread.
 
-The cycle is taken from whole runs: the time of a long run less that of a short one, by the number of cycles between.
+Taken in two ways. `in a run`: the time of a long run less that of a short one, by the number of cycles between. `once`: a
+single cycle called between single eigensolutions; its arrays have gone back to the system by then, and their pages are
+fetched anew (MALLOC_TRIM_THRESHOLD_ and MALLOC_MMAP_THRESHOLD_ set high make the difference go).
 """
 
 import os
@@ -10,16 +12,21 @@ for name in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
 
 import statistics
 import time
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
+from _paired import paired
 
 from mouse_cli.dynamics.eigen import eigensolution
+from mouse_cli.estimators.bayes import solve
+from mouse_cli.estimators.linear import LinearProblem
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.problem import Problem, RunOptions
 from mouse_cli.model.structure import ListedElements, Structure
 from mouse_cli.updating import run
+from mouse_cli.updating.loop import _begin
 
 N, FEW, MORE = 140, 2, 10
 
@@ -68,6 +75,17 @@ def cycles(problem: Problem, count: int) -> Problem:
     return replace(problem, run=replace(problem.run, recursion="replaced", cycles=count))
 
 
+def by_itself(problem: Problem) -> Callable[[], None]:
+    """One cycle from the prior: eigensolution, partials, estimate."""
+    setting, start = _begin(problem)
+
+    def cycle() -> None:
+        state = setting.state(start.u)
+        solve(LinearProblem(state.T, state.residual, setting.sd, setting.coordinates.L))
+
+    return cycle
+
+
 for parameters, modes, sensors in ((60, 15, 30), (140, 20, 60)):
     problem = chain(parameters, modes, sensors)
     K, M = problem.structure.K, problem.structure.M
@@ -75,9 +93,10 @@ for parameters, modes, sensors in ((60, 15, 30), (140, 20, 60)):
     for _ in range(15):  # in turn: the difference of a long and a short run, and the eigensolutions of as many cycles
         short, long = (timed(lambda c=c: run(cycles(problem, c))) for c in (FEW, FEW + MORE))
         seconds.append(((long - short) / MORE, timed(lambda: [eigensolution(K, M) for _ in range(MORE)]) / MORE))
-    cycle, alone = (1e3 * statistics.median(column) for column in zip(*seconds, strict=True))
-    ratio = statistics.median(a / b for a, b in seconds)
-    data = modes * (1 + sensors)
+    in_run = 1e3 * statistics.median(cycle for cycle, _ in seconds)
+    ratio_in_run = statistics.median(cycle / alone for cycle, alone in seconds)
+    once, alone, ratio_once = paired(by_itself(problem), lambda K=K, M=M: eigensolution(K, M), 41)
+    print(f"{parameters} parameters, {modes * (1 + sensors)} data: eigensolution {1e3 * alone:.2f} ms")
     print(
-        f"{parameters} parameters, {data} data: cycle {cycle:.2f} ms, eigensolution {alone:.2f} ms, ratio {ratio:.2f}"
+        f"  cycle in a run {in_run:.2f} ms, ratio {ratio_in_run:.2f}; once {1e3 * once:.2f} ms, ratio {ratio_once:.2f}"
     )

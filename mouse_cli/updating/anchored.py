@@ -71,7 +71,7 @@ class _Descent:
             if small and not cost < before:  # at the rounding of J
                 there, cost, change = state, before, np.zeros_like(change)
             if cost <= before:
-                self._damp(state, change, (before - cost), scale)
+                self._damp(state, change, before - cost, scale)
                 self.z = self.z + change
                 self.trace.record(there, cost, self.damping)
                 self.arrived = small
@@ -80,9 +80,12 @@ class _Descent:
         return None
 
     def _damp(self, state: State, change: np.ndarray, gained: float, scale: float) -> None:
-        """More damping for the next step where the linearised model promised much more than was gained, else less."""
+        """More damping for the next step where the linearised model promised much more than was gained, else less.
+
+        A step from (B'B + alpha + mu) dz = -gradient/2 promises to lower J by dz' (B'B + alpha + 2 mu) dz.
+        """
         moved = state.T @ self._expand(change) / self.noise
-        promised = (1 + 2 * self.damping / scale) * float(moved @ moved) + self.alpha * float(change @ change)
+        promised = float(moved @ moved) + (self.alpha + 2 * self.damping) * float(change @ change)
         if gained < 0.5 * promised:
             self.damping = max(self.damping * _GROWTH, _FIRST * scale)
         elif gained > 0.9 * promised:

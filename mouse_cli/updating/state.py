@@ -9,7 +9,7 @@ from mouse_cli.dynamics.correlation import align, mac, pair
 from mouse_cli.dynamics.eigen import RIGID, EigenSolution, IndefiniteError, clusters, eigensolution
 from mouse_cli.dynamics.frequency import eigenvalue
 from mouse_cli.dynamics.sensitivity import modal_partials
-from mouse_cli.model.arrays import Matrix, is_sparse
+from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.problem import Problem
 from mouse_cli.observables.modal import ModalObservable
 from mouse_cli.terms.matrix_entries import MatrixEntries
@@ -87,9 +87,15 @@ class State:
 
 def reference_eigenvalue(problem: Problem, eigenvalues: np.ndarray) -> float:
     """The eigenvalue by which zero is judged: that of the first measured mode, else a share of the largest."""
-    if problem.test is not None and np.isfinite(problem.test.frequency_hz).any():
-        return float(eigenvalue(np.nanmin(problem.test.frequency_hz)))
-    return float(np.abs(eigenvalues).max()) * 1e-4
+    measured = _lowest_measured(problem)
+    return float(np.abs(eigenvalues).max()) * 1e-4 if measured is None else measured
+
+
+def _lowest_measured(problem: Problem) -> float | None:
+    """Eigenvalue of the lowest measured frequency; None when there is none."""
+    if problem.test is None or not np.isfinite(problem.test.frequency_hz).any():
+        return None
+    return float(eigenvalue(np.nanmin(problem.test.frequency_hz)))
 
 
 def solve(problem: Problem, K: Matrix, M: Matrix, count: int | None = None) -> EigenSolution:
@@ -97,10 +103,8 @@ def solve(problem: Problem, K: Matrix, M: Matrix, count: int | None = None) -> E
 
     Raises IndefiniteError when an eigenvalue is negative beyond what rounding makes of a rigid-body mode.
     """
-    count, shift = count or _modes_needed(problem), None
-    if problem.test is not None and is_sparse(K):
-        shift = -0.3 * reference_eigenvalue(problem, np.ones(1))
-    solution = eigensolution(K, M, count, shift)
+    measured = _lowest_measured(problem)
+    solution = eigensolution(K, M, count or _modes_needed(problem), None if measured is None else -0.3 * measured)
     lowest = float(solution.eigenvalues[0])
     if lowest < -RIGID * reference_eigenvalue(problem, solution.eigenvalues):
         raise IndefiniteError(f"the stiffness matrix has the negative eigenvalue {lowest:.6g} (rad/s)^2")

@@ -36,7 +36,7 @@ def test_every_deck_names_its_source_and_ends_as_the_readme_says(path):
     assert head.startswith("# ") and len(head) > 60
     rejected = {"ground_spring", "four_storey_frame"}
     result = run(read_deck(path))
-    assert result.exit_code == (1 if path.stem in rejected | {"table_5_3"} else 0)
+    assert result.exit_code == (1 if path.stem in rejected | {"table_5_3", "beam_58"} else 0)
     assert result.rejected == (path.stem in rejected)
 
 
@@ -53,6 +53,16 @@ def test_tables_of_the_report_to_all_printed_digits(name, cycles, printed, suffi
     problem = replace(problem, test=replace(problem.test, scale="none"), run=replace(problem.run, cycles=cycles))
     K = run(problem).revised.K
     assert tuple(f"{k:.5e}" for k in (K[0, 0], K[0, 1], K[1, 1])) == printed
+
+
+def test_exceedance_rule_and_model_form_are_two_questions():
+    """beam_58: 1 % errors leave 3 of 40 data outside 95 %, one more than the rule of 1972 takes; nothing is missing."""
+    problem = read_deck(DECKS / "beam_58.yaml")
+    legacy = run(problem)
+    assert legacy.status.key == "stalled" and legacy.residual.p > 0.05
+    anchored = run(replace(problem, run=replace(problem.run, recursion="anchored")))
+    assert anchored.exit_code == 0
+    assert (np.abs(anchored.revised.theta - 2.0e6) < 3 * anchored.sd_theta).all()  # EI of the closed form
 
 
 def test_anchored_posterior_of_table_5_3():
