@@ -1,8 +1,8 @@
 """One cycle at 140 DOF - eigensolution, partials, estimate, tests - against its eigensolution alone, on one thread.
 
 Taken in two ways. `in a run`: the time of a long run less that of a short one, by the number of cycles between. `once`: a
-single cycle called between single eigensolutions; its arrays have gone back to the system by then, and their pages are
-fetched anew (MALLOC_TRIM_THRESHOLD_ and MALLOC_MMAP_THRESHOLD_ set high make the difference go).
+single cycle called between single eigensolutions before any run, when the allocator still gives its arrays back to the
+system and fetches the pages anew (MALLOC_TRIM_THRESHOLD_ and MALLOC_MMAP_THRESHOLD_ set high make the difference go).
 """
 
 import os
@@ -89,13 +89,15 @@ def by_itself(problem: Problem) -> Callable[[], None]:
 for parameters, modes, sensors in ((60, 15, 30), (140, 20, 60)):
     problem = chain(parameters, modes, sensors)
     K, M = problem.structure.K, problem.structure.M
+    once, alone, ratio_once = paired(
+        by_itself(problem), lambda K=K, M=M: eigensolution(K, M), 41
+    )  # first: later the allocator keeps pages
     seconds = []
     for _ in range(15):  # in turn: the difference of a long and a short run, and the eigensolutions of as many cycles
         short, long = (timed(lambda c=c: run(cycles(problem, c))) for c in (FEW, FEW + MORE))
         seconds.append(((long - short) / MORE, timed(lambda: [eigensolution(K, M) for _ in range(MORE)]) / MORE))
     in_run = 1e3 * statistics.median(cycle for cycle, _ in seconds)
     ratio_in_run = statistics.median(cycle / alone for cycle, alone in seconds)
-    once, alone, ratio_once = paired(by_itself(problem), lambda K=K, M=M: eigensolution(K, M), 41)
     print(f"{parameters} parameters, {modes * (1 + sensors)} data: eigensolution {1e3 * alone:.2f} ms")
     print(
         f"  cycle in a run {in_run:.2f} ms, ratio {ratio_in_run:.2f}; once {1e3 * once:.2f} ms, ratio {ratio_once:.2f}"
