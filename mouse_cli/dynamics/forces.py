@@ -1,11 +1,11 @@
-"""dZ x: the forces that a unit change of each property exerts on a mode, from the nonzeros of A alone."""
+"""dZ x: the forces that a unit change of each property exerts on a mode, from the nonzeros of dK and dM alone."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.model.arrays import Matrix, is_sparse
-from mouse_cli.model.structure import ListedElements
+from mouse_cli.model.arrays import Matrix
+from mouse_cli.model.term import CONSTANT, Slopes
 
 _LARGEST_DENSE = 4_000_000  # forces on all touched degrees of freedom by all properties; more are kept sparse
 
@@ -43,27 +43,20 @@ class Forces:
         return np.bincount(self.row * p + self.column, force, minlength=t * p).reshape(t, p)
 
 
-def forces(n: int, elements: ListedElements, A: Matrix | None = None) -> Forces:
-    """The pattern for `elements` of a model of n degrees of freedom and A (e, p); without A each element is a property."""
-    if A is None:
-        element, column, value = np.arange(len(elements)), np.arange(len(elements)), np.ones(len(elements))
-    elif is_sparse(A):
-        entries = A.tocoo()
-        element, column, value = entries.row, entries.col, entries.data
-    else:
-        element, column = np.nonzero(A)
-        value = A[element, column]
-    a, b = elements.row[element], elements.col[element]
-    off = np.flatnonzero(a != b)
+def forces(n: int, properties: int, slopes: dict[str, Slopes]) -> Forces:
+    """The pattern for a model of n degrees of freedom, from the derivatives of its K and M by `properties` parameters."""
+    parts = [slopes.get("K", CONSTANT), slopes.get("M", CONSTANT)]
     is_touched = np.zeros(n, bool)
-    is_touched[a] = is_touched[b] = True
+    for part in parts:
+        is_touched[part.row] = True
+        is_touched[part.col] = True
     place = np.cumsum(is_touched) - 1
     return Forces(
         touched=np.flatnonzero(is_touched),
-        row=place[np.concatenate([a, b[off]])],
-        other=np.concatenate([b, a[off]]),
-        column=np.concatenate([column, column[off]]),
-        value=np.concatenate([value, value[off]]),
-        mass=elements.is_mass[np.concatenate([element, element[off]])],
-        properties=len(elements) if A is None else A.shape[1],
+        row=place[np.concatenate([part.row for part in parts])],
+        other=np.concatenate([part.col for part in parts]),
+        column=np.concatenate([part.parameter for part in parts]),
+        value=np.concatenate([part.value for part in parts]),
+        mass=np.repeat([False, True], [len(part) for part in parts]),
+        properties=properties,
     )

@@ -15,9 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli.dynamics.eigen import EigenSolution, clusters
-from mouse_cli.dynamics.forces import forces
+from mouse_cli.dynamics.forces import Forces
+from mouse_cli.dynamics.sensing import read, unit_loads
 from mouse_cli.model.arrays import Matrix, is_sparse
-from mouse_cli.model.structure import ListedElements
 
 
 @dataclass(frozen=True)
@@ -48,30 +48,29 @@ def modal_partials(
     K: Matrix,
     M: Matrix,
     modes: np.ndarray,
-    dofs: np.ndarray,
-    elements: ListedElements,
-    A: Matrix | None = None,
+    sensing: Matrix,
+    pattern: Forces,
 ) -> ModalPartials:
-    """B = d(lambda, x)/d(k, m) for the measured `modes` (m,) and `dofs` (s,), both from 0; Eq. (3-1) of the report.
+    """T = d(lambda, x)/d(properties) for the measured `modes` (m,), from 0, at the sensors; Eqs. (3-1) and O-5 of the report.
 
-    With A (e, p) it is T = B A, by p properties instead of e elements; B is then never formed.
-    A listed off-diagonal element moves together with its mirror image. Modes closer than 1e-6, relative, are treated
-    as a subspace: derivatives within it are those of parallel transport.
+    sensing: degrees of freedom (s,), from 0, or what each sensor reads (s, n). pattern: derivatives of K and M by the
+    properties, or by listed elements for B. Modes closer than 1e-6, relative, are treated as a subspace: derivatives within it
+    are those of parallel transport.
     """
-    pattern = forces(solution.shapes.shape[0], elements, A)
+    s = sensing.shape[0]
     touched, any_mass = pattern.touched, bool(pattern.mass.any())
-    partials = ModalPartials(np.empty((len(modes) * (1 + len(dofs)), pattern.properties)), len(modes))
+    partials = ModalPartials(np.empty((len(modes) * (1 + s), pattern.properties)), len(modes))
     d_lambda, d_shape = partials.d_lambda, partials.d_shape
     family = clusters(solution.eigenvalues, solution.zero)
     for i, mode in enumerate(modes):
         x, same = solution.shapes[:, mode], np.flatnonzero(family == family[mode])
         F = pattern.on(x, solution.eigenvalues[mode])
         d_lambda[i] = F.T @ x[touched]
-        if len(dofs):
-            d_shape[i] = _response(solution, K, M, mode, same, dofs, touched, F)
+        if s:
+            d_shape[i] = _response(solution, K, M, mode, same, sensing, touched, F)
         if any_mass:  # the length of x_i follows the mass: -1/2 sum_k x_k (x_k' dM x_i) over its cluster
             X = solution.shapes[:, same]
-            d_shape[i] -= 0.5 * X[dofs] @ (pattern.inertial(x).T @ X[touched]).T
+            d_shape[i] -= 0.5 * read(sensing, X) @ (pattern.inertial(x).T @ X[touched]).T
     return partials
 
 
@@ -81,21 +80,21 @@ def _response(
     M: Matrix,
     mode: int,
     same: np.ndarray,
-    dofs: np.ndarray,
+    sensing: Matrix,
     touched: np.ndarray,
     F: Matrix,
 ) -> np.ndarray:
-    """-G_i F at the measured dofs (s, p), for forces F (t, p) at the touched degrees of freedom."""
-    (n, k), s, (t, p) = solution.shapes.shape, len(dofs), F.shape
+    """-G_i F at the sensors (s, p), for forces F (t, p) at the touched degrees of freedom."""
+    (n, k), s, (t, p) = solution.shapes.shape, sensing.shape[0], F.shape
     by_forces = p < s and not is_sparse(F)
     if k < n:
         inverse = _bordered(solution, K, M, mode, same)
         if by_forces:
-            return -inverse(touched, F)[dofs]
-        return -(F.T @ inverse(dofs, np.eye(s))[touched]).T
+            return -read(sensing, inverse(touched, F))
+        return -(F.T @ inverse(*unit_loads(sensing))[touched]).T
     distance = solution.eigenvalues - solution.eigenvalues[mode]
     distance[same] = np.inf
-    rows = solution.shapes[dofs] / distance
+    rows = read(sensing, solution.shapes) / distance
     if by_forces and n * p * (t + s) < s * t * (n + p):
         return -rows @ (solution.shapes[touched].T @ F)
     return -(F.T @ (rows @ solution.shapes[touched].T).T).T

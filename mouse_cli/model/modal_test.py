@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.model.arrays import frozen
+from mouse_cli.model.arrays import Matrix, frozen
 
 SCALES = ("least-squares", "fitted", "unit", "none")
 
@@ -16,7 +16,9 @@ class ModalTest:
     number (m,): system mode number of each measured mode, from 1, rigid-body modes counted.
     frequency_hz, frequency_sd_hz (m,): natural frequencies and standard deviations; NaN: not measured.
     dofs (s,): measured degrees of freedom, from 0. shapes, shape_sd (s, m): components in the units measured; NaN: missing.
-    scale: how shapes are brought to the scale of the theory, one of SCALES.
+    scale: how shapes are brought to the scale of the theory, one of SCALES. sensing (s, n), sparse: what each sensor reads, for
+    sensors that are mounted backwards, in a direction between the axes, or between nodes; then dofs are the nearest ones. None:
+    each sensor reads its degree of freedom. sensors: their names, when those of the degrees of freedom do not serve.
     """
 
     number: np.ndarray
@@ -26,6 +28,8 @@ class ModalTest:
     shapes: np.ndarray
     shape_sd: np.ndarray
     scale: str = "least-squares"
+    sensing: Matrix | None = None
+    sensors: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         m, s = len(self.number), len(self.dofs)
@@ -48,3 +52,12 @@ class ModalTest:
     def s(self) -> int:
         """Number of measured degrees of freedom (IROW)."""
         return len(self.dofs)
+
+    @property
+    def measured_at(self) -> Matrix:
+        """What the sensors read: degrees of freedom (s,), or weights (s, n) where that is not enough."""
+        return self.dofs if self.sensing is None else self.sensing
+
+    def read(self, shapes: np.ndarray) -> np.ndarray:
+        """What the sensors read (s, k) of `shapes` (n, k)."""
+        return shapes[self.dofs] if self.sensing is None else self.sensing @ shapes

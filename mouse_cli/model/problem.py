@@ -8,6 +8,7 @@ from mouse_cli.model.arrays import Matrix, frozen
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.structure import ListedElements, Structure
+from mouse_cli.model.term import Term
 
 RECURSIONS = ("replaced", "anchored")
 PAIRINGS = ("number", "mac")
@@ -57,9 +58,10 @@ class Source:
 
 @dataclass(frozen=True)
 class Problem:
-    """Structure, parameters with their prior, the matrix A (e, p) that ties parameters to matrix elements, test and options.
+    """Structure, parameters with their prior, what ties parameters to the matrices, test and options.
 
-    elements, A: d(element) = A d(parameter), Eq. (3-2) of the report. test is None for a deck that only asks for modes.
+    elements, A (e, p): d(element) = A d(parameter), Eq. (3-2) of the report; terms: further contributions, such as beams and
+    springs. test is None for a deck that only asks for modes.
     """
 
     title: str
@@ -73,6 +75,7 @@ class Problem:
     source: Source = field(default_factory=Source)
     warnings: tuple[Diagnostic, ...] = ()
     places: dict[str, Span] = field(default_factory=dict)
+    terms: tuple[Term, ...] = ()
 
     def place(self, key: str) -> Span:
         """Where `key` (`order`, `estimator`, `mode 3`) stands in the deck; its first line when that is not known."""

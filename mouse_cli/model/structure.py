@@ -1,24 +1,35 @@
-"""The baseline: stiffness and mass matrices at the prior values of the parameters, and what its degrees of freedom are called."""
+"""The baseline: the matrices that no parameter moves, what the degrees of freedom are called and where they are."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
 from mouse_cli.model.arrays import Matrix, frozen
+from mouse_cli.model.geometry import Geometry
 
 
 @dataclass(frozen=True)
 class Structure:
-    """K and M (n, n), symmetric; dense numpy or scipy.sparse; K in N/m, M in kg, or any units that make omega^2 in rad^2/s^2."""
+    """K, M (n, n), symmetric; dense numpy or scipy.sparse; K in N/m, M in kg, or any units that make omega^2 in rad^2/s^2.
+
+    They are the constant part: terms (listed elements that follow A among them) add to it, and whether it is dense decides
+    whether the model is. C, D: viscous and structural damping (D the imaginary part of K), None where there is none.
+    """
 
     K: Matrix
     M: Matrix
     labels: tuple[str, ...] = ()
+    geometry: Geometry | None = None
+    C: Matrix | None = None
+    D: Matrix | None = None
 
     def __post_init__(self) -> None:
         n = self.K.shape[0]
         object.__setattr__(self, "K", frozen(self.K, (n, n), "K"))
         object.__setattr__(self, "M", frozen(self.M, (n, n), "M"))
+        for name in ("C", "D"):
+            if getattr(self, name) is not None:
+                object.__setattr__(self, name, frozen(getattr(self, name), (n, n), name))
         object.__setattr__(self, "labels", tuple(self.labels) or tuple(str(i + 1) for i in range(n)))
 
     @property
@@ -46,6 +57,11 @@ class ListedElements:
 
     def __len__(self) -> int:
         return len(self.row)
+
+    @classmethod
+    def none(cls) -> "ListedElements":
+        """No element: a model that only terms move."""
+        return cls(np.zeros(0, bool), np.zeros(0, int), np.zeros(0, int))
 
     def labels(self) -> tuple[str, ...]:
         """Names as the report prints them, e.g. `k(1,2)` and `m(3,3)`."""

@@ -7,6 +7,7 @@ import numpy as np
 from mouse_cli.dynamics.correlation import least_squares_scale
 from mouse_cli.dynamics.eigen import EigenSolution
 from mouse_cli.dynamics.frequency import eigenvalue, sd_eigenvalue
+from mouse_cli.dynamics.sensing import restricted
 from mouse_cli.dynamics.sensitivity import ModalPartials
 from mouse_cli.model.arrays import Matrix, dense
 from mouse_cli.model.modal_test import ModalTest
@@ -67,7 +68,7 @@ class ModalObservable:
 
     def theory(self, solution: EigenSolution, modes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Model shapes (s, m) of the paired `modes` at the measured points, signed and scaled; and those factors (m,)."""
-        shapes = solution.shapes[self.test.dofs[:, None], modes]
+        shapes = self.test.read(solution.shapes[:, modes])
         have = self.has_shape
         x, t = np.where(have, shapes, 0.0), np.where(have, self.shapes, 0.0)
         if not self.fitted:
@@ -102,8 +103,8 @@ def observe(test: ModalTest, M: Matrix, solution: EigenSolution, modes: np.ndarr
     Scale `least-squares` (and the start of `fitted`): c = x'Mt / t'Mt over the measured points; `unit`: t'Mt = 1, signed;
     `none`: as punched. Accuracies are scaled with the shapes. Raises UnrelatedShapes when c would be about 0.
     """
-    mass = dense(M[test.dofs][:, test.dofs])
-    theory = solution.shapes[test.dofs[:, None], modes]
+    mass = dense(restricted(test.measured_at, M))
+    theory = test.read(solution.shapes[:, modes])
     factor = np.array([_factor(test, mass, theory[:, i], i) for i in range(test.m)])
     return ModalObservable(test, test.shapes * factor, test.shape_sd * np.abs(factor), factor, mass)
 

@@ -26,6 +26,6 @@ def _numbered(have: np.ndarray, start: int) -> np.ndarray:
 
 
 def positions(result: Result) -> tuple[str, ...]:
-    """Names (s,) of the measured degrees of freedom."""
-    labels = result.problem.structure.labels
-    return tuple(labels[d] for d in result.problem.test.dofs)
+    """Names (s,) of the sensors, or of the degrees of freedom they measure."""
+    labels, test = result.problem.structure.labels, result.problem.test
+    return test.sensors or tuple(labels[d] for d in test.dofs)

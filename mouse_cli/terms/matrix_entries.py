@@ -1,46 +1,63 @@
-"""The legacy term: listed elements of K and M that follow physical properties through the matrix A."""
+"""The term of 1972: listed elements of K and M that follow physical properties through the matrix A."""
 
-from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from mouse_cli.model.arrays import Matrix, is_sparse, sparse_symmetric
-from mouse_cli.model.structure import ListedElements, Structure
+from mouse_cli.model.arrays import Matrix, is_sparse
+from mouse_cli.model.structure import ListedElements
+from mouse_cli.model.term import Places, Slopes
 
 
-@dataclass(frozen=True)
 class MatrixEntries:
-    """d(k, m) = A d(properties), Eq. (3-2): `elements` (e) and A (e, p) on top of the baseline `structure`."""
+    """d(k, m) = A d(properties), Eq. (3-2): `elements` (e) and A (e, p); the change is counted from `nominal` (p,)."""
 
-    structure: Structure
-    elements: ListedElements
-    A: Matrix
+    linear = True
 
-    def matrices(self, change: np.ndarray) -> tuple[Matrix, Matrix]:
-        """K and M (n, n) after the properties have changed by `change` (p,); Eqs. O-9 and O-10."""
-        moved = self.A @ change
-        mass = self.elements.is_mass
-        return (
-            self._moved(self.structure.K, moved, ~mass),
-            self._moved(self.structure.M, moved, mass),
-        )
+    def __init__(self, elements: ListedElements, A: Matrix, nominal: np.ndarray):
+        self.elements, self.A, self.nominal = elements, A, nominal
+        self.places, self._listed = {}, {}
+        for name, which in (("K", ~elements.is_mass), ("M", elements.is_mass)):
+            listed = np.flatnonzero(which)
+            if len(listed):
+                row, col = elements.row[listed], elements.col[listed]
+                off = row != col
+                self._listed[name] = np.concatenate([listed, listed[off]])
+                self.places[name] = Places(np.concatenate([row, col[off]]), np.concatenate([col, row[off]]))
 
-    def _moved(self, base: Matrix, moved: np.ndarray, which: np.ndarray) -> Matrix:
-        """`base` with the listed elements `which`, and their mirror images, changed."""
-        if not which.any():
-            return base
-        row, col, value = self.elements.row[which], self.elements.col[which], moved[which]
-        if is_sparse(base):
-            return base + sparse_symmetric(row, col, value, base.shape[0])
-        changed = base.copy()
-        changed[row, col] += value
+    def values(self, theta: np.ndarray) -> dict[str, np.ndarray]:
+        """Changes of the listed elements, Eqs. O-9 and O-10, and of their mirror images."""
+        moved = self.A @ (theta - self.nominal)
+        return {name: moved[listed] for name, listed in self._listed.items()}
+
+    def slopes(self, theta: np.ndarray) -> dict[str, Slopes]:
+        """A itself, element by element."""
+        return self._slopes
+
+    def by_element(self) -> dict[str, Slopes]:
+        """Derivatives by the listed elements themselves, as if each were a property: for B of Eq. O-4."""
+        one = np.arange(len(self.elements))
+        return {name: self._at(one, one, np.ones(len(one)), name) for name in self.places}
+
+    @cached_property
+    def _slopes(self) -> dict[str, Slopes]:
+        if is_sparse(self.A):
+            entries = self.A.tocoo()
+            element, column, value = entries.row, entries.col, entries.data
+        else:
+            element, column = np.nonzero(self.A)
+            value = self.A[element, column]
+        return {name: self._at(element, column, value, name) for name in self.places}
+
+    def _at(self, element: np.ndarray, column: np.ndarray, value: np.ndarray, name: str) -> Slopes:
+        """Entries (element, column, value) of A that belong to the matrix `name`, with mirror images."""
+        own = self.elements.is_mass[element] == (name == "M")
+        element, column, value = element[own], column[own], value[own]
+        row, col = self.elements.row[element], self.elements.col[element]
         off = row != col
-        changed[col[off], row[off]] += value[off]
-        return changed
-
-    def total_mass(self, dofs: np.ndarray) -> np.ndarray:
-        """d(total mass)/d(properties) (p,): the mass that moves along when `dofs` translate together by 1."""
-        listed = self.elements
-        counted = listed.is_mass & np.isin(listed.row, dofs) & np.isin(listed.col, dofs)
-        weight = np.where(counted, np.where(listed.row == listed.col, 1.0, 2.0), 0.0)
-        return self.A.T @ weight
+        return Slopes(
+            np.concatenate([column, column[off]]),
+            np.concatenate([row, col[off]]),
+            np.concatenate([col, row[off]]),
+            np.concatenate([value, value[off]]),
+        )

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli.model.problem import Problem
-from mouse_cli.terms.matrix_entries import MatrixEntries
+from mouse_cli.terms.assembly import Assembly
 
 
 @dataclass(frozen=True)
@@ -34,24 +34,32 @@ class Coordinates:
         return np.where(self.logarithmic, self.value(u), 1.0)
 
 
-def coordinates(problem: Problem, term: MatrixEntries) -> Coordinates:
+def coordinates(problem: Problem, assembly: Assembly) -> Coordinates:
     """The coordinates of `problem`, its prior in square-root form, its limits, and what it holds fixed."""
     nominal = problem.prior.mean
     logarithmic = np.array([p.transform == "log" for p in problem.parameters], bool)
     slope = np.where(logarithmic, nominal, 1.0)
     mean = np.where(logarithmic, np.log(np.where(logarithmic, nominal, 1.0)), nominal)
     sd = problem.prior.sd / slope
-    held = _total_mass(problem, term)
+    held = _total_mass(problem, assembly)
     lower, upper = _limits(problem, logarithmic, mean, sd)
     return Coordinates(logarithmic, mean, _root(problem, slope, sd, held), lower, upper)
 
 
-def _total_mass(problem: Problem, term: MatrixEntries) -> np.ndarray:
+def _total_mass(problem: Problem, assembly: Assembly) -> np.ndarray:
     """Direction (p,) that changes the total mass, zero when that is free to change."""
     if not problem.run.fix_total_mass:
         return np.zeros(len(problem.parameters))
-    dofs = problem.run.total_mass_dofs or range(problem.structure.n)
-    return term.total_mass(np.array(dofs))
+    return assembly.total_mass(problem.prior.mean, _translating(problem))
+
+
+def _translating(problem: Problem) -> np.ndarray:
+    """Degrees of freedom whose masses make the total: as named, else one direction of a structure, else all."""
+    geometry = problem.structure.geometry
+    if problem.run.total_mass_dofs or geometry is None:
+        return np.array(problem.run.total_mass_dofs or range(problem.structure.n))
+    most = np.bincount(geometry.direction[geometry.direction < 3], minlength=1).argmax()
+    return np.flatnonzero(geometry.direction == most)
 
 
 def _root(problem: Problem, slope: np.ndarray, sd: np.ndarray, held: np.ndarray) -> np.ndarray:

@@ -3,12 +3,13 @@
 import numpy as np
 
 from mouse_cli.dynamics.eigen import IndefiniteError
+from mouse_cli.dynamics.forces import forces
 from mouse_cli.dynamics.frequency import sd_frequency_hz
 from mouse_cli.dynamics.sensitivity import modal_partials
 from mouse_cli.estimators.linear import in_prior_units
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import Forecast
-from mouse_cli.terms.matrix_entries import MatrixEntries
+from mouse_cli.terms.assembly import assembly as assemble
 from mouse_cli.updating import refusals
 from mouse_cli.updating.coordinates import Coordinates, coordinates
 from mouse_cli.updating.state import reference_eigenvalue, solve
@@ -16,7 +17,8 @@ from mouse_cli.updating.state import reference_eigenvalue, solve
 
 def forecast(problem: Problem, count: int | None = None) -> Forecast:
     """The lowest `count` modes with first-order standard deviations: cov(y) = T S T'. Raises NumericalError."""
-    K, M = problem.structure.K, problem.structure.M
+    assembly = assemble(problem)
+    K, M = assembly.matrices(problem.prior.mean)
     try:
         solution = solve(problem, K, M, count)
     except (IndefiniteError, np.linalg.LinAlgError) as reason:
@@ -24,10 +26,11 @@ def forecast(problem: Problem, count: int | None = None) -> Forecast:
     k = min(count or len(solution.eigenvalues), len(solution.eigenvalues))
     modes, dofs = np.arange(k), np.arange(problem.structure.n)
     sign = np.sign(solution.shapes[np.abs(solution.shapes).argmax(axis=0), np.arange(len(solution.eigenvalues))])
-    prior = coordinates(problem, MatrixEntries(problem.structure, problem.elements, problem.A))
+    prior = coordinates(problem, assembly)
+    pattern = forces(assembly.n, assembly.p, assembly.slopes(problem.prior.mean))
     sd_lambda, sd_shape = np.zeros(k), np.zeros((len(dofs), k))
     for i in modes:  # mode by mode: the partials of all shapes at once would be n times larger than the model
-        partials = modal_partials(solution, K, M, modes[i : i + 1], dofs, problem.elements, problem.A)
+        partials = modal_partials(solution, K, M, modes[i : i + 1], dofs, pattern)
         sd_lambda[i] = _sd(partials.d_lambda, prior)[0]
         sd_shape[:, i] = _sd(partials.d_shape[0], prior)
     hz = solution.frequencies_hz[:k]

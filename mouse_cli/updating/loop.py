@@ -13,7 +13,7 @@ from mouse_cli.model.arrays import is_sparse
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import ChiSquareTest, Result, Snapshot, Status
 from mouse_cli.observables.modal import UnrelatedShapes, observe
-from mouse_cli.terms.matrix_entries import MatrixEntries
+from mouse_cli.terms.assembly import assembly as assemble
 from mouse_cli.updating import anchored, model_form, refusals, replaced
 from mouse_cli.updating.convergence import ExceedanceTest
 from mouse_cli.updating.coordinates import coordinates
@@ -47,7 +47,7 @@ def examine(problem: Problem) -> None:
         return
     try:
         if problem.test is None:
-            solve(problem, problem.structure.K, problem.structure.M)
+            solve(problem, *assemble(problem).matrices(problem.prior.mean))
         else:
             _begin(problem)
     except (IndefiniteError, np.linalg.LinAlgError) as reason:
@@ -114,19 +114,20 @@ def _begin(problem: Problem) -> tuple[Setting, State]:
     """O-1 for the prior model, and the test brought to its scale."""
     if problem.test is None:
         raise refusals.no_test(problem)
-    term = MatrixEntries(problem.structure, problem.elements, problem.A)
+    assembly = assemble(problem)
+    K, M = assembly.matrices(problem.prior.mean)
     try:
-        solution = solve(problem, problem.structure.K, problem.structure.M)
+        solution = solve(problem, K, M)
     except IndefiniteError as reason:
         raise refusals.unphysical(problem, str(reason)) from None
     refusals.check_rigid_modes(problem, solution)
     modes = paired(problem, solution)
     try:
-        observable = observe(problem.test, problem.structure.M, solution, modes)
+        observable = observe(problem.test, M, solution, modes)
     except UnrelatedShapes as reason:
         raise refusals.unrelated(problem, solution, reason.mode, reason.ratio) from None
     y, sd = observable.measured()
-    setting = Setting(problem, term, coordinates(problem, term), observable, y, sd)
+    setting = Setting(problem, assembly, coordinates(problem, assembly), observable, y, sd)
     return setting, setting.state(setting.coordinates.mean)
 
 

@@ -73,7 +73,7 @@ def unphysical(problem: Problem, reason: str) -> NumericalError:
 def unrelated(problem: Problem, solution: EigenSolution, mode: int, ratio: float) -> DeckError:
     """The error for a test vector that has nothing in common with the mode it is said to be."""
     test = problem.test
-    likeness = mac(test.shapes[:, [mode]], solution.shapes[test.dofs])[0]
+    likeness = mac(test.shapes[:, [mode]], test.read(solution.shapes))[0]
     best = int(np.argmax(likeness))
     return DeckError(
         Diagnostic(

@@ -40,7 +40,8 @@ def _too_good(result: Result) -> Iterator[Diagnostic]:
 
 def _idle_mass(result: Result) -> Iterator[Diagnostic]:
     problem = result.problem
-    if problem.run.fix_total_mass and not (problem.elements.is_mass & (np.abs(problem.A).sum(axis=1) > 0)).any():
+    moved = (problem.elements.is_mass & (np.abs(problem.A).sum(axis=1) > 0)).any()
+    if problem.run.fix_total_mass and not moved and not any("M" in term.places for term in problem.terms):
         yield _remark("MD508", "the total mass is held, but no property moves a mass", help="leave fix_total_mass out")
 
 
@@ -96,7 +97,7 @@ def _places(result: Result) -> Iterator[Diagnostic]:
     test, revised = result.problem.test, result.revised
     if np.isfinite(test.shapes).sum(axis=0).min(initial=0) < 3:
         return
-    likeness = mac(test.shapes, revised.shapes[test.dofs])
+    likeness = mac(test.shapes, test.read(revised.shapes))
     for i, mode in enumerate(revised.modes):
         best = int(np.argmax(likeness[i]))
         if best != mode and likeness[i, best] > 0.8 and likeness[i, mode] < 0.5:

@@ -7,25 +7,38 @@ import numpy as np
 
 from mouse_cli.dynamics.correlation import align, mac, pair
 from mouse_cli.dynamics.eigen import RIGID, EigenSolution, IndefiniteError, clusters, eigensolution
+from mouse_cli.dynamics.forces import Forces, forces
 from mouse_cli.dynamics.frequency import eigenvalue
 from mouse_cli.dynamics.sensitivity import modal_partials
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.problem import Problem
 from mouse_cli.observables.modal import ModalObservable
+from mouse_cli.terms.assembly import Assembly
 from mouse_cli.terms.matrix_entries import MatrixEntries
 from mouse_cli.updating.coordinates import Coordinates
 
 
 @dataclass(frozen=True)
 class Setting:
-    """What stays the same during a run: problem, term, coordinates, and the data at the scale of the theory."""
+    """What stays the same during a run: problem, assembly, coordinates, and the data at the scale of the theory."""
 
     problem: Problem
-    term: MatrixEntries
+    assembly: Assembly
     coordinates: Coordinates
     observable: ModalObservable
     y: np.ndarray
     sd: np.ndarray
+
+    @cached_property
+    def _constant_forces(self) -> Forces:
+        return self._forces(np.zeros(self.assembly.p))
+
+    def forces(self, theta: np.ndarray) -> Forces:
+        """Derivatives of K and M at theta (p,), as forces on a mode."""
+        return self._constant_forces if self.assembly.linear else self._forces(theta)
+
+    def _forces(self, theta: np.ndarray) -> Forces:
+        return forces(self.assembly.n, self.assembly.p, self.assembly.slopes(theta))
 
     def state(self, u: np.ndarray) -> "State":
         """The model at the coordinates u (p,). Raises IndefiniteError when K or M is not physical there."""
@@ -39,7 +52,7 @@ class State:
         self.setting, self.u = setting, u
         problem = setting.problem
         self.theta = setting.coordinates.value(u)
-        self.K, self.M = setting.term.matrices(self.theta - problem.prior.mean)
+        self.K, self.M = setting.assembly.matrices(self.theta)
         self.solution = solve(problem, self.K, self.M)
         self.modes = paired(problem, self.solution)
         self.solution = aligned(self.solution, self.modes, setting.observable)
@@ -63,25 +76,28 @@ class State:
     @cached_property
     def B(self) -> np.ndarray:
         """d(data)/d(listed elements) (q, e), Eq. O-4; only for those who want to read it."""
-        return self._partials(None)
+        problem = self.setting.problem
+        listed = MatrixEntries(problem.elements, problem.A, problem.prior.mean)
+        return self._partials(forces(self.setting.assembly.n, len(problem.elements), listed.by_element()))
 
     @cached_property
     def T(self) -> np.ndarray:
         """d(data)/du (q, p), Eqs. O-4 and O-5."""
-        T, coordinates = self._partials(self.setting.problem.A), self.setting.coordinates
+        T, coordinates = self._partials(self.setting.forces(self.theta)), self.setting.coordinates
         return T * coordinates.slope(self.u) if coordinates.logarithmic.any() else T
 
-    def _partials(self, A: Matrix | None) -> np.ndarray:
-        """d(data)/d(listed elements), or with A by the properties."""
-        observable, elements = self.setting.observable, self.setting.problem.elements
-        partials = modal_partials(self.solution, self.K, self.M, self.modes, observable.test.dofs, elements, A)
+    def _partials(self, pattern: Forces) -> np.ndarray:
+        """d(data)/d(what `pattern` moves)."""
+        observable = self.setting.observable
+        at = observable.test.measured_at
+        partials = modal_partials(self.solution, self.K, self.M, self.modes, at, pattern)
         return observable.partials(partials, self.shapes, self.factor)
 
     @cached_property
     def mac(self) -> np.ndarray:
         """MAC (m,) of each measured shape with its model mode; NaN where no shape was measured."""
         test = self.setting.observable.test
-        values = mac(test.shapes, self.solution.shapes[test.dofs[:, None], self.modes]).diagonal()
+        values = mac(test.shapes, test.read(self.solution.shapes[:, self.modes])).diagonal()
         return np.where(np.isfinite(test.shapes).any(axis=0), values, np.nan)
 
 
@@ -127,7 +143,7 @@ def paired(problem: Problem, solution: EigenSolution) -> np.ndarray:
     reach = min(solution.shapes.shape[1], 2 * int(test.number.max()) + 6)
     hz = solution.frequencies_hz[:reach].copy()
     hz[solution.eigenvalues[:reach] <= RIGID * reference_eigenvalue(problem, solution.eigenvalues)] = 0.0
-    return pair(test.shapes, test.frequency_hz, solution.shapes[test.dofs, :reach], hz)
+    return pair(test.shapes, test.frequency_hz, test.read(solution.shapes[:, :reach]), hz)
 
 
 def aligned(solution: EigenSolution, modes: np.ndarray, observable: ModalObservable) -> EigenSolution:
@@ -143,7 +159,7 @@ def aligned(solution: EigenSolution, modes: np.ndarray, observable: ModalObserva
         members = np.flatnonzero(family == cluster)
         measured = [i for i in range(len(modes)) if modes[i] in members and observable.has_shape[:, i].all()]
         if measured:
-            rotation = align(shapes[np.ix_(observable.test.dofs, members)], observable.shapes[:, measured])
+            rotation = align(observable.test.read(shapes[:, members]), observable.shapes[:, measured])
             rotated = shapes[:, members] @ rotation
             order = [int(np.flatnonzero(members == modes[i])[0]) for i in measured]
             rest = [j for j in range(len(members)) if j not in order]

@@ -81,7 +81,7 @@ def _signed(result: Result) -> np.ndarray:
     size = np.abs(shapes)
     largest = np.argmax(size > (1 - 1e-6) * size.max(axis=0), axis=0)
     sign = np.sign(shapes[largest, np.arange(shapes.shape[1])])
-    at_test = np.einsum("ij,ij->j", revised.model_shapes, shapes[result.problem.test.dofs][:, revised.modes])
+    at_test = np.einsum("ij,ij->j", revised.model_shapes, result.problem.test.read(shapes[:, revised.modes]))
     sign[revised.modes[at_test != 0]] = np.sign(at_test[at_test != 0])
     return shapes * sign
 

@@ -1,0 +1,42 @@
+"""Where the degrees of freedom of a structure are: nodes, directions, and lines to draw it by."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.model.arrays import frozen
+
+DIRECTIONS = ("TX", "TY", "TZ", "RX", "RY", "RZ")  # translations, then rotations, about the global axes
+
+
+@dataclass(frozen=True)
+class Geometry:
+    """k nodes and the n degrees of freedom on them.
+
+    node_ids (k,), as the deck names them; coordinates (k, 3) in m. node (n,): index into node_ids of each degree of freedom, -1
+    where it belongs to no node; direction (n,): index into DIRECTIONS. lines (l, 2): pairs of node indices that elements join.
+    """
+
+    node_ids: np.ndarray
+    coordinates: np.ndarray
+    node: np.ndarray
+    direction: np.ndarray
+    lines: np.ndarray
+
+    def __post_init__(self) -> None:
+        k, n, l = len(self.node_ids), len(self.node), len(self.lines)
+        for name, shape, dtype in (
+            ("node_ids", (k,), int),
+            ("coordinates", (k, 3), float),
+            ("node", (n,), int),
+            ("direction", (n,), int),
+            ("lines", (l, 2), int),
+        ):
+            object.__setattr__(self, name, frozen(getattr(self, name), shape, name, dtype))
+
+    def labels(self) -> tuple[str, ...]:
+        """Names (n,) of the degrees of freedom: node, then direction, such as `12TY`; a number where there is no node."""
+        named = zip(self.node.tolist(), self.direction.tolist(), strict=True)
+        return tuple(
+            str(i) if node < 0 else f"{self.node_ids[node]}{DIRECTIONS[d]}" for i, (node, d) in enumerate(named, 1)
+        )
