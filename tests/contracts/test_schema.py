@@ -12,8 +12,9 @@ import yaml
 import mouse_cli
 from mouse_cli._errors import DeckError
 from mouse_cli.formats import yaml_deck
+from mouse_cli.formats.yaml_deck.kinds import KINDS
 from mouse_cli.formats.yaml_deck.reference import reference, schema
-from mouse_cli.formats.yaml_deck.schema import KINDS, SECTIONS
+from mouse_cli.formats.yaml_deck.schema import SECTIONS
 from mouse_cli.model.problem import RunOptions
 
 PACKAGE = Path(mouse_cli.__file__).parent

@@ -8,8 +8,8 @@ from mouse_cli.formats import matrix_files
 from mouse_cli.formats.draft import TestDraft, nowhere
 from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.files import named, read_below
+from mouse_cli.formats.yaml_deck.kinds import KINDS
 from mouse_cli.formats.yaml_deck.model import dofs as degrees_of_freedom
-from mouse_cli.formats.yaml_deck.schema import KINDS
 from mouse_cli.formats.yaml_deck.sections import Section
 
 

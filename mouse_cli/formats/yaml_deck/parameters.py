@@ -9,8 +9,8 @@ from mouse_cli.formats import matrix_files
 from mouse_cli.formats.draft import Entries
 from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.files import named, read_below
+from mouse_cli.formats.yaml_deck.kinds import KINDS
 from mouse_cli.formats.yaml_deck.nodes import Document, Node
-from mouse_cli.formats.yaml_deck.schema import KINDS
 from mouse_cli.formats.yaml_deck.sections import Section
 from mouse_cli.model.arrays import upper_triangle
 from mouse_cli.model.parameter import Parameter

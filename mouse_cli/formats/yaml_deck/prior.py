@@ -3,9 +3,9 @@
 import numpy as np
 
 from mouse_cli.formats.yaml_deck import values as yaml_values
+from mouse_cli.formats.yaml_deck.kinds import KINDS
 from mouse_cli.formats.yaml_deck.model import square
 from mouse_cli.formats.yaml_deck.nodes import Document, Node
-from mouse_cli.formats.yaml_deck.schema import KINDS
 from mouse_cli.formats.yaml_deck.sections import Section
 
 _ROUNDING = 1e-9  # what normalising a covariance leaves on the diagonal

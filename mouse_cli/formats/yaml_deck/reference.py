@@ -2,7 +2,8 @@
 
 from typing import Any
 
-from mouse_cli.formats.yaml_deck.schema import KINDS, SECTIONS, VERSION, Key, Section
+from mouse_cli.formats.yaml_deck.kinds import KINDS, VERSION, Key, Section
+from mouse_cli.formats.yaml_deck.schema import SECTIONS
 
 
 def schema() -> dict[str, Any]:

@@ -2,8 +2,8 @@
 
 from mouse_cli._span import Span
 from mouse_cli.formats.yaml_deck import values as yaml_values
+from mouse_cli.formats.yaml_deck.kinds import KINDS
 from mouse_cli.formats.yaml_deck.model import dofs
-from mouse_cli.formats.yaml_deck.schema import KINDS
 from mouse_cli.formats.yaml_deck.sections import Section
 from mouse_cli.model.problem import RunOptions
 

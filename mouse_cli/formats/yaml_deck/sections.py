@@ -4,8 +4,8 @@ from difflib import get_close_matches
 
 from mouse_cli.formats.yaml_deck import schema as yaml_schema
 from mouse_cli.formats.yaml_deck import values as yaml_values
+from mouse_cli.formats.yaml_deck.kinds import KINDS, Key
 from mouse_cli.formats.yaml_deck.nodes import Document, Node, is_null
-from mouse_cli.formats.yaml_deck.schema import KINDS, Key
 
 _SIMPLE = {
     "text": yaml_values.text,

@@ -7,8 +7,8 @@ import numpy as np
 import yaml
 
 from mouse_cli.formats.draft import Entries
+from mouse_cli.formats.yaml_deck.kinds import MAX_WHOLE, PERCENT
 from mouse_cli.formats.yaml_deck.nodes import PLAIN, QUOTED, Document, Node, is_null
-from mouse_cli.formats.yaml_deck.schema import MAX_WHOLE, PERCENT
 
 _NUMBER = re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?", re.ASCII)
 _FORTRAN = re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)[dD][-+]?[0-9]+", re.ASCII)

@@ -5,8 +5,8 @@ from dataclasses import fields
 
 import numpy as np
 
+from mouse_cli.formats.yaml_deck.kinds import MAX_WHOLE, VERSION
 from mouse_cli.formats.yaml_deck.nodes import compose
-from mouse_cli.formats.yaml_deck.schema import MAX_WHOLE, VERSION
 from mouse_cli.formats.yaml_deck.text import flow, maybe, real, word, wrapped
 from mouse_cli.formats.yaml_deck.writer_parameters import parameters, prior
 from mouse_cli.model.arrays import Matrix, upper_triangle

@@ -1,0 +1,20 @@
+"""Top-level keys of a deck."""
+
+from mouse_cli.formats.yaml_deck.kinds import VERSION, Key, Section
+
+SECTIONS = {
+    "deck": Section(
+        "The whole deck.",
+        {
+            "mouse": Key("whole", "version of the format", required=True, low=VERSION, high=VERSION),
+            "title": Key("text", "heading of the printout", "empty"),
+            "source": Key("text", "where the deck or its numbers come from", "empty"),
+            "model": Key("section model", "the matrices before the test", required=True),
+            "elements": Key("section elements", "order in which the varying elements are listed (RS)", "see below"),
+            "parameters": Key("list parameter", "what may be revised: one entry is one column of A", "none"),
+            "prior": Key("section prior", "how the parameters are correlated before the test", "uncorrelated"),
+            "test": Key("section test", "what was measured", "none: the deck asks only for modes"),
+            "run": Key("section run", "how to run", "the defaults below"),
+        },
+    ),
+}

@@ -1,0 +1,44 @@
+"""Keys of `parameters:`, `elements:` and `prior:`."""
+
+from mouse_cli.formats.yaml_deck.kinds import Key, Section
+from mouse_cli.model.parameter import TRANSFORMS
+
+_NO_STRUCTURE = "this release reads bare matrices: give model: {stiffness: ..., mass: ...}"
+SECTIONS = {
+    "elements": Section(
+        "Order of the varying elements, in which their partial derivatives are printed; default: as the "
+        "parameters name them, stiffness first.",
+        {
+            "stiffness": Key("pairs", "elements of K as [row, column]", "[]"),
+            "mass": Key("pairs", "elements of M as [row, column]", "[]"),
+        },
+    ),
+    "parameter": Section(
+        "One property of the structure: K = K0 + (value - nominal) x its stiffness, and M likewise.",
+        {
+            "name": Key("text", "what the printout calls it", required=True),
+            "nominal": Key("number", "value before the test", "0: the parameter is a change"),
+            "unit": Key("text", "unit of the value", "empty"),
+            "sd": Key(
+                "sd",
+                "prior standard deviation; a percentage is of the nominal value; 0 holds the parameter",
+                "required, unless prior.covariance is given",
+            ),
+            "lower": Key("number", "least value allowed", "none"),
+            "upper": Key("number", "largest value allowed", "none"),
+            "transform": Key("choice", "log keeps the value positive", "identity", choices=TRANSFORMS),
+            "stiffness": Key("triples or file", "dK/d(parameter): [row, column, value], upper triangle", "[]"),
+            "mass": Key("triples or file", "dM/d(parameter): [row, column, value], upper triangle", "[]"),
+        },
+        later={"elements": _NO_STRUCTURE, "property": _NO_STRUCTURE},
+    ),
+    "prior": Section(
+        "Correlation of the parameters before the test, in one of three forms.",
+        {
+            "correlation": Key("square", "whole correlation matrix, in the order of the parameters"),
+            "correlations": Key("links", "correlated pairs, by name; the rest is 0"),
+            "covariance": Key("square", "whole covariance matrix; its diagonal replaces sd"),
+        },
+        forms=(("correlation",), ("correlations",), ("covariance",)),
+    ),
+}

@@ -1,0 +1,94 @@
+"""Kinds of values in a YAML deck, and what a key and a section are made of."""
+
+from dataclasses import dataclass
+from typing import Any
+
+VERSION = 1
+MAX_WHOLE = 2**31 - 1
+
+PERCENT = r"^\s*[0-9]*\.?[0-9]+([eE][-+]?[0-9]+)?\s*%\s*$"
+_NUMBER = {"type": "number"}
+_WHOLE = {"type": "integer"}
+_PERCENT = {"type": "string", "pattern": PERCENT}
+_MAYBE = {"type": ["number", "null"]}
+_NAME = {"type": ["string", "number"]}
+
+
+def _list(*items: dict[str, Any], **limits: int) -> dict[str, Any]:
+    """JSON Schema of a list; several `items` are those of a list of fixed length."""
+    if len(items) == 1:
+        return {"type": "array", "items": items[0], **limits}
+    return {"type": "array", "prefixItems": list(items), "items": False, "minItems": len(items)}
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """A kind of value: as messages call it, and as JSON Schema checks it."""
+
+    words: str
+    schema: dict[str, Any]
+
+
+_FILE = {"$ref": "#/$defs/file"}
+KINDS = {
+    "text": Kind("text", _NAME),
+    "flag": Kind("true or false", {"type": "boolean"}),
+    "choice": Kind("one of a few words", {}),
+    "whole": Kind("a whole number", _WHOLE),
+    "number": Kind("a number", _NUMBER),
+    "sd": Kind("a number or a percentage such as 5 %", {"anyOf": [_NUMBER, _PERCENT]}),
+    "texts": Kind("a list of names", _list(_NAME)),
+    "numbers": Kind("a list of numbers", _list(_NUMBER, minItems=1)),
+    "wholes": Kind("a list of whole numbers", _list(_WHOLE)),
+    "maybes": Kind("a list of numbers, null where not measured", _list(_MAYBE, minItems=1)),
+    "dofs": Kind("a list of degrees of freedom, by number from 1 or by label", _list(_NAME)),
+    "square": Kind("a list of rows of numbers", _list(_list(_NUMBER, minItems=1), minItems=1)),
+    "pairs": Kind("a list of [row, column]", _list(_list(_WHOLE, _WHOLE))),
+    "triples": Kind("a list of [row, column, value]", _list(_list(_WHOLE, _WHOLE, _NUMBER))),
+    "triples or file": Kind(
+        "a list of [row, column, value], or {file: name}",
+        {"anyOf": [_list(_list(_WHOLE, _WHOLE, _NUMBER)), _FILE]},
+    ),
+    "links": Kind("a list of [parameter, parameter, correlation]", _list(_list(_NAME, _NAME, _NUMBER))),
+    "sds": Kind(
+        "a number, a percentage such as 2 %, or a list of numbers",
+        {"anyOf": [_NUMBER, _PERCENT, _list(_MAYBE)]},
+    ),
+    "grid": Kind(
+        "a list of rows of numbers (null where not measured), or {file: name}",
+        {"anyOf": [_list(_list(_MAYBE)), _FILE]},
+    ),
+    "sd grid": Kind(
+        "a number, a percentage such as 2 %, a list of rows of numbers, or {file: name}",
+        {"anyOf": [_NUMBER, _PERCENT, _list(_list(_MAYBE)), _FILE]},
+    ),
+    "flag or dofs": Kind(
+        "true, false or {dofs: [...]}",
+        {"anyOf": [{"type": "boolean"}, {"$ref": "#/$defs/total_mass"}]},
+    ),
+    "path": Kind("the name of a file", {"type": "string", "minLength": 1}),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Key:
+    """One key: kind of value (of KINDS, `section NAME` or `list NAME`), meaning, default, unit, limits."""
+
+    kind: str
+    meaning: str
+    default: str = ""
+    unit: str = ""
+    required: bool = False
+    choices: tuple[Any, ...] = ()
+    low: float | None = None
+    high: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """A mapping: its keys; `forms`, sets of keys of which exactly one is given; `later`, keys to come."""
+
+    meaning: str
+    keys: dict[str, Key]
+    forms: tuple[tuple[str, ...], ...] = ()
+    later: dict[str, str] | None = None
