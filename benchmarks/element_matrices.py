@@ -8,7 +8,7 @@ STEEL = 210e9, 0.3, 7850.0  # Young's modulus in N/m^2, Poisson's ratio, density
 def brick(hx: float, hy: float, hz: float) -> tuple[np.ndarray, np.ndarray]:
     """K, M (24, 24) of the eight-node hexahedron with edges hx, hy, hz in m; degrees of freedom node by node.
 
-    Trilinear shape functions, 2 x 2 x 2 Gauss points (Hughes 1987, section 3.5); consistent mass. Nodes in the order of
+    Trilinear shape functions, 2 x 2 x 2 Gauss points (Hughes 1987); consistent mass. Nodes in the order of
     `np.ndindex(2, 2, 2)`: z fastest.
     """
     E, nu, rho = STEEL
@@ -33,9 +33,9 @@ def brick(hx: float, hy: float, hz: float) -> tuple[np.ndarray, np.ndarray]:
 
 
 def plate(hx: float, hy: float, thickness: float) -> tuple[np.ndarray, np.ndarray]:
-    """K, M (12, 12) of the rectangular bending element of Adini, Clough and Melosh; w, dw/dy, -dw/dx node by node.
+    """K, M (12, 12) of the rectangular plate-bending element of Adini, Clough and Melosh; w, dw/dy, -dw/dx node by node.
 
-    Cubic in each direction, w = sum of 12 monomials (Zienkiewicz and Taylor 2000, section 4.3); consistent mass. Nodes in the
+    Cubic in each direction, w = sum of 12 monomials (Adini and Clough 1960, Melosh 1963); consistent mass. Nodes in the
     order of `np.ndindex(2, 2)`: y fastest. Worked out in coordinates from -1 to 1, where it is well conditioned.
     """
     E, nu, rho = STEEL
@@ -55,7 +55,8 @@ def plate(hx: float, hy: float, thickness: float) -> tuple[np.ndarray, np.ndarra
     shape = np.linalg.inv(np.array(rows))
     K, M = np.zeros((12, 12)), np.zeros((12, 12))
     points, weights = np.polynomial.legendre.leggauss(4)
-    for (x, wx), (y, wy) in [(a, b) for a in zip(points, weights) for b in zip(points, weights)]:
+    rule = list(zip(points, weights, strict=True))
+    for (x, wx), (y, wy) in [(a, b) for a in rule for b in rule]:
         N = monomials(x, y, 0, 0) @ shape
         B = np.array(
             [-monomials(x, y, 2, 0) / rx**2, -monomials(x, y, 0, 2) / ry**2, -2 * monomials(x, y, 1, 1) / rx / ry]
@@ -69,7 +70,7 @@ def plate(hx: float, hy: float, thickness: float) -> tuple[np.ndarray, np.ndarra
 def beam(length: float, axis: int, width: float, height: float) -> tuple[np.ndarray, np.ndarray]:
     """K, M (12, 12) of the Bernoulli-Euler beam along global `axis`, section width x height; six degrees of freedom a node.
 
-    Axial, torsional and two bending parts, consistent mass (Przemieniecki 1968, Eqs. 5.116 and 11.28, without shear).
+    Axial, torsional and two bending parts, consistent mass (Przemieniecki 1968, without shear).
     """
     E, nu, rho = STEEL
     A, Iy, Iz = width * height, width * height**3 / 12, height * width**3 / 12
