@@ -8,12 +8,12 @@ import numpy as np
 TOLERANCE = 1e-9  # of ARPACK, relative
 
 
-def shift(K, M) -> float:
-    """A shift below all eigenvalues, near the lowest one: -0.3 times its estimate, by a few rough inverse iterations."""
-    factor = factorise(K, M, -1e-6 * float(np.median(K.diagonal() / M.diagonal())))
+def shift(K, M, symbolic: "Symbolic | None" = None) -> float:
+    """A shift below all eigenvalues, near the lowest one: -0.3 times its estimate, by a few inverse iterations."""
+    solve = factorise(K, M, -1e-6 * float(np.median(K.diagonal() / M.diagonal())), symbolic)
     x = np.random.default_rng(0).standard_normal(K.shape[0])
     for _ in range(6):
-        x = factor(M @ (x / np.linalg.norm(x)))
+        x = solve(M @ (x / np.linalg.norm(x)))
     return -0.3 * float(x @ (K @ x)) / float(x @ (M @ x))
 
 

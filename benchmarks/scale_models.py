@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import element_matrices
 import numpy as np
+from fast_factor import Symbolic, arpack, factorise, shift, shifted
 
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
@@ -217,7 +218,6 @@ def problem(kind: str, n: int, p: int, modes: int = 30, sensors: int = 20, seed:
 
 def reference_modes(K, M, count: int) -> tuple[np.ndarray, np.ndarray]:
     """The lowest eigenvalues and mass-normalised shapes by ARPACK around a factorisation: for data, and to compare with."""
-    from fast_factor import arpack, factorise, shift
-
-    sigma = shift(K, M)
-    return arpack(K, M, sigma, factorise(K, M, sigma), count)
+    symbolic = Symbolic(shifted(K, M, -1.0))
+    sigma = shift(K, M, symbolic)
+    return arpack(K, M, sigma, factorise(K, M, sigma, symbolic), count)
