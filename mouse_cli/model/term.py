@@ -12,15 +12,18 @@ MATRICES = ("K", "M", "C", "D")  # stiffness, mass, viscous damping, structural 
 
 @dataclass(frozen=True)
 class Places:
-    """Where a term stands in a matrix: z entries (row, col), from 0, mirror images included; entries of one place add up."""
+    """Where a term stands in a matrix: z entries (row, col), from 0, mirror images included; entries of one place add up.
+
+    A term whose matrices stand in the same places gives the same object for them: it is worked through once.
+    """
 
     row: np.ndarray
     col: np.ndarray
 
     def __post_init__(self) -> None:
-        z = len(self.row)
-        object.__setattr__(self, "row", frozen(self.row, (z,), "row", int))
-        object.__setattr__(self, "col", frozen(self.col, (z,), "col", int))
+        z = len(self.row)  # up to 1e8 of them: 32 bits each
+        object.__setattr__(self, "row", frozen(self.row, (z,), "row", np.int32))
+        object.__setattr__(self, "col", frozen(self.col, (z,), "col", np.int32))
 
     def __len__(self) -> int:
         return len(self.row)
@@ -57,7 +60,7 @@ class Term(Protocol):
     linear: bool
 
     def values(self, theta: np.ndarray) -> dict[str, np.ndarray]:
-        """For each matrix of `places`, the values (z,) at theta."""
+        """For each matrix of `places`, the values (z,) at theta (p,)."""
         ...
 
     def slopes(self, theta: np.ndarray) -> dict[str, Slopes]:

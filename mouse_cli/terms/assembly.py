@@ -1,13 +1,11 @@
 """The matrices of a problem at any values of its parameters: the constant part and the sum of its terms."""
 
-from functools import cached_property
-
 import numpy as np
 
 from mouse_cli.model.arrays import Matrix, is_sparse
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.structure import Structure
-from mouse_cli.model.term import CONSTANT, Slopes, Term
+from mouse_cli.model.term import CONSTANT, MATRICES, Places, Slopes, Term
 from mouse_cli.terms.matrix_entries import MatrixEntries
 
 
@@ -20,8 +18,8 @@ class Assembly:
 
     def __init__(self, structure: Structure, terms: tuple[Term, ...], p: int):
         self.n, self.p, self.terms = structure.n, p, terms
-        constant = {name: getattr(structure, name) for name in ("K", "M", "C", "D")}
-        self._sums = {name: _sum(structure, constant[name], name, terms) for name in constant}
+        patterns: dict[tuple, _Pattern] = {}
+        self._sums = {name: _sum(structure, name, terms, patterns) for name in MATRICES}
 
     def matrices(self, theta: np.ndarray) -> tuple[Matrix, Matrix]:
         """K and M (n, n) at theta (p,)."""
@@ -39,14 +37,7 @@ class Assembly:
         return all(term.linear for term in self.terms)
 
     def slopes(self, theta: np.ndarray) -> dict[str, Slopes]:
-        """dK/dtheta and dM/dtheta at theta (p,), all terms together."""
-        return self._constant_slopes if self.linear else self._slopes(theta)
-
-    @cached_property
-    def _constant_slopes(self) -> dict[str, Slopes]:
-        return self._slopes(np.zeros(self.p))
-
-    def _slopes(self, theta: np.ndarray) -> dict[str, Slopes]:
+        """dK/dtheta and dM/dtheta at theta (p,), all terms together; large, and not kept here."""
         parts = [term.slopes(theta) for term in self.terms]
         return {name: _joined([part[name] for part in parts if name in part]) for name in ("K", "M")}
 
@@ -69,16 +60,23 @@ def _joined(parts: list[Slopes]) -> Slopes:
     return Slopes(*(np.concatenate([getattr(part, f) for part in parts]) for f in ("parameter", "row", "col", "value")))
 
 
-def _sum(structure: Structure, constant: Matrix | None, name: str, terms: tuple[Term, ...]) -> "_Constant | None":
-    """How the matrix `name` is summed; None when nothing contributes to it."""
+def _sum(
+    structure: Structure, name: str, terms: tuple[Term, ...], patterns: dict[tuple, "_Pattern"]
+) -> "_Constant | None":
+    """How the matrix `name` is summed; None when nothing contributes to it. `patterns`: those of matrices that came before."""
+    constant, n = getattr(structure, name), structure.n
     own = [i for i, term in enumerate(terms) if name in term.places]
     if not own:
         return None if constant is None else _Constant(constant)
-    n = structure.n
-    row, col = (np.concatenate([getattr(terms[i].places[name], f) for i in own]) for f in ("row", "col"))
-    if is_sparse(structure.K):
-        return _Sparse(n, constant, name, own, row, col)
-    return _Dense(n, np.zeros((n, n)) if constant is None else constant, name, own, row * n + col)
+    places = [terms[i].places[name] for i in own]
+    if not is_sparse(structure.K):
+        flat = np.concatenate([place.row * np.int64(n) + place.col for place in places])
+        return _Dense(np.zeros((n, n)) if constant is None else constant, name, own, flat)
+    shared = constant is None or not constant.nnz
+    key = (*(id(place) for place in places), *(() if shared else (name,)))
+    if key not in patterns:
+        patterns[key] = _Pattern(n, None if shared else constant, places)
+    return _Sparse(name, own, patterns[key])
 
 
 class _Constant:
@@ -92,43 +90,54 @@ class _Constant:
         return self.constant
 
 
-class _Dense(_Constant):
+class _Dense:
     """A dense matrix; flat (z,): places of all contributions."""
 
-    def __init__(self, n: int, constant: np.ndarray, name: str, own: list[int], flat: np.ndarray):
-        super().__init__(constant)
-        self.n, self.name, self.own, self.flat = n, name, own, flat
+    def __init__(self, constant: np.ndarray, name: str, own: list[int], flat: np.ndarray):
+        self.constant, self.name, self.own, self.flat = constant, name, own, flat
 
     def at(self, values: list[dict[str, np.ndarray]]) -> np.ndarray:
-        given = _gathered(values, self.own, self.name)
-        return self.constant + np.bincount(self.flat, given, minlength=self.n**2).reshape(self.n, self.n)
+        """The matrix, for the values of all terms."""
+        given, size = _gathered(values, self.own, self.name), self.constant.size
+        return self.constant + np.bincount(self.flat, given, minlength=size).reshape(self.constant.shape)
 
 
-class _Sparse(_Constant):
-    """A scipy.sparse.csr_array whose pattern is the union of all places, explicit zeros included."""
+class _Pattern:
+    """Rows and columns of all places of a sparse matrix, explicit zeros included; position (z,) of each contribution in it.
 
-    def __init__(self, n: int, constant: Matrix | None, name: str, own: list[int], row: np.ndarray, col: np.ndarray):
-        super().__init__(constant)
-        self.n, self.name, self.own = n, name, own
-        base = None if constant is None else constant.tocoo()
-        places = [row.astype(np.int64) * n + col]
-        if base is not None:
-            places.insert(0, base.row.astype(np.int64) * n + base.col)
-        pattern, position = np.unique(np.concatenate(places), return_inverse=True)
-        known = 0 if base is None else base.nnz
-        self.base = np.bincount(position[:known], None if base is None else base.data, minlength=len(pattern)).astype(
-            float
-        )
-        self.position = position[known:]
+    base: the constant part over this pattern, or None.
+    """
+
+    def __init__(self, n: int, constant: Matrix | None, places: list[Places]):
+        self.n, self.base = n, None
+        keys = [place.row * np.int64(n) + place.col for place in places]
+        if constant is not None:
+            constant = constant.tocoo()
+            keys.append(constant.row * np.int64(n) + constant.col)
+        pattern, position = np.unique(np.concatenate(keys), return_inverse=True)
+        if constant is not None:
+            position, at = position[: -constant.nnz], position[-constant.nnz :]
+            self.base = np.bincount(at, constant.data, minlength=len(pattern))
+        self.position, self.size = position, len(pattern)
         self.indices = (pattern % n).astype(np.int32)
         self.indptr = np.searchsorted(pattern, np.arange(n + 1, dtype=np.int64) * n).astype(np.int32)
 
+
+class _Sparse:
+    """A scipy.sparse.csr_array over one pattern."""
+
+    def __init__(self, name: str, own: list[int], pattern: _Pattern):
+        self.name, self.own, self.pattern = name, own, pattern
+
     def at(self, values: list[dict[str, np.ndarray]]) -> Matrix:
+        """The matrix, for the values of all terms."""
         from scipy.sparse import csr_array
 
-        given = _gathered(values, self.own, self.name)
-        data = self.base + np.bincount(self.position, given, minlength=len(self.base))
-        matrix = csr_array((data, self.indices, self.indptr), shape=(self.n, self.n))
+        pattern = self.pattern
+        data = np.bincount(pattern.position, _gathered(values, self.own, self.name), minlength=pattern.size)
+        if pattern.base is not None:
+            data += pattern.base
+        matrix = csr_array((data, pattern.indices, pattern.indptr), shape=(pattern.n, pattern.n))
         matrix.has_canonical_format = True
         return matrix
 
