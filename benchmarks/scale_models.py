@@ -95,13 +95,17 @@ class ElementGroups:
 def solid_grid(n: int) -> Grid:
     """A block of 2.0 x 1.3 x 1.0 m of hexahedra, held at x = 0, of about n degrees of freedom."""
     h = (3 * 2.0 * 1.3 / n) ** (1 / 3)
-    nx, ny, nz = (max(1, round(length / h)) for length in (2.0, 1.3 - h, 1.0 - h))
+    return bricks(tuple(max(1, round(length / h)) for length in (2.0, 1.3 - h, 1.0 - h)), (2.0, 1.3, 1.0))
+
+
+def bricks(number: tuple[int, int, int], size: tuple[float, float, float]) -> Grid:
+    """A block of `size` (m) of so many hexahedra in x, y and z, held at x = 0."""
+    nx, ny, nz = number
     node = _numbered((nx + 1, ny + 1, nz + 1))
     corners = [node[i : i + nx, j : j + ny, k : k + nz].ravel() for i, j, k in np.ndindex(2, 2, 2)]
-    K, M = element_matrices.brick(2.0 / nx, 1.3 / ny, 1.0 / nz)
+    K, M = element_matrices.brick(*(length / count for length, count in zip(size, number, strict=True)))
     count = 3 * nx * (ny + 1) * (nz + 1)
-    block = Block(_freedoms(corners, 3), K, M, np.arange(nx * ny * nz))
-    return Grid(count, (block,), np.arange(count))
+    return Grid(count, (Block(_freedoms(corners, 3), K, M, np.arange(nx * ny * nz)),), np.arange(count))
 
 
 def plate_grid(n: int) -> Grid:
@@ -192,24 +196,28 @@ def problem(kind: str, n: int, p: int, modes: int = 30, sensors: int = 20, seed:
     truth = np.maximum(1 + sd * rng.standard_normal(p), 0.3)
     dofs = translations[np.linspace(0, len(translations) - 1, sensors + 1).astype(int)[1:]]
     eigenvalues, shapes = reference_modes(*Assembly(structure, (term,), p).matrices(truth), modes)
-    hz, seen = np.sqrt(eigenvalues) / (2 * np.pi), shapes[dofs]
-    shape_sd = np.tile(SD_SHAPE * np.abs(seen).max(axis=0), (sensors, 1))
-    test = ModalTest(
-        np.arange(1, modes + 1),
-        hz * (1 + SD_FREQUENCY * rng.standard_normal(modes)),
-        hz * SD_FREQUENCY,
-        dofs,
-        seen + shape_sd * rng.standard_normal(seen.shape),
-        shape_sd,
-        "none",
-    )
+    test = simulated(eigenvalues, shapes[dofs], dofs, rng)
+    return with_factors(f"{kind} of {structure.n} degrees of freedom", structure, term, sd, test, **options)
+
+
+def simulated(eigenvalues: np.ndarray, seen: np.ndarray, dofs: np.ndarray, rng: np.random.Generator) -> ModalTest:
+    """What a test reports of eigenvalues (m,) and shapes `seen` (s, m) at `dofs` (s,), with its noise and accuracies."""
+    hz, (s, m) = np.sqrt(eigenvalues) / (2 * np.pi), seen.shape
+    shape_sd = np.tile(SD_SHAPE * np.abs(seen).max(axis=0), (s, 1))
+    noisy_hz = hz * (1 + SD_FREQUENCY * rng.standard_normal(m))
+    noisy = seen + shape_sd * rng.standard_normal(seen.shape)
+    return ModalTest(np.arange(1, m + 1), noisy_hz, hz * SD_FREQUENCY, dofs, noisy, shape_sd, "none")
+
+
+def with_factors(title: str, structure: Structure, term, sd: np.ndarray, test: ModalTest, **options) -> Problem:
+    """The problem of revising factors of nominal value 1 and prior standard deviations sd (p,), uncorrelated."""
     return Problem(
-        f"{kind} of {structure.n} degrees of freedom",
+        title,
         structure,
         ListedElements.none(),
-        np.zeros((0, p)),
+        np.zeros((0, len(sd))),
         tuple(Parameter(f"factor {i + 1}", s, 1.0) for i, s in enumerate(sd)),
-        Gaussian(np.ones(p), sd**2),
+        Gaussian(np.ones(len(sd)), sd**2),
         test,
         RunOptions(**options),
         terms=(term,),
