@@ -1,99 +1,124 @@
 """Matrices kept in files: one module = one format; here, what every matrix of a model must be."""
 
-import os
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mouse_cli import _registry
-from mouse_cli._errors import ERROR, DeckError, Diagnostic
 from mouse_cli._span import Span
+from mouse_cli.formats import data_files
+from mouse_cli.formats.data_files import MAX_BYTES, reject
 from mouse_cli.model.arrays import Matrix, dense, is_sparse, upper_triangle
+from mouse_cli.model.dof_map import DofMap
 
-MAX_BYTES = 2_000_000_000  # of a file, and of what is packed in it
+__all__ = ["MAX_BYTES", "MAX_ORDER", "Contents", "MatrixFormat", "read_contents", "read_matrix", "read_table", "reject"]
 MAX_ORDER = 1_000_000  # fits a workstation only when sparse; beyond it an order is a slip
 LARGEST_DENSE = 500  # smaller matrices are kept dense: sparse bookkeeping would cost more than the zeros
 # Mirror images may differ by so much of the geometric mean of their diagonals: printed digits, no slip.
 ROUNDING = 1e-8
+_BOTH_TRIANGLES = (
+    "give both triangles, or say in the file that it is symmetric: "
+    "Matrix Market 'symmetric', Harwell-Boeing RSA, DMIG form 6"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Contents:
+    """A matrix, and the degrees of freedom that its file names for the rows; None: it names none.
+
+    removed: labels of degrees of freedom that the file holds as constrained, and that were left out.
+    """
+
+    matrix: Matrix
+    dofs: DofMap | None = None
+    removed: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)
 class MatrixFormat:
-    """A format: `key` is the suffix of its files; `read(path)` gives a real array, dense or sparse."""
+    """A format of matrix files.
+
+    read(path, variable) gives a real array, dense or sparse, or Contents. named: whether a file may hold several matrices, of
+    which `variable` names one. suffixes: of its files, without the point; default: `key`. claims(head): whether a file that
+    begins with these bytes is of this format, where several share a suffix.
+    """
 
     key: str
-    read: Callable[[str], Matrix]
+    read: Callable[[str, str | None], Matrix | Contents]
+    suffixes: tuple[str, ...] = ()
+    named: bool = False
+    claims: Callable[[bytes], bool] | None = None
 
 
-def read_matrix(path: str, order: int | None = None) -> Matrix:
+def read_matrix(path: str, order: int | None = None, variable: str | None = None) -> Matrix:
     """A symmetric matrix (n, n), dense up to order 500, beyond that a scipy.sparse.csr_array.
 
-    Raises DeckError (MD250 to MD259) that names the file, and its line where a text file has one.
+    Raises DeckError (MD250 to MD262) that names the file, and its line where a text file has one.
     """
-    matrix = _read(path)
+    return read_contents(path, order, variable).matrix
+
+
+def read_contents(path: str, order: int | None = None, variable: str | None = None) -> Contents:
+    """The matrix of `read_matrix`, and what its file says about its rows; `order` binds only a matrix that names no rows."""
+    found = _read(path, variable)
+    matrix = found.matrix
     if matrix.ndim != 2 or matrix.shape[0] != matrix.shape[1] or not matrix.shape[0]:
-        reject(
-            "MD254",
-            path,
-            f"the matrix has shape {matrix.shape}; it must be square",
-            "give all rows and columns",
-        )
+        message = f"the matrix has shape {tuple(matrix.shape)}; it must be square"
+        reject("MD254", path, message, "give all rows and columns")
     n = matrix.shape[0]
     if n > MAX_ORDER:
         reject("MD258", path, f"the matrix has order {n}; at most {MAX_ORDER} is read", "condense the model")
-    if order is not None and n != order:
-        reject(
-            "MD257",
-            path,
-            f"the matrix has order {n}, but the model has {order}",
-            f"give a matrix of order {order}",
-        )
-    if n <= LARGEST_DENSE:
-        return _symmetric(path, _finite(path, dense(matrix)))
-    return _symmetric(path, _finite(path, _csr(matrix)))
+    if order is not None and n != order and found.dofs is None:
+        message = f"the matrix has order {n}, but the model has {order}"
+        reject("MD257", path, message, f"give a matrix of order {order}")
+    kept = dense(matrix) if n <= LARGEST_DENSE else _csr(matrix)
+    return replace(found, matrix=_symmetric(path, _finite(path, kept)))
 
 
-def read_table(path: str) -> np.ndarray:
+def read_table(path: str, variable: str | None = None) -> np.ndarray:
     """A dense table of any shape, NaN where a value is missing, e.g. mode shapes."""
-    table = _read(path)
+    table = _read(path, variable).matrix
     table = np.asarray(dense(table), dtype=float)
     if table.ndim != 2:
-        reject(
-            "MD254",
-            path,
-            f"the array has shape {table.shape}; a table has rows and columns",
-            "save a 2-D array",
-        )
+        message = f"the array has shape {table.shape}; a table has rows and columns"
+        reject("MD254", path, message, "save a 2-D array")
     return table
 
 
-def reject(code: str, path: str, message: str, help: str = "", span: Span | None = None) -> None:
-    """Raise the DeckError of one finding."""
-    raise DeckError(Diagnostic(code, ERROR, message, span or Span(path, 1), help=help))
+def choose(path: str, variable: str | None, names: list[str]) -> str:
+    """Which of the matrices `names` of a file is meant: the one called `variable`, or the only one."""
+    known = ", ".join(names[:12]) + (", ..." if len(names) > 12 else "")
+    if variable is None and len(names) == 1:
+        return names[0]
+    if variable is None:
+        what = f"{len(names)} matrices ({known})" if names else "no matrix"
+        reject("MD259", path, f"the file holds {what}; expected one", "say which: {file: ..., variable: NAME}")
+    same = [name for name in names if name == variable] or [n for n in names if n.lower() == variable.lower()]
+    if len(same) != 1:
+        reject(
+            "MD260", path, f"the file holds no '{variable[:40]}'; it holds {known or 'no matrix'}", "give one of these"
+        )
+    return same[0]
 
 
-def _read(path: str) -> Matrix:
-    _check_file(path)
-    suffix = os.path.splitext(path)[1].lower().removeprefix(".")
-    formats = _registry.discover(__name__, "FORMAT")
-    if suffix not in formats:
-        known = ", ".join(f".{key}" for key in formats)
-        reject("MD251", path, f"'.{suffix}' is no matrix format", f"give one of {known}")
+def real(path: str, array: Matrix, name: str = "") -> Matrix:
+    """The array, when its values are real numbers; MD253 else."""
+    if array.dtype.kind not in "fiub":
+        what = f"'{name}' is" if name else "the values are"
+        reject("MD253", path, f"{what} of type {array.dtype}; K and M are real", "save real numbers")
+    return array
+
+
+def _read(path: str, variable: str | None) -> Contents:
+    found = data_files.reader(__name__, path, "a matrix file")
+    if variable is not None and not found.named:
+        message = f"a file of the format '{found.key}' holds one matrix; variable '{variable[:40]}' cannot be looked up"
+        reject("MD260", path, message, "delete variable")
     try:
-        return formats[suffix].read(path)
+        contents = found.read(path, variable)
     except (OSError, MemoryError) as error:
         reject("MD250", path, f"the file cannot be read: {error}", "check the file and its permissions")
-
-
-def _check_file(path: str) -> None:
-    if not os.path.exists(path):
-        reject("MD250", path, "there is no such file", "check the name; paths are relative to the deck")
-    if not os.path.isfile(path):
-        reject("MD250", path, "this is not a file", "give the name of a matrix file")
-    size = os.path.getsize(path)
-    if size > MAX_BYTES:
-        reject("MD258", path, f"the file has {size} bytes; at most {MAX_BYTES} are read", "condense the model")
+    return contents if isinstance(contents, Contents) else Contents(contents)
 
 
 def _csr(matrix: Matrix) -> Matrix:
@@ -122,7 +147,8 @@ def _finite(path: str, matrix: Matrix) -> Matrix:
 
 def _symmetric(path: str, matrix: Matrix) -> Matrix:
     """The matrix with mirror images made equal, when they differ by rounding alone."""
-    difference = abs(matrix - matrix.T)
+    with np.errstate(over="ignore"):  # a difference beyond the largest number is infinite, and no rounding
+        difference = abs(matrix - matrix.T)
     row, col, gap = upper_triangle(difference)
     if not len(row):
         return matrix
@@ -135,5 +161,5 @@ def _symmetric(path: str, matrix: Matrix) -> Matrix:
             f"the matrix is not symmetric: ({i + 1},{j + 1}) is {matrix[i, j]:.10g}, "
             f"but ({j + 1},{i + 1}) is {matrix[j, i]:.10g}; {len(wrong)} such pairs"
         )
-        reject("MD255", path, message, "give both triangles, or in Matrix Market the lower one and 'symmetric'")
-    return (matrix + matrix.T) / 2
+        reject("MD255", path, message, _BOTH_TRIANGLES, Span(path, 1))
+    return matrix / 2 + matrix.T / 2

@@ -13,7 +13,7 @@ _MISSING = ("", "nan", "null", "na")
 _LARGEST = 20_000_000  # values of a table: 160 MB
 
 
-def _read(path: str) -> Matrix:
+def _read(path: str, _: str | None) -> Matrix:
     lines = _lines(path)
     rows = [(number, line, _cells(line)) for number, line in lines]
     if not rows:

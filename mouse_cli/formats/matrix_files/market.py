@@ -12,7 +12,7 @@ _HELP = "begin with '%%MatrixMarket matrix coordinate real symmetric' and a line
 _SHORTEST_ENTRY, _SHORTEST_VALUE = 6, 2  # "1 1 1\n", "1\n"
 
 
-def _read(path: str) -> Matrix:
+def _read(path: str, _: str | None) -> Matrix:
     _check_header(path)
     from scipy.io import mmread
 

@@ -1,14 +1,14 @@
-"""NumPy archives (.npz): scipy.sparse.save_npz, or numpy.savez with one array."""
+"""NumPy archives (.npz): scipy.sparse.save_npz, or numpy.savez."""
 
 import zipfile
 import zlib
 
 import numpy as np
 
-from mouse_cli.formats.matrix_files import MAX_BYTES, MatrixFormat, reject
+from mouse_cli.formats.matrix_files import MAX_BYTES, MatrixFormat, choose, real, reject
 from mouse_cli.model.arrays import Matrix
 
-_HELP = "write it with scipy.sparse.save_npz, or with numpy.savez and one array"
+_HELP = "write it with scipy.sparse.save_npz, or with numpy.savez"
 _DAMAGE = (
     ValueError,
     KeyError,
@@ -21,26 +21,17 @@ _DAMAGE = (
 )
 
 
-def _read(path: str) -> Matrix:
+def _read(path: str, variable: str | None) -> Matrix:
     try:
         _check_size(path)
         with np.load(path, allow_pickle=False) as archive:
             names = archive.files
-            array = archive[names[0]] if len(names) == 1 else None
-        if array is None and "format" in names:
-            array = _sparse(path)
+            if "format" not in names or variable is not None:
+                name = choose(path, variable, names)
+                return real(path, archive[name], name)
+        return real(path, _sparse(path))
     except _DAMAGE as error:
         reject("MD252", path, f"not a NumPy archive: {error}", _HELP)
-    if array is None:
-        reject(
-            "MD259",
-            path,
-            f"the archive holds {len(names)} arrays ({', '.join(names[:6])}); expected one",
-            _HELP,
-        )
-    if array.dtype.kind not in "fiu":
-        reject("MD253", path, f"the values are of type {array.dtype}; K and M are real", "save real numbers")
-    return array
 
 
 def _check_size(path: str) -> None:
@@ -66,4 +57,4 @@ def _sparse(path: str) -> Matrix:
     return matrix
 
 
-FORMAT = MatrixFormat("npz", _read)
+FORMAT = MatrixFormat("npz", _read, named=True)

@@ -1,0 +1,80 @@
+"""Files beside a deck, of whatever format: found, told from what they are not, and matched to a reader."""
+
+import os
+from typing import Any, NoReturn
+
+from mouse_cli import _registry
+from mouse_cli._errors import ERROR, DeckError, Diagnostic
+from mouse_cli._span import Span
+
+MAX_BYTES = 2_000_000_000  # of a file, and of what is packed in it
+_WIDEST = 200  # characters of a line that a diagnostic shows
+_DISGUISES = (  # how files begin that are not what their name says
+    (b"<!doctype html", "an HTML page, such as a server sends in place of a file", "fetch the file itself"),
+    (b"<html", "an HTML page, such as a server sends in place of a file", "fetch the file itself"),
+    (b"<?xml", "an XML file", "export the matrix in one of the formats that are read"),
+    (b"pk\x03\x04", "a zip archive", "unpack it"),
+    (b"\x1f\x8b", "compressed by gzip", "unpack it"),
+    (b"version https://git-lfs", "a pointer of Git LFS, not the file", "fetch the file: git lfs pull"),
+)
+
+
+def reject(code: str, path: str, message: str, help: str = "", span: Span | None = None) -> NoReturn:
+    """Raise the DeckError of one finding."""
+    raise DeckError(Diagnostic(code, ERROR, message, span or Span(path, 1), help=help))
+
+
+def line_span(path: str, number: int, line: str, part: str = "") -> Span:
+    """Place of line `number` (from 1) of a text file, or of `part` of it."""
+    shown = line.rstrip("\r\n")[:_WIDEST]
+    column = shown.find(part) + 1 if part else 0
+    return Span(path, number, max(1, column), max(1, len(part) if column else len(shown)), shown)
+
+
+def reader(package: str, path: str, what: str) -> Any:
+    """The format of `package` that reads the file `path`: by its suffix, and by its first bytes where formats share one.
+
+    Raises DeckError (MD250, MD251, MD252, MD258) when there is no such file, or none of the formats is its.
+    """
+    _check(path)
+    suffix = os.path.splitext(path)[1].lower().removeprefix(".")
+    formats = _registry.discover(package, "FORMAT").values()
+    own = [each for each in formats if suffix in (each.suffixes or (each.key,))]
+    if not own:
+        known = ", ".join(sorted({f".{s}" for each in formats for s in each.suffixes or (each.key,)}))
+        reject("MD251", path, f"'.{suffix}' is no suffix of {what}", f"give one of {known}")
+    head = _head(path)
+    told = [each for each in own if each.claims is not None and each.claims(head)]
+    _undisguised(path, head, suffix)
+    return (told or [each for each in own if each.claims is None] or own)[0]
+
+
+def text_lines(path: str) -> list[str]:
+    """Lines of a text file, without their ends; bytes beyond ASCII stand for themselves, for the reader to refuse."""
+    with open(path, encoding="latin-1", newline=None) as stream:
+        return stream.read().split("\n")
+
+
+def _check(path: str) -> None:
+    if not os.path.exists(path):
+        reject("MD250", path, "there is no such file", "check the name; paths are relative to the deck")
+    if not os.path.isfile(path):
+        reject("MD250", path, "this is not a file", "give the name of a file")
+    size = os.path.getsize(path)
+    if size > MAX_BYTES:
+        reject("MD258", path, f"the file has {size} bytes; at most {MAX_BYTES} are read", "condense the model")
+
+
+def _head(path: str) -> bytes:
+    try:
+        with open(path, "rb") as stream:
+            return stream.read(4096)
+    except OSError as error:
+        reject("MD250", path, f"the file cannot be read: {error}", "check the file and its permissions")
+
+
+def _undisguised(path: str, head: bytes, suffix: str) -> None:
+    start = head.removeprefix(b"\xef\xbb\xbf").lstrip().lower()
+    for mark, what, remedy in _DISGUISES:
+        if start.startswith(mark) and not (suffix == "npz" and mark.startswith(b"pk")):
+            reject("MD252", path, f"the file is {what}", remedy)

@@ -1,0 +1,25 @@
+"""ANSYS (.mapping), written by HBMAT with Mapping=YES: equation number, node, direction (UX ... ROTZ), below a header."""
+
+from mouse_cli.formats.data_files import line_span, reject, text_lines
+from mouse_cli.formats.dof_files import DofFormat
+
+
+def _read(path: str) -> list[tuple[int, str, str, str]]:
+    found: dict[int, tuple[int, str, str, str]] = {}
+    for number, line in enumerate(text_lines(path), 1):
+        words = line.split()
+        if not words or (not found and not words[0].isdigit()):
+            continue
+        equation = int(words[0]) if len(words) == 3 and words[0].isascii() and words[0].isdigit() else 0
+        if equation < 1 or equation in found:
+            message = "expected an equation number that stands once, a node and a direction"
+            reject("MD252", path, message, "write the file anew", line_span(path, number, line))
+        found[equation] = (number, line, words[1], words[2])
+    if found and max(found) != len(found):
+        reject(
+            "MD252", path, f"equations 1 to {max(found)} are expected; {len(found)} are named", "write the file anew"
+        )
+    return [found[equation] for equation in sorted(found)]
+
+
+FORMAT = DofFormat("mapping", _read)

@@ -1,0 +1,126 @@
+"""HDF5 files (.h5, .hdf5, and .mat of version 7.3), by h5py: a dense data set, or a group that holds a sparse matrix.
+
+A sparse group has, in this order of search: ir, jc, data (MATLAB 7.3); indptr, indices, data with the shape in `shape` or an
+attribute (SciPy, AnnData, h5sparse); cidx, ridx, data (Octave); or row, col, data from 0.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from mouse_cli._errors import DeckError
+from mouse_cli.formats.matrix_files import MAX_BYTES, MAX_ORDER, MatrixFormat, choose, real, reject
+from mouse_cli.model.arrays import Matrix
+
+_SIGNATURE = b"\x89HDF\r\n\x1a\n"
+_INSTALL = "pip install 'mouse-cli[hdf5]'"
+_SHAPES = ("shape", "h5sparse_shape")  # names of attributes or data sets
+_LAYOUTS = ("encoding-type", "format", "h5sparse_format")
+
+
+def claims(path: str) -> bool:
+    """Whether the file is HDF5; MATLAB puts 512 bytes before it."""
+    with open(path, "rb") as stream:
+        head = stream.read(520)
+    return head.startswith(_SIGNATURE) or head[512:] == _SIGNATURE
+
+
+def read(path: str, variable: str | None) -> Matrix:
+    """The matrix at `variable`, a path such as `model/K`, or the only one at the root."""
+    if not claims(path):
+        reject("MD252", path, "not an HDF5 file", "write it with h5py, or in MATLAB with save -v7.3")
+    try:
+        import h5py
+    except ImportError:
+        reject("MD261", path, "reading HDF5 needs the package h5py, which is not installed", _INSTALL)
+    try:
+        with h5py.File(path, "r") as file:
+            return _matrix(path, h5py, file, variable)
+    except DeckError:
+        raise
+    except Exception as error:  # h5py reports damage as whatever its parts raise
+        reject("MD252", path, f"not a readable HDF5 file: {error}", "write it anew")
+
+
+def _matrix(path: str, h5py: Any, file: Any, variable: str | None) -> Matrix:
+    item = file
+    parts = [part for part in (variable or "").replace(".", "/").split("/") if part] or [None]
+    for part in parts:
+        names = list(item) if isinstance(item, h5py.Group) else []
+        if part is None:
+            names = [name for name in names if not name.startswith("#")]  # MATLAB's own
+        name = choose(path, part, names)
+        if isinstance(item.get(name, getlink=True), h5py.ExternalLink):
+            reject("MD252", path, f"'{name}' lies in another file", "copy it into this one")
+        item = item[name]
+    if isinstance(item, h5py.Group) and {"type", "value"} == set(item):
+        item = item["value"]  # as Octave wraps its variables
+    if isinstance(item, h5py.Dataset):
+        turned = "MATLAB_class" in item.attrs  # MATLAB writes column by column
+        found = _array(path, item)
+        return found.T if turned else found
+    return _sparse(path, item)
+
+
+def _array(path: str, dataset: Any) -> np.ndarray:
+    """A data set in memory, when it lies in this file and fits."""
+    if dataset.external or dataset.is_virtual:
+        reject("MD252", path, f"'{dataset.name}' lies in another file", "copy it into this one")
+    if 8 * dataset.size > MAX_BYTES:
+        reject("MD258", path, f"'{dataset.name}' has shape {dataset.shape}", "save it as a sparse matrix")
+    return real(path, dataset, dataset.name)[()]
+
+
+def _sparse(path: str, group: Any) -> Matrix:
+    from scipy.sparse import coo_array, csc_array, csr_array
+
+    array = {name: _array(path, group[name]) for name in _keys(group)}
+    if {"cidx", "ridx", "nr"} <= set(group):
+        array |= {
+            "jc": np.ravel(_array(path, group["cidx"])),
+            "ir": np.ravel(_array(path, group["ridx"])),
+            "data": np.ravel(array["data"]),
+        }
+    shape = _shape(path, group, array)
+    if "jc" in array:
+        found = csc_array((array["data"], array["ir"], array["jc"]), shape=shape)
+    elif "indptr" in array:
+        layout = " ".join(_text(group.attrs.get(name, "")) for name in _LAYOUTS)
+        kind = csc_array if "csc" in layout else csr_array
+        found = kind((array["data"], array["indices"], array["indptr"]), shape=shape)
+    elif {"row", "col", "data"} <= array.keys():
+        return coo_array((array["data"], (array["row"], array["col"])), shape=shape)
+    else:
+        held = ", ".join(list(group)[:12]) or "nothing"
+        message = (
+            f"the group '{group.name}' holds {held}; expected ir, jc, data; or indptr, indices, data; or row, col, data"
+        )
+        reject("MD252", path, message, "name the matrix: {file: ..., variable: GROUP/NAME}")
+    found.check_format(full_check=True)
+    return found
+
+
+def _keys(group: Any) -> list[str]:
+    known = ("data", "ir", "jc", "indptr", "indices", "row", "col", "shape")
+    return [name for name in known if name in group and hasattr(group[name], "shape")]
+
+
+def _shape(path: str, group: Any, array: dict[str, np.ndarray]) -> tuple[int, int]:
+    if "jc" in array:
+        columns = len(array["jc"]) - 1
+        rows = int(group["nr"][()]) if "nr" in group else int(group.attrs.get("MATLAB_sparse", columns))
+    else:
+        given = next((np.ravel(group.attrs[name]) for name in _SHAPES if name in group.attrs), array.get("shape"))
+        if given is None:
+            given = [len(array.get("indptr", [0])) - 1] * 2
+        rows, columns = (int(x) for x in np.ravel(given))
+    if not 0 <= max(rows, columns) <= MAX_ORDER:
+        reject("MD258", path, f"'{group.name}' is {rows} x {columns}; at most {MAX_ORDER} is read", "condense it")
+    return rows, columns
+
+
+def _text(value: Any) -> str:
+    return value.decode("latin-1") if isinstance(value, bytes) else str(value)
+
+
+FORMAT = MatrixFormat("h5", read, ("h5", "hdf5", "hdf"), named=True)

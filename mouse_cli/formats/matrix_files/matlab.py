@@ -1,0 +1,53 @@
+"""MATLAB files (.mat): versions 4 to 7 by SciPy, 7.3 by the HDF5 reader; a field of a struct is `struct.field`."""
+
+from math import prod
+
+import numpy as np
+
+from mouse_cli.formats.matrix_files import MAX_BYTES, MatrixFormat, choose, hdf5, real, reject
+from mouse_cli.model.arrays import Matrix, is_sparse
+
+_NUMBERS = ("double", "single", "sparse", "logical", *(f"{u}int{bits}" for u in ("", "u") for bits in (8, 16, 32, 64)))
+
+
+def _read(path: str, variable: str | None) -> Matrix:
+    if hdf5.claims(path):
+        return hdf5.read(path, variable)
+    try:
+        return _version_5(path, variable)
+    except (OSError, MemoryError):
+        raise
+    except Exception as error:  # SciPy's reader of damaged files raises whatever its parts do
+        from mouse_cli._errors import DeckError
+
+        if isinstance(error, DeckError):
+            raise
+        reject("MD252", path, f"not a MATLAB file: {error}", "write it with save('model.mat', 'K', 'M')")
+
+
+def _version_5(path: str, variable: str | None) -> Matrix:
+    from scipy.io import loadmat, whosmat
+
+    found = {name: (shape, kind) for name, shape, kind in whosmat(path)}
+    head, _, rest = (variable or "").partition(".")
+    if rest and variable not in found:
+        name = choose(path, head, list(found))
+    else:
+        rest, name = (
+            "",
+            choose(path, variable, [n for n in found if found[n][1] in _NUMBERS] if variable is None else list(found)),
+        )
+    shape, kind = found[name]
+    if kind != "sparse" and 8 * prod(shape) > MAX_BYTES:
+        reject("MD258", path, f"'{name}' has shape {shape}; at most {MAX_BYTES} bytes are read", "save it as sparse")
+    value = loadmat(path, variable_names=[name], spmatrix=False)[name]
+    for field in rest.split(".") if rest else []:
+        value = value[choose(path, field, list(value.dtype.names or []))].item(0)
+    if not (isinstance(value, np.ndarray) or is_sparse(value)):
+        reject("MD253", path, f"'{variable}' is no matrix", "name a matrix of numbers")
+    if is_sparse(value):
+        value.check_format(full_check=True)
+    return real(path, value, variable or name)
+
+
+FORMAT = MatrixFormat("mat", _read, named=True)

@@ -1,0 +1,85 @@
+"""Cards of a Nastran bulk data or punch file: small, large and free fields, with their continuations."""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from mouse_cli._span import Span
+from mouse_cli.formats.data_files import line_span, reject, text_lines
+
+_SHORT_EXPONENT = re.compile(r"(?<=[0-9.])([+-][0-9]+)$")  # 1.5-3 is 1.5E-3
+
+
+@dataclass(frozen=True)
+class Card:
+    """name, in capitals; fields after it, blanks stripped, continuations included; the line (from 1) it begins on."""
+
+    name: str
+    fields: list[str]
+    line: int
+
+
+class Bulk:
+    """The cards of a file; `path` and its lines, for diagnostics."""
+
+    def __init__(self, path: str):
+        self.path = path
+        self.lines = text_lines(path)
+
+    def cards(self, wanted: str) -> Iterator[Card]:
+        """The cards called `wanted`, which others may stand between."""
+        card: Card | None = None
+        for number, raw in enumerate(self.lines, 1):
+            line = raw.split("$", 1)[0].rstrip()
+            if not line.strip():
+                continue
+            if line[0] in "+*," or not line[:8].strip(", "):
+                if card is not None:
+                    card.fields.extend(_fields(line))
+                continue
+            if card is not None:
+                yield card
+            name = re.split("[,*]", line[:8], maxsplit=1)[0].strip().upper()
+            card = Card(name, _fields(line), number) if name == wanted else None
+        if card is not None:
+            yield card
+
+    def where(self, card: Card) -> Span:
+        """Place of the first line of a card."""
+        return line_span(self.path, card.line, self.lines[card.line - 1])
+
+    def whole(self, card: Card, field: int, low: int = 0) -> int:
+        """A field (from 0) as a whole number of at least `low`; 0 when it is empty."""
+        text = _at(card, field)
+        if text and not (text.isascii() and text.isdigit() and len(text) < 10 and int(text) >= low):
+            self.refuse(
+                card, f"field {field + 2} of this {card.name} is '{text[:16]}'; expected a whole number from {low}"
+            )
+        return int(text or 0)
+
+    def real(self, card: Card, field: int) -> float:
+        """A field (from 0) as a number; 0 when it is empty."""
+        text = _at(card, field).upper().replace("D", "E")
+        try:
+            return float((text if "E" in text else _SHORT_EXPONENT.sub(r"E\1", text)) or 0)
+        except ValueError:
+            self.refuse(card, f"field {field + 2} of this {card.name} is '{text[:16]}'; expected a number")
+
+    def refuse(self, card: Card, message: str, help: str = "write the file anew") -> None:
+        """MD252 at a card."""
+        reject("MD252", self.path, message, help, self.where(card))
+
+
+def _at(card: Card, field: int) -> str:
+    return card.fields[field] if field < len(card.fields) else ""
+
+
+def _fields(line: str) -> list[str]:
+    """Fields of one line after the first: 8 of 8 columns, or 4 of 16 when the first bears an asterisk."""
+    large = "*" in line[:8].split(",", 1)[0]
+    count, width = (4, 16) if large else (8, 8)
+    if "," in line:
+        found = [field.strip() for field in line.split(",")[1 : count + 1]]
+        return found + [""] * (count - len(found))
+    line = line.expandtabs(8)
+    return [line[8 + i * width : 8 + (i + 1) * width].strip() for i in range(count)]

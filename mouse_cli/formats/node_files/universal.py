@@ -1,0 +1,58 @@
+"""Universal files (.unv, .uff): nodes of data sets 15 and 2411, others passed over.
+
+Own code rather than pyuff, which takes lines padded to 80 columns with blanks, as some programs write them, for numbers.
+"""
+
+from collections.abc import Iterator
+
+from mouse_cli.formats.data_files import line_span, reject, text_lines
+from mouse_cli.formats.node_files import NodeFormat, Rows
+
+_MARK = "-1"
+
+
+def _read(path: str) -> Rows:
+    found: Rows = []
+    for number, lines in _data_sets(path):
+        kind = lines[0].strip()
+        if kind == "15":
+            found += [(at, line, _words(line, 4)) for at, line in enumerate(lines[1:], number + 1) if line.strip()]
+        elif kind == "2411":
+            body = [(at, line) for at, line in enumerate(lines[1:], number + 1) if line.strip()]
+            for (_, label), (at, line) in zip(body[::2], body[1::2], strict=False):
+                found.append((at, line, label.split()[:1] + line.split()))
+            if len(body) % 2:
+                at, line = body[-1]
+                reject("MD252", path, "a node without coordinates", "write the file anew", line_span(path, at, line))
+    return found
+
+
+def _words(line: str, skipped: int) -> list[str]:
+    """Label and coordinates of a line that has `skipped` whole numbers before them."""
+    words = line.split()
+    return words[:1] + words[skipped:]
+
+
+def _data_sets(path: str) -> Iterator[tuple[int, list[str]]]:
+    """Number of the first line, and the lines, of each data set between two lines of -1."""
+    begun, inside = 0, []
+    for number, line in enumerate(text_lines(path), 1):
+        if line.strip() != _MARK:
+            inside.append(line)
+        elif begun:
+            if inside:
+                yield begun + 1, inside
+            begun = 0
+        else:
+            begun, inside = number, []
+    if begun:
+        reject(
+            "MD252",
+            path,
+            "the data set that begins here does not end",
+            "write the file anew",
+            line_span(path, begun, ""),
+        )
+
+
+FORMAT = NodeFormat("unv", _read, ("unv", "uff", "uf", "ufb"))
