@@ -10,7 +10,7 @@ _INERTIA = ("Jx", "Jy", "Jz")
 def matrices(layout: Layout, properties: Properties) -> Matrices:
     """M = diag(m, m, m, Jx, Jy, Jz)."""
     values = [properties["mass"]] * 3 + [properties[name] for name in _INERTIA]
-    M = np.zeros((len(layout.coordinates), 6, 6), np.result_type(*values))
+    M = np.zeros((len(layout), 6, 6), np.result_type(*values))
     M[:, range(6), range(6)] = np.stack(values, axis=1)
     return {"M": M}
 
@@ -24,4 +24,5 @@ ELEMENT = ElementType(
         **{name: Property(f"moment of inertia about global {name[1].upper()}", "kg m2", 0.0) for name in _INERTIA},
     },
     matrices,
+    damping=("mass_damping",),
 )

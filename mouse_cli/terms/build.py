@@ -1,0 +1,177 @@
+"""From a mesh to the degrees of freedom and terms of a model."""
+
+import re
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.model.arrays import Matrix, dense, is_sparse
+from mouse_cli.model.geometry import DIRECTIONS, Geometry
+from mouse_cli.model.mesh import Binding, ElementSet, Mesh
+from mouse_cli.model.structure import Structure
+from mouse_cli.model.term import Term
+from mouse_cli.terms.constraints import Links, Motion, links
+from mouse_cli.terms.element_matrices import ElementMatrices
+from mouse_cli.terms.element_term import ElementTerm
+from mouse_cli.terms.elements import ElementType, Layout, registry
+from mouse_cli.terms.faults import Disconnected, Loose, Remark, Unoriented, ZeroLength, unheld
+
+LARGEST_DENSE = 500  # degrees of freedom
+_LABEL = re.compile(r"(\d+)-?([TR][XYZ])")
+_HELD = 1e-16  # a diagonal stiffness below this share of the largest of the element is rounding of its direction
+
+
+@dataclass(frozen=True)
+class Built:
+    """A model made from a mesh: constant part with its degrees of freedom, terms, remarks, and the motion of every node."""
+
+    structure: Structure
+    terms: tuple[Term, ...]
+    remarks: tuple[Remark, ...]
+    motion: Motion
+
+
+def build(
+    mesh: Mesh, bindings: tuple[Binding, ...] = (), base: Structure | None = None
+) -> tuple[Structure, tuple[Term, ...]]:
+    """Structure and terms of `built`."""
+    found = built(mesh, bindings, base)
+    return found.structure, found.terms
+
+
+def built(mesh: Mesh, bindings: tuple[Binding, ...] = (), base: Structure | None = None) -> Built:
+    """The model of `mesh`: degrees of freedom node by node, one term for each element set, nothing constant but `base`.
+
+    base: matrices that the mesh is attached to; their degrees of freedom come first, and are those of the mesh with the same
+    label (`12TY`). Directions that no element stiffens are left out, as after AUTOSPC in Nastran. Dense up to
+    LARGEST_DENSE degrees of freedom, else sparse. Raises a MeshFault.
+    """
+    kinds = [registry()[elements.type] for elements in mesh.elements]
+    layouts = [_layout(kind, elements, mesh) for kind, elements in zip(kinds, mesh.elements, strict=True)]
+    places = _base_places(mesh, base)
+    free = links(mesh, 0 if base is None else max(0, int(places.max(initial=-1)) + 1 - 6 * len(mesh.node_ids)))
+    matrices = [
+        _matrices(i, kind, layout, mesh, bindings) for i, (kind, layout) in enumerate(zip(kinds, layouts, strict=True))
+    ]
+    motion, order, remarks = _numbered(mesh, matrices, free, places)
+    structure = _structure(mesh, base, motion, order, places)
+    terms = tuple(ElementTerm(m, _dofs(e), motion) for m, e in zip(matrices, mesh.elements, strict=True))
+    return Built(structure, terms, remarks, motion)
+
+
+def _layout(kind: ElementType, elements: ElementSet, mesh: Mesh) -> Layout:
+    """Where the elements are. Raises ZeroLength or Unoriented."""
+    options = {name: elements.options.get(name, option.default) for name, option in kind.options.items()}
+    layout = Layout(mesh.coordinates[elements.nodes], options)
+    if kind.reach:
+        ends = layout.coordinates + _offsets(options)
+        along = ends[:, -1] - ends[:, 0]
+        length, size = np.linalg.norm(along, axis=1), np.abs(mesh.coordinates).max(initial=0.0)
+        short = length <= 1e-12 * size
+        if short.any():
+            nodes = mesh.node_ids[np.unique(elements.nodes[short])]
+            raise ZeroLength(tuple(elements.ids[short].tolist()), tuple(nodes.tolist()))
+        if options.get("orientation") is not None:
+            across = np.linalg.norm(np.cross(along, options["orientation"]), axis=1)
+            parallel = across <= 1e-8 * length * np.linalg.norm(options["orientation"])
+            if parallel.any():
+                raise Unoriented(tuple(elements.ids[parallel].tolist()))
+    return layout
+
+
+def _offsets(options: dict) -> np.ndarray:
+    found = np.zeros((2, 3))
+    for end, vector in (options.get("offsets") or {}).items():
+        found[int(end) - 1] = vector
+    return found
+
+
+def _matrices(i: int, kind: ElementType, layout: Layout, mesh: Mesh, bindings: tuple[Binding, ...]) -> ElementMatrices:
+    """Matrices of element set i. Raises Loose."""
+    own = tuple(b for b in bindings if b.set == i)
+    try:
+        return ElementMatrices(kind, mesh.elements[i], layout, own)
+    except np.linalg.LinAlgError:
+        raise Loose(tuple(mesh.elements[i].ids.tolist())) from None
+
+
+def _dofs(elements: ElementSet) -> np.ndarray:
+    """Directions of nodes (e, 6 k) as Motion counts them."""
+    return (6 * elements.nodes[:, :, None] + np.arange(6)).reshape(len(elements), -1)
+
+
+def _base_places(mesh: Mesh, base: Structure | None) -> np.ndarray:
+    """Row of Motion for each degree of freedom of `base`: a direction of a node of the mesh, or beyond all of them."""
+    if base is None:
+        return np.zeros(0, int)
+    nodes = {int(node): i for i, node in enumerate(mesh.node_ids)}
+    found, extra = np.zeros(base.n, int), 6 * len(nodes)
+    for i, label in enumerate(base.labels):
+        named = _LABEL.fullmatch(label)
+        if named and int(named[1]) in nodes:
+            found[i] = 6 * nodes[int(named[1])] + DIRECTIONS.index(named[2])
+        else:
+            found[i], extra = extra, extra + 1
+    return found
+
+
+def _numbered(
+    mesh: Mesh, matrices: list[ElementMatrices], free: Links, places: np.ndarray
+) -> tuple[Motion, np.ndarray, tuple[Remark, ...]]:
+    """The motion of all nodes by the degrees of freedom, and which directions these are. Raises Disconnected."""
+    stiff, heavy = (_touched(mesh, matrices, free, name) for name in ("K", "M"))
+    damped = _touched(mesh, matrices, free, "C")
+    held = free.stiff(stiff | damped)
+    held[places] = True
+    used = held[: 6 * len(mesh.node_ids)].reshape(-1, 6).any(axis=1)
+    follows = {r // 6 for r in free.rows}
+    lost = [i for i in np.flatnonzero(~used) if i not in follows]
+    if lost:
+        raise Disconnected(tuple(mesh.node_ids[lost].tolist()))
+    kept = held & free.free
+    order = np.concatenate([places[free.free[places]], np.setdiff1d(np.flatnonzero(kept), places)])
+    left = np.flatnonzero(free.stiff(heavy) & free.free & ~kept)
+    left = left[(left % 6 < 3)]
+    remarks = (unheld(tuple((int(mesh.node_ids[r // 6]), int(r % 6)) for r in left)),) if len(left) else ()
+    return free.motion(order.astype(int)), order.astype(int), remarks
+
+
+def _touched(mesh: Mesh, matrices: list[ElementMatrices], free: Links, name: str) -> np.ndarray:
+    """Mask of the directions of nodes in which any element has a diagonal entry of the matrix `name`."""
+    found = np.zeros(len(free.free), bool)
+    for m, elements in zip(matrices, mesh.elements, strict=True):
+        if name in m.standing:
+            found[_dofs(elements)[m.diagonal(name, _HELD)]] = True
+    return found
+
+
+def _structure(mesh: Mesh, base: Structure | None, motion: Motion, order: np.ndarray, places: np.ndarray) -> Structure:
+    """The constant part: zero, or `base` at its places."""
+    k = len(mesh.node_ids)
+    nodes, direction = np.where(order < 6 * k, order // 6, -1), np.where(order < 6 * k, order % 6, -1)
+    labels = [f"{mesh.node_ids[i]}{DIRECTIONS[d]}" if i >= 0 else "" for i, d in zip(nodes, direction, strict=True)]
+    if base is not None:
+        named = dict(zip(places.tolist(), base.labels, strict=True))
+        labels = [label or named[place] for label, place in zip(labels, order.tolist(), strict=True)]
+    pairs = [e.nodes[:, [i, i + 1]] for e in mesh.elements for i in range(e.nodes.shape[1] - 1)]
+    pairs += [np.array([[link.independent, link.dependent]]) for link in mesh.links]
+    lines = np.concatenate([*pairs, np.zeros((0, 2), int)])
+    geometry = Geometry(mesh.node_ids, mesh.coordinates, nodes, direction, lines)
+    constant = {name: _constant(name, base, motion, places) for name in ("K", "M", "C", "D")}
+    return Structure(**constant, labels=tuple(labels), geometry=geometry)
+
+
+def _constant(name: str, base: Structure | None, motion: Motion, places: np.ndarray) -> Matrix | None:
+    given, n = None if base is None else getattr(base, name), motion.n
+    if given is None and name in ("C", "D"):
+        return None
+    if n <= LARGEST_DENSE:
+        T = motion.rows(places)
+        return np.zeros((n, n)) if given is None else T.T @ dense(given) @ T
+    from scipy.sparse import coo_array, csr_array
+
+    if given is None:
+        return csr_array((n, n))
+    stored = (given if is_sparse(given) else csr_array(given)).tocoo()
+    entry, row, col, factor = motion.spread(places[stored.row], places[stored.col])
+    return coo_array((stored.data[entry] * factor, (row, col)), shape=(n, n)).tocsr()

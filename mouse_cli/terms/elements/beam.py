@@ -1,0 +1,161 @@
+"""Beam: axial force, torsion and bending in two planes, after Euler and Bernoulli, Timoshenko, or generic."""
+
+import numpy as np
+
+from mouse_cli.terms.elements import DAMPING, GEOMETRIC, ElementType, Layout, Matrices, Option, Properties, Property
+from mouse_cli.terms.elements import _beam as beam
+
+_OMITTED, _INCLUDED = "omitted", "included"
+_GENERIC, _TIMOSHENKO = ("generic",), ("timoshenko",)
+
+
+def matrices(layout: Layout, properties: Properties) -> Matrices:
+    """K (with axial force apart, GEOMETRIC) and M of each beam.
+
+    Bending in a plane, as the sum of its symmetric and antisymmetric natural modes v_s = [0, -1, 0, 1], v_a = [1, l/2, -1, l/2]:
+    K = E I (s/l v_s v_s' + 12 a/l^3 v_a v_a' + c sqrt(12)/l^2 (v_s v_a' + v_a v_s')), with s = a = 1, c = 0 after
+    Euler-Bernoulli, a = 1/(1 + phi) after Timoshenko, and any s, a, c with s a > c^2 for the generic element of Gladwell and
+    Ahmadian (1995): k_ww = 12 a, k_thth = s + 3 a in their terms.
+    """
+    p, length = properties, beam.span(layout).length
+    kind = np.result_type(*p.values())
+    K, M, Kg = (np.zeros((len(layout), 12, 12), kind) for _ in range(3))
+    _bar(layout, p, length, K, M)
+    tension = p["preload"] + (0.0 if layout.axial is None else layout.axial)
+    for plane, axis, across in ((0, "z", "y"), (1, "y", "z")):
+        EI, phi = p["E"] * p[f"I{axis}"], np.zeros(len(layout))
+        if layout.options.get("theory") == "timoshenko":
+            phi = 12 * EI / (p[f"kappa_{across}"] * p["G"] * p["A"] * length**2)
+        beam.in_plane(K, _bending(layout, p, axis, EI, phi, length), plane)
+        w, slope, rotation = beam.shapes(length, phi)
+        beam.in_plane(M, _inertia(layout, p, p["density"] * p[f"I{axis}"], w, rotation, length), plane)
+        if (tension != 0).any():
+            beam.in_plane(Kg, beam.integral(slope, tension * length), plane)
+    local = {"K": K, "M": M, GEOMETRIC: Kg}
+    return beam.to_nodes(layout, local if (tension != 0).any() else {"K": K, "M": M})
+
+
+def _bar(layout: Layout, p: Properties, length: np.ndarray, K: np.ndarray, M: np.ndarray) -> None:
+    """Axial motion and torsion."""
+    line, polar = _per_length(p) * length, p["density"] * (p["Iy"] + p["Iz"]) * length
+    pattern = (0.5, 0.0) if layout.options.get("mass") == "lumped" else (1 / 3, 1 / 6)
+    for dofs, k, m in (((0, 6), p["E"] * p["A"], line), ((3, 9), p["G"] * p["J"], polar)):
+        beam.two_ended(K, k / length, dofs, (1.0, -1.0))
+        beam.two_ended(M, m, dofs, pattern)
+
+
+def _per_length(p: Properties) -> np.ndarray:
+    return p["density"] * p["A"] + p["nonstructural_mass"]
+
+
+def _bending(
+    layout: Layout, p: Properties, axis: str, EI: np.ndarray, phi: np.ndarray, length: np.ndarray
+) -> np.ndarray:
+    """Stiffness (e, 4, 4) in one plane."""
+    one = np.ones(len(layout))
+    symmetric, antisymmetric, coupling = one, 1 / (1 + phi), 0 * one
+    if layout.options.get("theory") == "generic":
+        symmetric, antisymmetric, coupling = (
+            p[f"{name}_{axis}"] for name in ("symmetric", "antisymmetric", "coupling")
+        )
+    s, a = np.zeros((len(layout), 4)), np.ones((len(layout), 4))
+    s[:, 1], s[:, 3], a[:, 2] = -1.0, 1.0, -1.0
+    a[:, 1] = a[:, 3] = length / 2
+    ss, aa, sa = (u[:, :, None] * v[:, None, :] for u, v in ((s, s), (a, a), (s, a)))
+    factors = symmetric / length, 12 * antisymmetric / length**3, np.sqrt(12) * coupling / length**2
+    blocks = ss, aa, sa + sa.transpose(0, 2, 1)
+    return sum((EI * f)[:, None, None] * block for f, block in zip(factors, blocks, strict=True))
+
+
+def _inertia(
+    layout: Layout, p: Properties, rotary: np.ndarray, w: np.ndarray, rotation: np.ndarray, length: np.ndarray
+) -> np.ndarray:
+    """Mass (e, 4, 4) in one plane; rotary (e,): inertia of the section per length, counted where it is included."""
+    options = layout.options
+    theory = options.get("theory") or "euler-bernoulli"
+    turning = options.get("rotary_inertia") or (_INCLUDED if theory == "timoshenko" else _OMITTED)
+    line = _per_length(p)
+    if options.get("mass") == "lumped":  # half a bar turning about its end: l^3/24
+        ends = line * length**3 / 24 + (rotary * length / 2 if turning == _INCLUDED else 0.0)
+        M = np.zeros((len(layout), 4, 4), ends.dtype)
+        M[:, (0, 2), (0, 2)] = (line * length / 2)[:, None]
+        M[:, (1, 3), (1, 3)] = ends[:, None]
+        return M
+    M = _generic_mass(p, line, length) if theory == "generic" else beam.integral(w, line * length)
+    return M + beam.integral(rotation, rotary * length) if turning == _INCLUDED else M
+
+
+def _generic_mass(p: Properties, line: np.ndarray, length: np.ndarray) -> np.ndarray:
+    """The symmetric family (e, 4, 4) with the mass and the moment of inertia of a rigid bar."""
+    m11, m12, m14, m22 = (p[name] for name in ("m11", "m12", "m14", "m22"))
+    m24 = 1 / 6 - m11 / 2 + m12 + m14 - m22
+    rows = (
+        (m11, m12, 0.5 - m11, m14),
+        (m12, m22, -m14, m24),
+        (0.5 - m11, -m14, m11, -m12),
+        (m14, m24, -m12, m22),
+    )
+    scale = np.where(np.array([0, 1, 0, 1]) == 1, length[:, None], 1.0)
+    block = np.stack([np.stack(row, axis=-1) for row in rows], axis=1)
+    return (line * length)[:, None, None] * block * scale[:, :, None] * scale[:, None, :]
+
+
+def tension(layout: Layout, properties: Properties, u: np.ndarray) -> np.ndarray:
+    """E A times the mean axial strain (e,) under displacements of the nodes u (e, 12); 0 where TX is released."""
+    if any("TX" in names for names in (layout.options.get("releases") or {}).values()):
+        return np.zeros(len(layout))
+    at = beam.span(layout)
+    ends = np.einsum("eij,ej->ei", at.motion[:, (0, 6)], u)
+    return properties["E"] * properties["A"] / at.length * (ends[:, 1] - ends[:, 0])
+
+
+PROPERTIES = {
+    "E": Property("Young's modulus", "Pa", positive=True),
+    "nu": Property("Poisson's ratio", "1", 0.3),
+    "G": Property("shear modulus; not given: E / (2 (1 + nu))", "Pa", lambda _, p: p["E"] / (2 * (1 + p["nu"])), True),
+    "density": Property("density", "kg/m3", 0.0),
+    "A": Property("area of the section", "m2", positive=True),
+    "Iy": Property("second moment of area for bending in the local x-z plane", "m4", 0.0),
+    "Iz": Property("second moment of area for bending in the local x-y plane", "m4", 0.0),
+    "J": Property("torsion constant", "m4", 0.0),
+    "kappa_y": Property("shear coefficient for the local x-y plane", "1", 5 / 6, True, _TIMOSHENKO),
+    "kappa_z": Property("shear coefficient for the local x-z plane", "1", 5 / 6, True, _TIMOSHENKO),
+    "nonstructural_mass": Property("further mass per length", "kg/m", 0.0),
+    "preload": Property("axial force, tension positive; it stiffens bending", "N", 0.0),
+    **{
+        f"{name}_{axis}": Property(f"{meaning}, in units of E I{axis}", "1", default, positive, _GENERIC)
+        for axis in "yz"
+        for name, meaning, default, positive in (
+            ("symmetric", f"stiffness of symmetric bending about {axis}", 1.0, True),
+            ("antisymmetric", f"stiffness of antisymmetric bending about {axis}", 1.0, True),
+            ("coupling", f"coupling of both about {axis}, less than the root of their product", 0.0, False),
+        )
+    },
+    **{
+        name: Property(f"coefficient {name} of the mass matrix, times density A l", "1", value, False, _GENERIC)
+        for name, value in (("m11", 13 / 35), ("m12", 11 / 210), ("m14", -13 / 420), ("m22", 1 / 105))
+    },
+}
+
+ELEMENT = ElementType(
+    "beam",
+    "straight beam in space or in a plane",
+    (2,),
+    PROPERTIES,
+    matrices,
+    {
+        "theory": Option("how it bends", "euler-bernoulli", ("euler-bernoulli", "timoshenko", "generic")),
+        "mass": Option("mass matrix", "consistent", ("consistent", "lumped")),
+        "rotary_inertia": Option(
+            "inertia of sections that turn in bending; none: included after Timoshenko only",
+            None,
+            (_INCLUDED, _OMITTED),
+        ),
+        **beam.ORIENTATION,
+        **beam.OFFSETS,
+        **beam.RELEASES,
+    },
+    tuple(DAMPING),
+    tension,
+    reach=True,
+)
