@@ -27,17 +27,24 @@ class UserModel:
         x = x[:, mode] * np.sign(np.einsum("ij,ij->j", x[:, mode], self.shapes))
         return np.concatenate([np.sqrt(np.abs(eigenvalues[mode])) / (2 * np.pi), x.T.ravel()])
 
+    def matrices(self, theta: np.ndarray):
+        """K and M at theta (p,)."""
+        if isinstance(self.K, np.ndarray):
+            return np.tensordot(theta, self.K, 1), self.M
+        return sum(t * K for t, K in zip(theta, self.K, strict=True)), self.M
+
     def eigensolution(self, theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The lowest modes and three more, to pair with."""
         self.solutions += 1
-        count = min(self.modes + 3, self.M.shape[0])
-        if isinstance(self.K, np.ndarray):
+        K, M = self.matrices(theta)
+        count = min(self.modes + 3, M.shape[0])
+        if isinstance(K, np.ndarray):
             from scipy.linalg import eigh
 
-            return eigh(np.tensordot(theta, self.K, 1), self.M, subset_by_index=[0, count - 1])
+            return eigh(K, M, subset_by_index=[0, count - 1])
         from scipy.sparse.linalg import eigsh
 
-        return eigsh(sum(t * K for t, K in zip(theta, self.K, strict=True)), count, self.M, sigma=0.0)
+        return eigsh(K, count, M, sigma=0.0)
 
     def residual(self, theta: np.ndarray) -> np.ndarray:
         """Weighted residuals (q + p,): those of the data, then those of the prior around 1."""

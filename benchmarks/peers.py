@@ -81,7 +81,7 @@ def one_jacobian(peer, cycles: int) -> None:
     once = time.process_time() - start
     total = once * (peer.p + 1) * (cycles - 1)
     print(
-        f"  scipy: one eigensolution {once:.2f} s; {peer.p + 1} of them a Jacobian, {cycles - 1} Jacobians: {total:.0f} s, extrapolated"
+        f"  scipy: one eigensolution {once:.2f} s; {cycles - 1} Jacobians of {peer.p + 1}: {total:.0f} s, extrapolated"
     )
 
 

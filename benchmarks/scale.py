@@ -31,6 +31,7 @@ CASES = {  # model, degrees of freedom, sensors, parameters, aim
 WITHOUT = {  # the aim: how many times faster than eigsh as it comes a whole cycle is
     "solid-3e4": ("solid", 30_000, 20, 100, 8.0),
     "frame-1e4": ("frame", 11_000, 20, 100, 50.0),
+    "aligned-frame-1e4": ("aligned-frame", 11_000, 20, 100, 50.0),
 }
 
 
@@ -70,11 +71,20 @@ def compared_with_eigsh(kind: str, n: int, sensors: int, parameters: int, aim: f
     run = Cycles(case)
     measured = [run.once() for _ in range(rounds)]
     sigma = -0.3 * run.state.solution.eigenvalues[0]
-    eigsh_seconds, _ = seconds(lambda: eigsh(run.state.K, MODES, run.state.M, sigma=sigma))
     typical = {name: statistics.median(parts[name] for parts in measured) for name in measured[0]}
     print_cycle(kind, run.problem, typical)
-    print(f"  yardstick: scipy.sparse.linalg.eigsh(K, {MODES}, M, sigma=...) {eigsh_seconds:.2f} s, once")
-    print(f"  a whole cycle is {eigsh_seconds / typical['cycle']:.1f} times faster (aim: at least {aim:g})", flush=True)
+    for name, shift in (("below zero", sigma), ("0", 0.0)):
+        try:
+            elapsed, _ = seconds(lambda shift=shift: eigsh(run.state.K, MODES, run.state.M, sigma=shift))
+        except RuntimeError as reason:
+            print(f"  eigsh(K, {MODES}, M, sigma={name}) fails: {reason}")
+            continue
+        times = elapsed / typical["cycle"]
+        print(
+            f"  eigsh(K, {MODES}, M, sigma={name}) {elapsed:.2f} s, once: a whole cycle is {times:.1f} times faster",
+            flush=True,
+        )
+    print(f"  (aim: at least {aim:g} times, against a shift below zero, which a free structure needs)")
 
 
 def print_cycle(kind: str, case, typical: dict[str, float]) -> None:

@@ -1,6 +1,6 @@
 """Models of a thousand to a million degrees of freedom made of repeated elements in groups, with a simulated modal test.
 
-`solid`, `plate` and `frame` return a `Problem`: element groups, one behind the other, whose stiffnesses and masses are scaled
+`problem` makes a `Problem` of one of GRIDS: element groups, one behind the other, whose stiffnesses and masses are scaled
 by factors (nominal 1, prior sd 20 % and 10 %), and the test of another such structure, noise included.
 """
 
@@ -120,8 +120,14 @@ def plate_grid(n: int) -> Grid:
     return Grid(count, (block,), np.arange(0, count, 3))
 
 
-def frame_grid(n: int) -> Grid:
-    """A building of b by b + 1 bays of 6 and 5 m and storeys of 3.5 m, about 4 b of them; two beams a member."""
+def frame_grid(n: int, degrees: float = 20.0) -> Grid:
+    """A building of b by b + 1 bays of 6 and 5 m and storeys of 3.5 m, about 4 b of them; two beams a member.
+
+    degrees: by how much its plan is turned against the axes. At 0 four of five entries of the beams' matrices are zero.
+    """
+    turn = np.deg2rad(degrees)
+    R = np.array([[np.cos(turn), -np.sin(turn), 0.0], [np.sin(turn), np.cos(turn), 0.0], [0.0, 0.0, 1.0]])
+    T = np.kron(np.eye(4), R)
     b = min(range(1, 60), key=lambda b: abs(_frame_size(b, 4 * b) - n))
     storeys = max(2, round(4 * b * n / _frame_size(b, 4 * b)))
     joint = _numbered((storeys + 1, b + 1, b + 2))
@@ -132,7 +138,7 @@ def frame_grid(n: int) -> Grid:
     )
     blocks, known = [], joint.max() + 1
     for axis, length, width, height, one, other in members:
-        K, M = element_matrices.beam(length / BEAMS, axis, width, height)
+        K, M = (T @ matrix @ T.T for matrix in element_matrices.beam(length / BEAMS, axis, width, height))
         inner = known + np.arange(one.size * (BEAMS - 1)).reshape(one.size, BEAMS - 1)
         known += inner.size
         line = np.column_stack([one.ravel(), inner, other.ravel()])
@@ -149,7 +155,17 @@ def _frame_size(b: int, storeys: int) -> int:
     return 6 * storeys * (joints + (BEAMS - 1) * (joints + b * (b + 2) + (b + 1) ** 2))
 
 
-GRIDS: dict[str, Callable[[int], Grid]] = {"solid": solid_grid, "plate": plate_grid, "frame": frame_grid}
+def aligned_frame_grid(n: int) -> Grid:
+    """The same building with its beams along the axes."""
+    return frame_grid(n, 0.0)
+
+
+GRIDS: dict[str, Callable[[int], Grid]] = {
+    "solid": solid_grid,
+    "plate": plate_grid,
+    "frame": frame_grid,
+    "aligned-frame": aligned_frame_grid,
+}
 
 
 def _numbered(shape: tuple[int, ...]) -> np.ndarray:
