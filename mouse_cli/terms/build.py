@@ -140,8 +140,9 @@ def _touched(mesh: Mesh, matrices: list[ElementMatrices], free: Links, name: str
     """Mask of the directions of nodes in which any element has a diagonal entry of the matrix `name`."""
     found = np.zeros(len(free.free), bool)
     for m, elements in zip(matrices, mesh.elements, strict=True):
-        if name in m.standing:
-            found[_dofs(elements)[m.diagonal(name, _HELD)]] = True
+        if name in m.diagonals:
+            sizes = m.diagonals[name]
+            found[_dofs(elements)[sizes > _HELD * sizes.max(axis=1, keepdims=True)]] = True
     return found
 
 
@@ -174,4 +175,5 @@ def _constant(name: str, base: Structure | None, motion: Motion, places: np.ndar
         return csr_array((n, n))
     stored = (given if is_sparse(given) else csr_array(given)).tocoo()
     entry, row, col, factor = motion.spread(places[stored.row], places[stored.col])
-    return coo_array((stored.data[entry] * factor, (row, col)), shape=(n, n)).tocsr()
+    values = stored.data if entry is None else stored.data[entry] * factor
+    return coo_array((values, (row, col)), shape=(n, n)).tocsr()

@@ -50,17 +50,23 @@ class Motion:
         row = np.repeat(np.arange(len(self.start) - 1), self.counts)
         return np.bincount(self.dof, self.factor * f[row], minlength=self.n)
 
-    def spread(self, row: np.ndarray, col: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """T' E T for entries E of unit value at (row, col): which entry, row, column and factor, of each contribution."""
-        counts = self.counts
+    def spread(
+        self, row: np.ndarray, col: np.ndarray
+    ) -> tuple[np.ndarray | None, np.ndarray, np.ndarray, np.ndarray | None]:
+        """T' E T for entries E at (row, col): which entry, row, column and factor, of each contribution.
+
+        No entries and factors (None) where every direction moves with one degree of freedom alone.
+        """
+        counts, first = self.counts, self.start[:-1]
+        if (self.factor == 1).all() and (counts[row] == 1).all() and (counts[col] == 1).all():
+            return None, self.dof[first[row]], self.dof[first[col]], None
         across = counts[col]
         many = counts[row] * across
         entry = np.repeat(np.arange(len(row)), many)
         within = np.arange(len(entry)) - np.repeat(np.cumsum(many) - many, many)
         across = across[entry]
-        first = self.start[row[entry]] + within // across
-        second = self.start[col[entry]] + within % across
-        return entry, self.dof[first], self.dof[second], self.factor[first] * self.factor[second]
+        i, j = first[row[entry]] + within // across, first[col[entry]] + within % across
+        return entry, self.dof[i], self.dof[j], self.factor[i] * self.factor[j]
 
 
 @dataclass(frozen=True)

@@ -27,6 +27,10 @@ class Layout:
     def __len__(self) -> int:
         return len(self.coordinates)
 
+    def of(self, members: np.ndarray) -> "Layout":
+        """The layout of some of the elements."""
+        return Layout(self.coordinates[members], self.options, None if self.axial is None else self.axial[members])
+
     def once(self, key: str, make: Callable[["Layout"], Any]) -> Any:
         """make(layout), computed at the first call: what follows from geometry and options alone."""
         if key not in self._kept:

@@ -139,5 +139,14 @@ def to_nodes(layout: Layout, local: Matrices) -> Matrices:
     T = condensation(local["K"], layout.options.get("releases"))
     if T is not None:
         motion = T @ motion
-    turned = motion.transpose(0, 2, 1)
-    return {name: turned @ matrix @ motion for name, matrix in local.items()}
+    return {name: _congruent(motion, matrix) for name, matrix in local.items()}
+
+
+def _congruent(T: np.ndarray, matrix: np.ndarray) -> np.ndarray:
+    """T' matrix T; the parts of a complex matrix one by one where T is real, in half the time."""
+    turned = T.transpose(0, 2, 1)
+    if np.iscomplexobj(T) or not np.iscomplexobj(matrix):
+        return turned @ matrix @ T
+    found = np.empty(matrix.shape, complex)
+    found.real, found.imag = turned @ np.ascontiguousarray(matrix.real) @ T, turned @ np.ascontiguousarray(matrix.imag) @ T
+    return found
