@@ -104,6 +104,23 @@ CODES = {
         "Give what repeats of the test show.",
     ),
     "MD327": Code("test without data", "The test holds neither a frequency nor a shape component.", "Give one."),
+    "MD328": Code(
+        "sensor that reads nothing",
+        "The place of a sensor cannot move in its direction: it is supported there, the model has no such direction, or all "
+        "weights are 0. The sensor would read 0 whatever the model does.",
+        "Correct its node, point or direction, or leave it out.",
+    ),
+    "MD329": Code(
+        "sensor on a place that the model does not have",
+        "A sensor is mounted on a node that the model lacks, or on a node or point of a model that is made of bare matrices.",
+        "Correct the node; for bare matrices give weights of degrees of freedom.",
+    ),
+    "MD335": Code(
+        "sensor far from the structure",
+        "The point of a sensor lies farther from the nearest element than that is long (without elements: farther from the nearest "
+        "node than its neighbours are). The sensor is taken to move with it as if a rigid arm joined them.",
+        "Check the coordinates, their order and their unit, m.",
+    ),
     "MD330": Code(
         "rigid-body mode named as measured",
         "A mode number of the test belongs to a mode of zero frequency: its accuracy would become a zero variance. Mode numbers "

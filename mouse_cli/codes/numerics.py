@@ -45,6 +45,18 @@ CODES = {
         "fix_total_mass is set, but no property moves an element of M.",
         "Leave it out.",
     ),
+    "MD509": Code(
+        "measured mode without partner",
+        "No mode of the model is near enough to a measured one in shape and frequency. `mouse correlate` leaves it unpaired; "
+        "`mouse run` compares every measured mode with some model mode and warns when the two have nothing in common: MAC "
+        "below 0.1 and frequencies more than 50 % apart.",
+        "Look for what the model lacks, or for a mode of the rig; take the mode out of the test until it is understood.",
+    ),
+    "MD510": Code(
+        "model mode that the test did not find",
+        "A mode of the model lies in the band of the test, and no measured mode was paired with it.",
+        "Look for it in the recordings; excite elsewhere; add a sensor where it moves.",
+    ),
     "MD511": Code(
         "plug-in that cannot be used",
         "A distribution registers a member under an entry point of mouse, but it cannot be loaded, or has no `key`. The entry "
@@ -52,4 +64,26 @@ CODES = {
         "Mend or uninstall the distribution that is named.",
     ),
     "MD512": Code("out of memory", "The model is too large for this machine.", "Use sparse matrices and fewer modes."),
+    "MD513": Code(
+        "sensor that does not fit",
+        "Turning, exchanging, rescaling or leaving out one sensor raises the MACs of several modes far beyond what noise, or an "
+        "error of the model, would explain.",
+        "Check mounting, direction, cabling and gain of that sensor; a reversed one is written 12-TY in `dofs`.",
+    ),
+    "MD514": Code(
+        "shapes that cannot be expanded",
+        "The sensors and the method leave a motion of the structure undetermined, or the matrices are too ill-conditioned for it.",
+        "Use another method of `mouse list expansions`, or more sensors.",
+    ),
+    "MD515": Code(
+        "no static reduction",
+        "Held at its sensors the structure can still move without force, so that no static shapes exist.",
+        "Measure in those directions too, or rely on the reduction by modes.",
+    ),
+    "MD516": Code(
+        "shapes that the sensors cannot tell apart",
+        "Two modes of one side have nearly the same components at the sensors (spatial aliasing). Pairs, MAC and orthogonality of "
+        "these modes mean little.",
+        "Add sensors where the shapes differ.",
+    ),
 }

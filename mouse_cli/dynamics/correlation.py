@@ -2,6 +2,10 @@
 
 import numpy as np
 
+LIKELY = (
+    0.8  # a measured and a model mode farther apart than this are not one mode: MAC 0.3 and 5 %, or MAC 0.9 and 35 %
+)
+
 
 def mac(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     """Modal assurance criterion (a, b) between columns of `one` (s, a) and `other` (s, b); NaN components are left out.
@@ -18,20 +22,103 @@ def mac(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     return np.divide((x.T @ y) ** 2, size, out=np.zeros_like(size), where=size > 0)
 
 
-def pair(test_shapes: np.ndarray, test_hz: np.ndarray, shapes: np.ndarray, hz: np.ndarray) -> np.ndarray:
-    """Index (m,) of the model mode that each measured mode is: the assignment of least total distance.
+def distance(likeness: np.ndarray, test_hz: np.ndarray, hz: np.ndarray) -> np.ndarray:
+    """How far each measured mode is from each model mode (m, k): 1 - MAC + 2 |ln(f / f_test)|.
 
-    Distance 1 - MAC + 2 |ln(f / f_test)|: shapes decide where they can, frequencies where shapes are alike.
-    test_shapes (s, m), test_hz (m,) may hold NaN; shapes (s, k), hz (k,). A model mode of zero frequency is never paired.
+    likeness (m, k): the MAC, NaN where no shape tells; test_hz (m,), NaN where not measured; hz (k,). A model mode of zero
+    frequency is infinitely far, or nearly so.
+    """
+    with np.errstate(divide="ignore"):
+        detuning = np.abs(np.log(np.maximum(hz, 0.0)[None, :] / test_hz[:, None]))
+    apart = np.where(np.isnan(likeness), 0.0, 1.0 - likeness)
+    apart = apart + np.where(np.isnan(detuning), 0.0, np.minimum(2 * detuning, 1e3))
+    apart[:, hz <= 0] = 1e6
+    return apart
+
+
+def pair(test_shapes: np.ndarray, test_hz: np.ndarray, shapes: np.ndarray, hz: np.ndarray) -> np.ndarray:
+    """Index (m,) of the model mode that each measured mode is: the assignment of least total `distance`, complete.
+
+    Shapes decide where they can, frequencies where shapes are alike. test_shapes (s, m), test_hz (m,) may hold NaN;
+    shapes (s, k), hz (k,).
     """
     from scipy.optimize import linear_sum_assignment
 
-    distance = 1.0 - mac(test_shapes, shapes)
-    with np.errstate(divide="ignore"):
-        detuning = np.abs(np.log(np.maximum(hz, 0.0)[None, :] / test_hz[:, None]))
-    distance += np.where(np.isnan(detuning), 0.0, np.minimum(2 * detuning, 1e3))
-    distance[:, hz <= 0] = 1e6
-    return linear_sum_assignment(distance)[1]
+    return linear_sum_assignment(distance(mac(test_shapes, shapes), test_hz, hz))[1]
+
+
+def match(apart: np.ndarray, limit: float = LIKELY) -> np.ndarray:
+    """Index (m,) of the model mode that each measured mode is, -1 for a mode without a likely partner.
+
+    The assignment of least total `apart` (m, k), where to leave a measured mode without partner costs `limit`: no pair is
+    farther apart than that.
+    """
+    from scipy.optimize import linear_sum_assignment
+
+    m, k = apart.shape
+    alone = np.full((m, m), limit)  # m places for modes that stay alone
+    found = linear_sum_assignment(np.hstack([apart, alone]))[1]
+    return np.where(found < k, found, -1)
+
+
+def scale_factors(test: np.ndarray, model: np.ndarray) -> np.ndarray:
+    """Modal scale factors (a,): what brings each `test` shape (s, a) nearest to its `model` shape (s, a).
+
+    MSF = t'x / t't over the components measured (Allemang 2003); NaN for a shape without any.
+
+    >>> import numpy as np
+    >>> scale_factors(np.array([[1.0], [2.0], [np.nan]]), np.array([[-2.0], [-4.0], [7.0]])).tolist()
+    [-2.0]
+    """
+    t, x = np.nan_to_num(test), np.where(np.isfinite(test), model, 0.0)
+    size = np.einsum("sa,sa->a", t, t)
+    return np.divide(np.einsum("sa,sa->a", t, x), size, out=np.full(len(size), np.nan), where=size > 0)
+
+
+def comac(test: np.ndarray, model: np.ndarray) -> np.ndarray:
+    """Co-ordinate MAC (s,) of paired shapes (s, a): (sum |t x|)^2 / (sum t^2 sum x^2) over the modes (Lieven and Ewins 1988).
+
+    Every pair is first brought to unit length. Blind to signs; NaN for a sensor that measured nothing or reads nothing.
+    """
+    t, x = _unit_pairs(test, model)
+    size = np.sum(t**2, axis=1) * np.sum(x**2, axis=1)
+    return np.divide(np.sum(np.abs(t * x), axis=1) ** 2, size, out=np.full(len(t), np.nan), where=size > 0)
+
+
+def ecomac(test: np.ndarray, model: np.ndarray) -> np.ndarray:
+    """Enhanced COMAC (s,) of paired shapes (s, a): the mean of |t - x| / 2 over the modes, of unit length (Hunt 1992).
+
+    0: no difference. It sees signs. NaN for a sensor that measured nothing.
+    """
+    have = np.isfinite(test)
+    t, x = _unit_pairs(test, model)
+    count = have.sum(axis=1)
+    apart = np.sum(np.abs(t - x), axis=1) / 2
+    return np.divide(apart, count, out=np.full(len(t), np.nan), where=count > 0)
+
+
+def _unit_pairs(test: np.ndarray, model: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Both sets at unit length over the components measured, zero where not, signs agreeing mode by mode."""
+    have = np.isfinite(test)
+    t, x = np.where(have, test, 0.0), np.where(have, model, 0.0)
+    for shapes in (t, x):
+        size = np.linalg.norm(shapes, axis=0)
+        shapes /= np.where(size > 0, size, 1.0)
+    return t, x * np.where(np.sum(t * x, axis=0) < 0, -1.0, 1.0)
+
+
+def subspace_cosines(test: np.ndarray, model: np.ndarray) -> np.ndarray:
+    """Squared cosines (min(a, b),) of the principal angles between the spans of `test` (s, a) and `model` (s, b), descending.
+
+    1: a direction that both have; for a = b = 1 the MAC (Bjoerck and Golub 1973). Points that not all of `test` measured are
+    left out. NaN where no more points are left than shapes: any spans agree then.
+    """
+    from scipy.linalg import subspace_angles
+
+    rows = np.isfinite(test).all(axis=1)
+    if rows.sum() <= max(test.shape[1], model.shape[1]):
+        return np.full(min(test.shape[1], model.shape[1]), np.nan)
+    return np.sort(np.cos(subspace_angles(test[rows], model[rows])) ** 2)[::-1]
 
 
 def least_squares_scale(theory: np.ndarray, test: np.ndarray, mass: np.ndarray) -> float:

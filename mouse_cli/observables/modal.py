@@ -62,9 +62,10 @@ class ModalObservable:
         return y, self.stacked(sd_eigenvalue(f, sd), self.shape_sd.T)
 
     def labels(self) -> list[str]:
-        """Names of the data as the report writes them: `lambda 1`, `x(3,2)` = component at dof 2 of mode 3."""
+        """Names of the data as the report writes them: `lambda 1`, `x(3,2)` = component of mode 3 at dof 2, or at a sensor."""
         names = [f"lambda {n}" for n, have in zip(self.test.number, self.has_frequency, strict=True) if have]
-        return names + [f"x({self.test.number[i]},{self.test.dofs[s] + 1})" for i, s in np.argwhere(self.has_shape.T)]
+        places = self.test.sensors or [str(dof + 1) for dof in self.test.dofs]
+        return names + [f"x({self.test.number[i]},{places[s]})" for i, s in np.argwhere(self.has_shape.T)]
 
     def theory(self, solution: EigenSolution, modes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Model shapes (s, m) of the paired `modes` at the measured points, signed and scaled; and those factors (m,)."""

@@ -2,13 +2,16 @@
 
 from typing import Any
 
+from mouse_cli.model.correlation import Correlation
 from mouse_cli.model.result import Forecast, Result
 from mouse_cli.report.section import Options
 
 __all__ = ["Options", "document", "markdown", "printout", "written"]
 
 
-def written(subject: Result | Forecast, form: str, numbers: str | None = None, options: Options | None = None) -> str:
+def written(
+    subject: Result | Forecast | Correlation, form: str, numbers: str | None = None, options: Options | None = None
+) -> str:
     """The report of `subject` in a `form` of `report.renderers`, numbers in its own style or in another.
 
     Raises ValueError for a form or a style that does not exist.
@@ -21,19 +24,19 @@ def written(subject: Result | Forecast, form: str, numbers: str | None = None, o
     return chosen.render(blocks(subject, options), Numbers(numbers or chosen.numbers))
 
 
-def printout(subject: Result | Forecast, numbers: str = "legacy", options: Options | None = None) -> str:
+def printout(subject: Result | Forecast | Correlation, numbers: str = "legacy", options: Options | None = None) -> str:
     """The report of `subject` as the line printer gave it, no line longer than 132 columns."""
     return written(subject, "printout", numbers, options)
 
 
-def markdown(subject: Result | Forecast, numbers: str = "modern", options: Options | None = None) -> str:
+def markdown(subject: Result | Forecast | Correlation, numbers: str = "modern", options: Options | None = None) -> str:
     """The report of `subject` in GitHub's Markdown."""
     return written(subject, "markdown", numbers, options)
 
 
-def document(subject: Result | Forecast) -> dict[str, Any]:
+def document(subject: Result | Forecast | Correlation) -> dict[str, Any]:
     """The report of `subject` as JSON can hold it: no NaN, no infinity, plain Python values."""
-    from mouse_cli.report import modes_document, result_document
+    from mouse_cli.report import correlation_document, modes_document, result_document
 
-    chosen = modes_document if isinstance(subject, Forecast) else result_document
-    return chosen.document(subject)
+    documents = {Forecast: modes_document, Correlation: correlation_document}
+    return documents.get(type(subject), result_document).document(subject)

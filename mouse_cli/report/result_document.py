@@ -12,7 +12,7 @@ from mouse_cli.model.arrays import dense
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import ChiSquareTest, Result
 from mouse_cli.report.json_values import dof_name, plain
-from mouse_cli.report.measured import NOT_MEASURED, eigenvalue_index, shape_index
+from mouse_cli.report.measured import NOT_MEASURED, eigenvalue_index, positions, shape_index
 
 SCHEMA = "mouse.result/1"
 _LARGEST_COVARIANCE = 200
@@ -134,12 +134,12 @@ def _modes(result: Result) -> list[dict[str, Any]]:
 
 def _shapes(result: Result) -> list[dict[str, Any]]:
     """One entry a measured component, at the scale of the theory. test_sd: of the test; sd: of the revised prediction."""
-    test, labels = result.problem.test, result.problem.structure.labels
+    test, places = result.problem.test, positions(result)
     index, have = shape_index(result), result.status.answered
     return [
         {
             "mode": test.number[i],
-            "dof": dof_name(labels[test.dofs[s]]),
+            "dof": dof_name(places[s]),
             "test": result.test_shapes[s, i],
             "test_sd": result.test_shape_sd[s, i],
             "prior": result.prior.model_shapes[s, i],

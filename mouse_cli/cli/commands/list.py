@@ -50,6 +50,13 @@ def _sections() -> Iterator[tuple[str, str]]:
         yield section.key, section.title
 
 
+def _expansions() -> Iterator[tuple[str, str]]:
+    from mouse_cli.dynamics.expansion import registry
+
+    for key, expansion in registry().items():
+        yield key, f"{expansion.title}: {expansion.equation}"
+
+
 def _groups() -> Iterator[tuple[str, str]]:
     from mouse_cli.formats.cards import layout
 
@@ -61,6 +68,7 @@ KINDS: dict[str, Callable[[], Iterator[tuple[str, str]]]] = {
     "codes": _codes,
     "commands": _commands,
     "estimators": _estimators,
+    "expansions": _expansions,
     "groups": _groups,
     "recursions": _recursions,
     "sections": _sections,

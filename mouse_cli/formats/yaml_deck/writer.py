@@ -3,14 +3,12 @@
 import os
 from dataclasses import fields
 
-import numpy as np
-
 from mouse_cli.formats.yaml_deck.kinds import MAX_WHOLE, VERSION
 from mouse_cli.formats.yaml_deck.nodes import compose
-from mouse_cli.formats.yaml_deck.text import flow, maybe, real, word, wrapped
+from mouse_cli.formats.yaml_deck.text import flow, real, word, wrapped
 from mouse_cli.formats.yaml_deck.writer_parameters import parameters, prior
+from mouse_cli.formats.yaml_deck.writer_test import test_lines
 from mouse_cli.model.arrays import Matrix, upper_triangle
-from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.problem import Problem, RunOptions
 
 LARGEST_INLINE = 2000  # stored entries of a matrix; more go to a file
@@ -23,7 +21,7 @@ def write(problem: Problem, stem: str = "deck") -> tuple[str, dict[str, Matrix]]
     """
     attachments: dict[str, Matrix] = {}
     lines = [*_heading(problem), *_model(problem, stem, attachments), *parameters(problem, stem, attachments)]
-    lines += [*prior(problem), *_test(problem.test), *_run(problem.run)]
+    lines += [*prior(problem), *test_lines(problem), *_run(problem.run)]
     return "\n".join(lines) + "\n", attachments
 
 
@@ -70,26 +68,6 @@ def _matrix(matrix: Matrix, name: str, attachments: dict[str, Matrix]) -> str:
         return f"{{identity: {n}}}" if (values == 1).all() else f"{{diagonal: {wrapped(map(real, values), 2)}}}"
     entries = [flow((str(i + 1), str(j + 1), real(v))) for i, j, v in zip(row, col, values, strict=True)]
     return f"{{order: {n}, entries: {wrapped(entries, 2)}}}"
-
-
-def _test(test: ModalTest | None) -> list[str]:
-    if test is None:
-        return []
-    lines = ["", "test:", "  modes:", f"    number: {flow(map(str, test.number))}"]
-    lines.append(f"    frequency: {wrapped(map(maybe, test.frequency_hz), 4)}  # Hz")
-    lines.append(f"    frequency_sd: {wrapped(map(maybe, test.frequency_sd_hz), 4)}  # Hz")
-    if test.s:
-        lines.append(f"    dofs: {wrapped((str(dof + 1) for dof in test.dofs), 4)}")
-        lines += _grid("shapes", test.shapes, "one row for each of dofs, one column for each mode")
-        lines += _grid("shape_sd", test.shape_sd, "standard deviations of shapes")
-    return [*lines, f"    scale: {test.scale}"]
-
-
-def _grid(key: str, values: np.ndarray, comment: str) -> list[str]:
-    same = values.flat[0]
-    if key == "shape_sd" and (values == same).all():
-        return [f"    {key}: {real(same)}"]
-    return [f"    {key}:  # {comment}", *(f"      - {flow(map(maybe, row))}" for row in values)]
 
 
 def _run(run: RunOptions) -> list[str]:

@@ -1,0 +1,59 @@
+"""mouse correlate: the test of a deck beside its model."""
+
+import click
+
+from mouse_cli.cli._options import READING, answer, options, reading
+
+
+@click.command()
+@click.argument("deck")
+@click.option("--expand", "method", metavar="METHOD", help="Expand the measured shapes; see `mouse list expansions`.")
+@click.option("--exact", is_flag=True, help="Keep measured components as they are where METHOD would smooth them.")
+@options(answer("mouse.correlation/1"))
+@click.option("-q", "--quiet", is_flag=True, help="No warnings on standard error.")
+@options(READING)
+def command(
+    deck: str,
+    method: str | None,
+    exact: bool,
+    output: str | None,
+    form: str | None,
+    numbers: str | None,
+    quiet: bool,
+    legacy: bool,
+    strip_73_80: bool,
+    overrides: tuple[str, ...],
+) -> int:
+    """Compare the test of DECK with its model before any revision.
+
+    Pairs of modes, MAC, COMAC, orthogonality, sensors that look faulty, modes without partner. Judges nothing: exit 0.
+    """
+    from mouse_cli.cli._decks import read_problem
+    from mouse_cli.cli._terminal import deliver, json_text, show_diagnostics
+    from mouse_cli.report import document, written
+    from mouse_cli.updating.correlate import correlate
+
+    _check_method(method, exact)
+    problem = read_problem(deck, **reading(legacy, strip_73_80, overrides))
+    found = correlate(problem, method, exact)
+    if not quiet:
+        show_diagnostics((*problem.warnings, *found.warnings))
+    text = json_text(document(found)) if form == "json" else written(found, form or "printout", numbers or "modern")
+    deliver(text, output, deck)
+    return 0
+
+
+def _check_method(method: str | None, exact: bool) -> None:
+    """Refuse an expansion that there is not, and `--exact` where it cannot act."""
+    from mouse_cli.dynamics.expansion import expansion
+
+    if method is None:
+        if exact:
+            raise click.UsageError("--exact belongs to --expand")
+        return
+    try:
+        smooths = expansion(method).smooths
+    except ValueError as error:
+        raise click.BadParameter(str(error), param_hint="--expand") from None
+    if exact and smooths == "always":
+        raise click.UsageError(f"{method} always smooths: it gives combinations of model modes")

@@ -1,0 +1,161 @@
+"""Rules for sensors: each reads something of this model."""
+
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+import numpy as np
+
+from mouse_cli.dynamics.interpolation import PointMotion, at_node, at_point
+from mouse_cli.formats.draft import Draft
+from mouse_cli.formats.sensor import SensorDraft
+from mouse_cli.model.arrays import Matrix
+from mouse_cli.model.geometry import DIRECTIONS, Geometry
+
+
+@dataclass(frozen=True)
+class Sensing:
+    """dofs (s,), from 0: the nearest of each sensor; weights (s, n), sparse, None where each reads just its own; names (s,)."""
+
+    dofs: np.ndarray
+    weights: Matrix | None
+    names: tuple[str, ...]
+
+
+Reading = tuple[np.ndarray, np.ndarray]  # degrees of freedom from 0, and their weights
+
+
+def sensing(draft: Draft, sensors: tuple[SensorDraft, ...], geometry: Geometry | None, n: int) -> Sensing | None:
+    """What each of `sensors` reads of a model of n degrees of freedom; None after errors."""
+    labels = draft.labels if geometry is None else geometry.labels()
+    place = {label: i for i, label in enumerate(labels)}
+    readings = [_reading(draft, sensor, geometry, place, n) for sensor in sensors]
+    if any(reading is None for reading in readings):
+        return None
+    _twice(draft, sensors, readings)
+    dofs = np.array([dof[np.argmax(np.abs(weight))] for dof, weight in readings], dtype=int)
+    plain = all(len(dof) == 1 and weight[0] == 1.0 for dof, weight in readings)
+    names = () if all(sensor.plain for sensor in sensors) and plain else tuple(sensor.name for sensor in sensors)
+    return Sensing(dofs, None if plain else _matrix(readings, n), names)
+
+
+def _matrix(readings: list[Reading], n: int) -> Matrix:
+    from scipy.sparse import csr_array
+
+    ends = np.cumsum([0] + [len(dof) for dof, _ in readings])
+    dofs, weights = (np.concatenate(part) for part in zip(*readings, strict=True))
+    return csr_array((weights, dofs, ends), shape=(len(readings), n))
+
+
+def _reading(
+    draft: Draft, sensor: SensorDraft, geometry: Geometry | None, place: dict[str, int], n: int
+) -> Reading | None:
+    if sensor.weights:
+        return _sum(draft, sensor, geometry, place, n)
+    if geometry is None:
+        message = f"{sensor.words} is mounted at a node or a point, but the model is made of matrices without nodes"
+        draft.error("MD329", message, sensor.where, help="give weights: {degree of freedom: 1}")
+        return None
+    motion = _motion(draft, sensor, geometry)
+    if motion is None:
+        return None
+    dofs, weights = motion.along(sensor.direction)
+    if not len(dofs):
+        _silent(draft, sensor, geometry, motion.node, sensor.direction)
+        return None
+    return dofs, weights
+
+
+def _motion(draft: Draft, sensor: SensorDraft, geometry: Geometry) -> PointMotion | None:
+    """How the place of the sensor moves."""
+    if sensor.node is not None:
+        node = _node(draft, sensor, geometry, sensor.node)
+        return None if node is None else at_node(geometry, node)
+    motion = at_point(geometry, sensor.at)
+    if motion.distance > motion.reach:
+        kind = "element" if len(geometry.lines) else "node"
+        draft.warn(
+            "MD335",
+            f"{sensor.words} lies {motion.distance:.4g} m off the nearest {kind}, which is {motion.reach:.4g} m long",
+            sensor.where,
+            f"the nearest node is {geometry.node_ids[motion.node]}",
+            "check the coordinates and their unit, m",
+        )
+    return motion
+
+
+def _node(draft: Draft, sensor: SensorDraft, geometry: Geometry, number: int) -> int | None:
+    found = np.flatnonzero(geometry.node_ids == number)
+    if len(found):
+        return int(found[0])
+    near = geometry.node_ids[np.argsort(np.abs(geometry.node_ids - number), kind="stable")[:3]]
+    message = f"{sensor.words} is mounted on node {number}, which the model does not have"
+    draft.error("MD329", message, sensor.where, f"numbers near to it: {', '.join(map(str, near))}", "correct the node")
+    return None
+
+
+def _silent(draft: Draft, sensor: SensorDraft, geometry: Geometry, node: int, direction: np.ndarray) -> None:
+    """Note a sensor that reads 0 whatever the model does, with the nearest place where its direction is free."""
+    alike = np.flatnonzero(np.isin(geometry.direction, np.flatnonzero(direction)) & (geometry.node >= 0))
+    note = "no node is free to move in its direction"
+    if len(alike):
+        distance = np.linalg.norm(geometry.coordinates[geometry.node[alike]] - geometry.coordinates[node], axis=1)
+        note = f"the nearest degree of freedom in its direction is {geometry.labels()[alike[np.argmin(distance)]]}"
+    message = f"{sensor.words} reads nothing: node {geometry.node_ids[node]} cannot move in its direction"
+    draft.error("MD328", message, sensor.where, note, "correct place or direction, or leave the sensor out")
+
+
+def _sum(draft: Draft, sensor: SensorDraft, geometry: Geometry | None, place: dict[str, int], n: int) -> Reading | None:
+    """The reading of a sensor that names degrees of freedom."""
+    dofs = [_dof(draft, sensor, geometry, place, name, n) for name in sensor.weights]
+    if None in dofs:
+        return None
+    weights = np.array(list(sensor.weights.values()), dtype=float)
+    if not np.isfinite(weights).all() or not weights.any():
+        message = f"{sensor.words} reads nothing: its weights are {', '.join(f'{w:g}' for w in weights)}"
+        draft.error("MD328", message, sensor.where, help="give finite weights, at least one of them not 0")
+        return None
+    order = np.argsort(dofs, kind="stable")
+    return np.array(dofs, dtype=int)[order], weights[order]
+
+
+def _dof(
+    draft: Draft, sensor: SensorDraft, geometry: Geometry | None, place: dict[str, int], name: int | str, n: int
+) -> int | None:
+    """The degree of freedom, from 0, that a number or a label names."""
+    if isinstance(name, int):
+        if 1 <= name <= n:
+            return name - 1
+        message = f"measured degree of freedom {name} is outside 1 to {n}"
+        draft.error("MD323", message, sensor.where, help=f"give numbers from 1 to {n}")
+        return None
+    if name in place:
+        return place[name]
+    direction = name[-2:]
+    if geometry is not None and direction in DIRECTIONS and name[:-2].isdecimal():
+        node = _node(draft, sensor, geometry, int(name[:-2]))
+        if node is not None:
+            _silent(draft, sensor, geometry, node, np.eye(6)[DIRECTIONS.index(direction)])
+        return None
+    near = get_close_matches(name, place, 3) or list(place)[:12]
+    known = f"labels of the model: {', '.join(near)}" if place else "the model has no labels"
+    message = f"{sensor.words} names '{name[:40]}', which is no label of the model and no sensor"
+    if sensor.plain:
+        message = f"test.modes.dofs names '{name[:40]}', which is no label of the model and no sensor"
+    draft.error(
+        "MD225", f"{message}; {known}", sensor.where, help="give a number, a label, or a sensor of test.sensors"
+    )
+    return None
+
+
+def _twice(draft: Draft, sensors: tuple[SensorDraft, ...], readings: list[Reading]) -> None:
+    """Two sensors that read the same, whatever their sign, are one datum counted twice."""
+    seen: dict[tuple, str] = {}
+    for sensor, (dofs, weights) in zip(sensors, readings, strict=True):
+        signed = weights * np.sign(weights[0])
+        key = (*dofs.tolist(), *np.round(signed / np.abs(signed).max(), 9).tolist())
+        if key in seen:
+            what = "degree of freedom" if len(dofs) == 1 else "motion"
+            message = f"{what} {sensor.words} is measured twice, by {seen[key]} and {sensor.words}"
+            draft.error("MD324", message if not sensor.plain else f"{what} {sensor.words} is measured twice", sensor.where,
+                        help="give each once")  # fmt: skip
+        seen.setdefault(key, sensor.words)

@@ -1,0 +1,90 @@
+"""The test of a Problem as YAML that reads back as the same test."""
+
+import re
+
+import numpy as np
+
+from mouse_cli.formats.yaml_deck.text import flow, maybe, real, word, wrapped
+from mouse_cli.model.arrays import is_sparse
+from mouse_cli.model.modal_test import ModalTest
+from mouse_cli.model.problem import Problem
+
+_NODE_LABEL = re.compile(r"[0-9]+[TR][XYZ]", re.ASCII)
+
+
+def test_lines(problem: Problem) -> list[str]:
+    """The section `test:`, nothing for a deck without one."""
+    test = problem.test
+    if test is None:
+        return []
+    items, named = _rows(test, problem.structure.labels)
+    sensors = ["  sensors:", *(f"    - {sensor}" for sensor in named)] if named else []
+    lines = ["", "test:", *sensors, "  modes:", f"    number: {flow(map(str, test.number))}"]
+    lines.append(f"    frequency: {wrapped(map(maybe, test.frequency_hz), 4)}  # Hz")
+    lines.append(f"    frequency_sd: {wrapped(map(maybe, test.frequency_sd_hz), 4)}  # Hz")
+    if test.s:
+        lines.append(f"    dofs: {wrapped(items, 4)}")
+        lines += _grid("shapes", test.shapes, "one row for each of dofs, one column for each mode")
+        lines += _grid("shape_sd", test.shape_sd, "standard deviations of shapes")
+    return [*lines, f"    scale: {test.scale}"]
+
+
+def _rows(test: ModalTest, labels: tuple[str, ...]) -> tuple[list[str], list[str]]:
+    """The items of `dofs`, and the sensors of their own that some of them name."""
+    if test.sensing is None and not test.sensors:
+        return [_label(labels, dof) if _is_node_label(labels, dof) else str(dof + 1) for dof in test.dofs], []
+    items, sensors = [], []
+    for name, (dofs, weights) in zip(test.sensors, _readings(test), strict=True):
+        plain = _plain(labels, dofs, weights)
+        if name == plain:
+            items.append(plain if plain.isdecimal() else word(plain))
+            continue
+        shares = ", ".join(f"{_label(labels, dof)}: {real(weight)}" for dof, weight in zip(dofs, weights, strict=True))
+        items.append(_quoted(name))
+        sensors.append(f"{{name: {_quoted(name)}, weights: {{{shares}}}}}")
+    return items, sensors
+
+
+def _readings(test: ModalTest) -> list[tuple[np.ndarray, np.ndarray]]:
+    """What each sensor reads: degrees of freedom, from 0, and weights."""
+    if test.sensing is None:
+        return [(np.array([dof]), np.ones(1)) for dof in test.dofs]
+    rows = test.sensing if is_sparse(test.sensing) else np.asarray(test.sensing)
+    found = []
+    for i in range(test.s):
+        row = rows[[i]]
+        row = row.toarray()[0] if is_sparse(row) else row[0]
+        dofs = np.flatnonzero(row)
+        found.append((dofs, row[dofs]))
+    return found
+
+
+def _is_node_label(labels: tuple[str, ...], dof: int) -> bool:
+    return _NODE_LABEL.fullmatch(labels[dof]) is not None
+
+
+def _label(labels: tuple[str, ...], dof: int) -> str:
+    """The label of a structure's degree of freedom, else its number: other labels may look like numbers."""
+    return labels[dof] if _is_node_label(labels, dof) else str(dof + 1)
+
+
+def _plain(labels: tuple[str, ...], dofs: np.ndarray, weights: np.ndarray) -> str:
+    """How a sensor that reads one degree of freedom, perhaps backwards, stands in `dofs`; else empty."""
+    if len(dofs) != 1 or abs(weights[0]) != 1:
+        return ""
+    label = _label(labels, dofs[0])
+    if weights[0] > 0:
+        return label
+    return f"{label[:-2]}-{label[-2:]}" if _is_node_label(labels, dofs[0]) else ""
+
+
+def _quoted(name: str) -> str:
+    """A name that cannot be taken for a number."""
+    return f'"{name}"' if re.fullmatch(r"[-+.0-9eE]+", name) else word(name)
+
+
+def _grid(key: str, values: np.ndarray, comment: str) -> list[str]:
+    same = values.flat[0]
+    if key == "shape_sd" and (values == same).all():
+        return [f"    {key}: {real(same)}"]
+    return [f"    {key}:  # {comment}", *(f"      - {flow(map(maybe, row))}" for row in values)]
