@@ -72,7 +72,7 @@ def main() -> None:
     print(f"{case.title}, {options.parameters} parameters, {MODES} modes, {SENSORS} sensors")
     print(f"  mouse: {ours:.2f} s, {len(result.cycles) + 1} eigensolutions, ended {result.status.key}")
     print(
-        f"  finite differences around a fast factorisation: {theirs:.1f} s, {fast.solutions} eigensolutions: {theirs / ours:.0f} times"
+        f"  finite differences around a fast factorisation: {theirs:.1f} s, {fast.solutions} of them: {theirs / ours:.0f} times"
     )
     print(
         f"  around eigsh as it comes: {once:.2f} s each, {total:.0f} s in all, extrapolated: {total / ours:.0f} times (aim {AIM})"
