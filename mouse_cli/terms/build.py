@@ -1,7 +1,7 @@
 """From a mesh to the degrees of freedom and terms of a model."""
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,6 +15,8 @@ from mouse_cli.terms.element_matrices import ElementMatrices
 from mouse_cli.terms.element_term import ElementTerm
 from mouse_cli.terms.elements import ElementType, Layout, registry
 from mouse_cli.terms.faults import Disconnected, Loose, Remark, Unoriented, ZeroLength, unheld
+from mouse_cli.terms.gravity import axial_forces
+from mouse_cli.terms.mechanisms import search
 
 LARGEST_DENSE = 500  # degrees of freedom
 _LABEL = re.compile(r"(\d+)-?([TR][XYZ])")
@@ -49,14 +51,32 @@ def built(mesh: Mesh, bindings: tuple[Binding, ...] = (), base: Structure | None
     kinds = [registry()[elements.type] for elements in mesh.elements]
     layouts = [_layout(kind, elements, mesh) for kind, elements in zip(kinds, mesh.elements, strict=True)]
     places = _base_places(mesh, base)
-    free = links(mesh, 0 if base is None else max(0, int(places.max(initial=-1)) + 1 - 6 * len(mesh.node_ids)))
-    matrices = [
-        _matrices(i, kind, layout, mesh, bindings) for i, (kind, layout) in enumerate(zip(kinds, layouts, strict=True))
-    ]
-    motion, order, remarks = _numbered(mesh, matrices, free, places)
-    structure = _structure(mesh, base, motion, order, places)
-    terms = tuple(ElementTerm(m, _dofs(e), motion) for m, e in zip(matrices, mesh.elements, strict=True))
-    return Built(structure, terms, remarks, motion)
+    free = links(mesh, max(0, int(places.max(initial=-1)) + 1 - 6 * len(mesh.node_ids)))
+    sets = [_matrices(i, kind, at, mesh, bindings) for i, (kind, at) in enumerate(zip(kinds, layouts, strict=True))]
+    motion, remarks = _numbered(mesh, sets, free, places)
+    structure = _structure(mesh, base, motion, places)
+    terms = [ElementTerm(m, _dofs(m.elements), motion) for m in sets]
+    K = _nominal_stiffness(structure, terms)
+    remarks += search(mesh, sets, motion, K, np.isin(motion.places, places))
+    if mesh.gravity is not None:
+        for i, axial in axial_forces(mesh, sets, motion, K).items():
+            sets[i] = _matrices(i, kinds[i], replace(layouts[i], axial=axial), mesh, bindings)
+            terms[i] = ElementTerm(sets[i], _dofs(sets[i].elements), motion)
+    return Built(structure, tuple(terms), remarks, motion)
+
+
+def _nominal_stiffness(structure: Structure, terms: list[ElementTerm]) -> Matrix:
+    """K (n, n) where every property is as the mesh gives it."""
+    n, own = structure.n, [term for term in terms if "K" in term.places]
+    if not own:
+        return structure.K
+    row, col = (np.concatenate([getattr(term.places["K"], f) for term in own]) for f in ("row", "col"))
+    values = np.concatenate([term.nominal()["K"] for term in own])
+    if not is_sparse(structure.K):
+        return structure.K + np.bincount(row.astype(np.int64) * n + col, values, minlength=n * n).reshape(n, n)
+    from scipy.sparse import coo_array
+
+    return (structure.K + coo_array((values, (row, col)), shape=(n, n))).tocsr()
 
 
 def _layout(kind: ElementType, elements: ElementSet, mesh: Mesh) -> Layout:
@@ -117,8 +137,8 @@ def _base_places(mesh: Mesh, base: Structure | None) -> np.ndarray:
 
 def _numbered(
     mesh: Mesh, matrices: list[ElementMatrices], free: Links, places: np.ndarray
-) -> tuple[Motion, np.ndarray, tuple[Remark, ...]]:
-    """The motion of all nodes by the degrees of freedom, and which directions these are. Raises Disconnected."""
+) -> tuple[Motion, tuple[Remark, ...]]:
+    """The motion of all nodes by the degrees of freedom. Raises Disconnected."""
     stiff, heavy = (_touched(mesh, matrices, free, name) for name in ("K", "M"))
     damped = _touched(mesh, matrices, free, "C")
     held = free.stiff(stiff | damped)
@@ -133,7 +153,7 @@ def _numbered(
     left = np.flatnonzero(free.stiff(heavy) & free.free & ~kept)
     left = left[(left % 6 < 3)]
     remarks = (unheld(tuple((int(mesh.node_ids[r // 6]), int(r % 6)) for r in left)),) if len(left) else ()
-    return free.motion(order.astype(int)), order.astype(int), remarks
+    return free.motion(order.astype(int)), remarks
 
 
 def _touched(mesh: Mesh, matrices: list[ElementMatrices], free: Links, name: str) -> np.ndarray:
@@ -146,9 +166,9 @@ def _touched(mesh: Mesh, matrices: list[ElementMatrices], free: Links, name: str
     return found
 
 
-def _structure(mesh: Mesh, base: Structure | None, motion: Motion, order: np.ndarray, places: np.ndarray) -> Structure:
+def _structure(mesh: Mesh, base: Structure | None, motion: Motion, places: np.ndarray) -> Structure:
     """The constant part: zero, or `base` at its places."""
-    k = len(mesh.node_ids)
+    k, order = len(mesh.node_ids), motion.places
     nodes, direction = np.where(order < 6 * k, order // 6, -1), np.where(order < 6 * k, order % 6, -1)
     labels = [f"{mesh.node_ids[i]}{DIRECTIONS[d]}" if i >= 0 else "" for i, d in zip(nodes, direction, strict=True)]
     if base is not None:

@@ -13,12 +13,18 @@ class Motion:
     """u = T q: displacement u of every direction of every node (and of `extra` degrees of freedom beside) from q (n,).
 
     Row r of T, r = 6 node + direction, has the coefficients factor[start[r]:start[r + 1]] at the columns dof[...].
+    places (n,): the row of each degree of freedom.
     """
 
     start: np.ndarray
     dof: np.ndarray
     factor: np.ndarray
-    n: int
+    places: np.ndarray
+
+    @property
+    def n(self) -> int:
+        """Number of degrees of freedom."""
+        return len(self.places)
 
     @property
     def counts(self) -> np.ndarray:
@@ -98,7 +104,7 @@ class Links:
         for r, row in dependent.items():
             at = slice(start[r], start[r + 1])
             dof[at], factor[at] = column[list(row)], list(row.values())
-        return Motion(start, dof, factor, len(order))
+        return Motion(start, dof, factor, order)
 
 
 def links(mesh: Mesh, extra: int = 0) -> Links:

@@ -87,6 +87,11 @@ class ElementMatrices:
         properties = {name: value[self._fixed.members] for name, value in self._nominal.items()}
         return self._gathered(0, self._fixed, properties, np.real)
 
+    def at_nominal(self) -> dict[str, np.ndarray]:
+        """Entries of each matrix at nominal values of all properties."""
+        properties = {name: value[self._moving.members] for name, value in self._nominal.items()}
+        return self._gathered(1, self._moving, properties, np.real, self.fixed())
+
     def add_moving(self, theta: np.ndarray, entries: dict[str, np.ndarray]) -> None:
         """Sets the entries that parameters move to their values at theta."""
         self._gathered(1, self._moving, self.bound.at(theta)[0], np.real, entries)

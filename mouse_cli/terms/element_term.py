@@ -25,7 +25,7 @@ class ElementTerm:
         self._entry, row, col, self._factor = motion.spread(dofs[element, i], dofs[element, j])
         self._element = element if self._entry is None else element[self._entry]
         places = Places(row, col)
-        self.places = {name: places for name in matrices.names} if len(places) else {}
+        self.places = dict.fromkeys(matrices.names, places) if len(places) else {}
         self._base = matrices.fixed()
         self._constant: dict[str, Slopes] | None = None
         self.linear = True
@@ -87,6 +87,10 @@ class ElementTerm:
         for name, base in self._base.items():
             found[name] = found[name] + base if name in found else base
         return found
+
+    def nominal(self) -> dict[str, np.ndarray]:
+        """Values (z,) of each matrix where every property is as the mesh gives it."""
+        return {name: self._spread(entries) for name, entries in self._matrices.at_nominal().items()}
 
     def _direct(self, theta: np.ndarray) -> dict[str, np.ndarray]:
         """Values from the elements themselves."""

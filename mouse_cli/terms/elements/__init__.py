@@ -82,7 +82,8 @@ class ElementType:
     `matrices(layout, properties)` must be made of operations that carry complex numbers through (no abs, max, comparisons of
     property values but with 0): derivatives by a property are taken by complex steps, exact to rounding (Squire and Trapp
     1998). `axial(layout, properties, displacements (e, 6 k))` is the tension (e,), for elements that carry load along their axis.
-    reach: whether the element has a length, so that its nodes must not coincide.
+    reach: whether the element has a length, so that its nodes must not coincide. stacked: under gravity it carries the weight
+    of everything beyond it, seen from the supports.
     """
 
     key: str
@@ -94,6 +95,7 @@ class ElementType:
     damping: tuple[str, ...] = ("loss_factor", "stiffness_damping")
     axial: Callable[[Layout, Properties, np.ndarray], np.ndarray] | None = None
     reach: bool = False
+    stacked: bool = False
 
     def __post_init__(self) -> None:
         damping = {name: DAMPING[name] for name in self.damping}

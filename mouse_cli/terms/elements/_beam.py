@@ -148,5 +148,8 @@ def _congruent(T: np.ndarray, matrix: np.ndarray) -> np.ndarray:
     if np.iscomplexobj(T) or not np.iscomplexobj(matrix):
         return turned @ matrix @ T
     found = np.empty(matrix.shape, complex)
-    found.real, found.imag = turned @ np.ascontiguousarray(matrix.real) @ T, turned @ np.ascontiguousarray(matrix.imag) @ T
+    found.real, found.imag = (
+        turned @ np.ascontiguousarray(matrix.real) @ T,
+        turned @ np.ascontiguousarray(matrix.imag) @ T,
+    )
     return found

@@ -41,4 +41,5 @@ ELEMENT = ElementType(
     },
     matrices,
     reach=True,
+    stacked=True,
 )
