@@ -8,7 +8,50 @@ import numpy as np
 TOLERANCE = 1e-9  # of ARPACK, relative
 
 
-def shift(K, M, symbolic: "Symbolic | None" = None) -> float:
+class Symbolic:
+    """The pattern that K - sigma M has for all values of K, M and sigma, and its analysis; no analysis without rslab.
+
+    scipy's own difference drops entries that happen to be zero, and with them the pattern.
+    """
+
+    def __init__(self, K, M, threads: int = 1):
+        from scipy.sparse import csr_array, tril
+
+        one, other = (csr_array((np.ones(part.nnz), part.indices, part.indptr), shape=part.shape) for part in (K, M))
+        lower = tril(one + other).tocsc()
+        lower.sort_indices()
+        self.n, self.indices, self.indptr = K.shape[0], lower.indices, lower.indptr
+        places = _flat(self.indices, self.indptr)
+        self.position = [_positions(places, part) for part in (K, M)]
+        try:
+            import rslab
+        except ImportError:
+            self.analysis = None
+            return
+        self.analysis = rslab.analyze(lower, path="ldlt", threads=threads)
+
+    def shifted(self, K, M, sigma: float) -> np.ndarray:
+        """Values of the lower triangle of K - sigma M, by columns."""
+        (own_K, at_K), (own_M, at_M) = self.position
+        values = np.zeros(len(self.indices))
+        values[at_K] = K.data[own_K]
+        values[at_M] -= sigma * M.data[own_M]
+        return values
+
+
+def _flat(indices: np.ndarray, indptr: np.ndarray) -> np.ndarray:
+    n = len(indptr) - 1
+    return np.repeat(np.arange(n, dtype=np.int64) * n, np.diff(indptr)) + indices
+
+
+def _positions(places: np.ndarray, matrix) -> tuple[np.ndarray, np.ndarray]:
+    """Entries of a symmetric matrix by rows that are its lower triangle by columns, and where they are in the pattern."""
+    row = np.repeat(np.arange(matrix.shape[0]), np.diff(matrix.indptr))
+    own = np.flatnonzero(matrix.indices >= row)
+    return own, np.searchsorted(places, _flat(matrix.indices, matrix.indptr)[own])
+
+
+def shift(K, M, symbolic: Symbolic) -> float:
     """A shift below all eigenvalues, near the lowest one: -0.3 times its estimate, by a few inverse iterations."""
     solve = factorise(K, M, -1e-6 * float(np.median(K.diagonal() / M.diagonal())), symbolic)
     x = np.random.default_rng(0).standard_normal(K.shape[0])
@@ -17,44 +60,18 @@ def shift(K, M, symbolic: "Symbolic | None" = None) -> float:
     return -0.3 * float(x @ (K @ x)) / float(x @ (M @ x))
 
 
-class Symbolic:
-    """What a factorisation of a matrix can use again for other values on its pattern; nothing without rslab."""
-
-    def __init__(self, A, threads: int = 1):
-        try:
-            import rslab
-        except ImportError:
-            self.analysis = None
-            return
-        self.analysis = rslab.analyze(lower(A), path="ldlt", threads=threads)
-
-
-def lower(matrix):
-    """Lower triangle in compressed columns, as both the symmetric solvers and Harwell-Boeing files have it."""
-    from scipy.sparse import tril
-
-    return tril(matrix).tocsc()
-
-
-def shifted(K, M, sigma: float):
-    """K - sigma M; where both have one pattern it is kept, for scipy's difference drops what happens to be zero."""
-    from scipy.sparse import csr_array
-
-    if K.nnz != M.nnz or not np.array_equal(K.indices, M.indices):
-        return K - sigma * M
-    return csr_array((K.data - sigma * M.data, K.indices, K.indptr), shape=K.shape)
-
-
-def factorise(K, M, sigma: float, symbolic: Symbolic | None = None):
+def factorise(K, M, sigma: float, symbolic: Symbolic):
     """The function that solves (K - sigma M) x = b, for b (n,) or (n, c)."""
-    A = shifted(K, M, sigma)
-    symbolic = Symbolic(A) if symbolic is None else symbolic
-    if symbolic.analysis is None:
-        from scipy.sparse.linalg import splu
+    values = symbolic.shifted(K, M, sigma)
+    if symbolic.analysis is not None:
+        factor = symbolic.analysis.factor(values)
+        return lambda b: factor.solve(b) if b.ndim == 1 else factor.solve_many(b)
+    from scipy.sparse import csc_array, tril
+    from scipy.sparse.linalg import splu
 
-        return splu(A.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}).solve
-    factor = symbolic.analysis.factor(lower(A))
-    return lambda b: factor.solve(b) if b.ndim == 1 else factor.solve_many(b)
+    lower = csc_array((values, symbolic.indices, symbolic.indptr), shape=(symbolic.n, symbolic.n))
+    A = (lower + tril(lower, -1).T).tocsc()
+    return splu(A, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}).solve
 
 
 def arpack(K, M, sigma: float, solve, count: int) -> tuple[np.ndarray, np.ndarray]:

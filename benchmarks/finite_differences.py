@@ -37,12 +37,12 @@ class Scaled(UserModel):
         """As the base class, or by ARPACK around the fast factorisation, analysed once."""
         if not self.fast:
             return super().eigensolution(theta)
-        from fast_factor import Symbolic, arpack, factorise, shift, shifted
+        from fast_factor import Symbolic, arpack, factorise, shift
 
         self.solutions += 1
         K, M = self.matrices(theta)
         if self.symbolic is None:
-            self.symbolic = Symbolic(shifted(K, M, -1.0))
+            self.symbolic = Symbolic(K, M)
             self.sigma = shift(K, M, self.symbolic)
         return arpack(K, M, self.sigma, factorise(K, M, self.sigma, self.symbolic), self.modes + 3)
 

@@ -24,11 +24,11 @@ PARTS = ("factorisation", "assembly", "eigensolution", "sensitivities", "Bayes",
 def costs(kind: str, n: float, modes: int) -> tuple[int, dict[str, float]]:
     """Degrees of freedom, and the seconds of each of PARTS, at one size."""
     from _one_cycle import Cycles, seconds
-    from fast_factor import Symbolic, factorise, shift, shifted
+    from fast_factor import Symbolic, factorise, shift
     from scale_models import problem
 
     run = Cycles(problem(kind, n, PARAMETERS, modes, SENSORS))
-    symbolic = Symbolic(shifted(run.state.K, run.state.M, -1.0))
+    symbolic = Symbolic(run.state.K, run.state.M)
     sigma = shift(run.state.K, run.state.M, symbolic)
     rounds = []
     for _ in range(5 if n < BRIEF else 1):

@@ -38,11 +38,11 @@ WITHOUT = {  # the aim: how many times faster than eigsh as it comes a whole cyc
 def compared(kind: str, n: int, sensors: int, parameters: int, aim: float, rounds: int) -> None:
     """Print the parts of a cycle, those of the yardstick, and the medians of their ratios."""
     from _one_cycle import Cycles, seconds
-    from fast_factor import Symbolic, arpack, factorise, shift, shifted
+    from fast_factor import Symbolic, arpack, factorise, shift
     from scale_models import problem
 
     run = Cycles(problem(kind, n, parameters, MODES, sensors))
-    symbolic = Symbolic(shifted(run.state.K, run.state.M, -1.0), _threads.THREADS)
+    symbolic = Symbolic(run.state.K, run.state.M, _threads.THREADS)
     sigma = shift(run.state.K, run.state.M, symbolic)
     measured = []
     for _ in range(rounds):

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import element_matrices
 import numpy as np
-from fast_factor import Symbolic, arpack, factorise, shift, shifted
+from fast_factor import Symbolic, arpack, factorise, shift
 
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
@@ -242,6 +242,6 @@ def with_factors(title: str, structure: Structure, term, sd: np.ndarray, test: M
 
 def reference_modes(K, M, count: int) -> tuple[np.ndarray, np.ndarray]:
     """The lowest eigenvalues and mass-normalised shapes by ARPACK around a factorisation: for data, and to compare with."""
-    symbolic = Symbolic(shifted(K, M, -1.0))
+    symbolic = Symbolic(K, M)
     sigma = shift(K, M, symbolic)
     return arpack(K, M, sigma, factorise(K, M, sigma, symbolic), count)
