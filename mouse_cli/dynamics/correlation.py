@@ -2,8 +2,9 @@
 
 import numpy as np
 
-LIKELY = (
-    0.8  # a measured and a model mode farther apart than this are not one mode: MAC 0.3 and 5 %, or MAC 0.9 and 35 %
+LIKELY = 0.8  # a measured and a model mode farther apart than this are not one mode, such as MAC 0.3 and 5 %
+ANY_FREQUENCY = (
+    0.6  # detuning beyond which frequencies tell no more: a MAC above 0.8 makes a pair even in a model far too stiff
 )
 
 
@@ -22,16 +23,17 @@ def mac(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     return np.divide((x.T @ y) ** 2, size, out=np.zeros_like(size), where=size > 0)
 
 
-def distance(likeness: np.ndarray, test_hz: np.ndarray, hz: np.ndarray) -> np.ndarray:
-    """How far each measured mode is from each model mode (m, k): 1 - MAC + 2 |ln(f / f_test)|.
+def distance(likeness: np.ndarray, test_hz: np.ndarray, hz: np.ndarray, most: float = 1e3) -> np.ndarray:
+    """How far each measured mode is from each model mode (m, k): 1 - MAC + 2 |ln(f / f_test)|, its second part at most `most`.
 
-    likeness (m, k): the MAC, NaN where no shape tells; test_hz (m,), NaN where not measured; hz (k,). A model mode of zero
-    frequency is infinitely far, or nearly so.
+    likeness (m, k): the MAC, NaN where no shape tells; then it is 2 |ln| + ln^2, so that modes keep their order. test_hz (m,), NaN
+    where not measured; hz (k,). A model mode of zero frequency is infinitely far, or nearly so.
     """
     with np.errstate(divide="ignore"):
         detuning = np.abs(np.log(np.maximum(hz, 0.0)[None, :] / test_hz[:, None]))
-    apart = np.where(np.isnan(likeness), 0.0, 1.0 - likeness)
-    apart = apart + np.where(np.isnan(detuning), 0.0, np.minimum(2 * detuning, 1e3))
+    bare = np.isnan(likeness)
+    detuning = np.minimum(np.where(np.isnan(detuning), 0.0, detuning), 500.0)
+    apart = np.where(bare, 2 * detuning + detuning**2, 1.0 - likeness + np.minimum(2 * detuning, most))
     apart[:, hz <= 0] = 1e6
     return apart
 

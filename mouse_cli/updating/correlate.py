@@ -7,7 +7,16 @@ import numpy as np
 
 from mouse_cli._errors import Diagnostic
 from mouse_cli.dynamics import condensation
-from mouse_cli.dynamics.correlation import comac, distance, ecomac, mac, match, scale_factors, subspace_cosines
+from mouse_cli.dynamics.correlation import (
+    ANY_FREQUENCY,
+    comac,
+    distance,
+    ecomac,
+    mac,
+    match,
+    scale_factors,
+    subspace_cosines,
+)
 from mouse_cli.dynamics.eigen import EigenSolution, IndefiniteError, clusters
 from mouse_cli.dynamics.sensor_faults import sensor_faults
 from mouse_cli.model.arrays import Matrix
@@ -98,7 +107,7 @@ def _sides(problem: Problem, K: Matrix, M: Matrix, solution: EigenSolution, rigi
     test, shaped = problem.test, _shaped(problem.test)
     hz = solution.frequencies_hz.copy()
     hz[:rigid] = 0.0
-    apart = distance(_likeness(test, solution, shaped), test.frequency_hz, hz)
+    apart = distance(_likeness(test, solution, shaped), test.frequency_hz, hz, ANY_FREQUENCY)
     modes = match(apart)
     solution = _turned(problem, solution, modes, shaped)
     k = _shown(test, hz, modes)
@@ -118,7 +127,7 @@ def _compared(sides: _Sides) -> Correlation:
         problem=problem,
         frequencies_hz=hz,
         rigid_modes=sides.rigid,
-        visible=length / (length.max(initial=0.0) or 1.0),
+        visible=length / (length.max(initial=0.0) or 1.0) if test.s else np.full(k, np.nan),
         modes=sides.modes,
         unclaimed=_unclaimed(test, hz, sides.modes),
         mac=np.where(shaped[:, None], mac(test.shapes, seen), np.nan),

@@ -45,12 +45,13 @@ def _alone(found: Correlation) -> Iterator[Diagnostic]:
 
 def _unclaimed(found: Correlation) -> Iterator[Diagnostic]:
     for j in found.unclaimed[:_MOST]:
-        blind = found.visible[j] < _BLIND
-        why = (
-            "the sensors hardly see it"
-            if blind
-            else f"the sensors see it ({found.visible[j]:.2f} of the largest shape)"
+        blind = bool(found.visible[j] < _BLIND)
+        seen = (
+            f"the sensors see it ({found.visible[j]:.2f} of the largest shape)"
+            if found.sensors
+            else "no shape was measured"
         )
+        why = "the sensors hardly see it" if blind else seen
         yield _remark(
             "MD510",
             f"model mode {j + 1} at {found.frequencies_hz[j]:.5g} Hz lies in the band of the test, but no measured mode is it; "

@@ -7,10 +7,12 @@ import numpy as np
 from mouse_cli._errors import WARNING, Diagnostic
 from mouse_cli._span import Span
 from mouse_cli.dynamics.correlation import mac
+from mouse_cli.dynamics.frequency import frequency_hz
 from mouse_cli.model.result import REJECT, Result
 
 _SILENT = 0.99  # revised over prior standard deviation: above this the data said nothing
 _TIED = 0.995  # correlation above which two properties are determined only together
+_UNLIKE, _FAR = 0.1, 0.5  # MAC below which, and share of its frequency beyond which, a partner is none
 _FEW = 5  # degrees of freedom below which a close fit is nothing remarkable
 
 
@@ -25,6 +27,7 @@ def remarks(result: Result) -> Iterator[Diagnostic]:
     yield from _limits(result)
     yield from _signs(result)
     yield from _places(result)
+    yield from _strangers(result)
 
 
 def _too_good(result: Result) -> Iterator[Diagnostic]:
@@ -107,6 +110,23 @@ def _places(result: Result) -> Iterator[Diagnostic]:
                 f"{likeness[i, best]:.2f}), but was compared with mode {mode + 1} (MAC {likeness[i, mode]:.2f})",
                 help="use --pairing mac",
             )
+
+
+def _strangers(result: Result) -> Iterator[Diagnostic]:
+    """Measured modes whose partner has nothing in common with them, before or after the revision."""
+    test = result.problem.test
+    for i in range(test.m if result.problem.run.pairing == "mac" else 0):
+        for when, model in (("before", result.prior), ("after", result.revised)):
+            hz = float(frequency_hz(model.eigenvalues[model.modes[i]]))
+            far = abs(hz - test.frequency_hz[i]) > _FAR * test.frequency_hz[i]
+            if far and model.mac[i] < _UNLIKE and np.isfinite(test.shapes[:, i]).sum() > 1:
+                yield _remark(
+                    "MD509",
+                    f"measured mode {test.number[i]} at {test.frequency_hz[i]:.5g} Hz has no likely partner: {when} the revision "
+                    f"it was compared with model mode {model.modes[i] + 1} at {hz:.5g} Hz, MAC {model.mac[i]:.2f}",
+                    help="look at it with `mouse correlate`, and leave it out of the test until it is understood",
+                )
+                break
 
 
 def _remark(code: str, message: str, span: Span | None = None, help: str = "") -> Diagnostic:

@@ -37,7 +37,7 @@ def _rows(test: ModalTest, labels: tuple[str, ...]) -> tuple[list[str], list[str
     for name, (dofs, weights) in zip(test.sensors, _readings(test), strict=True):
         plain = _plain(labels, dofs, weights)
         if name == plain:
-            items.append(plain if plain.isdecimal() else word(plain))
+            items.append(plain)
             continue
         shares = ", ".join(f"{_label(labels, dof)}: {real(weight)}" for dof, weight in zip(dofs, weights, strict=True))
         items.append(_quoted(name))

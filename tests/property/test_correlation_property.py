@@ -1,0 +1,66 @@
+"""What holds for any shapes: MAC knows neither scale nor sign, and pairs do not depend on the order of modes."""
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mouse_cli.dynamics.correlation import comac, distance, ecomac, mac, match, pair, subspace_cosines
+
+seeds = st.integers(0, 2**32 - 1)
+
+
+def drawn(seed: int, s: int = 6, m: int = 3, k: int = 5):
+    """Measured shapes (s, m), some components missing, and frequencies; model shapes (s, k) and frequencies."""
+    rng = np.random.default_rng(seed)
+    test, model = rng.standard_normal((s, m)), rng.standard_normal((s, k))
+    test[rng.random((s, m)) < 0.1] = np.nan
+    return rng, test, np.sort(rng.uniform(1, 9, m)), model, np.sort(rng.uniform(1, 9, k))
+
+
+@given(seeds)
+def test_mac_is_blind_to_scale_and_sign(seed):
+    rng, test, _, model, _ = drawn(seed)
+    factors = rng.choice([-1, 1], 3) * 10 ** rng.uniform(-6, 6, 3)
+    np.testing.assert_allclose(mac(test * factors, model), mac(test, model), rtol=1e-9, atol=1e-14)
+    np.testing.assert_allclose(mac(model, test).T, mac(test, model), rtol=1e-12)
+    assert (mac(test, model) <= 1 + 1e-12).all()
+
+
+@given(seeds)
+def test_sensor_criteria_are_blind_to_scale_and_sign_of_modes(seed):
+    rng, test, _, model, _ = drawn(seed, k=3)
+    factors = rng.choice([-1, 1], 3) * 10 ** rng.uniform(-3, 3, 3)
+    np.testing.assert_allclose(comac(test * factors, model), comac(test, model), rtol=1e-9)
+    np.testing.assert_allclose(ecomac(test * factors, model), ecomac(test, model), rtol=1e-7, atol=1e-12)
+    found = comac(test, model)
+    assert ((found >= 0) & (found <= 1 + 1e-12))[np.isfinite(found)].all()
+
+
+@given(seeds)
+def test_subspaces_do_not_depend_on_their_basis(seed):
+    rng, _, _, model, _ = drawn(seed, s=8, k=4)
+    mixed = model[:, :2] @ rng.standard_normal((2, 2)) + 0.0
+    if np.linalg.cond(mixed) < 1e6:
+        np.testing.assert_allclose(
+            subspace_cosines(mixed, model[:, 2:]), subspace_cosines(model[:, :2], model[:, 2:]), atol=1e-8
+        )
+
+
+@given(seeds)
+def test_pairs_do_not_depend_on_the_order_of_modes(seed):
+    rng, test, test_hz, model, hz = drawn(seed)
+    ours, theirs = rng.permutation(3), rng.permutation(5)
+    where = np.append(np.argsort(theirs), -1)  # place of each model mode after the permutation; -1 stays -1
+    apart = distance(mac(test, model), test_hz, hz)
+    np.testing.assert_array_equal(match(apart[np.ix_(ours, theirs)]), where[match(apart)[ours]])
+    shuffled = pair(test[:, ours], test_hz[ours], model[:, theirs], hz[theirs])
+    np.testing.assert_array_equal(shuffled, where[pair(test, test_hz, model, hz)[ours]])
+
+
+@given(seeds, st.floats(0.05, 3))
+def test_no_pair_is_farther_apart_than_allowed(seed, limit):
+    _, test, test_hz, model, hz = drawn(seed)
+    apart = distance(mac(test, model), test_hz, hz)
+    found = match(apart, limit)
+    assert all(apart[i, j] <= limit for i, j in enumerate(found) if j >= 0)
+    assert len(set(found[found >= 0])) == (found >= 0).sum()
