@@ -57,7 +57,8 @@ def built(mesh: Mesh, bindings: tuple[Binding, ...] = (), base: Structure | None
     structure = _structure(mesh, base, motion, places)
     terms = [ElementTerm(m, _dofs(m.elements), motion) for m in sets]
     K = _nominal_stiffness(structure, terms)
-    remarks += search(mesh, sets, motion, K, np.isin(motion.places, places))
+    held = _touched(mesh, sets, free, "K") & (motion.counts == 0)
+    remarks += search(mesh, sets, motion, K, held, np.isin(motion.places, places))
     if mesh.gravity is not None:
         for i, axial in axial_forces(mesh, sets, motion, K).items():
             sets[i] = _matrices(i, kinds[i], replace(layouts[i], axial=axial), mesh, bindings)
@@ -143,9 +144,7 @@ def _numbered(
     damped = _touched(mesh, matrices, free, "C")
     held = free.stiff(stiff | damped)
     held[places] = True
-    used = held[: 6 * len(mesh.node_ids)].reshape(-1, 6).any(axis=1)
-    follows = {r // 6 for r in free.rows}
-    lost = [i for i in np.flatnonzero(~used) if i not in follows]
+    lost = _lost(mesh, stiff | damped, places)
     if lost:
         raise Disconnected(tuple(mesh.node_ids[lost].tolist()))
     kept = held & free.free
@@ -154,6 +153,20 @@ def _numbered(
     left = left[(left % 6 < 3)]
     remarks = (unheld(tuple((int(mesh.node_ids[r // 6]), int(r % 6)) for r in left)),) if len(left) else ()
     return free.motion(order.astype(int)), remarks
+
+
+def _lost(mesh: Mesh, touched: np.ndarray, places: np.ndarray) -> list[int]:
+    """Nodes (indices) that neither elements nor imported matrices touch, nor nodes that follow them; those that follow are not."""
+    touched = touched.copy()
+    touched[places] = True
+    used = touched[: 6 * len(mesh.node_ids)].reshape(-1, 6).any(axis=1)
+    for _ in mesh.links:  # as many rounds as a chain of links may be long
+        ahead = [link.independent for link in mesh.links if used[link.dependent]]
+        if used[ahead].all():
+            break
+        used[ahead] = True
+    used[[link.dependent for link in mesh.links]] = True
+    return np.flatnonzero(~used).tolist()
 
 
 def _touched(mesh: Mesh, matrices: list[ElementMatrices], free: Links, name: str) -> np.ndarray:

@@ -10,27 +10,28 @@ from mouse_cli.terms.elements._axes import arm
 from mouse_cli.terms.faults import Mechanism, Remark, floating
 
 LARGEST = 200_000  # degrees of freedom; larger models are not searched
-_NONE = 1e-22  # energy of a motion of unit size, in units of the diagonal of K, that counts as none
 _BLOCK, _PASSES, _SHIFT = 8, 6, 1e-12
 
 
 def search(
-    mesh: Mesh, sets: list[ElementMatrices], motion: Motion, K: Matrix, attached: np.ndarray
+    mesh: Mesh, sets: list[ElementMatrices], motion: Motion, K: Matrix, held: np.ndarray, attached: np.ndarray
 ) -> tuple[Remark, ...]:
     """The parts that may move as rigid bodies. Raises Mechanism for any other motion without stiffness.
 
     Energies are summed element by element from deformations, which tells none from little where K alone cannot: the lowest
-    frequencies of a long chain of beams are below the rounding of K. attached (n,): mask of the degrees of freedom of imported
-    matrices, which may hold what they touch and are not looked into.
+    frequencies of a long chain of beams are below the rounding of K. held (r,): mask of the directions of nodes that have
+    stiffness but cannot move. attached (n,): mask of the degrees of freedom of imported matrices, which may hold what they touch
+    and are not looked into.
     """
     if not motion.n or motion.n > LARGEST:
         return ()
     scale = np.sqrt(np.abs(K.diagonal()))
     scale[scale == 0] = 1.0
-    strain = _Strain(mesh, sets, motion)
+    strain, held = _Strain(mesh, sets, motion), held.copy()
+    held[motion.places[attached]] = True
     remarks, rigid = [], [np.zeros((motion.n, 0))]
     for nodes in _parts(mesh):
-        Q = _rigid(mesh, nodes, motion, strain, scale, attached)
+        Q = _rigid(mesh, nodes, motion, strain, scale, held)
         if Q.shape[1]:
             rigid.append(Q)
             remarks.append(floating(tuple(sorted(mesh.node_ids[nodes].tolist())), Q.shape[1]))
@@ -38,19 +39,22 @@ def search(
     lost[attached] = 0.0
     lost = lost[:, np.linalg.norm(lost, axis=0) > 0.1]
     if lost.shape[1]:
-        lost /= np.linalg.norm(lost, axis=0)
-        energy, combination = np.linalg.eigh(strain.energies(lost / scale[:, None]))
-        least = np.abs(energy).argmin()
-        if abs(energy[least]) < _NONE:
-            raise Mechanism(_most(mesh, motion, lost @ combination[:, least] / scale))
+        lost = strain.without(lost / np.linalg.norm(lost, axis=0), scale)
+        if lost.shape[1]:
+            raise Mechanism(_most(mesh, motion, lost[:, 0] / scale))
     return tuple(remarks)
 
 
 class _Strain:
-    """Energies of motions: rigid motion about its first node is taken out of each element before K acts on the rest."""
+    """Energies of motions: rigid motion about its first node is taken out of each element before K acts on the rest.
+
+    none: energy of a motion of unit size, in units of the diagonal of K, that counts as none; well below that of the lowest
+    bending mode of a chain of all k nodes, of order (pi/k)^4/50, and above rounding.
+    """
 
     def __init__(self, mesh: Mesh, sets: list[ElementMatrices], motion: Motion):
         self.mesh, self.sets, self.motion = mesh, sets, motion
+        self.none = min(max(1e-4 / len(mesh.node_ids) ** 4, 1e-22), 1e-15)
         self._parts = [part for m in sets if "K" in m.names for part in self._of(m)]
 
     def _of(self, m: ElementMatrices):
@@ -70,6 +74,17 @@ class _Strain:
             change = u[dofs] - rigid @ u[dofs[:, :6]]
             found += np.einsum("eik,eil->kl", change, K @ change, optimize=True)
         return found
+
+    def without(self, Q: np.ndarray, scale: np.ndarray) -> np.ndarray:
+        """Combinations (n, r) of the motions Q / scale that nothing resists.
+
+        Their energies are computed anew: those of the first sum have the rounding of the largest among them.
+        """
+        if not Q.size:
+            return Q
+        Q = Q @ np.linalg.eigh(self.energies(Q / scale[:, None]))[1]
+        energy = np.abs(self.energies(Q / scale[:, None]).diagonal())
+        return Q[:, energy < self.none]
 
 
 def _free(K: np.ndarray, motions: np.ndarray) -> np.ndarray:
@@ -95,20 +110,19 @@ def _parts(mesh: Mesh) -> list[np.ndarray]:
 
 
 def _rigid(
-    mesh: Mesh, nodes: np.ndarray, motion: Motion, strain: _Strain, scale: np.ndarray, attached: np.ndarray
+    mesh: Mesh, nodes: np.ndarray, motion: Motion, strain: _Strain, scale: np.ndarray, held: np.ndarray
 ) -> np.ndarray:
-    """Orthonormal rigid motions (n, r) of one part, times `scale`, that nothing resists."""
-    body = np.zeros((len(mesh.node_ids), 6, 6))
-    body[nodes] = arm(mesh.coordinates[nodes] - mesh.coordinates[nodes].mean(axis=0))
-    full = np.concatenate([body.reshape(-1, 6), np.zeros((len(motion.counts) - 6 * len(mesh.node_ids), 6))])
-    q = full[motion.places]
-    q[attached] = 0.0
-    Q, size, _ = np.linalg.svd(q * scale[:, None], full_matrices=False)
-    Q = Q[:, size > 1e-9 * size.max(initial=1e-300)]
-    if not Q.size:
-        return Q
-    energy, combination = np.linalg.eigh(strain.energies(Q / scale[:, None]))
-    return Q @ combination[:, np.abs(energy) < _NONE]
+    """Rigid motions (n, r) of one part, times `scale`, that neither supports nor springs to the ground resist."""
+    k = len(mesh.node_ids)
+    centred = mesh.coordinates[nodes] - mesh.coordinates[nodes].mean(axis=0)
+    size = np.abs(centred).max(initial=0.0) or 1.0
+    body = np.zeros((k, 6, 6))
+    body[nodes] = arm(centred) * np.repeat([1.0, 1 / size], 3)
+    full = np.concatenate([body.reshape(-1, 6), np.zeros((len(motion.counts) - 6 * k, 6))])
+    _, sizes, ways = np.linalg.svd(np.concatenate([full[held], np.zeros((6, 6))]), full_matrices=False)
+    q = full[motion.places] @ ways[sizes <= 1e-9 * max(1.0, sizes.max())].T
+    Q, sizes, _ = np.linalg.svd(q * scale[:, None], full_matrices=False)
+    return strain.without(Q[:, sizes > 1e-9 * sizes.max(initial=1e-300)], scale)
 
 
 def _lowest(K: Matrix, scale: np.ndarray, rigid: np.ndarray) -> np.ndarray:
