@@ -29,6 +29,7 @@ _RANGES = {
     "MD1": "Card decks",
     "MD2": "YAML decks and matrix files",
     "MD3": "What a deck says",
+    "MD4": "Structures",
     "MD5": "What the numbers say",
 }
 _BLANKS = {  # the words in braces of a status sentence, as the page shows them

@@ -1,11 +1,12 @@
 """A Draft becomes a Problem, or one DeckError with all that is wrong."""
 
+from dataclasses import replace
+
 from mouse_cli._errors import WARNING
 from mouse_cli._span import Span
 from mouse_cli.formats.draft import Draft
-from mouse_cli.formats.rules import matrices, modal_test, partials, prior, refusal
+from mouse_cli.formats.rules import matrices, modal_test, model, partials, prior, refusal
 from mouse_cli.model.problem import Problem
-from mouse_cli.model.structure import Structure
 
 
 def assemble(draft: Draft) -> Problem:
@@ -13,21 +14,19 @@ def assemble(draft: Draft) -> Problem:
 
     Raises DeckError with every error found, warnings included, in the order of the file.
     """
-    unread = draft.has_errors
-    K = matrices.matrix(draft, draft.K, "K")
-    M = matrices.matrix(draft, draft.M, "M")
-    if not draft.has_errors:
-        matrices.positive_masses(draft, M)
+    draft, unread = replace(draft), draft.has_errors  # the rules set what only the model can tell
+    found = model.model(draft)
     elements = partials.elements(draft)
     A = partials.partials(draft)
     believed = prior.prior(draft)
-    test = modal_test.modal_test(draft)
-    matrices.total_mass_dofs(draft)
+    test = modal_test.modal_test(draft, found[0].geometry if found else None) if draft.order else None
+    if draft.order:
+        matrices.total_mass_dofs(draft)
     if draft.has_errors:
         raise refusal(draft, unread)
     return Problem(
         title=draft.title,
-        structure=Structure(K, M, draft.labels),
+        structure=found[0],
         elements=elements,
         A=A,
         parameters=tuple(draft.parameters),
@@ -37,6 +36,9 @@ def assemble(draft: Draft) -> Problem:
         source=draft.source,
         warnings=tuple(d for d in draft.diagnostics if d.severity == WARNING),
         places=_places(draft),
+        terms=found[1],
+        mesh=draft.mesh.mesh if draft.mesh else None,
+        bindings=tuple(draft.mesh.bindings) if draft.mesh else (),
     )
 
 

@@ -10,7 +10,10 @@ import numpy as np
 
 from mouse_cli._errors import ERROR, WARNING, Diagnostic
 from mouse_cli._span import Span
+from mouse_cli.formats.mesh_draft import MeshDraft
+from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.model.arrays import Matrix
+from mouse_cli.model.geometry import Geometry
 from mouse_cli.model.parameter import Parameter
 from mouse_cli.model.problem import RunOptions, Source
 
@@ -36,7 +39,10 @@ class Entries:
 
 @dataclass
 class TestDraft:
-    """The modal test as read. dofs count from 1; shapes and shape_sd are (s, m), NaN where missing."""
+    """The modal test as read. dofs count from 1; shapes and shape_sd are (s, m), NaN where missing.
+
+    sensors (s,): what each row is measured by, in place of dofs, for readers of formats that describe sensors.
+    """
 
     __test__ = False  # not a pytest class
 
@@ -53,21 +59,23 @@ class TestDraft:
     where_dof: Where = nowhere
     where_shape: Callable[[int, int], Span | None] = lambda s, m: None
     where_shape_sd: Callable[[int, int], Span | None] = lambda s, m: None
+    sensors: tuple[SensorDraft, ...] = ()
 
 
 @dataclass
 class Draft:
     """A whole deck as read.
 
-    K, M: Entries (diagonal and upper triangle) or a whole matrix from a file. elements: Entries whose value is 0 for
+    K, M, C, D: Entries (diagonal and upper triangle) or a whole matrix from a file, None where there is none; mesh: a structure
+    that makes them or is attached to them; geometry: where the rows of imported matrices are. order, labels: of the matrices; 0 while only the structure can tell. elements: Entries whose value is 0 for
     stiffness and 1 for mass, in the order of group RS, stiffness first. A: Entries (listed element, parameter, partial).
     covariance (p, p): the prior's, when it has off-diagonals; else the parameters' sd hold it.
     """
 
     title: str
     order: int
-    K: Entries | Matrix
-    M: Entries | Matrix
+    K: Entries | Matrix | None
+    M: Entries | Matrix | None
     elements: Entries
     A: Entries
     parameters: list[Parameter]
@@ -75,6 +83,10 @@ class Draft:
     source: Source
     covariance: np.ndarray | None = None
     test: TestDraft | None = None
+    C: Entries | Matrix | None = None
+    D: Entries | Matrix | None = None
+    mesh: MeshDraft | None = None
+    geometry: Geometry | None = None
     labels: tuple[str, ...] = ()
     where_order: Span | None = None
     where_covariance: Span | None = None

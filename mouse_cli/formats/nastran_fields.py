@@ -35,14 +35,20 @@ class Bulk:
                 continue
             if line[0] in "+*," or not line[:8].strip(", "):
                 if card is not None:
-                    card.fields.extend(_fields(line))
+                    card.fields.extend(self._fields(line, number))
                 continue
             if card is not None:
                 yield card
             name = re.split("[,*]", line[:8], maxsplit=1)[0].strip().upper()
-            card = Card(name, _fields(line), number) if name == wanted else None
+            card = Card(name, self._fields(line, number), number) if name == wanted else None
         if card is not None:
             yield card
+
+    def _fields(self, line: str, number: int) -> list[str]:
+        if line.count(",") > 9:
+            message = "a line in free format has at most eight fields and a continuation mark"
+            reject("MD252", self.path, message, "continue on the next line", line_span(self.path, number, line))
+        return _fields(line)
 
     def where(self, card: Card) -> Span:
         """Place of the first line of a card."""

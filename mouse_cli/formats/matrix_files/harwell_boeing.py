@@ -97,10 +97,13 @@ def _numbers(path: str, lines: list[str], start: int, number: int, count: int, l
     words: list[float] = []
     for at, line in enumerate(rows, start):
         take = min(perline, count - len(words))
+        fields = (
+            line.split()
+        )  # as many as there should be: SciPy's writer keeps blanks between them, but not to the width
+        if len(fields) != take:
+            fields = [line[i : i + width] for i in range(0, take * width, width)]
         try:
-            words += [
-                float(line[i : i + width].replace("D", "E").replace("d", "e")) for i in range(0, take * width, width)
-            ]
+            words += [float(field.upper().replace("D", "E")) for field in fields]
         except ValueError:
             message = f"{take} numbers of {width} characters are expected"
             reject("MD252", path, message, _HELP, line_span(path, at + 1, line))

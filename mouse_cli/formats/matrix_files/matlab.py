@@ -45,7 +45,7 @@ def _version_5(path: str, variable: str | None) -> Matrix:
         value = value[choose(path, field, list(value.dtype.names or []))].item(0)
     if not (isinstance(value, np.ndarray) or is_sparse(value)):
         reject("MD253", path, f"'{variable}' is no matrix", "name a matrix of numbers")
-    if is_sparse(value):
+    if is_sparse(value) and hasattr(value, "check_format"):
         value.check_format(full_check=True)
     return real(path, value, variable or name)
 

@@ -18,6 +18,7 @@ _DAMAGE = (
     zipfile.BadZipFile,
     zlib.error,
     NotImplementedError,
+    RuntimeError,  # a flag that says the archive is encrypted
 )
 
 

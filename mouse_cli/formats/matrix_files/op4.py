@@ -17,21 +17,28 @@ def _read(path: str, variable: str | None) -> Matrix:
     """The matrix `variable`, or the only one, as a scipy.sparse.coo_array."""
     with open(path, "rb") as stream:
         data = stream.read()
-    found: list[tuple[Header, Strings]] = []
+    found: dict[str, tuple[Header, Strings]] = {}
     try:
         # a text file begins with the number of columns in 8 or 16 characters, a binary one with the length of a record
         is_text = data[:8].strip().isdigit()
         for header, strings in text_matrices(data) if is_text else binary_matrices(data):
-            wanted = variable is None or header.name.lower() == variable.lower()
-            found.append((header, strings if wanted else []))
+            name = _unique(header.name, found)
+            wanted = variable is None or name.lower() == variable.lower()
+            found[name] = header, strings if wanted else []
     except Damaged as error:
         span = line_span(path, error.line, error.text) if error.line else None
         reject("MD252", path, f"not an OUTPUT4 file: {error}", _HELP, span)
-    name = choose(path, variable, [header.name for header, _ in found])
-    header, strings = next(pair for pair in found if pair[0].name == name)
+    name = choose(path, variable, list(found))
+    header, strings = found[name]
     if header.type not in (1, 2):
         reject("MD253", path, f"matrix {name} is complex (type {header.type}); K and M are real", "write a real matrix")
     return _matrix(path, header, strings)
+
+
+def _unique(name: str, found: dict) -> str:
+    """The name, or where a file of superelements has it already, KAA:2, KAA:3 ..."""
+    names = [name] + [f"{name}:{i}" for i in range(2, len(found) + 2)]
+    return next(each for each in names if each not in found)
 
 
 def _matrix(path: str, header: Header, strings: Strings) -> Matrix:

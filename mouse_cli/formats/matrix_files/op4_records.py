@@ -125,8 +125,8 @@ def text_matrices(data: bytes) -> Iterator[tuple[Header, Strings]]:
         line = lines.next()
         width = 16 if line.rstrip().endswith("|I16") else 8  # of the sizes alone: columns have 8 in any case
         line = line.rstrip().removesuffix("|I16")
-        columns, rows = lines.numbers(line[: 2 * width], width)
-        _, type = lines.numbers(line[2 * width : 2 * width + 16], 8)
+        columns, rows = lines.numbers(line[: 2 * width], width, 2)
+        _, type = lines.numbers(line[2 * width : 2 * width + 16], 8, 2)
         header = _header(columns, rows, type, line[2 * width + 16 : 2 * width + 24], lines.number, line)
         layout = _FORMAT.search(line[2 * width + 24 :].upper())
         perline, field = (int(x) for x in layout.groups()) if layout else (5, 16)
@@ -161,12 +161,15 @@ class _Lines:
         """The error that names the line taken last."""
         return Damaged(message, max(1, self.number), self.lines[self.number - 1] if self.lines else "")
 
-    def numbers(self, text: str, width: int) -> list[int]:
-        """Whole numbers of `width` characters each."""
+    def numbers(self, text: str, width: int, count: int) -> list[int]:
+        """So many whole numbers of `width` characters each."""
         try:
-            return [int(text[i : i + width]) for i in range(0, len(text.rstrip()), width)]
+            found = [int(text[i : i + width]) for i in range(0, len(text.rstrip()), width)]
         except ValueError:
-            raise self.damage("whole numbers are expected") from None
+            found = []
+        if len(found) != count:
+            raise self.damage(f"{count} whole numbers of {width} characters are expected")
+        return found
 
     def values(self, count: int, perline: int, width: int) -> np.ndarray:
         """`count` numbers of `width` characters, `perline` on a line."""
@@ -188,10 +191,7 @@ def _text_columns(lines: _Lines, header: Header, perline: int, field: int) -> St
     size = 1 if header.type in (1, 3) else 2
     heads = 2 if header.bigmat else 1
     while True:
-        head = lines.numbers(lines.next(), 8)
-        if len(head) != 3:
-            raise lines.damage("column, row and number of words are expected")
-        column, row, words = head
+        column, row, words = lines.numbers(lines.next(), 8, 3)
         if column > header.columns:
             lines.next()  # a closing value
             return found
@@ -202,9 +202,7 @@ def _text_columns(lines: _Lines, header: Header, perline: int, field: int) -> St
             continue
         while words > 0:
             line = lines.next()
-            string = lines.numbers(line, 8 if header.bigmat else max(1, len(line.rstrip())))
-            if len(string) != heads:
-                raise lines.damage("the head of a string is expected")
+            string = lines.numbers(line, 8 if header.bigmat else max(1, len(line.rstrip())), heads)
             try:
                 first, count, taken = _string(header, string, size)
             except Damaged as error:

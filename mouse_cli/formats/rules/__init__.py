@@ -2,18 +2,20 @@
 
 from mouse_cli._errors import ERROR, DeckError
 from mouse_cli.formats.draft import Draft, Entries
-from mouse_cli.formats.rules import matrices, modal_test, partials, prior
+from mouse_cli.formats.rules import matrices, mesh, modal_test, partials, prior
 
 
 def review(draft: Draft) -> DeckError:
     """The error for a draft with gaps: what its reader found, and what the rules find in the parts that are there."""
     prior.prior(draft)
+    mesh.mesh(draft)
     if draft.order:
-        for name, source in (("K", draft.K), ("M", draft.M)):
+        for name, source in (("K", draft.K), ("M", draft.M), ("C", draft.C), ("D", draft.D)):
             if isinstance(source, Entries):
                 matrices.matrix(draft, source, name)
         partials.elements(draft)
-        modal_test.modal_test(draft)
+        if draft.mesh is None:
+            modal_test.modal_test(draft)
     return refusal(draft, unread=True)
 
 

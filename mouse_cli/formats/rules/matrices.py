@@ -1,5 +1,7 @@
 """Rules for K and M: every element once, finite, and masses that are positive."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from mouse_cli._span import Span
@@ -56,9 +58,10 @@ def positive_masses(draft: Draft, M: Matrix) -> None:
     diagonal = M.diagonal()
     missing = np.flatnonzero(~(diagonal > 0))
     for i in missing[:_LISTED]:
+        name = draft.labels[i] if draft.labels else str(i + 1)
         draft.error(
             "MD304",
-            f"mass of degree of freedom {i + 1} is {diagonal[i]:.8g}; it must be positive",
+            f"mass of degree of freedom {name} is {diagonal[i]:.8g}; it must be positive",
             _where_diagonal(draft.M, i + 1) or draft.where_order,
             help=f"give M({i + 1},{i + 1}) a positive value, or condense that degree of freedom out",
         )
@@ -80,12 +83,20 @@ def _where_diagonal(source: Entries | Matrix, index: int) -> Span | None:
 
 
 def total_mass_dofs(draft: Draft) -> None:
-    """The degrees of freedom whose mass is summed must exist."""
-    for dof in draft.run.total_mass_dofs:
-        if not 0 <= dof < draft.order:
-            draft.error(
-                "MD317",
-                f"degree of freedom {dof + 1} of fix_total_mass is outside 1 to {draft.order}",
-                draft.where_total_mass,
-                help=f"give numbers from 1 to {draft.order}",
-            )
+    """The degrees of freedom whose mass is summed must exist; labels become their numbers."""
+    place = {label: i for i, label in enumerate(draft.labels)}
+    numbers = [place.get(dof, dof) for dof in draft.run.total_mass_dofs]
+    for dof in numbers:
+        named, where = isinstance(dof, str), draft.where_total_mass
+        if named:
+            message = f"fix_total_mass names '{dof[:40]}', which is no label of the model"
+            draft.error("MD225", message, where, help=f"give one of {', '.join(draft.labels[:12]) or '1, 2, ...'}")
+        elif not 0 <= dof < draft.order:
+            message = f"degree of freedom {dof + 1} of fix_total_mass is outside 1 to {draft.order}"
+            draft.error("MD317", message, where, help=f"give numbers from 1 to {draft.order}")
+    draft.run = replace(draft.run, total_mass_dofs=tuple(numbers))
+
+
+def nominal(draft: Draft) -> np.ndarray:
+    """Values (p,) of the parameters before the test."""
+    return np.array([parameter.nominal for parameter in draft.parameters])

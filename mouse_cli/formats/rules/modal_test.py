@@ -3,26 +3,39 @@
 import numpy as np
 
 from mouse_cli.formats.draft import Draft, TestDraft
+from mouse_cli.formats.rules.sensors import Sensing, sensing
+from mouse_cli.model.geometry import Geometry
 from mouse_cli.model.modal_test import ModalTest
 
 
-def modal_test(draft: Draft) -> ModalTest | None:
-    """The measured modes with dofs from 0; None for a deck without a test, or when a rule is broken."""
+def modal_test(draft: Draft, geometry: Geometry | None = None) -> ModalTest | None:
+    """The measured modes with dofs from 0; None for a deck without a test, or when a rule is broken.
+
+    geometry: nodes of the model, for sensors that are mounted on them.
+    """
     test = draft.test
     if test is None:
         return None
     _mode_numbers(draft, test)
     _frequencies(draft, test)
-    _dofs(draft, test)
+    if test.sensors:
+        found = sensing(draft, test.sensors, geometry, draft.order)
+    else:
+        _dofs(draft, test)
+        found = Sensing(test.dofs - 1, None, ())
     _accuracies(draft, test)
+    if found is None:
+        return None
     return ModalTest(
         test.number,
         test.frequency_hz,
         test.frequency_sd_hz,
-        test.dofs - 1,
+        found.dofs,
         test.shapes,
         test.shape_sd,
         test.scale,
+        found.weights,
+        found.names,
     )
 
 

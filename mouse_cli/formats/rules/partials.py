@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mouse_cli.formats.draft import Draft
+from mouse_cli.formats.draft import Draft, Entries
 from mouse_cli.formats.rules.entries import MOST, finite, inside
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.structure import ListedElements
@@ -15,20 +15,21 @@ def elements(draft: Draft) -> ListedElements | None:
     listed = draft.elements
     if not inside(draft, listed, draft.order, draft.order, "listed element").all():
         return None
-    seen: dict[tuple[float, int, int], int] = {}
-    for i, (row, col, mass) in enumerate(zip(listed.rows, listed.cols, listed.values, strict=True)):
-        name = f"{'m' if mass else 'k'}({row},{col})"
-        if row > col:
-            draft.warn(
-                "MD305",
-                f"{name} is below the diagonal; it is taken as its mirror image",
-                listed.where(i),
-                help="list the upper triangle: row before column",
-            )
-        if seen.setdefault((mass, min(row, col), max(row, col)), i) != i:
-            draft.error("MD306", f"element {name} is listed twice", listed.where(i), help="list each element once")
     low, high = np.minimum(listed.rows, listed.cols), np.maximum(listed.rows, listed.cols)
+    for i in np.flatnonzero(listed.rows > listed.cols)[:MOST].tolist():
+        message = f"{_called(listed, i)} is below the diagonal; it is taken as its mirror image"
+        draft.warn("MD305", message, listed.where(i), help="list the upper triangle: row before column")
+    place = (listed.values * draft.order + low - 1) * draft.order + high - 1
+    _, first = np.unique(place, return_index=True)
+    for i in np.setdiff1d(np.arange(len(listed)), first)[:MOST].tolist():
+        message = f"element {_called(listed, i)} is listed twice"
+        draft.error("MD306", message, listed.where(i), help="list each element once")
     return ListedElements(listed.values > 0, low - 1, high - 1)
+
+
+def _called(listed: Entries, i: int) -> str:
+    """Name of listed element `i`, such as k(1,2)."""
+    return f"{'m' if listed.values[i] else 'k'}({listed.rows[i]},{listed.cols[i]})"
 
 
 def partials(draft: Draft) -> Matrix | None:
@@ -56,14 +57,17 @@ def partials(draft: Draft) -> Matrix | None:
 def _idle(draft: Draft) -> None:
     """Warn of elements that no property moves and of properties that move no element."""
     moving = draft.A.values != 0
-    for i in sorted(set(range(1, len(draft.elements) + 1)) - set(draft.A.rows[moving].tolist()))[:MOST]:
+    bound = [binding.parameter + 1 for binding in draft.mesh.bindings] if draft.mesh else []
+    moved = np.setdiff1d(np.arange(1, len(draft.elements) + 1), draft.A.rows[moving])
+    for i in moved[:MOST].tolist():
         draft.warn(
             "MD308",
             f"no property moves listed element {i}, ({draft.elements.rows[i - 1]},{draft.elements.cols[i - 1]})",
             draft.elements.where(i - 1),
             help="leave the element out of the list, or give its row of A",
         )
-    for j in sorted(set(range(1, len(draft.parameters) + 1)) - set(draft.A.cols[moving].tolist()))[:MOST]:
+    idle = np.setdiff1d(np.arange(1, len(draft.parameters) + 1), [*draft.A.cols[moving].tolist(), *bound])
+    for j in idle[:MOST].tolist():
         parameter = draft.parameters[j - 1]
         draft.warn(
             "MD309",

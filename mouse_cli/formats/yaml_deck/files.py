@@ -26,6 +26,14 @@ def read_below(document: Document, node: Node, what: str, read: Callable, **limi
         return None
 
 
+def read_kept(document: Document, node: Node, what: str, read: Callable, **limits: object):
+    """What `read` finds in the file of `{file: path}`, or of `{file: path, variable: name}`; None after an error."""
+    section = Section(document, node, "file", what)
+    if "variable" in section:
+        limits["variable"] = section.value("variable")
+    return read_below(document, section.nodes["file"], what, read, **limits) if "file" in section else None
+
+
 def named(document: Document, node: Node, what: str) -> Node | None:
     """The node of the path in `{file: path}`."""
     section = Section(document, node, "file", what)

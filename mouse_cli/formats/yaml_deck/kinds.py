@@ -3,10 +3,13 @@
 from dataclasses import dataclass
 from typing import Any
 
+from mouse_cli.model.geometry import DIRECTIONS
+
 VERSION = 1
 MAX_WHOLE = 2**31 - 1
 
 PERCENT = r"^\s*[0-9]*\.?[0-9]+([eE][-+]?[0-9]+)?\s*%\s*$"
+RANGE = r"^\s*(all|[0-9]+(\s*-\s*[0-9]+)?(\s*,\s*[0-9]+(\s*-\s*[0-9]+)?)*)\s*$"
 _NUMBER = {"type": "number"}
 _WHOLE = {"type": "integer"}
 _PERCENT = {"type": "string", "pattern": PERCENT}
@@ -30,6 +33,12 @@ class Kind:
 
 
 _FILE = {"$ref": "#/$defs/file"}
+_RANGE = {"anyOf": [_WHOLE, {"type": "string", "pattern": RANGE}]}
+_IDS = {"anyOf": [_RANGE, _list(_RANGE, minItems=1)]}
+_DIRECTIONS = _list({"enum": list(DIRECTIONS)}, minItems=1)
+_VECTOR = _list(_NUMBER, minItems=2, maxItems=3)
+_INLINE_NODES = {"type": "object", "minProperties": 1, "additionalProperties": _VECTOR}
+_POSITIONS = {"anyOf": [_INLINE_NODES, {"$ref": "#/$defs/node_block"}]}
 KINDS = {
     "text": Kind("text", _NAME),
     "flag": Kind("true or false", {"type": "boolean"}),
@@ -42,6 +51,14 @@ KINDS = {
     "wholes": Kind("a list of whole numbers", _list(_WHOLE)),
     "maybes": Kind("a list of numbers, null where not measured", _list(_MAYBE, minItems=1)),
     "dofs": Kind("a list of degrees of freedom, by number from 1 or by label", _list(_NAME)),
+    "sensor direction": Kind(
+        "TX, TY, TZ, RX, RY or RZ, with - before it when reversed, or [x, y, z]",
+        {"anyOf": [{"type": "string", "pattern": "^[-+]?[TR][XYZ]$"}, _list(_NUMBER, minItems=3, maxItems=3)]},
+    ),
+    "sensor weights": Kind(
+        "a mapping of degrees of freedom to numbers",
+        {"type": "object", "additionalProperties": _NUMBER, "minProperties": 1},
+    ),
     "square": Kind("a list of rows of numbers", _list(_list(_NUMBER, minItems=1), minItems=1)),
     "pairs": Kind("a list of [row, column]", _list(_list(_WHOLE, _WHOLE))),
     "triples": Kind("a list of [row, column, value]", _list(_list(_WHOLE, _WHOLE, _NUMBER))),
@@ -67,12 +84,34 @@ KINDS = {
         {"anyOf": [{"type": "boolean"}, {"$ref": "#/$defs/total_mass"}]},
     ),
     "path": Kind("the name of a file", {"type": "string", "minLength": 1}),
+    "word or words": Kind("a word or a list of words", {"anyOf": [_NAME, _list(_NAME)]}),
+    "direction": Kind("a list of TX, TY, TZ, RX, RY, RZ", _DIRECTIONS),
+    "ids": Kind("a number, a range such as 1-58, or a list of these", _IDS),
+    "chain": Kind(
+        "nodes as a range such as 1-59 or a list; or a list of the nodes of each element, [[1, 2], [2, 3]]",
+        {"anyOf": [_IDS, _list(_list(_WHOLE, minItems=1), minItems=1)]},
+    ),
+    "vector": Kind("[x, y, z], or [x, y] with z = 0", _VECTOR),
+    "two vectors": Kind("two vectors, [[x, y, z], [x, y, z]]", _list(_VECTOR, minItems=2, maxItems=2)),
+    "end vectors": Kind("{end: [x, y, z], ...}", {"type": "object", "additionalProperties": _VECTOR}),
+    "end directions": Kind("{end: directions, ...}", {"type": "object", "additionalProperties": _DIRECTIONS}),
+    "positions": Kind(
+        "{node: [x, y, z], ...}, {line: ...} or {file: ...}, or a list of these",
+        {"anyOf": [_POSITIONS, _list(_POSITIONS, minItems=1)]},
+    ),
+    "supports": Kind(
+        "{node: directions, ...}; nodes also as a range such as 1-5, or all",
+        {"type": "object", "additionalProperties": {"anyOf": [_DIRECTIONS, {"const": "all"}]}},
+    ),
+    "value or values": Kind(
+        "a number, or a list of one number for each element", {"anyOf": [_NUMBER, _list(_NUMBER, minItems=1)]}
+    ),
 }
 
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """One key: kind of value (of KINDS, `section NAME` or `list NAME`), meaning, default, unit, limits."""
+    """One key: kind of value (of KINDS, `section NAME`, `list NAME` or `map NAME`), meaning, default, unit, limits."""
 
     kind: str
     meaning: str
@@ -86,9 +125,14 @@ class Key:
 
 @dataclass(frozen=True, slots=True)
 class Section:
-    """A mapping: its keys; `forms`, sets of keys of which exactly one is given; `later`, keys to come."""
+    """A mapping: its keys; `forms`, sets of keys of which exactly one is given; `later`, keys to come.
+
+    needs: sets of keys of which at least one is given as a whole. variants: names of the sections that it may be, told by `type`.
+    """
 
     meaning: str
     keys: dict[str, Key]
     forms: tuple[tuple[str, ...], ...] = ()
     later: dict[str, str] | None = None
+    needs: tuple[tuple[str, ...], ...] = ()
+    variants: tuple[str, ...] = ()

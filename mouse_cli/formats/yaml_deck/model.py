@@ -6,36 +6,57 @@ import numpy as np
 
 from mouse_cli.formats import matrix_files
 from mouse_cli.formats.draft import Entries
+from mouse_cli.formats.mesh_draft import MeshDraft
 from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.files import read_below
+from mouse_cli.formats.yaml_deck.imported import Rows
 from mouse_cli.formats.yaml_deck.kinds import KINDS
 from mouse_cli.formats.yaml_deck.nodes import Document, Node
 from mouse_cli.formats.yaml_deck.sections import Section
+from mouse_cli.formats.yaml_deck.structure import structure
 from mouse_cli.model.arrays import Matrix
 
 
 @dataclass
 class Model:
-    """K and M as read (None: refused), their order and labels."""
+    """K, M, C and D as read (None: not given, or refused), their order (0: none is known) and labels; and the structure."""
 
-    K: Entries | Matrix | None
-    M: Entries | Matrix | None
-    order: int
     where_order: Node
+    matrices: dict[str, Entries | Matrix]
+    order: int = 0
     labels: tuple[str, ...] = ()
+    mesh: MeshDraft | None = None
+    rows: Rows | None = None
+
+
+_MATRICES = {"K": "stiffness", "M": "mass", "C": "damping", "D": "structural_damping"}
 
 
 def model(section: Section) -> Model:
-    """K and M, of one order."""
-    K, n, place = _matrix(section, "stiffness")
-    M, other, mass_place = _matrix(section, "mass")
-    if n and other and n != other:
-        message = f"model.mass has order {other}, but model.stiffness has order {n}"
-        section.document.error("MD220", mass_place, message, "give both matrices the same order")
-    return Model(K, M, n or other, place, _labels(section, n or other))
+    """The matrices, of one order, and the structure."""
+    found, order, first = {}, 0, section.node
+    rows = Rows(section)
+    for name, key in _MATRICES.items():
+        matrix, n, place = _matrix(section, key)
+        if isinstance(matrix, matrix_files.Contents):
+            if name == "K":
+                rows.first(matrix)
+            matrix, n = rows.aligned(matrix, place, f"model.{key}") or (None, 0)
+        if matrix is not None:
+            found[name] = matrix
+        if not order:
+            order, first, setter = n, place if n else first, key
+        elif n and n != order:
+            message = f"model.{key} has order {n}, but model.{setter} has order {order}"
+            section.document.error("MD220", place, message, "give all matrices the same order")
+    labels = _labels(section, order) or rows.labels
+    below = section.section("structure")
+    on = labels or tuple(str(i + 1) for i in range(order))
+    mesh = structure(below, on) if below else None
+    return Model(first, found, order, labels, mesh, rows)
 
 
-def _matrix(section: Section, key: str) -> tuple[Entries | Matrix | None, int, Node]:
+def _matrix(section: Section, key: str) -> tuple[Entries | matrix_files.Contents | None, int, Node]:
     """The matrix, its order (0: unknown) and the place that set it."""
     below = section.section(key)
     form = below.form() if below else None
@@ -113,9 +134,10 @@ def _symmetric(document: Document, node: Node, values: np.ndarray, what: str) ->
     return bool(close.all())
 
 
-def _file(section: Section, node: Node) -> tuple[Matrix, int] | None:
-    matrix = read_below(section.document, node, section.called, matrix_files.read_matrix)
-    return None if matrix is None else (matrix, matrix.shape[0])
+def _file(section: Section, node: Node) -> tuple[matrix_files.Contents, int] | None:
+    chosen = {"variable": section.value("variable")} if "variable" in section else {}
+    found = read_below(section.document, node, section.called, matrix_files.read_contents, **chosen)
+    return None if found is None else (found, found.matrix.shape[0])
 
 
 _FORMS = {"entries": _entries, "dense": _dense, "diagonal": _diagonal, "identity": _identity, "file": _file}

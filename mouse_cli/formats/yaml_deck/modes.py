@@ -6,26 +6,27 @@ import numpy as np
 
 from mouse_cli.formats import matrix_files
 from mouse_cli.formats.draft import TestDraft, nowhere
+from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.formats.yaml_deck import values as yaml_values
-from mouse_cli.formats.yaml_deck.files import named, read_below
+from mouse_cli.formats.yaml_deck.files import named, read_kept
 from mouse_cli.formats.yaml_deck.kinds import KINDS
-from mouse_cli.formats.yaml_deck.model import dofs as degrees_of_freedom
 from mouse_cli.formats.yaml_deck.sections import Section
+from mouse_cli.formats.yaml_deck.sensors import listed, sensors
 
 
-def modal_test(section: Section | None, labels: tuple[str, ...]) -> TestDraft | None:
+def modal_test(section: Section | None) -> TestDraft | None:
     """The measured modes; None when there are none, or after an error that leaves no list of frequencies."""
     if section is None:
         return None
     before, section.document.incomplete = section.document.incomplete, False  # gaps elsewhere are no gaps of the test
     try:
-        return _measured(section, labels)
+        return _measured(section)
     finally:
         section.document.incomplete |= before
 
 
-def _measured(section: Section, labels: tuple[str, ...]) -> TestDraft | None:
-    modes = section.section("modes")
+def _measured(section: Section) -> TestDraft | None:
+    named, modes = sensors(section), section.section("modes")
     frequency = modes.value("frequency") if modes else None
     if frequency is None:
         return None
@@ -36,7 +37,7 @@ def _measured(section: Section, labels: tuple[str, ...]) -> TestDraft | None:
         )
     sd = _frequency_sd(modes, frequency)
     number = modes.value("number", np.arange(1, m + 1))
-    dofs = degrees_of_freedom(modes.document, nodes["dofs"], modes.what("dofs"), labels) if "dofs" in modes else None
+    dofs = listed(modes.document, nodes["dofs"], modes.what("dofs"), named) if "dofs" in modes else named or None
     _matching(modes, "number", len(number), m)
     shapes, shape_sd = _shapes(modes, dofs, m)
     if modes.document.incomplete:
@@ -46,7 +47,7 @@ def _measured(section: Section, labels: tuple[str, ...]) -> TestDraft | None:
         number,
         frequency,
         sd,
-        np.zeros(0, int) if dofs is None else dofs,
+        np.zeros(len(dofs or ()), int),
         shapes.values,
         shape_sd.values,
         scale,
@@ -56,6 +57,7 @@ def _measured(section: Section, labels: tuple[str, ...]) -> TestDraft | None:
         _where_each(modes, "dofs"),
         shapes.where,
         shape_sd.where,
+        tuple(dofs or ()),
     )
 
 
@@ -108,7 +110,7 @@ class Grid:
         self.values, self.where = values, where
 
 
-def _shapes(modes: Section, dofs: np.ndarray | None, m: int) -> tuple[Grid, Grid]:
+def _shapes(modes: Section, dofs: list[SensorDraft] | None, m: int) -> tuple[Grid, Grid]:
     """Shapes and their standard deviations; without dofs none are possible."""
     nothing = Grid(np.zeros((0, m)))
     if dofs is None:
@@ -118,10 +120,9 @@ def _shapes(modes: Section, dofs: np.ndarray | None, m: int) -> tuple[Grid, Grid
                 modes.document.error("MD211", modes.nodes[key], message, "give dofs: where the shapes were measured")
         return nothing, nothing
     if len(dofs) and "shapes" not in modes:
-        message = f"{modes.called} gives dofs, but no shapes"
-        modes.document.error(
-            "MD211", modes.nodes["dofs"], message, "give shapes: one row for each of dofs; or delete dofs"
-        )
+        what = "dofs" if "dofs" in modes else "sensors"
+        message, place = f"{modes.called} gives {what}, but no shapes", modes.nodes.get("dofs", modes.node)
+        modes.document.error("MD211", place, message, f"give shapes: one row for each of {what}; or delete {what}")
     if not len(dofs) or "shapes" not in modes:
         return nothing, nothing
     shapes = _grid(modes, "shapes", len(dofs), m)
@@ -159,7 +160,7 @@ def _grid(modes: Section, key: str, s: int, m: int) -> Grid | None:
     document, node, what = modes.document, modes.nodes[key], modes.what(key)
     if yaml_values.is_mapping(node):
         path = named(document, node, what)
-        table = None if path is None else read_below(document, path, what, matrix_files.read_table)
+        table = None if path is None else read_kept(document, node, what, matrix_files.read_table)
         return None if table is None else _oriented(modes, key, Grid(table, lambda i, j: document.span(path)), s, m)
     found = yaml_values.rows(document, node, what, KINDS[modes.definition.keys[key].kind].words, missing=True)
     if found is None:

@@ -61,6 +61,10 @@ class Document:
         line = min(line, len(self.lines) - 1)
         return Span(self.path, line + 1, column + 1, width, self._line(line))
 
+    def written(self, node: Node) -> str:
+        """The value as it was written, for messages."""
+        return self.text[node.start_mark.index : node.end_mark.index][:60]
+
     def where(self, nodes: list[Node]) -> Where:
         """Places of the items of a list, made only when asked for."""
         return lambda i: self.span(nodes[i])

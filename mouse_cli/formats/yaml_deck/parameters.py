@@ -8,7 +8,9 @@ import numpy as np
 from mouse_cli.formats import matrix_files
 from mouse_cli.formats.draft import Entries
 from mouse_cli.formats.yaml_deck import values as yaml_values
-from mouse_cli.formats.yaml_deck.files import named, read_below
+from mouse_cli.formats.yaml_deck.bindings import Bound
+from mouse_cli.formats.yaml_deck.files import named, read_kept
+from mouse_cli.formats.yaml_deck.imported import Rows
 from mouse_cli.formats.yaml_deck.kinds import KINDS
 from mouse_cli.formats.yaml_deck.nodes import Document, Node
 from mouse_cli.formats.yaml_deck.sections import Section
@@ -27,9 +29,12 @@ def sections(deck: Section) -> list[Section]:
     return [Section(deck.document, item, "parameter", f"parameters[{i}]") for i, item in enumerate(nodes or [], 1)]
 
 
-def parameter(section: Section, variance: float | None) -> Parameter | None:
-    """One property; a `variance` from prior.covariance replaces its sd. None when it has no name or sd."""
-    name, nominal = section.value("name"), section.value("nominal", 0.0)
+def parameter(section: Section, variance: float | None, bound: Bound | None) -> Parameter | None:
+    """One property; a `variance` from prior.covariance replaces its sd. None when it has no name or sd.
+
+    bound: the elements whose property it is, which then say its nominal value and unit.
+    """
+    name, nominal = section.value("name"), section.value("nominal", bound.nominal if bound else 0.0)
     sd = _sd(section, nominal, variance)
     if name is None or sd is None:
         return None
@@ -37,7 +42,7 @@ def parameter(section: Section, variance: float | None) -> Parameter | None:
         name,
         sd,
         nominal,
-        section.value("unit", ""),
+        section.value("unit", bound.unit if bound else ""),
         section.value("lower", -inf),
         section.value("upper", inf),
         section.value("transform", "identity"),
@@ -74,10 +79,10 @@ def fraction_of(document: Document, node: Node, what: str, whole: float, zero: s
     return percent * whole / 100
 
 
-def moves(deck: Section, parameters: list[Section], order: int) -> tuple[Entries, Entries]:
+def moves(deck: Section, parameters: list[Section], order: int, rows: Rows | None) -> tuple[Entries, Entries]:
     """The listed elements (value 0: stiffness, 1: mass) and A: (listed element, parameter, partial)."""
     listing = deck.section("elements")
-    groups = [_moved(parameters, key, order) for key in _KEYS]
+    groups = [_moved(parameters, key, order, rows) for key in _KEYS]
     lists = [_listed(deck.document, listing, key, group) for key, (group, _) in zip(_KEYS, groups, strict=True)]
     offset = len(lists[0][0])
     A = joined(
@@ -107,33 +112,34 @@ def joined(parts: list[Entries]) -> Entries:
     return Entries(gather("rows", int), gather("cols", int), gather("values", float), where)
 
 
-def _moved(parameters: list[Section], key: str, order: int) -> tuple[Entries, np.ndarray]:
+def _moved(parameters: list[Section], key: str, order: int, rows: Rows | None) -> tuple[Entries, np.ndarray]:
     """What all parameters move in one matrix, and which of them (from 0) moves it."""
-    parts = [_group(section, key, order) for section in parameters]
+    parts = [_group(section, key, order, rows) for section in parameters]
     owner = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
     return joined(parts), owner
 
 
-def _group(section: Section, key: str, order: int) -> Entries:
+def _group(section: Section, key: str, order: int, rows: Rows | None) -> Entries:
     """dK or dM of one parameter; no entries when there are none, or after an error."""
     node = section.nodes.get(key)
     found = None
     if node is not None and yaml_values.is_mapping(node):
-        found = _group_file(section, node, key, order)
+        found = _group_file(section, node, key, order, rows)
     elif node is not None:
         found = yaml_values.entries(section.document, node, section.what(key), KINDS["triples or file"].words)
     return found or Entries(np.zeros(0, int), np.zeros(0, int), np.zeros(0))
 
 
-def _group_file(section: Section, node: Node, key: str, order: int) -> Entries | None:
+def _group_file(section: Section, node: Node, key: str, order: int, rows: Rows | None) -> Entries | None:
     path = named(section.document, node, section.what(key))
     if path is None:
         return None
     limits = {"order": order} if order else {}
-    matrix = read_below(section.document, path, section.what(key), matrix_files.read_matrix, **limits)
-    if matrix is None:
+    contents = read_kept(section.document, node, section.what(key), matrix_files.read_contents, **limits)
+    aligned = rows.aligned(contents, path, section.what(key)) if contents is not None and rows else None
+    if aligned is None:
         return None
-    row, col, value = upper_triangle(matrix)
+    row, col, value = upper_triangle(aligned[0])
     return Entries(row + 1, col + 1, value, lambda _: section.document.span(path))
 
 

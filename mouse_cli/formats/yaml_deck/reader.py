@@ -3,7 +3,9 @@
 import numpy as np
 
 from mouse_cli.formats.draft import Draft
+from mouse_cli.formats.mesh_draft import MeshDraft
 from mouse_cli.formats.rules import review
+from mouse_cli.formats.yaml_deck import bindings
 from mouse_cli.formats.yaml_deck import parameters as yaml_parameters
 from mouse_cli.formats.yaml_deck import prior as yaml_prior
 from mouse_cli.formats.yaml_deck.model import Model, model
@@ -34,18 +36,22 @@ def _draft(deck: Section) -> Draft:
     """All sections are read, so that all errors are found; what could not be read is missing."""
     document = deck.document
     below = deck.section("model")
-    matrices = model(below) if below else Model(None, None, 0, deck.node)
-    parameters, covariance, properties = _properties(deck)
-    elements, A = yaml_parameters.moves(deck, properties, matrices.order)
-    test = modal_test(deck.section("test"), matrices.labels)
-    run, where = run_options(deck.section("run"), matrices.labels)
+    matrices = model(below) if below else Model(deck.node, {})
+    parameters, covariance, properties = _properties(deck, matrices.mesh)
+    elements, A = yaml_parameters.moves(deck, properties, matrices.order, matrices.rows)
+    test = modal_test(deck.section("test"))
+    run, where = run_options(deck.section("run"))
     title = deck.value("title", "")
     deck.value("source")
     return Draft(
         title=title,
         order=matrices.order,
-        K=matrices.K,
-        M=matrices.M,
+        K=matrices.matrices.get("K"),
+        M=matrices.matrices.get("M"),
+        C=matrices.matrices.get("C"),
+        D=matrices.matrices.get("D"),
+        mesh=matrices.mesh,
+        geometry=matrices.rows.geometry() if matrices.rows else None,
         elements=elements,
         A=A,
         parameters=parameters,
@@ -61,16 +67,19 @@ def _draft(deck: Section) -> Draft:
     )
 
 
-def _properties(deck: Section) -> tuple[list[Parameter], np.ndarray | None, list[Section]]:
-    """The parameters, their covariance when they are correlated, and their sections."""
+def _properties(deck: Section, mesh: MeshDraft | None) -> tuple[list[Parameter], np.ndarray | None, list[Section]]:
+    """The parameters, their covariance when they are correlated, and their sections; those of elements are bound to `mesh`."""
     sections = yaml_parameters.sections(deck)
+    bound = [bindings.bound(section, i, mesh) for i, section in enumerate(sections)]
+    if mesh is not None:
+        mesh.bindings = [binding for each in bound if each is not None for binding in each.bindings]
     prior = deck.section("prior")
     form = prior.form() if prior else None
     covariance = yaml_prior.covariance(prior, form, len(sections))
     variances = [None] * len(sections) if covariance is None else np.diag(covariance).tolist()
     if covariance is None and form == "covariance":
         variances = [1.0] * len(sections)  # the matrix was refused: a missing sd is no second error
-    found = [yaml_parameters.parameter(*pair) for pair in zip(sections, variances, strict=True)]
+    found = [yaml_parameters.parameter(*each) for each in zip(sections, variances, bound, strict=True)]
     parameters = [parameter for parameter in found if parameter is not None]
     if len(parameters) == len(sections) and form != "covariance":
         names, sd = [p.name for p in parameters], np.array([p.sd for p in parameters])

@@ -29,10 +29,18 @@ _NUMBERS = (
 
 
 def _section(section: Section) -> dict[str, Any]:
+    if section.variants:
+        return {"description": section.meaning, "anyOf": [{"$ref": f"#/$defs/{name}"} for name in section.variants]}
     if not section.forms:
-        return _object(section.meaning, section.keys, [key for key in section.keys if section.keys[key].required])
+        found = _object(section.meaning, section.keys, [key for key in section.keys if section.keys[key].required])
+        return {**found, "anyOf": [_given(keys) for keys in section.needs]} if section.needs else found
     forms = [_object("", {key: section.keys[key] for key in form}, list(form)) for form in section.forms]
     return {"description": section.meaning, "oneOf": forms}
+
+
+def _given(keys: tuple[str, ...]) -> dict[str, Any]:
+    """All of `keys` are there, with a value."""
+    return {"required": list(keys), "properties": {key: {"not": {"type": "null"}} for key in keys}}
 
 
 def _object(meaning: str, keys: dict[str, Key], required: list[str]) -> dict[str, Any]:
@@ -64,14 +72,22 @@ def _kind(key: Key) -> dict[str, Any]:
         return {"$ref": f"#/$defs/{name}"}
     if kind == "list":
         return {"type": "array", "items": {"$ref": f"#/$defs/{name}"}}
+    if kind == "map":
+        return {"type": "object", "additionalProperties": {"$ref": f"#/$defs/{name}"}}
     return {"enum": list(key.choices)} if key.choices else KINDS[key.kind].schema
 
 
 def _table(name: str, section: Section) -> str:
+    if section.variants:
+        links = ", ".join(f"[{variant}](#{variant})" for variant in section.variants)
+        return "\n".join([f"## {name}", "", f"{section.meaning} {links}.", ""])
     rows = [_row(key, definition) for key, definition in section.keys.items()]
     head = ["| key | value | default | unit | meaning |", "|---|---|---|---|---|"]
     forms = " or ".join("`" + "` with `".join(form) + "`" for form in section.forms)
     rule = [f"Exactly one of: {forms}.", ""] if forms else []
+    if section.needs:
+        needs = " or ".join("`" + "` with `".join(keys) + "`" for keys in section.needs)
+        rule = [f"At least one of: {needs}.", ""]
     return "\n".join([f"## {name}", "", section.meaning, "", *rule, *head, *rows, ""])
 
 
@@ -80,11 +96,13 @@ def _row(name: str, key: Key) -> str:
     return f"| `{name}` | {_words(key)} | {default} | {key.unit} | {key.meaning} |"
 
 
+_LINKED = {"section": "{}", "list": "a list of {}", "map": "{{name: {}, ...}}"}
+
+
 def _words(key: Key) -> str:
     kind, _, name = key.kind.partition(" ")
-    if kind in ("section", "list"):
-        link = f"[{name}](#{name})"
-        return link if kind == "section" else f"a list of {link}"
+    if kind in _LINKED:
+        return _LINKED[kind].format(f"[{name}](#{name})")
     if key.choices:
         return ", ".join(f"`{choice}`" for choice in key.choices)
     return KINDS[key.kind].words

@@ -3,25 +3,26 @@
 from mouse_cli._span import Span
 from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.kinds import KINDS
-from mouse_cli.formats.yaml_deck.model import dofs
+from mouse_cli.formats.yaml_deck.nodes import Node
 from mouse_cli.formats.yaml_deck.sections import Section
 from mouse_cli.model.problem import RunOptions
 
 
-def run_options(section: Section | None, labels: tuple[str, ...]) -> tuple[RunOptions, dict[str, Span]]:
+def run_options(section: Section | None) -> tuple[RunOptions, dict[str, Span]]:
     """The options, and the place of each key that is given."""
     if section is None:
         return RunOptions(), {}
     simple = {key: section.value(key) for key in section.nodes if key != "fix_total_mass"}
     given = {key: value for key, value in simple.items() if value is not None}
-    return RunOptions(**given, **_total_mass(section, labels)), _where(section)
+    return RunOptions(**given, **_total_mass(section)), _where(section)
 
 
 def _where(section: Section) -> dict[str, Span]:
     return {key: section.document.span(node) for key, node in section.nodes.items()}
 
 
-def _total_mass(section: Section, labels: tuple[str, ...]) -> dict[str, object]:
+def _total_mass(section: Section) -> dict[str, object]:
+    """Degrees of freedom by number, or by label: which of the model's that is, only its rules can tell."""
     node = section.nodes.get("fix_total_mass")
     if node is None:
         return {}
@@ -30,6 +31,19 @@ def _total_mass(section: Section, labels: tuple[str, ...]) -> dict[str, object]:
         fixed = yaml_values.flag(section.document, node, what, KINDS["flag or dofs"].words)
         return {"fix_total_mass": bool(fixed)}
     below = Section(section.document, node, "total_mass", what)
-    found = dofs(section.document, below.nodes["dofs"], below.what("dofs"), labels) if "dofs" in below else None
-    numbers = () if found is None else tuple(int(dof) - 1 for dof in found)
+    nodes = (
+        yaml_values.items(section.document, below.nodes["dofs"], below.what("dofs"), "") if "dofs" in below else None
+    )
+    found = [_dof(section, item, below.what("dofs")) for item in nodes or []]
+    numbers = () if None in found else tuple(found)
     return {"fix_total_mass": True, "total_mass_dofs": numbers}
+
+
+def _dof(section: Section, node: Node, what: str) -> int | str | None:
+    """A number, from 0, or a label."""
+    if yaml_values.as_number(node) is not None:
+        number = yaml_values.whole(section.document, node, f"a number in {what}")
+        return None if number is None else number - 1
+    return yaml_values.text(
+        section.document, node, f"a value in {what}", "the number or the label of a degree of freedom"
+    )

@@ -25,9 +25,10 @@ def _reached(name: str, sections: dict[str, Section]) -> Iterator[str]:
     """`name` and the sections below it, in the order in which a deck is written."""
     yield name
     for key in sections[name].keys.values():
-        below = key.kind.removeprefix("section ").removeprefix("list ")
+        below = key.kind.removeprefix("section ").removeprefix("list ").removeprefix("map ")
         if below in sections and below != key.kind:
             yield from _reached(below, sections)
+    yield from sections[name].variants
 
 
 SECTIONS = _sections()

@@ -52,11 +52,31 @@ class Section:
         kind = self.definition.keys[key].kind.removeprefix("section ")
         return None if node is None else Section(self.document, node, kind, self.what(key))
 
+    def named(self, key: str) -> "dict[str, Section]":
+        """The sections below a key that maps names to sections; empty when it is not given."""
+        node = self.nodes.get(key)
+        what, kind = self.what(key), self.definition.keys[key].kind.removeprefix("map ")
+        if node is None:
+            return {}
+        if not yaml_values.is_mapping(node):
+            yaml_values.mistyped(self.document, node, what, "a mapping of names")
+            return {}
+        found: dict[str, Section] = {}
+        for name, value in node.value:
+            if name.value in found:
+                self.document.error("MD207", name, f"{what} names '{name.value}' twice", "delete one of the two")
+            elif yaml_values.text(self.document, name, f"a name in {what}") is not None:
+                found[name.value] = Section(self.document, value, kind, f"{what}.{name.value}")
+        return found
+
     def form(self) -> str | None:
         """The last key of the one form that was given; None after an error."""
         forms = self.definition.forms
         given = [form for form in forms if any(key in self for key in form)]
         used = {key for form in given for key in form}
+        exact = [form for form in given if set(form) == set(self.nodes)]
+        if exact:
+            return exact[0][-1]
         if len(given) == 1:
             absent = [key for key in given[0] if key not in self]
             for key in absent:
@@ -98,6 +118,12 @@ class Section:
         for key, definition in self.definition.keys.items():
             if definition.required and key not in self:
                 self._missing(key)
+        needs = self.definition.needs
+        if needs and not any(all(key in self for key in keys) for keys in needs):
+            begun = next((keys for keys in needs if any(key in self for key in keys)), needs[0])
+            for key in begun:
+                if key not in self:
+                    self._missing(key)
 
     def _missing(self, key: str) -> None:
         place = next((k for k, _ in self.node.value if k.value == key), self.node)

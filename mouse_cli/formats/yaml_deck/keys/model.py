@@ -3,31 +3,50 @@
 from mouse_cli.formats.matrix_files import MAX_ORDER
 from mouse_cli.formats.yaml_deck.kinds import Key, Section
 
-_NO_STRUCTURE = "this release reads bare matrices: give model: {stiffness: ..., mass: ...}"
+_FILES = "matrix file (.mtx, .npz, .csv, .op4, .pch, .sti, .mas, .hb, .mat, .h5 and others)"
+_VARIABLE = Key("text", "which matrix of a file that holds several: its name, or its path with /", "the only one")
 SECTIONS = {
     "model": Section(
-        "The baseline: symmetric K and M at the nominal values of the parameters.",
+        "The baseline: symmetric K and M at the nominal values of the parameters, or a structure that makes them, or "
+        "a structure that is attached to matrices.",
         {
-            "stiffness": Key("section matrix", "K", unit="N/m", required=True),
-            "mass": Key("section matrix", "M", unit="kg", required=True),
+            "structure": Key("section structure", "nodes and elements"),
+            "stiffness": Key("section matrix", "K", unit="N/m"),
+            "mass": Key("section matrix", "M", unit="kg"),
+            "damping": Key("section matrix", "C, viscous damping", "none", "N s/m"),
+            "structural_damping": Key("section matrix", "D, imaginary part of K", "none", "N/m"),
             "labels": Key("texts", "names of the degrees of freedom", "1, 2, ..."),
+            "dofs": Key(
+                "section file",
+                "node and direction of each row: .dof (CalculiX), .mapping (ANSYS), .csv",
+                "as files name them",
+            ),
+            "nodes": Key(
+                "section file", "where the nodes of these are: .unv, .inp, .bdf, .csv (number, x, y, z)", "none"
+            ),
         },
-        later={"structure": _NO_STRUCTURE, "damping": _NO_STRUCTURE},
+        needs=(("stiffness", "mass"), ("structure",)),
     ),
     "matrix": Section(
-        "A symmetric matrix, in one of five forms.",
+        "A symmetric matrix, in one of these forms.",
         {
             "order": Key("whole", "number of rows", low=1, high=MAX_ORDER),
             "entries": Key("triples", "diagonal and upper triangle as [row, column, value], from 1; the rest is 0"),
             "dense": Key("square", "all rows"),
             "diagonal": Key("numbers", "the diagonal; the rest is 0"),
             "identity": Key("whole", "order of a unit matrix", low=1, high=MAX_ORDER),
-            "file": Key("path", "matrix file (.mtx, .npz, .csv) below the folder of the deck"),
+            "variable": _VARIABLE,
+            "file": Key("path", f"{_FILES} below the folder of the deck"),
         },
-        forms=(("order", "entries"), ("dense",), ("diagonal",), ("identity",), ("file",)),
+        forms=(("order", "entries"), ("dense",), ("diagonal",), ("identity",), ("file",), ("variable", "file")),
     ),
     "file": Section(
         "Values kept in a file.",
-        {"file": Key("path", "matrix file (.mtx, .npz, .csv) below the folder of the deck", required=True)},
+        {
+            "file": Key(
+                "path", f"{_FILES}, or of the kind that the key says, below the folder of the deck", required=True
+            ),
+            "variable": _VARIABLE,
+        },
     ),
 }

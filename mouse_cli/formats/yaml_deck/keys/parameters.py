@@ -3,7 +3,6 @@
 from mouse_cli.formats.yaml_deck.kinds import Key, Section
 from mouse_cli.model.parameter import TRANSFORMS
 
-_NO_STRUCTURE = "this release reads bare matrices: give model: {stiffness: ..., mass: ...}"
 SECTIONS = {
     "elements": Section(
         "Order of the varying elements, in which their partial derivatives are printed; default: as the "
@@ -14,10 +13,11 @@ SECTIONS = {
         },
     ),
     "parameter": Section(
-        "One property of the structure: K = K0 + (value - nominal) x its stiffness, and M likewise.",
+        "One property of the structure: a property of elements, such as E; or a matrix, with "
+        "K = K0 + (value - nominal) x its stiffness, and M likewise.",
         {
             "name": Key("text", "what the printout calls it", required=True),
-            "nominal": Key("number", "value before the test", "0: the parameter is a change"),
+            "nominal": Key("number", "value before the test", "that of its elements, 1 for a factor; else 0, a change"),
             "unit": Key("text", "unit of the value", "empty"),
             "sd": Key(
                 "sd",
@@ -29,8 +29,12 @@ SECTIONS = {
             "transform": Key("choice", "log keeps the value positive", "identity", choices=TRANSFORMS),
             "stiffness": Key("triples or file", "dK/d(parameter): [row, column, value], upper triangle", "[]"),
             "mass": Key("triples or file", "dM/d(parameter): [row, column, value], upper triangle", "[]"),
+            "elements": Key("ids", "the elements of a structure whose property it is; or all"),
+            "material": Key("text", "instead: the material whose property it is, wherever elements take it from there"),
+            "section": Key("text", "instead: the cross section whose property it is"),
+            "property": Key("word or words", "property, such as E; several move together as a factor of each"),
+            "factor": Key("flag", "it multiplies what the elements have", "false, unless the elements differ"),
         },
-        later={"elements": _NO_STRUCTURE, "property": _NO_STRUCTURE},
     ),
     "prior": Section(
         "Correlation of the parameters before the test, in one of three forms.",

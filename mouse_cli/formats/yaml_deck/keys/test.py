@@ -7,11 +7,31 @@ _MODES_ONLY = "this release reads measured modes: give test: {modes: ...}"
 SECTIONS = {
     "test": Section(
         "What was measured.",
-        {"modes": Key("section modes", "natural frequencies and mode shapes", required=True)},
+        {
+            "sensors": Key("list sensor", "sensors that are no plain degrees of freedom", "none"),
+            "modes": Key("section modes", "natural frequencies and mode shapes", required=True),
+        },
         later={"frf": _MODES_ONLY, "recordings": _MODES_ONLY, "hold_out": _MODES_ONLY},
     ),
+    "sensor": Section(
+        "A sensor with a name of its own, in one of three forms; on a matrix model only the last.",
+        {
+            "name": Key("text", "what `dofs` and the printout call it", required=True),
+            "node": Key("whole", "node on which it is mounted"),
+            "at": Key(
+                "numbers", "point [x, y, z] at which it is mounted, between nodes or beside an element", unit="m"
+            ),
+            "direction": Key(
+                "sensor direction", "what it reads as positive: TX, -TY, RZ, ..., or a vector [x, y, z] of any length"
+            ),
+            "weights": Key(
+                "sensor weights", "degrees of freedom and their shares in the reading: {5TY: 0.5, 6TY: 0.5}"
+            ),
+        },
+        forms=(("name", "node", "direction"), ("name", "at", "direction"), ("name", "weights")),
+    ),
     "modes": Section(
-        "m measured modes at s degrees of freedom.",
+        "m measured modes at s sensors.",
         {
             "number": Key("wholes", "system mode number of each measured mode, rigid-body modes counted", "1 to m"),
             "frequency": Key("maybes", "natural frequencies, null where not measured", unit="Hz", required=True),
@@ -21,7 +41,11 @@ SECTIONS = {
                 unit="Hz",
                 default="required where a frequency is given",
             ),
-            "dofs": Key("dofs", "degrees of freedom of the sensors", "none: frequencies only"),
+            "dofs": Key(
+                "dofs",
+                "where shapes were measured: numbers, labels, reversed labels such as 12-TY, names of sensors",
+                "all of `sensors`; without sensors none: frequencies only",
+            ),
             "shapes": Key("grid", "mode shapes: one row for each of dofs, one column for each mode", "none"),
             "shape_sd": Key(
                 "sd grid",

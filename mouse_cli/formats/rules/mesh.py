@@ -1,0 +1,66 @@
+"""Rules for structures: nodes, elements with their properties, and the parameters that are bound to these."""
+
+import numpy as np
+
+from mouse_cli._span import Span
+from mouse_cli.formats.draft import Draft
+from mouse_cli.formats.mesh_draft import MeshDraft
+from mouse_cli.formats.rules.entries import MOST
+from mouse_cli.model.mesh import ElementSet
+from mouse_cli.terms.elements import registry
+
+
+def mesh(draft: Draft) -> None:
+    """Everything that can be told before a model is made of it."""
+    given = draft.mesh
+    if given is None:
+        return
+    for i in np.flatnonzero(~np.isfinite(given.mesh.coordinates).all(axis=1))[:MOST]:
+        number = given.mesh.node_ids[i]
+        draft.error(
+            "MD302",
+            f"a coordinate of node {number} is not finite",
+            given.node_place(int(i)),
+            help="give a finite number",
+        )
+    for s, members in enumerate(given.mesh.elements):
+        _values(draft, given, s, members)
+    _bound_once(draft, given)
+
+
+def _values(draft: Draft, given: MeshDraft, s: int, members: ElementSet) -> None:
+    """Properties are finite, and positive where they must be."""
+    about = registry()[members.type].properties
+    for name, values in members.properties.items():
+        needed, unit = "finite", about[name].unit
+        wrong = ~np.isfinite(values)
+        if about[name].positive:
+            needed, wrong = "positive", wrong | ~(values > 0)
+        source = members.origin.get(name)
+        for i in np.flatnonzero(wrong)[: 1 if source else MOST]:
+            held = f" (from {source})" if source else ""
+            message = f"{name} of element {members.ids[i]} is {values[i]:.8g} {unit}{held}; it must be {needed}"
+            draft.error("MD425", message, given.element_place(s, int(i)), help=f"give a {needed} number")
+
+
+def _bound_once(draft: Draft, given: MeshDraft) -> None:
+    """A property of an element is the value of one parameter; only factors may come on top of one another."""
+    owner: dict[tuple[int, str], np.ndarray] = {}
+    for binding in given.bindings:
+        if binding.factor:
+            continue
+        members = given.mesh.elements[binding.set]
+        taken = owner.setdefault((binding.set, binding.property), np.full(len(members), -1))
+        twice = binding.members[(taken[binding.members] >= 0) & (taken[binding.members] != binding.parameter)]
+        if len(twice):
+            names = [p.name for p in draft.parameters]
+            first, second = names[taken[twice[0]]], names[binding.parameter]
+            message = f"{binding.property} of element {members.ids[twice[0]]} is the value of two parameters, {first} and {second}"
+            place = draft.parameters[binding.parameter].span
+            draft.error("MD415", message, place, help="give the element to one of them, or make one a factor: true")
+        taken[binding.members] = binding.parameter
+
+
+def fault_place(given: MeshDraft, nodes: tuple[int, ...], elements: tuple[int, ...]) -> Span:
+    """Where the first element or node stands that a fault of the mesh names."""
+    return given.of_element(elements[0]) if elements else given.of_node(nodes[0]) if nodes else given.span

@@ -1,0 +1,142 @@
+"""The `model: structure:` of a YAML deck: nodes, elements, supports and rigid links."""
+
+from collections.abc import Callable
+from itertools import chain
+
+import numpy as np
+
+from mouse_cli._span import Span
+from mouse_cli.formats.mesh_draft import MeshDraft
+from mouse_cli.formats.yaml_deck import values as yaml_values
+from mouse_cli.formats.yaml_deck.ids import ids as read_ids
+from mouse_cli.formats.yaml_deck.keys.structure import PLANES
+from mouse_cli.formats.yaml_deck.kinds import KINDS
+from mouse_cli.formats.yaml_deck.mesh_elements import Context, elements
+from mouse_cli.formats.yaml_deck.mesh_nodes import Nodes, nodes, vector
+from mouse_cli.formats.yaml_deck.mesh_options import directions
+from mouse_cli.formats.yaml_deck.mesh_properties import cross_sections, materials
+from mouse_cli.formats.yaml_deck.nodes import Node
+from mouse_cli.formats.yaml_deck.sections import Section
+from mouse_cli.model.geometry import DIRECTIONS
+from mouse_cli.model.mesh import Mesh, RigidLink
+
+_ALL = tuple(range(len(DIRECTIONS)))
+
+
+def structure(section: Section, labels: tuple[str, ...]) -> MeshDraft | None:
+    """The mesh; None when nothing could be read of its elements.
+
+    labels: the degrees of freedom of the matrices beside it; without nodes of its own, the structure stands on them.
+    """
+    document, where = section.document, section.document.span(section.node)
+    on_matrices = "nodes" not in section
+    found = _on_dofs(section, labels) if on_matrices else nodes(document, section.nodes["nodes"], section.what("nodes"))
+    if "elements" not in section or found is None:
+        return None
+    context = Context(found.ids, labels if on_matrices else (), materials(section), cross_sections(section))
+    made = elements(section, context)
+    links, places = _links(section, found.ids)
+    mesh = Mesh(
+        found.ids,
+        found.coordinates,
+        tuple(made.sets),
+        _supports(section, found.ids),
+        tuple(links),
+        (0,) if on_matrices else _directions(section),
+        _gravity(section),
+    )
+    return MeshDraft(
+        mesh,
+        where,
+        found.where,
+        lambda s, i: made.where[s](i),
+        lambda i: places[i],
+        labels=labels if on_matrices else (),
+    )
+
+
+def _on_dofs(section: Section, labels: tuple[str, ...]) -> Nodes | None:
+    """The degrees of freedom of a matrix model as nodes that move in one direction."""
+    place = section.document.span(section.node)
+    if not labels:
+        message = (
+            "model.structure has no nodes, and there are no matrices whose degrees of freedom could serve as nodes"
+        )
+        return section.document.error("MD211", section.node, message, "give nodes: {1: [x, y, z], ...}")
+    return Nodes(np.arange(1, len(labels) + 1), np.zeros((len(labels), 3)), lambda _: place)
+
+
+def _directions(section: Section) -> tuple[int, ...]:
+    plane, given = section.value("plane"), section.nodes.get("directions")
+    if plane is not None and given is not None:
+        message = "model.structure gives plane and directions"
+        section.document.error("MD217", given, message, "give one of the two")
+    if given is not None:
+        found = directions(section.document, given, section.what("directions"))
+        return tuple(sorted(set(found))) if found else _ALL
+    return tuple(DIRECTIONS.index(name) for name in PLANES[plane]) if plane else _ALL
+
+
+def _gravity(section: Section) -> np.ndarray | None:
+    node = section.nodes.get("gravity")
+    return None if node is None else vector(section.document, node, section.what("gravity"))
+
+
+def _supports(section: Section, known: np.ndarray) -> np.ndarray:
+    """(node index, direction) of each that is held, each once."""
+    node, what = section.nodes.get("supports"), section.what("supports")
+    if node is None:
+        return np.zeros((0, 2), int)
+    if not yaml_values.is_mapping(node):
+        yaml_values.mistyped(section.document, node, what, KINDS["supports"].words)
+        return np.zeros((0, 2), int)
+    held: list[np.ndarray] = []
+    for key, value in node.value:
+        places = _places(section, key, what, known)
+        every = yaml_values.is_scalar(value) and value.value == "all"
+        along = _ALL if every else directions(section.document, value, f"{what}.{key.value}")
+        if places is not None and along is not None:
+            held.append(np.column_stack([np.repeat(places, len(along)), np.tile(along, len(places))]))
+    return np.unique(np.concatenate(held), axis=0) if held else np.zeros((0, 2), int)
+
+
+def _places(section: Section, node: Node, what: str, known: np.ndarray) -> np.ndarray | None:
+    """Indices of the nodes that a text such as `1-5` or `all` names; MD401 for those that are not there."""
+    numbers = read_ids(section.document, node, f"a node in {what}", known)
+    if numbers is None:
+        return None
+    sorter = np.argsort(known, kind="stable")
+    place = np.minimum(np.searchsorted(known, numbers, sorter=sorter), max(len(known) - 1, 0))
+    absent = numbers if not len(known) else numbers[known[sorter[place]] != numbers]
+    for number in absent[:20] if len(known) else ():
+        message = f"{what} names node {number}, which is not among the nodes"
+        section.document.error("MD401", node, message, "give the number of a node")
+    return None if len(absent) else sorter[place]
+
+
+def _links(section: Section, known: np.ndarray) -> tuple[list[RigidLink], list[Span]]:
+    node, what = section.nodes.get("rigid_links"), section.what("rigid_links")
+    items = [] if node is None else yaml_values.items(section.document, node, what, "a list, one item for each link")
+    found = [
+        _link(Section(section.document, item, "rigid_link", f"{what}[{i}]"), known)
+        for i, item in enumerate(items or [], 1)
+    ]
+    places: Callable = lambda part: [section.document.span(part[0])] * len(part[1])
+    parts = list(zip(items or [], found, strict=True))
+    return list(chain(*found)), list(chain(*map(places, parts)))
+
+
+def _link(section: Section, known: np.ndarray) -> list[RigidLink]:
+    if "independent" not in section or "dependent" not in section:
+        return []
+    leads = _places(section, section.nodes["independent"], section.what("independent"), known)
+    follow = _places(section, section.nodes["dependent"], section.what("dependent"), known)
+    given = section.nodes.get("directions")
+    along = _ALL if given is None else directions(section.document, given, section.what("directions"))
+    if leads is None or follow is None or along is None:
+        return []
+    if len(leads) != 1 or leads[0] in follow:
+        message = f"{section.called} has node {section.nodes['independent'].value} follow itself"
+        section.document.error("MD416", section.node, message, "name another node as the independent one")
+        return []
+    return [RigidLink(int(leads[0]), int(i), along) for i in follow]
