@@ -6,6 +6,7 @@ from mouse_cli.model.term import Places, Slopes
 from mouse_cli.terms.constraints import Motion
 from mouse_cli.terms.element_matrices import ElementMatrices, ranges
 
+_ROUNDING = 1e-13  # relative change of an entry with a property that counts as none
 _SAME = 1e-8  # relative difference of derivatives at two values of the parameters that still counts as linear
 
 
@@ -45,10 +46,14 @@ class ElementTerm:
         probe, count = self._matrices.probe, len(self._matrices.elements)
         self._rules: list[tuple[str, str, np.ndarray, np.ndarray]] = []
         columns: dict[str, list[np.ndarray]] = {}
+        at_probe, properties = self._direct(probe), self._bound.at(probe)[0]
+        size = np.zeros(count)
         for property in self._bound.names:
             members, parameter, _ = self._bound.partials(probe, property)
             for name, entries in self._matrices.derivatives(probe, property).items():
-                standing = np.flatnonzero(self._spread(entries)).astype(np.int32)
+                size[self._bound.members] = np.abs(properties[property])
+                change = np.abs(self._spread(entries)) * size[self._element]
+                standing = np.flatnonzero(change > _ROUNDING * np.abs(at_probe[name])).astype(np.int32)
                 first = np.searchsorted(self._element[standing], np.arange(count + 1))
                 counts = first[members + 1] - first[members]
                 if counts.any():

@@ -276,7 +276,7 @@ def test_springs_and_dashpots_act_direction_by_direction():
     assembly = Assembly(model.structure, model.terms, 0)
     K, C = assembly.matrices(np.zeros(0))[0], assembly.damping(np.zeros(0))[0]
     assert model.structure.labels == ("2TX", "2TY", "2RZ")
-    assert K == pytest.approx(np.array([[2.5, 1.5, 0], [1.5, 2.5, 0], [0, 0, 7.0]]))
+    assert pytest.approx(np.array([[2.5, 1.5, 0], [1.5, 2.5, 0], [0, 0, 7.0]])) == K
     assert C.tolist() == [[0.5, 0, 0], [0, 0, 0], [0, 0, 0]]
 
 
@@ -299,8 +299,8 @@ def test_damping_of_one_degree_of_freedom():
     )
     given = mesh([[0, 0, 0], [2, 0, 0]], [rod], [(0, (0,))], directions=(0,))
     C, D = damping(given)
-    assert C == pytest.approx(np.array([[3e-5 * k + 0.7 * m]]))
-    assert D == pytest.approx(np.array([[0.02 * k]]))
+    assert pytest.approx(np.array([[3e-5 * k + 0.7 * m]])) == C
+    assert pytest.approx(np.array([[0.02 * k]])) == D
     assert damping(beam_line(2, supports=[(0, XY)])) == (None, None)
 
 
@@ -308,8 +308,8 @@ def test_tension_is_not_damped():
     """Material damping comes from K without the stiffness that axial force makes."""
     C, D = damping(beam_line(1, supports=[(0, XY)], preload=1e5, loss_factor=0.1, stiffness_damping=0.2))
     K, _ = matrices(beam_line(1, supports=[(0, XY)]))
-    assert D == pytest.approx(0.1 * K)
-    assert C == pytest.approx(0.2 * K)
+    assert pytest.approx(0.1 * K) == D
+    assert pytest.approx(0.2 * K) == C
 
 
 def column(count: int, gravity: float, mass: float, L: float = 2.0) -> Mesh:
@@ -329,7 +329,7 @@ def test_p_delta_of_a_column_with_a_tip_mass(sign):
     a = L * np.sqrt(P / EI)
     exact = P / (np.tan(a) * L / a - L) if sign > 0 else P / (L - np.tanh(a) * L / a)
     K, _ = matrices(column(16, sign * 9.81, mass))
-    tip = [i for i, label in enumerate(built(column(16, 9.81, mass)).structure.labels) if label == "17TX"][0]
+    tip = next(i for i, label in enumerate(built(column(16, 9.81, mass)).structure.labels) if label == "17TX")
     assert 1 / np.linalg.inv(K)[tip, tip] == pytest.approx(exact, rel=1e-5)
 
 
@@ -345,7 +345,7 @@ def test_p_delta_of_a_shear_building():
     above = np.cumsum(m[::-1])[::-1] * g
     s = np.array(k) - above / h
     assert model.structure.labels == ("2TX", "3TX", "4TX")
-    assert K == pytest.approx(np.array([[s[0] + s[1], -s[1], 0], [-s[1], s[1] + s[2], -s[2]], [0, -s[2], s[2]]]))
+    assert pytest.approx(np.array([[s[0] + s[1], -s[1], 0], [-s[1], s[1] + s[2], -s[2]], [0, -s[2], s[2]]])) == K
     assert M.diagonal().tolist() == m
 
 
