@@ -245,4 +245,10 @@ CODES = {
         "A card deck runs as the 1972 program did. Only KONF, NPARD, ITERMX and JFLAG are punched.",
         "Give the option on the command line.",
     ),
+    "MD152": Code(
+        "structure that cards cannot hold",
+        "The model is made of nodes and elements, whose properties move the matrices in their own way. Cards hold K, M and "
+        "elements of them that follow the properties in proportion.",
+        "Keep the deck in YAML.",
+    ),
 }

@@ -39,7 +39,7 @@ def read_draft(data: str | bytes, path: str, *, legacy: bool = False, **options:
 
 
 def write_deck(problem: Problem, path: str | os.PathLike[str]) -> list[str]:
-    """Write the problem as YAML, large matrices beside it; returns the names of all files, the deck last.
+    """Write the problem as YAML, large matrices and tables beside it; returns the names of all files, the deck last.
 
     Raises WrittenError.
     """
@@ -53,7 +53,8 @@ def write_deck(problem: Problem, path: str | os.PathLike[str]) -> list[str]:
     written = []
     for attachment, matrix in attachments.items():  # before the deck: it must not name files that are not there
         written.append(os.path.join(folder, attachment))
-        write_text_atomically(written[-1], market.text(matrix, problem.title))
+        text_of = matrix if isinstance(matrix, str) else market.text(matrix, problem.title)
+        write_text_atomically(written[-1], text_of)
     write_text_atomically(path, text)
     return [*written, path]
 

@@ -67,8 +67,9 @@ class Draft:
     """A whole deck as read.
 
     K, M, C, D: Entries (diagonal and upper triangle) or a whole matrix from a file, None where there is none; mesh: a structure
-    that makes them or is attached to them; geometry: where the rows of imported matrices are. order, labels: of the matrices; 0 while only the structure can tell. elements: Entries whose value is 0 for
-    stiffness and 1 for mass, in the order of group RS, stiffness first. A: Entries (listed element, parameter, partial).
+    that makes them or is attached to them; geometry: where the rows of imported matrices are. order, labels: of
+    the matrices; 0 while only the structure can tell. elements: Entries whose value is 0 for stiffness and 1 for mass, in the
+    order of group RS, stiffness first. A: Entries (listed element, parameter, partial).
     covariance (p, p): the prior's, when it has off-diagonals; else the parameters' sd hold it.
     """
 

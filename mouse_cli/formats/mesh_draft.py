@@ -11,7 +11,7 @@ from mouse_cli.model.mesh import Binding, Mesh
 
 @dataclass
 class MeshDraft:
-    """mesh, bindings: as read. node_place(i): place of node index i; element_place(s, i): of element i of set s; span: of the whole.
+    """mesh, bindings: as read. node_place(i): place of node index i; element_place(s, i): of element i of set s; span: of all.
 
     labels: names of the degrees of freedom of a matrix model whose degrees of freedom are the nodes of the mesh, else empty.
     """

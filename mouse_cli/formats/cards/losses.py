@@ -75,6 +75,11 @@ def losses(problem: Problem, lossy: bool = False) -> Losses:
     found = Losses(lossy)
     _heading(found, problem.title)
     _sizes(found, problem)
+    if problem.terms:
+        found.error(
+            "MD152",
+            "the model is made of elements of a structure; cards hold matrices and what moves them in proportion",
+        )
     for parameter in problem.parameters:
         _parameter(found, parameter)
     if problem.prior.cov.ndim == 2 and np.any(problem.prior.cov - np.diag(np.diag(problem.prior.cov))):

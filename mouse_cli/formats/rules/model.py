@@ -56,6 +56,8 @@ def _built(draft: Draft, base: Structure | None) -> Model | None:
         draft.error(_CODES.get(type(fault).__name__, "MD418"), str(fault), place, help=fault.help)
         return None
     for remark in found.remarks:
+        if len(remark.nodes) == len(given.mesh.node_ids) and remark.kind == "floating":
+            continue  # a structure that is free as a whole is no slip
         draft.warn("MD423", remark.message, mesh_rules.fault_place(given, remark.nodes, ()))
     structure = found.structure
     if on_dofs:

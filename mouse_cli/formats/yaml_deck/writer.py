@@ -7,19 +7,20 @@ from mouse_cli.formats.yaml_deck.kinds import MAX_WHOLE, VERSION
 from mouse_cli.formats.yaml_deck.nodes import compose
 from mouse_cli.formats.yaml_deck.text import flow, real, word, wrapped
 from mouse_cli.formats.yaml_deck.writer_parameters import parameters, prior
+from mouse_cli.formats.yaml_deck.writer_structure import structure
 from mouse_cli.formats.yaml_deck.writer_test import test_lines
-from mouse_cli.model.arrays import Matrix, upper_triangle
+from mouse_cli.model.arrays import Matrix, is_sparse, upper_triangle
 from mouse_cli.model.problem import Problem, RunOptions
 
 LARGEST_INLINE = 2000  # stored entries of a matrix; more go to a file
 
 
-def write(problem: Problem, stem: str = "deck") -> tuple[str, dict[str, Matrix]]:
-    """The deck, and the matrices that belong beside it, by file name; names begin with `stem`.
+def write(problem: Problem, stem: str = "deck") -> tuple[str, dict[str, Matrix | str]]:
+    """The deck, and the matrices and tables (texts) that belong beside it, by file name; names begin with `stem`.
 
     Whatever a reader could take otherwise is written out, so the result stays the same when defaults change.
     """
-    attachments: dict[str, Matrix] = {}
+    attachments: dict[str, Matrix | str] = {}
     lines = [*_heading(problem), *_model(problem, stem, attachments), *parameters(problem, stem, attachments)]
     lines += [*prior(problem), *test_lines(problem), *_run(problem.run)]
     return "\n".join(lines) + "\n", attachments
@@ -48,14 +49,24 @@ def _source_note(problem: Problem) -> str:
     )
 
 
-def _model(problem: Problem, stem: str, attachments: dict[str, Matrix]) -> list[str]:
-    structure = problem.structure
+def _model(problem: Problem, stem: str, attachments: dict[str, Matrix | str]) -> list[str]:
+    found, own = problem.structure, problem.mesh is not None and problem.structure.geometry is not None
+    matrices = {"stiffness": found.K, "mass": found.M, "damping": found.C, "structural_damping": found.D}
+    given = {key: matrix for key, matrix in matrices.items() if matrix is not None}
+    if own and not any(_stored(matrix) for matrix in given.values()):
+        return ["", "model:", *structure(problem.mesh, stem, attachments)]
     lines = ["", "model:  # before the test: upper triangles, rows and columns from 1"]
-    for key, matrix in (("stiffness", structure.K), ("mass", structure.M)):
-        lines.append(f"  {key}: {_matrix(matrix, f'{stem}_{key}.mtx', attachments)}")
-    if structure.labels != tuple(str(i + 1) for i in range(structure.n)):
-        lines.append(f"  labels: {wrapped(map(word, structure.labels), 2)}")
+    lines += [f"  {key}: {_matrix(matrix, f'{stem}_{key}.mtx', attachments)}" for key, matrix in given.items()]
+    if found.labels != tuple(str(i + 1) for i in range(found.n)):
+        lines.append(f"  labels: {wrapped(map(word, found.labels), 2)}")
+    if problem.mesh is not None:
+        lines += structure(problem.mesh, stem, attachments, () if own else found.labels)
     return lines
+
+
+def _stored(matrix: Matrix) -> bool:
+    """Whether any element is not zero."""
+    return bool(matrix.nnz if is_sparse(matrix) else matrix.any())
 
 
 def _matrix(matrix: Matrix, name: str, attachments: dict[str, Matrix]) -> str:

@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from mouse_cli.formats.yaml_deck.ids import ranges
 from mouse_cli.formats.yaml_deck.text import flow, real, word, wrapped
 from mouse_cli.model.arrays import Matrix, dense, sparse_symmetric
-from mouse_cli.model.parameter import Parameter
 from mouse_cli.model.problem import Problem
 
 LARGEST_GROUP = 2000  # elements that one parameter moves; more go to a file
@@ -18,8 +18,8 @@ def parameters(problem: Problem, stem: str, attachments: dict[str, Matrix]) -> l
     lines = _elements(problem, columns)
     if columns:
         lines += ["", "parameters:"]
-    for j, (parameter, column) in enumerate(zip(problem.parameters, columns, strict=True)):
-        lines += _parameter(problem, parameter, column, f"{stem}_parameter{j + 1}", attachments)
+    for j, column in enumerate(columns):
+        lines += _parameter(problem, j, column, f"{stem}_parameter{j + 1}", attachments)
     return lines
 
 
@@ -69,13 +69,23 @@ def _pair(problem: Problem, i: int) -> tuple[str, str]:
     return str(problem.elements.row[i] + 1), str(problem.elements.col[i] + 1)
 
 
-def _parameter(
-    problem: Problem, parameter: Parameter, column: Column, stem: str, attachments: dict[str, Matrix]
-) -> list[str]:
-    facts = [f"name: {word(parameter.name)}"]
-    if parameter.nominal:
+def _bound(problem: Problem, j: int) -> list[str]:
+    """The elements whose property parameter `j` is."""
+    own = [binding for binding in problem.bindings if binding.parameter == j]
+    if not own:
+        return []
+    ids = np.unique(np.concatenate([problem.mesh.elements[binding.set].ids[binding.members] for binding in own]))
+    names = list(dict.fromkeys(binding.property for binding in own))
+    facts = [f"elements: {ranges(ids)}", f"property: {names[0] if len(names) == 1 else flow(names)}"]
+    return facts + (["factor: true"] if own[0].factor else [])
+
+
+def _parameter(problem: Problem, j: int, column: Column, stem: str, attachments: dict[str, Matrix]) -> list[str]:
+    parameter, bound = problem.parameters[j], _bound(problem, j)
+    facts = [f"name: {word(parameter.name)}", *bound]
+    if parameter.nominal or bound:
         facts.append(f"nominal: {real(parameter.nominal)}")
-    if parameter.unit:
+    if parameter.unit or bound:
         facts.append(f"unit: {word(parameter.unit)}")
     facts.append(f"sd: {real(parameter.sd)}")
     facts += [f"{key}: {real(limit)}" for key in ("lower", "upper") if np.isfinite(limit := getattr(parameter, key))]
