@@ -20,6 +20,12 @@ CODES = {
         "of the degrees of freedom has another length than the matrices; or names are given in two ways.",
         "Export all matrices from one model, with the same supports, and give the map that belongs to them.",
     ),
+    "MD264": Code(
+        "nodes without coordinates",
+        "Some degrees of freedom are on nodes that `model.nodes` does not place. Programs add nodes of their own, which is "
+        "harmless: no sensor is there. Where they are ordinary nodes, the file belongs to another model.",
+        "Check that both files are of the same model.",
+    ),
     "MD263": Code(
         "degree of freedom without stiffness or mass",
         "A degree of freedom of an imported model has a zero mass, which many programs write for rotations, and no stiffness "

@@ -160,7 +160,8 @@ CODES = {
     ),
     "MD251": Code(
         "unknown matrix format",
-        "The suffix tells the format: .mtx (Matrix Market), .npz (NumPy, SciPy), .csv.",
+        "The suffix tells the format; the message lists those that are read, "
+        "and the how-to `Models from other programs` says more.",
         "Convert the file to one of these.",
     ),
     "MD252": Code(
@@ -204,8 +205,8 @@ CODES = {
     ),
     "MD259": Code(
         "several arrays",
-        "The archive holds several arrays, and nothing says which one is meant.",
-        "Write an archive with one array, or with scipy.sparse.save_npz.",
+        "The file holds several matrices, and nothing says which one is meant; or none.",
+        "Name it: {file: ..., variable: NAME}.",
     ),
     "MD290": Code(
         "file not written",

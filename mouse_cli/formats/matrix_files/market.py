@@ -1,6 +1,7 @@
 """Matrix Market files (.mtx), the exchange format of NIST: coordinate or array, real or integer."""
 
 import os
+from io import BytesIO
 
 import numpy as np
 
@@ -9,6 +10,7 @@ from mouse_cli.formats.matrix_files import MAX_BYTES, MAX_ORDER, MatrixFormat, r
 from mouse_cli.model.arrays import Matrix, upper_triangle
 
 _HELP = "begin with '%%MatrixMarket matrix coordinate real symmetric' and a line of rows, columns, entries"
+_CHUNK = 1 << 20
 _SHORTEST_ENTRY, _SHORTEST_VALUE = 6, 2  # "1 1 1\n", "1\n"
 
 
@@ -17,9 +19,26 @@ def _read(path: str, _: str | None) -> Matrix:
     from scipy.io import mmread
 
     try:
-        return mmread(path)
+        return mmread(_ended(path))
     except (ValueError, OverflowError, TypeError, IndexError) as error:
         reject("MD252", path, f"not a Matrix Market file: {error}", _HELP)
+
+
+def _ended(path: str) -> str | BytesIO:
+    """The file; or its content and a line end where it has none: SciPy's compiled reader looks for one beyond the last byte.
+
+    It follows a zero byte out of the file too.
+    """
+    last = b""
+    with open(path, "rb") as stream:
+        for part in iter(lambda: stream.read(_CHUNK), b""):
+            if b"\0" in part:
+                reject("MD252", path, "not a Matrix Market file: a zero byte stands in it", "write the file anew")
+            last = part[-1:]
+        if last == b"\n":
+            return path
+        stream.seek(0)
+        return BytesIO(stream.read() + b"\n")
 
 
 def _check_header(path: str) -> None:
