@@ -8,12 +8,14 @@ import pytest
 import report_examples
 
 from mouse_cli import _registry, report
+from mouse_cli.model.correlation import Correlation
 from mouse_cli.model.result import Forecast, Result
 from mouse_cli.report.blocks import Heading, Lines, Matrix, Table, Text
 from mouse_cli.report.numbers import Numbers
 from mouse_cli.report.renderers import renderer
 from mouse_cli.report.renderers.printout import WIDTH
 from mouse_cli.report.section import Options, sections
+from mouse_cli.updating.correlate import correlate
 
 SECTIONS = _registry.discover("mouse_cli.report.sections", "SECTION")
 FORMS = tuple(_registry.discover("mouse_cli.report.renderers", "RENDERER"))
@@ -55,6 +57,18 @@ def test_section_of_a_forecast(key: str, name: str) -> None:
         assert valid(block), block
 
 
+@pytest.mark.parametrize("name", report_examples.PROBLEMS)
+def test_sections_of_a_correlation(name: str) -> None:
+    """Every problem that can be run can be compared, in every section and form."""
+    found = correlate(report_examples.result(name).problem, "residual-energy")
+    for key in speaking_of(Correlation):
+        for block in SECTIONS[key].blocks(found, Options()):
+            assert valid(block), block
+    assert max(map(len, report.printout(found, "modern").split("\n"))) <= WIDTH
+    assert report.markdown(found).startswith("## ")
+    assert plain_python(report.document(found))
+
+
 def test_order() -> None:
     """Sections stand in the order that the manual gives, each at a place of its own."""
     assert [s.key for s in sections(Result)] == [
@@ -69,9 +83,10 @@ def test_order() -> None:
         "comparison",
         "properties",
         "covariance",
+        "before-after",
         "verdict",
     ]
-    for subject in (Result, Forecast):
+    for subject in (Result, Forecast, Correlation):
         orders = [s.order for s in sections(subject)]
         assert len(set(orders)) == len(orders)
 
