@@ -174,6 +174,22 @@ def test_tip_load_and_tip_moment_of_a_cantilever_are_exact(theory):
     assert moment[-2:] == pytest.approx([F * L**2 / (2 * EI), F * L / EI], rel=1e-9)
 
 
+@pytest.mark.parametrize("ratio", [0.0001, 0.25, 1.0, 10.0])
+def test_portal_frame(ratio):
+    """Lateral stiffness 24 E Ic/h^3 (12 r + 1)/(12 r + 4), r = Ib/(4 Ic), span 2 h, no axial strain (Chopra, Eq. 1.3.5)."""
+    h, Ic = 3.0, 1e-5
+    points = np.array([[0, 0, 0], [0, h, 0], [2 * h, h, 0], [2 * h, 0, 0]])
+    stiff = {"E": STEEL["E"], "A": 1e3}
+    sets = [
+        elements("beam", [[0, 1], [3, 2]], **stiff, Iz=Ic),
+        elements("beam", [[1, 2]], 3, **stiff, Iz=4 * ratio * Ic),
+    ]
+    K, _ = matrices(mesh(points, sets, [(0, CLAMPED), (3, CLAMPED)], directions=XY))
+    push = np.array([0.5, 0, 0, 0.5, 0, 0])
+    exact = 24 * STEEL["E"] * Ic / h**3 * (12 * ratio + 1) / (12 * ratio + 4)
+    assert 1 / (push @ np.linalg.solve(K, push)) == pytest.approx(exact, rel=1e-6)
+
+
 def test_patch_of_unequal_skew_beams_carries_constant_axial_force_curvature_and_twist():
     """Displacements of constant strain, curvature in both planes and twist are in equilibrium at all inner nodes."""
     rng = np.random.default_rng(3)
