@@ -67,12 +67,21 @@ def _clearest(test: np.ndarray, sd: np.ndarray, model: np.ndarray) -> _Change | 
     if not changes:
         return None
     best, J = changes[0], float(np.sum(1 - now))
-    unit = max(best.misfit, noise, 1e-9) / max(N - best.free, 1)
+    unit = max(best.misfit, noise, 1e-9) / max(
+        N - best.free, 1
+    )  # what chance, or an error spread over all sensors, adds
     simpler = [c for c in changes[1:] if c.free < best.free and c.misfit - best.misfit < _UNIQUE * unit]
-    best = min(simpler, key=lambda c: c.free, default=best)
+    best = _turned(min(simpler, key=lambda c: c.free, default=best), changes)
     rivals = [c.misfit for c in changes if c is not best and c.free <= best.free and c.sensors != best.sensors]
     clear = J - best.misfit > _CLEAR * unit * best.free and best.misfit < _HALF * J
     return best if clear and min(rivals, default=np.inf) - best.misfit > _UNIQUE * unit else None
+
+
+def _turned(best: _Change, changes: list[_Change]) -> _Change:
+    """The sensor turned round where it reads about -1 times what it should: likelier than a gain that happens to be that."""
+    if not -_USUAL < best.gain < -1 / _USUAL:
+        return best
+    return next((c for c in changes if c.kind == REVERSED and c.sensors == best.sensors), best)
 
 
 def _speaks(change: _Change, now: np.ndarray) -> bool:

@@ -255,3 +255,35 @@ def test_a_third_party_estimator_serves(tmp_path):
     paths = os.pathsep.join([str(tmp_path), str(DECKS.parent)])
     done = subprocess.run(command, capture_output=True, text=True, env={**ENVIRONMENT, "PYTHONPATH": paths}, timeout=60)
     assert done.returncode == 0 and json.loads(done.stdout)["estimator"] == "toy"
+
+
+def test_correlate_answers_in_every_form(capsys):
+    for form in ([], ["--markdown"], ["--numbers", "legacy"]):
+        status, out, _ = code(capsys, "correlate", CARDS, "-q", *form)
+        assert (
+            status == 0
+            and "MAC" in out
+            and max(map(len, out.splitlines())) <= (10**6 if form == ["--markdown"] else 132)
+        )
+    status, out, _ = code(capsys, "correlate", SOUND, "--json", "--expand", "least-squares", "--exact")
+    assert status == 0 and json.loads(out)["expansion"]["exact"] is True
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status"),
+    [
+        (("--expand", "nonsense"), 2),
+        (("--exact",), 2),
+        (("--expand", "serep", "--exact"), 2),
+        (("--expand", "serep"), 0),
+    ],
+)
+def test_correlate_refuses_what_cannot_act(capsys, arguments, status):
+    assert code(capsys, "correlate", SOUND, "-q", *arguments)[0] == status
+
+
+def test_correlate_needs_a_test(tmp_path, capsys):
+    deck = tmp_path / "plan.yaml"
+    deck.write_text("mouse: 1\nmodel: {stiffness: {dense: [[2, -1], [-1, 1]]}, mass: {identity: 2}}\n")
+    status, _, err = code(capsys, "correlate", str(deck))
+    assert status == 4 and "MD333" in err

@@ -127,3 +127,25 @@ def test_json_of_run():
 def test_json_of_modes():
     emitted = set(_paths(json.loads(_told("modes", TOP / "decks" / "table_5_1.yaml", "--json"))))
     assert emitted == _documented("mouse.modes/1")
+
+
+def test_json_of_correlate(tmp_path):
+    """A deck with two close modes and a reversed sensor, so that every part of the document has an entry."""
+    deck = tmp_path / "square.yaml"
+    deck.write_text(CLOSE_AND_REVERSED)
+    emitted = set(_paths(json.loads(_told("correlate", deck, "--expand", "dynamic", "--json"))))
+    assert emitted == _documented("mouse.correlation/1")
+
+
+CLOSE_AND_REVERSED = """\
+mouse: 1
+model: {stiffness: {order: 6, entries: [[1,1,2],[1,2,-1],[2,2,2],[2,3,-1],[3,3,1],[4,4,2.02],[4,5,-1.01],[5,5,2.02],
+  [5,6,-1.01],[6,6,1.01]]}, mass: {identity: 6}}
+test:
+  modes:
+    dofs: [1, 2, 3, 4, 5, 6]
+    frequency: [0.07083, 0.07118, 0.1985]
+    frequency_sd: 1 %
+    shapes: [[0.445, 0.01, 0.802], [-0.802, 0.0, -0.356], [1.0, 0.01, -0.643], [0.0, 0.445, 0], [0.01, 0.802, 0], [0, 1.0, 0]]
+    shape_sd: 0.01
+"""

@@ -198,10 +198,10 @@ def _simulated(rng: np.random.Generator, fault: str, error: float) -> tuple[list
 @pytest.mark.parametrize(
     ("fault", "error", "named"),
     [
-        ("reversed", 0.1, 0.93),
+        ("reversed", 0.1, 0.98),
         ("swapped", 0.1, 0.95),
         ("gain", 0.1, 0.93),
-        ("reversed", 0.3, 0.88),
+        ("reversed", 0.3, 0.94),
         ("swapped", 0.3, 0.88),
     ],
 )
