@@ -39,13 +39,25 @@ def _cards() -> str:
     return card_manual.manual()
 
 
-TOPICS: dict[str, Callable[[], str]] = {"cards": _cards, "exit": _exit, "schema": _schema, "yaml": _yaml}
+def _elements() -> str:
+    from mouse_cli.terms import element_manual
+
+    return element_manual.manual()
+
+
+TOPICS: dict[str, Callable[[], str]] = {
+    "cards": _cards,
+    "elements": _elements,
+    "exit": _exit,
+    "schema": _schema,
+    "yaml": _yaml,
+}
 
 
 @click.command()
 @click.argument("topic")
 def command(topic: str) -> int:
-    """Explain a code (MD104), an estimator, recursion or status, or: cards, yaml, schema, exit."""
+    """Explain a code (MD104), an estimator, recursion, status or element, or: cards, elements, yaml, schema, exit."""
     if topic in TOPICS:
         click.echo(TOPICS[topic]())
         return 0
@@ -63,6 +75,8 @@ def _entries() -> Iterator[tuple[str, str]]:
     """Everything that has a name and an explanation."""
     from mouse_cli._registry import discover
     from mouse_cli.codes import catalogue
+    from mouse_cli.terms.element_manual import about
+    from mouse_cli.terms.elements import registry
     from mouse_cli.updating.loop import RECURSIONS
     from mouse_cli.updating.statuses import STATUSES
 
@@ -76,3 +90,5 @@ def _entries() -> Iterator[tuple[str, str]]:
         yield key, f"{estimator.title}\n\n{estimator.equation}"
     for key, recursion in RECURSIONS.items():
         yield key, f"{key}: {recursion.MEANING}"
+    for key, kind in registry().items():
+        yield key, about(kind)

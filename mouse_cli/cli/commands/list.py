@@ -57,6 +57,13 @@ def _expansions() -> Iterator[tuple[str, str]]:
         yield key, f"{expansion.title}: {expansion.equation}"
 
 
+def _elements() -> Iterator[tuple[str, str]]:
+    from mouse_cli.terms.elements import registry
+
+    for key, kind in registry().items():
+        yield key, kind.meaning
+
+
 def _groups() -> Iterator[tuple[str, str]]:
     from mouse_cli.formats.cards import layout
 
@@ -67,6 +74,7 @@ def _groups() -> Iterator[tuple[str, str]]:
 KINDS: dict[str, Callable[[], Iterator[tuple[str, str]]]] = {
     "codes": _codes,
     "commands": _commands,
+    "elements": _elements,
     "estimators": _estimators,
     "expansions": _expansions,
     "groups": _groups,
