@@ -6,7 +6,7 @@ from scipy.io import savemat
 from scipy.sparse import csc_array
 
 from mouse_cli._errors import DeckError
-from mouse_cli.formats import read_deck
+from mouse_cli.formats import read_deck, write_deck
 from mouse_cli.formats.dof_files import read_dofs
 from mouse_cli.formats.matrix_files import read_contents, read_matrix, read_table
 from mouse_cli.formats.node_files import read_nodes
@@ -324,3 +324,17 @@ def test_nodes_without_coordinates_are_told(tmp_path):
     kept(tmp_path, "few.csv", "3,0,0,0\n12,1,0,0\n")
     (warning,) = deck(tmp_path, text).warnings
     assert warning.code == "MD264" and "node 40" in warning.message
+
+
+def test_an_imported_model_survives_being_written(tmp_path):
+    """Places, labels and the zero mass, which no inline matrix may hold."""
+    problem = deck(tmp_path, mass="DMIG,M,0,6,2,0\nDMIG,M,12,2,,12,2,2.\nDMIG,M,3,1,,3,1,1.\n")
+    write_deck(problem, tmp_path / "again.yaml")
+    again = read_deck(tmp_path / "again.yaml")
+    for name in ("K", "M"):
+        np.testing.assert_array_equal(getattr(again.structure, name), getattr(problem.structure, name))
+    assert again.structure.labels == problem.structure.labels
+    for name in ("node_ids", "coordinates", "node", "direction"):
+        np.testing.assert_array_equal(
+            getattr(again.structure.geometry, name), getattr(problem.structure.geometry, name)
+        )

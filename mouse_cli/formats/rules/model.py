@@ -61,7 +61,7 @@ def _built(draft: Draft, base: Structure | None) -> Model | None:
         draft.warn("MD423", remark.message, mesh_rules.fault_place(given, remark.nodes, ()))
     structure = found.structure
     if on_dofs:
-        structure = replace(structure, labels=given.labels, geometry=draft.geometry)
+        structure = replace(structure, labels=given.labels, geometry=None)
     return structure, found.terms
 
 

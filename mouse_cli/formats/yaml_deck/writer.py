@@ -7,6 +7,7 @@ from mouse_cli.formats.yaml_deck.kinds import MAX_WHOLE, VERSION
 from mouse_cli.formats.yaml_deck.nodes import compose
 from mouse_cli.formats.yaml_deck.text import flow, real, word, wrapped
 from mouse_cli.formats.yaml_deck.writer_parameters import parameters, prior
+from mouse_cli.formats.yaml_deck.writer_rows import rows
 from mouse_cli.formats.yaml_deck.writer_structure import structure
 from mouse_cli.formats.yaml_deck.writer_test import test_lines
 from mouse_cli.model.arrays import Matrix, is_sparse, upper_triangle
@@ -56,9 +57,8 @@ def _model(problem: Problem, stem: str, attachments: dict[str, Matrix | str]) ->
     if own and not any(_stored(matrix) for matrix in given.values()):
         return ["", "model:", *structure(problem.mesh, stem, attachments)]
     lines = ["", "model:  # before the test: upper triangles, rows and columns from 1"]
-    lines += [f"  {key}: {_matrix(matrix, f'{stem}_{key}.mtx', attachments)}" for key, matrix in given.items()]
-    if found.labels != tuple(str(i + 1) for i in range(found.n)):
-        lines.append(f"  labels: {wrapped(map(word, found.labels), 2)}")
+    lines += [f"  {key}: {_matrix(matrix, f'{stem}_{key}.mtx', attachments, key)}" for key, matrix in given.items()]
+    lines += rows(found, stem, attachments, places=problem.mesh is None)
     if problem.mesh is not None:
         lines += structure(problem.mesh, stem, attachments, () if own else found.labels)
     return lines
@@ -69,9 +69,10 @@ def _stored(matrix: Matrix) -> bool:
     return bool(matrix.nnz if is_sparse(matrix) else matrix.any())
 
 
-def _matrix(matrix: Matrix, name: str, attachments: dict[str, Matrix]) -> str:
+def _matrix(matrix: Matrix, name: str, attachments: dict[str, Matrix], key: str) -> str:
     row, col, values = upper_triangle(matrix)
-    if len(row) > LARGEST_INLINE:
+    massless = key == "mass" and not (matrix.diagonal() > 0).all()  # which files alone may be
+    if len(row) > LARGEST_INLINE or massless:
         attachments[name] = matrix
         return f"{{file: {word(name)}}}"
     n = matrix.shape[0]
