@@ -58,6 +58,10 @@ RUN = (
         "--fix-total-mass", is_flag=True, default=None, help="Hold the total mass while component masses vary."
     ),
     click.option("--print-partials", is_flag=True, default=None, help="Print the partial derivatives (JFLAG)."),
+    click.option("--exact", is_flag=True, default=None, help="Partial derivatives of large models exact to rounding."),
+    click.option(
+        "--print-covariance", is_flag=True, default=None, help="Form the covariance of more than 500 properties too."
+    ),
 )
 
 READING = (

@@ -5,25 +5,32 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli.dynamics.frequency import frequency_hz
-from mouse_cli.model.arrays import Matrix, dense, is_sparse
+from mouse_cli.dynamics.krylov import Krylov
+from mouse_cli.model.arrays import Matrix, is_sparse
 
 RIGID = 1e-6  # |lambda| up to this share of the first measured eigenvalue is a rigid-body mode
+_MASSLESS = 1e-13  # eigenvalues of M up to this share of the largest are no mass
 
 
 class IndefiniteError(ArithmeticError):
-    """A mass matrix that is not positive definite, or a stiffness matrix with negative eigenvalues."""
+    """A mass matrix that is not positive semidefinite, or a stiffness matrix with negative eigenvalues."""
 
 
 @dataclass(frozen=True)
 class EigenSolution:
     """eigenvalues (k,) ascending, (rad/s)^2; shapes (n, k), mass-normalised. k = n for a dense model, else the lowest k.
 
-    zero: eigenvalues this near to zero differ from it, and from one another, by rounding alone.
+    zero: eigenvalues this near to zero differ from it, and from one another, by rounding alone. space: of a sparse model, the
+    Krylov space of (K - shift M)^-1 M that they were found in. verified: so many of them are known to be the lowest, as the
+    inertia of K - s M counts them (0: not counted).
     """
 
     eigenvalues: np.ndarray
     shapes: np.ndarray
     zero: float = 0.0
+    space: Krylov | None = None
+    shift: float = 0.0
+    verified: int = 0
 
     @property
     def complete(self) -> bool:
@@ -41,74 +48,61 @@ class EigenSolution:
 
 
 def eigensolution(K: Matrix, M: Matrix, count: int | None = None, shift: float | None = None) -> EigenSolution:
-    """Lowest `count` modes of symmetric K and positive definite M (all of them for dense matrices).
+    """Lowest `count` modes of symmetric K and positive semidefinite M (all of them for dense matrices).
 
-    Dense matrices go to LAPACK through the Cholesky factor of M; sparse ones to shift-invert Lanczos at `shift` < 0,
-    so that K - shift M is positive definite although the structure may move as a rigid body.
+    Dense matrices go to LAPACK; sparse ones to block Lanczos around a factorisation of K - shift M, shift < 0, which is
+    positive definite although the structure may move as a rigid body. Degrees of freedom without mass follow the others: their
+    own modes, of infinite frequency, are left out.
 
-    Raises IndefiniteError when M is not positive definite, and for sparse matrices when K has eigenvalues below the shift.
+    Raises IndefiniteError when M has negative eigenvalues, and for sparse matrices when K has eigenvalues below the shift.
 
     >>> import numpy as np
     >>> eigensolution(np.array([[2.0, -1.0], [-1.0, 2.0]]), np.eye(2)).eigenvalues.round(12).tolist()
     [1.0, 3.0]
     """
     if is_sparse(K) or is_sparse(M):
-        return _sparse(K, M, count or min(20, K.shape[0] - 2), shift)
-    return _dense(K, M)
+        from mouse_cli.dynamics.solver import EigenSolver
+
+        return EigenSolver().solve(K, M, count or min(20, K.shape[0] - 2), shift)
+    return dense_solution(K, M)
 
 
-def _dense(K: np.ndarray, M: np.ndarray) -> EigenSolution:
-    """All modes: the standard problem of L^-1 K L^-T, with M = L L'."""
+def dense_solution(K: np.ndarray, M: np.ndarray) -> EigenSolution:
+    """All modes of finite frequency: the standard problem of L^-1 K L^-T, with M = L L'."""
     masses = M.diagonal()
     if np.count_nonzero(M) == np.count_nonzero(masses):
-        if not (masses > 0).all():
+        if masses.min() < 0:
             raise IndefiniteError(f"mass of degree of freedom {int(np.argmin(masses)) + 1} is {masses.min():.6g}")
-        scale = 1.0 / np.sqrt(masses)
-        eigenvalues, vectors = np.linalg.eigh(K * scale[:, None] * scale)
-        return EigenSolution(eigenvalues, vectors * scale[:, None])
+        if (masses > 0).all():
+            scale = 1.0 / np.sqrt(masses)
+            eigenvalues, vectors = np.linalg.eigh(K * scale[:, None] * scale)
+            return EigenSolution(eigenvalues, vectors * scale[:, None])
+        return _condensed(K, M)
     try:
         L = np.linalg.cholesky(M)
     except np.linalg.LinAlgError:
-        raise IndefiniteError("the mass matrix is not positive definite") from None
+        return _condensed(K, M)
     reduced = np.linalg.solve(L, np.linalg.solve(L, K).T)
     eigenvalues, vectors = np.linalg.eigh((reduced + reduced.T) / 2)
     return EigenSolution(eigenvalues, np.linalg.solve(L.T, vectors))
 
 
-def _sparse(K: Matrix, M: Matrix, count: int, shift: float | None) -> EigenSolution:
-    """Lowest modes by ARPACK, with a factorisation whose ordering suits symmetric matrices."""
-    from scipy.sparse.linalg import LinearOperator, eigsh
-
-    n = K.shape[0]
-    if n < 3 * count + 10:
-        return _dense(dense(K), dense(M))
-    if M.diagonal().min() < 0:
-        raise IndefiniteError("the mass matrix is not positive definite")
-    if shift is None:
-        shift = -1e-4 * float(np.min(K.diagonal() / M.diagonal()))
-    factor = symmetric_factor(K - shift * M)
-    if not _positive(factor):  # Lanczos near the shift would not see what lies far below it
-        raise IndefiniteError(f"the stiffness matrix has eigenvalues below {shift:.6g} (rad/s)^2")
-    inverse = LinearOperator((n, n), matvec=factor.solve, dtype=float)
-    start = np.random.default_rng(0).standard_normal(n)  # the same answer at every run
-    eigenvalues, vectors = eigsh(K, count, M, sigma=shift, OPinv=inverse, v0=start, tol=1e-11)
-    order = np.argsort(eigenvalues)
-    vectors = vectors[:, order]
-    length = np.sqrt(np.einsum("ij,ij->j", vectors, M @ vectors))
-    return EigenSolution(eigenvalues[order], vectors / length, zero=1e-8 * abs(shift))
-
-
-def symmetric_factor(matrix: Matrix):
-    """Sparse LU of a symmetric matrix, ordered by minimum degree of A + A' (the default ordering fills in far more)."""
-    from scipy.sparse import csc_array
-    from scipy.sparse.linalg import splu
-
-    return splu(csc_array(matrix), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
-
-
-def _positive(factor) -> bool:
-    """Whether the factorised symmetric matrix is positive definite: all pivots positive, on the diagonal (Sylvester)."""
-    return bool((factor.perm_r == factor.perm_c).all() and (factor.U.diagonal() > 0).all())
+def _condensed(K: np.ndarray, M: np.ndarray) -> EigenSolution:
+    """The modes of finite frequency of singular M = Q m Q': motions without mass follow the others statically (Guyan 1965)."""
+    m, Q = np.linalg.eigh(M)
+    if m[0] < -_MASSLESS * m[-1] or m[-1] <= 0:
+        raise IndefiniteError("the mass matrix is not positive semidefinite")
+    free, moving = Q[:, m <= _MASSLESS * m[-1]], Q[:, m > _MASSLESS * m[-1]]
+    stiff = free.T @ K @ free
+    try:
+        np.linalg.cholesky(stiff)
+    except np.linalg.LinAlgError:
+        raise IndefiniteError("motions that have no mass have no stiffness either") from None
+    follow = moving - free @ np.linalg.solve(stiff, free.T @ (K @ moving))
+    follow /= np.sqrt(m[m > _MASSLESS * m[-1]])
+    reduced = follow.T @ K @ follow
+    eigenvalues, vectors = np.linalg.eigh((reduced + reduced.T) / 2)
+    return EigenSolution(eigenvalues, follow @ vectors)
 
 
 def clusters(eigenvalues: np.ndarray, zero: float = 0.0, tolerance: float = 1e-6) -> np.ndarray:

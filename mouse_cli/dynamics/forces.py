@@ -1,9 +1,11 @@
 """dZ x: the forces that a unit change of each property exerts on a mode, from the nonzeros of dK and dM alone."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
+from mouse_cli.dynamics.contraction import Stack
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.term import CONSTANT, Slopes
 
@@ -25,6 +27,13 @@ class Forces:
     value: np.ndarray
     mass: np.ndarray
     properties: int
+    n: int
+    slopes: dict[str, Slopes]
+
+    @cached_property
+    def stack(self) -> Stack:
+        """The same as two sparse matrices: for large models."""
+        return Stack(self.n, self.properties, self.slopes)
 
     def on(self, x: np.ndarray, eigenvalue: float) -> Matrix:
         """(dK - eigenvalue dM) x for all properties, (t, p), at the touched degrees of freedom."""
@@ -59,4 +68,6 @@ def forces(n: int, properties: int, slopes: dict[str, Slopes]) -> Forces:
         value=np.concatenate([part.value for part in parts]),
         mass=np.repeat([False, True], [len(part) for part in parts]),
         properties=properties,
+        n=n,
+        slopes=slopes,
     )

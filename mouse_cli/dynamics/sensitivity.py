@@ -10,14 +10,18 @@ a sparse model needs no further mode for them, but one solve.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mouse_cli.dynamics.adjoint import Adjoint
 from mouse_cli.dynamics.eigen import EigenSolution, clusters
 from mouse_cli.dynamics.forces import Forces
 from mouse_cli.dynamics.sensing import read, unit_loads
 from mouse_cli.model.arrays import Matrix, is_sparse
+
+_FEW = 0.25  # share of the degrees of freedom that sensors may read for one space to serve all modes
+FINAL, EXACT = 1e-6, 1e-9  # relative errors of partial derivatives that are reported, and of those that are to be exact
 
 
 @dataclass(frozen=True)
@@ -25,11 +29,12 @@ class ModalPartials:
     """Partial derivatives by the e listed elements, or by p properties, in the order of the data of a test.
 
     values (m + m s, e): all eigenvalues, then mode 1 at its s points, mode 2, ...; d_lambda (m, e) and d_shape (m, s, e)
-    are views of it.
+    are views of it. error: estimated relative error of d_shape; 0 where it is rounding alone, None where it was not estimated.
     """
 
     values: np.ndarray
     modes: int
+    error: float | None = 0.0
 
     @property
     def d_lambda(self) -> np.ndarray:
@@ -50,13 +55,20 @@ def modal_partials(
     modes: np.ndarray,
     sensing: Matrix,
     pattern: Forces,
+    accuracy: float | None = FINAL,
 ) -> ModalPartials:
     """T = d(lambda, x)/d(properties) for the measured `modes` (m,), from 0, at the sensors; Eqs. (3-1) and O-5 of the report.
 
     sensing: degrees of freedom (s,), from 0, or what each sensor reads (s, n). pattern: derivatives of K and M by the
     properties, or by listed elements for B. Modes closer than 1e-6, relative, are treated as a subspace: derivatives within it
     are those of parallel transport.
+    accuracy: relative error to be reached by a sparse model; None: about 1e-3, enough to iterate with, and not estimated.
     """
+    space = solution.space
+    if space is not None and space.alive and 0 < sensing.shape[0] <= _FEW * len(solution.shapes):
+        partials = ModalPartials(np.empty((len(modes) * (1 + sensing.shape[0]), pattern.properties)), len(modes))
+        adjoint = Adjoint(solution, modes, sensing, pattern.stack)
+        return replace(partials, error=adjoint.partials(partials.d_lambda, partials.d_shape, accuracy))
     s = sensing.shape[0]
     touched, any_mass = pattern.touched, bool(pattern.mass.any())
     partials = ModalPartials(np.empty((len(modes) * (1 + s), pattern.properties)), len(modes))

@@ -53,13 +53,17 @@ def _within_row_space(problem: LinearProblem, B: np.ndarray, r: np.ndarray) -> L
     z = Q @ w
     seen = problem.expand(Q)
 
+    def narrow() -> np.ndarray:
+        """L Q C^-1 (p, q): T L (I - Q Q') = 0."""
+        return seen @ np.linalg.inv(C)
+
     def root() -> np.ndarray:
         """[L Q C^-1, L (I - Q Q')]."""
-        return np.hstack([seen @ np.linalg.inv(C), problem.expand(np.eye(len(z)) - Q @ Q.T)])
+        return np.hstack([narrow(), problem.expand(np.eye(len(z)) - Q @ Q.T)])
 
     def variances() -> np.ndarray:
         """Row sums of squares of the root, without the second block where a difference does as well."""
-        revised = seen @ np.linalg.inv(C)
+        revised = narrow()
         prior = problem.L**2 if problem.L.ndim == 1 else np.sum(problem.L**2, axis=1)
         unseen = prior - np.sum(seen * seen, axis=1)
         small = np.flatnonzero(unseen < _SEEN * prior)  # at most about q of them
@@ -67,7 +71,7 @@ def _within_row_space(problem: LinearProblem, B: np.ndarray, r: np.ndarray) -> L
         unseen[small] = np.sum((rows - seen[small] @ Q.T) ** 2, axis=1)
         return unseen + np.sum(revised * revised, axis=1)
 
-    return LinearEstimate(problem.expand(z), z, root, np.zeros(len(seen), bool), variances)
+    return LinearEstimate(problem.expand(z), z, root, np.zeros(len(seen), bool), variances, narrow)
 
 
 ESTIMATOR = Estimator(

@@ -80,6 +80,8 @@ def expand(L: np.ndarray, z: np.ndarray) -> np.ndarray:
 class LinearEstimate:
     """x (p,); z (k,) with x = L z; root(): matrix (p, ...) with covariance = root root'; at_limit (p,).
 
+    seen(): columns of the root that the data see, where T times the others is zero.
+
     Covariance and variances are computed when asked for: most cycles of a run need neither. variances() is given where there is
     a cheaper way to them than the rows of the root.
     """
@@ -89,6 +91,12 @@ class LinearEstimate:
     root: Callable[[], np.ndarray]
     at_limit: np.ndarray
     variances: Callable[[], np.ndarray] | None = None
+    seen: Callable[[], np.ndarray] | None = None
+
+    def predicted_variance(self, T: np.ndarray) -> np.ndarray:
+        """Diagonal (q,) of T S* T', for the T (q, p) of the problem that was solved."""
+        U = T @ (self.seen or self.root)()
+        return np.sum(U * U, axis=1)
 
     @cached_property
     def variance(self) -> np.ndarray:

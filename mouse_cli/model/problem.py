@@ -16,6 +16,7 @@ PAIRINGS = ("number", "mac")
 CONVERGENCE_RULES = ("ratio", "fraction")
 STEPS = ("first-order", "second-order")
 CONFIDENCES = (90, 95, 99)
+MOST_COVARIANCE = 500  # parameters up to which their covariance (p, p) is formed without being asked for
 
 
 @dataclass(frozen=True)
@@ -26,7 +27,9 @@ class RunOptions:
     cycles: exactly so many cycles, whatever the convergence test says. convergence: exceedances against
     non-exceedances (`ratio`) or against all data (`fraction`). extra_update: one more cycle after the test has passed.
     step: `second-order` adds the curvature of the data along the step. limit_sd: no correction beyond so many prior sd.
-    legacy: the limits of 1972 are errors.
+    print_covariance: the covariance of the revised parameters is formed however many they are; without it up to
+    MOST_COVARIANCE. exact: partial derivatives of
+    large models to rounding, in every cycle. legacy: the limits of 1972 are errors.
     fix_total_mass: total mass stays while component masses vary; total_mass_dofs (from 0) limits the sum to those
     degrees of freedom (empty: all).
     """
@@ -45,6 +48,8 @@ class RunOptions:
     fix_total_mass: bool = False
     total_mass_dofs: tuple[int, ...] = ()
     print_partials: bool = False
+    exact: bool = False
+    print_covariance: bool = False
     legacy: bool = False
 
 

@@ -84,9 +84,10 @@ class Result:
     """The answer of `run`.
 
     y, sd, labels (q,): the data at the scale of the theory; test_shapes (s, m) and shape_factor (m,) likewise.
-    covariance (p, p) and sd_theta (p,) of the revised parameters, in their units; at_limit (p,).
+    covariance (p, p; None for many parameters, see RunOptions) and sd_theta (p,) of the revised parameters, in their units;
+    at_limit (p,).
     B (q, e), T (q, p): partials at the revised model, only when asked for. innovation: before the cycles; residual and
-    prior_shift: after them.
+    prior_shift: after them. partials_error: estimated relative error of the final T; 0 where it is rounding alone.
     """
 
     problem: Problem
@@ -100,7 +101,7 @@ class Result:
     test_shapes: np.ndarray
     test_shape_sd: np.ndarray
     shape_factor: np.ndarray
-    covariance: np.ndarray
+    covariance: np.ndarray | None
     sd_theta: np.ndarray
     at_limit: np.ndarray
     innovation: ChiSquareTest
@@ -114,6 +115,7 @@ class Result:
     B: np.ndarray | None = None
     T: np.ndarray | None = None
     versions: dict[str, str] = field(default_factory=dict)
+    partials_error: float | None = None
 
     @property
     def rejected(self) -> bool:

@@ -14,6 +14,8 @@ from mouse_cli.updating import refusals
 from mouse_cli.updating.coordinates import Coordinates, coordinates
 from mouse_cli.updating.state import reference_eigenvalue, solve
 
+_MOST = 2000  # degrees of freedom up to which all of every shape get standard deviations; beyond, the measured ones do
+
 
 def forecast(problem: Problem, count: int | None = None) -> Forecast:
     """The lowest `count` modes with first-order standard deviations: cov(y) = T S T'. Raises NumericalError."""
@@ -29,10 +31,16 @@ def forecast(problem: Problem, count: int | None = None) -> Forecast:
     prior = coordinates(problem, assembly)
     pattern = forces(assembly.n, assembly.p, assembly.slopes(problem.prior.mean))
     sd_lambda, sd_shape = np.zeros(k), np.zeros((len(dofs), k))
-    for i in modes:  # mode by mode: the partials of all shapes at once would be n times larger than the model
-        partials = modal_partials(solution, K, M, modes[i : i + 1], dofs, pattern)
-        sd_lambda[i] = _sd(partials.d_lambda, prior)[0]
-        sd_shape[:, i] = _sd(partials.d_shape[0], prior)
+    if len(dofs) > _MOST:
+        at = np.zeros(0, int) if problem.test is None else np.unique(problem.test.dofs)
+        partials = modal_partials(solution, K, M, modes, at, pattern)
+        sd_lambda, sd_shape[:] = _sd(partials.d_lambda, prior), np.nan
+        sd_shape[at] = np.reshape([_sd(each, prior) for each in partials.d_shape], (k, len(at))).T
+    else:
+        for i in modes:  # mode by mode: the partials of all shapes at once would be n times larger than the model
+            partials = modal_partials(solution, K, M, modes[i : i + 1], dofs, pattern)
+            sd_lambda[i] = _sd(partials.d_lambda, prior)[0]
+            sd_shape[:, i] = _sd(partials.d_shape[0], prior)
     hz = solution.frequencies_hz[:k]
     sd_hz = np.where(hz > 0, sd_frequency_hz(hz, sd_lambda), 0.0)
     rigid = solution.rigid(reference_eigenvalue(problem, solution.eigenvalues))

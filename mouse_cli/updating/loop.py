@@ -7,10 +7,18 @@ import numpy as np
 
 from mouse_cli import __version__
 from mouse_cli.dynamics.eigen import IndefiniteError
+from mouse_cli.dynamics.solver import EigenSolver, Notice
 from mouse_cli.estimators import estimator as find_estimator
-from mouse_cli.estimators.linear import Estimator, LinearEstimate, LinearProblem, Unobservable, conditioned
+from mouse_cli.estimators.linear import (
+    Estimator,
+    LinearEstimate,
+    LinearProblem,
+    Unobservable,
+    conditioned,
+    in_prior_units,
+)
 from mouse_cli.model.arrays import is_sparse
-from mouse_cli.model.problem import Problem
+from mouse_cli.model.problem import MOST_COVARIANCE, Problem
 from mouse_cli.model.result import ChiSquareTest, Result, Snapshot, Status
 from mouse_cli.observables.modal import UnrelatedShapes, observe
 from mouse_cli.terms.assembly import assembly as assemble
@@ -24,15 +32,16 @@ from mouse_cli.updating.trace import Progress, Trace
 RECURSIONS = {"replaced": replaced, "anchored": anchored}
 
 
-def run(problem: Problem, progress: Progress = lambda cycle: None) -> Result:
+def run(problem: Problem, progress: Progress = lambda cycle: None, notice: Notice = lambda text: None) -> Result:
     """Revise the model of `problem` by its test.
 
-    progress is called with each Cycle as it ends. Raises DeckError for a deck whose test cannot belong to its model
-    (a rigid-body mode named as measured, shapes that are unrelated), NumericalError where no eigensolution exists.
+    progress is called with each Cycle as it ends, notice with a sentence as each phase of a large model begins. Raises
+    DeckError for a deck whose test cannot belong to its model (a rigid-body mode named as measured, shapes that are
+    unrelated), NumericalError where no eigensolution exists.
     """
     estimator = _estimator(problem)
     try:
-        return _run(problem, estimator, progress)
+        return _run(problem, estimator, progress, notice)
     except np.linalg.LinAlgError as reason:
         raise refusals.unphysical(problem, f"{reason} (values beyond what can be computed with)") from None
 
@@ -61,9 +70,9 @@ def _estimator(problem: Problem) -> Estimator:
         raise refusals.unknown_estimator(problem, str(reason)) from None
 
 
-def _run(problem: Problem, estimator: Estimator, progress: Progress) -> Result:
+def _run(problem: Problem, estimator: Estimator, progress: Progress, notice: Notice) -> Result:
     """`run`, once the estimator is known."""
-    setting, start = _begin(problem)
+    setting, start = _begin(problem, notice)
     innovation = model_form.innovation(setting, start)
     trace = Trace(setting, ExceedanceTest(problem.run.confidence, problem.run.convergence), progress, start)
     status = RECURSIONS[problem.run.recursion].recur(trace, estimator)
@@ -74,20 +83,19 @@ def _run(problem: Problem, estimator: Estimator, progress: Progress) -> Result:
 def _result(trace: Trace, start: State, status: Status, estimator: Estimator, innovation: ChiSquareTest) -> Result:
     """Everything that is reported of a run that began at `start` and left `trace`."""
     setting, problem, end = trace.setting, trace.setting.problem, trace.state
+    end.settle()
     estimate, at_limit = _spread(setting, end, estimator if status.answered else find_estimator("bayes"))
     residual, shift = model_form.residual_and_shift(setting, end, at_limit, estimator.uses_prior)
-    cov_u, slope, slope_prior = (
-        estimate.covariance(),
-        setting.coordinates.slope(end.u),
-        setting.coordinates.slope(start.u),
-    )
-    covariance = cov_u * np.outer(slope, slope)
+    slope = setting.coordinates.slope(end.u)
+    wanted = problem.run.print_covariance or len(slope) <= MOST_COVARIANCE
+    covariance = estimate.covariance() * np.outer(slope, slope) if wanted else None
+    foreseen = np.sum(in_prior_units(start.T, setting.coordinates.L) ** 2, axis=1)
     return Result(
         problem=problem,
         status=status,
         cycles=tuple(trace.cycles),
-        prior=_snapshot(start, problem.prior.dense() / np.outer(slope_prior, slope_prior)),
-        revised=_snapshot(end, cov_u),
+        prior=_snapshot(start, foreseen),
+        revised=_snapshot(end, estimate.predicted_variance(end.T)),
         y=setting.y,
         sd=setting.sd,
         labels=tuple(setting.observable.labels()),
@@ -95,7 +103,7 @@ def _result(trace: Trace, start: State, status: Status, estimator: Estimator, in
         test_shape_sd=setting.observable.shape_sd,
         shape_factor=setting.observable.factor,
         covariance=covariance,
-        sd_theta=np.sqrt(np.maximum(np.diag(covariance), 0.0)),
+        sd_theta=np.sqrt(np.maximum(estimate.variance, 0.0)) * slope,
         at_limit=at_limit,
         innovation=innovation,
         residual=residual,
@@ -107,17 +115,19 @@ def _result(trace: Trace, start: State, status: Status, estimator: Estimator, in
         B=end.B if problem.run.print_partials else None,
         T=end.T if problem.run.print_partials else None,
         versions=_versions(),
+        partials_error=end.error,
     )
 
 
-def _begin(problem: Problem) -> tuple[Setting, State]:
+def _begin(problem: Problem, notice: Notice = lambda text: None) -> tuple[Setting, State]:
     """O-1 for the prior model, and the test brought to its scale."""
     if problem.test is None:
         raise refusals.no_test(problem)
     assembly = assemble(problem)
     K, M = assembly.matrices(problem.prior.mean)
+    solver = EigenSolver(notice)
     try:
-        solution = solve(problem, K, M)
+        solution = solve(problem, K, M, solver=solver, verify=True)
     except IndefiniteError as reason:
         raise refusals.unphysical(problem, str(reason)) from None
     refusals.check_rigid_modes(problem, solution)
@@ -127,8 +137,8 @@ def _begin(problem: Problem) -> tuple[Setting, State]:
     except UnrelatedShapes as reason:
         raise refusals.unrelated(problem, solution, reason.mode, reason.ratio) from None
     y, sd = observable.measured()
-    setting = Setting(problem, assembly, coordinates(problem, assembly), observable, y, sd)
-    return setting, setting.state(setting.coordinates.mean)
+    setting = Setting(problem, assembly, coordinates(problem, assembly), observable, y, sd, solver)
+    return setting, State(setting, setting.coordinates.mean, solution)
 
 
 def _spread(setting: Setting, state: State, estimator: Estimator) -> tuple[LinearEstimate, np.ndarray]:
@@ -143,7 +153,7 @@ def _spread(setting: Setting, state: State, estimator: Estimator) -> tuple[Linea
         root_x, held = estimate.root(), at_limit.astype(int)
         in_u = replace(problem, L=np.eye(len(state.u)))
         root = np.where(at_limit[:, None], 0.0, conditioned(in_u, root_x, held)[0])
-        estimate = replace(estimate, root=lambda: root, variances=None)
+        estimate = replace(estimate, root=lambda: root, variances=None, seen=None)
     return estimate, at_limit
 
 
@@ -156,9 +166,8 @@ def _at_limit(setting: Setting, u: np.ndarray) -> np.ndarray:
     return (u - lower <= near) | (upper - u <= near)
 
 
-def _snapshot(state: State, covariance: np.ndarray) -> Snapshot:
-    """What a report needs of `state`, with `covariance` (p, p) of u carried to the data."""
-    spread = np.sum((state.T @ covariance) * state.T, axis=1)
+def _snapshot(state: State, variance: np.ndarray) -> Snapshot:
+    """What a report needs of `state`, with the `variance` (q,) that the uncertainty of the parameters gives its data."""
     return Snapshot(
         theta=state.theta,
         K=state.K,
@@ -168,7 +177,7 @@ def _snapshot(state: State, covariance: np.ndarray) -> Snapshot:
         modes=state.modes,
         model_shapes=state.shapes,
         predicted=state.predicted,
-        sd_predicted=np.sqrt(np.maximum(spread, 0.0)),
+        sd_predicted=np.sqrt(variance),
         mac=state.mac,
     )
 

@@ -62,6 +62,8 @@ def _silent(result: Result) -> Iterator[Diagnostic]:
 
 
 def _tied(result: Result) -> Iterator[Diagnostic]:
+    if result.covariance is None:
+        return
     sd = np.where(result.sd_theta > 0, result.sd_theta, np.inf)
     correlation = np.triu(result.covariance / np.outer(sd, sd), 1)
     names = [p.name for p in result.problem.parameters]

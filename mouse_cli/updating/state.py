@@ -6,10 +6,12 @@ from functools import cached_property
 import numpy as np
 
 from mouse_cli.dynamics.correlation import align, mac, pair
-from mouse_cli.dynamics.eigen import RIGID, EigenSolution, IndefiniteError, clusters, eigensolution
+from mouse_cli.dynamics.eigen import RIGID, EigenSolution, IndefiniteError, clusters
 from mouse_cli.dynamics.forces import Forces, forces
 from mouse_cli.dynamics.frequency import eigenvalue
-from mouse_cli.dynamics.sensitivity import modal_partials
+from mouse_cli.dynamics.sensitivity import EXACT, FINAL, modal_partials
+from mouse_cli.dynamics.solver import EXACT as EXACT_SHAPES
+from mouse_cli.dynamics.solver import TOLERANCE, EigenSolver
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.problem import Problem
 from mouse_cli.observables.modal import ModalObservable
@@ -20,7 +22,7 @@ from mouse_cli.updating.coordinates import Coordinates
 
 @dataclass(frozen=True)
 class Setting:
-    """What stays the same during a run: problem, assembly, coordinates, and the data at the scale of the theory."""
+    """What stays the same during a run: problem, assembly, coordinates, data at the scale of the theory, and the eigensolver."""
 
     problem: Problem
     assembly: Assembly
@@ -28,6 +30,7 @@ class Setting:
     observable: ModalObservable
     y: np.ndarray
     sd: np.ndarray
+    solver: EigenSolver
 
     @cached_property
     def _constant_forces(self) -> Forces:
@@ -46,14 +49,17 @@ class Setting:
 
 
 class State:
-    """The model at coordinates u (p,): everything else is computed when first asked for, and once."""
+    """The model at coordinates u (p,): everything else is computed when first asked for, and once.
 
-    def __init__(self, setting: Setting, u: np.ndarray):
+    solution: of the model at u, where it is known already. error: estimated relative error of T, None where it is not estimated.
+    """
+
+    def __init__(self, setting: Setting, u: np.ndarray, solution: EigenSolution | None = None):
         self.setting, self.u = setting, u
         problem = setting.problem
-        self.theta = setting.coordinates.value(u)
+        self.theta, self.error = setting.coordinates.value(u), None
         self.K, self.M = setting.assembly.matrices(self.theta)
-        self.solution = solve(problem, self.K, self.M)
+        self.solution = solve(problem, self.K, self.M, solver=setting.solver) if solution is None else solution
         self.modes = paired(problem, self.solution)
         self.solution = aligned(self.solution, self.modes, setting.observable)
         self.shapes, self.factor = setting.observable.theory(self.solution, self.modes)
@@ -83,15 +89,34 @@ class State:
     @cached_property
     def T(self) -> np.ndarray:
         """d(data)/du (q, p), Eqs. O-4 and O-5."""
-        T, coordinates = self._partials(self.setting.forces(self.theta)), self.setting.coordinates
+        return self._T(EXACT if self.setting.problem.run.exact else None)
+
+    def settle(self) -> None:
+        """For the end of a run: T to the accuracy that is reported, and the modes counted. Small models have both as it is."""
+        if self.solution.space is None:
+            self.error = 0.0
+            return
+        self._solve_again(verify=True)
+        self.T = self._T(EXACT if self.setting.problem.run.exact else FINAL)
+
+    def _T(self, accuracy: float | None) -> np.ndarray:
+        T, coordinates = self._partials(self.setting.forces(self.theta), accuracy), self.setting.coordinates
         return T * coordinates.slope(self.u) if coordinates.logarithmic.any() else T
 
-    def _partials(self, pattern: Forces) -> np.ndarray:
+    def _partials(self, pattern: Forces, accuracy: float | None = FINAL) -> np.ndarray:
         """d(data)/d(what `pattern` moves)."""
         observable = self.setting.observable
         at = observable.test.measured_at
-        partials = modal_partials(self.solution, self.K, self.M, self.modes, at, pattern)
+        if self.solution.space is not None and not self.solution.space.alive:
+            self._solve_again()
+        partials = modal_partials(self.solution, self.K, self.M, self.modes, at, pattern, accuracy)
+        self.error = partials.error
         return observable.partials(partials, self.shapes, self.factor)
+
+    def _solve_again(self, verify: bool = False) -> None:
+        """Bring back the space of a solution after which another one was computed; shapes stay, with their signs."""
+        again = solve(self.setting.problem, self.K, self.M, solver=self.setting.solver, verify=verify)
+        self.solution = replace(self.solution, space=again.space, shift=again.shift, verified=again.verified)
 
     @cached_property
     def mac(self) -> np.ndarray:
@@ -114,13 +139,27 @@ def _lowest_measured(problem: Problem) -> float | None:
     return float(eigenvalue(np.nanmin(problem.test.frequency_hz)))
 
 
-def solve(problem: Problem, K: Matrix, M: Matrix, count: int | None = None) -> EigenSolution:
+def solve(
+    problem: Problem,
+    K: Matrix,
+    M: Matrix,
+    count: int | None = None,
+    solver: EigenSolver | None = None,
+    verify: bool = False,
+) -> EigenSolution:
     """Eigensolution of K, M as the problem needs it.
 
     Raises IndefiniteError when an eigenvalue is negative beyond what rounding makes of a rigid-body mode.
     """
     measured = _lowest_measured(problem)
-    solution = eigensolution(K, M, count or _modes_needed(problem), None if measured is None else -0.3 * measured)
+    solution = (EigenSolver() if solver is None else solver).solve(
+        K,
+        M,
+        count or _modes_needed(problem),
+        None if measured is None else -0.3 * measured,
+        EXACT_SHAPES if problem.run.exact else TOLERANCE,
+        verify,
+    )
     lowest = float(solution.eigenvalues[0])
     if lowest < -RIGID * reference_eigenvalue(problem, solution.eigenvalues):
         raise IndefiniteError(f"the stiffness matrix has the negative eigenvalue {lowest:.6g} (rad/s)^2")
@@ -128,9 +167,11 @@ def solve(problem: Problem, K: Matrix, M: Matrix, count: int | None = None) -> E
 
 
 def _modes_needed(problem: Problem) -> int:
-    """Modes that a sparse model is solved for: the highest measured one and some to pair with."""
-    highest = int(problem.test.number.max()) if problem.test is not None else 10
-    return min(highest + 6, problem.structure.n)
+    """Modes that a sparse model is solved for: the highest measured one, its twin, and some more where shapes decide."""
+    if problem.test is None:
+        return min(16, problem.structure.n)
+    more = 2 if problem.run.pairing == "number" else 6
+    return min(int(problem.test.number.max()) + more, problem.structure.n)
 
 
 def paired(problem: Problem, solution: EigenSolution) -> np.ndarray:

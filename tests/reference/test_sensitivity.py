@@ -243,8 +243,8 @@ def test_rigid_body_modes_of_two_bodies(sparse):
 
 @pytest.mark.parametrize(
     "change",
-    [(0, 0, 0.0), (2, 2, -1.0), (0, 1, 5.0)],
-    ids=["no mass", "negative mass", "coupling too strong"],
+    [(2, 2, -1.0), (0, 1, 5.0)],
+    ids=["negative mass", "coupling too strong"],
 )
 def test_mass_that_is_not_positive_definite(change):
     row, col, value = change

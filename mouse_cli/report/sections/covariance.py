@@ -14,6 +14,12 @@ def covariance(result: Result, options: Options) -> Iterator[Block]:
     """S* and correlations in full for a few properties, else the strongest correlations."""
     if not result.status.answered:
         return
+    if result.covariance is None:
+        yield Text(
+            f"The covariance of {len(result.problem.parameters)} properties was not formed; `print_covariance: true` in the deck "
+            "or --print-covariance asks for it. Their standard deviations stand above."
+        )
+        return
     labels, correlation = names(result.problem), _correlation(result)
     if len(labels) <= options.properties:
         shown = np.where(np.isnan(correlation), np.nan, result.covariance)

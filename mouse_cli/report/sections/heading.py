@@ -51,14 +51,27 @@ def heading(result: Result, options: Options) -> Iterator[Block]:
 
 
 def _size(result: Result) -> str:
-    problem, listed = result.problem, len(result.problem.elements)
+    problem = result.problem
     return (
         f"The model has {counted(problem.structure.n, 'degree', 'degrees')} of freedom and "
-        f"{counted(len(problem.parameters), 'variable property', 'variable properties')} that "
-        f"{'move' if len(problem.parameters) != 1 else 'moves'} {counted(listed, 'element')} of its matrices; the test gave "
+        f"{counted(len(problem.parameters), 'variable property', 'variable properties')}{_moved(problem)}; the test gave "
         f"{counted(len(result.y), 'datum', 'data')} of {counted(problem.test.m, 'mode')} at "
         f"{counted(problem.test.s, 'position')}."
     )
+
+
+def _moved(problem: Problem) -> str:
+    """What the properties move."""
+    verb, parts = "move" if len(problem.parameters) != 1 else "moves", []
+    bound = {(binding.set, int(i)) for binding in problem.bindings for i in binding.members}
+    if bound:
+        whole = sum(map(len, problem.mesh.elements))
+        parts.append(
+            f"{len(bound)} of the {counted(whole, 'element')} between {counted(len(problem.mesh.node_ids), 'node')}"
+        )
+    if len(problem.elements) or not bound:
+        parts.append(f"{counted(len(problem.elements), 'element')} of its matrices")
+    return f" that {verb} {' and '.join(parts)}"
 
 
 def _method(problem: Problem) -> tuple[tuple[Cell, ...], ...]:

@@ -4,11 +4,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mouse_cli.model.arrays import dense, is_sparse
+from mouse_cli.model.arrays import dense, is_sparse, upper_triangle
 from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block, Column, Heading, Matrix, Table, Text
 from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._wording import LEFT, counted
+
+_MOST_ENTRIES = 20  # of a matrix that elements of a structure make, which are seldom read one by one
 
 
 def matrices(result: Result, options: Options) -> Iterator[Block]:
@@ -21,10 +23,39 @@ def matrices(result: Result, options: Options) -> Iterator[Block]:
         if result.problem.structure.n <= options.matrix_dofs:
             labels = result.problem.structure.labels
             yield Matrix(f"{name} after optimization", dense(after), labels, labels)
-        if not len(moved):
+        if result.problem.terms and result.problem.structure.n > options.matrix_dofs:
+            yield from _entries(result, name, before, after, options.elements)
+        elif not len(moved) and not result.problem.terms:
             yield Text(f"No element of the {name} was revised.")
-        elif result.problem.structure.n > options.matrix_dofs:
+        elif result.problem.structure.n > options.matrix_dofs and len(moved):
             yield from _elements(result, name, moved, before, after, options.elements)
+
+
+def _entries(result: Result, name: str, before, after, most: int) -> Iterator[Block]:
+    """Table of the entries of the matrix called `name` that the terms of the model changed most, on and above its diagonal."""
+    row, col, change = upper_triangle(after - before)
+    if not len(row):
+        yield Text(f"No element of the {name} was revised.")
+        return
+    largest = np.sort(np.argsort(-np.abs(change), kind="stable")[: min(most, _MOST_ENTRIES)])
+    yield Text(
+        f"{counted(len(row), 'element')} of the {name} were revised; the {len(largest)} largest changes are shown."
+    )
+    columns = (
+        Column("row", align=LEFT),
+        Column("column", align=LEFT),
+        Column("prior"),
+        Column("revised"),
+        Column("change"),
+    )
+    labels = result.problem.structure.labels
+    before, after = (m.tocsr() if is_sparse(m) else m for m in (before, after))
+    rows = tuple(
+        (labels[row[k]], labels[col[k]], float(before[row[k], col[k]]), float(after[row[k], col[k]]), float(change[k]))
+        for k in largest
+    )
+    yield Heading(f"elements of the {name} that were revised", 2)
+    yield Table(columns, rows, keys=2)
 
 
 def _change(result: Result) -> np.ndarray:

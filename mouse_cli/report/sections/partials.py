@@ -18,7 +18,8 @@ def partials(result: Result, options: Options) -> Iterator[Block]:
     )
     data = result.labels
     elements = result.problem.elements.labels()
-    yield Matrix("B: by the listed elements", result.B, data, elements, corner=("datum", "element"))
+    if len(elements):
+        yield Matrix("B: by the listed elements", result.B, data, elements, corner=("datum", "element"))
     yield Matrix("T: by the properties", result.T, data, names(result.problem), corner=("datum", "property"))
     if any(p.transform == "log" for p in result.problem.parameters):
         yield Text("Of a property with the transform log, T is the derivative by its natural logarithm.")

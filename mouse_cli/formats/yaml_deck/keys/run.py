@@ -3,7 +3,15 @@
 from typing import Any
 
 from mouse_cli.formats.yaml_deck.kinds import Key, Section
-from mouse_cli.model.problem import CONFIDENCES, CONVERGENCE_RULES, PAIRINGS, RECURSIONS, STEPS, RunOptions
+from mouse_cli.model.problem import (
+    CONFIDENCES,
+    CONVERGENCE_RULES,
+    MOST_COVARIANCE,
+    PAIRINGS,
+    RECURSIONS,
+    STEPS,
+    RunOptions,
+)
 
 _RUN = RunOptions()
 
@@ -57,6 +65,10 @@ SECTIONS = {
             ),
             "fix_total_mass": _option("fix_total_mass", "flag or dofs", "component masses vary, their total does not"),
             "print_partials": _option("print_partials", "flag", "print the partial derivatives (JFLAG)"),
+            "print_covariance": _option(
+                "print_covariance", "flag", f"form the covariance of more than {MOST_COVARIANCE} properties too"
+            ),
+            "exact": _option("exact", "flag", "partial derivatives of large models exact to rounding, in every cycle"),
             "legacy": _option("legacy", "flag", "the limits of the 1972 program are errors"),
         },
     ),

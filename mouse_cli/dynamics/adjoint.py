@@ -1,0 +1,149 @@
+"""Mode-shape derivatives of a large model from one adjoint space for all modes, property by property on its own rows alone."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from mouse_cli.dynamics.contraction import Stack
+from mouse_cli.dynamics.eigen import EigenSolution, clusters
+from mouse_cli.dynamics.sensing import read
+from mouse_cli.dynamics.shared_space import AdjointSpace, ChebyshevSpace, OrthonormalSpace
+from mouse_cli.model.arrays import Matrix
+
+CHEBYSHEV = 1e-7  # accuracies finer than this need orthonormal levels
+_LEVELS = 4, 10  # most levels of either space
+_SAMPLE = 48  # properties by which the error is estimated
+_ROWS, _PROPERTIES = 8192, 256  # worked on at once
+_CAUTION = 3.0  # times what the estimate says
+_SMALL = 1e-3  # derivatives below this share of the largest one of a mode are judged by that share
+
+
+@dataclass(frozen=True)
+class Adjoint:
+    """What is asked for: solution, its `modes` (m,) from 0, what sensors read, and the stacked derivatives of the matrices."""
+
+    solution: EigenSolution
+    modes: np.ndarray
+    sensing: Matrix
+    stack: Stack
+
+    def partials(self, d_lambda: np.ndarray, d_shape: np.ndarray, accuracy: float | None) -> float | None:
+        """Write derivatives of eigenvalues (m, p) and of what sensors read (m, s, p); the estimated relative error, if asked for.
+
+        accuracy: relative error to be reached, as far as it can be; None: one level, enough to iterate with, and no estimate.
+        """
+        error = None if accuracy is None else np.inf
+        if accuracy is None:
+            space, level = ChebyshevSpace(self.solution.space, self.sensing), 1
+            space.extend()
+        elif accuracy >= CHEBYSHEV:
+            space, level, error = self._refined(ChebyshevSpace, accuracy, _LEVELS[0])
+        if accuracy is not None and error > accuracy:
+            space, level, error = self._refined(OrthonormalSpace, accuracy, _LEVELS[1])
+        coefficients = self._coefficients(space, level)
+        for first, last in self.stack.chunks(_ROWS, _PROPERTIES):
+            place = slice(first, last)
+            forces, inertia = self.stack.forces(first, last, self._shapes, self._eigenvalues)
+            self._response(space, coefficients, first, last, forces, d_shape[:, :, place])
+            self._lengths(first, last, forces, inertia, d_lambda[:, place], d_shape[:, :, place])
+        return error
+
+    @cached_property
+    def _shapes(self) -> np.ndarray:
+        return np.ascontiguousarray(self.solution.shapes[:, self.modes])
+
+    @cached_property
+    def _eigenvalues(self) -> np.ndarray:
+        return self.solution.eigenvalues[self.modes]
+
+    @cached_property
+    def _same(self) -> list[np.ndarray]:
+        """The cluster of each mode."""
+        family = clusters(self.solution.eigenvalues, self.solution.zero)
+        return [np.flatnonzero(family == family[mode]) for mode in self.modes]
+
+    def _refined(self, kind: type, accuracy: float, most: int) -> tuple[AdjointSpace, int, float]:
+        """A space with so many levels that the estimated error is at most `accuracy`; it, the level, and the estimate.
+
+        A level lowers the error by about the same factor: with changes d_K-1, d_K from the last two, the error is d_K^2 / d_K-1.
+        """
+        space = kind(self.solution.space, self.sensing)
+        sample = np.unique(np.linspace(0, self.stack.p - 1, min(_SAMPLE, self.stack.p)).astype(int))
+        shape = len(self.modes), self.sensing.shape[0], len(sample)
+        before, change, error, level = np.zeros(shape), np.inf, np.inf, 0
+        while True:
+            now, coefficients = np.empty(shape), self._coefficients(space, level)
+            for at, j in enumerate(sample):
+                forces = self.stack.forces(j, j + 1, self._shapes, self._eigenvalues)[0]
+                self._response(space, coefficients, j, j + 1, forces, now[:, :, at : at + 1])
+            previous, change = change, _difference(now, before)
+            if level > 1:
+                error = _CAUTION * change * min(1.0, change / previous)
+            if error <= accuracy or level == most:
+                return space, level, error
+            space.extend()
+            before, level = now, level + 1
+
+    def _coefficients(self, space: AdjointSpace, level: int) -> np.ndarray:
+        """W_i in terms of the basis (m, d, s): Ritz vectors weighed by 1 / (1 - mu_i theta_k), those of the mode's cluster not."""
+        theta, X = space.ritz(level)
+        loads = X.T @ space.loads[: len(X)]
+        out = np.empty((len(self.modes), len(X), loads.shape[1]))
+        for i, same in enumerate(self._same):
+            distance = 1 - (self._eigenvalues[i] - self.solution.shift) * theta
+            distance[same] = np.inf
+            out[i] = X @ (loads / distance[:, None])
+        return out
+
+    def _response(
+        self, space: AdjointSpace, coefficients: np.ndarray, first: int, last: int, forces: np.ndarray, into: np.ndarray
+    ) -> None:
+        """-W_i' (dK_j - lambda_i dM_j) x_i of properties `first` to `last` `into` (m, s, last - first).
+
+        First what the `forces` (t', m) do to the basis (last - first, m, d), for all sensors at once.
+        """
+        stack, (m, d, _) = self.stack, coefficients.shape
+        begin = stack.start[first]
+        in_basis = np.zeros((last - first, m, d))
+        done = 0
+        for part in space.rows(stack.rows[begin : stack.start[last]]):
+            to = min(done + part.shape[1], d)
+            if done == to:
+                break
+            for j in range(first, last):
+                own = slice(stack.start[j] - begin, stack.start[j + 1] - begin)
+                np.matmul(forces[own].T, part[own, : to - done], out=in_basis[j - first, :, done:to])
+            done = to
+        for i in range(m):
+            into[i] = -(in_basis[:, i] @ coefficients[i]).T
+
+    def _lengths(
+        self,
+        first: int,
+        last: int,
+        forces: np.ndarray,
+        inertia: np.ndarray | None,
+        d_lambda: np.ndarray,
+        d_shape: np.ndarray,
+    ) -> None:
+        """Write d lambda_i = x_i'(dK - lambda_i dM) x_i, and add -1/2 sum_k x_k (x_k'dM x_i) over the cluster of i to `d_shape`."""
+        stack = self.stack
+        rows = stack.rows[stack.start[first] : stack.start[last]]
+        own = self._shapes[rows]
+        d_lambda[:] = stack.sums(first, last, own * forces).T
+        if inertia is None or not d_shape.size:
+            return
+        length = stack.sums(first, last, own * inertia)
+        for i, same in enumerate(self._same):
+            X = self.solution.shapes[:, same]
+            each = length[:, i : i + 1] if len(same) == 1 else stack.sums(first, last, X[rows] * inertia[:, i : i + 1])
+            d_shape[i] -= 0.5 * read(self.sensing, X) @ each.T
+
+
+def _difference(one: np.ndarray, other: np.ndarray) -> float:
+    """Largest difference of two derivatives (s,) of a mode by a property, relative to its length."""
+    size = np.linalg.norm(one, axis=1)
+    size = np.maximum(size, _SMALL * size.max(axis=1, initial=0.0, keepdims=True))
+    part = np.linalg.norm(one - other, axis=1)
+    return float(np.max(np.divide(part, size, out=np.zeros_like(part), where=size > 0), initial=0.0))

@@ -1,0 +1,45 @@
+"""scipy's SuperLU, on the diagonal and with an ordering for symmetric matrices: what is always there."""
+
+import numpy as np
+
+from mouse_cli.dynamics.factors import Backend
+from mouse_cli.model.arrays import Matrix
+
+
+class _Symbolic:
+    """SuperLU keeps nothing between factorisations."""
+
+    def __init__(self, pattern: Matrix):
+        self.nonzeros = 0
+        self.memory_bytes = 0
+
+    def factor(self, matrix: Matrix) -> "_Factor":
+        """L U by diagonal pivots."""
+        return _Factor(matrix)
+
+
+class _Factor:
+    def __init__(self, matrix: Matrix):
+        from scipy.sparse import csc_array
+        from scipy.sparse.linalg import splu
+
+        transposed = csc_array((matrix.data, matrix.indices, matrix.indptr), shape=matrix.shape)  # and so the same
+        try:
+            self._lu = splu(
+                transposed, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+            )
+        except RuntimeError as reason:  # SuperLU's word for an exactly singular matrix
+            raise np.linalg.LinAlgError(str(reason)) from None
+
+    def solve(self, right: np.ndarray) -> np.ndarray:
+        """Column by column."""
+        return self._lu.solve(right)
+
+    def negative(self) -> int | None:
+        """From the signs of the pivots, where all are on the diagonal."""
+        if (self._lu.perm_r != self._lu.perm_c).any():
+            return None
+        return int(np.count_nonzero(self._lu.U.diagonal() < 0))
+
+
+FACTOR = Backend("superlu", "SuperLU of scipy, ordered for symmetric matrices", 0, lambda: True, _Symbolic)

@@ -1,0 +1,180 @@
+"""Block Krylov spaces of A^-1 M, for A = K - sigma M positive definite, in the inner product of A.
+
+There A^-1 M is symmetric although M may be singular, and the product of A with a new vector is the right-hand side it was solved
+for, so that orthogonalisation needs no product with K. Eigenvalues theta of A^-1 M belong to lambda = sigma + 1 / theta: the
+lowest modes come first, degrees of freedom without mass, theta = 0, never.
+"""
+
+import numpy as np
+
+from mouse_cli.dynamics.factors import Factor
+from mouse_cli.dynamics.workspace import Workspace
+from mouse_cli.model.arrays import Matrix
+
+BLOCK = 8  # columns at once: fewer are slower for each right-hand side, more need more of them
+_DOUBTFUL = (
+    1e-3  # length left of a vector after orthogonalisation, of what it was, below which A times it is formed anew
+)
+_NOTHING = 1e-13  # the same: rounding alone
+_DEPENDENT = 1e-13  # the same for a combination of the vectors left
+
+
+class Operator:
+    """A = K - sigma M with its `factor`, and M without stored zeros; vectors are rows here (c, n), one behind the other."""
+
+    def __init__(self, A: Matrix, factor: Factor, M: Matrix):
+        self.A, self.factor, self.M = A, factor, M
+
+    def solve(self, right: np.ndarray) -> np.ndarray:
+        """A^-1 `right`."""
+        return np.ascontiguousarray(self.factor.solve(right.T).T)
+
+    def mass(self, vectors: np.ndarray) -> np.ndarray:
+        """M times `vectors`."""
+        return _product(self.M, vectors)
+
+    def stiffness(self, vectors: np.ndarray) -> np.ndarray:
+        """A times `vectors`."""
+        return _product(self.A, vectors)
+
+
+class Krylov:
+    """V (d, n) with V A V' = I; AV (d, n); T = V M V', known but for the last block, which is still to be expanded.
+
+    `reached`: vectors before the last block; A^-1 M of them lies within V.
+    """
+
+    def __init__(self, operator: Operator, room: int, workspace: Workspace | None = None):
+        self.operator, self.n = operator, operator.M.shape[0]
+        self.workspace = Workspace() if workspace is None else workspace
+        self.d = self.reached = self._expanded = 0
+        self._V, self._AV = (self.workspace.array(name, (room, self.n)) for name in ("V", "AV"))
+        self._T = np.zeros((room, room))
+
+    @property
+    def V(self) -> np.ndarray:
+        """All vectors (d, n)."""
+        return self._V[: self.d]
+
+    @property
+    def T(self) -> np.ndarray:
+        """V M V' of the vectors that were expanded (reached, reached)."""
+        return self._T[: self.reached, : self.reached]
+
+    @property
+    def last_reached(self) -> slice:
+        """The block that was expanded last: only it is coupled with the one after."""
+        return slice(self._expanded, self.reached)
+
+    @property
+    def coupling(self) -> np.ndarray:
+        """V M V' between the last block and those before it (d - reached, reached)."""
+        return self._T[self.reached : self.d, : self.reached]
+
+    @property
+    def alive(self) -> bool:
+        """Whether its vectors are still those of the solution they belong to."""
+        return self.operator is not None
+
+    def end(self) -> None:
+        """Give up the factorisation; the memory of the vectors is about to be used again."""
+        self.operator = None
+
+    def start(self, block: np.ndarray) -> None:
+        """Add A^-1 M `block` (c, n): what of it is new."""
+        R = self.operator.mass(block)
+        self.append(self.operator.solve(R), R)
+
+    def expand(self) -> bool:
+        """One step: A^-1 M times the last block. False when nothing new came of it: the space is invariant."""
+        first, last = self.reached, self.d
+        R = self.operator.mass(self._V[first:last])
+        h, C = self.append(self.operator.solve(R), R, max(0, first - (last - first)))
+        self._T[:last, first:last] = h
+        self._T[first:last, :last] = h.T
+        self._T[last : self.d, first:last] = C
+        self._T[first:last, last : self.d] = C.T
+        self._expanded, self.reached = first, last
+        return self.d > last
+
+    def ritz(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """theta (r,) descending, combinations S (r, r) of the vectors, and the residuals |A^-1 M x - theta x|_A (r,)."""
+        theta, S = np.linalg.eigh(self.T)
+        theta, S = theta[::-1], S[:, ::-1]
+        return theta, S, np.linalg.norm(self.coupling @ S, axis=0)
+
+    def closed(self) -> np.ndarray:
+        """V M V' of all vectors (d, d), the last block included, which costs a product with M."""
+        T = self._T[: self.d, : self.d].copy()
+        last = slice(self.reached, self.d)
+        T[:, last] = self.V @ self.operator.mass(self.V[last]).T
+        T[last] = T[:, last].T
+        return T
+
+    def copy(self) -> "Krylov":
+        """Another one with the same vectors, which may grow by itself."""
+        other = Krylov(self.operator, self.d)
+        other.d, other.reached, other._expanded = self.d, self.reached, self._expanded
+        other._T = self._T[: self.d, : self.d].copy()
+        other._V[:], other._AV[:] = self.V, self._AV[: self.d]
+        return other
+
+    def append(self, W: np.ndarray, R: np.ndarray, recent: int = 0) -> tuple[np.ndarray, np.ndarray]:
+        """Add what is new in W (c, n) with R = A W: (h, C) so that W = h'V + C'V_new.
+
+        First the vectors from `recent` on, those of the three-term recurrence, are taken out, then, as rounding leaves something
+        of the others, all. Where little is left, A times it has lost its digits and is formed anew.
+        """
+        d, before = self.d, np.sqrt(np.maximum(np.einsum("ij,ij->i", W, R), 0.0))
+        h = np.zeros((d, len(W)))
+        for first in {recent: None, 0: None}:
+            self._take_out(W, R, h, first)
+        W, R, C, left = _orthonormal(W, R, before, self.n - d)
+        if len(W) and left < _DOUBTFUL:
+            more = np.zeros((d, len(W)))
+            for _ in range(2):
+                R = self.operator.stiffness(W)
+                self._take_out(W, R, more, 0)
+            h += more @ C
+        W, R, again, _ = _orthonormal(W, R, np.ones(len(W)), self.n - d)
+        self._reserve(d + len(W))
+        self._V[d : d + len(W)], self._AV[d : d + len(W)] = W, R
+        self.d += len(W)
+        return h, again @ C
+
+    def _take_out(self, W: np.ndarray, R: np.ndarray, h: np.ndarray, first: int) -> None:
+        """Orthogonalise W, with R = A W, to the vectors from `first` on, in place; h gathers what was taken."""
+        near = slice(first, self.d)
+        part = self._V[near] @ R.T
+        W -= part.T @ self._V[near]
+        R -= part.T @ self._AV[near]
+        h[near] += part
+
+    def _reserve(self, count: int) -> None:
+        room = len(self._T)
+        if count > room:
+            more = max(count, room + room // 2) - room
+            self._V, self._AV = (np.vstack([rows, np.empty((more, self.n))]) for rows in (self._V, self._AV))
+            # workspace keeps the shorter ones: rare
+            self._T = np.pad(self._T, (0, more))
+
+
+def _orthonormal(W: np.ndarray, R: np.ndarray, before: np.ndarray, most: int):
+    """V with W = C'V, A V, C (c', c), and the least share left of the lengths `before` (c,).
+
+    Directions that are rounding alone are left out, and all but the largest where `most` are possible.
+    """
+    gram = W @ R.T
+    length = np.sqrt(np.maximum(gram.diagonal(), 0.0))
+    share = length / np.maximum(before, np.finfo(float).tiny)
+    scale = np.where(share > _NOTHING, length, np.inf)
+    size, U = np.linalg.eigh((gram + gram.T) / 2 / np.outer(scale, scale))
+    kept = np.flatnonzero(size > _DEPENDENT)[-most:] if most else []
+    size, U = np.sqrt(size[kept]), U[:, kept]
+    back = (U / size / scale[:, None]).T
+    left = np.min(share[share > _NOTHING], initial=1.0) * np.min(size, initial=1.0)
+    return back @ W, back @ R, (U * size).T * length, left
+
+
+def _product(matrix: Matrix, vectors: np.ndarray) -> np.ndarray:
+    return np.ascontiguousarray((matrix @ np.ascontiguousarray(vectors.T)).T)

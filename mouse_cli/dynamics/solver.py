@@ -1,0 +1,137 @@
+"""The eigensolver that a run keeps: one symbolic analysis, the shapes found last to begin with, memory used again."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from mouse_cli.dynamics.eigen import EigenSolution, IndefiniteError, dense_solution
+from mouse_cli.dynamics.factors import Analysis, Backend, Factor
+from mouse_cli.dynamics.krylov import Krylov, Operator
+from mouse_cli.dynamics.lanczos import INFINITE, NotConverged, krylov_space, refined, start_block
+from mouse_cli.dynamics.pencil import Pencil, without_zeros
+from mouse_cli.dynamics.workspace import Workspace
+from mouse_cli.model.arrays import Matrix, dense, is_sparse
+
+Notice = Callable[[str], None]
+TOLERANCE = 1e-8  # residual |A^-1 M x - theta x| / theta of a mode: its eigenvalue is then good to 1e-13 or so
+EXACT = 1e-12  # the same for partial derivatives that are to be exact to rounding
+_PARTED = 1e-4  # eigenvalues that lie so far apart, relative, can be counted from between them
+_TRIES = 4
+
+
+class EigenSolver:
+    """Solves one model after the other whose K and M keep their patterns; the space of a solution lives until the next one.
+
+    notice: called with a sentence as each phase of a large model begins. backend: of the factorisations; None: the best.
+    """
+
+    def __init__(self, notice: Notice = lambda text: None, backend: Backend | None = None):
+        self._notice, self._backend = notice, backend
+        self._pencil: Pencil | None = None
+        self._last: EigenSolution | None = None
+        self._workspace = Workspace()
+
+    def solve(
+        self,
+        K: Matrix,
+        M: Matrix,
+        count: int,
+        shift: float | None = None,
+        tolerance: float = TOLERANCE,
+        verify: bool = False,
+    ) -> EigenSolution:
+        """Lowest `count` modes, as `eigensolution`; dense matrices, and small ones, by LAPACK.
+
+        verify: count the eigenvalues below the highest mode by the inertia of K - s M (Sylvester), and search on when one was
+        missed. Raises IndefiniteError, numpy.linalg.LinAlgError.
+        """
+        n = K.shape[0]
+        if not (is_sparse(K) or is_sparse(M)) or n < 3 * count + 10:
+            return dense_solution(dense(K), dense(M))
+        if M.diagonal().min() < 0:
+            raise IndefiniteError("the mass matrix is not positive semidefinite")
+        self._release()
+        if self._pencil is None or not self._pencil.fits(K, M):
+            self._pencil, self._analysis = Pencil(K, M), None
+        sigma = self._shift(K, M) if shift is None else shift
+        space = krylov_space(
+            self._operator(K, M, sigma), count, tolerance, self._known(), self._workspace, self._notice
+        )
+        solution = _solution(space, sigma, count)
+        if verify:
+            solution = self._verified(solution, K, M, sigma, count, tolerance)
+        self._last = solution
+        return solution
+
+    def _release(self) -> None:
+        """Give up the space of the last solution, its factorisation first: the next one needs its memory."""
+        if self._last is not None and self._last.space is not None:
+            self._last.space.end()
+
+    def _known(self) -> np.ndarray | None:
+        return None if self._last is None else self._last.shapes
+
+    def _shift(self, K: Matrix, M: Matrix) -> float:
+        """A shift below all eigenvalues: some of the first elastic one, when that is known."""
+        if self._last is not None:
+            elastic = self._last.eigenvalues[self._last.eigenvalues > self._last.zero]
+            if len(elastic):
+                return -0.3 * float(elastic[0])
+        masses = M.diagonal()
+        heavy = masses > 0
+        return -1e-4 * float(np.min(K.diagonal()[heavy] / masses[heavy]))
+
+    def _operator(self, K: Matrix, M: Matrix, sigma: float) -> Operator:
+        """A = K - sigma M, factorised. Raises IndefiniteError when it is not positive definite."""
+        A = self._pencil.shifted(K, M, sigma)
+        if self._analysis is None:
+            self._notice(f"ordering {A.shape[0]:,} degrees of freedom")
+            self._analysis = Analysis(A, self._backend)
+        factor = self._factor(A)
+        if factor.negative() != 0:  # Lanczos near the shift would not see what lies far below it
+            raise IndefiniteError(f"the stiffness matrix has eigenvalues below {sigma:.6g} (rad/s)^2")
+        return Operator(A, factor, without_zeros(M))
+
+    def _factor(self, A: Matrix) -> Factor:
+        self._notice(f"factorising {A.shape[0]:,} degrees of freedom")
+        return self._analysis.factor(A)
+
+    def _verified(
+        self, solution: EigenSolution, K: Matrix, M: Matrix, sigma: float, count: int, tolerance: float
+    ) -> EigenSolution:
+        """The solution with as many of its modes as can be told confirmed to be the lowest. Raises NotConverged."""
+        for attempt in range(1, _TRIES):
+            found, s = _between(solution.eigenvalues)
+            if not found:
+                return solution
+            self._notice(f"counting the modes below mode {found + 1}")
+            below = self._factor(self._pencil.shifted(K, M, s)).negative()
+            if below is None:
+                return solution
+            if below == found:
+                return replace(solution, verified=found)
+            space = solution.space
+            space.start(start_block(space.n, None, attempt))
+            solution = _solution(refined(space, count, tolerance, self._notice), sigma, count)
+        raise NotConverged(f"{below} modes lie below {s:.6g} (rad/s)^2, of which only {found} were found")
+
+
+def _solution(space: Krylov, sigma: float, count: int) -> EigenSolution:
+    """The lowest `count` modes in `space`, or all that have mass. Raises IndefiniteError when theta < 0: a negative mass."""
+    theta, S, _ = space.ritz()
+    if theta[-1] < -INFINITE * theta[0]:
+        raise IndefiniteError("the mass matrix is not positive semidefinite")
+    kept = np.flatnonzero(theta[:count] > INFINITE * theta[0])
+    eigenvalues = sigma + 1 / theta[kept]
+    shapes = (S[:, kept].T @ space.V[: space.reached]).T / np.sqrt(theta[kept])
+    return EigenSolution(eigenvalues, shapes, 1e-8 * abs(sigma), space, sigma)
+
+
+def _between(eigenvalues: np.ndarray) -> tuple[int, float]:
+    """How many eigenvalues lie below s, and s: halfway in the highest gap that is wide enough to count from; 0 where none is."""
+    gap = np.diff(eigenvalues) > _PARTED * np.abs(eigenvalues[1:])
+    if not gap.any():
+        return 0, 0.0
+    highest = int(np.flatnonzero(gap)[-1])
+    return highest + 1, float(eigenvalues[highest] + eigenvalues[highest + 1]) / 2
