@@ -1,5 +1,6 @@
 """A model seen through its sensors: motion of all degrees of freedom by readings, and matrices of the size of the test."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -31,43 +32,58 @@ def held(Z: Matrix, sensing: Matrix, readings: np.ndarray) -> np.ndarray:
     Z = K - lambda M those of Kidder (1973). One factorisation of Z bordered by S. Raises LooseError when the readings
     do not determine u.
     """
-    n, S = Z.shape[0], weights(sensing, Z.shape[0])
-    scale = float(np.abs(Z.diagonal()).max()) or 1.0
-    right = np.zeros((n + S.shape[0], readings.shape[1]))
-    right[n:] = readings * scale
-    motion = bordered(Z, S * scale, None, right)[:n]
-    _checked(motion, sensing, readings)
+    solve = bordered(Z, weights(sensing, Z.shape[0]))
+    motion = solve(np.zeros((Z.shape[0], readings.shape[1])), readings)[0]
+    checked(motion, sensing, readings)
     return motion
 
 
-def bordered(A: Matrix, B: Matrix, C: Matrix | None, right: np.ndarray) -> np.ndarray:
-    """The solution of [[A, B'], [B, C]] x = `right` with symmetric A, C (None: zero). Raises LooseError when it is singular."""
+Solve = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
+
+
+def bordered(Z: Matrix, S: Matrix) -> Solve:
+    """Solver of Z u = load + S'f with S u = readings, for loads (n, k) and readings (s, k): u (n, k) and f (s, k).
+
+    Regular although Z is singular, as long as the sensors see what moves without force. Raises LooseError, also when used.
+    """
+    n, scale = Z.shape[0], float(np.abs(Z.diagonal()).max()) or 1.0
+    solve = _factor(Z, S * scale)
+
+    def solved(load: np.ndarray, readings: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        found = solve(np.vstack([load, readings * scale]))
+        return found[:n], -scale * found[n:]
+
+    return solved
+
+
+def _factor(Z: Matrix, S: Matrix) -> Callable[[np.ndarray], np.ndarray]:
+    """Solver of [[Z, S'], [S, 0]] x = right."""
     from scipy.sparse import block_array, csc_array
 
-    if not is_sparse(A):
-        lower = np.zeros((B.shape[0],) * 2) if C is None else np.asarray(C)
-        B = B.toarray() if is_sparse(B) else B
-        return _regular(lambda: np.linalg.solve(np.block([[A, B.T], [B, lower]]), right))
+    if not is_sparse(Z):
+        S = S.toarray()
+        matrix = np.block([[Z, S.T], [S, np.zeros((len(S), len(S)))]])
+        return lambda right: _regular(lambda: np.linalg.solve(matrix, right))
     from scipy.sparse.linalg import splu
 
-    matrix = block_array([[csc_array(A), csc_array(B.T)], [csc_array(B), C]], format="csc")
-    return _regular(lambda: _refined(splu(matrix, permc_spec="MMD_AT_PLUS_A"), matrix, right))
+    matrix = block_array([[csc_array(Z), csc_array(S.T)], [csc_array(S), None]], format="csc")
+    factor = _regular(lambda: splu(matrix, permc_spec="MMD_AT_PLUS_A"))
+
+    def refined(right: np.ndarray) -> np.ndarray:  # fine meshes are ill-conditioned, and a second solve is cheap
+        first = factor.solve(right)
+        return first + factor.solve(right - matrix @ first)
+
+    return refined
 
 
-def _refined(factor, matrix: Matrix, right: np.ndarray) -> np.ndarray:
-    """The solution after one step of iterative refinement: fine meshes are ill-conditioned, and a second solve is cheap."""
-    first = factor.solve(right)
-    return first + factor.solve(right - matrix @ first)
-
-
-def _regular(solve) -> np.ndarray:
+def _regular(compute: Callable):
     try:
-        return solve()
+        return compute()
     except (np.linalg.LinAlgError, RuntimeError):  # SuperLU's word for an exactly singular matrix is RuntimeError
         raise LooseError("the sensors leave a motion of the structure undetermined") from None
 
 
-def _checked(motion: np.ndarray, sensing: Matrix, readings: np.ndarray) -> None:
+def checked(motion: np.ndarray, sensing: Matrix, readings: np.ndarray) -> None:
     """Raise LooseError for a solution that only rounding made possible."""
     size = np.abs(readings).max(initial=0.0)
     wrong = np.abs(read(sensing, motion) - readings).max(initial=0.0)

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from mouse_cli.dynamics.condensation import LooseError, bordered, weights
+from mouse_cli.dynamics.condensation import bordered, checked, weights
 from mouse_cli.dynamics.expansion import Measured
-from mouse_cli.model.arrays import Matrix, is_sparse
+from mouse_cli.model.arrays import Matrix
 
 
 def least_residual(measured: Measured, norm: str) -> np.ndarray:
@@ -13,43 +13,31 @@ def least_residual(measured: Measured, norm: str) -> np.ndarray:
     norm `euclidean`: r'r; `energy`: r'K^-1 r. Smoothed components v minimise |Z u|^2 with the sum of ((v - t) / sd)^2 equal to
     their number, what their errors let expect (Morozov 1966).
     """
-    K, M, n = measured.K, measured.M, measured.K.shape[0]
+    K, M = measured.K, measured.M
     columns = []
     for eigenvalue, (sensing, t, sd) in zip(measured.eigenvalues, measured.modes(), strict=True):
         given = t[:, None] if measured.exact else np.eye(len(t))
-        shapes, Q = _least(K, M, eigenvalue, weights(sensing, n), given, norm)
+        shapes, Q = _least(K, M, eigenvalue, sensing, given, norm)
         columns.append(shapes[:, 0] if measured.exact else shapes @ smoothed(Q, t, sd))
     return np.column_stack(columns)
 
 
 def _least(
-    K: Matrix, M: Matrix, eigenvalue: float, S: Matrix, given: np.ndarray, norm: str
+    K: Matrix, M: Matrix, eigenvalue: float, sensing: Matrix, given: np.ndarray, norm: str
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Shapes (n, k) for `given` readings (s, k), and the forces (s, k) at the sensors: for unit readings |Z u|^2 = v'Q v.
+    """Shapes (n, k) for `given` readings (s, k), and Q (s, s): the least |Z u|^2 for readings v is v'Q v.
 
-    With Z u = N p stationarity is Z p + S'f = 0, one regular system in p, u and f; nothing is squared.
+    With Z u = N p stationarity makes p a motion without force but at the sensors, p = D b, where Z D = S'F and S D = 1. Then
+    u = D v + B b with Z B = N D - S'(D'N D), S B = 0, and b = (D'N D)^-1 F v: one factorisation, nothing squared.
     """
-    Z, n, s = K - eigenvalue * M, K.shape[0], S.shape[0]
-    scale = float(np.abs(K.diagonal()).max())
-    if norm == "euclidean":  # near the least singular value of Z the system is conditioned like Z and no worse
-        scale = abs(eigenvalue) * float(np.median(M.diagonal()))
-    if is_sparse(Z):
-        from scipy.sparse import block_array, csr_array, eye_array
-
-        N = eye_array(n) if norm == "euclidean" else K / scale
-        A = block_array([[-N, Z / scale], [Z / scale, None]], format="csc")
-        B = csr_array((S.data, S.indices + n, S.indptr), shape=(s, 2 * n))
-    else:
-        N = np.eye(n) if norm == "euclidean" else K / scale
-        A = np.block([[-N, Z / scale], [Z / scale, np.zeros((n, n))]])
-        B = np.hstack([np.zeros((s, n)), S.toarray()])
-    right = np.zeros((2 * n + s, given.shape[1]))
-    right[2 * n :] = given
-    solution = bordered(A, B, None, right)
-    shapes = solution[n : 2 * n]
-    if not np.isfinite(solution).all() or np.abs(S @ shapes - given).max() > 1e-5 * np.abs(given).max():
-        raise LooseError("the sensors leave a motion of the structure undetermined")
-    return shapes, -solution[2 * n :]
+    n, s = K.shape[0], sensing.shape[0]
+    solve = bordered(K - eigenvalue * M, weights(sensing, n))
+    D, F = solve(np.zeros((n, s)), np.eye(s))
+    checked(D, sensing, np.eye(s))
+    ND = D if norm == "euclidean" else K @ D
+    B = solve(ND, np.zeros((s, s)))[0]
+    b = np.linalg.solve(D.T @ ND, F)
+    return D @ given + B @ (b @ given), F.T @ b
 
 
 def smoothed(Q: np.ndarray, t: np.ndarray, sd: np.ndarray) -> np.ndarray:
