@@ -18,72 +18,93 @@ parser.add_argument("--modes", type=int, default=20)
 parser.add_argument("--sensors", type=int, default=30)
 
 PARAMETERS, TESTED_MODES, TESTED_PARAMETERS = 40, 5, 6
-H, AIM, AIM_EXACT = 1e-30, 1e-6, 1e-9
+H, LONG = np.longdouble(1e-30), np.longdouble  # complex step; extended precision where the machine has it
 
 
 def complex_step(K, M, dK, dM, eigenvalue: float, x: np.ndarray) -> tuple[list[float], list[np.ndarray]]:
-    """Derivatives of an eigenvalue and its mode-shape (n,) by each of the parameters that move K by dK[j] and M by dM[j]."""
+    """Derivatives of an eigenvalue and its mode shape (n,) by each of the parameters that move K by dK[j] and M by dM[j]."""
     from scipy.sparse import block_array, csc_array
     from scipy.sparse.linalg import splu
 
-    n = K.shape[0]
+    n, border = K.shape[0], csc_array((M @ x)[:, None])
+    factor = splu(block_array([[K - eigenvalue * M, -border], [-border.T, None]], format="csc"))
 
     def improved(K, M, eigenvalue, x, steps: int):
-        """Newton with the Jacobian of the real mode, which is exact to h."""
+        """Newton with the Jacobian of the real mode, which is exact to h; residuals in extended precision."""
         for _ in range(steps):
             rest = np.append(K @ x - eigenvalue * (M @ x), 0.5 - 0.5 * (x @ (M @ x)))
-            step = factor.solve(rest.real) + 1j * H * factor.solve(rest.imag / H)
+            real, imaginary = (factor.solve(part.astype(float)) for part in (rest.real, rest.imag / H))
+            step = real + 1j * H * imaginary.astype(LONG)
             x, eigenvalue = x - step[:n], eigenvalue - step[n]
         return eigenvalue, x
 
-    border = csc_array((M @ x)[:, None])
-    factor = splu(block_array([[K - eigenvalue * M, -border], [-border.T, None]], format="csc"))
-    eigenvalue, x = (part.real for part in improved(K, M, eigenvalue + 0j, x + 0j, 3))
-    moved = [improved(K + 1j * H * a, M + 1j * H * b, eigenvalue + 0j, x + 0j, 4) for a, b in zip(dK, dM, strict=True)]
-    return [e.imag / H for e, _ in moved], [y.imag / H for _, y in moved]
+    K, M, x = K.astype(LONG), M.astype(LONG), x.astype(LONG)
+    eigenvalue, x = (part.real for part in improved(K, M, LONG(eigenvalue), x, 5))
+    one = LONG(1) * 1j * H
+    moved = [
+        improved(K + one * a, M + one * b, eigenvalue + 0 * one, x + 0 * one, 5) for a, b in zip(dK, dM, strict=True)
+    ]
+    return [float(e.imag / H) for e, _ in moved], [(y.imag / H).astype(float) for _, y in moved]
 
 
-def references(state, tested: np.ndarray, parameters: np.ndarray) -> dict[int, np.ndarray]:
-    """For some modes i, derivatives (1 + s, parameters) of the eigenvalue and of the shape as the sensors read it."""
-    assembly, test = state.setting.assembly, state.setting.problem.test
-    unit = np.eye(assembly.p)[parameters]
-    dK, dM = zip(*(assembly.matrices(row) for row in unit), strict=True)
-    dM = [b if b is not None else 0 * state.M for b in dM]
-    answer = {}
-    for i in tested:
-        mode = state.modes[i]
-        x = state.solution.shapes[:, mode]
-        slopes, shapes = complex_step(state.K, state.M, dK, dM, state.solution.eigenvalues[mode], x)
-        answer[i] = np.vstack([slopes, test.read(np.array(shapes).T) * state.factor[i]])
-    return answer
+class Case:
+    """A model at nominal values: K, M and their derivatives by some parameters, sensors, modes to be tested."""
 
+    def __init__(self, kind: str, dofs: float, modes: int, sensors: int):
+        from scale_models import model
 
-def errors(T: np.ndarray, reference: dict[int, np.ndarray], parameters: np.ndarray, m: int, s: int):
-    """Relative errors of eigenvalues and of shapes, for every tested mode and parameter."""
-    of_values, of_shapes = [], []
-    for i, exact in reference.items():
-        rows = m + i * s + np.arange(s)
-        of_values.append(np.abs(T[i, parameters] / exact[0] - 1))
-        difference = np.abs(T[np.ix_(rows, parameters)] - exact[1:]).max(axis=0)
-        of_shapes.append(difference / np.abs(exact[1:]).max(axis=0))
-    return np.concatenate(of_values), np.concatenate(of_shapes)
+        from mouse_cli.dynamics.forces import forces
+        from mouse_cli.terms.assembly import Assembly
+
+        structure, term, _, translations = model(kind, dofs, PARAMETERS)
+        self.n, self.modes = structure.n, np.arange(modes)
+        self.dofs = translations[np.linspace(0, len(translations) - 1, sensors + 1).astype(int)[1:]]
+        assembly, nominal = Assembly(structure, (term,), PARAMETERS), np.ones(PARAMETERS)
+        self.K, self.M = assembly.matrices(nominal)
+        self.pattern = forces(self.n, PARAMETERS, assembly.slopes(nominal))
+        self.parameters = np.linspace(0, PARAMETERS - 1, TESTED_PARAMETERS).astype(int)
+        self.tested = np.linspace(0, modes - 1, TESTED_MODES).astype(int)
+        self.dK, self.dM = zip(*(assembly.matrices(row) for row in np.eye(PARAMETERS)[self.parameters]), strict=True)
+
+    def partials(self, residual: float, accuracy: float):
+        """The eigensolution of mouse to `residual`, and its partial derivatives to `accuracy`."""
+        from mouse_cli.dynamics.sensitivity import modal_partials
+        from mouse_cli.dynamics.solver import EigenSolver
+
+        solution = EigenSolver().solve(self.K, self.M, len(self.modes) + 6, tolerance=residual)
+        return solution, modal_partials(solution, self.K, self.M, self.modes, self.dofs, self.pattern, accuracy)
+
+    def errors(self, solution, partials) -> tuple[np.ndarray, np.ndarray]:
+        """Relative errors of the eigenvalues' and of the shapes' derivatives, for every tested mode and parameter."""
+        of_values, of_shapes = [], []
+        for i in self.tested:
+            mode = self.modes[i]
+            x = solution.shapes[:, mode]
+            values, shapes = complex_step(self.K, self.M, self.dK, self.dM, solution.eigenvalues[mode], x)
+            exact = np.array(shapes).T[self.dofs]
+            of_values.append(np.abs(partials.d_lambda[i, self.parameters] / values - 1))
+            difference = np.abs(partials.d_shape[i][:, self.parameters] - exact).max(axis=0)
+            of_shapes.append(difference / np.abs(exact).max(axis=0))
+        return np.concatenate(of_values), np.concatenate(of_shapes)
 
 
 def report(kind: str, dofs: float, modes: int, sensors: int) -> None:
-    """Print the errors of one model."""
-    from _one_cycle import Cycles
-    from scale_models import problem
+    """Print the errors of one model at both accuracies."""
+    from mouse_cli.dynamics import sensitivity, solver
 
-    run = Cycles(problem(kind, dofs, PARAMETERS, modes, sensors))
-    tested = np.linspace(0, modes - 1, TESTED_MODES).astype(int)
-    parameters = np.linspace(0, PARAMETERS - 1, TESTED_PARAMETERS).astype(int)
-    reference = references(run.state, tested, parameters)
-    print(
-        f"{kind}: {run.problem.structure.n} degrees of freedom, {modes} modes, {sensors} sensors, {PARAMETERS} parameters"
-    )
-    of_values, of_shapes = errors(run.state.T, reference, parameters, modes, sensors)
-    print(f"  eigenvalues: worst {of_values.max():.1e}, median {np.median(of_values):.1e}")
-    print(f"  mode shapes: worst {of_shapes.max():.1e}, median {np.median(of_shapes):.1e} (aim {AIM:.0e})", flush=True)
+    case = Case(kind, dofs, modes, sensors)
+    print(f"{kind}: {case.n} degrees of freedom, {modes} modes, {sensors} sensors, {PARAMETERS} parameters")
+    for name, residual, accuracy in (
+        ("default", solver.TOLERANCE, sensitivity.FINAL),
+        ("--exact", solver.EXACT, sensitivity.EXACT),
+    ):
+        solution, partials = case.partials(residual, accuracy)
+        of_values, of_shapes = case.errors(solution, partials)
+        print(
+            f"  {name}: shapes, worst {of_shapes.max():.1e} (aim {accuracy:.0e}), median {np.median(of_shapes):.1e};"
+            f" mouse states {partials.error:.1e}; eigenvalues, worst {of_values.max():.1e}",
+            flush=True,
+        )
 
 
 def main() -> None:
