@@ -1,7 +1,7 @@
 """What holds for any shapes: MAC knows neither scale nor sign, and pairs do not depend on the order of modes."""
 
 import numpy as np
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from mouse_cli.dynamics.correlation import comac, distance, ecomac, mac, match, pair, subspace_cosines
@@ -48,7 +48,9 @@ def test_subspaces_do_not_depend_on_their_basis(seed):
 
 @given(seeds)
 def test_pairs_do_not_depend_on_the_order_of_modes(seed):
+    """Shapes of two components or more: with fewer, two assignments can be equally good."""
     rng, test, test_hz, model, hz = drawn(seed)
+    assume(np.isfinite(test).sum(axis=0).min() > 1)
     ours, theirs = rng.permutation(3), rng.permutation(5)
     where = np.append(np.argsort(theirs), -1)  # place of each model mode after the permutation; -1 stays -1
     apart = distance(mac(test, model), test_hz, hz)
