@@ -126,4 +126,10 @@ CODES = {
         "A property of an element is not finite, or not positive where it must be.",
         "Correct the value, at the element or at the material or section that it comes from.",
     ),
+    "MD426": Code(
+        "a beam in space that lacks a constant of its section",
+        "Without J a beam does not resist torsion, without Iy or Iz it does not bend in that plane; directions that nothing "
+        "stiffens are left out of the model without a further word.",
+        "Give the constant, or a shape of the section, from which it follows; or keep the directions of a plane alone.",
+    ),
 }

@@ -49,13 +49,17 @@ def _idle_mass(result: Result) -> Iterator[Diagnostic]:
 
 
 def _silent(result: Result) -> Iterator[Diagnostic]:
-    prior_sd = result.problem.prior.sd
+    prior = result.problem.prior
     for i, parameter in enumerate(result.problem.parameters):
-        if prior_sd[i] > 0 and not result.at_limit[i] and result.sd_theta[i] > _SILENT * prior_sd[i]:
+        before, after = prior.sd[i], result.sd_theta[i]
+        if parameter.transform == "log":  # as shares of the value, as it is estimated
+            before, after = before / abs(prior.mean[i]), after / abs(result.revised.theta[i])
+        if before > 0 and not result.at_limit[i] and after > _SILENT * before:
+            unit = " of its value" if parameter.transform == "log" else ""
             yield _remark(
                 "MD502",
-                f"the data say nothing of {parameter.name}: its standard deviation is {result.sd_theta[i]:.4g}, before the "
-                f"test {prior_sd[i]:.4g}",
+                f"the data say nothing of {parameter.name}: its standard deviation is {after:.4g}{unit}, before the test "
+                f"{before:.4g}",
                 parameter.span,
                 "measure a mode or a point that it moves",
             )

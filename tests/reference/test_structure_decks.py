@@ -274,3 +274,33 @@ def test_a_written_structure_reads_back_with_its_tables(tmp_path):
     assert np.array_equal(again.mesh.elements[0].nodes, first.mesh.elements[0].nodes)
     theta = first.prior.mean
     assert (assembly(again).matrices(theta)[0] != assembly(first).matrices(theta)[0]).nnz == 0
+
+
+def test_each_element_may_be_a_parameter():
+    """`each: k` stands for one parameter for every k elements, in their order; the last takes what is left."""
+    text = DECK.replace("material: steel, property: E, sd: 3 %", "elements: 1-2, property: E, each: 1, sd: 3 %")
+    found = problem(text)
+    assert [p.name for p in found.parameters] == ["E 1", "E 2", "tip"]
+    assert [b.members.tolist() for b in found.bindings] == [[0], [1], [0]]
+    written = DECK.replace("  - {name: E, material: steel", "  - {name: E 1, elements: 1").replace(
+        "  - {name: tip", "  - {name: E 2, elements: 2, property: E, sd: 3 %}\n  - {name: tip"
+    )
+    one, other = run(found), run(problem(written))
+    assert one.revised.theta == pytest.approx(other.revised.theta, rel=1e-12)
+    assert [p.name for p in problem(text.replace("each: 1", "each: 5")).parameters] == ["E 1, 2", "tip"]
+
+
+@pytest.mark.parametrize(("each", "code"), [("0", "MD420"), ("two", "MD213"), ("1.5", "MD213")])
+def test_each_must_be_a_whole_number(each: str, code: str):
+    text = DECK.replace("material: steel, property: E", f"elements: 1-2, property: E, each: {each}")
+    assert [(d.code, d.span.line) for d in findings(text)] == [(code, 14)]
+
+
+def test_a_beam_in_space_without_torsion_is_told():
+    text = DECK.replace("    plane: XY\n", "").replace(
+        "[0, 0], 2: [1, 0], 3: [2, 0]", "[0, 0, 0], 2: [1, 0, 0], 3: [2, 0, 0]"
+    )
+    text = text.replace("{rectangle: [0.01, 0.02]}", "{A: 2.0e-4, Iy: 1.0e-9, Iz: 1.0e-9}")
+    told = [d for d in problem(text.replace("[TX, TY, RZ]", "all")).warnings if d.code == "MD426"]
+    assert len(told) == 1 and "J = 0" in told[0].message and told[0].span.line == 8
+    assert not [d for d in problem(DECK).warnings if d.code == "MD426"]

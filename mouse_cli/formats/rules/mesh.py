@@ -25,6 +25,7 @@ def mesh(draft: Draft) -> None:
         )
     for s, members in enumerate(given.mesh.elements):
         _values(draft, given, s, members)
+        _forgotten(draft, given, s, members)
     _bound_once(draft, given)
 
 
@@ -41,6 +42,23 @@ def _values(draft: Draft, given: MeshDraft, s: int, members: ElementSet) -> None
             held = f" (from {source})" if source else ""
             message = f"{name} of element {members.ids[i]} is {values[i]:.8g} {unit}{held}; it must be {needed}"
             draft.error("MD425", message, given.element_place(s, int(i)), help=f"give a {needed} number")
+
+
+def _forgotten(draft: Draft, given: MeshDraft, s: int, members: ElementSet) -> None:
+    """Beams in space without a constant of their section: what it would resist is then left out of the model."""
+    if members.type != "beam" or len(given.mesh.directions) < 6:
+        return
+    nothing = np.zeros(len(members))
+    for name in ("Iy", "Iz", "J"):
+        without = np.flatnonzero(members.properties.get(name, nothing) == 0)
+        if len(without):
+            element = int(without[0])
+            draft.warn(
+                "MD426",
+                f"beam {members.ids[element]} has {name} = 0; {len(without)} such of these {len(members)} beams",
+                given.element_place(s, element),
+                help=f"give {name}, or a shape of the section such as tube or rectangle; plane: XY if it moves in a plane",
+            )
 
 
 def _bound_once(draft: Draft, given: MeshDraft) -> None:

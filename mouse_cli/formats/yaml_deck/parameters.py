@@ -7,8 +7,10 @@ import numpy as np
 
 from mouse_cli.formats import matrix_files
 from mouse_cli.formats.draft import Entries
+from mouse_cli.formats.mesh_draft import MeshDraft
 from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.bindings import Bound
+from mouse_cli.formats.yaml_deck.each import expanded
 from mouse_cli.formats.yaml_deck.files import named, read_kept
 from mouse_cli.formats.yaml_deck.imported import Rows
 from mouse_cli.formats.yaml_deck.kinds import KINDS
@@ -20,13 +22,17 @@ from mouse_cli.model.parameter import Parameter
 _KEYS = ("stiffness", "mass")
 
 
-def sections(deck: Section) -> list[Section]:
-    """One section for each parameter."""
+def sections(deck: Section, mesh: MeshDraft | None) -> list[Section]:
+    """One section for each parameter; elements of `mesh` that are to be parameters each by itself are parted here."""
     node = deck.nodes.get("parameters")
     if node is None:
         return []
-    nodes = yaml_values.items(deck.document, node, "parameters", "a list, one item for each parameter")
-    return [Section(deck.document, item, "parameter", f"parameters[{i}]") for i, item in enumerate(nodes or [], 1)]
+    nodes, document = yaml_values.items(deck.document, node, "parameters", "a list of parameters") or [], deck.document
+    return [
+        Section(document, item, "parameter", f"parameters[{i}]")
+        for i, given in enumerate(nodes, 1)
+        for item in expanded(document, given, f"parameters[{i}]", mesh)
+    ]
 
 
 def parameter(section: Section, variance: float | None, bound: Bound | None) -> Parameter | None:

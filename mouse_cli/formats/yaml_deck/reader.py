@@ -69,7 +69,7 @@ def _draft(deck: Section) -> Draft:
 
 def _properties(deck: Section, mesh: MeshDraft | None) -> tuple[list[Parameter], np.ndarray | None, list[Section]]:
     """The parameters, their covariance when they are correlated, and their sections; those of elements are bound to `mesh`."""
-    sections = yaml_parameters.sections(deck)
+    sections = yaml_parameters.sections(deck, mesh)
     bound = [bindings.bound(section, i, mesh) for i, section in enumerate(sections)]
     if mesh is not None:
         mesh.bindings = [binding for each in bound if each is not None for binding in each.bindings]

@@ -6,10 +6,10 @@ from dataclasses import fields
 from mouse_cli.formats.yaml_deck.kinds import MAX_WHOLE, VERSION
 from mouse_cli.formats.yaml_deck.nodes import compose
 from mouse_cli.formats.yaml_deck.text import flow, real, word, wrapped
+from mouse_cli.formats.yaml_deck.writer_modes import test_lines
 from mouse_cli.formats.yaml_deck.writer_parameters import parameters, prior
 from mouse_cli.formats.yaml_deck.writer_rows import rows
 from mouse_cli.formats.yaml_deck.writer_structure import structure
-from mouse_cli.formats.yaml_deck.writer_test import test_lines
 from mouse_cli.model.arrays import Matrix, is_sparse, upper_triangle
 from mouse_cli.model.problem import Problem, RunOptions
 

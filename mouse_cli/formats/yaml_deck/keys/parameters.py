@@ -33,6 +33,9 @@ SECTIONS = {
             "material": Key("text", "instead: the material whose property it is, wherever elements take it from there"),
             "section": Key("text", "instead: the cross section whose property it is"),
             "property": Key("word or words", "property, such as E; several move together as a factor of each"),
+            "each": Key(
+                "whole", "a parameter for every so many of the elements, named after them", "one for all", low=1
+            ),
             "factor": Key("flag", "it multiplies what the elements have", "false, unless the elements differ"),
         },
     ),
