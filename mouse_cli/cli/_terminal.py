@@ -53,13 +53,17 @@ def deliver(text: str, output: str | None, deck: str) -> None:
 
 
 @contextmanager
-def progress() -> Iterator[Callable[[Cycle], None]]:
-    """Shows each cycle while it runs, on a terminal only, and leaves no trace of it."""
+def progress() -> Iterator[tuple[Callable[[Cycle], None], Callable[[str], None]]]:
+    """Shows each cycle, and each phase of a large model, while they run, on a terminal only, and leaves no trace of them."""
     if not sys.stderr.isatty():
-        yield lambda cycle: None
+        yield lambda cycle: None, lambda text: None
         return
     line = "\r\033[K"  # back to its beginning, and cleared
+
+    def say(text: str) -> None:
+        click.echo(f"{line}{text}", err=True, nl=False)
+
     try:
-        yield lambda cycle: click.echo(f"{line}cycle {cycle.index}: chi2 {cycle.chi2:.6g}", err=True, nl=False)
+        yield lambda cycle: say(f"cycle {cycle.index}: chi2 {cycle.chi2:.6g}"), say
     finally:
         click.echo(line, err=True, nl=False)

@@ -63,6 +63,13 @@ CODES = {
         "point must name the object itself, e.g. `package.module:ESTIMATOR`.",
         "Mend or uninstall the distribution that is named.",
     ),
+    "MD517": Code(
+        "too large for the memory",
+        "Before a large model is factorised, the memory that its factor, the vectors of the eigensolution and the adjoint "
+        "solutions will take is estimated from the sparsity pattern. It is more than this machine, or the control group of the "
+        "process, has.",
+        "Take a machine with more memory, a coarser mesh, or shells and beams in place of solids; fewer modes help a little.",
+    ),
     "MD512": Code("out of memory", "The model is too large for this machine.", "Use sparse matrices and fewer modes."),
     "MD513": Code(
         "sensor that does not fit",

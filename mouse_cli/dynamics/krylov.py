@@ -13,17 +13,17 @@ from mouse_cli.model.arrays import Matrix
 
 BLOCK = 8  # columns at once: fewer are slower for each right-hand side, more need more of them
 _DOUBTFUL = (
-    1e-3  # length left of a vector after orthogonalisation, of what it was, below which A times it is formed anew
+    1e-3  # length left of a vector after orthogonalisation, of what it was, below which it is solved for anew
 )
 _NOTHING = 1e-13  # the same: rounding alone
 _DEPENDENT = 1e-13  # the same for a combination of the vectors left
 
 
 class Operator:
-    """A = K - sigma M with its `factor`, and M without stored zeros; vectors are rows here (c, n), one behind the other."""
+    """A = K - sigma M by its `factor`, and M without stored zeros; vectors are rows here (c, n), one behind the other."""
 
-    def __init__(self, A: Matrix, factor: Factor, M: Matrix):
-        self.A, self.factor, self.M = A, factor, M
+    def __init__(self, factor: Factor, M: Matrix):
+        self.factor, self.M = factor, M
 
     def solve(self, right: np.ndarray) -> np.ndarray:
         """A^-1 `right`."""
@@ -31,12 +31,7 @@ class Operator:
 
     def mass(self, vectors: np.ndarray) -> np.ndarray:
         """M times `vectors`."""
-        return _product(self.M, vectors)
-
-    def stiffness(self, vectors: np.ndarray) -> np.ndarray:
-        """A times `vectors`."""
-        return _product(self.A, vectors)
-
+        return np.ascontiguousarray((self.M @ np.ascontiguousarray(vectors.T)).T)
 
 class Krylov:
     """V (d, n) with V A V' = I; AV (d, n); T = V M V', known but for the last block, which is still to be expanded.
@@ -123,7 +118,8 @@ class Krylov:
         """Add what is new in W (c, n) with R = A W: (h, C) so that W = h'V + C'V_new.
 
         First the vectors from `recent` on, those of the three-term recurrence, are taken out, then, as rounding leaves something
-        of the others, all. Where little is left, A times it has lost its digits and is formed anew.
+        of the others, all. Where little is left, W and A W have lost digits that they no longer
+        share: W is solved for anew.
         """
         d, before = self.d, np.sqrt(np.maximum(np.einsum("ij,ij->i", W, R), 0.0))
         h = np.zeros((d, len(W)))
@@ -133,7 +129,7 @@ class Krylov:
         if len(W) and left < _DOUBTFUL:
             more = np.zeros((d, len(W)))
             for _ in range(2):
-                R = self.operator.stiffness(W)
+                W = self.operator.solve(R)
                 self._take_out(W, R, more, 0)
             h += more @ C
         W, R, again, _ = _orthonormal(W, R, np.ones(len(W)), self.n - d)
@@ -174,7 +170,3 @@ def _orthonormal(W: np.ndarray, R: np.ndarray, before: np.ndarray, most: int):
     back = (U / size / scale[:, None]).T
     left = np.min(share[share > _NOTHING], initial=1.0) * np.min(size, initial=1.0)
     return back @ W, back @ R, (U * size).T * length, left
-
-
-def _product(matrix: Matrix, vectors: np.ndarray) -> np.ndarray:
-    return np.ascontiguousarray((matrix @ np.ascontiguousarray(vectors.T)).T)

@@ -15,6 +15,11 @@ class NotConverged(np.linalg.LinAlgError):
     """Lanczos did not find the modes wanted."""
 
 
+def room(n: int, count: int) -> int:
+    """Vectors that memory is taken for at first: as many as `count` modes usually need."""
+    return min(n, 5 * count + 6 * BLOCK)
+
+
 def start_block(n: int, known: np.ndarray | None, seed: int) -> np.ndarray:
     """BLOCK vectors (BLOCK, n), random but the same in every run: of `known` shapes (n, k) of a similar model, or of everything."""
     rng = np.random.default_rng(seed)
@@ -35,7 +40,7 @@ def krylov_space(
 
     operator: A = K - sigma M positive definite. Raises NotConverged.
     """
-    space = Krylov(operator, min(operator.M.shape[0], 5 * count + 6 * BLOCK), workspace)
+    space = Krylov(operator, room(operator.M.shape[0], count), workspace)
     space.start(start_block(space.n, known, 0))
     return refined(space, count, tolerance, notice)
 

@@ -5,11 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 
+from mouse_cli.dynamics import memory
 from mouse_cli.dynamics.eigen import EigenSolution, IndefiniteError, dense_solution
 from mouse_cli.dynamics.factors import Analysis, Backend, Factor
-from mouse_cli.dynamics.krylov import Krylov, Operator
-from mouse_cli.dynamics.lanczos import INFINITE, NotConverged, krylov_space, refined, start_block
+from mouse_cli.dynamics.krylov import BLOCK, Krylov, Operator
+from mouse_cli.dynamics.lanczos import INFINITE, NotConverged, krylov_space, refined, room, start_block
 from mouse_cli.dynamics.pencil import Pencil, without_zeros
+from mouse_cli.dynamics.shared_space import COLUMNS
 from mouse_cli.dynamics.workspace import Workspace
 from mouse_cli.model.arrays import Matrix, dense, is_sparse
 
@@ -24,10 +26,11 @@ class EigenSolver:
     """Solves one model after the other whose K and M keep their patterns; the space of a solution lives until the next one.
 
     notice: called with a sentence as each phase of a large model begins. backend: of the factorisations; None: the best.
+    sensors: how many will be asked for derivatives, whose memory is then counted.
     """
 
-    def __init__(self, notice: Notice = lambda text: None, backend: Backend | None = None):
-        self._notice, self._backend = notice, backend
+    def __init__(self, notice: Notice = lambda text: None, backend: Backend | None = None, sensors: int = 0):
+        self._notice, self._backend, self._sensors = notice, backend, sensors
         self._pencil: Pencil | None = None
         self._last: EigenSolution | None = None
         self._workspace = Workspace()
@@ -56,7 +59,7 @@ class EigenSolver:
             self._pencil, self._analysis = Pencil(K, M), None
         sigma = self._shift(K, M) if shift is None else shift
         space = krylov_space(
-            self._operator(K, M, sigma), count, tolerance, self._known(), self._workspace, self._notice
+            self._operator(K, M, sigma, count), count, tolerance, self._known(), self._workspace, self._notice
         )
         solution = _solution(space, sigma, count)
         if verify:
@@ -82,19 +85,27 @@ class EigenSolver:
         heavy = masses > 0
         return -1e-4 * float(np.min(K.diagonal()[heavy] / masses[heavy]))
 
-    def _operator(self, K: Matrix, M: Matrix, sigma: float) -> Operator:
+    def _operator(self, K: Matrix, M: Matrix, sigma: float, count: int) -> Operator:
         """A = K - sigma M, factorised. Raises IndefiniteError when it is not positive definite."""
         A = self._pencil.shifted(K, M, sigma)
         if self._analysis is None:
             self._notice(f"ordering {A.shape[0]:,} degrees of freedom")
             self._analysis = Analysis(A, self._backend)
+            self._weigh(A, count)
         factor = self._factor(A)
         if factor.negative() != 0:  # Lanczos near the shift would not see what lies far below it
             raise IndefiniteError(f"the stiffness matrix has eigenvalues below {sigma:.6g} (rad/s)^2")
-        return Operator(A, factor, without_zeros(M))
+        return Operator(factor, without_zeros(M))
+
+    def _weigh(self, A: Matrix, count: int) -> None:
+        """Say how much memory it will take. Raises NumericalError when that is not there."""
+        n, symbolic = A.shape[0], self._analysis.symbolic
+        vectors = 2 * room(n, count) + 3 * (self._sensors + BLOCK) + 4 * COLUMNS
+        self._memory = memory.needed(n, A.nnz, symbolic.memory_bytes, vectors)
+        memory.check(self._memory, n)
 
     def _factor(self, A: Matrix) -> Factor:
-        self._notice(f"factorising {A.shape[0]:,} degrees of freedom")
+        self._notice(f"factorising {A.shape[0]:,} degrees of freedom: about {memory.shown(self._memory)}")
         return self._analysis.factor(A)
 
     def _verified(

@@ -8,7 +8,7 @@ import numpy as np
 from mouse_cli import __version__
 from mouse_cli._errors import Diagnostic
 from mouse_cli.dynamics.frequency import frequency_hz, sd_frequency_hz
-from mouse_cli.model.arrays import dense
+from mouse_cli.model.arrays import dense, is_sparse
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import ChiSquareTest, Result
 from mouse_cli.report.json_values import dof_name, plain
@@ -50,6 +50,7 @@ def document(result: Result) -> dict[str, Any]:
             "residual": _test(result.residual),
             "prior_shift": _test(result.prior_shift),
             "model_form": result.model_form,
+            "sensitivities": {"method": _method(result), "error": result.partials_error},
             **_partials(result),
             "warnings": [_warning(d) for d in (*problem.warnings, *result.warnings)],
             "versions": result.versions,
@@ -61,6 +62,11 @@ def _options(problem: Problem) -> dict[str, Any]:
     """Every option of the run; degrees of freedom count from 1, as in decks."""
     dofs = [dof + 1 for dof in problem.run.total_mass_dofs]
     return {**asdict(problem.run), "total_mass_dofs": dofs, "scale": problem.test.scale}
+
+
+def _method(result: Result) -> str:
+    """How the partial derivatives were computed."""
+    return "adjoint" if is_sparse(result.revised.K) else "all modes"
 
 
 def _partials(result: Result) -> dict[str, Any]:

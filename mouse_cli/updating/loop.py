@@ -125,7 +125,7 @@ def _begin(problem: Problem, notice: Notice = lambda text: None) -> tuple[Settin
         raise refusals.no_test(problem)
     assembly = assemble(problem)
     K, M = assembly.matrices(problem.prior.mean)
-    solver = EigenSolver(notice)
+    solver = EigenSolver(notice, sensors=problem.test.s)
     try:
         solution = solve(problem, K, M, solver=solver, verify=True)
     except IndefiniteError as reason:

@@ -37,8 +37,8 @@ def command(
     for problem in problems:
         if not quiet:
             show_diagnostics(problem.warnings)
-        with progress() as show:
-            results.append(run(problem, show))
+        with progress() as (show, say):
+            results.append(run(problem, show, say))
     deliver(_text(results, form, numbers, stacked), output, deck)
     return max((result.exit_code for result in results), default=0)
 

@@ -3,15 +3,16 @@
 import numpy as np
 
 from mouse_cli.dynamics.factors import Backend
+from mouse_cli.dynamics.memory import nonzeros
 from mouse_cli.model.arrays import Matrix
 
 
 class _Symbolic:
-    """SuperLU keeps nothing between factorisations."""
+    """SuperLU keeps nothing between factorisations, and tells nothing before: sizes are estimates, of L and U."""
 
     def __init__(self, pattern: Matrix):
-        self.nonzeros = 0
-        self.memory_bytes = 0
+        self.nonzeros = nonzeros(pattern)
+        self.memory_bytes = 2 * 12 * self.nonzeros
 
     def factor(self, matrix: Matrix) -> "_Factor":
         """L U by diagonal pivots."""

@@ -23,6 +23,11 @@ def verdict(result: Result, options: Options) -> Iterator[Block]:
     yield Text(_residual(result))
     yield Text(_prior_shift(result))
     yield Text(_conclusion(result))
+    if result.partials_error:
+        yield Text(
+            f"The partial derivatives of this answer have an estimated relative error of {result.partials_error:.0e}; `--exact` "
+            "computes them to rounding."
+        )
     remarks = (*result.problem.warnings, *result.warnings)
     if remarks:
         yield Heading("Warnings", 2)
