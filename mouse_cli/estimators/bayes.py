@@ -5,6 +5,7 @@ import numpy as np
 from mouse_cli.estimators.linear import Estimator, LinearEstimate, LinearProblem, conditioned, limited
 
 _LARGE = 1e3  # length of a column of B above which I + B'B would lose digits of the prior: then QR of [B; I]
+_WORTH_LOADING = 500  # order of a triangular system from which on scipy is worth loading
 _SEEN = 1e-4  # share of a variance that the data do not see, below which it is not formed as a difference
 
 
@@ -38,9 +39,19 @@ def _mode(B: np.ndarray, r: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         stacked = np.zeros((q + k, k + 1))
         stacked[:q, :k], stacked[:q, k], stacked[q:, :k] = B, r, np.eye(k)
         C = np.linalg.qr(stacked, mode="r")[:k]
-        return np.linalg.solve(C[:, :k], C[:, k]), C[:, :k]
-    C = np.linalg.cholesky(np.eye(k) + gram).T
-    return np.linalg.solve(C, np.linalg.solve(C.T, B.T @ r)), C
+        return _triangular(C[:, :k], C[:, k]), C[:, :k]
+    gram[np.diag_indices(k)] += 1.0
+    C = np.linalg.cholesky(gram).T
+    return _triangular(C, _triangular(C.T, B.T @ r, lower=True)), C
+
+
+def _triangular(C: np.ndarray, right: np.ndarray, lower: bool = False) -> np.ndarray:
+    """C^-1 `right` for triangular C; scipy, which knows of triangles, takes longer to load than small ones to solve."""
+    if len(C) < _WORTH_LOADING:
+        return np.linalg.solve(C, right)
+    from scipy.linalg import solve_triangular
+
+    return solve_triangular(C, right, lower=lower)
 
 
 def _within_row_space(problem: LinearProblem, B: np.ndarray, r: np.ndarray) -> LinearEstimate:

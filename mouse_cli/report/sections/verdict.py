@@ -22,12 +22,12 @@ def verdict(result: Result, options: Options) -> Iterator[Block]:
     yield test_table((result.innovation, result.residual, result.prior_shift))
     yield Text(_residual(result))
     yield Text(_prior_shift(result))
-    yield Text(_conclusion(result))
     if result.partials_error:
         yield Text(
             f"The partial derivatives of this answer have an estimated relative error of {result.partials_error:.0e}; `--exact` "
             "computes them to rounding."
         )
+    yield Text(_conclusion(result))
     remarks = (*result.problem.warnings, *result.warnings)
     if remarks:
         yield Heading("Warnings", 2)
