@@ -77,6 +77,15 @@ def test_eigenvalues_of_a_net(backend):
     assert solution.verified >= 18
 
 
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_eigenvalues_of_a_net_with_many_neighbours(backend):
+    """Squares of the matrix of a net have its eigenvalues squared, and twelve neighbours a node: SuperLU then dissects."""
+    K, M = net(50, 61), csr_array(diags_array(np.ones(3050)))
+    solution = EigenSolver(backend=backend).solve(csr_array(K @ K), M, 12, verify=True)
+    np.testing.assert_allclose(solution.eigenvalues, net_eigenvalues(50, 61)[:12] ** 2, rtol=1e-8)
+    assert solution.verified >= 10
+
+
 def test_a_pattern_with_zeros_is_kept():
     """Zeros of K - sigma M that only one shift has do not change the pattern; an entry that appears makes a new one."""
     K, M = net(6, 6), csr_array(diags_array(np.ones(36)))
