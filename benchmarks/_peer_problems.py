@@ -1,9 +1,11 @@
 """The three problems on which mouse is compared with its peers: a chain, a clamped beam, a bar of hexahedra."""
 
+from dataclasses import replace
+
 import element_matrices
 import numpy as np
 from _user_model import UserModel
-from scale_models import Block, ElementGroups, Grid, bricks, reference_modes, simulated, with_factors
+from scale_models import Block, ElementGroups, Grid, bricks, reference_modes, simulated, spread, with_factors
 
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.structure import Structure
@@ -30,12 +32,13 @@ def clamped_beam() -> tuple[Structure, Grid]:
 
 
 def bar() -> tuple[Structure, Grid]:
-    """A cantilever of 5 m and 80 x 60 mm in 500 x 8 x 6 hexahedra."""
+    """A cantilever of 5 m and 80 x 60 mm in 500 x 8 x 6 hexahedra; sensors at random nodes, across either way."""
     from scipy.sparse import csr_array
 
     grid = bricks((500, 8, 6), (5.0, 0.08, 0.06))
     zero = csr_array((grid.n, grid.n))
-    return Structure(zero, zero), grid
+    across = np.flatnonzero(np.arange(grid.n) % 3 > 0)
+    return Structure(zero, zero), replace(grid, translations=spread(across, 60))
 
 
 PROBLEMS = {  # model, stiffness groups, modes, sensors

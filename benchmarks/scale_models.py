@@ -210,10 +210,15 @@ def problem(kind: str, n: int, p: int, modes: int = 30, sensors: int = 20, seed:
     structure, term, sd, translations = model(kind, n, p)
     rng = np.random.default_rng(seed)
     truth = np.maximum(1 + sd * rng.standard_normal(p), 0.3)
-    dofs = translations[np.linspace(0, len(translations) - 1, sensors + 1).astype(int)[1:]]
+    dofs = spread(translations, sensors)
     eigenvalues, shapes = reference_modes(*Assembly(structure, (term,), p).matrices(truth), modes)
     test = simulated(eigenvalues, shapes[dofs], dofs, rng)
     return with_factors(f"{kind} of {structure.n} degrees of freedom", structure, term, sd, test, **options)
+
+
+def spread(translations: np.ndarray, sensors: int) -> np.ndarray:
+    """Sensors at random: at even steps they might all look in one direction, and see nothing of the modes in the others."""
+    return np.sort(np.random.default_rng(0).choice(translations, sensors, replace=False))
 
 
 def simulated(eigenvalues: np.ndarray, seen: np.ndarray, dofs: np.ndarray, rng: np.random.Generator) -> ModalTest:

@@ -51,14 +51,14 @@ class Case:
     """A model at nominal values: K, M and their derivatives by some parameters, sensors, modes to be tested."""
 
     def __init__(self, kind: str, dofs: float, modes: int, sensors: int):
-        from scale_models import model
+        from scale_models import model, spread
 
         from mouse_cli.dynamics.forces import forces
         from mouse_cli.terms.assembly import Assembly
 
         structure, term, _, translations = model(kind, dofs, PARAMETERS)
         self.n, self.modes = structure.n, np.arange(modes)
-        self.dofs = translations[np.linspace(0, len(translations) - 1, sensors + 1).astype(int)[1:]]
+        self.dofs = spread(translations, sensors)
         assembly, nominal = Assembly(structure, (term,), PARAMETERS), np.ones(PARAMETERS)
         self.K, self.M = assembly.matrices(nominal)
         self.pattern = forces(self.n, PARAMETERS, assembly.slopes(nominal))
