@@ -12,8 +12,9 @@ FILES = sorted(PACKAGE.rglob("*.py"))
 
 # From the top down: a folder imports its own rank and those below.
 RANKS = {
-    "cli": 6,
-    "report": 5,
+    "cli": 7,
+    "report": 6,
+    "diagnosis": 5,
     "updating": 4,
     "estimators": 3,
     "observables": 3,

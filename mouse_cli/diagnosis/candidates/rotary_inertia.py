@@ -1,0 +1,31 @@
+"""The inertia of sections that turn, after Rayleigh."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.candidates import Candidate
+from mouse_cli.diagnosis.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.reduced import Reduced
+from mouse_cli.diagnosis.shearing import rotary
+
+
+def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
+    """M + a times the integral of density I N_theta' N_theta; a = 1 is what the section itself has."""
+    if model.bars is None:
+        return []
+    factor = Unknown("times density I of the section", "1", 0.5, 30.0)
+    M = rotary(model.bars)
+
+    def change(values: np.ndarray) -> Change:
+        return Change(M=values[0] * M)
+
+    return [Recipe(candidate, (factor,), change, steps(factor, 4)[:, None])]
+
+
+CANDIDATE = Candidate(
+    "rotary-inertia",
+    "rotary inertia",
+    "shear",
+    "inertia of sections that turn in bending (Rayleigh), about a third of what shear does; more than 1 times the section's own "
+    "means heavy parts far from the axis",
+    recipes,
+)

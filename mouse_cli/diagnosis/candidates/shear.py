@@ -1,0 +1,30 @@
+"""Shear flexibility of bars, after Timoshenko, without the inertia of sections that turn."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.candidates import Candidate
+from mouse_cli.diagnosis.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.reduced import Reduced
+from mouse_cli.diagnosis.shearing import shear, shear_range
+
+
+def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
+    """phi = 12 EI / (kappa G A l^2) of every bar, from E / (kappa G)."""
+    if model.bars is None:
+        return []
+    ratio = Unknown("E / (kappa G)", "1", *shear_range(model.bars))
+
+    def change(values: np.ndarray) -> Change:
+        K, M = shear(model.bars, values[0], rotary=False)
+        return Change(K, M)
+
+    return [Recipe(candidate, (ratio,), change, steps(ratio, 8)[:, None])]
+
+
+CANDIDATE = Candidate(
+    "shear",
+    "shear flexibility",
+    "shear",
+    "bars give way in shear (Timoshenko): frequencies of high modes fall with the square of their wave number, low ones stay",
+    recipes,
+)

@@ -1,0 +1,30 @@
+"""Both that Euler and Bernoulli leave out: shear flexibility, and the inertia of sections that turn."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.candidates import Candidate
+from mouse_cli.diagnosis.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.reduced import Reduced
+from mouse_cli.diagnosis.shearing import shear, shear_range
+
+
+def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
+    """Timoshenko's bar with rotary inertia from the section itself."""
+    if model.bars is None:
+        return []
+    ratio = Unknown("E / (kappa G)", "1", *shear_range(model.bars))
+
+    def change(values: np.ndarray) -> Change:
+        K, M = shear(model.bars, values[0], rotary=True)
+        return Change(K, M)
+
+    return [Recipe(candidate, (ratio,), change, steps(ratio, 8)[:, None])]
+
+
+CANDIDATE = Candidate(
+    "timoshenko",
+    "shear flexibility and rotary inertia",
+    "shear",
+    "Timoshenko's bar: shear flexibility together with the inertia of turning sections, which always come together",
+    recipes,
+)

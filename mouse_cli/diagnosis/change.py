@@ -1,0 +1,92 @@
+"""What a cause does to a model: changes of K, M and of what sensors read, in the coordinates of the reduced model."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from mouse_cli.model.diagnosis import EVERYWHERE, Site
+from mouse_cli.model.problem import Problem
+
+
+@dataclass(frozen=True)
+class Change:
+    """K, M (r + a, r + a) that are added, a degrees of freedom of the cause's own behind the r of the model; None: no change.
+
+    sensing (s, r + a): added to what the sensors read.
+    """
+
+    K: np.ndarray | None = None
+    M: np.ndarray | None = None
+    sensing: np.ndarray | None = None
+
+
+@dataclass(frozen=True)
+class Unknown:
+    """A parameter of a cause, uniform before the test over its range, or its logarithm is (`log`)."""
+
+    name: str
+    unit: str
+    lower: float
+    upper: float
+    log: bool = True
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """Range of the coordinate: the logarithm or the value."""
+        return (float(np.log(self.lower)), float(np.log(self.upper))) if self.log else (self.lower, self.upper)
+
+    def value(self, coordinate: float) -> float:
+        """The value that a coordinate stands for."""
+        return float(np.exp(coordinate)) if self.log else float(coordinate)
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """A candidate at a place, or along a line of them when the place is an unknown.
+
+    change(values), site(values): what it does, and where, for values (t,) of the unknowns. own: degrees of freedom of its own.
+    grid (g, t): values to begin from. log_prior: ln of the share of the candidate's prior that this place has. extend(problem,
+    values): the deck with the cause in it.
+    """
+
+    candidate: Any
+    unknowns: tuple[Unknown, ...]
+    change: Callable[[np.ndarray], Change]
+    grid: np.ndarray
+    site: Callable[[np.ndarray], Site] = lambda values: EVERYWHERE
+    own: int = 0
+    log_prior: float = 0.0
+    extend: Callable[[Problem, np.ndarray], Problem] | None = field(default=None, compare=False)
+
+    def values(self, coordinates: np.ndarray) -> np.ndarray:
+        """Values (t,) at coordinates (t,)."""
+        return np.array([u.value(c) for u, c in zip(self.unknowns, coordinates, strict=True)])
+
+    def coordinates(self, values: np.ndarray) -> np.ndarray:
+        """Coordinates (t,) of values (t,)."""
+        return np.array([np.log(v) if u.log else v for u, v in zip(self.unknowns, values, strict=True)])
+
+    @property
+    def bounds(self) -> np.ndarray:
+        """Ranges (t, 2) of the coordinates."""
+        return np.array([u.bounds for u in self.unknowns]).reshape(-1, 2)
+
+
+def outer(rows: np.ndarray, core: np.ndarray) -> np.ndarray:
+    """sum over b of rows_b' core_b rows_b (r, r), for rows (b, c, r) and symmetric core (b, c, c)."""
+    weighed = np.einsum("bij,bjr->bir", core, rows)
+    return rows.reshape(-1, rows.shape[-1]).T @ weighed.reshape(-1, rows.shape[-1])
+
+
+def steps(unknown: Unknown, count: int) -> np.ndarray:
+    """`count` values inside the range, evenly spaced in the coordinate."""
+    lower, upper = unknown.bounds
+    at = lower + (np.arange(count) + 0.5) / count * (upper - lower)
+    return np.exp(at) if unknown.log else at
+
+
+def product(*axes: np.ndarray) -> np.ndarray:
+    """All combinations (g, t) of values along t axes."""
+    return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, len(axes))

@@ -1,0 +1,63 @@
+"""The modal test as a diagnosis sees it: logarithms of frequencies, and shapes of unknown sign and length."""
+
+import numpy as np
+
+from mouse_cli.dynamics.correlation import pair
+from mouse_cli.dynamics.frequency import eigenvalue
+from mouse_cli.model.modal_test import ModalTest
+
+
+class Data:
+    """m modes at s sensors, q data: ln f of each mode, then its shape, over their standard deviations.
+
+    The scale a of each shape is profiled: a = f'W y / f'W f (Golub and Pereyra 1973), unless the test states it (`scale: none`).
+    """
+
+    def __init__(self, test: ModalTest):
+        self.test, self.m, self.s = test, test.m, test.s
+        self.has_frequency = np.isfinite(test.frequency_hz)
+        self._log = 0.5 * np.log(np.where(self.has_frequency, eigenvalue(test.frequency_hz), 1.0))
+        self.sd_log = np.where(self.has_frequency, test.frequency_sd_hz / test.frequency_hz, 1.0)
+        self.has_shape = np.isfinite(test.shapes)
+        self._w = np.where(self.has_shape, 1 / np.where(self.has_shape, test.shape_sd, 1.0), 0.0)
+        self._y = np.where(self.has_shape, test.shapes, 0.0) * self._w
+        self.scaled = test.scale != "none"
+        self.by_shape = bool(test.s) and self.has_shape.sum(axis=0).min(initial=0) >= 2
+
+    @property
+    def dof(self) -> int:
+        """Data less the scales that are fitted to them."""
+        profiled = int(self.has_shape.any(axis=0).sum()) if self.scaled else 0
+        return int(self.has_frequency.sum() + self.has_shape.sum()) - profiled
+
+    def pair(self, eigenvalues: np.ndarray, seen: np.ndarray) -> np.ndarray:
+        """Index (m,) of the model mode that each measured one is, for shapes `seen` (s, k): by shape, or by number."""
+        if not self.by_shape:
+            return self.test.number - 1
+        reach = min(len(eigenvalues), 2 * int(self.test.number.max()) + 6)
+        hz = np.sqrt(np.maximum(eigenvalues[:reach], 0.0)) / (2 * np.pi)
+        hz[hz < 1e-3 * np.nanmin(self.test.frequency_hz, initial=np.inf)] = 0.0
+        return pair(self.test.shapes, self.test.frequency_hz, seen[:, :reach], hz)
+
+    def residual(self, eigenvalues: np.ndarray, seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Whitened residual (q,), measured minus model, for eigenvalues (m,) and shapes `seen` (s, m); scales a (m,)."""
+        with np.errstate(divide="ignore"):
+            off = (self._log - 0.5 * np.log(np.maximum(eigenvalues, 1e-300))) / self.sd_log
+        f = seen * self._w
+        size = np.einsum("sm,sm->m", f, f)
+        along = np.einsum("sm,sm->m", f, self._y)
+        fitted = np.divide(along, size, out=np.zeros(self.m), where=size > 0)
+        a = fitted if self.scaled else np.where(along < 0, -1.0, 1.0)
+        return self._stacked(off, self._y - a * f), a
+
+    def jacobian(self, eigenvalues, seen, a, d_eigenvalues, d_seen) -> np.ndarray:
+        """d(prediction)/dx (q, k), whitened, for derivatives d_eigenvalues (m, k) and d_seen (s, m, k)."""
+        d_log = 0.5 * d_eigenvalues / np.maximum(eigenvalues, 1e-300)[:, None] / self.sd_log[:, None]
+        f, moved = seen * self._w, d_seen * (a * self._w)[:, :, None]
+        if self.scaled:
+            size = np.maximum(np.einsum("sm,sm->m", f, f), 1e-300)
+            moved = moved - f[:, :, None] * (np.einsum("sm,smk->mk", f, moved) / size[:, None])
+        return self._stacked(d_log, moved)
+
+    def _stacked(self, of_frequencies: np.ndarray, of_shapes: np.ndarray) -> np.ndarray:
+        return np.concatenate([of_frequencies[self.has_frequency], of_shapes[self.has_shape]])

@@ -1,0 +1,69 @@
+"""What may be said: nothing is missing, it is this, it is one of these, or something no candidate explains."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.diagnosis.fit import Fit
+from mouse_cli.diagnosis.name import Ranking
+from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, UNKNOWN, Cause, Explanation, Size
+from mouse_cli.updating.chi_square import upper_tail
+
+GATE = 1e-3  # probability of so large a misfit by chance, below which something is missing
+_SURE = 0.9  # probability of a group from which on it is named
+_ODDS = 3.0  # nats over no cause at all that a name needs
+_INADEQUATE = 1.5  # noise scale of the best explanation above which it is none
+
+
+@dataclass(frozen=True)
+class Decision:
+    """kind; probability of the leading group."""
+
+    kind: str
+    probability: float
+
+
+def doubtful(baseline: Fit) -> bool:
+    """Whether what the update leaves, misfit and shift of the parameters together, is no chance."""
+    return upper_tail(baseline.J, baseline.dof) < GATE
+
+
+def decide(ranking: Ranking) -> Decision:
+    """The answer by the gates of adequacy, probability and odds."""
+    if not doubtful(ranking.baseline):
+        return Decision(NOTHING, dict(ranking.groups).get("none", 0.0))
+    leader = ranking.fits[0]
+    name, probability = ranking.groups[0]
+    p = upper_tail(leader.J, max(leader.dof, 1))
+    if p < GATE and ranking.noise_scale > _INADEQUATE:
+        return Decision(UNKNOWN, probability)
+    odds = (leader.log_evidence - ranking.baseline.log_evidence) / ranking.noise_scale
+    if probability >= _SURE and name != "none" and odds > _ODDS:
+        return Decision(NAMED, probability)
+    if name == "none" and probability >= _SURE:
+        return Decision(UNKNOWN, probability)
+    return Decision(ONE_OF, probability)
+
+
+def explanations(ranking: Ranking) -> tuple[Explanation, ...]:
+    """All fits in words and numbers."""
+    return tuple(explanation(one, float(p)) for one, p in zip(ranking.fits, ranking.probabilities, strict=True))
+
+
+def explanation(one: Fit, probability: float = 0.0) -> Explanation:
+    """A fit as the report gives it."""
+    sd = np.sqrt(np.abs(np.diag(one.covariance)))[one.model.k :]
+    causes = tuple(_cause(recipe, one.c[own], sd[own]) for recipe, own in zip(one.recipes, one.model.own, strict=True))
+    theta = one.model.base.parameters(one.point.x[: one.model.k])
+    p = upper_tail(one.J, max(one.dof, 1))
+    return Explanation(causes, one.J, one.dof, p, one.log_evidence, theta, probability)
+
+
+def _cause(recipe, c: np.ndarray, sd: np.ndarray) -> Cause:
+    values = recipe.values(c)
+    sizes = tuple(
+        Size(u.name, u.unit, float(v), float(s * v if u.log else s), u.lower, u.upper)
+        for u, v, s in zip(recipe.unknowns, values, sd, strict=True)
+    )
+    candidate = recipe.candidate
+    return Cause(candidate.key, candidate.group, candidate.title, recipe.site(values), sizes)

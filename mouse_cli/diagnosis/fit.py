@@ -1,0 +1,234 @@
+"""Most probable parameters of the deck and of causes that are added to it, and the evidence for those causes.
+
+x = [z, c]: the deck's parameters in prior standard deviations, N(0, 1), and coordinates of the causes, uniform in their ranges.
+C = |residual|^2 + |z|^2 is lowered by Levenberg-Marquardt steps within the ranges, one exact eigensolution a step. With
+H = J'J + I_z at the end, Laplace's evidence for d unknowns of widths w is
+
+    ln Z = -C/2 - sum ln w + (d/2) ln 2 pi - 1/2 ln |H + diag(0, 2 pi / w^2)|
+
+where what is added to H keeps an unknown that the data do not feel from being found wider than its range.
+"""
+
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import numpy as np
+
+from mouse_cli.diagnosis.change import Change, Recipe
+from mouse_cli.diagnosis.reduced import Reduced
+
+_STEP = 1e-5  # of a range, for derivatives of matrices
+_SMALL = 1e-4  # change of J, relative to 1 + its share of rounding, that ends the search
+_MOST = 40
+_GIVE_UP = 1e8
+
+
+class Model:
+    """A reduced model with causes: what it predicts at x, and by which derivatives."""
+
+    def __init__(self, base: Reduced, recipes: tuple[Recipe, ...] = ()):
+        self.base, self.recipes = base, recipes
+        self.k = base.L.shape[1]
+        counts = [len(recipe.unknowns) for recipe in recipes]
+        self.t, cut = sum(counts), np.cumsum([0, *counts])
+        self.own = [slice(a, b) for a, b in pairwise(cut)]
+        self.bounds = np.concatenate([np.zeros((0, 2)), *(recipe.bounds for recipe in recipes)])
+        self.width = self.bounds[:, 1] - self.bounds[:, 0]
+        last, self.places = base.r, []
+        for recipe in recipes:
+            self.places.append(np.concatenate([np.arange(base.r), last + np.arange(recipe.own)]).astype(int))
+            last += recipe.own
+        self.size = last
+
+    def changes(self, c: np.ndarray) -> list[Change]:
+        """What each cause does at the coordinates c (t,)."""
+        return [r.change(r.values(c[own])) for r, own in zip(self.recipes, self.own, strict=True)]
+
+    def _sum(self, parts: list[tuple[int, Change]]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """K, M (size, size) and sensing (s, size) that `parts` make, by number of the recipe."""
+        K, M = np.zeros((2, self.size, self.size))
+        S = np.zeros((self.base.sensing.shape[0], self.size))
+        for i, change in parts:
+            at = self.places[i]
+            for into, matrix in ((K, change.K), (M, change.M)):
+                if matrix is not None:
+                    into[at[:, None], at] += matrix
+            if change.sensing is not None:
+                S[:, at] += change.sensing
+        return K, M, S
+
+    def point(self, x: np.ndarray) -> "Point | None":
+        """The model at x (k + t,); None where it is not physical."""
+        r = self.base.r
+        K, M, S = self._sum(list(enumerate(self.changes(x[self.k :]))))
+        K0, M0 = self.base.matrices(x[: self.k])
+        K[:r, :r] += K0
+        M[:r, :r] += M0
+        S[:, :r] += self.base.sensing
+        try:
+            C = np.linalg.inv(np.linalg.cholesky(M))
+            eigenvalues, Q = np.linalg.eigh(C @ K @ C.T)
+        except np.linalg.LinAlgError:
+            return None
+        if not np.isfinite(eigenvalues).all() or eigenvalues[0] < -1e-5 * abs(eigenvalues[-1]):
+            return None
+        X = C.T @ Q
+        seen = S @ X
+        modes = self.base.data.pair(eigenvalues, seen)
+        if modes.max() >= len(eigenvalues) or eigenvalues[modes].min() <= 0:
+            return None
+        residual, a = self.base.data.residual(eigenvalues[modes], seen[:, modes])
+        return Point(x, eigenvalues, X, seen, modes, residual, a)
+
+    def jacobian(self, at: "Point") -> np.ndarray:
+        """d(prediction)/dx (q, k + t), whitened."""
+        r, X, m = self.base.r, at.X, at.modes
+        dK, dM = self.base.slopes(at.x[: self.k])
+        forces = [dK @ X[:r, m] - (dM @ X[:r, m]) * at.eigenvalues[m]]
+        inertia = [dM @ X[:r, m]]
+        G = [np.swapaxes(f, 1, 2) @ X[:r] for f in forces]  # (k, m, modes)
+        own = [np.einsum("prm,rm->pm", i, X[:r, m]) for i in inertia]
+        sensed = np.zeros((self.k, at.seen.shape[0], len(m)))
+        for i, change in self._derivatives(at.x[self.k :]):
+            K, M, S = self._sum([(i, change)])
+            moved = M @ X[:, m]
+            G.append(((K @ X[:, m] - moved * at.eigenvalues[m]).T @ X)[None])
+            own.append(np.einsum("rm,rm->m", moved, X[:, m])[None])
+            sensed = np.concatenate([sensed, (S @ X[:, m])[None]])
+        G, own = np.concatenate(G), np.concatenate(own)
+        apart = at.eigenvalues[m][:, None] - at.eigenvalues
+        apart[np.abs(apart) < 1e-9 * np.abs(at.eigenvalues[m])[:, None]] = np.inf
+        d_lambda = G[:, np.arange(len(m)), m]
+        d_seen = np.einsum("sj,pmj->psm", at.seen, G / apart) - 0.5 * own[:, None] * at.seen[:, m] + sensed
+        return self.base.data.jacobian(at.eigenvalues[m], at.seen[:, m], at.a, d_lambda.T, np.moveaxis(d_seen, 0, -1))
+
+    def _derivatives(self, c: np.ndarray):
+        """Recipe and d(change)/dc, by central differences of the matrices, for each coordinate of the causes."""
+        for i, (recipe, own) in enumerate(zip(self.recipes, self.own, strict=True)):
+            for j in range(own.start, own.stop):
+                h = _STEP * self.width[j]
+                sides = []
+                for sign in (1, -1):
+                    there = c[own].copy()
+                    there[j - own.start] = np.clip(c[j] + sign * h, *self.bounds[j])
+                    sides.append((there[j - own.start], recipe.change(recipe.values(there))))
+                (ahead, one), (behind, other) = sides
+                yield i, _difference(one, other, ahead - behind)
+
+
+@dataclass(frozen=True)
+class Point:
+    """Model at x: all eigenvalues, shapes X (size, size), what sensors see of them (s, size), measured modes, residual, scales."""
+
+    x: np.ndarray
+    eigenvalues: np.ndarray
+    X: np.ndarray
+    seen: np.ndarray
+    modes: np.ndarray
+    residual: np.ndarray
+    a: np.ndarray
+
+    @property
+    def chi2(self) -> float:
+        """What is left of the data's misfit."""
+        return float(self.residual @ self.residual)
+
+
+@dataclass(frozen=True)
+class Fit:
+    """The end of a search. J = chi2 + |z|^2; covariance (k + t, k + t) of x; log_evidence."""
+
+    model: Model
+    point: Point
+    J: float
+    hessian: np.ndarray = field(repr=False)
+    log_evidence: float
+
+    @property
+    def recipes(self) -> tuple[Recipe, ...]:
+        """The causes."""
+        return self.model.recipes
+
+    @property
+    def dof(self) -> int:
+        """Degrees of freedom that J has when the model is right."""
+        return self.model.base.data.dof - self.model.t
+
+    @property
+    def covariance(self) -> np.ndarray:
+        """Of x, unknowns that the data do not feel as wide as their range."""
+        return np.linalg.inv(_capped(self.hessian, self.model))
+
+    @property
+    def c(self) -> np.ndarray:
+        """Coordinates of the causes."""
+        return self.point.x[self.model.k :]
+
+
+def fit(model: Model, c: np.ndarray, z: np.ndarray | None = None, most: int = _MOST) -> Fit | None:
+    """The most probable x, from coordinates c (t,) of the causes and z (k,) on; None where the model is not physical there."""
+    k = model.k
+    lower = np.concatenate([np.full(k, -np.inf), model.bounds[:, 0]])
+    upper = np.concatenate([np.full(k, np.inf), model.bounds[:, 1]])
+    x = np.concatenate([model.base.z if z is None else z, c])
+    at = model.point(np.clip(x, lower, upper))
+    if at is None:
+        return None
+    J, damping = _cost(at, k), 1e-3
+    prior = np.concatenate([np.ones(k), np.zeros(model.t)])
+    for _ in range(most):
+        T = model.jacobian(at)
+        H, slope = T.T @ T + np.diag(prior), T.T @ at.residual - prior * at.x
+        moved = False
+        while damping < _GIVE_UP:
+            step = _step(H, slope, damping, at.x, lower, upper)
+            there = model.point(np.clip(at.x + step, lower, upper))
+            cost = np.inf if there is None else _cost(there, k)
+            if cost <= J:
+                moved = True
+                break
+            damping *= 6
+        if not moved:
+            break
+        gained, at, J = J - cost, there, cost
+        damping = max(damping / 8, 1e-9)
+        if gained < _SMALL * (1 + 1e-3 * J):
+            break
+    T = model.jacobian(at)
+    H = T.T @ T + np.diag(prior)
+    return Fit(model, at, J, H, _evidence(J, H, model))
+
+
+def _cost(at: Point, k: int) -> float:
+    return at.chi2 + float(at.x[:k] @ at.x[:k])
+
+
+def _step(H, slope, damping, x, lower, upper) -> np.ndarray:
+    """Damped step; what stands at a limit and would leave it is held."""
+    held = ((x <= lower) & (slope < 0)) | ((x >= upper) & (slope > 0))
+    free = ~held
+    step = np.zeros(len(x))
+    A = H[np.ix_(free, free)]
+    step[free] = np.linalg.solve(A + damping * np.diag(A.diagonal()) + 1e-12 * np.eye(len(A)), slope[free])
+    return step
+
+
+def _capped(H: np.ndarray, model: Model) -> np.ndarray:
+    H = H.copy()
+    at = np.arange(model.k, len(H))
+    H[at, at] += 2 * np.pi / model.width**2
+    return H
+
+
+def _evidence(J: float, H: np.ndarray, model: Model) -> float:
+    places = sum(recipe.log_prior for recipe in model.recipes)
+    _, size = np.linalg.slogdet(_capped(H, model))
+    return -0.5 * J - float(np.log(model.width).sum()) + 0.5 * model.t * np.log(2 * np.pi) - 0.5 * size + places
+
+
+def _difference(one: Change, other: Change, length: float) -> Change:
+    parts = []
+    for name in ("K", "M", "sensing"):
+        a, b = getattr(one, name), getattr(other, name)
+        parts.append(None if a is None else (a - b) / length)
+    return Change(*parts)

@@ -1,0 +1,161 @@
+"""What a diagnosis found: where model and test part, what physics would explain it, how much of it, and whether that is true."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mouse_cli.model.problem import Problem
+from mouse_cli.model.result import ChiSquareTest, Result
+
+NOTHING, NAMED, ONE_OF, UNKNOWN = "nothing-missing", "named", "one-of", "unknown"
+
+
+@dataclass(frozen=True)
+class Site:
+    """Where a cause acts. kind: `structure`, `node`, `element`, `dof` or `sensor`; ids as the deck names them.
+
+    position (3,): coordinates in m where it is one point; text: in words, such as `element 12, 0.43 of its length`.
+    """
+
+    kind: str
+    ids: tuple[int | str, ...] = ()
+    position: tuple[float, float, float] | None = None
+    text: str = ""
+
+
+EVERYWHERE = Site("structure", text="the whole structure")
+
+
+@dataclass(frozen=True)
+class Size:
+    """One parameter of a cause: value and sd in `unit`, and the range (lower, upper) that was held possible."""
+
+    name: str
+    unit: str
+    value: float
+    sd: float
+    lower: float
+    upper: float
+
+
+@dataclass(frozen=True)
+class Cause:
+    """One piece of physics that the model does not have. physics: key of its candidate; group: of those hard to tell apart."""
+
+    physics: str
+    group: str
+    title: str
+    site: Site
+    sizes: tuple[Size, ...]
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """No cause, one or two, fitted beside all parameters of the deck.
+
+    chi2 on dof: what stays of the data's misfit; p of it; log_evidence: ln of the probability of the data; probability: of this
+    explanation among all that were tried. theta (p,): values of the deck's own parameters.
+    """
+
+    causes: tuple[Cause, ...]
+    chi2: float
+    dof: int
+    p: float
+    log_evidence: float
+    theta: np.ndarray
+    probability: float = 0.0
+
+    @property
+    def group(self) -> str:
+        """Groups of its causes, `none` without one."""
+        return " + ".join(sorted(cause.group for cause in self.causes)) or "none"
+
+
+@dataclass(frozen=True)
+class Place:
+    """A place where one force that the model lacks could make all measured shapes: score in nats below the best."""
+
+    site: Site
+    channel: str
+    probability: float
+    deficit: float
+
+
+@dataclass(frozen=True)
+class Location:
+    """Resolvent matching: places by probability, those of the 90 % region first; p: whether any single place can be it."""
+
+    places: tuple[Place, ...]
+    region: int
+    p: float
+
+    @property
+    def single(self) -> bool:
+        """Whether a force at one place may explain all shapes."""
+        return self.p > 1e-3
+
+
+@dataclass(frozen=True)
+class Score:
+    """How well data that no fit has seen were predicted."""
+
+    rms_frequency_error: float
+    log_predictive_density: float
+    covered: float
+    frequencies_hz: np.ndarray
+    sd_hz: np.ndarray
+    mac: np.ndarray
+
+
+@dataclass(frozen=True)
+class HeldOut:
+    """Data kept from every fit. labels, measured_hz (h,); baseline, revised: how either model predicts them."""
+
+    kind: str
+    labels: tuple[str, ...]
+    measured_hz: np.ndarray
+    baseline: Score
+    revised: Score | None
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """A measurement that would separate two explanations: predicted separation in nats, above 4 it will, below 1 it will not."""
+
+    text: str
+    between: tuple[str, str]
+    separation: float
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """The answer of `diagnose`.
+
+    kind: one of NOTHING, NAMED, ONE_OF, UNKNOWN. result: the update of the model as it is; best: the explanation named, or the
+    first of the rivals; probability: of its group. explanations: all that were tried, most probable first. noise_scale: by what
+    the stated variances were multiplied. extended: the deck with the cause in it, and its update.
+    """
+
+    problem: Problem
+    kind: str
+    result: Result
+    innovation: ChiSquareTest
+    explanations: tuple[Explanation, ...] = ()
+    groups: tuple[tuple[str, float], ...] = ()
+    noise_scale: float = 1.0
+    location: Location | None = None
+    held_out: HeldOut | None = None
+    proposals: tuple[Proposal, ...] = ()
+    extended: Problem | None = None
+    extended_result: Result | None = None
+    remarks: tuple[str, ...] = field(default=())
+
+    @property
+    def best(self) -> Explanation | None:
+        """The explanation that leads."""
+        return self.explanations[0] if self.explanations else None
+
+    @property
+    def exit_code(self) -> int:
+        """0: nothing is missing; 1: something is, or the update itself cannot be trusted."""
+        return self.result.status.exit_code if self.kind == NOTHING else 1
