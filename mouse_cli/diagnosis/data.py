@@ -30,6 +30,12 @@ class Data:
         profiled = int(self.has_shape.any(axis=0).sum()) if self.scaled else 0
         return int(self.has_frequency.sum() + self.has_shape.sum()) - profiled
 
+    @property
+    def log_sd(self) -> float:
+        """sum ln(sqrt(2 pi) sd) over the data: what a log density has beside the whitened residual."""
+        sd = np.concatenate([self.sd_log[self.has_frequency], 1 / self._w[self.has_shape]])
+        return float(np.sum(np.log(np.sqrt(2 * np.pi) * sd)))
+
     def pair(self, eigenvalues: np.ndarray, seen: np.ndarray) -> np.ndarray:
         """Index (m,) of the model mode that each measured one is, for shapes `seen` (s, k): by shape, or by number."""
         if not self.by_shape:

@@ -4,9 +4,12 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from mouse_cli.diagnosis.decide import decide, explanations
-from mouse_cli.diagnosis.name import rank
+from mouse_cli.diagnosis.fit import Fit
+from mouse_cli.diagnosis.name import Ranking, group, rank
+from mouse_cli.diagnosis.next_measurement import proposals
+from mouse_cli.diagnosis.prove import held_out
 from mouse_cli.diagnosis.reduced import reduced
-from mouse_cli.model.diagnosis import Diagnosis
+from mouse_cli.model.diagnosis import NOTHING, ONE_OF, Diagnosis, Proposal
 from mouse_cli.model.problem import Problem
 from mouse_cli.updating.loop import run
 
@@ -23,6 +26,7 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None) -> Diagnosis:
     model = reduced(problem, result.revised.theta)
     ranking = rank(model)
     decision = decide(ranking)
+    best = None if decision.kind == NOTHING else leader(ranking)
     return Diagnosis(
         problem=problem,
         kind=decision.kind,
@@ -31,4 +35,18 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None) -> Diagnosis:
         explanations=explanations(ranking),
         groups=ranking.groups,
         noise_scale=ranking.noise_scale,
+        held_out=held_out(model, ranking.baseline, best),
+        proposals=_proposals(ranking) if decision.kind == ONE_OF else (),
     )
+
+
+def leader(ranking: Ranking) -> Fit | None:
+    """The most probable fit that has a cause."""
+    return next((one for one in ranking.fits if one.recipes), None)
+
+
+def _proposals(ranking: Ranking) -> tuple[Proposal, ...]:
+    """What would separate the leading explanation from the best one of another group."""
+    first = ranking.fits[0]
+    second = next((one for one in ranking.fits if group(one) != group(first)), None)
+    return () if second is None else proposals(first, second, (group(first), group(second)))

@@ -13,6 +13,7 @@ import numpy as np
 from mouse_cli.diagnosis.bars import Bars, bars, motion_of
 from mouse_cli.diagnosis.data import Data
 from mouse_cli.model.arrays import dense
+from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import Assembly, assembly
 from mouse_cli.terms.constraints import Motion
@@ -102,12 +103,12 @@ class Reduced:
         """The same model with fewer measured modes: mask `keep_modes` (m,)."""
         return self.with_test(restricted(self.data.test, keep_modes))
 
-    def with_test(self, test) -> "Reduced":
-        """The same model for another test of the same sensors."""
-        return replace(self, data=Data(test))
+    def with_test(self, test: ModalTest, sensing: np.ndarray | None = None) -> "Reduced":
+        """The same model for another test, of the same sensors or of `sensing` (s, r)."""
+        return replace(self, data=Data(test), sensing=self.sensing if sensing is None else sensing)
 
 
-def restricted(test, modes: np.ndarray):
+def restricted(test: ModalTest, modes: np.ndarray) -> ModalTest:
     """The test with the modes of the mask `modes` (m,) alone."""
     return replace(
         test,
