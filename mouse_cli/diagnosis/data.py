@@ -6,9 +6,13 @@ from mouse_cli.dynamics.correlation import pair
 from mouse_cli.dynamics.frequency import eigenvalue
 from mouse_cli.model.modal_test import ModalTest
 
+THEORY_LOG, THEORY_SHAPE = 4e-4, 2e-3  # what the best theory of a bar leaves, of ln f and of the largest component
+
 
 class Data:
     """m modes at s sensors, q data: ln f of each mode, then its shape, over their standard deviations.
+
+    Those are what the test states and, beside it, what theory itself leaves.
 
     The scale a of each shape is profiled: a = f'W y / f'W f (Golub and Pereyra 1973), unless the test states it (`scale: none`).
     """
@@ -17,10 +21,12 @@ class Data:
         self.test, self.m, self.s = test, test.m, test.s
         self.has_frequency = np.isfinite(test.frequency_hz)
         self._log = 0.5 * np.log(np.where(self.has_frequency, eigenvalue(test.frequency_hz), 1.0))
-        self.sd_log = np.where(self.has_frequency, test.frequency_sd_hz / test.frequency_hz, 1.0)
+        self.sd_log = np.hypot(np.where(self.has_frequency, test.frequency_sd_hz / test.frequency_hz, 1.0), THEORY_LOG)
         self.has_shape = np.isfinite(test.shapes)
-        self._w = np.where(self.has_shape, 1 / np.where(self.has_shape, test.shape_sd, 1.0), 0.0)
-        self._y = np.where(self.has_shape, test.shapes, 0.0) * self._w
+        shapes = np.where(self.has_shape, test.shapes, 0.0)
+        sd = np.hypot(test.shape_sd, THEORY_SHAPE * np.abs(shapes).max(axis=0, initial=0.0))
+        self._w = np.where(self.has_shape, 1 / np.where(self.has_shape, sd, 1.0), 0.0)
+        self._y = shapes * self._w
         self.scaled = test.scale != "none"
         self.by_shape = bool(test.s) and self.has_shape.sum(axis=0).min(initial=0) >= 2
 

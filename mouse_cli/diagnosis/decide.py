@@ -7,6 +7,7 @@ import numpy as np
 from mouse_cli.diagnosis.fit import Fit
 from mouse_cli.diagnosis.name import Ranking
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, UNKNOWN, Cause, Explanation, Size
+from mouse_cli.model.result import Result
 from mouse_cli.updating.chi_square import upper_tail
 
 GATE = 1e-3  # probability of so large a misfit by chance, below which something is missing
@@ -23,19 +24,19 @@ class Decision:
     probability: float
 
 
-def doubtful(baseline: Fit) -> bool:
-    """Whether what the update leaves, misfit and shift of the parameters together, is no chance."""
-    return upper_tail(baseline.J, baseline.dof) < GATE
+def doubtful(baseline: Fit, result: Result) -> bool:
+    """Whether what the update leaves is no chance: misfit, shift of the parameters, or both together."""
+    return result.rejected or upper_tail(baseline.J, baseline.dof) < GATE
 
 
-def decide(ranking: Ranking) -> Decision:
+def decide(ranking: Ranking, result: Result) -> Decision:
     """The answer by the gates of adequacy, probability and odds."""
-    if not doubtful(ranking.baseline):
+    if not doubtful(ranking.baseline, result):
         return Decision(NOTHING, dict(ranking.groups).get("none", 0.0))
     leader = ranking.fits[0]
     name, probability = ranking.groups[0]
-    p = upper_tail(leader.J, max(leader.dof, 1))
-    if p < GATE and ranking.noise_scale > _INADEQUATE:
+    dof = max(leader.dof, 1)
+    if upper_tail(leader.J, dof) < GATE and leader.J > _INADEQUATE * dof:
         return Decision(UNKNOWN, probability)
     odds = (leader.log_evidence - ranking.baseline.log_evidence) / ranking.noise_scale
     if probability >= _SURE and name != "none" and odds > _ODDS:

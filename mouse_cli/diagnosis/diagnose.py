@@ -25,7 +25,7 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None) -> Diagnosis:
     result = run(problem, notice=notice)
     model = reduced(problem, result.revised.theta)
     ranking = rank(model)
-    decision = decide(ranking)
+    decision = decide(ranking, result)
     best = None if decision.kind == NOTHING else leader(ranking)
     return Diagnosis(
         problem=problem,

@@ -126,21 +126,32 @@ def _same(one: Fit, other: Fit) -> bool:
 
 
 def pairs(model: Reduced, recipes: dict[str, list[Recipe]], baseline: Fit, singles: list[Fit]) -> list[Fit]:
-    """Two causes: each of the leading ones with every candidate beside it, as far as both matter."""
-    leading = sorted(singles, key=lambda one: -one.log_evidence)[:_PAIRED]
+    """Two causes: the leading one with every candidate, and the best of the leading groups with one another."""
+    leading = _leading(singles)
     found: dict[tuple[str, ...], Fit] = {}
     for first in leading:
-        for own in recipes.values():
-            two = best(model, own, first)
-            if two is None:
-                continue
-            gain, so_far = two.log_evidence - first.log_evidence, first.log_evidence - baseline.log_evidence
-            if gain < max(_MATERIAL, _SHARE * so_far):
-                continue
-            other = found.get(key(two))
-            if other is None or two.log_evidence > other.log_evidence:
-                found[key(two)] = two
+        partners = recipes if first is leading[0] else [one.recipes[0].candidate.key for one in leading]
+        for name in partners:
+            two = best(model, recipes[name], first)
+            if two is not None and _material(two, first, baseline):
+                other = found.get(key(two))
+                if other is None or two.log_evidence > other.log_evidence:
+                    found[key(two)] = two
     return [two for two in found.values() if _both_needed(two, singles)]
+
+
+def _leading(singles: list[Fit]) -> list[Fit]:
+    """The best fit of each group, most evident first, as many as are paired."""
+    found: dict[str, Fit] = {}
+    for one in sorted(singles, key=lambda one: -one.log_evidence):
+        found.setdefault(group(one), one)
+    return list(found.values())[:_PAIRED]
+
+
+def _material(two: Fit, first: Fit, baseline: Fit) -> bool:
+    """Whether the second cause gains enough beside what the first has gained."""
+    so_far = first.log_evidence - baseline.log_evidence
+    return two.log_evidence - first.log_evidence > max(_MATERIAL, _SHARE * so_far)
 
 
 def _both_needed(two: Fit, singles: list[Fit]) -> bool:
