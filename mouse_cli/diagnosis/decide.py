@@ -26,7 +26,7 @@ class Decision:
 
 def doubtful(baseline: Fit, result: Result) -> bool:
     """Whether what the update leaves is no chance: misfit, shift of the parameters, or both together."""
-    return result.rejected or upper_tail(baseline.J, baseline.dof) < GATE
+    return result.rejected or upper_tail(baseline.misfit, baseline.dof) < GATE
 
 
 def decide(ranking: Ranking, result: Result) -> Decision:
@@ -36,7 +36,7 @@ def decide(ranking: Ranking, result: Result) -> Decision:
     leader = ranking.fits[0]
     name, probability = ranking.groups[0]
     dof = max(leader.dof, 1)
-    if upper_tail(leader.J, dof) < GATE and leader.J > _INADEQUATE * dof:
+    if upper_tail(leader.misfit, dof) < GATE and leader.misfit > _INADEQUATE * dof:
         return Decision(UNKNOWN, probability)
     odds = (leader.log_evidence - ranking.baseline.log_evidence) / ranking.noise_scale
     if probability >= _SURE and name != "none" and odds > _ODDS:
@@ -56,8 +56,8 @@ def explanation(one: Fit, probability: float = 0.0) -> Explanation:
     sd = np.sqrt(np.abs(np.diag(one.covariance)))[one.model.k :]
     causes = tuple(_cause(recipe, one.c[own], sd[own]) for recipe, own in zip(one.recipes, one.model.own, strict=True))
     theta = one.model.base.parameters(one.point.x[: one.model.k])
-    p = upper_tail(one.J, max(one.dof, 1))
-    return Explanation(causes, one.J, one.dof, p, one.log_evidence, theta, probability)
+    p = upper_tail(one.misfit, max(one.dof, 1))
+    return Explanation(causes, one.misfit, one.dof, p, one.log_evidence, theta, probability)
 
 
 def _cause(recipe, c: np.ndarray, sd: np.ndarray) -> Cause:

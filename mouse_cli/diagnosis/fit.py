@@ -136,11 +136,11 @@ class Point:
 
 @dataclass(frozen=True)
 class Fit:
-    """The end of a search. J = chi2 + |z|^2; covariance (k + t, k + t) of x; log_evidence."""
+    """The end of a search. misfit = chi2 + |z|^2; covariance (k + t, k + t) of x; log_evidence."""
 
     model: Model
     point: Point
-    J: float
+    misfit: float
     hessian: np.ndarray = field(repr=False)
     log_evidence: float
 
@@ -151,7 +151,7 @@ class Fit:
 
     @property
     def dof(self) -> int:
-        """Degrees of freedom that J has when the model is right."""
+        """Degrees of freedom that the misfit has when the model is right."""
         return self.model.base.data.dof - self.model.t
 
     @property

@@ -57,14 +57,14 @@ def rank(model: Reduced) -> Ranking:
     recipes = {name: candidate.recipes(model, candidate) for name, candidate in registry().items()}
     singles = [found for own in recipes.values() for found in [best(model, own)] if found is not None]
     fits = [baseline, *singles]
-    if singles and not adequate(min(singles, key=lambda one: one.J)):
+    if singles and not adequate(min(singles, key=lambda one: one.misfit)):
         fits += pairs(model, recipes, baseline, singles)
     return ranking(baseline, fits)
 
 
 def ranking(baseline: Fit, fits: list[Fit]) -> Ranking:
     """Probabilities of `fits` with the noise scale that the best of them needs."""
-    scale = max(1.0, min(one.J / max(one.dof, 1) for one in fits))
+    scale = max(1.0, min(one.misfit / max(one.dof, 1) for one in fits))
     kinds: dict[str, int] = {}
     for one in fits:
         kinds[group(one)] = kinds.get(group(one), 0) + 1
@@ -80,7 +80,7 @@ def ranking(baseline: Fit, fits: list[Fit]) -> Ranking:
 
 def adequate(one: Fit, least: float = _ADEQUATE) -> bool:
     """Whether what a fit leaves may be noise."""
-    return upper_tail(one.J, max(one.dof, 1)) > least
+    return upper_tail(one.misfit, max(one.dof, 1)) > least
 
 
 def best(model: Reduced, recipes: Iterable[Recipe], beside: Fit | None = None) -> Fit | None:
