@@ -1,0 +1,67 @@
+"""A case as two things: a deck, which holds what an engineer would know, and an answer, which the tool never reads."""
+
+import hashlib
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks.blind.case import Case
+from benchmarks.blind.test_data import Config, Measured
+
+
+def name_of(case: Case, words: tuple) -> str:
+    """A name that says nothing: part of a hash."""
+    return hashlib.sha256(repr((case.name, *words)).encode()).hexdigest()[:10]
+
+
+def write(folder: Path, name: str, case: Case, test: Measured, config: Config) -> Path:
+    """The deck, and the files that it refers to."""
+    path = folder / f"{name}.yaml"
+    for file, text in case.files.items():
+        if not (folder / file).exists():
+            (folder / file).write_text(text)
+    path.write_text(f"mouse: 1\ntitle: {name}\n\n{case.model}\n{_test(case, test, config)}")
+    return path
+
+
+def _test(case: Case, test: Measured, config: Config) -> str:
+    """The section `test`."""
+    lines, dofs = ["test:"], []
+    own = [(f"s{n}", case.sites[s]) for n, s in enumerate(test.sites, 1) if isinstance(case.sites[s], dict)]
+    if own:
+        lines.append("  sensors:")
+        lines += [f"    - {{name: {n}, at: {site['at']}, direction: {site['direction']}}}" for n, site in own]
+    for n, s in enumerate(test.sites, 1):
+        dofs.append(f"s{n}" if isinstance(case.sites[s], dict) else case.sites[s])
+    m = len(test.frequency)
+    rows = ["      - [" + ", ".join(f"{x:.5f}" for x in row) + "]" for row in test.shapes]
+    lines += [
+        "  modes:",
+        f"    number: {list(case.numbers[:m])}",
+        f"    frequency: [{', '.join(f'{f:.8g}' for f in test.frequency)}]",
+        f"    frequency_sd: {100 * config.frequency_sd:g} %",
+        f"    dofs: [{', '.join(dofs)}]",
+        *("    shapes:", *rows, f"    shape_sd: {100 * config.shape_sd:g} %"),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def answer(case: Case, truth: dict[str, np.ndarray], words: tuple) -> dict:
+    """What the deck does not say, for scoring."""
+    kept = (
+        "name",
+        "kind",
+        "truth",
+        "groups",
+        "places",
+        "span",
+        "outside",
+        "tolerated",
+        "altered",
+        "sensor_fault",
+        "numbers",
+    )
+    every = asdict(case)
+    known = {"frequency": truth["frequency"].tolist(), "altered_frequency": truth["altered"].tolist()}
+    return {k: every[k] for k in kept} | known | {"words": list(words)}
