@@ -5,7 +5,7 @@ from dataclasses import replace
 from mouse_cli._errors import WARNING
 from mouse_cli._span import Span
 from mouse_cli.formats.draft import Draft
-from mouse_cli.formats.rules import matrices, modal_test, model, partials, prior, refusal
+from mouse_cli.formats.rules import hold_out, matrices, modal_test, model, partials, prior, refusal
 from mouse_cli.model.problem import Problem
 
 
@@ -20,6 +20,7 @@ def assemble(draft: Draft) -> Problem:
     A = partials.partials(draft)
     believed = prior.prior(draft)
     test = modal_test.modal_test(draft, found[0].geometry if found else None) if draft.order else None
+    held = hold_out.hold_out(draft, test, found[0].geometry if found else None)
     if draft.order:
         matrices.total_mass_dofs(draft)
     if draft.has_errors:
@@ -31,7 +32,7 @@ def assemble(draft: Draft) -> Problem:
         A=A,
         parameters=tuple(draft.parameters),
         prior=believed,
-        test=test,
+        test=held.fitted if held else test,
         run=draft.run,
         source=draft.source,
         warnings=tuple(d for d in draft.diagnostics if d.severity == WARNING),
@@ -39,6 +40,7 @@ def assemble(draft: Draft) -> Problem:
         terms=found[1],
         mesh=draft.mesh.mesh if draft.mesh else None,
         bindings=tuple(draft.mesh.bindings) if draft.mesh else (),
+        hold_out=held,
     )
 
 

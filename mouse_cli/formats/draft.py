@@ -10,6 +10,7 @@ import numpy as np
 
 from mouse_cli._errors import ERROR, WARNING, Diagnostic
 from mouse_cli._span import Span
+from mouse_cli.formats.hold_out_draft import HoldOutDraft
 from mouse_cli.formats.mesh_draft import MeshDraft
 from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.model.arrays import Matrix
@@ -41,7 +42,8 @@ class Entries:
 class TestDraft:
     """The modal test as read. dofs count from 1; shapes and shape_sd are (s, m), NaN where missing.
 
-    sensors (s,): what each row is measured by, in place of dofs, for readers of formats that describe sensors.
+    sensors (s,): what each row is measured by, in place of dofs, for readers of formats that describe sensors. hold_out: what of
+    it no fit uses.
     """
 
     __test__ = False  # not a pytest class
@@ -60,6 +62,7 @@ class TestDraft:
     where_shape: Callable[[int, int], Span | None] = lambda s, m: None
     where_shape_sd: Callable[[int, int], Span | None] = lambda s, m: None
     sensors: tuple[SensorDraft, ...] = ()
+    hold_out: HoldOutDraft | None = None
 
 
 @dataclass

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from mouse_cli._errors import Diagnostic
 from mouse_cli._span import Span
 from mouse_cli.model.arrays import Matrix, frozen
+from mouse_cli.model.hold_out import HoldOut
 from mouse_cli.model.mesh import Binding, Mesh
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
@@ -67,7 +68,8 @@ class Problem:
     """Structure, parameters with their prior, what ties parameters to the matrices, test and options.
 
     elements, A (e, p): d(element) = A d(parameter), Eq. (3-2) of the report; terms: further contributions, such as beams and
-    springs; mesh, bindings: what they were made of, for models with geometry. test is None for a deck that only asks for modes.
+    springs; mesh, bindings: what they were made of, for models with geometry. test is None for a deck that only asks for modes; it
+    holds what is fitted, and hold_out what is kept from every fit.
     """
 
     title: str
@@ -84,6 +86,7 @@ class Problem:
     terms: tuple[Term, ...] = ()
     mesh: Mesh | None = None
     bindings: tuple[Binding, ...] = ()
+    hold_out: HoldOut | None = None
 
     def place(self, key: str) -> Span:
         """Where `key` (`order`, `estimator`, `mode 3`) stands in the deck; its first line when that is not known."""

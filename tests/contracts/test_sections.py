@@ -84,6 +84,7 @@ def test_order() -> None:
         "properties",
         "covariance",
         "before-after",
+        "held-out",
         "verdict",
     ]
     for subject in (Result, Forecast, Correlation):

@@ -35,10 +35,10 @@ def _measured(section: Section) -> TestDraft | None:
         return modes.document.error(
             "MD216", nodes["frequency"], f"{modes.what('frequency')} is empty", "give a frequency"
         )
-    sd = _frequency_sd(modes, frequency)
+    sd = frequency_sd(modes, frequency)
     number = modes.value("number", np.arange(1, m + 1))
     dofs = listed(modes.document, nodes["dofs"], modes.what("dofs"), named) if "dofs" in modes else named or None
-    _matching(modes, "number", len(number), m)
+    matching(modes, "number", len(number), m)
     shapes, shape_sd = _shapes(modes, dofs, m)
     if modes.document.incomplete:
         return None
@@ -69,15 +69,16 @@ def _where_each(modes: Section, key: str):
     return modes.document.where(node.value) if yaml_values.is_list(node) else lambda _: modes.document.span(node)
 
 
-def _matching(modes: Section, key: str, count: int, m: int) -> bool:
+def matching(modes: Section, key: str, count: int, m: int) -> bool:
+    """Whether a list has one value for each mode; says so where not."""
     if count != m:
         message = f"{modes.what(key)} has {count} values; {modes.what('frequency')} has {m}"
         modes.document.error("MD216", modes.nodes[key], message, f"give one value for each of the {m} modes")
     return count == m
 
 
-def _frequency_sd(modes: Section, frequency: np.ndarray) -> np.ndarray:
-    """Standard deviations (m,), NaN where no frequency was measured and one value serves all."""
+def frequency_sd(modes: Section, frequency: np.ndarray) -> np.ndarray:
+    """Standard deviations (m,) by the key frequency_sd, NaN where no frequency was measured and one value serves all."""
     node, document = modes.nodes.get("frequency_sd"), modes.document
     nothing = np.full(len(frequency), np.nan)
     if node is None:
@@ -93,7 +94,7 @@ def _frequency_sd(modes: Section, frequency: np.ndarray) -> np.ndarray:
     what, words = modes.what("frequency_sd"), KINDS["sds"].words
     if not yaml_values.is_scalar(node):
         values = yaml_values.numbers(document, node, what, words, missing=True)
-        if values is None or not _matching(modes, "frequency_sd", len(values), len(frequency)):
+        if values is None or not matching(modes, "frequency_sd", len(values), len(frequency)):
             return nothing
         return values
     percent = yaml_values.as_percent(node)

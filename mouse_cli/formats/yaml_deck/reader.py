@@ -8,6 +8,7 @@ from mouse_cli.formats.rules import review
 from mouse_cli.formats.yaml_deck import bindings
 from mouse_cli.formats.yaml_deck import parameters as yaml_parameters
 from mouse_cli.formats.yaml_deck import prior as yaml_prior
+from mouse_cli.formats.yaml_deck.hold_out import hold_out
 from mouse_cli.formats.yaml_deck.model import Model, model
 from mouse_cli.formats.yaml_deck.modes import modal_test
 from mouse_cli.formats.yaml_deck.nodes import compose
@@ -39,7 +40,10 @@ def _draft(deck: Section) -> Draft:
     matrices = model(below) if below else Model(deck.node, {})
     parameters, covariance, properties = _properties(deck, matrices.mesh)
     elements, A = yaml_parameters.moves(deck, properties, matrices.order, matrices.rows)
-    test = modal_test(deck.section("test"))
+    measured = deck.section("test")
+    test, held = modal_test(measured), hold_out(measured)
+    if test is not None:
+        test.hold_out = held
     run, where = run_options(deck.section("run"))
     title = deck.value("title", "")
     deck.value("source")

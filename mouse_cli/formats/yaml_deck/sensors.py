@@ -44,8 +44,8 @@ def _sensor(section: Section) -> SensorDraft | None:
         return document.error("MD217", section.node, message, _FORMS)
     where, words = document.span(section.node), f"sensor {name}"
     if given == ["weights"]:
-        weights = _weights(document, section.nodes["weights"], section.what("weights"))
-        return None if weights is None else SensorDraft(name, where, weights, words=words)
+        shares = weights(document, section.nodes["weights"], section.what("weights"))
+        return None if shares is None else SensorDraft(name, where, shares, words=words)
     direction = _direction(document, section.nodes["direction"], section.what("direction"))
     node, at = section.value("node"), _at(section)
     if direction is None or (node is None and at is None):
@@ -61,13 +61,13 @@ def _at(section: Section) -> np.ndarray | None:
     return section.document.error("MD216", section.nodes["at"], message, "give x, y and z in m")
 
 
-def _weights(document: Document, node: Node, what: str) -> dict[int | str, float] | None:
-    """Degrees of freedom, by number or label, and numbers."""
+def weights(document: Document, node: Node, what: str) -> dict[int | str, float] | None:
+    """Degrees of freedom, by number or label, each with a number; None after an error."""
     if not yaml_values.is_mapping(node) or not node.value:
         return yaml_values.mistyped(document, node, what, KINDS["sensor weights"].words)
     found: dict[int | str, float] = {}
     for key, value in node.value:
-        dof = _dof(document, key, what)
+        dof = place(document, key, what)
         weight = yaml_values.number(document, value, f"a weight in {what}")
         if dof is None or weight is None:
             return None
@@ -77,7 +77,8 @@ def _weights(document: Document, node: Node, what: str) -> dict[int | str, float
     return found
 
 
-def _dof(document: Document, node: Node, what: str) -> int | str | None:
+def place(document: Document, node: Node, what: str) -> int | str | None:
+    """A degree of freedom or a sensor by number or name; None after an error."""
     if yaml_values.as_number(node) is not None:
         return yaml_values.whole(document, node, f"a number in {what}")
     return yaml_values.text(document, node, f"a value in {what}", "the number or the label of a degree of freedom")
@@ -113,7 +114,7 @@ def listed(document: Document, node: Node, what: str, named: list[SensorDraft]) 
 
 
 def _listed_item(document: Document, node: Node, what: str, known: dict[str, SensorDraft]) -> SensorDraft | None:
-    dof = _dof(document, node, what)
+    dof = place(document, node, what)
     if dof is None or dof in known:
         return known.get(dof)
     turned = _REVERSED.fullmatch(dof) if isinstance(dof, str) else None

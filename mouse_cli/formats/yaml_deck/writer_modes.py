@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 
+from mouse_cli.formats.yaml_deck.hold_out import hold_out_lines
 from mouse_cli.formats.yaml_deck.text import flow, maybe, real, word, wrapped
 from mouse_cli.model.arrays import is_sparse
 from mouse_cli.model.modal_test import ModalTest
@@ -14,7 +15,8 @@ _NODE_LABEL = re.compile(r"[0-9]+[TR][XYZ]", re.ASCII)
 
 def test_lines(problem: Problem) -> list[str]:
     """The section `test:`, nothing for a deck without one."""
-    test = problem.test
+    held = problem.hold_out
+    test = problem.test if held is None else held.whole
     if test is None:
         return []
     items, named = _rows(test, problem.structure.labels)
@@ -26,7 +28,8 @@ def test_lines(problem: Problem) -> list[str]:
         lines.append(f"    dofs: {wrapped(items, 4)}")
         lines += _grid("shapes", test.shapes, "one row for each of dofs, one column for each mode")
         lines += _grid("shape_sd", test.shape_sd, "standard deviations of shapes")
-    return [*lines, f"    scale: {test.scale}"]
+    lines.append(f"    scale: {test.scale}")
+    return lines if held is None else [*lines, *hold_out_lines(held, items, problem.structure.geometry)]
 
 
 def _rows(test: ModalTest, labels: tuple[str, ...]) -> tuple[list[str], list[str]]:

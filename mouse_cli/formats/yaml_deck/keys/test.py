@@ -10,8 +10,9 @@ SECTIONS = {
         {
             "sensors": Key("list sensor", "sensors that are no plain degrees of freedom", "none"),
             "modes": Key("section modes", "natural frequencies and mode shapes", required=True),
+            "hold_out": Key("section hold_out", "what of it no fit uses", "nothing"),
         },
-        later={"frf": _MODES_ONLY, "recordings": _MODES_ONLY, "hold_out": _MODES_ONLY},
+        later={"frf": _MODES_ONLY, "recordings": _MODES_ONLY},
     ),
     "sensor": Section(
         "A sensor with a name of its own, in one of three forms; on a matrix model only the last.",

@@ -1,0 +1,86 @@
+"""`test: hold_out:` of a YAML deck, and its way back."""
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from mouse_cli.formats.hold_out_draft import AlteredDraft, HoldOutDraft
+from mouse_cli.formats.yaml_deck import values as yaml_values
+from mouse_cli.formats.yaml_deck.kinds import KINDS
+from mouse_cli.formats.yaml_deck.modes import frequency_sd, matching
+from mouse_cli.formats.yaml_deck.sections import Section
+from mouse_cli.formats.yaml_deck.sensors import place, weights
+from mouse_cli.formats.yaml_deck.text import flow, real, word, wrapped
+from mouse_cli.model.geometry import Geometry
+from mouse_cli.model.hold_out import HoldOut
+
+
+def hold_out(test: Section | None) -> HoldOutDraft | None:
+    """What the deck holds out; None where it holds out nothing."""
+    section = test.section("hold_out") if test else None
+    if section is None:
+        return None
+    document, nodes = section.document, section.nodes
+    found = HoldOutDraft(document.span(section.node))
+    numbers = section.value("modes")
+    if numbers is not None:
+        found.modes = [(int(n), document.span(node)) for n, node in zip(numbers, nodes["modes"].value, strict=True)]
+    if "sensors" in section:
+        what = section.what("sensors")
+        items = yaml_values.items(document, nodes["sensors"], what, KINDS["dofs"].words) or []
+        found.sensors = [(str(place(document, item, what)), document.span(item)) for item in items]
+    if "altered" in section:
+        what = section.what("altered")
+        items = yaml_values.items(document, nodes["altered"], what, "a list, one item for each configuration") or []
+        each = [_altered(Section(document, item, "altered", f"{what}[{i}]")) for i, item in enumerate(items, 1)]
+        found.altered = [one for one in each if one is not None]
+    return found
+
+
+def _altered(section: Section) -> AlteredDraft | None:
+    title, hz, document = section.value("title"), section.value("frequency"), section.document
+    if title is None or hz is None:
+        return None
+    number = section.value("number", np.arange(1, len(hz) + 1))
+    if not matching(section, "number", len(number), len(hz)):
+        return None
+    added = [_added(section, "mass"), _added(section, "spring")]
+    return AlteredDraft(title, document.span(section.node), *added, number, hz, frequency_sd(section, hz))
+
+
+def _added(section: Section, key: str) -> dict[int | str, float]:
+    if key not in section:
+        return {}
+    return weights(section.document, section.nodes[key], section.what(key)) or {}
+
+
+def hold_out_lines(held: HoldOut, items: list[str], geometry: Geometry | None) -> list[str]:
+    """The lines of `hold_out:`; items: how `dofs` names the sensors of the whole test."""
+    lines = ["  hold_out:"]
+    if len(held.modes):
+        lines.append(f"    modes: {flow(map(str, held.whole.number[held.modes]))}")
+    if len(held.sensors):
+        lines.append(f"    sensors: {wrapped((items[i] for i in held.sensors), 4)}")
+    labels = None if geometry is None else geometry.labels()
+    if held.altered:
+        lines.append("    altered:")
+    for one in held.altered:
+        lines.append(f"      - title: {word(one.title, flow=False)}")
+        for key, added in (("mass", one.masses), ("spring", one.springs)):
+            if added:
+                lines.append(f"        {key}: {_places(added, labels)}")
+        lines.append(f"        number: {flow(map(str, one.number))}")
+        lines += [
+            f"        frequency: {_numbers(one.frequency_hz)}",
+            f"        frequency_sd: {_numbers(one.frequency_sd_hz)}",
+        ]
+    return lines if len(lines) > 1 else []
+
+
+def _places(added: dict[int, float], labels: tuple[str, ...] | None) -> str:
+    each = (f"{dof + 1 if labels is None else labels[dof]}: {real(value)}" for dof, value in added.items())
+    return f"{{{', '.join(each)}}}"
+
+
+def _numbers(values: Iterable[float]) -> str:
+    return wrapped(map(real, values), 8)

@@ -1,0 +1,29 @@
+"""Keys of `test: hold_out:`."""
+
+from mouse_cli.formats.yaml_deck.kinds import Key, Section
+
+SECTIONS = {
+    "hold_out": Section(
+        "Data that no fit uses and that a good model foresees: `mouse diagnose` judges by them.",
+        {
+            "modes": Key("wholes", "mode numbers of the test, as in `number`", "none"),
+            "sensors": Key("dofs", "sensors of the test, as in `dofs`", "none"),
+            "altered": Key("list altered", "the same structure with masses or springs added", "none"),
+        },
+    ),
+    "altered": Section(
+        "Natural frequencies of the structure after a known change.",
+        {
+            "title": Key("text", "what the report calls it", required=True),
+            "mass": Key(
+                "sensor weights", "masses added, {12TY: 0.5}; at a number of a node in all directions", "none", "kg"
+            ),
+            "spring": Key("sensor weights", "springs to the ground, {12TY: 1e4}", "none", "N/m"),
+            "number": Key("wholes", "mode numbers, rigid-body modes counted", "1, 2, ..."),
+            "frequency": Key("numbers", "natural frequencies", unit="Hz", required=True),
+            "frequency_sd": Key(
+                "sds", "their standard deviations; a percentage is of each frequency", unit="Hz", required=True
+            ),
+        },
+    ),
+}
