@@ -18,7 +18,8 @@ CODES = {
     ),
     "MD304": Code(
         "mass not positive",
-        "Every diagonal element of M must be positive. A degree of freedom without mass has an infinite eigenvalue.",
+        "Every diagonal element of M must be positive, and so must be the mass of every motion: a degree of freedom, or a motion, "
+        "without mass has an infinite eigenvalue.",
         "Give the mass, or condense the degree of freedom out of the model.",
     ),
     "MD305": Code(

@@ -13,7 +13,10 @@ _DISGUISES = (  # how files begin that are not what their name says
     (b"<!doctype html", "an HTML page, such as a server sends in place of a file", "fetch the file itself"),
     (b"<html", "an HTML page, such as a server sends in place of a file", "fetch the file itself"),
     (b"<?xml", "an XML file", "export the matrix in one of the formats that are read"),
-    (b"pk\x03\x04", "a zip archive", "unpack it"),
+    (b"\x89png", "a picture (PNG)", "give the file of the matrix, not a plot of it"),
+    (b"%pdf", "a PDF document", "give the file that the document was made from"),
+    (b"\xd0\xcf\x11\xe0", "a workbook of Excel", "export it as .csv"),
+    (b"pk\x03\x04", "a zip archive, or a workbook of Excel", "unpack it, or export the workbook as .csv"),
     (b"\x1f\x8b", "compressed by gzip", "unpack it"),
     (b"version https://git-lfs", "a pointer of Git LFS, not the file", "fetch the file: git lfs pull"),
 )
@@ -74,6 +77,8 @@ def _head(path: str) -> bytes:
 
 
 def _undisguised(path: str, head: bytes, suffix: str) -> None:
+    if not head:
+        reject("MD252", path, "the file is empty", "write it anew")
     start = head.removeprefix(b"\xef\xbb\xbf").lstrip().lower()
     for mark, what, remedy in _DISGUISES:
         if start.startswith(mark) and not (suffix == "npz" and mark.startswith(b"pk")):

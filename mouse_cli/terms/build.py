@@ -57,7 +57,9 @@ def built(mesh: Mesh, bindings: tuple[Binding, ...] = (), base: Structure | None
     structure = _structure(mesh, base, motion, places)
     terms = [ElementTerm(m, _dofs(m.elements), motion) for m in sets]
     K = _nominal_stiffness(structure, terms)
-    held = _touched(mesh, sets, free, "K") & (motion.counts == 0)
+    held = _touched(mesh, sets, free, "K")
+    held[6 * mesh.supports[:, 0] + mesh.supports[:, 1]] = True
+    held &= motion.counts == 0
     remarks += search(mesh, sets, motion, K, held, np.isin(motion.places, places))
     if mesh.gravity is not None:
         for i, axial in axial_forces(mesh, sets, motion, K).items():

@@ -19,9 +19,9 @@ def search(
     """The parts that may move as rigid bodies. Raises Mechanism for any other motion without stiffness.
 
     Energies are summed element by element from deformations, which tells none from little where K alone cannot: the lowest
-    frequencies of a long chain of beams are below the rounding of K. held (r,): mask of the directions of nodes that have
-    stiffness but cannot move. attached (n,): mask of the degrees of freedom of imported matrices, which may hold what they touch
-    and are not looked into.
+    frequencies of a long chain of beams are below the rounding of K. held (r,): mask of the directions of nodes that are
+    supported, or have stiffness, and cannot move. attached (n,): mask of the degrees of freedom of imported matrices, which may
+    hold what they touch and are not looked into.
     """
     if not motion.n or motion.n > LARGEST:
         return ()

@@ -41,7 +41,7 @@ def recur(trace: Trace, estimator: Estimator) -> Status:
         except Infeasible as problem:
             return trace.end("infeasible", reason=str(problem))
         except (IndefiniteError, np.linalg.LinAlgError) as problem:
-            return trace.end("indefinite", cycle=len(trace.cycles), reason=str(problem))
+            return trace.unphysical(trace.state.u + change, str(problem))
         trace.record(state, state.chi2)
         if options.cycles is None and (step < 1e-9 or not state.chi2 < _GROWTH * trace.cycles[0].chi2 + 1e6):
             break

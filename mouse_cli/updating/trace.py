@@ -11,6 +11,7 @@ from mouse_cli.updating.state import Setting, State
 from mouse_cli.updating.statuses import status
 
 Progress = Callable[[Cycle], None]
+_LISTED = 3  # properties that a status names
 
 
 @dataclass
@@ -52,6 +53,14 @@ class Trace:
             chi2_last=last.chi2,
             **facts,
         )
+
+    def unphysical(self, u: np.ndarray, message: str) -> Status:
+        """The status for a step to coordinates u (p,) where K or M is not physical: which properties it drives below zero."""
+        theta, parameters = self.setting.coordinates.value(u), self.setting.problem.parameters
+        lost = [i for i, parameter in enumerate(parameters) if parameter.nominal > 0 >= theta[i]]
+        values = [f"{parameters[i].name} {theta[i]:.6g}, {parameters[i].nominal:.6g} before" for i in lost[:_LISTED]]
+        more = [f"and {len(lost) - _LISTED} more"] if len(lost) > _LISTED else []
+        return self.end("indefinite", cycle=len(self.cycles), reason="; ".join([message, *values, *more]))
 
     def unobservable(self, message: str, loose: np.ndarray) -> Status:
         """The status for properties (mask `loose`) that the data do not determine."""

@@ -38,7 +38,8 @@ def structures(draw):
     K = upper + np.triu(upper, 1).T
     M = np.diag(draw(st.lists(positive, min_size=n, max_size=n)))
     if n > 1 and draw(st.booleans()):
-        M[0, n - 1] = M[n - 1, 0] = draw(finite)
+        share = draw(st.floats(-0.9, 0.9))  # beyond 1 a motion would have no mass
+        M[0, n - 1] = M[n - 1, 0] = share * np.sqrt(M[0, 0]) * np.sqrt(M[n - 1, n - 1])
     labels = draw(st.just(()) | st.lists(text.filter(bool), min_size=n, max_size=n, unique=True))
     return Structure(K, M, labels)
 

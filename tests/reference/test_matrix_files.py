@@ -119,7 +119,7 @@ def test_tables_may_have_holes(tmp_path):
 # name, contents, code, line, a word of the message
 FAULTS = [
     ("k.txt", "1", "MD251", 1, ".csv"),
-    ("k.mtx", "", "MD252", 1, "first line"),
+    ("k.mtx", "", "MD252", 1, "empty"),
     ("k.mtx", "1 2\n", "MD252", 1, "first line"),
     ("k.mtx", REAL + "% only comments\n", "MD252", 2, "size line"),
     ("k.mtx", REAL + "%\n2 2\n1 1 1\n", "MD252", 3, "size line reads '2 2'"),
@@ -136,7 +136,8 @@ FAULTS = [
     ("k.mtx", GENERAL + "2 2 2\n1 1 1.0\n1 2 1.0\n", "MD255", 1, "(1,2) is 1, but (2,1) is 0"),
     ("k.mtx", REAL + "2 2 2\n1 1 1.0\n2 2 nan\n", "MD256", 1, "(2,2)"),
     ("k.mtx", REAL + "3 3 3\n1 1 1.\n2 2 1.\n3 3 1.\n", "MD257", 1, "order 3, but the model has 2"),
-    ("k.csv", "", "MD252", 1, "no values"),
+    ("k.csv", "", "MD252", 1, "empty"),
+    ("k.csv", "\n", "MD252", 1, "no values"),
     ("k.csv", "1,0\n0\n", "MD252", 2, "1 values; expected 2"),
     ("k.csv", "1,0\n0,1.0d5\n", "MD252", 2, "'1.0d5'"),
     ("k.csv", "1,2\n", "MD254", 1, "(1, 2)"),

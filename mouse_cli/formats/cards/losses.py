@@ -71,15 +71,17 @@ class Losses:
 
 
 def losses(problem: Problem, lossy: bool = False) -> Losses:
-    """Everything but the numbers, which are tried one by one as they are punched."""
+    """Everything but the numbers, which are tried one by one as they are punched.
+
+    Raises DeckError for a structure, of which cards hold nothing.
+    """
     found = Losses(lossy)
+    if problem.terms:
+        message = "the model is made of elements of a structure; cards hold matrices and what moves them in proportion"
+        found.error("MD152", message)
+        found.stop_if_any()
     _heading(found, problem.title)
     _sizes(found, problem)
-    if problem.terms:
-        found.error(
-            "MD152",
-            "the model is made of elements of a structure; cards hold matrices and what moves them in proportion",
-        )
     for parameter in problem.parameters:
         _parameter(found, parameter)
     if problem.prior.cov.ndim == 2 and np.any(problem.prior.cov - np.diag(np.diag(problem.prior.cov))):

@@ -90,14 +90,14 @@ def choose(path: str, variable: str | None, names: list[str]) -> str:
     known = ", ".join(names[:12]) + (", ..." if len(names) > 12 else "")
     if variable is None and len(names) == 1:
         return names[0]
+    if not names:
+        reject("MD259", path, "the file holds no matrix; expected one", "write the file anew, or give another one")
     if variable is None:
-        what = f"{len(names)} matrices ({known})" if names else "no matrix"
-        reject("MD259", path, f"the file holds {what}; expected one", "say which: {file: ..., variable: NAME}")
+        message = f"the file holds {len(names)} matrices ({known}); expected one"
+        reject("MD259", path, message, "say which: {file: ..., variable: NAME}")
     same = [name for name in names if name == variable] or [n for n in names if n.lower() == variable.lower()]
     if len(same) != 1:
-        reject(
-            "MD260", path, f"the file holds no '{variable[:40]}'; it holds {known or 'no matrix'}", "give one of these"
-        )
+        reject("MD260", path, f"the file holds no '{variable[:40]}'; it holds {known}", "give one of these")
     return same[0]
 
 
@@ -107,6 +107,15 @@ def real(path: str, array: Matrix, name: str = "") -> Matrix:
         what = f"'{name}' is" if name else "the values are"
         reject("MD253", path, f"{what} of type {array.dtype}; K and M are real", "save real numbers")
     return array
+
+
+def whole(matrix: Matrix) -> None:
+    """Raise ValueError when the indices of a sparse matrix do not fit one another; compiled code trusts them."""
+    if not hasattr(matrix, "indptr"):
+        return
+    if (np.diff(matrix.indptr) < 0).any():  # SciPy does not look at those of a matrix without entries
+        raise ValueError("the pointers of a sparse matrix descend")
+    matrix.check_format(full_check=True)
 
 
 def _read(path: str, variable: str | None) -> Contents:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from mouse_cli._errors import DeckError
-from mouse_cli.formats.matrix_files import MAX_BYTES, MAX_ORDER, MatrixFormat, choose, real, reject
+from mouse_cli.formats.matrix_files import MAX_BYTES, MAX_ORDER, MatrixFormat, choose, real, reject, whole
 from mouse_cli.model.arrays import Matrix
 
 _SIGNATURE = b"\x89HDF\r\n\x1a\n"
@@ -96,7 +96,7 @@ def _sparse(path: str, group: Any) -> Matrix:
             f"the group '{group.name}' holds {held}; expected ir, jc, data; or indptr, indices, data; or row, col, data"
         )
         reject("MD252", path, message, "name the matrix: {file: ..., variable: GROUP/NAME}")
-    found.check_format(full_check=True)
+    whole(found)
     return found
 
 

@@ -4,7 +4,7 @@ from math import prod
 
 import numpy as np
 
-from mouse_cli.formats.matrix_files import MAX_BYTES, MatrixFormat, choose, hdf5, real, reject
+from mouse_cli.formats.matrix_files import MAX_BYTES, MatrixFormat, choose, hdf5, matlab_elements, real, reject, whole
 from mouse_cli.model.arrays import Matrix, is_sparse
 
 _NUMBERS = ("double", "single", "sparse", "logical", *(f"{u}int{bits}" for u in ("", "u") for bits in (8, 16, 32, 64)))
@@ -15,19 +15,23 @@ def _read(path: str, variable: str | None) -> Matrix:
         return hdf5.read(path, variable)
     try:
         return _version_5(path, variable)
-    except (OSError, MemoryError):
+    except MemoryError:
         raise
     except Exception as error:  # SciPy's reader of damaged files raises whatever its parts do
         from mouse_cli._errors import DeckError
 
         if isinstance(error, DeckError):
             raise
-        reject("MD252", path, f"not a MATLAB file: {error}", "write it with save('model.mat', 'K', 'M')")
+        message = f"cut short, or not a MATLAB file: {error}"
+        reject("MD252", path, message, "write it anew: save('model.mat', 'K', 'M')")
 
 
 def _version_5(path: str, variable: str | None) -> Matrix:
     from scipy.io import loadmat, whosmat
+    from scipy.io.matlab import matfile_version
 
+    if matfile_version(path)[0] == 1:
+        matlab_elements.check(path)
     found = {name: (shape, kind) for name, shape, kind in whosmat(path)}
     head, _, rest = (variable or "").partition(".")
     if rest and variable not in found:
@@ -45,8 +49,7 @@ def _version_5(path: str, variable: str | None) -> Matrix:
         value = value[choose(path, field, list(value.dtype.names or []))].item(0)
     if not (isinstance(value, np.ndarray) or is_sparse(value)):
         reject("MD253", path, f"'{variable}' is no matrix", "name a matrix of numbers")
-    if is_sparse(value) and hasattr(value, "check_format"):
-        value.check_format(full_check=True)
+    whole(value)
     return real(path, value, variable or name)
 
 

@@ -5,7 +5,7 @@ import zlib
 
 import numpy as np
 
-from mouse_cli.formats.matrix_files import MAX_BYTES, MatrixFormat, choose, real, reject
+from mouse_cli.formats.matrix_files import MAX_BYTES, MatrixFormat, choose, real, reject, whole
 from mouse_cli.model.arrays import Matrix
 
 _HELP = "write it with scipy.sparse.save_npz, or with numpy.savez"
@@ -53,8 +53,7 @@ def _sparse(path: str) -> Matrix:
     from scipy.sparse import load_npz
 
     matrix = load_npz(path)
-    if hasattr(matrix, "check_format"):
-        matrix.check_format(full_check=True)
+    whole(matrix)
     return matrix
 
 

@@ -19,8 +19,7 @@ def _read(path: str, variable: str | None) -> Matrix:
         data = stream.read()
     found: dict[str, tuple[Header, Strings]] = {}
     try:
-        # a text file begins with the number of columns in 8 or 16 characters, a binary one with the length of a record
-        is_text = data[:8].strip().isdigit()
+        is_text = b"\0" not in data[:8]  # a binary file begins with the length of a record, 24 or 48 in four bytes
         for header, strings in text_matrices(data) if is_text else binary_matrices(data):
             name = _unique(header.name, found)
             wanted = variable is None or name.lower() == variable.lower()

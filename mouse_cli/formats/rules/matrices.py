@@ -7,10 +7,12 @@ import numpy as np
 from mouse_cli._span import Span
 from mouse_cli.formats.draft import Draft, Entries
 from mouse_cli.formats.rules.entries import finite, inside
-from mouse_cli.model.arrays import Matrix, sparse_symmetric
+from mouse_cli.model.arrays import Matrix, is_sparse, sparse_symmetric
 
 LARGEST_DENSE = 1500  # orders up to this are kept as dense arrays: eigh of the whole matrix is then the fastest way
 _LISTED = 3  # findings of one kind that are told one by one where one cause is likely to make many
+_SINGULAR = 1e-13  # smallest over largest eigenvalue of M, scaled to a unit diagonal, that rounding alone can make
+_MASSIVE = "give the elements a density, add masses (with inertia where a node turns), or keep fewer `directions`"
 
 
 def matrix(draft: Draft, source: Entries | Matrix, name: str) -> Matrix | None:
@@ -63,15 +65,58 @@ def positive_masses(draft: Draft, M: Matrix) -> None:
             "MD304",
             f"mass of degree of freedom {name} is {diagonal[i]:.8g}; it must be positive",
             _where_diagonal(draft.M, i + 1) or draft.where_order,
-            help=f"give M({i + 1},{i + 1}) a positive value, or condense that degree of freedom out",
+            help=_MASSIVE
+            if draft.mesh
+            else f"give M({i + 1},{i + 1}) a positive value, or condense that degree of freedom out",
         )
+    if not len(missing):
+        _definite(draft, M)
     if len(missing) > _LISTED:
         draft.error(
             "MD304",
             f"{len(missing)} of {draft.order} degrees of freedom have no positive mass",
             draft.where_order,
-            help=f"check the order of the model: is it {draft.order}?",
+            help=_MASSIVE if draft.mesh else f"check the order of the model: is it {draft.order}?",
         )
+
+
+def _definite(draft: Draft, M: Matrix) -> None:
+    """No motion may be without mass though every degree of freedom has one: entries beside the diagonal are then wrong."""
+    if is_sparse(M) or np.count_nonzero(M) == len(M):
+        return
+    scale = 1 / np.sqrt(M.diagonal())
+    scaled = M * scale[:, None] * scale
+    if _pivot(scaled) > 10 * len(M) * _SINGULAR:
+        return
+    eigenvalues, motions = np.linalg.eigh(scaled)
+    if eigenvalues[0] > _SINGULAR * eigenvalues[-1]:
+        return
+    size = np.abs(motions[:, 0])
+    moving = np.flatnonzero(size > 0.3 * size.max())
+    names = [draft.labels[i] if draft.labels else str(i + 1) for i in moving[:6]]
+    what = "no" if eigenvalues[0] > -_SINGULAR * eigenvalues[-1] else "a negative"
+    draft.error(
+        "MD304",
+        f"a motion of the degrees of freedom {', '.join(names)} has {what} mass: M is not positive definite",
+        _where_coupled(draft.M, moving) or draft.where_order,
+        help="check the entries of M beside its diagonal",
+    )
+
+
+def _pivot(scaled: Matrix) -> float:
+    """The smallest pivot of a matrix with unit diagonal; 0 where there is one that is not positive."""
+    try:
+        return float(np.linalg.cholesky(scaled).diagonal().min()) ** 2
+    except np.linalg.LinAlgError:
+        return 0.0
+
+
+def _where_coupled(source: Entries | Matrix, moving: np.ndarray) -> Span | None:
+    """Place of the first entry beside the diagonal that couples two of the degrees of freedom `moving`."""
+    if not isinstance(source, Entries):
+        return None
+    among = np.isin(source.rows - 1, moving) & np.isin(source.cols - 1, moving) & (source.rows != source.cols)
+    return source.where(int(np.flatnonzero(among)[0])) if among.any() else None
 
 
 def _where_diagonal(source: Entries | Matrix, index: int) -> Span | None:
