@@ -10,6 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
+from mouse_cli.diagnosis.lines import Line, joined_lines
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.mesh import Mesh
 from mouse_cli.model.problem import Problem
@@ -18,7 +19,6 @@ from mouse_cli.terms.constraints import Motion
 from mouse_cli.terms.elements import Layout, Properties, registry
 from mouse_cli.terms.elements import _beam as beam
 
-_STRAIGHT = 0.999  # cosine of the angle between bars of one line
 _STIFF = 1e-9  # share of the largest bending stiffness below which a bar does not bend in that plane
 
 
@@ -28,7 +28,8 @@ class Bars:
 
     set, member (b,): which element of the mesh; ids (b,); nodes (b, 2): indices; plane (b,): 0 local x-y, 1 local x-z. length,
     EI, phi, line_mass, section_inertia (density times I), A (b,); ends (b, 4, r): w1, slope1, w2, slope2 for each coordinate of the
-    model, axial (b, 2, r): u1, u2; start, axis, across (b, 3): first end, unit vectors along the bar and in the direction of w.
+    model, axial, twist (b, 2, r): u1, u2 and the turns about the bar there; start, axis, across (b, 3): first end, unit vectors
+    along the bar and in the direction of w.
     line (b,): bars with one number continue one another in one plane; before (b,): length of the line before the bar.
     """
 
@@ -47,6 +48,7 @@ class Bars:
     nu: np.ndarray
     ends: np.ndarray
     axial: np.ndarray
+    twist: np.ndarray
     start: np.ndarray
     axis: np.ndarray
     across: np.ndarray
@@ -99,7 +101,8 @@ class Bars:
         return N @ self.ends[bar]
 
     @cached_property
-    def _twins(self) -> dict[tuple[int, int], list[int]]:
+    def twins(self) -> dict[tuple[int, int], list[int]]:
+        """Bars by set and member: the planes of one element."""
         twins: dict[tuple[int, int], list[int]] = {}
         for i in range(len(self)):
             twins.setdefault((int(self.set[i]), int(self.member[i])), []).append(i)
@@ -109,7 +112,7 @@ class Bars:
         """Displacement (3, r) in global axes of that place: along the bar, and across it in either plane."""
         along = (1 - at) * self.axial[bar, 0] + at * self.axial[bar, 1]
         u = self.axis[bar][:, None] * along
-        for twin in self._twins[int(self.set[bar]), int(self.member[bar])]:
+        for twin in self.twins[int(self.set[bar]), int(self.member[bar])]:
             u = u + self.across[twin][:, None] * self.deflection(twin, at)
         return u
 
@@ -122,33 +125,18 @@ class Bars:
         return Site("element", (int(self.ids[bar]),), self.point(bar, at), f"element {self.ids[bar]}, {at:.2f} of it")
 
     @cached_property
-    def lines(self) -> tuple["Line", ...]:
+    def lines(self) -> tuple[Line, ...]:
         """The lines that bars form."""
         return tuple(Line(self, np.flatnonzero(self.line == i)) for i in range(self.line.max(initial=-1) + 1))
 
-
-@dataclass(frozen=True)
-class Line:
-    """Bars (c,) that continue one another: a place is a distance s from its beginning."""
-
-    bars: Bars
-    members: np.ndarray
-
-    @property
-    def length(self) -> float:
-        """Length in m."""
-        return float(self.bars.length[self.members].sum())
-
-    def at(self, s: float) -> tuple[int, float]:
-        """The bar, and the share of its length, at the distance s."""
-        first = self.bars.before[self.members]
-        i = int(np.clip(np.searchsorted(first, s, side="right") - 1, 0, len(first) - 1))
-        bar = int(self.members[i])
-        return bar, float(np.clip((s - first[i]) / self.bars.length[bar], 0.0, 1.0))
-
-    def site(self, s: float) -> Site:
-        """The place at s."""
-        return self.bars.site(*self.at(s))
+    @cached_property
+    def runs(self) -> tuple[Line, ...]:
+        """Lines of different elements: the same elements in their other plane are left out."""
+        found = {}
+        for line in self.lines:
+            members = zip(self.set[line.members].tolist(), self.member[line.members].tolist(), strict=True)
+            found.setdefault(tuple(sorted(members)), line)
+        return tuple(found.values())
 
 
 def bars(problem: Problem, motion: Motion, theta: np.ndarray, V: np.ndarray | None) -> Bars | None:
@@ -170,7 +158,7 @@ def bars(problem: Problem, motion: Motion, theta: np.ndarray, V: np.ndarray | No
     bends = joined["EI"] > _STIFF * joined["EI"].max()
     moves = np.abs(joined["ends"]).max(axis=(1, 2)) > 0
     joined = {name: value[bends & moves] for name, value in joined.items()}
-    line, before, order = _lines(joined)
+    line, before, order = joined_lines(joined)
     joined = {name: value[order] for name, value in joined.items()}
     return Bars(**joined, line=line, before=before)
 
@@ -213,6 +201,7 @@ def _planes(number: int, mesh: Mesh, layout: Layout, p: Properties, motion: Moti
                 "nu": p["nu"],
                 "ends": local[:, dofs] * sense[:, None],
                 "axial": local[:, [0, 6]],
+                "twist": local[:, [3, 9]],
                 "start": layout.coordinates[:, 0],
                 "axis": at.axes[:, 0],
                 "across": at.axes[:, 1 + plane],
@@ -241,38 +230,13 @@ def _rows(motion: Motion, places: np.ndarray):
     return csr_array((motion.factor[at], motion.dof[at], start), shape=(len(places), motion.n))
 
 
-def _lines(part: dict[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """line, before (b,) and the order of bars in which those of a line follow one another."""
-    b = len(part["length"])
-    first: dict[tuple, list[int]] = {}
-    for i in range(b):
-        first.setdefault((int(part["nodes"][i, 0]), int(part["plane"][i])), []).append(i)
-    into = np.full(b, -1)
-    follows = np.full(b, -1)
-    for i in range(b):
-        here = (int(part["nodes"][i, 1]), int(part["plane"][i]))
-        for j in first.get(here, ()):
-            straight = (
-                part["axis"][i] @ part["axis"][j] > _STRAIGHT and part["across"][i] @ part["across"][j] > _STRAIGHT
-            )
-            if j != i and straight and into[j] < 0 and follows[i] < 0:
-                follows[i], into[j] = j, i
-    line, before, order = [], [], []
-    for i in np.flatnonzero(into < 0).tolist() + list(range(b)):
-        if i in order:
-            continue
-        s, number = 0.0, len(set(line))
-        while i >= 0 and i not in order:
-            order.append(i), line.append(number), before.append(s)
-            s, i = s + part["length"][i], int(follows[i])
-    return np.array(line, int), np.array(before), np.array(order, int)
-
-
-def motion_of(problem: Problem) -> Motion:
-    """How the nodes of a mesh follow the degrees of freedom of `problem`."""
+def motion_of(problem: Problem) -> Motion | None:
+    """How the nodes of a mesh follow the degrees of freedom of `problem`; None where degrees of freedom serve as nodes."""
     from mouse_cli.terms.constraints import links
 
     at, mesh = problem.structure.geometry, problem.mesh
+    if at is None:
+        return None
     beside = at.node < 0
     order = np.where(beside, 6 * len(mesh.node_ids) + np.cumsum(beside) - 1, 6 * at.node + at.direction)
     return links(mesh, int(beside.sum())).motion(order)
