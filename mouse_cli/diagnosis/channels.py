@@ -18,6 +18,7 @@ from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.mesh import Mesh
 
 FORCE, MOMENT, HINGE, SLIDE, STRETCH, PAIR = "force", "moment", "hinge", "slide", "stretch", "pair"
+LIKELY = {FORCE: 1.0, HINGE: 1.0, PAIR: 1.0, MOMENT: 0.1, SLIDE: 0.1, STRETCH: 0.1}  # masses turn, but they move first
 _PLACES = 160  # places along bars from which on each bar has one
 _STILL = 1e-9  # share of the largest motion below which a place does not move
 

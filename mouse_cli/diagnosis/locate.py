@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.diagnosis.channels import Channel, channels
+from mouse_cli.diagnosis.channels import LIKELY, Channel, channels
 from mouse_cli.diagnosis.matching import Matcher, Matches, Shapes, shapes
 from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.model.diagnosis import Location, Place
@@ -40,7 +40,7 @@ class Scores:
 
 
 def locate(model: Reduced) -> Location:
-    """Places and channels by their probability, each channel as likely before the test as any other.
+    """Places and channels by their probability.
 
     Needs two components of shape in a mode at least; without them no place is named, and p is 1.
     """
@@ -99,11 +99,11 @@ def _nearer(one: Matches, other: Matches) -> Matches:
 
 
 def _log_prior(ways: list[Channel]) -> np.ndarray:
-    """ln of the share (j,) of its channel that a place stands for."""
+    """ln of what is held likely before the test (j,): of each channel, times the share of it that a place stands for."""
     total: dict[str, float] = {}
     for one in ways:
         total[one.name] = total.get(one.name, 0.0) + float(one.weight.sum())
-    return np.concatenate([np.log(one.weight / total[one.name]) for one in ways])
+    return np.concatenate([np.log(LIKELY[one.name] * one.weight / total[one.name]) for one in ways])
 
 
 def _place(found: Scores, i: int, probability: float, deficit: float) -> Place:
