@@ -29,7 +29,7 @@ class Case:
     model: str
     sites: tuple[str | dict, ...]
     numbers: tuple[int, ...]
-    altered: str = ""  # item of model.structure.elements that makes the altered configuration
+    altered: str = ""  # masses that make the altered configuration, {node: kg}
     places: tuple[tuple[float, ...], ...] = ()  # one for each local cause, m
     span: float = 1.0  # m
     outside: bool = False  # no cause of the library: the right answer is to abstain

@@ -73,7 +73,7 @@ def _case(truth: str, k: int, rng: np.random.Generator) -> Case:
         model=_model(nominal, weights, tied),
         sites=tuple(f"{i}TX" for i in range(1, n + 1)),
         numbers=tuple(range(1, n + 1)),
-        altered=f"{{id: 900, type: mass, nodes: [{n}], mass: {added:.8g}}}",
+        altered=f"{{{n}: {added:.8g}}}",
         places=((float(j), 0.0, 0.0),) if TRUTHS[truth] else (),
         span=float(n),
         outside=truth == "link",

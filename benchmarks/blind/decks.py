@@ -1,13 +1,12 @@
 """A case as two things: a deck, which holds what an engineer would know, and an answer, which the tool never reads."""
 
 import hashlib
-from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
 
 from benchmarks.blind.case import Case
-from benchmarks.blind.test_data import Config, Measured
+from benchmarks.blind.test_data import MEASURED, Config, Measured
 
 
 def name_of(case: Case, words: tuple) -> str:
@@ -43,6 +42,14 @@ def _test(case: Case, test: Measured, config: Config) -> str:
         f"    frequency_sd: {100 * config.frequency_sd:g} %",
         f"    dofs: [{', '.join(dofs)}]",
         *("    shapes:", *rows, f"    shape_sd: {100 * config.shape_sd:g} %"),
+        "  hold_out:",
+        f"    modes: {list(case.numbers[MEASURED:m])}",
+        "    altered:",
+        "      - title: mass added",
+        f"        mass: {case.altered}",
+        f"        number: {list(case.numbers[: len(test.altered)])}",
+        f"        frequency: [{', '.join(f'{f:.8g}' for f in test.altered)}]",
+        f"        frequency_sd: {100 * config.frequency_sd:g} %",
     ]
     return "\n".join(lines) + "\n"
 
@@ -62,6 +69,4 @@ def answer(case: Case, truth: dict[str, np.ndarray], words: tuple) -> dict:
         "sensor_fault",
         "numbers",
     )
-    every = asdict(case)
-    known = {"frequency": truth["frequency"].tolist(), "altered_frequency": truth["altered"].tolist()}
-    return {k: every[k] for k in kept} | known | {"words": list(words)}
+    return {k: getattr(case, k) for k in kept} | {"frequency": truth["frequency"].tolist(), "words": list(words)}

@@ -37,7 +37,7 @@ def make(inputs: dict) -> dict[str, np.ndarray]:
 
 
 def modes(inputs: dict) -> tuple[np.ndarray, np.ndarray]:
-    """Modes in the plane. members: [[x, y, x, y], ...]; soft: [member, from, to, factor] by length; others at points [x, y, ...]."""
+    """Modes in the plane. members: [[x, y, x, y], ...]; soft: [[member, from, to, factor], ...] by length; others by points."""
     nodes: dict[tuple[float, float], int] = {}
     elements = _mesh(inputs, nodes)
     at = lambda x, y: nodes[min(nodes, key=lambda p: (p[0] - x) ** 2 + (p[1] - y) ** 2)]
@@ -59,7 +59,7 @@ def modes(inputs: dict) -> tuple[np.ndarray, np.ndarray]:
         lines += spring(element := element + 1, (at(x, y),), k, 1)
     extra = ["*NODE, NSET=EXTRA", *hung, "*BOUNDARY", "EXTRA, 3, 3"] if hung else []
     watched = [at(x, y) for x, y in deck_nodes(inputs["members"])]
-    found = solve("\n".join([*lines[:0], *_ordered(lines, extra), *_steps(inputs, watched)]) + "\n")
+    found = solve("\n".join([*_ordered(lines, extra), *_steps(inputs, watched)]) + "\n")
     order = {n: i for i, n in enumerate(found.nodes.tolist())}
     u = found.shapes[:, [order[n] for n in watched], :2]
     size = abs(u).max(axis=(1, 2))
@@ -98,9 +98,8 @@ def _mesh(inputs: dict, nodes: dict[tuple[float, float], int]) -> list[tuple[int
 def _body(inputs: dict, nodes: dict, elements: list) -> list[str]:
     """Nodes, elements, materials and supports."""
     lines = ["*NODE, NSET=NALL", *(f"{n}, {x:.12g}, {y:.12g}, 0." for (x, y), n in nodes.items())]
-    d, factor = inputs["depth"], (inputs["soft"] or [[0, 0, 0, 1.0]])[0][3]
+    d, factor = inputs["depth"], inputs["soft"][0][3] if inputs["soft"] else 1.0
     for soft in (False, True):
-        density = dict.fromkeys((False, True), inputs["density"])
         for beam in (False, True):
             name = f"E{'SOFT' if soft else ''}{'BEAM' if beam else 'POST'}"
             members = [
@@ -112,7 +111,7 @@ def _body(inputs: dict, nodes: dict, elements: list) -> list[str]:
                 continue
             lines += [f"*ELEMENT, TYPE=B32R, ELSET={name}", *(", ".join(map(str, (e, *ids))) for e, ids in members)]
             heavy = inputs["heavy"] if beam else 1.0
-            lines += material(name, inputs["E"] * (factor if soft else 1), density[soft] * heavy)
+            lines += material(name, inputs["E"] * (factor if soft else 1), inputs["density"] * heavy)
             lines += [f"*BEAM SECTION, ELSET={name}, MATERIAL={name}, SECTION=RECT", f"{d}, {d}", "0., 0., 1."]
     feet = [n for (_, y), n in nodes.items() if abs(y) < 1e-9]
     return [*lines, "*BOUNDARY", "NALL, 3, 3", *(f"{n}, 1, 6" for n in feet)]
@@ -173,7 +172,7 @@ def _case(truth: str, k: int, rng: np.random.Generator) -> Case:
         model=_model(members, points, depth, heavy, E, density),
         sites=tuple(f"{n}T{d}" for n in range(1, len(points) + 1) for d in "XY"),
         numbers=tuple(range(1, KEPT + 1)),
-        altered=f"{{id: 900, type: mass, nodes: [{corner}], mass: {inputs['added']:.8g}}}",
+        altered=f"{{{corner}: {inputs['added']:.8g}}}",
         places=(tuple(place),) if place and truth != "foot" else (),
         span=float(max(W, storeys * H)),
         draws=4 if truth == "control" else 1,

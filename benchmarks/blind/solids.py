@@ -57,7 +57,10 @@ class Solid:
 
 
 class Mesh:
-    """Lattice of eight-node elements between `x` and `y` lines; `split`: (column, row) of the tip of a slit open upwards."""
+    """Lattice of eight-node elements between `x` and `y` lines.
+
+    points (n,): nodes in the order of their numbers; split: column and row of the tip of a slit, which is open upwards.
+    """
 
     def __init__(self, solid: Solid):
         self.x, self.y = _columns(solid), _rows(solid)
@@ -145,7 +148,7 @@ def _columns(solid: Solid) -> np.ndarray:
     fixed += [x for x, _ in solid.masses]
     fixed += [solid.oscillator[0]] if solid.oscillator else []
     if solid.root:
-        wanted += list(np.linspace(-4 * h, 0, 9)) + [h / 4, h / 2, h]
+        wanted += [*np.linspace(-4 * h, 0, 9), h / 4, h / 2, h]
     lines = np.unique(np.round([x for x in fixed if 0 <= x <= L], 12))
     for x in wanted:
         if abs(lines - x).min() > min(h / 32, L / 1000) and x <= L:

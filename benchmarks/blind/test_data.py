@@ -29,29 +29,34 @@ MISSTATED = (
 
 @dataclass(frozen=True)
 class Measured:
-    """sites (s,): indices into those of the case; frequency (m,); shapes (s, m), the largest component of a mode about 1."""
+    """sites (s,): indices into those of the case; frequency (m,); shapes (s, m), the largest component of a mode about 1.
+
+    The first MEASURED modes are to be fitted, the rest is held out, as is altered (a,), the frequencies with a mass added.
+    """
 
     sites: list[int]
     frequency: np.ndarray
     shapes: np.ndarray
+    altered: np.ndarray
 
 
 def measured(case: Case, truth: dict[str, np.ndarray], config: Config, words: tuple, misstated: str = "") -> Measured:
     """The test of `truth`; `words` seed the noise. `misstated`: one of MISSTATED, or nothing."""
     rng = generator(case.name, "test", *words)
     sites = _sites(case, config, rng)
-    count = min(MEASURED, len(truth["frequency"]))
-    shapes = truth["shapes"][:count].T
+    count, shapes = len(truth["frequency"]), truth["shapes"].T
     readings = _moved(shapes, sites, rng) if misstated == "position" else shapes[sites]
     readings = _faulty(readings / abs(readings).max(axis=0), case.sensor_fault)
     if misstated == "gains":
         readings = readings * (1 + 0.02 * rng.standard_normal(len(sites)))[:, None]
     scale = 2.0 if misstated == "understated" else 1.0
     readings = readings + scale * config.shape_sd * rng.standard_normal(readings.shape)
-    frequency = truth["frequency"][:count] * (1 + scale * config.frequency_sd * rng.standard_normal(count))
+    frequency = truth["frequency"] * (1 + scale * config.frequency_sd * rng.standard_normal(count))
     if misstated == "drift":
         frequency = frequency * (1 + rng.uniform(-0.01, 0.01, count))
-    return Measured(sites, frequency, readings)
+    altered = truth["altered"][:MEASURED]
+    altered = altered * (1 + scale * config.frequency_sd * rng.standard_normal(len(altered)))
+    return Measured(sites, frequency, readings, altered)
 
 
 def _sites(case: Case, config: Config, rng: np.random.Generator) -> list[int]:
