@@ -1,7 +1,7 @@
 """Where one force may act: along the lines of bars, at nodes, or at degrees of freedom of models without geometry."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,9 +16,10 @@ _EACH = 6  # places to begin from on a line
 
 @dataclass(frozen=True)
 class Points:
-    """Places of one kind, and how they move. length: share of all places, by which the prior is spread.
+    """Places of one kind, and how they move. share: of all places, by which the prior is spread.
 
     motion(values): rows (d, r) of the displacement there, for the values of `unknown`, none of which for a single place.
+    dofs: directions that they are along, or, in a model of matrices, degrees of freedom (from 0).
     """
 
     unknown: tuple[Unknown, ...]
@@ -31,14 +32,14 @@ class Points:
 
 def all_motions(model: Reduced) -> list[Points]:
     """Places with all their translations: where a mass may sit."""
-    found = _lines(model, None) + _nodes(model) if model.motion is not None else _dofs(model)
+    found = _lines(model, None) + _nodes(model) if model.motion is not None else _dofs(model, together=True)
     return _shared(found)
 
 
 def directions(model: Reduced) -> list[Points]:
     """Places with one direction each: where a spring to the ground may act."""
     if model.motion is None:
-        return _shared(_dofs(model))
+        return _shared(_dofs(model, together=False))
     found = []
     for d in range(3):
         found += _lines(model, d)
@@ -56,50 +57,51 @@ def _reach(model: Reduced) -> np.ndarray:
     return (np.arange(model.r) < count).astype(float)
 
 
+def wanted(model: Reduced) -> np.ndarray | None:
+    """Mask of the nodes, or degrees of freedom of a model of matrices, that are worth looking at; None: all."""
+    places = getattr(model, "places", None)
+    if places is None:
+        return None
+    mesh = model.problem.mesh
+    mask = np.zeros(model.problem.structure.n if model.motion is None else len(mesh.node_ids), bool)
+    mask[places] = True
+    return mask
+
+
 def _lines(model: Reduced, direction: int | None) -> list[Points]:
     bars = model.bars
     if bars is None:
         return []
-    used, seen = _reach(model), set()
-    largest = max(np.abs(bars.motion(b, 0.5) * used).max() for b in range(len(bars)))
-    found = []
-    for line in bars.lines:
-        key = tuple(sorted(zip(bars.set[line.members].tolist(), bars.member[line.members].tolist(), strict=True)))
-        if key in seen:  # the same bars in their other plane
+    used, keep = _reach(model), wanted(model)
+    runs = [run for run in bars.runs if keep is None or keep[bars.nodes[run.members]].any()]
+    sizes = [np.abs(run.middles * used).max(axis=2) for run in runs]  # (bars, 3)
+    largest, found = max((size.max() for size in sizes), default=0.0), []
+    for run, size in zip(runs, sizes, strict=True):
+        if (size if direction is None else size[:, direction]).max() < _STILL * largest:
             continue
-        seen.add(key)
-        moves = max(
-            np.abs((u if direction is None else u[direction]) * used).max()
-            for b in line.members
-            for u in (bars.motion(b, 0.5),)
-        )
-        if moves < _STILL * largest:
-            continue
-        where = Unknown("place", "m", 0.0, line.length, log=False)
 
-        def motion(values, line=line):
-            u = bars.motion(*line.at(values[0]))
+        def motion(values, run=run):
+            u = bars.motion(*run.at(values[0]))
             return u if direction is None else u[direction : direction + 1]
 
-        def site(values, line=line):
-            here = line.site(values[0])
-            return (
-                here
-                if direction is None
-                else Site(here.kind, here.ids, here.position, f"{here.text}, {DIRECTIONS[direction]}")
-            )
+        def site(values, run=run):
+            here = run.site(values[0])
+            return here if direction is None else replace(here, text=f"{here.text}, {DIRECTIONS[direction]}")
 
-        count = max(2, min(_EACH * 2, len(line.members)))
-        starts = (np.arange(count) + 0.5) / count * line.length
-        found.append(Points((where,), starts[:, None], motion, site, line.length / bars.span))
+        count = max(2, min(_EACH * 2, len(run.members)))
+        starts = (np.arange(count) + 0.5) / count * run.length
+        where = Unknown("place", "m", 0.0, run.length, log=False)
+        dofs = (0, 1, 2) if direction is None else (direction,)
+        found.append(Points((where,), starts[:, None], motion, site, run.length / bars.span, dofs))
     return found
 
 
 def _nodes(model: Reduced) -> list[Points]:
     """Nodes that no bar touches."""
-    mesh, bars, used = model.problem.mesh, model.bars, _reach(model)
+    mesh, bars, used, keep = model.problem.mesh, model.bars, _reach(model), wanted(model)
     touched = set() if bars is None else set(bars.nodes.ravel().tolist())
-    rows = {i: model.node(i)[:3] for i in range(len(mesh.node_ids)) if i not in touched}
+    free = [i for i in range(len(mesh.node_ids)) if i not in touched and (keep is None or keep[i])]
+    rows = {i: model.node(i)[:3] for i in free}
     largest = max((np.abs(u * used).max() for u in rows.values()), default=0.0)
     found = []
     for i, u in rows.items():
@@ -120,20 +122,33 @@ def _split(node: Points) -> Iterator[Points]:
         yield Points((), node.starts, _fixed(row[None]), _fixed(here), 1.0, (d,))
 
 
-def _dofs(model: Reduced) -> list[Points]:
-    """Degrees of freedom of a model without geometry."""
-    labels = model.problem.structure.labels
-    return [
-        Points(
-            (),
-            np.zeros((1, 0)),
-            _fixed(model.V[i : i + 1]),
-            _fixed(Site("dof", (labels[i],), None, f"degree of freedom {labels[i]}")),
-            1.0,
-            (i,),
-        )
-        for i in range(len(labels))
-    ]
+def _dofs(model: Reduced, together: bool) -> list[Points]:
+    """Degrees of freedom of a model of matrices, rotations left out where they are known; or the nodes that they are of."""
+    structure, keep = model.problem.structure, wanted(model)
+    free = np.arange(structure.n) if keep is None else np.flatnonzero(keep)
+    at = structure.geometry
+    if at is not None:
+        free = free[at.direction[free] < 3]
+    if at is None or not together:
+        sites = [Site("dof", (structure.labels[i],), None, f"degree of freedom {structure.labels[i]}") for i in free]
+        return [_single(model, site, (int(i),)) for i, site in zip(free, sites, strict=True)]
+    found = []
+    for node in np.unique(at.node[free]):
+        own = tuple(np.flatnonzero((at.node == node) & (at.direction < 3)).tolist())
+        number = int(at.node_ids[node]) if node >= 0 else 0
+        if node < 0:
+            labels = structure.labels
+            found += [
+                _single(model, Site("dof", (labels[i],), None, f"degree of freedom {labels[i]}"), (i,)) for i in own
+            ]
+        else:
+            position = tuple(at.coordinates[node].tolist())
+            found.append(_single(model, Site("node", (number,), position, f"node {number}"), own))
+    return found
+
+
+def _single(model: Reduced, site: Site, dofs: tuple[int, ...]) -> Points:
+    return Points((), np.zeros((1, 0)), _fixed(model.V[list(dofs)]), _fixed(site), 1.0, dofs)
 
 
 def _fixed(value):

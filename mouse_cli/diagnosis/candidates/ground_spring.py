@@ -4,6 +4,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.candidates import Candidate
 from mouse_cli.diagnosis.change import Change, Recipe, Unknown, product, steps
+from mouse_cli.diagnosis.extend_points import with_spring
 from mouse_cli.diagnosis.points import Points, directions
 from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.diagnosis.scales import lowest, total_mass
@@ -28,6 +29,7 @@ def _at(point: Points, k: Unknown, candidate: Candidate) -> Recipe:
         product(steps(k, 6), *point.starts.T),
         lambda values: point.site(values[1:]),
         log_prior=float(np.log(point.share)),
+        extend=lambda problem, values: with_spring(problem, point, values[1:], values[0]),
     )
 
 

@@ -4,6 +4,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.candidates import Candidate
 from mouse_cli.diagnosis.change import Change, Recipe, Unknown, product, steps
+from mouse_cli.diagnosis.extend_points import with_mass
 from mouse_cli.diagnosis.points import Points, all_motions
 from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.diagnosis.scales import total_mass
@@ -28,6 +29,7 @@ def _at(point: Points, m: Unknown, candidate: Candidate) -> Recipe:
         product(steps(m, 4), *point.starts.T),
         lambda values: point.site(values[1:]),
         log_prior=float(np.log(point.share)),
+        extend=lambda problem, values: with_mass(problem, point, values[1:], values[0]),
     )
 
 

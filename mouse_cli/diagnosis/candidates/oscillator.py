@@ -4,6 +4,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.candidates import Candidate
 from mouse_cli.diagnosis.change import Change, Recipe, Unknown, product, steps
+from mouse_cli.diagnosis.extend_points import with_oscillator
 from mouse_cli.diagnosis.points import Points, directions
 from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.diagnosis.scales import highest, lowest, total_mass
@@ -33,6 +34,9 @@ def _at(point: Points, m: Unknown, f: Unknown, candidate: Candidate) -> Recipe:
         lambda values: point.site(values[2:]),
         own=1,
         log_prior=float(np.log(point.share)),
+        extend=lambda problem, values: with_oscillator(
+            problem, point, values[2:], values[0], values[0] * (2 * np.pi * values[1]) ** 2
+        ),
     )
 
 

@@ -1,0 +1,73 @@
+"""Bars that continue one another: places along them are distances from the beginning of the line."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from mouse_cli.model.diagnosis import Site
+
+_STRAIGHT = 0.999  # cosine of the angle between bars of one line
+
+
+@dataclass(frozen=True)
+class Line:
+    """Bars `members` (c,) of `bars` that continue one another: a place is a distance s from its beginning."""
+
+    bars: Any
+    members: np.ndarray
+
+    @property
+    def length(self) -> float:
+        """Length in m."""
+        return float(self.bars.length[self.members].sum())
+
+    def at(self, s: float) -> tuple[int, float]:
+        """The bar, and the share of its length, at the distance s."""
+        first = self.bars.before[self.members]
+        i = int(np.clip(np.searchsorted(first, s, side="right") - 1, 0, len(first) - 1))
+        bar = int(self.members[i])
+        return bar, float(np.clip((s - first[i]) / self.bars.length[bar], 0.0, 1.0))
+
+    def site(self, s: float) -> Site:
+        """The place at s."""
+        return self.bars.site(*self.at(s))
+
+    @cached_property
+    def middles(self) -> np.ndarray:
+        """Motion (c, 3, r) of the middles of the bars."""
+        return np.array([self.bars.motion(int(bar), 0.5) for bar in self.members])
+
+    @property
+    def ends(self) -> tuple[np.ndarray, np.ndarray]:
+        """Coordinates (3,) of both ends."""
+        last = self.members[-1]
+        return self.bars.start[self.members[0]], np.array(self.bars.point(int(last), 1.0))
+
+
+def joined_lines(part: dict[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """line, before (b,) and the order of bars in which those of a line follow one another."""
+    b = len(part["length"])
+    first: dict[tuple, list[int]] = {}
+    for i in range(b):
+        first.setdefault((int(part["nodes"][i, 0]), int(part["plane"][i])), []).append(i)
+    into = np.full(b, -1)
+    follows = np.full(b, -1)
+    for i in range(b):
+        here = (int(part["nodes"][i, 1]), int(part["plane"][i]))
+        for j in first.get(here, ()):
+            straight = (
+                part["axis"][i] @ part["axis"][j] > _STRAIGHT and part["across"][i] @ part["across"][j] > _STRAIGHT
+            )
+            if j != i and straight and into[j] < 0 and follows[i] < 0:
+                follows[i], into[j] = j, i
+    line, before, order, number, done = [], [], [], 0, np.zeros(b, bool)
+    for i in np.flatnonzero(into < 0).tolist() + list(range(b)):
+        s, any_new = 0.0, not done[i]
+        while i >= 0 and not done[i]:
+            done[i] = True
+            order.append(i), line.append(number), before.append(s)
+            s, i = s + part["length"][i], int(follows[i])
+        number += any_new
+    return np.array(line, int), np.array(before), np.array(order, int)
