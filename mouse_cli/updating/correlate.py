@@ -19,6 +19,7 @@ from mouse_cli.dynamics.correlation import (
 )
 from mouse_cli.dynamics.eigen import EigenSolution, IndefiniteError, clusters
 from mouse_cli.dynamics.sensor_faults import sensor_faults
+from mouse_cli.dynamics.solver import EigenSolver, Notice
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.correlation import ALONE, Correlation, Orthogonality, Subspace
 from mouse_cli.model.modal_test import ModalTest
@@ -68,17 +69,20 @@ class _Sides:
         return test.shapes[:, kept], test.shape_sd[:, kept], test.read(self.solution.shapes[:, modes[kept]])
 
 
-def correlate(problem: Problem, method: str | None = None, exact: bool = False) -> Correlation:
+def correlate(
+    problem: Problem, method: str | None = None, exact: bool = False, notice: Notice = lambda text: None
+) -> Correlation:
     """Compare the test of `problem` with its prior model; `method`: expand the measured shapes by that expansion.
 
-    exact: measured components stay as they are where the method would smooth them. Raises DeckError for a deck without a test,
+    exact: measured components stay as they are where the method would smooth them. notice is called with a sentence as each phase of a large
+    model begins. Raises DeckError for a deck without a test,
     NumericalError where no eigensolution, or no such expansion, exists.
     """
     if problem.test is None:
         raise refusals.no_test(problem)
     K, M = assemble(problem).matrices(problem.prior.mean)
     try:
-        sides = _sides(problem, K, M, *_modes(problem, K, M))
+        sides = _sides(problem, K, M, *_modes(problem, K, M, EigenSolver(notice)))
     except (IndefiniteError, np.linalg.LinAlgError) as reason:
         raise refusals.unphysical(problem, str(reason)) from None
     found = _compared(sides)
@@ -88,17 +92,17 @@ def correlate(problem: Problem, method: str | None = None, exact: bool = False) 
     return remarks(found)
 
 
-def _modes(problem: Problem, K: Matrix, M: Matrix) -> tuple[EigenSolution, int]:
+def _modes(problem: Problem, K: Matrix, M: Matrix, solver: EigenSolver) -> tuple[EigenSolution, int]:
     """The modes of the prior model up to somewhat above the band of the test, and how many of them are rigid."""
     test, n = problem.test, problem.structure.n
     highest = np.nanmax(np.append(test.frequency_hz, 0.0))
     count = min(int(test.number.max()) + 6, n)
-    solution = solve(problem, K, M, count)
+    solution = solve(problem, K, M, count, solver)
     while (
         len(solution.eigenvalues) < n and solution.frequencies_hz[-1] < _BEYOND * highest and count < 20 * test.m + 100
     ):
         count = min(2 * count, n)
-        solution = solve(problem, K, M, count)
+        solution = solve(problem, K, M, count, solver)
     return solution, solution.rigid(reference_eigenvalue(problem, solution.eigenvalues))
 
 

@@ -6,6 +6,7 @@ from mouse_cli.dynamics.eigen import IndefiniteError
 from mouse_cli.dynamics.forces import forces
 from mouse_cli.dynamics.frequency import sd_frequency_hz
 from mouse_cli.dynamics.sensitivity import modal_partials
+from mouse_cli.dynamics.solver import EigenSolver, Notice
 from mouse_cli.estimators.linear import in_prior_units
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import Forecast
@@ -17,12 +18,15 @@ from mouse_cli.updating.state import reference_eigenvalue, solve
 _MOST = 2000  # degrees of freedom up to which all of every shape get standard deviations; beyond, the measured ones do
 
 
-def forecast(problem: Problem, count: int | None = None) -> Forecast:
-    """The lowest `count` modes with first-order standard deviations: cov(y) = T S T'. Raises NumericalError."""
+def forecast(problem: Problem, count: int | None = None, notice: Notice = lambda text: None) -> Forecast:
+    """The lowest `count` modes with first-order standard deviations: cov(y) = T S T'.
+
+    notice is called with a sentence as each phase of a large model begins. Raises NumericalError.
+    """
     assembly = assemble(problem)
     K, M = assembly.matrices(problem.prior.mean)
     try:
-        solution = solve(problem, K, M, count)
+        solution = solve(problem, K, M, count, EigenSolver(notice))
     except (IndefiniteError, np.linalg.LinAlgError) as reason:
         raise refusals.unphysical(problem, str(reason)) from None
     k = min(count or len(solution.eigenvalues), len(solution.eigenvalues))

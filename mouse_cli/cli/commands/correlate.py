@@ -29,13 +29,14 @@ def command(
     Pairs of modes, MAC, COMAC, orthogonality, sensors that look faulty, modes without partner. Judges nothing: exit 0.
     """
     from mouse_cli.cli._decks import read_problem
-    from mouse_cli.cli._terminal import deliver, json_text, show_diagnostics
+    from mouse_cli.cli._terminal import deliver, json_text, progress, show_diagnostics
     from mouse_cli.report import document, written
     from mouse_cli.updating.correlate import correlate
 
     _check_method(method, exact)
     problem = read_problem(deck, **reading(legacy, strip_73_80, overrides))
-    found = correlate(problem, method, exact)
+    with progress() as (_, say):
+        found = correlate(problem, method, exact, say)
     if not quiet:
         show_diagnostics((*problem.warnings, *found.warnings))
     text = json_text(document(found)) if form == "json" else written(found, form or "printout", numbers or "modern")

@@ -27,13 +27,14 @@ def command(
     The standard deviations follow from those of the properties.
     """
     from mouse_cli.cli._decks import read_problem
-    from mouse_cli.cli._terminal import deliver, json_text, show_diagnostics
+    from mouse_cli.cli._terminal import deliver, json_text, progress, show_diagnostics
     from mouse_cli.report import document, written
     from mouse_cli.updating import forecast
 
     problem = read_problem(deck, **reading(legacy, strip_73_80, overrides))
     if not quiet:
         show_diagnostics(problem.warnings)
-    found = forecast(problem, count)
+    with progress() as (_, say):
+        found = forecast(problem, count, say)
     deliver(json_text(document(found)) if form == "json" else written(found, form or "printout", numbers), output, deck)
     return 0
