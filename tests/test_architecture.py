@@ -14,6 +14,7 @@ FILES = sorted(PACKAGE.rglob("*.py"))
 RANKS = {
     "cli": 7,
     "report": 6,
+    "plots": 6,
     "diagnosis": 5,
     "updating": 4,
     "estimators": 3,

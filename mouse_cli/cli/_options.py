@@ -79,10 +79,15 @@ READING = (
 
 def answer(schema: str) -> tuple[Callable, ...]:
     """Where the answer goes and in what form; `schema` is that of its JSON document."""
+    where = click.option("-o", "--output", metavar="FILE", help="Write the answer to FILE instead of standard output.")
+    return (where, *answer_form(schema))
+
+
+def answer_form(schema: str) -> tuple[Callable, ...]:
+    """In what form the answer is given; `schema` is that of its JSON document."""
     from mouse_cli.report.numbers import STYLES
 
     return (
-        click.option("-o", "--output", metavar="FILE", help="Write the answer to FILE instead of standard output."),
         click.option(
             "--json", "form", flag_value="json", help=f"One JSON document ({schema}) in place of the printout."
         ),

@@ -8,6 +8,7 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import ChiSquareTest, Result
 
 NOTHING, NAMED, ONE_OF, UNKNOWN = "nothing-missing", "named", "one-of", "unknown"
+RIVAL = 0.05  # probability of a group from which on it is listed beside the leading one
 
 
 @dataclass(frozen=True)
@@ -69,6 +70,16 @@ class Explanation:
     def group(self) -> str:
         """Groups of its causes, `none` without one."""
         return " + ".join(sorted(cause.group for cause in self.causes)) or "none"
+
+    @property
+    def physics(self) -> str:
+        """Keys of its causes, `none` without one."""
+        return " + ".join(cause.physics for cause in self.causes) or "none"
+
+    @property
+    def title(self) -> str:
+        """Its causes in words."""
+        return " and ".join(cause.title for cause in self.causes) or "nothing"
 
 
 @dataclass(frozen=True)
@@ -152,8 +163,25 @@ class Diagnosis:
 
     @property
     def best(self) -> Explanation | None:
-        """The explanation that leads."""
-        return self.explanations[0] if self.explanations else None
+        """The leading explanation of the leading group."""
+        leading = self.groups[0][0] if self.groups else None
+        own = [one for one in self.explanations if one.group == leading]
+        return next(iter((*own, *self.explanations)), None)
+
+    @property
+    def baseline(self) -> Explanation | None:
+        """The explanation without any cause."""
+        return next((one for one in self.explanations if not one.causes), None)
+
+    @property
+    def rivals(self) -> tuple[tuple[str, float], ...]:
+        """Groups that hold more than 5 % of the probability, and it; the leading one first."""
+        return tuple((name, p) for name, p in self.groups if p > RIVAL)
+
+    @property
+    def probability(self) -> float:
+        """Of the leading group; NaN where nothing was compared."""
+        return self.groups[0][1] if self.groups else float("nan")
 
     @property
     def exit_code(self) -> int:

@@ -3,15 +3,16 @@
 from typing import Any
 
 from mouse_cli.model.correlation import Correlation
+from mouse_cli.model.diagnosis import Diagnosis
 from mouse_cli.model.result import Forecast, Result
 from mouse_cli.report.section import Options
+
+Subject = Result | Forecast | Correlation | Diagnosis
 
 __all__ = ["Options", "document", "markdown", "printout", "written"]
 
 
-def written(
-    subject: Result | Forecast | Correlation, form: str, numbers: str | None = None, options: Options | None = None
-) -> str:
+def written(subject: Subject, form: str, numbers: str | None = None, options: Options | None = None) -> str:
     """The report of `subject` in a `form` of `report.renderers`, numbers in its own style or in another.
 
     Raises ValueError for a form or a style that does not exist.
@@ -24,19 +25,19 @@ def written(
     return chosen.render(blocks(subject, options), Numbers(numbers or chosen.numbers))
 
 
-def printout(subject: Result | Forecast | Correlation, numbers: str = "legacy", options: Options | None = None) -> str:
+def printout(subject: Subject, numbers: str = "legacy", options: Options | None = None) -> str:
     """The report of `subject` as the line printer gave it, no line longer than 132 columns."""
     return written(subject, "printout", numbers, options)
 
 
-def markdown(subject: Result | Forecast | Correlation, numbers: str = "modern", options: Options | None = None) -> str:
+def markdown(subject: Subject, numbers: str = "modern", options: Options | None = None) -> str:
     """The report of `subject` in GitHub's Markdown."""
     return written(subject, "markdown", numbers, options)
 
 
-def document(subject: Result | Forecast | Correlation) -> dict[str, Any]:
+def document(subject: Subject) -> dict[str, Any]:
     """The report of `subject` as JSON can hold it: no NaN, no infinity, plain Python values."""
-    from mouse_cli.report import correlation_document, modes_document, result_document
+    from mouse_cli.report import correlation_document, diagnosis_document, modes_document, result_document
 
-    documents = {Forecast: modes_document, Correlation: correlation_document}
+    documents = {Forecast: modes_document, Correlation: correlation_document, Diagnosis: diagnosis_document}
     return documents.get(type(subject), result_document).document(subject)

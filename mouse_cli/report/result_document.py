@@ -37,18 +37,18 @@ def document(result: Result) -> dict[str, Any]:
             "options": _options(problem),
             "confidence": problem.run.confidence,
             "cycles": [_cycle(cycle) for cycle in result.cycles],
-            "parameters": _parameters(result),
+            "parameters": parameters(result),
             "covariance": _covariance(result),
             **_matrices(result),
             "rigid_modes": result.rigid_modes,
             "eigenvalues": result.revised.eigenvalues,
-            "modes": _modes(result),
+            "modes": modes(result),
             "shapes": _shapes(result),
             "exceedances": [name for name, out in zip(result.labels, result.exceeding, strict=True) if out],
             "allowed": result.allowed,
-            "innovation": _test(result.innovation),
-            "residual": _test(result.residual),
-            "prior_shift": _test(result.prior_shift),
+            "innovation": tested(result.innovation),
+            "residual": tested(result.residual),
+            "prior_shift": tested(result.prior_shift),
             "model_form": result.model_form,
             "sensitivities": {"method": _method(result), "error": result.partials_error},
             **_partials(result),
@@ -84,7 +84,7 @@ def _cycle(cycle) -> dict[str, Any]:
     return {"cycle": cycle.index, **{key: getattr(cycle, key) for key in keys}}
 
 
-def _parameters(result: Result) -> list[dict[str, Any]]:
+def parameters(result: Result) -> list[dict[str, Any]]:
     """One entry a property; a run without an answer has no posterior, a property at its limit no standard deviation."""
     have, prior_sd = result.status.answered, result.problem.prior.sd
     return [
@@ -114,14 +114,14 @@ def _matrices(result: Result) -> dict[str, Any]:
     return {"stiffness": dense(result.revised.K), "mass": dense(result.revised.M)}
 
 
-def _modes(result: Result) -> list[dict[str, Any]]:
+def modes(result: Result) -> list[dict[str, Any]]:
     """One entry a measured mode. sd_hz: of the revised prediction."""
     test, prior, revised = result.problem.test, result.prior, result.revised
-    modes = []
+    found = []
     for i, k in enumerate(eigenvalue_index(result)):
         hz = float(frequency_hz(revised.eigenvalues[revised.modes[i]]))
         known = k != NOT_MEASURED and hz > 0 and result.status.answered
-        modes.append(
+        found.append(
             {
                 "mode": test.number[i],
                 "model_mode": revised.modes[i] + 1,
@@ -135,7 +135,7 @@ def _modes(result: Result) -> list[dict[str, Any]]:
                 "exceeds": bool(k != NOT_MEASURED and result.exceeding[k]),
             }
         )
-    return modes
+    return found
 
 
 def _shapes(result: Result) -> list[dict[str, Any]]:
@@ -159,7 +159,8 @@ def _shapes(result: Result) -> list[dict[str, Any]]:
     ]
 
 
-def _test(test: ChiSquareTest) -> dict[str, Any]:
+def tested(test: ChiSquareTest) -> dict[str, Any]:
+    """A test of the model's form."""
     return {"chi2": test.chi2, "dof": test.dof, "p": test.p}
 
 

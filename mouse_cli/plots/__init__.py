@@ -1,0 +1,120 @@
+"""Figures of a diagnosis: one module = one figure, found by `registry`; matplotlib, which draws them, is optional."""
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from mouse_cli import _registry
+from mouse_cli._errors import ERROR, Diagnostic, MouseError, WrittenError
+from mouse_cli.model.diagnosis import Diagnosis
+
+_INSTALL = "install it: pip install 'mouse-cli[plot]'"
+WIDTH, HEIGHT, DPI = 6.3, 3.4, 200  # of one figure in inches, as wide as the text of a printed page
+STYLE = {
+    "font.size": 9,
+    "axes.titlesize": 10,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "0.9",
+    "axes.axisbelow": True,
+    "legend.frameon": False,
+    "legend.fontsize": 8,
+    "savefig.facecolor": "white",
+}
+BEFORE, AFTER = "0.55", "#0b5394"  # the model as it is, and extended; apart in grey print too
+
+
+@dataclass(frozen=True)
+class Plot:
+    """A figure. draw(diagnosis, axes) draws it into matplotlib axes and returns whether there was anything to draw."""
+
+    key: str
+    order: int
+    title: str
+    draw: Callable[[Diagnosis, Any], bool]
+
+
+def registry() -> dict[str, Plot]:
+    """All figures by key."""
+    return _registry.discover(__name__, "PLOT")
+
+
+def require() -> None:
+    """Raise MouseError (MD530) where matplotlib is not installed."""
+    try:
+        import matplotlib  # noqa: F401
+    except ImportError:
+        problem = Diagnostic(
+            "MD530", ERROR, "--plot needs the package matplotlib, which is not installed", help=_INSTALL
+        )
+        raise MouseError(problem) from None
+
+
+def draw(found: Diagnosis, path: str) -> list[str]:
+    """Write every figure that has something to show; returns the names of the files.
+
+    A path that ends in .pdf has one page a figure, another file suffix all figures below each other; else it is a folder, made
+    where there is none, of PNG files. Raises WrittenError (MD531).
+    """
+    require()
+    import matplotlib
+
+    kind = os.path.splitext(path)[1].lower()
+    with matplotlib.rc_context(STYLE):
+        drawn = _figures(found)
+        try:
+            if kind == ".pdf":
+                return _pages(drawn, path)
+            return _sheet(found, [plot for plot, _ in drawn], path) if kind else _folder(drawn, path)
+        except (OSError, ValueError) as error:  # a suffix that matplotlib does not know is a ValueError
+            reason = getattr(error, "strerror", None) or str(error).splitlines()[0]
+            problem = Diagnostic(
+                "MD531", ERROR, f"cannot write figures to {path}: {reason}", help="name a folder or .pdf, .png"
+            )
+            raise WrittenError(problem) from error
+
+
+def _figures(found: Diagnosis) -> list[tuple[Plot, Any]]:
+    """Each figure that has something to show, drawn."""
+    from matplotlib.figure import Figure
+
+    drawn = []
+    for plot in sorted(registry().values(), key=lambda plot: plot.order):
+        figure = Figure(figsize=(WIDTH, HEIGHT), layout="constrained")
+        axes = figure.add_subplot()
+        if plot.draw(found, axes):
+            axes.set_title(plot.title, loc="left")
+            drawn.append((plot, figure))
+    return drawn
+
+
+def _pages(drawn: list[tuple[Plot, Any]], path: str) -> list[str]:
+    from matplotlib.backends.backend_pdf import PdfPages
+
+    with PdfPages(path) as pages:
+        for _, figure in drawn:
+            pages.savefig(figure)
+    return [path]
+
+
+def _folder(drawn: list[tuple[Plot, Any]], path: str) -> list[str]:
+    os.makedirs(path, exist_ok=True)
+    written = []
+    for plot, figure in drawn:
+        written.append(os.path.join(path, f"{plot.key}.png"))
+        figure.savefig(written[-1], dpi=DPI)
+    return written
+
+
+def _sheet(found: Diagnosis, plots: list[Plot], path: str) -> list[str]:
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(WIDTH, HEIGHT * max(len(plots), 1)), layout="constrained")
+    for i, plot in enumerate(plots, 1):
+        axes = figure.add_subplot(len(plots), 1, i)
+        plot.draw(found, axes)
+        axes.set_title(plot.title, loc="left")
+    figure.savefig(path, dpi=DPI)
+    return [path]

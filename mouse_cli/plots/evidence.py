@@ -1,0 +1,34 @@
+"""Evidence of the candidates over none, as bars."""
+
+from typing import Any
+
+from mouse_cli.model.diagnosis import Diagnosis
+from mouse_cli.plots import AFTER, BEFORE, Plot
+
+_MOST = 10
+
+
+def draw(found: Diagnosis, axes: Any) -> bool:
+    """ln evidence over none; the leading group is dark, and probabilities stand at the bars."""
+    baseline, best = found.baseline, found.best
+    shown = [one for one in found.explanations if one.causes][:_MOST]
+    if baseline is None or not shown:
+        return False
+    gains = [one.log_evidence - baseline.log_evidence for one in shown]
+    colours = [AFTER if best is not None and one.group == best.group else BEFORE for one in shown]
+    bars = axes.barh([_name(one) for one in shown], gains, color=colours, height=0.7)
+    axes.bar_label(bars, [f"P {one.probability:.2f}" for one in shown], padding=3, fontsize=8)
+    axes.axvline(0, color="black", linewidth=0.8)
+    axes.margins(x=0.15)
+    axes.invert_yaxis()
+    axes.grid(axis="y", visible=False)
+    axes.set_xlabel("ln evidence over no cause, nats")
+    return True
+
+
+def _name(one: Any) -> str:
+    sites = ", ".join(c.site.text or " ".join(map(str, c.site.ids)) for c in one.causes if c.site.kind != "structure")
+    return f"{one.physics}\n{sites}" if sites and len(sites) < 40 else one.physics
+
+
+PLOT = Plot("evidence", 10, "Evidence for each candidate", draw)

@@ -1,0 +1,147 @@
+"""A diagnosis as one JSON document, schema mouse.diagnosis/1."""
+
+from typing import Any
+
+from mouse_cli import __version__
+from mouse_cli.model.diagnosis import (
+    EVERYWHERE,
+    NAMED,
+    NOTHING,
+    ONE_OF,
+    Diagnosis,
+    Explanation,
+    HeldOut,
+    Location,
+    Score,
+    Site,
+)
+from mouse_cli.model.result import Result
+from mouse_cli.report import result_document as of_result
+from mouse_cli.report.json_values import dof_name, plain
+
+SCHEMA = "mouse.diagnosis/1"
+_PLACES = 200  # most that are listed
+_NOWHERE = Site("none")
+
+
+def document(found: Diagnosis) -> dict[str, Any]:
+    """`found` in plain Python values; what was not found out is None."""
+    problem, result = found.problem, found.result
+    return plain(
+        {
+            "schema": SCHEMA,
+            "version": __version__,
+            "title": problem.title.strip(),
+            "source": problem.source.path,
+            "exit_code": found.exit_code,
+            "verdict": _verdict(found),
+            "candidates": [_candidate(found, one) for one in found.explanations],
+            "groups": [{"group": name, "probability": p} for name, p in found.groups],
+            "noise_scale": found.noise_scale,
+            "innovation": of_result.tested(found.innovation),
+            "residual": of_result.tested(result.residual),
+            "prior_shift": of_result.tested(result.prior_shift),
+            "location": None if found.location is None else _location(found.location),
+            "held_out": None if found.held_out is None else _held_out(found.held_out),
+            "next_measurement": [
+                {"measure": p.text, "between": list(p.between), "separation": p.separation} for p in found.proposals
+            ],
+            "baseline": _update(result),
+            "extended": None if found.extended_result is None else _update(found.extended_result),
+            "remarks": list(found.remarks),
+            "warnings": [f"{d.code}: {d.message}" for d in (*problem.warnings, *result.warnings)],
+        }
+    )
+
+
+def _verdict(found: Diagnosis) -> dict[str, Any]:
+    """physics, group and site of the cause that is named, or that leads its rivals; none of them without a candidate cause."""
+    best = found.best
+    told = best is not None and bool(best.causes) and found.kind in (NAMED, ONE_OF)
+    rivals = [name for name, _ in found.rivals] if found.kind == ONE_OF else []
+    return {
+        "kind": found.kind,
+        "physics": best.physics if told else None,
+        "group": best.group if told else None,
+        "site": site(best.causes[0].site) if told else None,
+        "sites": [site(cause.site) for cause in best.causes] if told else [],
+        "probability": found.probability if told or found.kind == NOTHING else None,
+        "rivals": rivals,
+    }
+
+
+def _candidate(found: Diagnosis, one: Explanation) -> dict[str, Any]:
+    sites = [cause.site for cause in one.causes] or [_NOWHERE]
+    baseline = found.baseline
+    return {
+        "physics": one.physics,
+        "group": one.group,
+        "title": one.title,
+        "site": site(sites[0]),
+        "sites": [site(each) for each in sites],
+        "log_evidence": one.log_evidence,
+        "log_evidence_over_none": None if baseline is None else one.log_evidence - baseline.log_evidence,
+        "probability": one.probability,
+        "parameters": [
+            {"name": s.name, "unit": s.unit, "value": s.value, "sd": s.sd, "cause": cause.physics}
+            for cause in one.causes
+            for s in cause.sizes
+        ],
+        "chi2": one.chi2,
+        "dof": one.dof,
+        "p": one.p,
+    }
+
+
+def site(place: Site) -> dict[str, Any]:
+    """A place; ids as decks write them."""
+    ids = [dof_name(i) if isinstance(i, str) else i for i in place.ids]
+    text = place.text or (EVERYWHERE.text if place.kind == EVERYWHERE.kind else "")
+    return {"kind": place.kind, "ids": ids, "position": place.position, "text": text}
+
+
+def _location(location: Location) -> dict[str, Any]:
+    """The most probable places, the best first; `region` counts those of the 90 % region, listed or not."""
+    return {
+        "p": location.p,
+        "single": location.single,
+        "region": location.region,
+        "tried": len(location.places),
+        "places": [
+            {"site": site(p.site), "channel": p.channel, "probability": p.probability, "deficit": p.deficit}
+            for p in location.places[:_PLACES]
+        ],
+    }
+
+
+def _held_out(held: HeldOut) -> dict[str, Any]:
+    return {
+        "kind": held.kind,
+        "labels": list(held.labels),
+        "measured_hz": held.measured_hz,
+        "baseline": _score(held.baseline),
+        "revised": None if held.revised is None else _score(held.revised),
+    }
+
+
+def _score(score: Score) -> dict[str, Any]:
+    return {
+        "rms_frequency_error": score.rms_frequency_error,
+        "log_predictive_density": score.log_predictive_density,
+        "covered": score.covered,
+        "hz": score.frequencies_hz,
+        "sd_hz": score.sd_hz,
+        "mac": score.mac,
+    }
+
+
+def _update(result: Result) -> dict[str, Any]:
+    """What `mouse run` says of a model, in brief."""
+    return {
+        "status": result.status.key,
+        "message": result.status.sentence,
+        "model_form": result.model_form,
+        "exit_code": result.exit_code,
+        "parameters": of_result.parameters(result),
+        "modes": of_result.modes(result),
+    }

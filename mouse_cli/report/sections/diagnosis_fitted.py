@@ -1,0 +1,44 @@
+"""The data that were fitted: the model as it is beside the extended one."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from mouse_cli.dynamics.frequency import frequency_hz
+from mouse_cli.model.diagnosis import Diagnosis
+from mouse_cli.model.result import Snapshot
+from mouse_cli.report.blocks import Block, Column, Table, Text
+from mouse_cli.report.section import Options, Section
+
+_COLUMNS = (
+    Column("mode"),
+    Column("test frequency", "Hz"),
+    Column("model as it is", "Hz"),
+    Column("difference", "per cent"),
+    Column("extended model", "Hz"),
+    Column("difference", "per cent"),
+    Column("MAC as it is"),
+    Column("MAC extended"),
+)
+
+
+def fitted(found: Diagnosis, options: Options) -> Iterator[Block]:
+    """One line a mode, both models revised by the test."""
+    test = found.problem.test.frequency_hz
+    nothing = np.full(len(test), np.nan)
+    columns = [test, *_against(found.result.revised, test)]
+    after = found.extended_result
+    columns += _against(after.revised, test) if after else [nothing, nothing, nothing]
+    hz, off, alike, hz_after, off_after, alike_after = columns[1:]
+    rows = zip(found.problem.test.number, test, hz, off, hz_after, off_after, alike, alike_after, strict=True)
+    yield Table(_COLUMNS, tuple((int(n), *map(float, row)) for n, *row in rows)).without_empty_columns()
+    yield Text("Both models with their parameters revised by these data; differences are model minus test.")
+
+
+def _against(model: Snapshot, test: np.ndarray) -> list[np.ndarray]:
+    """Frequencies (m,), differences in per cent, MAC."""
+    hz = frequency_hz(model.eigenvalues[model.modes])
+    return [hz, 100 * (hz / test - 1), model.mac]
+
+
+SECTION = Section("diagnosis-fitted", 70, "Fitted data, before and after", fitted, (Diagnosis,))

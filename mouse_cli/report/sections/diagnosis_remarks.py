@@ -1,0 +1,19 @@
+"""What a careful reader should know: warnings of the deck and of the update, remarks of the diagnosis."""
+
+from collections.abc import Iterator
+
+from mouse_cli.model.diagnosis import Diagnosis
+from mouse_cli.report.blocks import Block, Text
+from mouse_cli.report.section import Options, Section
+
+
+def remarks(found: Diagnosis, options: Options) -> Iterator[Block]:
+    """One paragraph each."""
+    for text in found.remarks:
+        yield Text(text if text.endswith(".") else f"{text}.")
+    for remark in (*found.problem.warnings, *found.result.warnings):
+        place = f" ({remark.span})" if remark.span else ""
+        yield Text(f"{remark.code}{place}: {remark.message}.")
+
+
+SECTION = Section("diagnosis-remarks", 90, "Remarks", remarks, (Diagnosis,))
