@@ -232,3 +232,8 @@ def moved(test: ModalTest, to: np.ndarray, n: int) -> ModalTest:
         stored = coo_array(sensing)
         sensing = coo_array((stored.data, (stored.row, to[stored.col])), shape=(test.s, n)).tocsr()
     return replace(test, dofs=to[test.dofs], sensing=sensing)
+
+
+def every_beam(edit: Edit) -> list[tuple[int, int]]:
+    """All beams of the deck."""
+    return [(s, i) for s, members in enumerate(edit.sets) if members.type == "beam" for i in range(len(members))]

@@ -4,9 +4,24 @@ from collections.abc import Callable
 
 import numpy as np
 
+from mouse_cli.diagnosis.bars import Bars
 from mouse_cli.diagnosis.candidates import Candidate
 from mouse_cli.diagnosis.change import Change, Recipe, Unknown, product
+from mouse_cli.diagnosis.extend import Edit
+from mouse_cli.diagnosis.extend_places import element_at, hinge
+from mouse_cli.diagnosis.lines import Line
+from mouse_cli.diagnosis.points import wanted
 from mouse_cli.diagnosis.reduced import Reduced
+from mouse_cli.model.problem import Problem
+
+_STARTS = 15  # places to begin from on a line
+
+
+def lines(model: Reduced) -> list[Line]:
+    """Lines of bars that are worth looking at."""
+    keep, bars = wanted(model), model.bars
+    found = () if bars is None else bars.lines
+    return [line for line in found if keep is None or keep[bars.nodes[line.members]].any()]
 
 
 def places(
@@ -15,15 +30,17 @@ def places(
     sizes: tuple[Unknown, ...],
     added: Callable[[int, float, np.ndarray], np.ndarray],
     starts: np.ndarray,
+    extend: Callable[[Problem, int, float, np.ndarray], Problem],
 ) -> list[Recipe]:
-    """A recipe for each line of bars: `added` (bar, share of its length, values of `sizes`) comes to the flexibility (2, 2)."""
-    if model.bars is None:
-        return []
-    bars, total = model.bars, sum(line.length for line in model.bars.lines)
-    found = []
-    for line in bars.lines:
+    """A recipe for each line of bars: `added` (bar, share of its length, values of `sizes`) comes to the flexibility (2, 2).
+
+    extend(problem, bar, share, values): the deck with that in it.
+    """
+    bars, chosen, found = model.bars, lines(model), []
+    total = sum(line.length for line in chosen)
+    for line in chosen:
         where = Unknown("place", "m", 0.0, line.length, log=False)
-        count = max(2, min(15, len(line.members)))
+        count = max(2, min(_STARTS, len(line.members)))
         at = (np.arange(count) + 0.5) / count * line.length
 
         def change(values: np.ndarray, line=line) -> Change:
@@ -33,14 +50,42 @@ def places(
         def site(values: np.ndarray, line=line):
             return line.site(values[-1])
 
-        found.append(
-            Recipe(
-                candidate,
-                (*sizes, where),
-                change,
-                product(starts, at),
-                site,
-                log_prior=float(np.log(line.length / total)),
-            )
-        )
+        def extended(problem: Problem, values: np.ndarray, line=line) -> Problem:
+            return extend(problem, *line.at(values[-1]), values[:-1])
+
+        prior = float(np.log(line.length / total))
+        grid = product(*starts.T, at) if starts.ndim > 1 else product(starts, at)
+        found.append(Recipe(candidate, (*sizes, where), change, grid, site, log_prior=prior, extend=extended))
     return found
+
+
+def with_hinge(
+    problem: Problem, bars: Bars, bar: int, share: float, name: str, turning: float, sliding: float = 0.0
+) -> Problem:
+    """The deck with a spring (N m/rad) at `share` of a bar, in its plane, and one (N/m) across it if it slides there too."""
+    edit = Edit(problem)
+    element, there = element_at(edit, np.array(bars.point(bar, share)), bars.axis[bar])
+    node = edit.split(element, there)
+    end = int(np.argmax(edit.sets[element[0]].nodes[element[1]] == node))
+    axis, across = bars.axis[bar], bars.across[bar]
+    spring = hinge(edit, element, end, np.stack([axis, across, np.cross(axis, across)]), turning, sliding)
+    properties = edit.sets[spring[0]].properties
+    if sliding or spring_is_joint(edit, spring):
+        _bind_factor(edit, spring, name, properties, turning, sliding)
+    else:
+        edit.bind(name, [spring], tuple(properties), unit="N m/rad")
+    return edit.done()
+
+
+def spring_is_joint(edit: Edit, element: tuple[int, int]) -> bool:
+    """Whether the element holds further directions rigid."""
+    return edit.sets[element[0]].type == "joint"
+
+
+def _bind_factor(edit: Edit, spring: tuple[int, int], name: str, properties: dict, turning: float, sliding: float) -> None:
+    """Both springs follow one factor; those that stand for rigidity do not."""
+    soft = tuple(key for key, value in properties.items() if value[0] in (turning, sliding))
+    if len(soft) == 1:
+        edit.bind(name, [spring], soft, unit="N m/rad")
+    else:
+        edit.bind(name, [spring], soft, factor=1.0)

@@ -3,7 +3,19 @@
 import numpy as np
 
 from mouse_cli.diagnosis.bars import Bars
+from mouse_cli.diagnosis.extend import Edit, every_beam
+from mouse_cli.diagnosis.reduced import Reduced
+from mouse_cli.model.problem import Problem
 from mouse_cli.terms.elements import _beam as beam
+
+
+def slender(model: Reduced) -> bool:
+    """Whether all bars bend after Euler and Bernoulli without the inertia of turning sections, so that either can be added."""
+    if model.bars is None:
+        return False
+    options = [each.options for each in model.problem.mesh.elements if each.type == "beam"]
+    theory = all((o.get("theory") or "euler-bernoulli") == "euler-bernoulli" for o in options)
+    return theory and not any(o.get("rotary_inertia") == "included" for o in options)
 
 
 def shear_range(bars: Bars) -> tuple[float, float]:
@@ -12,23 +24,56 @@ def shear_range(bars: Bars) -> tuple[float, float]:
     return 1e-5 * bars.span**2 / radius, 3e-2 * bars.span**2 / radius
 
 
-def shear(bars: Bars, ratio: float, rotary: bool) -> tuple[np.ndarray, np.ndarray]:
+def shear(model: Reduced, ratio: float, turning: bool) -> tuple[np.ndarray, np.ndarray]:
     """Changes of K and M (r, r) for E / (kappa G) = `ratio`: F_aa = l / (3 EI) (1 + phi), and shapes with phi in the mass."""
+    bars = model.bars
     phi = 12 * (bars.EI / bars.E) / bars.A * ratio / bars.length**2
     added = np.zeros((len(bars), 2, 2))
-    added[:, 1, 1] = bars.length / (3 * bars.EI) * (phi - bars.phi)
+    added[:, 1, 1] = bars.length / (3 * bars.EI) * phi
     K = bars.softened(np.arange(len(bars)), added)
-    blocks = _mass(bars, phi, rotary) - _mass(bars, bars.phi, False)
-    return K, bars.added(blocks)
+    blocks = np.where(lumped(model)[:, None, None], 0.0, _mass(bars, phi) - _mass(bars, 0 * phi))
+    return K, bars.added(blocks) + (rotary(model, phi) if turning else 0.0)
 
 
-def rotary(bars: Bars) -> np.ndarray:
+def rotary(model: Reduced, phi: np.ndarray | None = None) -> np.ndarray:
     """Mass (r, r) of sections that turn."""
-    _, _, rotation = beam.shapes(bars.length, bars.phi)
-    return bars.added(beam.integral(rotation, bars.section_inertia * bars.length))
+    bars = model.bars
+    _, _, rotation = beam.shapes(bars.length, np.zeros(len(bars)) if phi is None else phi)
+    blocks = beam.integral(rotation, bars.section_inertia * bars.length)
+    ends = (bars.section_inertia * bars.length / 2)[:, None, None] * np.diag([0.0, 1.0, 0.0, 1.0])
+    return bars.added(np.where(lumped(model)[:, None, None], ends, blocks))
 
 
-def _mass(bars: Bars, phi: np.ndarray, rotary: bool) -> np.ndarray:
-    w, _, rotation = beam.shapes(bars.length, phi)
-    blocks = beam.integral(w, bars.line_mass * bars.length)
-    return blocks + beam.integral(rotation, bars.section_inertia * bars.length) if rotary else blocks
+def lumped(model: Reduced) -> np.ndarray:
+    """Mask (b,) of the bars whose mass is at their ends."""
+    sets = model.problem.mesh.elements
+    return np.array([sets[s].options.get("mass") == "lumped" for s in model.bars.set.tolist()])
+
+
+def _mass(bars: Bars, phi: np.ndarray) -> np.ndarray:
+    w, _, _ = beam.shapes(bars.length, phi)
+    return beam.integral(w, bars.line_mass * bars.length)
+
+
+def with_shear(problem: Problem, ratio: float, turning: bool) -> Problem:
+    """All beams after Timoshenko with E / (kappa G) = `ratio`; kappa is estimated."""
+    edit = Edit(problem)
+    beams = every_beam(edit)
+    for s in sorted({s for s, _ in beams}):
+        edit.option(s, theory="timoshenko", rotary_inertia="included" if turning else "omitted")
+    kappa = np.array([edit.values(e, "E") / edit.values(e, "G") for e in beams]) / ratio
+    for name in ("kappa_y", "kappa_z"):
+        edit.put(beams, name, kappa)
+    edit.bind("shear coefficient", beams, ("kappa_y", "kappa_z"), unit="1")
+    return edit.done()
+
+
+def with_rotary(problem: Problem, factor: float) -> Problem:
+    """The inertia of turning sections of all beams, `factor` times density I."""
+    edit = Edit(problem)
+    beams = every_beam(edit)
+    for s in sorted({s for s, _ in beams}):
+        edit.option(s, rotary_inertia="included")
+    edit.put(beams, "rotary_factor", np.full(len(beams), factor))
+    edit.bind("inertia of turning sections", beams, ("rotary_factor",), unit="1")
+    return edit.done()

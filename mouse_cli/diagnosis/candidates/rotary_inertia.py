@@ -5,20 +5,24 @@ import numpy as np
 from mouse_cli.diagnosis.candidates import Candidate
 from mouse_cli.diagnosis.change import Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.reduced import Reduced
-from mouse_cli.diagnosis.shearing import rotary
+from mouse_cli.diagnosis.shearing import rotary, slender, with_rotary
+from mouse_cli.model.problem import Problem
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """M + a times the integral of density I N_theta' N_theta; a = 1 is what the section itself has."""
-    if model.bars is None:
+    if not slender(model):
         return []
     factor = Unknown("times density I of the section", "1", 0.5, 30.0)
-    M = rotary(model.bars)
+    M = rotary(model)
 
     def change(values: np.ndarray) -> Change:
         return Change(M=values[0] * M)
 
-    return [Recipe(candidate, (factor,), change, steps(factor, 4)[:, None])]
+    def extend(problem: Problem, values: np.ndarray) -> Problem:
+        return with_rotary(problem, values[0])
+
+    return [Recipe(candidate, (factor,), change, steps(factor, 4)[:, None], extend=extend)]
 
 
 CANDIDATE = Candidate(

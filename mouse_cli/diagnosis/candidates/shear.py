@@ -5,20 +5,24 @@ import numpy as np
 from mouse_cli.diagnosis.candidates import Candidate
 from mouse_cli.diagnosis.change import Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.reduced import Reduced
-from mouse_cli.diagnosis.shearing import shear, shear_range
+from mouse_cli.diagnosis.shearing import shear, shear_range, slender, with_shear
+from mouse_cli.model.problem import Problem
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """phi = 12 EI / (kappa G A l^2) of every bar, from E / (kappa G)."""
-    if model.bars is None:
+    if not slender(model):
         return []
     ratio = Unknown("E / (kappa G)", "1", *shear_range(model.bars))
 
     def change(values: np.ndarray) -> Change:
-        K, M = shear(model.bars, values[0], rotary=False)
+        K, M = shear(model, values[0], turning=False)
         return Change(K, M)
 
-    return [Recipe(candidate, (ratio,), change, steps(ratio, 8)[:, None])]
+    def extend(problem: Problem, values: np.ndarray) -> Problem:
+        return with_shear(problem, values[0], turning=False)
+
+    return [Recipe(candidate, (ratio,), change, steps(ratio, 8)[:, None], extend=extend)]
 
 
 CANDIDATE = Candidate(

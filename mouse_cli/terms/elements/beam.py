@@ -28,7 +28,9 @@ def matrices(layout: Layout, properties: Properties) -> Matrices:
             phi = 12 * EI / (p[f"kappa_{across}"] * p["G"] * p["A"] * length**2)
         beam.in_plane(K, _bending(layout, p, axis, EI, phi, length), plane)
         w, slope, rotation = beam.shapes(length, phi)
-        beam.in_plane(M, _inertia(layout, p, p["density"] * p[f"I{axis}"], w, rotation, length), plane)
+        beam.in_plane(
+            M, _inertia(layout, p, p["rotary_factor"] * p["density"] * p[f"I{axis}"], w, rotation, length), plane
+        )
         if (tension != 0).any():
             beam.in_plane(Kg, beam.integral(slope, tension * length), plane)
     local = {"K": K, "M": M, GEOMETRIC: Kg}
@@ -122,6 +124,12 @@ PROPERTIES = {
     "kappa_z": Property("shear coefficient for the local x-z plane", "1", 5 / 6, True, _TIMOSHENKO),
     "nonstructural_mass": Property("further mass per length", "kg/m", 0.0),
     "preload": Property("axial force, tension positive; it stiffens bending", "N", 0.0),
+    "rotary_factor": Property(
+        "inertia of sections that turn in bending, over density I of the section",
+        "1",
+        1.0,
+        only=(_INCLUDED, *_TIMOSHENKO),
+    ),
     **{
         f"{name}_{axis}": Property(f"{meaning}, in units of E I{axis}", "1", default, positive, _GENERIC)
         for axis in "yz"

@@ -1,0 +1,193 @@
+"""What every candidate must keep: its change of the reduced model is what the deck it writes has, and that deck reads back."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+
+from mouse_cli.diagnosis.candidates import registry
+from mouse_cli.diagnosis.reduced import reduced
+from mouse_cli.formats import read_deck, write_deck
+from mouse_cli.model.arrays import dense
+from mouse_cli.terms.assembly import assembly
+
+STEEL = "materials: {steel: {E: 2.1e+11, nu: 0.3, density: 7850}}"
+CANTILEVER = f"""
+  structure:
+    nodes: {{line: {{from: 1, to: 31, start: [0, 0], end: [1.5, 0]}}}}
+    {STEEL}
+    sections: {{bar: {{rectangle: [0.02, 0.03]}}}}
+    elements:
+      - {{id: 1-30, type: beam, nodes: 1-31, material: steel, section: bar}}
+"""
+MODELS = {
+    "cantilever": (CANTILEVER + "    supports: {1: all}\n    plane: XY\n", [(9, "TY"), (17, "TY"), (24, "TY"), (31, "TY")]),
+    "free": (CANTILEVER + "    plane: XY\n", [(1, "TY"), (11, "TY"), (18, "TY"), (31, "TY")]),
+    "portal": (
+        f"""
+  structure:
+    nodes:
+      - {{line: {{from: 1, to: 9, start: [0, 0], end: [0, 2]}}}}
+      - {{line: {{from: 11, to: 19, start: [3, 0], end: [3, 2]}}}}
+      - {{line: {{from: 20, to: 26, start: [0.375, 2], end: [2.625, 2]}}}}
+    {STEEL}
+    sections: {{column: {{rectangle: [0.04, 0.05]}}, beam: {{rectangle: [0.05, 0.05]}}}}
+    elements:
+      - {{id: 1-8, type: beam, nodes: 1-9, material: steel, section: column}}
+      - {{id: 11-18, type: beam, nodes: 11-19, material: steel, section: column}}
+      - {{id: 21-28, type: beam, nodes: [9, 20-26, 19], material: steel, section: beam}}
+    supports: {{1: all, 11: all}}
+    plane: XY
+""",
+        [(5, "TX"), (9, "TX"), (15, "TX"), (23, "TY")],
+    ),
+    "space": (
+        f"""
+  structure:
+    nodes: {{line: {{from: 1, to: 21, start: [0, 0, 0], end: [1.0, 0.3, 0.2]}}}}
+    {STEEL}
+    sections: {{bar: {{rectangle: [0.02, 0.035]}}}}
+    elements:
+      - {{id: 1-20, type: beam, nodes: 1-21, material: steel, section: bar}}
+    supports: {{1: all}}
+""",
+        [(8, "TY"), (8, "TZ"), (14, "TY"), (14, "TZ"), (21, "TY"), (21, "TZ")],
+    ),
+    "storeys": (
+        """
+  structure:
+    nodes: {line: {from: 0, to: 5, start: [0, 0, 0], end: [0, 0, 15]}}
+    elements:
+      - {id: 1-5, type: storey, nodes: 0-5, TX: [3.0e+6, 3.0e+6, 2.5e+6, 2.0e+6, 2.0e+6]}
+      - {id: 11-15, type: mass, nodes: 1-5, mass: 10000}
+    supports: {0: all}
+    directions: [TX]
+""",
+        [(1, "TX"), (3, "TX"), (5, "TX")],
+    ),
+    "masses": (
+        """
+  structure:
+    nodes: {1: [0, 0, 0], 2: [1, 0, 0], 3: [2, 0, 0], 4: [3, 0, 0]}
+    elements:
+      - {id: 1-4, type: mass, nodes: 1-4, mass: [1, 1.2, 0.9, 1.1]}
+      - {id: 11-13, type: spring, nodes: 1-4, TX: 1000}
+      - {id: 14, type: spring, nodes: [1], TX: 1100}
+    directions: [TX]
+""",
+        [(1, "TX"), (2, "TX"), (4, "TX")],
+    ),
+    "matrices": (
+        """
+  stiffness: {order: 4, entries: [[1, 1, 2100], [1, 2, -1000], [2, 2, 2000], [2, 3, -1000], [3, 3, 2000],
+    [3, 4, -1000], [4, 4, 1000]]}
+  mass: {diagonal: [1, 1.2, 0.9, 1.1]}
+parameters:
+  - {name: k1, nominal: 1100, sd: 100, stiffness: [[1, 1, 1]]}
+  - {name: all, nominal: 1, sd: 0.1, stiffness: [[2, 2, 2000], [2, 3, -1000], [3, 3, 2000], [3, 4, -1000], [4, 4, 1000]]}
+""",
+        [(1, ""), (2, ""), (4, "")],
+    ),
+}
+
+
+def deck(name: str, folder) -> "Problem":  # noqa: F821
+    """A model of MODELS whose test is its own first three elastic modes."""
+    model, sensors = MODELS[name]
+    parameters = "" if "parameters:" in model else _PARAMETERS[name]
+    rows = "\n".join(f"      - [{1 + i}, {(-1) ** i}, {2 - i}]" for i in range(len(sensors)))
+    dofs = ", ".join(f"{node}{direction}" for node, direction in sensors)
+    text = (
+        f"mouse: 1\ntitle: {name}\nmodel:{model}{parameters}test:\n  modes:\n    number: [1, 2, 3]\n    frequency: [1, 2, 3]\n"
+        f"    frequency_sd: 0.5 %\n    dofs: [{dofs}]\n    shapes:\n{rows}\n    shape_sd: 0.03\n"
+    )
+    path = folder / f"{name}.yaml"
+    path.write_text(text)
+    problem = read_deck(str(path))
+    K, M = (dense(part) for part in assembly(problem).matrices(problem.prior.mean))
+    eigenvalues, X = eigh(K, M)
+    elastic = np.flatnonzero(eigenvalues > 1e-6 * eigenvalues[-1] ** 0.5 * eigenvalues[min(6, len(X) - 1)] ** 0.5)[:3]
+    elastic = np.flatnonzero(eigenvalues > 1e-3 * eigenvalues[min(4, len(X) - 1)])[:3]
+    hz = np.sqrt(eigenvalues[elastic]) / (2 * np.pi)
+    shapes = problem.test.read(X[:, elastic])
+    shapes = shapes / np.abs(shapes).max(axis=0)
+    test = replace(problem.test, number=elastic + 1, frequency_hz=hz, frequency_sd_hz=0.005 * hz, shapes=shapes)
+    return replace(problem, test=test)
+
+
+_E = "parameters:\n  - {name: E, material: steel, property: E, sd: 3 %}\n"
+_PARAMETERS = dict.fromkeys(("cantilever", "free", "portal", "space"), _E)
+_PARAMETERS["storeys"] = "parameters:\n  - {name: storey, elements: 1-5, property: TX, factor: true, sd: 10 %}\n"
+_PARAMETERS["masses"] = "parameters:\n  - {name: k, elements: 11-13, property: TX, sd: 10 %}\n"
+CASES = [(name, key) for name in MODELS for key in registry()]
+
+
+@pytest.fixture(scope="module")
+def models(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("models")
+    problems = {name: deck(name, folder) for name in MODELS}
+    return {name: reduced(problem, problem.prior.mean) for name, problem in problems.items()}
+
+
+def sizes(recipe):
+    """Values of the unknowns inside their ranges, the smaller causes first."""
+    bounds = recipe.bounds
+    for share, place in ((0.25, 0.37), (0.5, 0.71)):
+        at = [
+            low + (place if unknown.unit == "m" and not unknown.log else share) * (high - low)
+            for unknown, (low, high) in zip(recipe.unknowns, bounds, strict=True)
+        ]
+        yield recipe.values(np.array(at))
+
+
+def changed(model, recipe, values):
+    """K, M and sensing of the reduced model with the cause."""
+    change, size = recipe.change(values), model.r + recipe.own
+    K, M = np.zeros((2, size, size))
+    S = np.zeros((len(model.sensing), size))
+    K[: model.r, : model.r], M[: model.r, : model.r] = np.diag(model.eigenvalues), np.eye(model.r)
+    S[:, : model.r] = model.sensing
+    K += 0 if change.K is None else change.K
+    M += 0 if change.M is None else change.M
+    S += 0 if change.sensing is None else change.sensing
+    return K, M, S
+
+
+def lowest(K, M, seen, count):
+    """Eigenvalues, and squares of what sensors see, of the lowest modes that are no rigid motions."""
+    eigenvalues, X = eigh(K, M)
+    first = int((eigenvalues < 1e-4 * eigenvalues[4 if len(X) > 6 else -1]).sum())
+    at = slice(first, first + count)
+    return eigenvalues[at], seen(X[:, at])
+
+
+@pytest.mark.parametrize(("name", "key"), CASES)
+def test_the_deck_with_the_cause_is_the_reduced_model_with_it(models, name, key, tmp_path):
+    model = models[name]
+    recipes = registry()[key].recipes(model, registry()[key])
+    for recipe in recipes[:: max(1, len(recipes) // 3)]:
+        assert recipe.candidate.key == key
+        assert recipe.grid.shape[1] == len(recipe.unknowns)
+        for values in sizes(recipe):
+            K, M, S = changed(model, recipe, values)
+            assert np.allclose(K, K.T, rtol=1e-9, atol=1e-9 * np.abs(K).max())
+            assert np.allclose(M, M.T, rtol=1e-9, atol=1e-12 * np.abs(M).max())
+            assert np.linalg.eigvalsh(M).min() > 0
+            assert recipe.site(values).text
+            if np.linalg.eigvalsh(K)[0] < -1e-9 * np.abs(K).max():
+                continue  # it would buckle
+            extended = recipe.extend(model.problem, values)
+            total = [dense(part) for part in assembly(extended).matrices(extended.prior.mean)]
+            expected, seen = lowest(K, M, lambda X, S=S: S @ X, 4)
+            found, read = lowest(*total, extended.test.read, 4)
+            assert found[: len(expected)] == pytest.approx(expected, rel=1e-3), (recipe.site(values), values)
+            scale = np.abs(seen).max()
+            assert np.abs(read) == pytest.approx(np.abs(seen), abs=0.01 * scale), (recipe.site(values), values)
+            path = tmp_path / "extended.yaml"
+            write_deck(extended, str(path))
+            again = read_deck(str(path))
+            back = assembly(again).matrices(again.prior.mean)
+            for one, other in zip(total, back, strict=True):
+                assert dense(other) == pytest.approx(one, rel=1e-9, abs=1e-9 * np.abs(one).max())
+            assert [p.name for p in again.parameters] == [p.name for p in extended.parameters]
