@@ -26,6 +26,7 @@ PLANES = (  # of bending: local degrees of freedom w1, slope1, w2, slope2, and t
     (np.array([2, 4, 8, 10]), np.array([1.0, -1.0, 1.0, -1.0])),
 )
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(4)  # exact to degree 7; products of shapes have degree 6
+_SINGULAR = 1e-10  # of eigenvalues of a matrix with unit diagonal
 POINTS, WEIGHTS = (_POINTS + 1) / 2, _WEIGHTS / 2
 
 
@@ -127,10 +128,18 @@ def condensation(K: np.ndarray, releases: dict | None) -> np.ndarray | None:
     Kcc = K[:, free[:, None], free].copy()
     rows = np.arange(len(free))
     Kcc[:, rows, rows] = np.where(Kcc[:, rows, rows] == 0, 1.0, Kcc[:, rows, rows])  # no stiffness there to release
+    if not np.iscomplexobj(K) and _singular(Kcc):
+        raise np.linalg.LinAlgError("the releases leave the element free to move")
     T = np.zeros(K.shape, K.dtype)
     T[:, kept, kept] = 1.0
     T[:, free[:, None], kept] = -np.linalg.solve(Kcc, K[:, free[:, None], kept])
     return T
+
+
+def _singular(K: np.ndarray) -> bool:
+    """Whether any of K (e, c, c), positive semidefinite, is singular but for rounding."""
+    scale = 1 / np.sqrt(np.abs(np.einsum("eii->ei", K)))
+    return bool((np.linalg.eigvalsh(K * scale[:, :, None] * scale[:, None, :])[:, 0] < _SINGULAR).any())
 
 
 def to_nodes(layout: Layout, local: Matrices) -> Matrices:
