@@ -104,7 +104,7 @@ def _signs(result: Result) -> Iterator[Diagnostic]:
 def _places(result: Result) -> Iterator[Diagnostic]:
     """Measured modes that look like another model mode than the one they were compared with."""
     test, revised = result.problem.test, result.revised
-    if np.isfinite(test.shapes).sum(axis=0).min(initial=0) < 3:
+    if np.isfinite(test.shapes).sum(axis=0).min(initial=3) < 3:
         return
     likeness = mac(test.shapes, test.read(revised.shapes))
     for i, mode in enumerate(revised.modes):
