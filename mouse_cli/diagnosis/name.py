@@ -4,23 +4,23 @@ A second cause is sought only where one alone leaves more than noise; it must ga
 costs nothing is dropped again. Names are compared as groups: what the data cannot tell apart shares its probability.
 """
 
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from mouse_cli.diagnosis.candidates import registry
 from mouse_cli.diagnosis.change import Recipe
-from mouse_cli.diagnosis.fit import Fit, Model, fit
-from mouse_cli.diagnosis.reduced import Reduced
+from mouse_cli.diagnosis.fit import Fit, Model, Point, fit
+from mouse_cli.diagnosis.reduced import Reduced, reduced
 from mouse_cli.updating.chi_square import upper_tail
 
 _STARTS = 3  # fits of a candidate, from the best places of its grid
+_SETTLE, _MOVED = 3, 5e-3  # times that causes are weighed anew, as long as parameters move more than that share
 _NONE = 0.3  # prior probability that nothing is missing
 _PAIRED = 5  # candidates that are tried in pairs
 _ADEQUATE = 0.05  # probability of a misfit below which a second cause is sought
 _MATERIAL, _SHARE = 3.0, 0.01  # nats that a second cause must gain, and share of the gain so far
-_NEEDED = 3.0  # nats that leaving a cause out must cost
 
 
 @dataclass(frozen=True)
@@ -41,6 +41,55 @@ class Ranking:
         return tuple(sorted(found.items(), key=lambda item: -item[1]))
 
 
+class Study:
+    """A reduced model, what each candidate can do to it, and the same at other parameters, where causes weigh otherwise."""
+
+    def __init__(self, model: Reduced):
+        self.model, self.k = model, model.L.shape[1]
+        self.recipes = {name: _numbered(candidate.recipes(model, candidate)) for name, candidate in registry().items()}
+
+    @cached_property
+    def _adapted(self) -> tuple[np.ndarray, np.ndarray]:
+        """T (q, k), and (T'T + I)^-1 [T', -I] (k, q + k): how far the deck's parameters follow a residual."""
+        plain = Model(self.model)
+        T = plain.jacobian(plain.point(np.zeros(self.k)))
+        return T, np.linalg.solve(T.T @ T + np.eye(self.k), np.hstack([T.T, -np.eye(self.k)]))
+
+    def foreseen(self, at: Point) -> float:
+        """The misfit that is left of `at` when the deck's parameters adapt, to first order."""
+        T, adapted = self._adapted
+        step = adapted @ np.concatenate([at.residual, at.x[: self.k]])
+        left, z = at.residual - T @ step, at.x[: self.k] + step
+        return float(left @ left + z @ z)
+
+    def own(self, recipes: tuple[Recipe, ...]) -> tuple[Recipe, ...]:
+        """The same causes at the same places in this model."""
+        return tuple(self.recipes[recipe.candidate.key][recipe.number] for recipe in recipes)
+
+    def at(self, theta: np.ndarray) -> "Study":
+        """The same at parameters theta (p,)."""
+        return Study(reduced(self.model.problem, theta))
+
+
+def _numbered(recipes: list[Recipe]) -> list[Recipe]:
+    return [replace(recipe, number=i) for i, recipe in enumerate(recipes)]
+
+
+def settled(one: Fit, study: Study) -> Fit:
+    """The fit with its causes weighed at the parameters that it found, not at those where the search began."""
+    for _ in range(_SETTLE):
+        theta = one.model.base.parameters(one.point.x[: one.model.k])
+        before = one.model.base.theta
+        if not one.recipes or np.all(np.abs(theta - before) <= _MOVED * np.abs(before)):
+            break
+        there = study.at(theta)
+        again = fit(Model(there.model, there.own(one.recipes)), one.c, one.point.x[: one.model.k])
+        if again is None:
+            break
+        one = again
+    return one
+
+
 def group(one: Fit) -> str:
     """Groups of the causes of a fit; `none` without any."""
     return " + ".join(sorted(recipe.candidate.group for recipe in one.recipes)) or "none"
@@ -53,12 +102,12 @@ def key(one: Fit) -> tuple[str, ...]:
 
 def rank(model: Reduced) -> Ranking:
     """All that the candidates make of the data."""
-    baseline = fit(Model(model), np.zeros(0))
-    recipes = {name: candidate.recipes(model, candidate) for name, candidate in registry().items()}
-    singles = [found for own in recipes.values() for found in [best(model, own)] if found is not None]
+    study = Study(model)
+    baseline = settled(fit(Model(model), np.zeros(0)), study)
+    singles = [one for name in study.recipes for one in [best(study, name)] if one is not None]
     fits = [baseline, *singles]
     if singles and not adequate(min(singles, key=lambda one: one.misfit)):
-        fits += pairs(model, recipes, baseline, singles)
+        fits += pairs(study, baseline, singles)
     return ranking(baseline, fits)
 
 
@@ -83,26 +132,22 @@ def adequate(one: Fit, least: float = _ADEQUATE) -> bool:
     return upper_tail(one.misfit, max(one.dof, 1)) > least
 
 
-def best(model: Reduced, recipes: Iterable[Recipe], beside: Fit | None = None) -> Fit | None:
-    """The candidate's most probable fit over all of its places, its evidence summed over distinct optima.
+def best(study: Study, name: str, beside: Fit | None = None) -> Fit | None:
+    """The most probable fit of candidate `name` over all of its places, its evidence summed over distinct optima.
 
     beside: causes that are there already.
     """
+    x, others = (np.zeros(study.k), ()) if beside is None else (beside.point.x, study.own(beside.recipes))
     starts = []
-    for recipe in recipes:
-        trial = Model(model, (*(beside.recipes if beside else ()), recipe))
-        before = np.concatenate([beside.point.x if beside else model.z])
+    for recipe in study.recipes[name]:
+        trial = Model(study.model, (*others, recipe))
         for values in recipe.grid:
-            at = trial.point(np.concatenate([before, recipe.coordinates(values)]))
+            at = trial.point(np.concatenate([x, recipe.coordinates(values)]))
             if at is not None:
-                starts.append((at.chi2, trial, at.x))
+                starts.append((study.foreseen(at), trial, at.x))
     starts.sort(key=lambda item: item[0])
-    found: list[Fit] = []
-    for _, trial, x in starts[: _STARTS if beside is None else 2]:
-        one = fit(trial, x[trial.k :], x[: trial.k])
-        if one is not None:
-            found.append(one)
-    return _summed(found)
+    found = (fit(trial, x[trial.k :], x[: trial.k]) for _, trial, x in starts[:_STARTS])
+    return _summed([settled(one, study) for one in found if one is not None])
 
 
 def _summed(found: list[Fit]) -> Fit | None:
@@ -119,25 +164,25 @@ def _summed(found: list[Fit]) -> Fit | None:
 
 
 def _same(one: Fit, other: Fit) -> bool:
-    if one.recipes != other.recipes:
+    if [recipe.number for recipe in one.recipes] != [recipe.number for recipe in other.recipes]:
         return False
     sd = np.sqrt(np.abs(np.diag(one.covariance)[one.model.k :]))
     return bool((np.abs(one.c - other.c) < 2 * sd + 1e-3 * one.model.width).all())
 
 
-def pairs(model: Reduced, recipes: dict[str, list[Recipe]], baseline: Fit, singles: list[Fit]) -> list[Fit]:
+def pairs(study: Study, baseline: Fit, singles: list[Fit]) -> list[Fit]:
     """Two causes: the leading one with every candidate, and the best of the leading groups with one another."""
     leading = _leading(singles)
     found: dict[tuple[str, ...], Fit] = {}
     for first in leading:
-        partners = recipes if first is leading[0] else [one.recipes[0].candidate.key for one in leading]
+        partners = study.recipes if first is leading[0] else [one.recipes[0].candidate.key for one in leading]
         for name in partners:
-            two = best(model, recipes[name], first)
-            if two is not None and _material(two, first, baseline):
+            two = best(study, name, first)
+            if two is not None and _material(two, baseline, singles):
                 other = found.get(key(two))
                 if other is None or two.log_evidence > other.log_evidence:
                     found[key(two)] = two
-    return [two for two in found.values() if _both_needed(two, singles)]
+    return list(found.values())
 
 
 def _leading(singles: list[Fit]) -> list[Fit]:
@@ -148,13 +193,9 @@ def _leading(singles: list[Fit]) -> list[Fit]:
     return list(found.values())[:_PAIRED]
 
 
-def _material(two: Fit, first: Fit, baseline: Fit) -> bool:
-    """Whether the second cause gains enough beside what the first has gained."""
-    so_far = first.log_evidence - baseline.log_evidence
-    return two.log_evidence - first.log_evidence > max(_MATERIAL, _SHARE * so_far)
-
-
-def _both_needed(two: Fit, singles: list[Fit]) -> bool:
-    """Whether leaving either cause out costs something."""
+def _material(two: Fit, baseline: Fit, singles: list[Fit]) -> bool:
+    """Whether both causes are needed: what two gain over the better of them alone matters beside what that one gains."""
     alone = [one.log_evidence for one in singles if set(key(one)) <= set(key(two))]
-    return not alone or two.log_evidence - max(alone) > _NEEDED
+    if not alone:
+        return True
+    return two.log_evidence - max(alone) > max(_MATERIAL, _SHARE * (max(alone) - baseline.log_evidence))
