@@ -11,10 +11,13 @@ from mouse_cli.model.diagnosis import Location, Place
 from mouse_cli.updating.chi_square import upper_tail
 
 _REGION = 0.9  # probability that the region holds
-_POINTS = 8  # most values of z that the matching is linearised at
-_NEAR = 0.3  # prior standard deviations from such a value within which the linearisation is trusted
+_POINTS = 60  # most values of z that are tried besides the update and the prior mean
+_SETTLED = 0.5  # of the cost, that one more step for a place would gain
+_STUCK = 1e4  # damping from which on a place is not followed
+_RIVAL = 12.0  # nats that a place may promise to be below the best and still be followed
+_TRUSTED = 2.0  # gain up to which the last step of a place is taken for granted
 _SHOWN = 400  # places that are kept
-_LEADING = 5  # places whose own z is followed
+_RIVAL = 12.0  # nats below the best up to which the z of a place is followed
 
 
 @dataclass(frozen=True)
@@ -47,16 +50,17 @@ def locate(model: Reduced) -> Location:
     found = scores(model)
     if found is None:
         return Location((), 0, 1.0)
-    chi2 = float(found.matches.chi2[np.argmin(found.matches.cost)])
-    dof = max(found.measured.dof, 1)
-    score = -0.5 * found.matches.cost / max(1.0, chi2 / dof)
+    gain = found.matches.gain()
+    chi2 = found.matches.cost - np.where(gain < _TRUSTED, gain, 0.0)
+    least, dof = float(chi2.min()), max(found.measured.dof, 1)
+    score = -0.5 * (chi2 + found.matches.volume()) / max(1.0, least / dof)
     weighed = score + _log_prior(found.channels)
     probability = np.exp(weighed - weighed.max())
     probability /= probability.sum()
     order = np.argsort(-weighed, kind="stable")
     region = int(np.searchsorted(np.cumsum(probability[order]), _REGION)) + 1
     places = tuple(_place(found, i, float(probability[i]), float(score.max() - score[i])) for i in order[:_SHOWN])
-    return Location(places, min(region, len(places)), upper_tail(chi2, dof))
+    return Location(places, min(region, len(places)), upper_tail(least, dof))
 
 
 def scores(model: Reduced) -> Scores | None:
@@ -69,33 +73,41 @@ def scores(model: Reduced) -> Scores | None:
 
 
 def matched(model: Reduced, measured: Shapes, rows: np.ndarray) -> Matches:
-    """Places B (j, r), each from the point z that is nearest to its own: prior mean, update, and those of the leading places."""
-    points = [model.z, np.zeros_like(model.z)]
-    best = None
-    for count in range(_POINTS):
-        if count == len(points):
+    """Places B (j, r), each at the best z found for it: every z that a leading place leads to is tried for all of them."""
+    found = None
+    for point in (model.z, np.zeros_like(model.z)):
+        found = _better(found, _matches(model, measured, point, rows))
+    damping = np.zeros(len(rows))
+    for _ in range(_POINTS):
+        promised = found.cost - found.gain()
+        settled = (found.gain() < _SETTLED) | (damping > _STUCK)
+        promised[settled] = found.cost[settled]
+        place = int(np.argmin(np.where(settled, np.inf, promised)))
+        if settled[place] or promised[place] > promised[settled].min(initial=np.inf) + 2 * _RIVAL:
             break
-        try:
-            there = Matcher(model, measured, points[count]).match(rows)
-        except np.linalg.LinAlgError:  # no mass matrix so far from the update
-            continue
-        best = there if best is None else _nearer(best, there)
-        if count + 1 == len(points):
-            leading = np.argsort(best.cost)[:_LEADING]
-            far = leading[best.step[leading] > _NEAR]
-            points += [best.z[far[0]]] if len(far) else []
-    return best
+        z = found.z[place] + found.step(damping)[place]
+        there, before = _matches(model, measured, z, rows), found.cost[place]
+        found = _better(found, there)
+        damping[place] = damping[place] / 10 if found.cost[place] < before else max(10 * damping[place], 0.1)
+    return found
 
 
-def _nearer(one: Matches, other: Matches) -> Matches:
-    """For each place the match with the shorter step."""
-    take = other.step < one.step
-    return Matches(
-        *(
-            np.where(take[:, None] if a.ndim == 2 else take, b, a)
-            for a, b in ((getattr(one, name), getattr(other, name)) for name in Matches.__annotations__)
-        )
-    )
+def _matches(model: Reduced, measured: Shapes, z: np.ndarray, rows: np.ndarray) -> Matches | None:
+    """At z; None where the model is not physical there."""
+    try:
+        return Matcher(model, measured, z).match(rows)
+    except np.linalg.LinAlgError:
+        return None
+
+
+def _better(one: Matches | None, other: Matches | None) -> Matches | None:
+    """For each place the match of lower cost."""
+    if one is None or other is None:
+        return one or other
+    take = np.flatnonzero(other.cost < one.cost)
+    for name in Matches.__annotations__:
+        getattr(one, name)[take] = getattr(other, name)[take]
+    return one
 
 
 def _log_prior(ways: list[Channel]) -> np.ndarray:

@@ -1,13 +1,11 @@
 """Resolvent matching: whether a force through one place, of whatever law, can make the shapes that were measured.
 
 A model that lacks a force through the channel B has the modes phi_i = R(lambda_i) B g_i exactly, R = (K - lambda M)^-1 and
-lambda_i the measured eigenvalue: so y_i is compared with a_i h_i, h_i = S R(lambda_i) B, for any a_i. What the parameters z of the
-deck leave uncertain, N(0, 1), and the errors of lambda_i are marginalised: with r the misfit at a point z_0, J its derivatives by
-both, projected so that a_i follows (Kaufman 1975),
+lambda_i the measured eigenvalue: so y_i is compared with a_i h_i, h_i = S R(lambda_i) B, for any a_i. What the test leaves open of
+lambda_i is averaged over nodes, as h_i may turn within one standard deviation; what the deck leaves open of its parameters z,
+N(0, 1), is marginalised by Laplace: with r the misfit, J its derivatives, projected so that a_i follows (Kaufman 1975),
 
-    -2 ln p = min over dz of |r - J dz|^2 + |z_0 + dz|^2 + ln |I + J'J|
-
-The direction of h_i is almost linear in lambda_i and z although h_i has poles, so few points z_0 are enough.
+    cost(z) = -2 sum over modes of ln mean over nodes of exp(-|r|^2 / 2) + |z|^2,     -2 ln p = min cost + ln |I + J'J|
 """
 
 from dataclasses import dataclass
@@ -18,17 +16,34 @@ from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.dynamics.frequency import eigenvalue
 
 _POLE = 1e-7  # distance of lambda from an eigenvalue of the model, relative, below which R is taken beside it
+_NODES = np.linspace(-2.0, 2.0, 7)  # of lambda, in standard deviations
+_LOG_WEIGHTS = -0.5 * _NODES**2 - np.log(np.sum(np.exp(-0.5 * _NODES**2)))
 _CHUNK = 20_000_000  # numbers of derivatives held at once
 
 
 @dataclass(frozen=True)
 class Matches:
-    """For j places: cost (j,) = -2 ln p; chi2 (j,) its part that is misfit and shift; z (j, k) of least cost; step (j,) = |dz|."""
+    """For j places at their z (j, k): cost (j,); N (j, k, k) = I + J'J and b (j, k) = J'r - z, whence the next z."""
 
-    cost: np.ndarray
-    chi2: np.ndarray
     z: np.ndarray
-    step: np.ndarray
+    cost: np.ndarray
+    N: np.ndarray
+    b: np.ndarray
+
+    def step(self, damping: np.ndarray) -> np.ndarray:
+        """Change of z (j, k) that lowers the cost, after Levenberg and Marquardt with damping (j,)."""
+        diagonal = np.einsum("jkk->jk", self.N)
+        return np.linalg.solve(
+            self.N + (damping[:, None] * diagonal)[:, :, None] * np.eye(self.z.shape[1]), self.b[:, :, None]
+        )[:, :, 0]
+
+    def gain(self) -> np.ndarray:
+        """What a full step would lower the cost by (j,), were it quadratic."""
+        return np.einsum("jk,jk->j", self.b, self.step(np.zeros(len(self.cost))))
+
+    def volume(self) -> np.ndarray:
+        """ln |I + J'J| (j,)."""
+        return np.linalg.slogdet(self.N)[1]
 
 
 @dataclass(frozen=True)
@@ -68,13 +83,6 @@ class Matcher:
         dK, dM = model.slopes(z)
         self.dK, self.dM = (self.X.T @ d @ self.X for d in (dK, dM))
 
-    def resolvent(self, i: int) -> np.ndarray:
-        """1 / (eigenvalues - lambda_i) (r,)."""
-        at = self.measured.eigenvalue[i]
-        apart = self.eigenvalues - at
-        near = np.abs(apart) < _POLE * at
-        return 1 / np.where(near, np.where(apart < 0, -1, 1) * _POLE * at, apart)
-
     def match(self, rows: np.ndarray) -> Matches:
         """All places B (j, r)."""
         k, s = len(self.z), len(self.measured.y)
@@ -85,32 +93,38 @@ class Matcher:
     def _match(self, B: np.ndarray) -> Matches:
         j, k = len(B), len(self.z)
         N, b = np.zeros((j, k, k)) + np.eye(k), np.zeros((j, k)) - self.z
-        least, size = np.full(j, self.z @ self.z), np.zeros(j)
+        cost = np.full(j, self.z @ self.z)
         for i in range(len(self.measured.modes)):
-            r, J, e = self._mode(i, B)
-            spread = 1 + np.einsum("js,js->j", e, e)
-            along = np.einsum("js,js->j", e, r)
-            eJ = np.einsum("js,jsk->jk", e, J)
-            N += np.swapaxes(J, 1, 2) @ J - eJ[:, :, None] * eJ[:, None, :] / spread[:, None, None]
-            b += np.einsum("jsk,js->jk", J, r) - eJ * (along / spread)[:, None]
-            least += np.einsum("js,js->j", r, r) - along**2 / spread
-            size += np.log(spread)
-        dz = np.linalg.solve(N, b[:, :, None])[:, :, 0]
-        chi2 = least - np.einsum("jk,jk->j", dz, b)
-        return Matches(chi2 + size + np.linalg.slogdet(N)[1], chi2, self.z + dz, np.linalg.norm(dz, axis=1))
+            misfit = np.stack([self._misfit(i, node, B)[2] for node in range(len(_NODES))])
+            cost += -2 * np.logaddexp.reduce(-0.5 * misfit + _LOG_WEIGHTS[:, None], axis=0)
+            best = np.argmin(misfit - 2 * _LOG_WEIGHTS[:, None], axis=0)
+            for node in np.unique(best):
+                own = np.flatnonzero(best == node)
+                r, J = self._derivatives(i, node, B[own])
+                N[own] += np.swapaxes(J, 1, 2) @ J
+                b[own] += np.einsum("jsk,js->jk", J, r)
+        return Matches(np.zeros((j, k)) + self.z, cost, N, b)
 
-    def _mode(self, i: int, B: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Misfit r (j, s) of mode i, and its derivatives by z (j, s, k) and by lambda_i in standard deviations (j, s)."""
-        D, w, y = self.resolvent(i), self.measured.weight[:, i], self.measured.y[:, i]
-        S = self.seen * D * w[:, None]
-        h = B @ S.T
-        size = np.maximum(np.einsum("js,js->j", h, h), 1e-300)
-        a = h @ y / size
-        unit = h / np.sqrt(size)[:, None]
-        scaled = (a[:, None] * B) * D
-        G = S @ (self.dK - self.measured.eigenvalue[i] * self.dM)
-        J = -np.einsum("jr,ksr->jsk", scaled, G, optimize=True)
+    def _resolvent(self, i: int, node: int) -> tuple[float, np.ndarray]:
+        """lambda_i at a node, and 1 / (eigenvalues - lambda_i) (r,)."""
+        at = self.measured.eigenvalue[i] + _NODES[node] * self.measured.sd[i]
+        apart = self.eigenvalues - at
+        near = np.abs(apart) < _POLE * at
+        return at, 1 / np.where(near, np.where(apart < 0, -1, 1) * _POLE * at, apart)
+
+    def _misfit(self, i: int, node: int, B: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """h (j, s) of mode i, its scales a (j,), and |y - a h|^2 (j,)."""
+        y = self.measured.y[:, i]
+        h = B @ (self.seen * self._resolvent(i, node)[1] * self.measured.weight[:, i, None]).T
+        along, size = h @ y, np.maximum(np.einsum("js,js->j", h, h), 1e-300)
+        return h, along / size, y @ y - along**2 / size
+
+    def _derivatives(self, i: int, node: int, B: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Misfit r (j, s) of mode i, and derivatives J (j, s, k) of what it is compared with."""
+        at, D = self._resolvent(i, node)
+        h, a, _ = self._misfit(i, node, B)
+        unit = h / np.sqrt(np.maximum(np.einsum("js,js->j", h, h), 1e-300))[:, None]
+        G = (self.seen * D * self.measured.weight[:, i, None]) @ (self.dK - at * self.dM)
+        J = -np.einsum("jr,ksr->jsk", (a[:, None] * B) * D, G, optimize=True)
         J -= unit[:, :, None] * np.einsum("js,jsk->jk", unit, J)[:, None, :]
-        e = self.measured.sd[i] * (scaled @ S.T)
-        e -= unit * np.einsum("js,js->j", unit, e)[:, None]
-        return y - a[:, None] * h, J, e
+        return self.measured.y[:, i] - a[:, None] * h, J
