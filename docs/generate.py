@@ -1,4 +1,5 @@
-"""Writes the generated pages: docs/reference/{cli,yaml,elements,codes,statuses,estimators}.md and the card part of docs/manual.md.
+"""Writes the generated pages: docs/reference/{cli,yaml,elements,candidates,codes,statuses,estimators}.md, the card part of the
+manual.
 
 Run it from anywhere after a change of an option, a deck key, a card, a diagnostic code or a status:
 
@@ -53,6 +54,7 @@ def pages() -> dict[Path, str]:
         DOCS / "reference" / "cli.md": "\n".join(_cli()),
         DOCS / "reference" / "yaml.md": f"{_NOTE}\n{told('explain', 'yaml')}",
         DOCS / "reference" / "elements.md": f"{_NOTE}\n{told('explain', 'elements')}",
+        DOCS / "reference" / "candidates.md": f"{_NOTE}\n{told('explain', 'candidates')}",
         DOCS / "reference" / "codes.md": "\n".join(_codes()),
         DOCS / "reference" / "statuses.md": "\n".join(_statuses()),
         DOCS / "reference" / "estimators.md": "\n".join(_estimators()),

@@ -107,6 +107,22 @@ class Location:
 
 
 @dataclass(frozen=True)
+class Law:
+    """The force law that data imply at a place, whatever its form: d = -1/(B' R(lambda) B), R = (K - lambda M)^-1 of the model.
+
+    frequency_hz (m,): measured; stiffness, sd (m,): d there and its standard deviation; fitted (m,): what the cause gives. A
+    spring is constant and positive, a mass is -m lambda, an oscillator has a pole.
+    """
+
+    site: Site
+    unit: str
+    frequency_hz: np.ndarray
+    stiffness: np.ndarray
+    sd: np.ndarray
+    fitted: np.ndarray
+
+
+@dataclass(frozen=True)
 class Score:
     """How well data that no fit has seen were predicted."""
 
@@ -155,6 +171,7 @@ class Diagnosis:
     groups: tuple[tuple[str, float], ...] = ()
     noise_scale: float = 1.0
     location: Location | None = None
+    law: Law | None = None
     held_out: HeldOut | None = None
     proposals: tuple[Proposal, ...] = ()
     extended: Problem | None = None

@@ -4,6 +4,7 @@ from typing import Any
 
 from mouse_cli.model.diagnosis import Diagnosis
 from mouse_cli.plots import AFTER, BEFORE, Plot
+from mouse_cli.report.sections._diagnosis_wording import with_p
 
 _MOST = 10
 
@@ -17,7 +18,7 @@ def draw(found: Diagnosis, axes: Any) -> bool:
     gains = [one.log_evidence - baseline.log_evidence for one in shown]
     colours = [AFTER if best is not None and one.group == best.group else BEFORE for one in shown]
     bars = axes.barh([_name(one) for one in shown], gains, color=colours, height=0.7)
-    axes.bar_label(bars, [f"P {one.probability:.2f}" for one in shown], padding=3, fontsize=8)
+    axes.bar_label(bars, [with_p(one.probability) for one in shown], padding=3, fontsize=8)
     axes.axvline(0, color="black", linewidth=0.8)
     axes.margins(x=0.15)
     axes.invert_yaxis()

@@ -11,6 +11,7 @@ from mouse_cli.model.diagnosis import (
     Diagnosis,
     Explanation,
     HeldOut,
+    Law,
     Location,
     Score,
     Site,
@@ -42,6 +43,7 @@ def document(found: Diagnosis) -> dict[str, Any]:
             "residual": of_result.tested(result.residual),
             "prior_shift": of_result.tested(result.prior_shift),
             "location": None if found.location is None else _location(found.location),
+            "law": None if found.law is None else _law(found.law),
             "held_out": None if found.held_out is None else _held_out(found.held_out),
             "next_measurement": [
                 {"measure": p.text, "between": list(p.between), "separation": p.separation} for p in found.proposals
@@ -111,6 +113,17 @@ def _location(location: Location) -> dict[str, Any]:
             {"site": site(p.site), "channel": p.channel, "probability": p.probability, "deficit": p.deficit}
             for p in location.places[:_PLACES]
         ],
+    }
+
+
+def _law(law: Law) -> dict[str, Any]:
+    return {
+        "site": site(law.site),
+        "unit": law.unit,
+        "hz": law.frequency_hz,
+        "stiffness": law.stiffness,
+        "sd": law.sd,
+        "fitted": law.fitted,
     }
 
 

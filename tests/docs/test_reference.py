@@ -9,11 +9,13 @@ from collections.abc import Iterator
 
 import click
 import pytest
+from diagnosis_examples import DIAGNOSES
 from pages import DOCS, TOP
 
 from mouse_cli._registry import discover
 from mouse_cli.cli.main import cli, main
 from mouse_cli.codes import catalogue
+from mouse_cli.report import document
 from mouse_cli.updating.statuses import STATUSES
 
 REFERENCE = DOCS / "reference"
@@ -135,6 +137,25 @@ def test_json_of_correlate(tmp_path):
     deck.write_text(CLOSE_AND_REVERSED)
     emitted = set(_paths(json.loads(_told("correlate", deck, "--expand", "dynamic", "--json"))))
     assert emitted == _documented("mouse.correlation/1")
+
+
+def test_json_of_diagnose():
+    """Examples of every kind have all keys between them; the command adds what became of `-o`."""
+    emitted = {path for make in DIAGNOSES.values() for path in _paths(document(make()))}
+    told = set(_paths(json.loads(_told("diagnose", TOP / "decks" / "ground_spring.yaml", "--json"))))
+    assert emitted | {"revised_deck"} == _documented("mouse.diagnosis/1")
+    assert told <= emitted | {"revised_deck"}
+    assert "revised_deck" in told
+
+
+def test_candidates():
+    """Every candidate has its section in the reference, its line in the list and its explanation."""
+    page, listed = _page("candidates.md"), _told("list", "candidates")
+    for key, candidate in discover("mouse_cli.diagnosis.candidates", "CANDIDATE").items():
+        assert f"\n## {key}\n" in page
+        assert f"| {candidate.group} |" in page
+        assert re.search(rf"^{key} ", listed, re.MULTILINE)
+        assert candidate.meaning.rstrip(".") in _told("explain", key)
 
 
 CLOSE_AND_REVERSED = """\

@@ -1,4 +1,4 @@
-"""mouse explain: what a diagnostic code, a card group, an estimator, a deck key means."""
+"""mouse explain: what a diagnostic code, a card group, an estimator, a candidate, a deck key means."""
 
 import difflib
 import json
@@ -39,6 +39,12 @@ def _cards() -> str:
     return card_manual.manual()
 
 
+def _candidates() -> str:
+    from mouse_cli.diagnosis import candidate_manual
+
+    return candidate_manual.manual()
+
+
 def _elements() -> str:
     from mouse_cli.terms import element_manual
 
@@ -46,6 +52,7 @@ def _elements() -> str:
 
 
 TOPICS: dict[str, Callable[[], str]] = {
+    "candidates": _candidates,
     "cards": _cards,
     "elements": _elements,
     "exit": _exit,
@@ -57,11 +64,14 @@ TOPICS: dict[str, Callable[[], str]] = {
 @click.command()
 @click.argument("topic")
 def command(topic: str) -> int:
-    """Explain a code (MD104), an estimator, recursion, status or element, or: cards, elements, yaml, schema, exit."""
+    """Explain a code (MD104), an estimator, recursion, status, element or candidate, or: cards, candidates, elements, yaml,
+    schema, exit."""
     if topic in TOPICS:
         click.echo(TOPICS[topic]())
         return 0
-    entries = dict(_entries())
+    entries: dict[str, str] = {}
+    for key, told in _entries():  # a mass is an element and a candidate
+        entries[key] = f"{entries[key]}\n\n{told}" if key in entries else told
     text = entries.get(topic) or entries.get(topic.upper())
     if text is None:
         near = difflib.get_close_matches(topic, [*entries, *TOPICS], 3)
@@ -75,6 +85,7 @@ def _entries() -> Iterator[tuple[str, str]]:
     """Everything that has a name and an explanation."""
     from mouse_cli._registry import discover
     from mouse_cli.codes import catalogue
+    from mouse_cli.diagnosis import candidate_manual
     from mouse_cli.terms.element_manual import about
     from mouse_cli.terms.elements import registry
     from mouse_cli.updating.loop import RECURSIONS
@@ -92,3 +103,5 @@ def _entries() -> Iterator[tuple[str, str]]:
         yield key, f"{key}: {recursion.MEANING}"
     for key, kind in registry().items():
         yield key, about(kind)
+    for key, candidate in discover("mouse_cli.diagnosis.candidates", "CANDIDATE").items():
+        yield key, candidate_manual.about(candidate)

@@ -64,6 +64,20 @@ def _elements() -> Iterator[tuple[str, str]]:
         yield key, kind.meaning
 
 
+def _candidates() -> Iterator[tuple[str, str]]:
+    from mouse_cli._registry import discover
+
+    for key, candidate in discover("mouse_cli.diagnosis.candidates", "CANDIDATE").items():
+        yield key, f"{candidate.title} ({candidate.group})"
+
+
+def _plots() -> Iterator[tuple[str, str]]:
+    from mouse_cli.plots import registry
+
+    for key, plot in registry().items():
+        yield key, plot.title
+
+
 def _groups() -> Iterator[tuple[str, str]]:
     from mouse_cli.formats.cards import layout
 
@@ -72,12 +86,14 @@ def _groups() -> Iterator[tuple[str, str]]:
 
 
 KINDS: dict[str, Callable[[], Iterator[tuple[str, str]]]] = {
+    "candidates": _candidates,
     "codes": _codes,
     "commands": _commands,
     "elements": _elements,
     "estimators": _estimators,
     "expansions": _expansions,
     "groups": _groups,
+    "plots": _plots,
     "recursions": _recursions,
     "sections": _sections,
     "statuses": _statuses,

@@ -1,0 +1,127 @@
+"""`mouse diagnose` from the command line: answers, exit codes, files, refusals."""
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from mouse_cli.cli.main import main
+from mouse_cli.formats import read_deck
+
+DECKS = Path(__file__).resolve().parents[2] / "decks"
+SPRING, SOUND = str(DECKS / "ground_spring.yaml"), str(DECKS / "sound_chain.yaml")
+
+
+@pytest.fixture
+def told(capsys, monkeypatch, tmp_path):
+    """Runs the command; gives exit code, standard output and standard error."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*arguments: str) -> tuple[int, str, str]:
+        with pytest.raises(SystemExit) as end:
+            main(["diagnose", *arguments])
+        out, err = capsys.readouterr()
+        return int(end.value.code or 0), out, err
+
+    return run
+
+
+def test_a_missing_spring_is_named(told):
+    """Truth (head of the deck): 400 N/m from degree of freedom 2 to the ground; within 5 %."""
+    code, out, err = told(SPRING, "--json")
+    document = json.loads(out)
+    assert code == document["exit_code"] == 1
+    assert document["verdict"]["kind"] == "named"
+    assert document["verdict"]["physics"] == "ground-spring"
+    assert document["verdict"]["site"]["ids"] == [2]
+    assert document["verdict"]["probability"] > 0.97
+    assert document["candidates"][0]["parameters"][0]["value"] == pytest.approx(400, rel=0.05)
+    assert (
+        document["held_out"]["revised"]["rms_frequency_error"]
+        < 0.01
+        < document["held_out"]["baseline"]["rms_frequency_error"]
+    )
+    assert not err
+
+
+def test_a_sound_model_lacks_nothing(told):
+    code, out, _ = told(SOUND, "--json", "-o", "revised.yaml")
+    document = json.loads(out)
+    assert code == document["exit_code"] == 0
+    assert document["verdict"]["kind"] == "nothing-missing"
+    assert document["verdict"]["physics"] is None
+    assert document["revised_deck"] is None
+    assert not Path("revised.yaml").exists()
+
+
+def test_printout_begins_with_the_answers(told):
+    code, out, _ = told(SPRING)
+    lines = [line for line in out.split("\n") if line.strip("*")]
+    assert code == 1
+    assert lines[0] == "DIAGNOSIS"
+    assert lines[1].startswith("The model lacks a spring to the ground: degree of freedom 2")
+    assert [line for line in lines if line.endswith("?")][:4] == ["WHERE?", "WHAT?", "HOW MUCH?", "IS IT TRUE?"]
+
+
+def test_nothing_is_written_where_nothing_is_named(told):
+    code, out, _ = told(SOUND, "-o", "revised.yaml")
+    assert code == 0
+    assert out.rstrip().endswith("Nothing was written to revised.yaml: no cause is named.")
+    assert not Path("revised.yaml").exists()
+
+
+def test_reports_beside_the_answer(told):
+    code, out, _ = told(SPRING, "--report", "a.md", "--report", "a.json", "--report", "a.txt")
+    assert code == 1
+    assert Path("a.txt").read_text() == out
+    assert Path("a.md").read_text().startswith("## Diagnosis")
+    assert json.loads(Path("a.json").read_text())["schema"] == "mouse.diagnosis/1"
+
+
+def test_figures(told):
+    pytest.importorskip("matplotlib")
+    assert told(SPRING, "--plot", "figures")[0] == 1
+    assert (Path("figures") / "evidence.png").stat().st_size > 10_000
+
+
+def test_without_matplotlib(told, monkeypatch):
+    monkeypatch.setitem(__import__("sys").modules, "matplotlib", None)
+    code, out, err = told(SPRING, "--plot", "figures")
+    assert code == 5
+    assert not out
+    assert "MD530" in err and "pip install" in err
+
+
+@pytest.mark.parametrize("option", ["-o", "--report", "--plot"])
+def test_the_deck_is_never_written_over(told, option):
+    before = Path(SPRING).read_bytes()
+    code, _, err = told(SPRING, option, SPRING)
+    assert code == 2
+    assert "is the deck itself" in err
+    assert Path(SPRING).read_bytes() == before
+
+
+def test_cards(told):
+    """A card deck has a model and a test: Table 5-3, data simulated with the model of the deck, which lacks nothing."""
+    code, out, _ = told(str(DECKS / "table_5_3.dat"), "--json", "-q")
+    assert code == 0
+    assert json.loads(out)["verdict"]["kind"] == "nothing-missing"
+
+
+def test_a_deck_without_a_test_is_refused(told, tmp_path):
+    deck = tmp_path / "plan.yaml"
+    deck.write_text("mouse: 1\nmodel: {stiffness: {dense: [[2, -1], [-1, 1]]}, mass: {identity: 2}}\n"
+                    "parameters: [{name: k, nominal: 1, sd: 0.1, stiffness: [[1, 1, 1]]}]\n")  # fmt: skip
+    code, out, err = told(str(deck))
+    assert code == 4
+    assert not out
+    assert "plan.yaml" in err
+
+
+def test_help_names_the_options():
+    from mouse_cli.cli.commands.diagnose import command
+
+    text = CliRunner().invoke(command, ["--help"]).output
+    for option in ("--json", "--markdown", "--output", "--report", "--plot"):
+        assert option in text

@@ -1,0 +1,157 @@
+"""What is said of a diagnosis: every section and form for every kind of answer, the document, the figures."""
+
+import json
+
+import numpy as np
+import pytest
+from diagnosis_examples import DIAGNOSES, named
+from test_sections import plain_python, valid
+
+from mouse_cli import _registry, report
+from mouse_cli._errors import MouseError, WrittenError
+from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, UNKNOWN, Diagnosis
+from mouse_cli.plots import draw, registry, require
+from mouse_cli.report.renderers.printout import WIDTH
+from mouse_cli.report.section import Options, sections
+
+SECTIONS = _registry.discover("mouse_cli.report.sections", "SECTION")
+
+
+def _words(name: str) -> str:
+    return " ".join(report.markdown(DIAGNOSES[name]()).split())
+
+
+@pytest.mark.parametrize("name", DIAGNOSES)
+@pytest.mark.parametrize("key", [section.key for section in sections(Diagnosis)])
+def test_section(key, name):
+    for block in SECTIONS[key].blocks(DIAGNOSES[name](), Options()):
+        assert valid(block), block
+
+
+def test_the_answers_come_first():
+    orders = [section.order for section in sections(Diagnosis)]
+    assert sections(Diagnosis)[0].key == "diagnosis-answers"
+    assert len(set(orders)) == len(orders)
+
+
+@pytest.mark.parametrize("numbers", ["legacy", "modern"])
+@pytest.mark.parametrize("name", DIAGNOSES)
+def test_printout(name, numbers):
+    lines = report.printout(DIAGNOSES[name](), numbers).split("\n")
+    assert max(map(len, lines)) <= WIDTH
+    assert all(line == line.rstrip() and line.isprintable() for line in lines)
+
+
+@pytest.mark.parametrize("name", DIAGNOSES)
+def test_document(name):
+    found = DIAGNOSES[name]()
+    document = report.document(found)
+    assert json.loads(json.dumps(document, allow_nan=False)) == document
+    assert plain_python(document)
+    assert document["schema"] == "mouse.diagnosis/1"
+    assert document["verdict"]["kind"] == found.kind
+    assert document["exit_code"] == found.exit_code
+    assert (document["verdict"]["physics"] is not None) == (found.kind in (NAMED, ONE_OF))
+
+
+def test_document_of_two_causes():
+    document = report.document(DIAGNOSES["two"]())
+    assert document["verdict"]["physics"] == "crack + shear"
+    assert [place["kind"] for place in document["verdict"]["sites"]] == ["element", "structure"]
+    assert document["verdict"]["site"] == document["verdict"]["sites"][0]
+    assert document["candidates"][0]["parameters"][0]["cause"] == "crack"
+    assert document["candidates"][-1]["physics"] == "none"
+    assert document["candidates"][-1]["site"]["kind"] == "none"
+
+
+def test_exit_codes():
+    assert {name: make().exit_code for name, make in DIAGNOSES.items() if make().kind != NOTHING} == {
+        "named": 1,
+        "two": 1,
+        "one-of": 1,
+        "unknown": 1,
+        "bare": 1,
+    }
+    nothing = DIAGNOSES["nothing"]()
+    assert nothing.exit_code == nothing.result.status.exit_code
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("nothing", "Nothing is missing that this test could show"),
+        ("named", "The model lacks a spring to the ground: degree of freedom 2 (P = 0.98)."),
+        ("named", "the stated variances were multiplied by 1.15"),
+        ("named", "on condition that the cause is one of those that mouse knows"),
+        ("named", "stiffness 393.5 N/m (sd 6.8)"),
+        ("named", "The extended model passes."),
+        ("two", "an open crack and shear flexibility"),
+        ("two", "depth over height 0.7 (sd 0.02, at the end of the range held possible)"),
+        ("two", "No force at a single place makes the measured shapes"),
+        ("two", "no full proof: the error falls too little, and too few frequencies lie within the intervals"),
+        ("one-of", "one of {ground-spring, local-stiffness}. Measure this to separate them: the frequency of mode 5"),
+        ("one-of", "predicted separation 5.2, will settle it"),
+        ("unknown", "Something is missing that no candidate explains."),
+        ("unknown", "that it is nearest does not make it the cause"),
+        ("unknown", "Held out: mode 4; 1 frequency of the configuration 'tip mass'."),
+        ("unknown", "MD513: sensor 2 does not fit."),
+        ("bare", "No candidate has a meaning for this model."),
+    ],
+)
+def test_words(name, words):
+    assert words in _words(name)
+
+
+def test_no_name_without_a_verdict():
+    """Neither `unknown` nor `one-of` says that the model lacks a certain thing."""
+    for name in ("one-of", "unknown", "nothing", "bare"):
+        assert "The model lacks" not in _words(name)
+
+
+def test_unnamed_leader_of_groups_is_not_the_first_fit():
+    """The group decides: its own best explanation is told, though that of another group leads alone."""
+    found = named()
+    first, second, none = found.explanations
+    turned = Diagnosis(found.problem, NAMED, found.result, found.innovation, (second, first, none), found.groups)
+    assert turned.best.physics == "ground-spring"
+
+
+@pytest.mark.parametrize("name", DIAGNOSES)
+def test_figures(name, tmp_path):
+    pytest.importorskip("matplotlib")
+    found = DIAGNOSES[name]()
+    written = draw(found, str(tmp_path / "figures"))
+    for path in written:
+        with open(path, "rb") as file:
+            assert file.read(8) == b"\x89PNG\r\n\x1a\n"
+    expected = {"named": 5, "two": 4, "one-of": 2, "unknown": 2, "nothing": 3, "bare": 1}
+    assert len(written) == expected[name]
+    assert len(written) <= len(registry())
+
+
+@pytest.mark.parametrize(("kind", "head"), [("pdf", b"%PDF"), ("png", b"\x89PNG"), ("svg", b"<?xml")])
+def test_figures_in_one_file(kind, head, tmp_path):
+    pytest.importorskip("matplotlib")
+    path = tmp_path / f"all.{kind}"
+    assert draw(named(), str(path)) == [str(path)]
+    assert path.read_bytes().startswith(head)
+
+
+@pytest.mark.parametrize("name", ["all.doc", "no/such/folder/all.png"])
+def test_figures_that_cannot_be_written(name, tmp_path):
+    pytest.importorskip("matplotlib")
+    with pytest.raises(WrittenError, match="MD531"):
+        draw(named(), str(tmp_path / name))
+    assert not list(tmp_path.iterdir())
+
+
+def test_without_matplotlib(monkeypatch):
+    monkeypatch.setitem(__import__("sys").modules, "matplotlib", None)
+    with pytest.raises(MouseError, match="MD530"):
+        require()
+
+
+def test_examples_are_of_every_kind():
+    assert {make().kind for make in DIAGNOSES.values()} == {NOTHING, NAMED, ONE_OF, UNKNOWN}
+    assert all(isinstance(make().probability, float) for make in DIAGNOSES.values())
+    assert np.isnan(DIAGNOSES["bare"]().probability)

@@ -1,0 +1,155 @@
+"""Diagnoses of every kind, put together by hand around real updates, for whatever reads them."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+from report_examples import chain
+
+from mouse_cli._errors import WARNING, Diagnostic
+from mouse_cli.model.diagnosis import (
+    EVERYWHERE,
+    NAMED,
+    NOTHING,
+    ONE_OF,
+    UNKNOWN,
+    Cause,
+    Diagnosis,
+    Explanation,
+    HeldOut,
+    Law,
+    Location,
+    Place,
+    Proposal,
+    Score,
+    Site,
+    Size,
+)
+from mouse_cli.model.hold_out import Altered, HoldOut
+from mouse_cli.updating import run
+
+SPRING = Cause(
+    "ground-spring",
+    "ground-spring",
+    "a spring to the ground",
+    Site("dof", ("2",), text="degree of freedom 2"),
+    (Size("stiffness", "N/m", 393.5, 6.8, 1.0, 1e6),),
+)
+CRACK = Cause(
+    "crack",
+    "local-stiffness",
+    "an open crack",
+    Site("element", (12,), (0.43, 0.0, 0.0), "element 12, 0.43 m from node 1"),
+    (Size("depth over height", "1", 0.7, 0.02, 0.05, 0.7), Size("place", "m", 0.43, 0.004, 0.0, 1.0)),
+)
+SHEAR = Cause("shear", "shear", "shear flexibility", EVERYWHERE, ())
+
+
+def explanation(*causes: Cause, ln_z: float, probability: float, p: float = 0.4) -> Explanation:
+    return Explanation(causes, 12.0, 14, p, ln_z, np.array([1.0]), probability)
+
+
+def _score(error: float, density: float, covered: float) -> Score:
+    hz = np.array([18.0, 55.0, np.nan])
+    return Score(error, density, covered, hz, np.array([0.1, 0.2, 0.3]), np.array([0.99, np.nan, 1.0]))
+
+
+def held_out(error: float = 0.004, covered: float = 0.9) -> HeldOut:
+    labels = ("mode 1", "mode 2", "tip mass, mode 1")
+    revised = _score(error, 12.0, covered)
+    return HeldOut("held out by the deck", labels, np.array([18.1, 54.6, np.nan]), _score(0.1, -340.0, 0.0), revised)
+
+
+@cache
+def _result(scale: str = "none"):
+    return run(chain(scale=scale))
+
+
+def _diagnosis(kind: str, explanations: tuple, groups: tuple, **more) -> Diagnosis:
+    result = _result()
+    return Diagnosis(result.problem, kind, result, result.innovation, explanations, groups, **more)
+
+
+def nothing() -> Diagnosis:
+    only = explanation(ln_z=-10.0, probability=0.97)
+    shear = explanation(SHEAR, ln_z=-15.0, probability=0.03)
+    base = replace(held_out(), revised=None)
+    return _diagnosis(NOTHING, (only, shear), (("none", 0.97), ("shear", 0.03)), held_out=base)
+
+
+def named() -> Diagnosis:
+    one, two = explanation(SPRING, ln_z=-28.0, probability=0.98), explanation(CRACK, ln_z=-60.0, probability=0.02)
+    none = explanation(ln_z=-2700.0, probability=0.0, p=0.0)
+    places = (Place(SPRING.site, "w", 0.93, 0.0), Place(CRACK.site, "kappa", 0.07, 2.6))
+    law = Law(
+        SPRING.site,
+        "N/m",
+        np.array([2.1, 5.3]),
+        np.array([397.0, np.nan]),
+        np.array([6.0, np.inf]),
+        np.array([393.5] * 2),
+    )
+    return _diagnosis(
+        NAMED,
+        (one, two, none),
+        (("ground-spring", 0.98), ("local-stiffness", 0.02), ("none", 0.0)),
+        noise_scale=1.15,
+        location=Location(places, 1, 0.3),
+        law=law,
+        held_out=held_out(),
+        extended=_result().problem,
+        extended_result=_result("least-squares"),
+        remarks=("The mesh was refined once, and nothing moved",),
+    )
+
+
+def two_causes() -> Diagnosis:
+    both = explanation(CRACK, SHEAR, ln_z=-30.0, probability=0.99)
+    none = explanation(ln_z=-200.0, probability=0.0)
+    along = tuple(Place(Site("element", (i,), (0.1 * i, 0.0, 0.0)), "kappa", 0.1, 0.5 * i) for i in range(10))
+    poor = held_out(error=0.09, covered=0.5)
+    return _diagnosis(
+        NAMED,
+        (both, none),
+        (("local-stiffness + shear", 0.99), ("none", 0.01)),
+        location=Location(along, 9, 1e-9),
+        held_out=poor,
+    )
+
+
+def one_of() -> Diagnosis:
+    first, second = explanation(SPRING, ln_z=-28.0, probability=0.6), explanation(CRACK, ln_z=-29.0, probability=0.3)
+    none = explanation(ln_z=-35.0, probability=0.1)
+    proposals = (
+        Proposal("the frequency of mode 5", ("ground-spring", "local-stiffness"), 5.2),
+        Proposal("the shapes at node 3 too", ("ground-spring", "local-stiffness"), 0.4),
+    )
+    groups = (("ground-spring", 0.6), ("local-stiffness", 0.3), ("none", 0.1))
+    return _diagnosis(ONE_OF, (first, second, none), groups, proposals=proposals)
+
+
+def unknown() -> Diagnosis:
+    nearest = explanation(CRACK, ln_z=-500.0, probability=0.99, p=1e-12)
+    none = explanation(ln_z=-900.0, probability=0.0, p=0.0)
+    found = _diagnosis(UNKNOWN, (nearest, none), (("local-stiffness", 0.99), ("none", 0.01)), noise_scale=40.0)
+    problem = found.problem
+    altered = Altered("tip mass", {3: 0.5}, {}, np.array([1]), np.array([17.0]), np.array([0.1]))
+    warnings = (Diagnostic("MD513", WARNING, "sensor 2 does not fit"),)
+    return replace(
+        found, problem=replace(problem, hold_out=HoldOut(problem.test, [3], [], (altered,)), warnings=warnings)
+    )
+
+
+def bare() -> Diagnosis:
+    """No candidate has a meaning for the model, and nothing else was found out."""
+    return _diagnosis(UNKNOWN, (), ())
+
+
+DIAGNOSES = {
+    "nothing": nothing,
+    "named": named,
+    "two": two_causes,
+    "one-of": one_of,
+    "unknown": unknown,
+    "bare": bare,
+}
