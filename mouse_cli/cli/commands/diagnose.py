@@ -33,9 +33,7 @@ def command(
     reports: tuple[str, ...],
     plot: str | None,
     quiet: bool,
-    legacy: bool,
-    strip_73_80: bool,
-    overrides: tuple[str, ...],
+    **how: object,
 ) -> int:
     """Say what the model of DECK lacks, judged by its test.
 
@@ -45,13 +43,8 @@ def command(
     from mouse_cli.cli._terminal import deliver, progress, show_diagnostics
     from mouse_cli.diagnosis.diagnose import diagnose
 
-    for path in (output, plot, *reports):
-        _spare(path, deck)
-    if plot:
-        from mouse_cli.plots import require
-
-        require()
-    problem = read_problem(deck, **reading(legacy, strip_73_80, overrides))
+    _check_places(deck, output, plot, reports)
+    problem = read_problem(deck, **reading(**how))
     if not quiet:
         show_diagnostics(problem.warnings)
     with progress() as (_, say):
@@ -68,10 +61,15 @@ def command(
     return found.exit_code
 
 
-def _spare(path: str | None, deck: str) -> None:
-    """Refuse to write over the deck."""
-    if path and os.path.exists(path) and os.path.exists(deck) and os.path.samefile(path, deck):
-        raise click.UsageError(f"{path} is the deck itself")
+def _check_places(deck: str, output: str | None, plot: str | None, reports: tuple[str, ...]) -> None:
+    """Refuse, before anything is computed, to write over the deck, and figures that cannot be drawn."""
+    for path in (output, plot, *reports):
+        if path and os.path.exists(path) and os.path.exists(deck) and os.path.samefile(path, deck):
+            raise click.UsageError(f"{path} is the deck itself")
+    if plot:
+        from mouse_cli.plots import require
+
+        require()
 
 
 def _revised(found, output: str | None) -> list[str]:
