@@ -82,7 +82,9 @@ def spring_is_joint(edit: Edit, element: tuple[int, int]) -> bool:
     return edit.sets[element[0]].type == "joint"
 
 
-def _bind_factor(edit: Edit, spring: tuple[int, int], name: str, properties: dict, turning: float, sliding: float) -> None:
+def _bind_factor(
+    edit: Edit, spring: tuple[int, int], name: str, properties: dict, turning: float, sliding: float
+) -> None:
     """Both springs follow one factor; those that stand for rigidity do not."""
     soft = tuple(key for key, value in properties.items() if value[0] in (turning, sliding))
     if len(soft) == 1:

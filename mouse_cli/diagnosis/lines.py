@@ -71,3 +71,20 @@ def joined_lines(part: dict[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray, n
             s, i = s + part["length"][i], int(follows[i])
         number += any_new
     return np.array(line, int), np.array(before), np.array(order, int)
+
+
+def whole(line: Line) -> np.ndarray:
+    """The bars of a line in every plane that they bend in."""
+    bars = line.bars
+    own = [bars.twins[int(bars.set[i]), int(bars.member[i])] for i in line.members]
+    return np.array([i for twins in own for i in twins], int)
+
+
+def elements(ids: tuple[int, ...]) -> str:
+    """Elements in words: `element 3`, `elements 1 to 30`."""
+    numbers = sorted(ids)
+    if len(numbers) == 1:
+        return f"element {numbers[0]}"
+    if numbers[-1] - numbers[0] == len(numbers) - 1:
+        return f"elements {numbers[0]} to {numbers[-1]}"
+    return f"elements {', '.join(map(str, numbers[:4]))}{', ...' if len(numbers) > 4 else ''}"
