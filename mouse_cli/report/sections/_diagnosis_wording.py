@@ -6,12 +6,12 @@ from mouse_cli.model.diagnosis import Cause, Diagnosis, Explanation, Site, Size
 def probable(p: float) -> str:
     """A probability as people read it.
 
-    >>> probable(0.98), probable(0.99999), probable(1e-9), probable(float("nan"))
-    ('0.98', '> 0.999', '< 0.001', '')
+    >>> probable(0.98), probable(0.0042), probable(0.99999), probable(1e-9), probable(float("nan"))
+    ('0.98', '0.004', '> 0.999', '< 0.001', '')
     """
     if p != p:
         return ""
-    return "> 0.999" if p > 0.999 else "< 0.001" if p < 0.001 else f"{p:.2f}" if p < 0.995 else f"{p:.3f}"
+    return "> 0.999" if p > 0.999 else "< 0.001" if p < 0.001 else f"{p:.2f}" if 0.01 <= p < 0.995 else f"{p:.3f}"
 
 
 def with_p(p: float) -> str:

@@ -3,33 +3,38 @@
 from collections.abc import Iterator
 
 from mouse_cli.model.diagnosis import Diagnosis, Explanation
-from mouse_cli.report.blocks import Block, Cell, Column, Table, Text
+from mouse_cli.report.blocks import Block, Cell, Column, Heading, Table, Text
 from mouse_cli.report.section import Options, Section
-from mouse_cli.report.sections._diagnosis_wording import nats_over_none, place, probable
+from mouse_cli.report.sections._diagnosis_wording import nats_over_none, probable, where
 from mouse_cli.report.sections._wording import LEFT
 
 _MOST = 30  # explanations listed
-_COLUMNS = (
+_JUDGED = (
     Column("candidate", align=LEFT),
     Column("group", align=LEFT),
     Column("place", align=LEFT),
-    Column("parameter", align=LEFT),
-    Column("value"),
-    Column("sd"),
-    Column("unit", align=LEFT),
     Column("ln evidence over none"),
     Column("probability"),
     Column("misfit probability"),
 )
+_SIZED = (
+    Column("candidate", align=LEFT),
+    Column("parameter", align=LEFT),
+    Column("value"),
+    Column("sd"),
+    Column("unit", align=LEFT),
+    Column("held possible from"),
+    Column("to"),
+)
 
 
 def evidence(found: Diagnosis, options: Options) -> Iterator[Block]:
-    """One line for each parameter of each explanation, the most probable first."""
+    """One line for each explanation, the most probable first; then the parameters of their causes."""
     if not found.explanations:
         yield Text("No candidate has a meaning for this model.")
         return
     shown = found.explanations[:_MOST]
-    yield Table(_COLUMNS, tuple(row for one in shown for row in _rows(found, one)))
+    yield Table(_JUDGED, tuple(_judged(found, one) for one in shown))
     more = len(found.explanations) - len(shown)
     rest = f" {more} less probable ones are left out." if more else ""
     yield Text(
@@ -38,20 +43,22 @@ def evidence(found: Diagnosis, options: Options) -> Iterator[Block]:
         "data can hardly tell apart; misfit probability: that noise alone leaves as much as the candidate leaves."
         + rest
     )
+    rows = tuple(row for one in shown for row in _sized(one))
+    if rows:
+        yield Heading("Sizes", 2)
+        yield Table(_SIZED, rows, keys=2)
 
 
-def _rows(found: Diagnosis, one: Explanation) -> Iterator[tuple[Cell, ...]]:
-    judged = (nats_over_none(found, one), probable(one.probability), float(one.p) if one.dof > 0 else None)
-    if not one.causes:
-        yield "none", "none", "", "", None, None, "", *judged
+def _judged(found: Diagnosis, one: Explanation) -> tuple[Cell, ...]:
+    misfit = float(one.p) if one.dof > 0 else None
+    return (one.physics, one.group, where(one), nats_over_none(found, one), probable(one.probability), misfit)
+
+
+def _sized(one: Explanation) -> Iterator[tuple[Cell, ...]]:
     for cause in one.causes:
-        head: tuple[Cell, ...] = (cause.physics, cause.group, place(cause.site))
         for size in cause.sizes:
-            yield *head, size.name, float(size.value), float(size.sd), size.unit, *judged
-            head, judged = ("", "", ""), (None, None, None)
-        if not cause.sizes:
-            yield *head, "", None, None, "", *judged
-            judged = (None, None, None)
+            numbers = (float(size.value), float(size.sd), size.unit, float(size.lower), float(size.upper))
+            yield one.physics, f"{cause.physics}: {size.name}" if len(one.causes) > 1 else size.name, *numbers
 
 
 SECTION = Section("diagnosis-evidence", 40, "Evidence", evidence, (Diagnosis,))
