@@ -17,6 +17,7 @@ from mouse_cli.updating.chi_square import upper_tail
 
 _STARTS = 3  # fits of a candidate, from the best places of its grid
 _SETTLE, _MOVED = 3, 5e-3  # times that causes are weighed anew, as long as parameters move more than that share
+_COARSE = 24  # coordinates at least for a first look
 _NONE = 0.3  # prior probability that nothing is missing
 _PAIRED = 5  # candidates that are tried in pairs
 _ADEQUATE = 0.05  # probability of a misfit below which a second cause is sought
@@ -46,7 +47,33 @@ class Study:
 
     def __init__(self, model: Reduced):
         self.model, self.k = model, model.L.shape[1]
-        self.recipes = {name: _numbered(candidate.recipes(model, candidate)) for name, candidate in registry().items()}
+        self._made: dict[str, list[Recipe]] = {}
+
+    def recipes(self, name: str) -> list[Recipe]:
+        """What candidate `name` can do, and where; made when first asked for."""
+        if name not in self._made:
+            candidate = registry()[name]
+            made = candidate.recipes(self.model, candidate)
+            self._made[name] = [replace(recipe, number=i) for i, recipe in enumerate(made)]
+        return self._made[name]
+
+    @cached_property
+    def coarse(self) -> "Study":
+        """The same in the lowest coordinates alone, in which all places and sizes are looked at before any is fitted."""
+        least = max(_COARSE, 4 * self.model.data.m + 8, int(self.model.data.test.number.max()) + 12)
+        return self if least >= self.model.r else Study(self.model.truncated(least))
+
+    def starts(self, name: str, before: np.ndarray, beside: tuple[Recipe, ...]) -> list[tuple[int, np.ndarray]]:
+        """Numbers of recipes of candidate `name`, and x to begin from, the most promising first."""
+        others, found = self.own(beside), []
+        for recipe in self.recipes(name):
+            trial = Model(self.model, (*others, recipe))
+            for values in recipe.grid:
+                at = trial.point(np.concatenate([before, recipe.coordinates(values)]))
+                if at is not None:
+                    found.append((self.foreseen(at), recipe.number, at.x))
+        found.sort(key=lambda item: item[0])
+        return [(number, x) for _, number, x in found]
 
     @cached_property
     def _adapted(self) -> tuple[np.ndarray, np.ndarray]:
@@ -64,15 +91,11 @@ class Study:
 
     def own(self, recipes: tuple[Recipe, ...]) -> tuple[Recipe, ...]:
         """The same causes at the same places in this model."""
-        return tuple(self.recipes[recipe.candidate.key][recipe.number] for recipe in recipes)
+        return tuple(self.recipes(recipe.candidate.key)[recipe.number] for recipe in recipes)
 
     def at(self, theta: np.ndarray) -> "Study":
         """The same at parameters theta (p,)."""
         return Study(reduced(self.model.problem, theta))
-
-
-def _numbered(recipes: list[Recipe]) -> list[Recipe]:
-    return [replace(recipe, number=i) for i, recipe in enumerate(recipes)]
 
 
 def settled(one: Fit, study: Study) -> Fit:
@@ -104,7 +127,7 @@ def rank(model: Reduced) -> Ranking:
     """All that the candidates make of the data."""
     study = Study(model)
     baseline = settled(fit(Model(model), np.zeros(0)), study)
-    singles = [one for name in study.recipes for one in [best(study, name)] if one is not None]
+    singles = [one for name in registry() for one in [best(study, name)] if one is not None]
     fits = [baseline, *singles]
     if singles and not adequate(min(singles, key=lambda one: one.misfit)):
         fits += pairs(study, baseline, singles)
@@ -137,16 +160,12 @@ def best(study: Study, name: str, beside: Fit | None = None) -> Fit | None:
 
     beside: causes that are there already.
     """
-    x, others = (np.zeros(study.k), ()) if beside is None else (beside.point.x, study.own(beside.recipes))
-    starts = []
-    for recipe in study.recipes[name]:
-        trial = Model(study.model, (*others, recipe))
-        for values in recipe.grid:
-            at = trial.point(np.concatenate([x, recipe.coordinates(values)]))
-            if at is not None:
-                starts.append((study.foreseen(at), trial, at.x))
-    starts.sort(key=lambda item: item[0])
-    found = (fit(trial, x[trial.k :], x[: trial.k]) for _, trial, x in starts[:_STARTS])
+    others = () if beside is None else study.own(beside.recipes)
+    before = np.zeros(study.k) if beside is None else beside.point.x
+    found = []
+    for number, x in study.coarse.starts(name, before, () if beside is None else beside.recipes)[:_STARTS]:
+        trial = Model(study.model, (*others, study.recipes(name)[number]))
+        found.append(fit(trial, x[trial.k :], x[: trial.k]))
     return _summed([settled(one, study) for one in found if one is not None])
 
 
@@ -175,7 +194,7 @@ def pairs(study: Study, baseline: Fit, singles: list[Fit]) -> list[Fit]:
     leading = _leading(singles)
     found: dict[tuple[str, ...], Fit] = {}
     for first in leading:
-        partners = study.recipes if first is leading[0] else [one.recipes[0].candidate.key for one in leading]
+        partners = registry() if first is leading[0] else [one.recipes[0].candidate.key for one in leading]
         for name in partners:
             two = best(study, name, first)
             if two is not None and _material(two, baseline, singles):

@@ -12,27 +12,32 @@ import numpy as np
 
 from mouse_cli.diagnosis.bars import Bars, bars, motion_of
 from mouse_cli.diagnosis.data import Data
+from mouse_cli.diagnosis.directions import Directions, directions, projected
+from mouse_cli.dynamics.contraction import Stack
+from mouse_cli.dynamics.eigen import dense_solution
+from mouse_cli.dynamics.sensing import read
 from mouse_cli.model.arrays import dense
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import Assembly, assembly
 from mouse_cli.terms.constraints import Motion
-from mouse_cli.updating.coordinates import Coordinates, coordinates
+from mouse_cli.updating.coordinates import Coordinates
 
 WHOLE = 130  # degrees of freedom up to which a model is not reduced
-_MOST = 40  # directions of the parameters that are kept when there are more
 
 
 @dataclass(frozen=True)
 class Reduced:
-    """theta (p,): where V is taken. eigenvalues (r,) there. dK, dM (p, r, r): derivatives by the parameters, in their units.
+    """theta (p,): where V is taken. eigenvalues (r,) there. dK, dM (k, r, r): derivatives along `directions` (p, k) of theta.
 
-    sensing (s, r); V (n, r); data: the test.
+    sensing (s, r); V (n, r); data: the test. places: degrees of freedom (from 0) at which a force is exact, of a large model;
+    None: everywhere.
     """
 
     problem: Problem
     theta: np.ndarray
     coordinates: Coordinates
+    directions: np.ndarray
     V: np.ndarray
     eigenvalues: np.ndarray
     dK: np.ndarray
@@ -40,6 +45,7 @@ class Reduced:
     sensing: np.ndarray
     data: Data
     assembly: Assembly
+    places: np.ndarray | None = None
 
     @property
     def r(self) -> int:
@@ -58,14 +64,20 @@ class Reduced:
 
     def matrices(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """K and M (r, r) at z (k,)."""
-        step = self.parameters(z) - self.theta
+        step = self._along @ (self.parameters(z) - self.theta)
         K, M = np.diag(self.eigenvalues), np.eye(self.r)
         return K + np.tensordot(step, self.dK, 1), M + np.tensordot(step, self.dM, 1)
 
     def slopes(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """dK/dz and dM/dz (k, r, r)."""
         by = self.coordinates.slope(self.coordinates.mean + self.L @ z)[:, None] * self.L
+        by = self._along @ by
         return np.tensordot(by.T, self.dK, 1), np.tensordot(by.T, self.dM, 1)
+
+    @cached_property
+    def _along(self) -> np.ndarray:
+        """From changes of the parameters to steps in the directions (k, p)."""
+        return np.linalg.pinv(self.directions)
 
     @cached_property
     def z(self) -> np.ndarray:
@@ -99,6 +111,17 @@ class Reduced:
             rows[d] = factor @ self.V[dofs] if len(dofs) else 0.0
         return rows
 
+    def truncated(self, r: int) -> "Reduced":
+        """The same model in its first r coordinates."""
+        return replace(
+            self,
+            V=self.V[:, :r],
+            eigenvalues=self.eigenvalues[:r],
+            dK=self.dK[:, :r, :r],
+            dM=self.dM[:, :r, :r],
+            sensing=self.sensing[:, :r],
+        )
+
     def without(self, keep_modes: np.ndarray) -> "Reduced":
         """The same model with fewer measured modes: mask `keep_modes` (m,)."""
         return self.with_test(restricted(self.data.test, keep_modes))
@@ -125,41 +148,25 @@ def reduced(problem: Problem, theta: np.ndarray) -> Reduced:
     total = assembly(problem)
     K, M = total.matrices(theta)
     if K.shape[0] > WHOLE:
-        from mouse_cli.diagnosis.subspace import subspace
+        from mouse_cli.diagnosis.subspace import large
 
-        V, eigenvalues = subspace(problem, total, K, M, theta)
-    else:
-        V, eigenvalues = _modes(dense(K), dense(M))
-    dK, dM = _derivatives(total, theta, V)
-    at = problem.test.measured_at
-    seen = V[at] if at.ndim == 1 else np.asarray(at @ V)
-    return Reduced(problem, theta, coordinates(problem, total), V, eigenvalues, dK, dM, seen, Data(problem.test), total)
+        return large(problem, total, K, M, theta)
+    solution = dense_solution(dense(K), dense(M))
+    stack = Stack(total.n, total.p, total.slopes(theta))
+    V, eigenvalues = solution.shapes, solution.eigenvalues
+    return built(problem, total, theta, V, eigenvalues, directions(problem, total, theta, stack, V, eigenvalues), stack)
 
 
-def _modes(K: np.ndarray, M: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    from mouse_cli.dynamics.eigen import dense_solution
-
-    solution = dense_solution(K, M)
-    return solution.shapes, solution.eigenvalues
-
-
-def _derivatives(total: Assembly, theta: np.ndarray, V: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """V' dK_j V and V' dM_j V (p, r, r)."""
-    from scipy.sparse import coo_array
-
-    r, found = V.shape[1], []
-    slopes = total.slopes(theta)
-    for name in ("K", "M"):
-        out = np.zeros((total.p, r, r))
-        part = slopes.get(name)
-        order = np.argsort(part.parameter, kind="stable")
-        cut = np.searchsorted(part.parameter[order], np.arange(total.p + 1))
-        for j in range(total.p):
-            own = order[cut[j] : cut[j + 1]]
-            if len(own):
-                rows, at = np.unique(part.row[own], return_inverse=True)
-                cols, to = np.unique(part.col[own], return_inverse=True)
-                block = coo_array((part.value[own], (at, to)), shape=(len(rows), len(cols))).tocsr()
-                out[j] = V[rows].T @ (block @ V[cols])
-        found.append(out)
-    return found[0], found[1]
+def built(
+    problem: Problem,
+    total: Assembly,
+    theta: np.ndarray,
+    V: np.ndarray,
+    eigenvalues: np.ndarray,
+    by: Directions,
+    stack: Stack,
+) -> Reduced:
+    """The model in the coordinates V (n, r), whose parameters move it in the directions `by`."""
+    dK, dM = projected(stack, by.values, V)
+    seen = np.asarray(read(problem.test.measured_at, V))
+    return Reduced(problem, theta, by.coordinates, by.values, V, eigenvalues, dK, dM, seen, Data(problem.test), total)
