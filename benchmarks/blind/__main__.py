@@ -3,6 +3,7 @@
 import argparse
 import json
 import os
+import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator
@@ -39,7 +40,7 @@ def main() -> None:
         for config in given.config:
             for misstated in given.misstated or [""]:
                 made = decks(folder, cases, truths, config, misstated, given.seed)
-                found = [] if given.decks_only else list(pool.map(diagnosed, [path for path, _ in made]))
+                found = iter(()) if given.decks_only else pool.map(diagnosed, [path for path, _ in made])
                 report(folder, f"{config} {misstated}".strip(), made, found)
 
 
@@ -68,15 +69,17 @@ def decks(
     return made
 
 
-def report(folder: Path, title: str, made: list[tuple[Path, dict]], found: list[dict]) -> None:
-    """The tables of one configuration; what the tool said goes beside the answers."""
-    print(f"\n== {title}: {len(made)} decks in {folder / 'decks'}")
-    if not found:
-        return
+def report(folder: Path, title: str, made: list[tuple[Path, dict]], found: Iterator[dict]) -> None:
+    """The tables of one configuration. What the tool said goes beside the answers as it comes, a line each to standard error."""
+    print(f"\n== {title}: {len(made)} decks in {folder / 'decks'}", flush=True)
     (folder / "found").mkdir(exist_ok=True)
-    for (path, _), document in zip(made, found, strict=True):
+    results = []
+    for (path, known), document in zip(made, found, strict=False):
         (folder / "found" / f"{path.stem}.json").write_text(json.dumps(document))
-    print(tables([scored(known, document) for (_, known), document in zip(made, found, strict=True)]))
+        results.append(scored(known, document))
+        print(f"{path.stem} {known['name']}: {results[-1].outcome}, {results[-1].said}", file=sys.stderr, flush=True)
+    if results:
+        print(tables(results), flush=True)
 
 
 def _truth(case: Case, cache: Path) -> dict:

@@ -33,8 +33,8 @@ def scored(answer: dict, found: dict) -> Scored:
         return Scored(answer, REFUSED, REFUSED, np.nan, np.nan, False, found["seconds"], {})
     verdict = found["verdict"]
     groups = named(verdict)
-    places = [_place(one) for one in found["candidates"][0].get("causes", [verdict])] if groups else []
-    error = _error(answer, [p for p in places if p is not None])
+    places = [site["position"] for site in verdict["sites"] if site["position"]]
+    error = _error(answer, places)
     kind = verdict["kind"]
     said = " + ".join(groups) if kind == "named" else kind
     leads = _same(answer, groups)
@@ -65,17 +65,12 @@ def _outcome(answer: dict, kind: str, leads: bool, error: float) -> str:
     return RIGHT if leads and near else WRONG
 
 
-def _place(cause: dict) -> list[float] | None:
-    site = cause.get("site") or {}
-    return site.get("position")
-
-
 def _error(answer: dict, places: list[list[float]]) -> float:
     """The largest distance from a true place to the nearest of those said, by span; nan where none was said or is true."""
     if not answer["places"] or not places:
         return np.nan
     gaps = [min(np.linalg.norm(np.subtract(p, true)) for p in places) for true in answer["places"]]
-    return float(max(gaps[: len(places)] if len(places) >= len(gaps) else gaps) / answer["span"])
+    return float(max(gaps) / answer["span"])
 
 
 def _gains(found: dict) -> dict[str, tuple[float, float]]:
@@ -87,7 +82,7 @@ def _gains(found: dict) -> dict[str, tuple[float, float]]:
     measured = np.array(held["measured_hz"], dtype=float)
     altered = np.array(["mass added" in label for label in held["labels"]])
     rms = lambda score, own: float(
-        100 * np.sqrt(np.mean((np.array(score["frequencies_hz"], dtype=float)[own] / measured[own] - 1) ** 2))
+        100 * np.sqrt(np.mean((np.array(score["hz"], dtype=float)[own] / measured[own] - 1) ** 2))
     )
     parts = {"next modes": ~altered, "mass added": altered}
     return {name: (rms(before, own), rms(after, own)) for name, own in parts.items() if own.any()}
@@ -200,6 +195,10 @@ def gains(results: list[Scored]) -> str:
 
 
 def times(results: list[Scored]) -> str:
-    """Seconds of the diagnoses, start of the program included."""
+    """Processor seconds of the diagnoses, start of the program included."""
     seconds = [one.seconds for one in results]
-    return f"seconds for a diagnosis: median {np.median(seconds):.1f}, largest {max(seconds):.1f}" if seconds else ""
+    return (
+        f"processor seconds for a diagnosis: median {np.median(seconds):.1f}, largest {max(seconds):.1f}"
+        if seconds
+        else ""
+    )
