@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from mouse_cli.diagnosis.decide import decide, explanations
 from mouse_cli.diagnosis.fit import Fit
+from mouse_cli.diagnosis.implied_law import implied_law
 from mouse_cli.diagnosis.name import Ranking, group, rank
 from mouse_cli.diagnosis.next_measurement import proposals
 from mouse_cli.diagnosis.prove import held_out
@@ -35,6 +36,7 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None) -> Diagnosis:
         explanations=explanations(ranking),
         groups=ranking.groups,
         noise_scale=ranking.noise_scale,
+        law=None if best is None else implied_law(best),
         held_out=held_out(model, ranking.baseline, best),
         proposals=_proposals(ranking) if decision.kind == ONE_OF else (),
     )
