@@ -45,7 +45,6 @@ class Slopes:
         return len(self.value)
 
 
-NOWHERE = Places(np.zeros(0, int), np.zeros(0, int))
 CONSTANT = Slopes(np.zeros(0, int), np.zeros(0, int), np.zeros(0, int), np.zeros(0))
 
 

@@ -302,3 +302,9 @@ def test_sensors_that_leave_a_motion_free(capsys, tmp_path):
     assert "warning[MD515]" in told(capsys, "correlate", str(path))[2]
     status, _, err = told(capsys, "correlate", str(path), "--expand", "guyan")
     assert status == 5 and "error[MD514]" in err
+
+
+def test_a_structure_does_not_go_on_cards(capsys, tmp_path):
+    status, _, err = told(capsys, "convert", str(DECKS / "cantilever.yaml"), "-o", str(tmp_path / "no.dat"))
+    assert status == 4 and err.count("error[") == 1 and "error[MD152]: the model is made of elements" in err
+    assert not list(tmp_path.iterdir())
