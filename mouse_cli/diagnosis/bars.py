@@ -240,3 +240,15 @@ def motion_of(problem: Problem) -> Motion | None:
     beside = at.node < 0
     order = np.where(beside, 6 * len(mesh.node_ids) + np.cumsum(beside) - 1, 6 * at.node + at.direction)
     return links(mesh, int(beside.sum())).motion(order)
+
+
+def deflected(problem: Problem, element: tuple[int, int], share: float) -> np.ndarray:
+    """Displacement (3, n) at a share of the length of a beam (set, member), for each degree of freedom of `problem`."""
+    mesh, (s, i) = problem.mesh, element
+    nodes = mesh.elements[s].nodes[[i]]
+    at = beam.span(Layout(mesh.coordinates[nodes], dict(mesh.elements[s].options)))
+    places = (6 * nodes[0][:, None] + np.arange(6)).ravel()
+    local, l, x = at.motion[0] @ motion_of(problem).rows(places), at.length[0], share
+    N = np.array([1 - 3 * x**2 + 2 * x**3, l * (x - 2 * x**2 + x**3), 3 * x**2 - 2 * x**3, l * (x**3 - x**2)])
+    across = [(N * sense) @ local[dofs] for dofs, sense in beam.PLANES]
+    return at.axes[0].T @ np.stack([(1 - x) * local[0] + x * local[6], *across])

@@ -139,6 +139,23 @@ class Edit:
         self.sets[s] = replace(self.sets[s], nodes=nodes)
         return new
 
+    def extract(self, elements: list[tuple[int, int]]) -> list[tuple[int, int]]:
+        """The same elements, all of one set, in a set of their own."""
+        s, own = elements[0][0], np.array(sorted(i for _, i in elements))
+        left = np.setdiff1d(np.arange(len(self.sets[s])), own)
+        if not len(left):
+            return elements
+        self.sets.append(_part(self.sets[s], own))
+        self.sets[s] = _part(self.sets[s], left)
+        new, bindings = len(self.sets) - 1, []
+        for b in self.bindings:
+            for t, kept in ((s, left), (new, own)) if b.set == s else ():
+                members = np.searchsorted(kept, np.intersect1d(b.members, kept))
+                bindings += [replace(b, set=t, members=members)] if len(members) else []
+            bindings += [] if b.set == s else [b]
+        self.bindings = bindings
+        return [(new, i) for i in range(len(own))]
+
     def move(self, s: int, names: tuple[str, ...], to: int) -> None:
         """Bindings of properties of one set, to the same members of another."""
         self.bindings = [replace(b, set=to) if b.set == s and b.property in names else b for b in self.bindings]
@@ -191,6 +208,11 @@ class Edit:
             return found if any((m.nnz if hasattr(m, "nnz") else m.any()) for m in parts) else None
         labels = tuple(f"{number}TX" for number in self.node_ids[: found.n])
         return replace(found, labels=labels, geometry=None)
+
+
+def _part(members: ElementSet, own: np.ndarray) -> ElementSet:
+    properties = {name: value[own] for name, value in members.properties.items()}
+    return replace(members, ids=members.ids[own], nodes=members.nodes[own], properties=properties)
 
 
 def _renumbered(listed: ListedElements, to: np.ndarray) -> ListedElements:
