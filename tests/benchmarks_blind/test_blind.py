@@ -1,4 +1,4 @@
-"""The blind benchmark: its truth solver on closed forms, its decks, its scoring. Its tables come from `python -m benchmarks.blind`."""
+"""The blind benchmark: its truth solver on closed forms, its decks, its scoring. `python -m benchmarks.blind` prints the tables."""
 
 import dataclasses
 import shutil
