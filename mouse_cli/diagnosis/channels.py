@@ -94,7 +94,10 @@ def _at_nodes(model: Reduced) -> list[Channel]:
     """Forces and moments on nodes that no bar touches."""
     mesh = model.problem.mesh
     u = model.motion.apply(model.V)[: 6 * len(mesh.node_ids)].reshape(-1, 6, model.r)
-    free = np.setdiff1d(np.arange(len(mesh.node_ids)), [] if model.bars is None else model.bars.nodes)
+    nodes = np.arange(len(mesh.node_ids))
+    if model.places is not None:
+        nodes = np.unique(model.problem.structure.geometry.node[model.places])
+    free = np.setdiff1d(nodes[nodes >= 0], [] if model.bars is None else model.bars.nodes)
     if not len(free):
         return []
     found = []
@@ -138,13 +141,14 @@ def _bare(model: Reduced) -> list[Channel]:
     structure = model.problem.structure
     at, labels = structure.geometry, structure.labels
     turns = np.zeros(structure.n, bool) if at is None else at.direction > 2
+    looked = np.arange(structure.n) if model.places is None else model.places
 
     def site(i: int) -> Site:
         where = None if at is None or at.node[i] < 0 else tuple(float(x) for x in at.coordinates[at.node[i]])
         return Site("dof", (labels[i],), where, f"degree of freedom {labels[i]}")
 
     found = []
-    for name, own in ((FORCE, np.flatnonzero(~turns)), (MOMENT, np.flatnonzero(turns))):
+    for name, own in ((FORCE, looked[~turns[looked]]), (MOMENT, looked[turns[looked]])):
         if len(own):
             found.append(Channel(name, model.V[own], np.ones(len(own)), lambda i, own=own: site(int(own[i]))))
     one, other = coupled(model)
@@ -167,6 +171,8 @@ def coupled(model: Reduced) -> tuple[np.ndarray, np.ndarray]:
         one, other = np.nonzero(K)
         k = K[one, other]
     kept = (one < other) & (k < 0)
+    if model.places is not None:
+        kept &= np.isin(one, model.places) & np.isin(other, model.places)
     if at is not None:
         kept &= (at.direction[one] == at.direction[other]) & (at.node[one] != at.node[other])
     return one[kept], other[kept]

@@ -5,15 +5,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli.diagnosis.channels import LIKELY, Channel, channels
+from mouse_cli.diagnosis.fit import Model, fit
 from mouse_cli.diagnosis.matching import Matcher, Matches, Shapes, shapes
 from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.model.diagnosis import Location, Place
 from mouse_cli.updating.chi_square import upper_tail
 
 _REGION = 0.9  # probability that the region holds
-_POINTS = 60  # most values of z that are tried besides the update and the prior mean
+_POINTS = 30  # most values of z that are tried besides the update and the prior mean
 _SETTLED = 0.5  # of the cost, that one more step for a place would gain
-_STUCK = 1e4  # damping from which on a place is not followed
+_TRIES = 5  # steps for one place
+_FARTHEST = 2.0  # length of one
 _RIVAL = 12.0  # nats that a place may promise to be below the best and still be followed
 _TRUSTED = 2.0  # gain up to which the last step of a place is taken for granted
 _SHOWN = 400  # places that are kept
@@ -75,19 +77,23 @@ def scores(model: Reduced) -> Scores | None:
 def matched(model: Reduced, measured: Shapes, rows: np.ndarray) -> Matches:
     """Places B (j, r), each at the best z found for it: every z that a leading place leads to is tried for all of them."""
     found = None
-    for point in (model.z, np.zeros_like(model.z)):
+    update = fit(Model(model), np.zeros(0))
+    for point in ([] if update is None else [update.point.x]) + [np.zeros_like(model.z)]:
         found = _better(found, _matches(model, measured, point, rows))
-    damping = np.zeros(len(rows))
-    for _ in range(_POINTS):
-        promised = found.cost - found.gain()
-        settled = (found.gain() < _SETTLED) | (damping > _STUCK)
-        promised[settled] = found.cost[settled]
-        place = int(np.argmin(np.where(settled, np.inf, promised)))
-        if settled[place] or promised[place] > promised[settled].min(initial=np.inf) + 2 * _RIVAL:
+    damping, followed = np.zeros(len(rows)), np.zeros(len(rows), int)
+    for number in range(_POINTS):
+        gain = found.gain()
+        done = (gain < _SETTLED) | (followed >= _TRIES)
+        hope = np.where(done, found.cost, np.maximum(found.cost - gain, 0.0))
+        rivals = np.flatnonzero(hope < found.cost.min() + 2 * _RIVAL)
+        left = rivals[~done[rivals]]
+        if not len(left):
             break
-        z = found.z[place] + found.step(damping)[place]
-        there, before = _matches(model, measured, z, rows), found.cost[place]
-        found = _better(found, there)
+        place = left[np.argmin((found.cost if number % 2 else hope)[left])]
+        step, before = found.step(damping)[place], found.cost[place]
+        z = found.z[place] + step * min(1.0, _FARTHEST / np.linalg.norm(step))
+        found = _better(found, _matches(model, measured, z, rows[rivals]), rivals)
+        followed[place] += 1
         damping[place] = damping[place] / 10 if found.cost[place] < before else max(10 * damping[place], 0.1)
     return found
 
@@ -100,13 +106,14 @@ def _matches(model: Reduced, measured: Shapes, z: np.ndarray, rows: np.ndarray) 
         return None
 
 
-def _better(one: Matches | None, other: Matches | None) -> Matches | None:
-    """For each place the match of lower cost."""
+def _better(one: Matches | None, other: Matches | None, places: np.ndarray | slice = slice(None)) -> Matches | None:
+    """For each place the match of lower cost; `other` is of `places` alone."""
     if one is None or other is None:
         return one or other
-    take = np.flatnonzero(other.cost < one.cost)
+    take = other.cost < one.cost[places]
+    into = np.arange(len(one.cost))[places][take]
     for name in Matches.__annotations__:
-        getattr(one, name)[take] = getattr(other, name)[take]
+        getattr(one, name)[into] = getattr(other, name)[take]
     return one
 
 
