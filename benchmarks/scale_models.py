@@ -51,23 +51,35 @@ class ElementGroups:
     linear = True
 
     def __init__(self, blocks: tuple[Block, ...], groups: dict[str, list[np.ndarray]]):
-        self.groups, self.parts = groups, []
+        self.groups, self.parts = {name: [] for name in groups}, []
         row, col = [], []
-        for block in blocks:
-            (e, d), dofs = block.dofs.shape, block.dofs.astype(np.int32)
-            rows, cols = np.repeat(dofs, d, axis=1), np.tile(dofs, (1, d))
-            held = (block.dofs < 0).any()
-            keep = ((rows >= 0) & (cols >= 0)) if held else np.ones((e, d * d), bool)
-            self.parts.append((block, keep if held else None, keep.sum(axis=1)))
-            row.append(rows[keep])
-            col.append(cols[keep])
+        for b, block in enumerate(blocks):
+            held = (block.dofs < 0).any(axis=1)
+            for own in (np.flatnonzero(~held), np.flatnonzero(held)):
+                d, dofs = block.dofs.shape[1], block.dofs[own].astype(np.int32)
+                rows, cols = np.repeat(dofs, d, axis=1), np.tile(dofs, (1, d))
+                keep = (rows >= 0) & (cols >= 0)
+                self.parts.append((block, None if keep.all() else keep, keep.sum(axis=1)))
+                row.append(rows[keep])
+                col.append(cols[keep])
+                for name, which in groups.items():
+                    self.groups[name].append(which[b][own])
         where = Places(np.concatenate(row), np.concatenate(col))
         self.places = {"K": where, "M": where}
+        self._constant = {
+            name: self._entries(name, [np.ones(len(g)) for g in own])
+            for name, own in self.groups.items()
+            if all((g < 0).all() for g in own)
+        }
 
     def values(self, theta: np.ndarray) -> dict[str, np.ndarray]:
         """Entries of all elements at theta (p,), element by element."""
         scaled = np.append(theta, 1.0)
-        return {name: self._entries(name, [scaled[g] for g in self.groups[name]]) for name in self.places}
+        return self._constant | {
+            name: self._entries(name, [scaled[g] for g in self.groups[name]])
+            for name in self.places
+            if name not in self._constant
+        }
 
     def slopes(self, theta: np.ndarray) -> dict[str, Slopes]:
         """Entries of the elements that are scaled, each by its own parameter."""

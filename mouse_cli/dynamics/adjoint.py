@@ -16,7 +16,17 @@ _LEVELS = 4, 10  # most levels of either space
 _SAMPLE = 48  # properties by which the error is estimated
 _ROWS, _PROPERTIES = 8192, 256  # worked on at once
 _CAUTION = 3.0  # times what the estimate says
+_ITERATING = 1e-3  # accuracy that is enough to iterate with
+_ROUNDED, _REFINED = (
+    1e-3,
+    2e-2,
+)  # shares of the bound of rounding that derivatives may show, by plain and by refined solutions
+_MATCH = 1e-7  # theta of a space and of the mode that it shows agree so well, relative
 _SMALL = 1e-3  # derivatives below this share of the largest one of a mode are judged by that share
+
+
+class Unmatched(ArithmeticError):
+    """Rounding has made a space show a mode twice, or not at all."""
 
 
 @dataclass(frozen=True)
@@ -33,15 +43,9 @@ class Adjoint:
 
         accuracy: relative error to be reached, as far as it can be; None: one level, enough to iterate with, and no estimate.
         """
-        error = None if accuracy is None else np.inf
-        if accuracy is None:
-            space, level = ChebyshevSpace(self.solution.space, self.sensing), 1
-            space.extend()
-        elif accuracy >= CHEBYSHEV:
-            space, level, error = self._refined(ChebyshevSpace, accuracy, _LEVELS[0])
-        if accuracy is not None and error > accuracy:
-            space, level, error = self._refined(OrthonormalSpace, accuracy, _LEVELS[1])
-        coefficients = self._coefficients(space, level)
+        space, error, coefficients = self._solved(accuracy)
+        operator = self.solution.space.operator
+        error = error and max(error, (_REFINED if operator.refined else _ROUNDED) * operator.noise)
         for first, last in self.stack.chunks(_ROWS, _PROPERTIES):
             place = slice(first, last)
             forces, inertia = self.stack.forces(first, last, self._shapes, self._eigenvalues)
@@ -49,9 +53,26 @@ class Adjoint:
             self._lengths(first, last, forces, inertia, d_lambda[:, place], d_shape[:, :, place])
         return error
 
+    def _solved(self, accuracy: float | None) -> tuple[AdjointSpace, float | None, np.ndarray]:
+        """The space, the estimated error and the coefficients of W_i in it; orthonormal where it has to be."""
+        try:
+            if accuracy is None:
+                space = ChebyshevSpace(self.solution.space, self.sensing)
+                space.extend()
+                return space, None, self._coefficients(space, 1)
+            if accuracy >= CHEBYSHEV:
+                found = self._refined(ChebyshevSpace, accuracy, _LEVELS[0])
+                if found[1] <= accuracy:
+                    return found
+        except Unmatched:
+            pass
+        return self._refined(OrthonormalSpace, accuracy or _ITERATING, _LEVELS[1])
+
     @cached_property
     def _shapes(self) -> np.ndarray:
-        return np.ascontiguousarray(self.solution.shapes[:, self.modes])
+        """Shapes (n, m); of a slender structure in extended precision: dK x is a small difference there."""
+        precision = np.longdouble if self.solution.space.operator.refined else float
+        return np.ascontiguousarray(self.solution.shapes[:, self.modes], precision)
 
     @cached_property
     def _eigenvalues(self) -> np.ndarray:
@@ -63,8 +84,8 @@ class Adjoint:
         family = clusters(self.solution.eigenvalues, self.solution.zero)
         return [np.flatnonzero(family == family[mode]) for mode in self.modes]
 
-    def _refined(self, kind: type, accuracy: float, most: int) -> tuple[AdjointSpace, int, float]:
-        """A space with so many levels that the estimated error is at most `accuracy`; it, the level, and the estimate.
+    def _refined(self, kind: type, accuracy: float, most: int) -> tuple[AdjointSpace, float, np.ndarray]:
+        """A space with so many levels that the estimated error is at most `accuracy`; it, the estimate, the W_i.
 
         A level lowers the error by about the same factor: with changes d_K-1, d_K from the last two, the error is d_K^2 / d_K-1.
         """
@@ -81,20 +102,42 @@ class Adjoint:
             if level > 1:
                 error = _CAUTION * change * min(1.0, change / previous)
             if error <= accuracy or level == most:
-                return space, level, error
+                return space, error, coefficients
             space.extend()
             before, level = now, level + 1
 
     def _coefficients(self, space: AdjointSpace, level: int) -> np.ndarray:
-        """W_i in terms of the basis (m, d, s): Ritz vectors weighed by 1 / (1 - mu_i theta_k), those of the mode's cluster not."""
+        """W_i in terms of the basis (m, d, s): Ritz vectors weighed by 1 / (1 - mu_i theta_k), those of the mode's cluster not.
+
+        Raises Unmatched where the space does not show each mode of a cluster once.
+        """
         theta, X = space.ritz(level)
         loads = X.T @ space.loads[: len(X)]
         out = np.empty((len(self.modes), len(X), loads.shape[1]))
+        own = (
+            1 / (self.solution.eigenvalues - self.solution.shift)
+            if space.krylov.known is None
+            else space.krylov.known.theta
+        )
         for i, same in enumerate(self._same):
-            distance = 1 - (self._eigenvalues[i] - self.solution.shift) * theta
-            distance[same] = np.inf
+            distance = 1 - theta / own[self.modes[i]]
+            seen = (np.abs(theta[:, None] / own[same] - 1) < _MATCH).any(axis=1)
+            if np.count_nonzero(seen) != len(same) and not isinstance(space, OrthonormalSpace):
+                raise Unmatched
+            distance[seen] = np.inf
             out[i] = X @ (loads / distance[:, None])
+        if space.krylov.known is not None:
+            self._cleaned(out, space, level)
         return out
+
+    def _cleaned(self, W: np.ndarray, space: AdjointSpace, level: int) -> None:
+        """Give the W_i (m, d, s) the shares of the known modes that they have to have, x_k (x_k'L) / (lambda_k - lambda_i)."""
+        known, overlap = space.krylov.known, space.overlap(level)
+        shares = known.coefficients.T @ space.loads[: len(known.coefficients)]
+        for i, same in enumerate(self._same):
+            distance = self.solution.eigenvalues - self._eigenvalues[i]
+            distance[same] = np.inf
+            W[i, : len(known.coefficients)] += known.coefficients @ (shares / distance[:, None] - overlap @ W[i])
 
     def _response(
         self, space: AdjointSpace, coefficients: np.ndarray, first: int, last: int, forces: np.ndarray, into: np.ndarray
@@ -104,7 +147,7 @@ class Adjoint:
         First what the `forces` (t', m) do to the basis (last - first, m, d), for all sensors at once.
         """
         stack, (m, d, _) = self.stack, coefficients.shape
-        begin = stack.start[first]
+        begin, forces = stack.start[first], forces.astype(float, copy=False)
         in_basis = np.zeros((last - first, m, d))
         done = 0
         for part in space.rows(stack.rows[begin : stack.start[last]]):

@@ -12,26 +12,53 @@ from mouse_cli.dynamics.workspace import Workspace
 from mouse_cli.model.arrays import Matrix
 
 BLOCK = 8  # columns at once: fewer are slower for each right-hand side, more need more of them
-_DOUBTFUL = (
-    1e-3  # length left of a vector after orthogonalisation, of what it was, below which it is solved for anew
-)
+_DOUBTFUL = 1e-3  # length left of a vector after orthogonalisation, of what it was, below which it is solved for anew
 _NOTHING = 1e-13  # the same: rounding alone
 _DEPENDENT = 1e-13  # the same for a combination of the vectors left
 
 
 class Operator:
-    """A = K - sigma M by its `factor`, and M without stored zeros; vectors are rows here (c, n), one behind the other."""
+    """A = K - sigma M by its `factor`, and M without stored zeros; vectors are rows here (c, n), one behind the other.
 
-    def __init__(self, factor: Factor, M: Matrix):
-        self.factor, self.M = factor, M
+    noise: a bound of what rounding makes of the lowest mode in a solution, relative. extended: A in extended precision, where
+    solutions are to be refined: what the rounding of A and of its factor does to the lowest modes of a slender structure is then
+    gone (Wilkinson 1963, ch. 3).
+    """
+
+    def __init__(self, factor: Factor, M: Matrix, noise: float = 0.0, extended: Matrix | None = None):
+        self.factor, self.M, self.noise, self._extended = factor, M, noise, extended
+
+    @property
+    def refined(self) -> bool:
+        """Whether solutions are refined."""
+        return self._extended is not None
 
     def solve(self, right: np.ndarray) -> np.ndarray:
         """A^-1 `right`."""
-        return np.ascontiguousarray(self.factor.solve(right.T).T)
+        return np.ascontiguousarray(self.columns(right.T).T)
+
+    def columns(self, right: np.ndarray) -> np.ndarray:
+        """A^-1 `right`, of columns (n, c)."""
+        x = self.factor.solve(right)
+        if self.refined:
+            x = x + self.factor.solve((right - self._stiff(x.T).T).astype(float))
+        return x
+
+    def quotients(self, X: np.ndarray, MX: np.ndarray) -> np.ndarray:
+        """x'A x / x'M x (k,) of vectors (k, n), in extended precision: only where solutions are refined."""
+        return (np.sum(X * self._stiff(X), axis=1) / np.sum(X * MX, axis=1)).astype(float)
+
+    def residual(self, X: np.ndarray, MX: np.ndarray, mu: np.ndarray) -> np.ndarray:
+        """A x - mu M x of vectors (k, n), in extended precision: only where solutions are refined."""
+        return (self._stiff(X) - mu.astype(np.longdouble)[:, None] * MX).astype(float)
+
+    def _stiff(self, X: np.ndarray) -> np.ndarray:
+        return (self._extended @ np.ascontiguousarray(X.T).astype(np.longdouble)).T
 
     def mass(self, vectors: np.ndarray) -> np.ndarray:
         """M times `vectors`."""
         return np.ascontiguousarray((self.M @ np.ascontiguousarray(vectors.T)).T)
+
 
 class Krylov:
     """V (d, n) with V A V' = I; AV (d, n); T = V M V', known but for the last block, which is still to be expanded.
@@ -45,6 +72,7 @@ class Krylov:
         self.d = self.reached = self._expanded = 0
         self._V, self._AV = (self.workspace.array(name, (room, self.n)) for name in ("V", "AV"))
         self._T = np.zeros((room, room))
+        self.known = None  # what it converged to, where rounding needs it
 
     @property
     def V(self) -> np.ndarray:
@@ -110,23 +138,22 @@ class Krylov:
         """Another one with the same vectors, which may grow by itself."""
         other = Krylov(self.operator, self.d)
         other.d, other.reached, other._expanded = self.d, self.reached, self._expanded
-        other._T = self._T[: self.d, : self.d].copy()
+        other._T, other.known = self._T[: self.d, : self.d].copy(), self.known
         other._V[:], other._AV[:] = self.V, self._AV[: self.d]
         return other
 
     def append(self, W: np.ndarray, R: np.ndarray, recent: int = 0) -> tuple[np.ndarray, np.ndarray]:
-        """Add what is new in W (c, n) with R = A W: (h, C) so that W = h'V + C'V_new.
+        """Add what is new in W (c, n), with R = A W: (h, C) so that W = h'V + C'V_new.
 
         First the vectors from `recent` on, those of the three-term recurrence, are taken out, then, as rounding leaves something
-        of the others, all. Where little is left, W and A W have lost digits that they no longer
-        share: W is solved for anew.
+        of the others, all. Where little is left, W and A W have lost digits that they no longer share: W is solved for anew.
         """
         d, before = self.d, np.sqrt(np.maximum(np.einsum("ij,ij->i", W, R), 0.0))
         h = np.zeros((d, len(W)))
         for first in {recent: None, 0: None}:
             self._take_out(W, R, h, first)
         W, R, C, left = _orthonormal(W, R, before, self.n - d)
-        if len(W) and left < _DOUBTFUL:
+        if len(W) and (left < _DOUBTFUL or self.operator.refined):
             more = np.zeros((d, len(W)))
             for _ in range(2):
                 W = self.operator.solve(R)

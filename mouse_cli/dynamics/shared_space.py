@@ -30,6 +30,7 @@ class AdjointSpace(Protocol):
     """A basis V (n, d) that grows level by level. loads (d, s): V'L."""
 
     loads: np.ndarray
+    krylov: Krylov
 
     def extend(self) -> None:
         """One level more."""
@@ -37,6 +38,10 @@ class AdjointSpace(Protocol):
 
     def ritz(self, level: int) -> tuple[np.ndarray, np.ndarray]:
         """theta (r,), descending, and Ritz vectors in terms of the basis (d', r), for the levels up to `level`."""
+        ...
+
+    def overlap(self, level: int) -> np.ndarray:
+        """X'M V (k, d') of the known modes X, where rounding has to be taken out."""
         ...
 
     def rows(self, at: np.ndarray) -> list[np.ndarray]:
@@ -48,7 +53,7 @@ class ChebyshevSpace:
     """Levels by the Chebyshev recurrence, without orthogonalisation: cheap, with a floor of 1e-8 to 1e-7."""
 
     def __init__(self, krylov: Krylov, sensing: Matrix):
-        self._krylov, self._operator = krylov, krylov.operator
+        self.krylov, self._operator = krylov, krylov.operator
         self._at, self._values = unit_loads(sensing)
         self._Q, rest = krylov.V[: krylov.reached], krylov.V[krylov.reached :]
         self._s = s = self._values.shape[1]
@@ -57,11 +62,13 @@ class ChebyshevSpace:
         for columns in _cut(s, COLUMNS):
             L = np.zeros((krylov.n, columns.stop - columns.start), order="F")
             L[self._at] = self._values[:, columns]
-            first[:, columns] = self._operator.factor.solve(L)
+            first[:, columns] = self._operator.columns(L)
         first[:, s:] = rest.T
         in_Q = self._Q[:, self._at] @ self._values
         for rows in _cut(krylov.n, ROWS):
             first[rows, :s] -= self._Q[:, rows].T @ in_Q
+        if krylov.known is not None:
+            krylov.known.take_out(first)
         a0 = np.eye(s + len(rest))  # U_0'A U_0 = U_0'L, as both parts of it are orthogonal to Q
         a0[:, :s] = first[self._at].T @ self._values
         a0[:s, s:] = a0[s:, :s].T
@@ -70,64 +77,79 @@ class ChebyshevSpace:
         self._least = np.zeros(len(a0))
         self._least[:s] = _NOTHING * (np.einsum("ij,ij->j", in_Q, in_Q) + a0.diagonal()[:s])
         self._a, self._N = [a0], []
-        self._moments()
-        self._half = self._centre = _ABOVE / 2 * _largest(self._N[0], _whitening(a0, self._least))
+        self._N = [sum(first[rows].T @ (rows_of(krylov.operator.M, rows) @ first) for rows in _cut(krylov.n, ROWS))]
+        self._half = self._centre = 1.0  # until there is a second block to tell from
 
     def _block(self, columns: int) -> np.ndarray:
         """Memory (n, columns) for the next level."""
-        self._U.append(self._krylov.workspace.array(f"U{len(self._U)}", (self._krylov.n, columns)))
+        self._U.append(self.krylov.workspace.array(f"U{len(self._U)}", (self.krylov.n, columns)))
         return self._U[-1]
 
-    def _moments(self) -> None:
-        """Moments of order 2k - 1 and 2k by the newest U_k: N_l = U_0'M T_l(X) U_0."""
-        U = self._U
-        last = len(U) - 1
-        products = [np.zeros(self._a[0].shape) for _ in range(min(last, 1) + 1)]
-        for rows in _cut(self._krylov.n, ROWS):
-            MU = rows_of(self._operator.M, rows) @ U[-1]
-            for product, other in zip(products, U[last::-1], strict=False):
-                product += other[rows].T @ MU
-        if last == 0:
-            self._N = products
-        elif last == 1:
-            self._N += [products[1], 2 * products[0] - self._N[0]]
-        else:
-            self._N += [2 * products[1] - self._N[1], 2 * products[0] - self._N[0]]
+    def _products(self) -> tuple[np.ndarray, np.ndarray]:
+        """U_k-1'M U_k and U_k'M U_k by the newest U_k."""
+        near, own = np.zeros(self._a[0].shape), np.zeros(self._a[0].shape)
+        for rows in _cut(self.krylov.n, ROWS):
+            MU = rows_of(self._operator.M, rows) @ self._U[-1]
+            near += self._U[-2][rows].T @ MU
+            own += self._U[-1][rows].T @ MU
+        return near, own
 
     def extend(self) -> None:
-        before, c, h = self._U[-1], self._centre, self._half
         level = len(self._U)
-        image = self._block(before.shape[1])
-        in_Q = self._in_Q(0)
-        for columns in _cut(before.shape[1], COLUMNS):
-            R = self._operator.M @ np.ascontiguousarray(before[:, columns])
-            if level > 1:  # rounding has crept in, which the polynomials would blow up
-                in_Q[:, columns] = self._Q @ R
-            image[:, columns] = self._operator.factor.solve(np.asfortranarray(R))
-        near = self._krylov.last_reached if level == 1 else slice(0, len(self._Q))
-        for rows in _cut(self._krylov.n, ROWS):
+        before, image = self._U[-1], self._image(level)
+        near, own = self._spanned() if level == 1 else (None, None)
+        c, h = self._centre, self._half
+        for rows in _cut(self.krylov.n, ROWS):
             part = image[rows]
-            part -= self._Q[near, rows].T @ in_Q[near]
             part -= c * before[rows]
             part *= (1 if level == 1 else 2) / h
             if level > 1:
                 part -= self._U[-3][rows]
         self.loads = np.vstack([self.loads, image[self._at].T @ self._values])
-        self._moments()
+        if level == 1:
+            self._N = [self._N[0], near]
+        else:
+            near, own = self._products()
+            self._N.append(2 * near - self._N[1])
+        self._N.append(2 * own - self._N[0])
         while len(self._a) < len(self._N):  # N_l = c a_l + h (a_l+1 + a_|l-1|) / 2, a_l = U_0'A T_l(X) U_0
             l = len(self._a) - 1
             new = (self._N[l] - c * self._a[l]) / h
             self._a.append(new if l == 0 else 2 * new - self._a[l - 1])
 
+    def _image(self, level: int) -> np.ndarray:
+        """P A^-1 M U (n, c) of the newest U, as the next one."""
+        before = self._U[-1]
+        image, in_Q = self._block(before.shape[1]), self._in_Q(0)
+        for columns in _cut(before.shape[1], COLUMNS):
+            R = self._operator.M @ np.ascontiguousarray(before[:, columns])
+            if level > 1:  # rounding has crept in, which the polynomials would blow up
+                in_Q[:, columns] = self._Q @ R
+            image[:, columns] = self._operator.columns(np.asfortranarray(R))
+        near = self.krylov.last_reached if level == 1 else slice(0, len(self._Q))
+        for rows in _cut(self.krylov.n, ROWS):
+            image[rows] -= self._Q[near, rows].T @ in_Q[near]
+        if self.krylov.known is not None:
+            self.krylov.known.take_out(image)
+        return image
+
+    def _spanned(self) -> tuple[np.ndarray, np.ndarray]:
+        """Moments by T_1(X) U_0 in place of P A^-1 M U_0, once the interval ends above the largest eigenvalue seen in both."""
+        (near, own), a0, N0 = self._products(), self._a[0], self._N[0]
+        stiff, mass = np.block([[a0, N0], [N0, near]]), np.block([[N0, near], [near.T, own]])
+        Z = _whitening((stiff + stiff.T) / 2, np.tile(self._least, 2))
+        self._half = self._centre = c = _ABOVE / 2 * _largest(mass, Z)
+        return (near - c * N0) / c, (own - c * (near + near.T) + c**2 * N0) / c**2
+
     def _in_Q(self, level: int) -> np.ndarray:
         """Q'M U_level (D, c): A^-1 M Q leaves Q only through its residual block, which is part of U_0."""
-        return self._krylov.coupling.T @ self._a[level][self._s :]
+        return self.krylov.coupling.T @ self._a[level][self._s :]
 
     def ritz(self, level: int) -> tuple[np.ndarray, np.ndarray]:
         stiff, mass = (self._gram(moments, level) for moments in (self._a, self._N))
         Z = _whitening(stiff, np.tile(self._least, level + 1))
         cross = np.hstack([self._in_Q(k) for k in range(level + 1)]) @ Z
-        T = self._krylov.T
+        T = self.krylov.T
         theta, S = np.linalg.eigh(np.block([[T, cross], [cross.T, Z.T @ mass @ Z]]))
         return theta[::-1], np.vstack([S[: len(T)], Z @ S[len(T) :]])[:, ::-1]
 
@@ -137,6 +159,10 @@ class ChebyshevSpace:
         G = np.block([[(moments[a + b] + moments[abs(a - b)]) / 2 for b in each] for a in each])
         return (G + G.T) / 2
 
+    def overlap(self, level: int) -> np.ndarray:
+        MX = self.krylov.known.MX
+        return np.hstack([MX @ self._Q.T, *(MX @ U for U in self._U[: level + 1])])
+
     def rows(self, at: np.ndarray) -> list[np.ndarray]:
         return [np.take(self._Q, at, axis=1).T, *(U[at] for U in self._U)]
 
@@ -145,22 +171,22 @@ class OrthonormalSpace:
     """Levels by block Lanczos with full orthogonalisation: exact to rounding, about twice as dear."""
 
     def __init__(self, krylov: Krylov, sensing: Matrix):
-        self._krylov = krylov.copy()
+        self.krylov = krylov.copy()
         self._at, self._values = unit_loads(sensing)
         L = np.zeros((self._values.shape[1], krylov.n))
         L[:, self._at] = self._values.T
-        self._krylov.append(krylov.operator.solve(L), L)
-        self._levels = [self._krylov.d]
+        self.krylov.append(krylov.operator.solve(L), L)
+        self._levels = [self.krylov.d]
         self._closed()
 
     def _closed(self) -> None:
         """Galerkin's matrix and loads with the last block included."""
-        self._T = self._krylov.closed()
-        self.loads = self._krylov.V[:, self._at] @ self._values
+        self._T = self.krylov.closed()
+        self.loads = self.krylov.V[:, self._at] @ self._values
 
     def extend(self) -> None:
-        self._krylov.expand()
-        self._levels.append(self._krylov.d)
+        self.krylov.expand()
+        self._levels.append(self.krylov.d)
         self._closed()
 
     def ritz(self, level: int) -> tuple[np.ndarray, np.ndarray]:
@@ -168,8 +194,11 @@ class OrthonormalSpace:
         theta, S = np.linalg.eigh(self._T[:d, :d])
         return theta[::-1], S[:, ::-1]
 
+    def overlap(self, level: int) -> np.ndarray:
+        return self.krylov.known.MX @ self.krylov.V[: self._levels[level]].T
+
     def rows(self, at: np.ndarray) -> list[np.ndarray]:
-        return [np.take(self._krylov.V, at, axis=1).T]
+        return [np.take(self.krylov.V, at, axis=1).T]
 
 
 def _whitening(gram: np.ndarray, least: np.ndarray) -> np.ndarray:

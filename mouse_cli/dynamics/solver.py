@@ -8,6 +8,7 @@ import numpy as np
 from mouse_cli.dynamics import memory
 from mouse_cli.dynamics.eigen import EigenSolution, IndefiniteError, dense_solution
 from mouse_cli.dynamics.factors import Analysis, Backend, Factor
+from mouse_cli.dynamics.known import improved, known
 from mouse_cli.dynamics.krylov import BLOCK, Krylov, Operator
 from mouse_cli.dynamics.lanczos import INFINITE, NotConverged, krylov_space, refined, room, start_block
 from mouse_cli.dynamics.pencil import Pencil, without_zeros
@@ -20,6 +21,14 @@ TOLERANCE = 1e-8  # residual |A^-1 M x - theta x| / theta of a mode: its eigenva
 EXACT = 1e-12  # the same for partial derivatives that are to be exact to rounding
 _PARTED = 1e-4  # eigenvalues that lie so far apart, relative, can be counted from between them
 _TRIES = 4
+_NOISY, _NOISY_EXACT = 1e-5, 1e-10  # rounding above which solutions are refined, by a bound 30 to 3000 times too large
+_CLEAN = 1e-9  # the same above which modes are freed of what rounding mixed into them
+_STEPS = 3  # of Newton's method for exact shapes
+_BELOW, _FAR = (
+    0.3,
+    0.02,
+)  # the shift, and the lowest elastic eigenvalue that makes a new one worth its while, by the other
+_SEARCHES, _TRIAL = 8, 4  # most factorisations to find a shift, and steps of Lanczos in each
 
 
 class EigenSolver:
@@ -56,12 +65,10 @@ class EigenSolver:
             raise IndefiniteError("the mass matrix is not positive semidefinite")
         self._release()
         if self._pencil is None or not self._pencil.fits(K, M):
-            self._pencil, self._analysis = Pencil(K, M), None
-        sigma = self._shift(K, M) if shift is None else shift
-        space = krylov_space(
-            self._operator(K, M, sigma, count), count, tolerance, self._known(), self._workspace, self._notice
-        )
-        solution = _solution(space, sigma, count)
+            self._pencil, self._analysis = Pencil(K, M, self._pencil), None
+        sigma, operator = self._operated(K, M, shift, count, tolerance)
+        space = krylov_space(operator, count, tolerance, self._known(), self._workspace, self._notice)
+        solution = _solution(space, sigma, count, tolerance)
         if verify:
             solution = self._verified(solution, K, M, sigma, count, tolerance)
         self._last = solution
@@ -75,17 +82,31 @@ class EigenSolver:
     def _known(self) -> np.ndarray | None:
         return None if self._last is None else self._last.shapes
 
+    def _operated(
+        self, K: Matrix, M: Matrix, shift: float | None, count: int, tolerance: float
+    ) -> tuple[float, Operator]:
+        """The shift, and K - shift M factorised; an unknown one is brought near the lowest elastic eigenvalue."""
+        sigma = self._shift(K, M) if shift is None else shift
+        operator = self._operator(K, M, sigma, count, tolerance)
+        for _ in range(_SEARCHES if shift is None else 0):
+            lowest = _elastic(operator, sigma)
+            if not 0 < lowest < -_FAR * sigma:
+                break
+            sigma = -_BELOW * lowest
+            operator = self._operator(K, M, sigma, count, tolerance)
+        return sigma, operator
+
     def _shift(self, K: Matrix, M: Matrix) -> float:
         """A shift below all eigenvalues: some of the first elastic one, when that is known."""
         if self._last is not None:
             elastic = self._last.eigenvalues[self._last.eigenvalues > self._last.zero]
             if len(elastic):
-                return -0.3 * float(elastic[0])
+                return -_BELOW * float(elastic[0])
         masses = M.diagonal()
         heavy = masses > 0
         return -1e-4 * float(np.min(K.diagonal()[heavy] / masses[heavy]))
 
-    def _operator(self, K: Matrix, M: Matrix, sigma: float, count: int) -> Operator:
+    def _operator(self, K: Matrix, M: Matrix, sigma: float, count: int, tolerance: float) -> Operator:
         """A = K - sigma M, factorised. Raises IndefiniteError when it is not positive definite."""
         A = self._pencil.shifted(K, M, sigma)
         if self._analysis is None:
@@ -95,7 +116,10 @@ class EigenSolver:
         factor = self._factor(A)
         if factor.negative() != 0:  # Lanczos near the shift would not see what lies far below it
             raise IndefiniteError(f"the stiffness matrix has eigenvalues below {sigma:.6g} (rad/s)^2")
-        return Operator(factor, without_zeros(M))
+        noise = _noise(A, M, sigma)
+        refined = noise > (_NOISY if tolerance > EXACT else _NOISY_EXACT)
+        extended = self._pencil.shifted(K, M, sigma, np.longdouble) if refined else None
+        return Operator(factor, without_zeros(M), noise, extended)
 
     def _weigh(self, A: Matrix, count: int) -> None:
         """Say how much memory it will take. Raises NumericalError when that is not there."""
@@ -124,19 +148,46 @@ class EigenSolver:
                 return replace(solution, verified=found)
             space = solution.space
             space.start(start_block(space.n, None, attempt))
-            solution = _solution(refined(space, count, tolerance, self._notice), sigma, count)
+            solution = _solution(refined(space, count, tolerance, self._notice), sigma, count, tolerance)
         raise NotConverged(f"{below} modes lie below {s:.6g} (rad/s)^2, of which only {found} were found")
 
 
-def _solution(space: Krylov, sigma: float, count: int) -> EigenSolution:
+def _elastic(operator: Operator, sigma: float) -> float:
+    """The lowest eigenvalue that is not zero, roughly: from a small space. Below zero when K is indefinite, inf: none found."""
+    space = Krylov(operator, (_TRIAL + 1) * BLOCK)
+    space.start(start_block(space.n, None, 0))
+    for _ in range(_TRIAL):
+        if not space.expand():
+            break
+    theta = space.ritz()[0]
+    eigenvalues = sigma + 1 / theta[theta > INFINITE * theta[0]]
+    return float(min(eigenvalues[np.abs(eigenvalues) > -1e-7 * sigma], default=np.inf))
+
+
+def _noise(A: Matrix, M: Matrix, sigma: float) -> float:
+    """What rounding may make of the lowest mode by a solution with A = K - sigma M, relative: eps |A| / |sigma M|, roughly."""
+    masses = M.diagonal()
+    heavy = masses > 0
+    highest = np.max(A.diagonal()[heavy] / masses[heavy], initial=0.0)
+    return float(np.finfo(float).eps * highest / abs(sigma))
+
+
+def _solution(space: Krylov, sigma: float, count: int, tolerance: float) -> EigenSolution:
     """The lowest `count` modes in `space`, or all that have mass. Raises IndefiniteError when theta < 0: a negative mass."""
     theta, S, _ = space.ritz()
     if theta[-1] < -INFINITE * theta[0]:
         raise IndefiniteError("the mass matrix is not positive semidefinite")
     kept = np.flatnonzero(theta[:count] > INFINITE * theta[0])
-    eigenvalues = sigma + 1 / theta[kept]
-    shapes = (S[:, kept].T @ space.V[: space.reached]).T / np.sqrt(theta[kept])
-    return EigenSolution(eigenvalues, shapes, 1e-8 * abs(sigma), space, sigma)
+    theta, S = theta[kept], S[:, kept]
+    space.known = known(space, theta, S) if space.operator.noise > _CLEAN else None
+    if space.known is None:
+        shapes = (S.T @ space.V[: space.reached]).T / np.sqrt(theta)
+        return EigenSolution(sigma + 1 / theta, shapes, 1e-8 * abs(sigma), space, sigma)
+    if space.operator.refined and tolerance <= EXACT:
+        for _ in range(_STEPS):
+            space.known = improved(space.known, space.operator)
+    own = space.operator.quotients(space.known.X, space.known.MX) if space.operator.refined else 1 / theta
+    return EigenSolution(sigma + own, space.known.X.T, 1e-8 * abs(sigma), space, sigma)
 
 
 def _between(eigenvalues: np.ndarray) -> tuple[int, float]:

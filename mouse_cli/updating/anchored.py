@@ -20,6 +20,7 @@ MEANING = (
     "checked by an exact re-solution"
 )
 TOLERANCE = 1e-4  # a step this small, in revised standard deviations, is the end
+_SEEN = 1e-7  # a promised gain below this share of J that does not come is rounding of the eigensolution
 _FIRST, _GROWTH, _GIVE_UP = 1e-3, 3.0, 1e12  # damping relative to |B|^2: where it begins, how it grows, where it ends
 
 
@@ -68,14 +69,15 @@ class _Descent:
             there = attempt(self.setting, self.setting.coordinates.mean + self._expand(self.z + change))
             cost = np.inf if there is None else self.cost(there, self.z + change)
             small = length < TOLERANCE * self._misfit(before) and self.damping < scale
-            if small and not cost < before:  # at the rounding of J
+            unseen = length**2 < _SEEN * (1 + before) and self.damping < scale
+            if (small or unseen) and not cost < before:  # at the rounding of J
                 there, cost, change = state, before, np.zeros_like(change)
             if cost <= before:
                 self._damp(state, change, before - cost, scale)
                 self.z = self.z + change
                 self.trace.record(there, cost, self.damping)
-                self.arrived = small
-                return small
+                self.arrived = small or there is state
+                return self.arrived
             self.damping = max(self.damping * _GROWTH, _FIRST * scale)
         return None
 

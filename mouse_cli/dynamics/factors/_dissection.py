@@ -23,7 +23,7 @@ def dissected(pattern: Matrix) -> np.ndarray:
 
 def crowded(pattern: Matrix) -> bool:
     """Whether nodes have so many neighbours, as in solids and shells, that dissection is worth its while."""
-    node, graph = _compressed(pattern)
+    graph = _compressed(pattern)[1]
     return graph.shape[0] > 10 * _LEAF and graph.nnz > 7 * graph.shape[0]
 
 
