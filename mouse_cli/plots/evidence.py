@@ -17,10 +17,13 @@ def draw(found: Diagnosis, axes: Any) -> bool:
         return False
     gains = [one.log_evidence - baseline.log_evidence for one in shown]
     colours = [AFTER if best is not None and one.group == best.group else BEFORE for one in shown]
-    bars = axes.barh([_name(one) for one in shown], gains, color=colours, height=0.7)
-    axes.bar_label(bars, [with_p(one.probability) for one in shown], padding=3, fontsize=8)
+    axes.barh([_name(one) for one in shown], gains, color=colours, height=0.7)
+    for i, (one, gain) in enumerate(zip(shown, gains, strict=True)):
+        axes.annotate(
+            with_p(one.probability), (max(gain, 0.0), i), (4, 0), textcoords="offset points", va="center", fontsize=8
+        )
     axes.axvline(0, color="black", linewidth=0.8)
-    axes.margins(x=0.15)
+    axes.margins(x=0.2)
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
     axes.set_xlabel("ln evidence over no cause, nats")

@@ -6,8 +6,8 @@ from mouse_cli import __version__
 from mouse_cli.model.diagnosis import (
     EVERYWHERE,
     NAMED,
-    NOTHING,
     ONE_OF,
+    UNKNOWN,
     Diagnosis,
     Explanation,
     HeldOut,
@@ -67,7 +67,7 @@ def _verdict(found: Diagnosis) -> dict[str, Any]:
         "group": best.group if told else None,
         "site": site(best.causes[0].site) if told else None,
         "sites": [site(cause.site) for cause in best.causes] if told else [],
-        "probability": found.probability if told or found.kind == NOTHING else None,
+        "probability": None if found.kind == UNKNOWN else found.probability,
         "rivals": rivals,
     }
 

@@ -60,6 +60,20 @@ def test_fits_do_not_see_what_is_held_out(tmp_path):
     assert one.y.tolist() == other.y.tolist()
 
 
+def test_run_says_what_it_foresees(tmp_path):
+    """The third mode of the chain in closed form, omega = 2 sin(5 pi / 14): what a fixed-free chain of unit springs and masses has."""
+    from mouse_cli.report import printout
+
+    text = printout(run(_read(tmp_path, CHAIN + HELD)), "modern")
+    assert "Held out, and used by no fit: mode 3; 1 sensor of 3; 2 frequencies of the configuration 'tip mass'." in text
+    line = next(line for line in text.split("DATA HELD OUT")[1].split("\n") if line.split()[:1] == ["3"])
+    _, measured, model, off, alike = map(float, line.split())
+    assert measured == 0.2868
+    assert model == pytest.approx(2 * np.sin(5 * np.pi / 14) / (2 * np.pi), rel=1e-3)
+    assert off == pytest.approx(100 * (model / measured - 1), abs=1e-3)
+    assert alike > 0.99
+
+
 def test_division(tmp_path):
     problem = _read(tmp_path, CHAIN + HELD)
     held = problem.hold_out

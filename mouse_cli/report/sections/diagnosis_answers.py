@@ -35,7 +35,14 @@ def _verdict(found: Diagnosis) -> str:
         return f"The model lacks {best.title}: {where(best)} ({with_p(found.probability)})."
     if found.kind == ONE_OF:
         named = [name for name, _ in found.rivals if name != "none"]
-        return f"Something is missing, and the test does not settle what: one of {{{', '.join(named)}}}.{_separating(found)}"
+        doubt = (
+            " None of them makes the data much more probable: they may also be less accurate than they are said to be."
+        )
+        unsure = doubt if len(named) < len(found.rivals) else ""
+        causes = ", ".join(named)
+        return (
+            f"Something is missing, and the test does not settle what: one of {{{causes}}}.{_separating(found)}{unsure}"
+        )
     return (
         "Something is missing that no candidate explains. Do not trust the revised parameters, and do not name a cause."
     )
