@@ -28,8 +28,8 @@ HOME = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "mouse-b
 def main() -> None:
     """Parse the options and print the tables."""
     given = _options().parse_args()
-    if given.verify:
-        print(verify())
+    if given.verify or given.tables:
+        print(verify() if given.verify else again(given.tables))
         return
     cases = selected(given.split, given.seed, given.count, given.cases)
     with ProcessPoolExecutor(given.jobs) as pool:
@@ -77,9 +77,18 @@ def report(folder: Path, title: str, made: list[tuple[Path, dict]], found: Itera
     for (path, known), document in zip(made, found, strict=False):
         (folder / "found" / f"{path.stem}.json").write_text(json.dumps(document))
         results.append(scored(known, document))
-        print(f"{path.stem} {known['name']}: {results[-1].outcome}, {results[-1].said}", file=sys.stderr, flush=True)
+        why = document.get("refused", results[-1].said).splitlines() or [""]
+        print(f"{path.stem} {known['name']}: {results[-1].outcome}, {why[-1]}", file=sys.stderr, flush=True)
     if results:
         print(tables(results), flush=True)
+
+
+def again(folder: Path) -> str:
+    """The tables of what an earlier run, even one cut short, left in `folder`; all its configurations together."""
+    read = lambda path: json.loads(path.read_text())
+    return tables(
+        [scored(read(folder / "answers" / path.name), read(path)) for path in sorted((folder / "found").iterdir())]
+    )
 
 
 def _truth(case: Case, cache: Path) -> dict:
@@ -101,6 +110,12 @@ def _options() -> argparse.ArgumentParser:
     add("--jobs", type=int, default=os.cpu_count(), help="processes")
     add("--cache", type=Path, default=HOME, help="folder of truths already made")
     add("--output", type=Path, help="folder of decks and answers; else a temporary one")
+    add(
+        "--tables",
+        type=Path,
+        metavar="FOLDER",
+        help="print the tables of the answers in FOLDER, an earlier --output, and stop",
+    )
     add("--decks-only", action="store_true", help="make truths and decks, diagnose nothing")
     return parser
 
