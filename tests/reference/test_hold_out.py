@@ -61,7 +61,7 @@ def test_fits_do_not_see_what_is_held_out(tmp_path):
 
 
 def test_run_says_what_it_foresees(tmp_path):
-    """The third mode of the chain in closed form, omega = 2 sin(5 pi / 14): what a fixed-free chain of unit springs and masses has."""
+    """The third mode of a fixed-free chain of three unit springs and masses in closed form, omega = 2 sin(5 pi / 14)."""
     from mouse_cli.report import printout
 
     text = printout(run(_read(tmp_path, CHAIN + HELD)), "modern")
