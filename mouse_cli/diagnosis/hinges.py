@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.bars import Bars
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Change, Recipe, Unknown, product
+from mouse_cli.diagnosis.change import Change, Recipe, Softening, Unknown, product
 from mouse_cli.diagnosis.extend import Edit
 from mouse_cli.diagnosis.extend_places import element_at, hinge
 from mouse_cli.diagnosis.lines import Line
@@ -40,12 +40,11 @@ def places(
     total = sum(line.length for line in chosen)
     for line in chosen:
         where = Unknown("place", "m", 0.0, line.length, log=False)
-        count = max(2, min(_STARTS, len(line.members)))
-        at = (np.arange(count) + 0.5) / count * line.length
+        at = line.starts(_STARTS, line.length / total)
 
         def change(values: np.ndarray, line=line) -> Change:
             bar, share = line.at(values[-1])
-            return Change(K=bars.softened(np.array([bar]), added(bar, share, values[:-1])[None]))
+            return Change(softening=Softening(np.array([bar]), added(bar, share, values[:-1])[None]))
 
         def site(values: np.ndarray, line=line):
             return line.site(values[-1])

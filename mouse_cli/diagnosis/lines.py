@@ -34,6 +34,11 @@ class Line:
         """The place at s."""
         return self.bars.site(*self.at(s))
 
+    def starts(self, most: int, share: float) -> np.ndarray:
+        """Places to begin a search from: at most one a bar and `most`, fewer where this is but a `share` of all lines."""
+        count = max(1, min(most, len(self.members), round(2 * most * share)))
+        return (np.arange(count) + 0.5) / count * self.length
+
     @cached_property
     def middles(self) -> np.ndarray:
         """Motion (c, 3, r) of the middles of the bars."""

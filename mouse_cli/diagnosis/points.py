@@ -12,6 +12,7 @@ from mouse_cli.model.geometry import DIRECTIONS
 
 _STILL = 0.02  # share of the largest motion in a measured mode below which a direction does not take part
 _EACH = 6  # places to begin from on a line
+_ALL = 300  # nodes or degrees of freedom that are looked at where nothing tells them apart
 
 
 @dataclass(frozen=True)
@@ -58,13 +59,19 @@ def _reach(model: Reduced) -> np.ndarray:
 
 
 def wanted(model: Reduced) -> np.ndarray | None:
-    """Mask of the nodes, or degrees of freedom of a model of matrices, that are worth looking at; None: all."""
-    places = getattr(model, "places", None)
-    if places is None:
+    """Mask of the nodes, or degrees of freedom of a model of matrices, that are worth looking at; None: all.
+
+    Where no shape tells places apart, some all over a large model.
+    """
+    places, at = getattr(model, "places", None), model.problem.structure.geometry
+    n = model.problem.structure.n
+    if model.motion is not None:
+        n = len(model.problem.mesh.node_ids)
+        places = None if places is None else np.unique(at.node[places][at.node[places] >= 0])
+    if places is None or (not len(places) and n <= _ALL):
         return None
-    mesh = model.problem.mesh
-    mask = np.zeros(model.problem.structure.n if model.motion is None else len(mesh.node_ids), bool)
-    mask[places] = True
+    mask = np.zeros(n, bool)
+    mask[places if len(places) else np.linspace(0, n - 1, _ALL).astype(int)] = True
     return mask
 
 
@@ -76,6 +83,7 @@ def _lines(model: Reduced, direction: int | None) -> list[Points]:
     runs = [run for run in bars.runs if keep is None or keep[bars.nodes[run.members]].any()]
     sizes = [np.abs(run.middles * used).max(axis=2) for run in runs]  # (bars, 3)
     largest, found = max((size.max() for size in sizes), default=0.0), []
+    total = sum(run.length for run in runs)
     for run, size in zip(runs, sizes, strict=True):
         if (size if direction is None else size[:, direction]).max() < _STILL * largest:
             continue
@@ -88,8 +96,7 @@ def _lines(model: Reduced, direction: int | None) -> list[Points]:
             here = run.site(values[0])
             return here if direction is None else replace(here, text=f"{here.text}, {DIRECTIONS[direction]}")
 
-        count = max(2, min(_EACH * 2, len(run.members)))
-        starts = (np.arange(count) + 0.5) / count * run.length
+        starts = run.starts(2 * _EACH, run.length / total)
         where = Unknown("place", "m", 0.0, run.length, log=False)
         dofs = (0, 1, 2) if direction is None else (direction,)
         found.append(Points((where,), starts[:, None], motion, site, run.length / bars.span, dofs))

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Change, Recipe, Unknown, product, steps
+from mouse_cli.diagnosis.change import Change, Recipe, Softening, Unknown, product, steps
 from mouse_cli.diagnosis.extend import Edit
 from mouse_cli.diagnosis.extend_places import beams_within, element_at
 from mouse_cli.diagnosis.hinges import lines
@@ -27,11 +27,10 @@ def _recipe(model: Reduced, candidate: Candidate, line: Line, share: float) -> R
     d = Unknown("flexibility added", "1", 0.02, 3.0)
     w = Unknown("width over length", "1", 0.05, 0.4)
     x = Unknown("place", "m", 0.0, L, log=False)
-    count = max(2, min(_STARTS, len(line.members)))
 
     def change(values: np.ndarray) -> Change:
         touched, a, b = covered(line, *stretch(line, values))
-        return Change(K=bars.softened(touched, values[0] * bent(line, touched, a, b)))
+        return Change(softening=Softening(touched, values[0] * bent(line, touched, a, b)))
 
     def site(values: np.ndarray) -> Site:
         here = line.site(values[2])
@@ -40,7 +39,7 @@ def _recipe(model: Reduced, candidate: Candidate, line: Line, share: float) -> R
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         return _with_loss(problem, line, *stretch(line, values), values[0], site(values).text)
 
-    grid = product(steps(d, 2), steps(w, 2), (np.arange(count) + 0.5) / count * L)
+    grid = product(steps(d, 2), steps(w, 2), line.starts(_STARTS, share))
     return Recipe(candidate, (d, w, x), change, grid, site, log_prior=float(np.log(share)), extend=extend)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.bars import Bars
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.change import Change, Recipe, Softening, Unknown, steps
 from mouse_cli.diagnosis.hinges import with_hinge
 from mouse_cli.diagnosis.points import wanted
 from mouse_cli.diagnosis.reduced import Reduced
@@ -12,7 +12,8 @@ from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 
 _MOST = 60  # joints that are looked at: those that bend most in the lowest modes
-_SAME = 1e-6  # relative difference of properties that counts as none
+_SAME = 1e-6  # of directions
+_STEP = 1.3  # ratio of stiffnesses or masses from which on a straight line changes its section, and does not taper
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
@@ -48,11 +49,11 @@ def _ends(bars: Bars) -> list[tuple[int, int]]:
 
 
 def _passes(bars: Bars, ends: list[tuple[int, int]]) -> bool:
-    """Whether two bars continue one another without a change of section."""
+    """Whether two bars continue one another without a step in their section."""
     return all(
         any(
             bars.line[b] == bars.line[c]
-            and all(abs(v[b] - v[c]) <= _SAME * abs(v[b]) for v in (bars.EI, bars.A, bars.line_mass))
+            and all(v[b] < _STEP * v[c] and v[c] < _STEP * v[b] for v in (bars.EI, bars.line_mass + 1e-300))
             for c, _ in ends
             if c != b
         )
@@ -81,7 +82,7 @@ def _recipe(model: Reduced, candidate: Candidate, bar: int, end: int, count: int
     site = Site("node", (node,), position, f"element {bars.ids[bar]} at node {node}, local {'yz'[bars.plane[bar]]}")
 
     def change(values: np.ndarray) -> Change:
-        return Change(K=bars.softened(at, np.outer(b, b)[None] / values[0]))
+        return Change(softening=Softening(at, np.outer(b, b)[None] / values[0]))
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         return with_hinge(problem, bars, bar, float(end), f"joint of {site.text}", values[0])

@@ -28,7 +28,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     rows = model.V[dofs] if model.motion is None else np.concatenate([model.node(int(i))[:3] for i in nodes if i >= 0])
     M = rows.T @ rows
     each = total_mass(model) / max(len(nodes), 1 if len(nodes) else len(dofs))
-    m = Unknown("mass of each sensor", "kg", 1e-4 * each, 0.3 * each)
+    m = Unknown("mass of each sensor", "kg", 1e-3 * each, 0.1 * each)
     site = Site("sensor", tuple(structure.labels[i] for i in np.unique(test.dofs)), None, "at every sensor")
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:

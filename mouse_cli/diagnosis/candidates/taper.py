@@ -3,7 +3,7 @@
 import numpy as np
 
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Change, Recipe, Unknown, product, steps
+from mouse_cli.diagnosis.change import Change, Recipe, Softening, Unknown, product, steps
 from mouse_cli.diagnosis.extend import Edit
 from mouse_cli.diagnosis.extend_places import beams_within
 from mouse_cli.diagnosis.line_mass import uniform
@@ -37,7 +37,7 @@ def _recipe(model: Reduced, candidate: Candidate, run: Line, count: int) -> Reci
     site = site_of(model, run)
 
     def change(values: np.ndarray) -> Change:
-        return Change(bars.softened(members, F * (1 / (1 + values[0] * xi) - 1)[:, None, None]), values[1] * M)
+        return Change(M=values[1] * M, softening=Softening(members, F * (1 / (1 + values[0] * xi) - 1)[:, None, None]))
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         return _tapered(problem, run, *values)

@@ -16,8 +16,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     ratio = Unknown("E / (kappa G)", "1", *shear_range(model.bars))
 
     def change(values: np.ndarray) -> Change:
-        K, M = shear(model, values[0], turning=True)
-        return Change(K, M)
+        return shear(model, values[0], turning=True)
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         return with_shear(problem, values[0], turning=True)
