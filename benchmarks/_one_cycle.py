@@ -4,24 +4,20 @@ import time
 from collections.abc import Callable
 
 import numpy as np
-from _threads import THREADS
 
 from mouse_cli.estimators.bayes import solve
 from mouse_cli.estimators.linear import LinearProblem
 from mouse_cli.model.problem import Problem
 from mouse_cli.updating.loop import _begin
 
-clock = (
-    time.process_time if THREADS == 1 else time.perf_counter
-)  # with one thread, what others do to the machine matters less
 CHANGE = 0.02  # of the parameters from one cycle to the next, relative to their prior mean
 
 
 def seconds(action: Callable[[], object]) -> tuple[float, object]:
-    """How long one call takes, and its answer."""
-    start = clock()
+    """How long one call takes, wall clock, and its answer."""
+    start = time.perf_counter()
     answer = action()
-    return clock() - start, answer
+    return time.perf_counter() - start, answer
 
 
 class Cycles:

@@ -3,8 +3,10 @@
 A cycle: assembly, numeric factorisation, eigensolution, sensitivities of 30 modes at all sensors to all parameters, Bayesian
 estimate. A good user's eigensolution: numeric factorisation by the fastest solver installed, symbolic analysis done before,
 and ARPACK around it, 30 modes. `--without-fast` takes the optional solver away from mouse and compares with
-`scipy.sparse.linalg.eigsh(K, 30, M, sigma=...)` as a user calls it. One thread: CPU seconds; more: elapsed. Medians of paired
-repetitions. Best on a quiet machine: other work slows memory even where CPU time does not count it.
+`scipy.sparse.linalg.eigsh(K, 30, M, sigma=...)` as a user calls it. Wall clock, one thread unless asked otherwise; medians of
+paired repetitions. On a quiet machine: others slow either side. Each case ends with what is asked of it, what was measured,
+and whether that is met. The frame of --without-fast is the building turned by 20 degrees against the axes; in the aligned one
+most stored entries are zero, which costs eigsh dear.
 """
 
 import argparse
@@ -21,21 +23,32 @@ parser.add_argument("--threads", type=int, default=1, help="threads for linear a
 parser.add_argument("--without-fast", action="store_true", help="numpy and scipy alone, against eigsh as it comes")
 
 MODES = 30
-CASES = {  # model, degrees of freedom, sensors, parameters, aim
-    "solid-1e5": ("solid", 100_000, 20, 100, 1.2),
-    "plate-1e5": ("plate", 100_000, 20, 100, 1.2),
-    "frame-1.4e5": ("frame", 140_000, 20, 100, 1.2),
+CASES = {  # model, degrees of freedom, sensors, parameters, largest ratio
+    "solid-1e5": ("solid", 100_000, 20, 100, 0.8),
+    "plate-1e5": ("plate", 100_000, 20, 100, 0.8),
+    "frame-1.4e5": ("frame", 140_000, 20, 100, 1.0),
+    "solid-1e5-many": ("solid", 100_000, 100, 2000, 1.0),
+    "plate-1e5-many": ("plate", 100_000, 100, 2000, 1.1),
+    "frame-1.4e5-many": ("frame", 140_000, 100, 2000, 1.4),
     "frame-1e4": ("frame", 11_000, 20, 100, 2.0),
-    "frame-1e4-many": ("frame", 11_000, 100, 2000, 4.0),
+    "frame-1e4-many": ("frame", 11_000, 100, 2000, None),  # nothing is asked
 }
-WITHOUT = {  # the aim: how many times faster than eigsh as it comes a whole cycle is
+WITHOUT = {  # the aim: how many times less time than eigsh as it comes a whole cycle takes
     "solid-3e4": ("solid", 30_000, 20, 100, 8.0),
     "frame-1e4": ("frame", 11_000, 20, 100, 50.0),
     "aligned-frame-1e4": ("aligned-frame", 11_000, 20, 100, 50.0),
 }
 
 
-def compared(kind: str, n: int, sensors: int, parameters: int, aim: float, rounds: int) -> None:
+def verdict(aim: float | None, measured: float, most: bool) -> str:
+    """Asked, measured, met."""
+    if aim is None:
+        return f"asked: nothing; measured {measured:.2f}"
+    met = measured <= aim if most else measured >= aim
+    return f"asked: at {'most' if most else 'least'} {aim:g}; measured {measured:.2f}: {'met' if met else 'MISSED'}"
+
+
+def compared(kind: str, n: int, sensors: int, parameters: int, aim: float | None, rounds: int) -> None:
     """Print the parts of a cycle, those of the yardstick, and the medians of their ratios."""
     from _one_cycle import Cycles, seconds
     from fast_factor import Symbolic, arpack, factorise, shift
@@ -57,7 +70,8 @@ def compared(kind: str, n: int, sensors: int, parameters: int, aim: float, round
     own = statistics.median(parts["cycle"] / parts["eigensolution"] for parts in measured)
     print_cycle(kind, run.problem, typical)
     print(f"  yardstick: numeric factorisation {typical['factorisation']:.3f} + ARPACK {typical['ARPACK']:.3f} s")
-    print(f"  ratio {ratio:.2f} (aim: at most {aim}); against the eigensolution of mouse itself {own:.2f}", flush=True)
+    print(f"  against the eigensolution of mouse itself {own:.2f}")
+    print(f"  ratio, {verdict(aim, ratio, True)}", flush=True)
 
 
 def compared_with_eigsh(kind: str, n: int, sensors: int, parameters: int, aim: float, rounds: int) -> None:
@@ -80,11 +94,8 @@ def compared_with_eigsh(kind: str, n: int, sensors: int, parameters: int, aim: f
             print(f"  eigsh(K, {MODES}, M, sigma={name}) fails: {reason}")
             continue
         times = elapsed / typical["cycle"]
-        print(
-            f"  eigsh(K, {MODES}, M, sigma={name}) {elapsed:.2f} s, once: a whole cycle is {times:.1f} times faster",
-            flush=True,
-        )
-    print(f"  (aim: at least {aim:g} times, against a shift below zero, which a free structure needs)")
+        print(f"  eigsh(K, {MODES}, M, sigma={name}) {elapsed:.2f} s, once")
+        print(f"  times faster, {verdict(aim, times, False)}", flush=True)
 
 
 def print_cycle(kind: str, case, typical: dict[str, float]) -> None:
@@ -106,9 +117,7 @@ def main() -> None:
         print("\n".join(cases))
         return
     measure = compared_with_eigsh if options.without_fast else compared
-    print(
-        f"{options.threads} thread(s), {'CPU' if options.threads == 1 else 'elapsed'} seconds, medians of {options.rounds}"
-    )
+    print(f"{options.threads} thread(s), wall clock, medians of {options.rounds}")
     for name in options.cases or cases:
         kind, n, sensors, parameters, aim = cases[name]
         measure(kind, n, sensors, parameters, aim, options.rounds)

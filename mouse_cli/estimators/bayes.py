@@ -1,5 +1,7 @@
 """Bayes: what was believed before the test and what the test says, each weighed by its covariance. Eqs. (3-50) to (3-60)."""
 
+from functools import cache
+
 import numpy as np
 
 from mouse_cli.estimators.linear import Estimator, LinearEstimate, LinearProblem, conditioned, limited
@@ -54,27 +56,52 @@ def _triangular(C: np.ndarray, right: np.ndarray, lower: bool = False) -> np.nda
     return solve_triangular(C, right, lower=lower)
 
 
+def _definite(gram: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """gram^-1 `right` for positive definite gram, which is overwritten."""
+    if len(gram) < _WORTH_LOADING:
+        return np.linalg.solve(gram, right)
+    from scipy.linalg import cho_factor, cho_solve
+
+    return cho_solve(cho_factor(gram, overwrite_a=True, check_finite=False), right, check_finite=False)
+
+
+def _nearest(B: np.ndarray, r: np.ndarray) -> np.ndarray:
+    """z = B'(I + B B')^-1 r (k,), by orthogonal vectors where I + B B' would lose digits."""
+    gram = B @ B.T
+    if gram.diagonal().max(initial=0.0) > _LARGE**2:
+        Q, F = np.linalg.qr(B.T)
+        return Q @ _mode(F.T, r)[0]
+    gram[np.diag_indices(len(gram))] += 1.0
+    return B.T @ _definite(gram, r)
+
+
 def _within_row_space(problem: LinearProblem, B: np.ndarray, r: np.ndarray) -> LinearEstimate:
-    """Fewer data than properties: B' = Q F with Q (k, q). Only z = Q w is revised; I - Q Q' stays as it was.
+    """Fewer data than properties: z = B'(I + B B')^-1 r. With B' = Q F, Q (k, q), only Q'z is revised; I - Q Q' stays as it was.
 
     Variances are sums of squares, so that what accurate data leave of them keeps its digits.
     """
-    Q, F = np.linalg.qr(B.T)
-    w, C = _mode(F.T, r)
-    z = Q @ w
-    seen = problem.expand(Q)
+
+    @cache
+    def parts() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """L Q, Q and C: only who asks for variances needs them."""
+        Q, F = np.linalg.qr(B.T)
+        return problem.expand(Q), Q, _mode(F.T, r)[1]
+
+    z = _nearest(B, r)
 
     def narrow() -> np.ndarray:
         """L Q C^-1 (p, q): T L (I - Q Q') = 0."""
+        seen, _, C = parts()
         return seen @ np.linalg.inv(C)
 
     def root() -> np.ndarray:
         """[L Q C^-1, L (I - Q Q')]."""
+        Q = parts()[1]
         return np.hstack([narrow(), problem.expand(np.eye(len(z)) - Q @ Q.T)])
 
     def variances() -> np.ndarray:
         """Row sums of squares of the root, without the second block where a difference does as well."""
-        revised = narrow()
+        revised, (seen, Q, _) = narrow(), parts()
         prior = problem.L**2 if problem.L.ndim == 1 else np.sum(problem.L**2, axis=1)
         unseen = prior - np.sum(seen * seen, axis=1)
         small = np.flatnonzero(unseen < _SEEN * prior)  # at most about q of them
@@ -82,7 +109,7 @@ def _within_row_space(problem: LinearProblem, B: np.ndarray, r: np.ndarray) -> L
         unseen[small] = np.sum((rows - seen[small] @ Q.T) ** 2, axis=1)
         return unseen + np.sum(revised * revised, axis=1)
 
-    return LinearEstimate(problem.expand(z), z, root, np.zeros(len(seen), bool), variances, narrow)
+    return LinearEstimate(problem.expand(z), z, root, np.zeros(problem.T.shape[1], bool), variances, narrow)
 
 
 ESTIMATOR = Estimator(

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from mpmath import mp
 
+from mouse_cli.updating import model_form
 from mouse_cli.updating.chi_square import upper_tail
 
 DOFS = (1, 2, 3, 4, 5, 9, 20, 31, 100, 499, 1000, 1999, 2000)
@@ -56,3 +57,18 @@ def test_a_million_degrees_of_freedom():
     """Three sd above the mean of 10^6 degrees of freedom."""
     chi2 = 1e6 + 3 * np.sqrt(2e6)
     assert upper_tail(chi2, 10**6) == pytest.approx(reference(chi2, 10**6), rel=1e-8)
+
+
+@pytest.mark.parametrize(("q", "k"), [(700, 520), (520, 700)])
+def test_large_problems_split_by_a_triangle(q, k):
+    """The same sums from singular values and from a triangle; a problem of lower rank is left to singular values."""
+    rng = np.random.default_rng(5)
+    B, d = rng.standard_normal((q, k)) * 10.0 ** rng.uniform(-2, 2, k), rng.standard_normal(q)
+    outside, moved, rank = model_form._split(B, d)
+    assert model_form._well_determined(B, d) == (
+        pytest.approx(outside, abs=1e-10 * (d @ d)),
+        pytest.approx(moved, rel=1e-9),
+        rank,
+    )
+    B[:, : k - 510] = 0.0
+    assert model_form._well_determined(B, d) is None or q < k
