@@ -197,8 +197,9 @@ class Diagnosis:
 
     @property
     def probability(self) -> float:
-        """Of the leading group; NaN where nothing was compared."""
-        return self.groups[0][1] if self.groups else float("nan")
+        """Of the leading group, or of no cause where nothing is missing; NaN where nothing was compared."""
+        leading = "none" if self.kind == NOTHING else next((name for name, _ in self.groups), "")
+        return dict(self.groups).get(leading, float("nan"))
 
     @property
     def exit_code(self) -> int:

@@ -1,6 +1,7 @@
 """What is said of a diagnosis: every section and form for every kind of answer, the document, the figures."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ from test_sections import plain_python, valid
 
 from mouse_cli import _registry, report
 from mouse_cli._errors import MouseError, WrittenError
-from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, UNKNOWN, Diagnosis
+from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, UNKNOWN, Diagnosis, Site
 from mouse_cli.plots import draw, registry, require
 from mouse_cli.report.renderers.printout import WIDTH
 from mouse_cli.report.section import Options, sections
@@ -100,6 +101,27 @@ def test_exit_codes():
 )
 def test_words(name, words):
     assert words in _words(name)
+
+
+def test_nothing_missing_and_yet_not_excluded():
+    """The gate asks whether a cause is demanded; the probability that is told is that of no cause."""
+    nothing = DIAGNOSES["nothing"]()
+    open_ = replace(nothing, groups=(("shear", 0.8), ("none", 0.2)))
+    assert report.document(nothing)["verdict"]["probability"] == 0.97
+    assert report.document(open_)["verdict"]["probability"] == 0.2
+    assert "no cause has P = 0.20" in " ".join(report.markdown(open_).split())
+    assert "demand no cause" not in report.markdown(nothing)
+
+
+def test_a_faulty_sensor_is_no_fault_of_the_model():
+    found = named()
+    cause = replace(
+        found.best.causes[0], title="two sensors exchanged", site=Site("sensor", ("3", "4"), text="sensors 3 and 4")
+    )
+    first = replace(found.best, causes=(cause,))
+    swapped = replace(found, explanations=(first, *found.explanations[1:]))
+    told = report.printout(swapped)
+    assert "The test is at fault, not the model: two sensors exchanged: sensors 3 and 4 (P = 0.98)." in told
 
 
 def test_no_name_without_a_verdict():

@@ -8,6 +8,7 @@ from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._diagnosis_wording import place, sized, where, with_p
 from mouse_cli.report.sections._wording import chance, counted
 
+_DEMANDED = 0.5  # probability of no cause below which others stay likely though the data do not demand them
 _SETTLES, _HELPS = 4.0, 1.0  # nats from which on a measurement will separate two explanations, and may
 _GAIN, _RATIO, _COVERED = 3.0, 0.7, 0.7  # what a proof takes: nats, ratio of errors, share within 90 % intervals
 
@@ -32,7 +33,9 @@ def _verdict(found: Diagnosis) -> str:
             "Nothing is missing that this test could show: the model, with its parameters revised, explains the data."
         )
     if found.kind == NAMED:
-        return f"The model lacks {best.title}: {where(best)} ({with_p(found.probability)})."
+        faulty = all(cause.site.kind == "sensor" for cause in best.causes)
+        begin = "The test is at fault, not the model:" if faulty else "The model lacks"
+        return f"{begin} {best.title}: {where(best)} ({with_p(found.probability)})."
     if found.kind == ONE_OF:
         named = [name for name, _ in found.rivals if name != "none"]
         doubt = (
@@ -92,7 +95,9 @@ def _what(found: Diagnosis) -> str:
     if found.kind == NOTHING:
         total = found.result.residual
         chances = f": by chance the misfit would be larger {chance(total.p)}" if total.dof else ""
-        return f"Nothing{chances}. An effect that moves the data by less than their accuracies stays hidden."
+        return (
+            f"Nothing{chances}. An effect that moves the data by less than their accuracies stays hidden.{_open(found)}"
+        )
     if found.kind == NAMED:
         return (
             f"{_capital(best.title)}, group {best.group}, {with_p(found.probability)}. What the extended model leaves "
@@ -107,6 +112,13 @@ def _what(found: Diagnosis) -> str:
         f"No candidate is adequate. The nearest, {best.title}, leaves a misfit that would by chance be larger "
         f"{chance(best.p)}{_noise(found)}; that it is nearest does not make it the cause."
     )
+
+
+def _open(found: Diagnosis) -> str:
+    """What data that demand no cause leave possible."""
+    if not found.probability < _DEMANDED:
+        return ""
+    return f" The data demand no cause, and rule out none of those that lead the table either: no cause has {with_p(found.probability)}."
 
 
 def _noise(found: Diagnosis) -> str:
