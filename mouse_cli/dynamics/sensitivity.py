@@ -100,7 +100,7 @@ def _response(
     (n, k), s, (t, p) = solution.shapes.shape, sensing.shape[0], F.shape
     by_forces = p < s and not is_sparse(F)
     if k < n:
-        inverse = _bordered(solution, K, M, mode, same)
+        inverse = _fixed(solution, K, M, mode, same)
         if by_forces:
             return -read(sensing, inverse(touched, F))
         return -(F.T @ inverse(*unit_loads(sensing))[touched]).T
@@ -112,29 +112,39 @@ def _response(
     return -(F.T @ (rows @ solution.shapes[touched].T).T).T
 
 
-def _bordered(
+def _fixed(
     solution: EigenSolution, K: Matrix, M: Matrix, mode: int, same: np.ndarray
 ) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
-    """G_i without the other modes: (K - lambda_i M) bordered by M X of the cluster is regular (Lee and Jung 1997).
+    """G_i without the other modes: K - lambda_i M is regular once as many components are fixed as the cluster has modes.
 
-    The answer gives G_i times `values` (r, c) placed at the degrees of freedom `at` (r,), as (n, c).
+    (Nelson 1976, for a cluster: where its shapes differ most.) Unlike a border it leaves the matrix as sparse as it is. The answer
+    gives G_i times `values` (r, c) placed at the degrees of freedom `at` (r,), as (n, c).
     """
-    from scipy.sparse import block_array, csc_array
+    from scipy.linalg import qr
+    from scipy.sparse import csc_array, diags_array
     from scipy.sparse.linalg import splu
 
     n, X = K.shape[0], solution.shapes[:, same]
-    border = M @ X
+    border, held = M @ X, np.zeros(n)
+    held[qr(X.T, mode="r", pivoting=True)[1][: len(same)]] = 1.0
+    free, scale = diags_array(1 - held), float(np.abs(K.diagonal()).max())
     shifted = csc_array(K) - solution.eigenvalues[mode] * csc_array(M)
-    matrix = block_array([[shifted, csc_array(border)], [csc_array(border.T), None]], format="csc")
     try:
-        factor = splu(matrix, permc_spec="MMD_AT_PLUS_A")
+        factor = splu(
+            csc_array(free @ shifted @ free + diags_array(scale * held)),
+            permc_spec="MMD_AT_PLUS_A",
+            diag_pivot_thresh=1e-3,
+            options={"SymmetricMode": True},
+        )
     except RuntimeError as reason:  # SuperLU's word for an exactly singular matrix
         raise np.linalg.LinAlgError(f"mode {mode + 1}: {reason}") from None
 
     def inverse(at: np.ndarray, values: np.ndarray) -> np.ndarray:
-        right = np.zeros((n + len(same), values.shape[1]))
+        right = np.zeros((n, values.shape[1]))
         right[at] = values
-        right[:n] -= border @ (X[at].T @ values)
-        return factor.solve(right)[:n]
+        right -= border @ (X[at].T @ values)
+        right[held > 0] = 0.0
+        motion = factor.solve(right)
+        return motion - X @ (border.T @ motion)
 
     return inverse
