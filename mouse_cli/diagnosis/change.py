@@ -11,15 +11,24 @@ from mouse_cli.model.problem import Problem
 
 
 @dataclass(frozen=True)
+class Softening:
+    """Bars (c,) that give way, each by what is added (c, 2, 2) to its flexibility; several causes add up in one bar."""
+
+    bars: np.ndarray
+    added: np.ndarray
+
+
+@dataclass(frozen=True)
 class Change:
     """K, M (r + a, r + a) that are added, a degrees of freedom of the cause's own behind the r of the model; None: no change.
 
-    sensing (s, r + a): added to what the sensors read.
+    sensing (s, r + a): added to what the sensors read. softening: of bars, when stiffness is lost in series.
     """
 
     K: np.ndarray | None = None
     M: np.ndarray | None = None
     sensing: np.ndarray | None = None
+    softening: Softening | None = None
 
 
 @dataclass(frozen=True)

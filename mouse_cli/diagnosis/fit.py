@@ -9,6 +9,7 @@ H = J'J + I_z at the end, Laplace's evidence for d unknowns of widths w is
 where what is added to H keeps an unknown that the data do not feel from being found wider than its range.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import pairwise
 
@@ -44,8 +45,26 @@ class Model:
         """What each cause does at the coordinates c (t,)."""
         return [r.change(r.values(c[own])) for r, own in zip(self.recipes, self.own, strict=True)]
 
+    def added(self, c: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """K, M (size, size) and sensing (s, size) that the causes add at the coordinates c (t,)."""
+        changes = self.changes(c)
+        K, M, S = self._sum(list(enumerate(changes)))
+        r = self.base.r
+        K[:r, :r] += self._softened(changes)
+        return K, M, S
+
+    def _softened(self, changes: list[Change]) -> np.ndarray | float:
+        """Change of K (r, r) by all that makes bars softer, in series within each."""
+        parts = [change.softening for change in changes if change.softening is not None]
+        if not parts:
+            return 0.0
+        bars, at = np.unique(np.concatenate([part.bars for part in parts]), return_inverse=True)
+        total = np.zeros((len(bars), 2, 2))
+        np.add.at(total, at, np.concatenate([part.added for part in parts]))
+        return self.base.bars.softened(bars, total)
+
     def _sum(self, parts: list[tuple[int, Change]]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """K, M (size, size) and sensing (s, size) that `parts` make, by number of the recipe."""
+        """K, M (size, size) and sensing (s, size) that `parts` make, by number of the recipe; without what softens bars."""
         K, M = np.zeros((2, self.size, self.size))
         S = np.zeros((self.base.sensing.shape[0], self.size))
         for i, change in parts:
@@ -60,7 +79,7 @@ class Model:
     def point(self, x: np.ndarray) -> "Point | None":
         """The model at x (k + t,); None where it is not physical."""
         r = self.base.r
-        K, M, S = self._sum(list(enumerate(self.changes(x[self.k :]))))
+        K, M, S = self.added(x[self.k :])
         K0, M0 = self.base.matrices(x[: self.k])
         K[:r, :r] += K0
         M[:r, :r] += M0
@@ -102,18 +121,31 @@ class Model:
         d_seen = np.einsum("sj,pmj->psm", at.seen, G / apart) - 0.5 * own[:, None] * at.seen[:, m] + sensed
         return self.base.data.jacobian(at.eigenvalues[m], at.seen[:, m], at.a, d_lambda.T, np.moveaxis(d_seen, 0, -1))
 
-    def _derivatives(self, c: np.ndarray):
+    def _derivatives(self, c: np.ndarray) -> Iterator[tuple[int, Change]]:
         """Recipe and d(change)/dc, by central differences of the matrices, for each coordinate of the causes."""
+        changes = self.changes(c)
         for i, (recipe, own) in enumerate(zip(self.recipes, self.own, strict=True)):
             for j in range(own.start, own.stop):
-                h = _STEP * self.width[j]
-                sides = []
-                for sign in (1, -1):
-                    there = c[own].copy()
-                    there[j - own.start] = np.clip(c[j] + sign * h, *self.bounds[j])
-                    sides.append((there[j - own.start], recipe.change(recipe.values(there))))
-                (ahead, one), (behind, other) = sides
-                yield i, _difference(one, other, ahead - behind)
+                sides = np.clip(c[j] + _STEP * self.width[j] * np.array([1, -1]), *self.bounds[j])
+                one, other = (self._with(recipe, c[own], j - own.start, side) for side in sides)
+                yield i, self._difference(changes, i, one, other, sides[0] - sides[1])
+
+    def _with(self, recipe: Recipe, c: np.ndarray, j: int, value: float) -> Change:
+        there = c.copy()
+        there[j] = value
+        return recipe.change(recipe.values(there))
+
+    def _difference(self, changes: list[Change], i: int, one: Change, other: Change, length: float) -> Change:
+        """(one - other) / length for cause number i beside the other ones."""
+        parts = []
+        for name in ("K", "M", "sensing"):
+            a, b = getattr(one, name), getattr(other, name)
+            parts.append(None if a is None else (a - b) / length)
+        if one.softening is not None:
+            a, b = (self._softened([*changes[:i], side, *changes[i + 1 :]]) for side in (one, other))
+            softer = (a - b) / length
+            parts[0] = softer if parts[0] is None else parts[0] + softer
+        return Change(*parts)
 
 
 @dataclass(frozen=True)
@@ -224,11 +256,3 @@ def _evidence(J: float, H: np.ndarray, model: Model) -> float:
     places = sum(recipe.log_prior for recipe in model.recipes)
     _, size = np.linalg.slogdet(_capped(H, model))
     return -0.5 * J - float(np.log(model.width).sum()) + 0.5 * model.t * np.log(2 * np.pi) - 0.5 * size + places
-
-
-def _difference(one: Change, other: Change, length: float) -> Change:
-    parts = []
-    for name in ("K", "M", "sensing"):
-        a, b = getattr(one, name), getattr(other, name)
-        parts.append(None if a is None else (a - b) / length)
-    return Change(*parts)

@@ -20,7 +20,7 @@ def implied_law(one: Fit) -> Law | None:
         return None
     recipe, base = one.recipes[0], one.model.base
     values = recipe.values(one.c)
-    change = recipe.change(values)
+    change = Change(*one.model.added(one.c))
     B = _motion(change, base.r, float(values[0]), recipe.unknowns[0].unit)
     have = base.data.has_frequency
     if B is None or not have.any():

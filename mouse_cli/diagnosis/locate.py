@@ -74,14 +74,14 @@ def scores(model: Reduced) -> Scores | None:
     return Scores(ways, matched(model, measured, rows), measured)
 
 
-def matched(model: Reduced, measured: Shapes, rows: np.ndarray) -> Matches:
+def matched(model: Reduced, measured: Shapes, rows: np.ndarray, most: int = _POINTS) -> Matches:
     """Places B (j, r), each at the best z found for it: every z that a leading place leads to is tried for all of them."""
     found = None
     update = fit(Model(model), np.zeros(0))
     for point in ([] if update is None else [update.point.x]) + [np.zeros_like(model.z)]:
         found = _better(found, _matches(model, measured, point, rows))
     damping, followed = np.zeros(len(rows)), np.zeros(len(rows), int)
-    for number in range(_POINTS):
+    for number in range(most):
         gain = found.gain()
         done = (gain < _SETTLED) | (followed >= _TRIES)
         hope = np.where(done, found.cost, np.maximum(found.cost - gain, 0.0))

@@ -22,7 +22,7 @@ from mouse_cli.dynamics.frequency import eigenvalue
 
 _POLE = 1e-7  # distance of lambda from an eigenvalue of the model, relative, below which R is taken beside it
 _STARTS = (-2.0, -1.0, 0.0, 1.0, 2.0)  # of t
-_WIDEST, _HALVINGS = 4.0, 16
+_WIDEST, _HALVINGS = 4.0, 22
 _CHUNK = 20_000_000  # numbers of derivatives held at once
 
 
@@ -80,8 +80,9 @@ def shapes(model: Reduced) -> Shapes:
 class Matcher:
     """The model at z (k,), in its own modes: X (r, r), eigenvalues (r,), what sensors see (s, r), dK and dM by z (k, r, r)."""
 
-    def __init__(self, model: Reduced, measured: Shapes, z: np.ndarray):
-        self.measured, self.z = measured, z
+    def __init__(self, model: Reduced, measured: Shapes, z: np.ndarray, whitening: list[np.ndarray] | None = None):
+        """whitening: for each mode (s, s), when components are not independent."""
+        self.measured, self.z, self._whitening = measured, z, whitening
         K, M = model.matrices(z)
         C = np.linalg.inv(np.linalg.cholesky(M))
         self.eigenvalues, Q = np.linalg.eigh(C @ K @ C.T)
@@ -102,22 +103,24 @@ class Matcher:
         N, b = np.zeros((j, k, k)) + np.eye(k), np.zeros((j, k)) - self.z
         cost, volume = np.full(j, self.z @ self.z), np.zeros(j)
         for i in range(len(self.measured.modes)):
-            t = self._nearest(i, B)
+            t = self.nearest(i, B)[0]
             r, e, J = self._derivatives(i, t, B)
             spread = 1 + np.einsum("js,js->j", e, e)
             eJ = np.einsum("js,jsk->jk", e, J)
             N += np.swapaxes(J, 1, 2) @ J - eJ[:, :, None] * eJ[:, None, :] / spread[:, None, None]
-            b += np.einsum("jsk,js->jk", J, r)
+            off = (np.einsum("js,js->j", e, r) - t) / spread  # what is left to go in t
+            b += np.einsum("jsk,js->jk", J, r) - eJ * off[:, None]
             cost += np.einsum("js,js->j", r, r) + t**2
             volume += np.log(spread)
         return Matches(np.zeros((j, k)) + self.z, cost, N, b, volume)
 
-    def response(self, i: int) -> np.ndarray:
-        """S R(lambda_i) (s, r) of mode i, whitened: what a force on each mode of the model makes of the shape."""
-        return self._seen(i) / self._apart(self.measured.eigenvalue[i])
-
     def _seen(self, i: int) -> np.ndarray:
-        return self.seen * self.measured.weight[:, i, None]
+        seen = self.seen * self.measured.weight[:, i, None]
+        return seen if self._whitening is None else self._whitening[i] @ seen
+
+    def y(self, i: int) -> np.ndarray:
+        """The shape (s,) of mode i, over its standard deviations."""
+        return self.measured.y[:, i] if self._whitening is None else self._whitening[i] @ self.measured.y[:, i]
 
     def _apart(self, at: np.ndarray) -> np.ndarray:
         """eigenvalues - lambda (..., r), never zero, for lambda `at` (...)."""
@@ -126,12 +129,13 @@ class Matcher:
         least = _POLE * np.abs(at)
         return np.where(np.abs(apart) < least, np.where(apart < 0, -least, least), apart)
 
-    def _nearest(self, i: int, B: np.ndarray) -> np.ndarray:
-        """t (j,) for which a h comes nearest to y."""
-        y, apart = self.measured.y[:, i], self.eigenvalues - self.measured.eigenvalue[i]
+    def nearest(self, i: int, B: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """t (j,) for which a h comes nearest to y, for rows B (j, r) in own modes; the least cost (j,); h/|h| (j, s)."""
+        y, apart = self.y(i), self.eigenvalues - self.measured.eigenvalue[i]
         pole = int(np.argmin(np.abs(apart)))
-        rest = np.delete(np.arange(len(apart)), pole)
-        others = (B[:, rest] / self._apart(self.measured.eigenvalue[i])[rest]) @ self._seen(i)[:, rest].T
+        fixed = 1 / self._apart(self.measured.eigenvalue[i])
+        fixed[pole] = 0.0
+        others = B @ (self._seen(i) * fixed).T
         u = apart[pole] * others + B[:, pole, None] * self._seen(i)[:, pole]
         v = -self.measured.sd[i] * others
         uu, uv, vv = (np.einsum("js,js->j", a, b) for a, b in ((u, u), (u, v), (v, v)))
@@ -143,12 +147,14 @@ class Matcher:
         with np.errstate(divide="ignore", invalid="ignore"):
             alike = np.nan_to_num((vy * uu - uy * uv) / (uy * vv - vy * uv), posinf=0.0, neginf=0.0)
         starts = [np.full(len(B), t) for t in _STARTS] + [np.clip(alike, -_WIDEST, _WIDEST)]
-        return _least(misfit, np.array(starts))
+        t = _least(misfit, np.array(starts))
+        h = u + t[:, None] * v
+        return t, y @ y + misfit(t), h / np.sqrt(np.maximum(np.einsum("js,js->j", h, h), 1e-300))[:, None]
 
     def _derivatives(self, i: int, t: np.ndarray, B: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Misfit r (j, s) of mode i at t (j,); by how much t and z move what it is compared with: e (j, s), J (j, s, k)."""
         at = self.measured.eigenvalue[i] + t * self.measured.sd[i]
-        D, S, y = 1 / self._apart(at), self._seen(i), self.measured.y[:, i]
+        D, S, y = 1 / self._apart(at), self._seen(i), self.y(i)
         BD = B * D
         h = BD @ S.T
         size = np.sqrt(np.maximum(np.einsum("js,js->j", h, h), 1e-300))
@@ -156,11 +162,21 @@ class Matcher:
         BD *= a[:, None]
         e = self.measured.sd[i] * ((BD * D) @ S.T)
         e -= unit * np.einsum("js,js->j", unit, e)[:, None]
-        J = np.empty((*h.shape, len(self.z)))
-        for k, (dK, dM) in enumerate(zip(self.dK, self.dM, strict=True)):
-            J[:, :, k] = ((BD @ dM * at[:, None] - BD @ dK) * D) @ S.T
+        J = -self._moved(i, BD, D)
         J -= unit[:, :, None] * np.einsum("js,jsk->jk", unit, J)[:, None, :]
         return y - a[:, None] * h, e, J
+
+    def _moved(self, i: int, BD: np.ndarray, D: np.ndarray) -> np.ndarray:
+        """S R (dK - lambda dM) R B (j, s, k) for rows BD (j, r) of R B; of the left R only the nearest pole follows t."""
+        at, S = self.measured.eigenvalue[i], self._seen(i)
+        pole = int(np.argmin(np.abs(self.eigenvalues - at)))
+        fixed = 1 / self._apart(at)
+        fixed[pole] = 0.0
+        dZ = self.dK - at * self.dM
+        (j, r), s, k = BD.shape, len(S), len(self.z)
+        J = (BD @ np.swapaxes(dZ @ (S * fixed).T, 0, 1).reshape(r, k * s)).reshape(j, k, s)
+        J += ((BD @ dZ[:, :, pole].T) * D[:, pole, None])[:, :, None] * S[:, pole]
+        return np.swapaxes(J, 1, 2)
 
 
 def _least(f, starts: np.ndarray) -> np.ndarray:

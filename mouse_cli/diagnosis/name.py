@@ -93,8 +93,9 @@ class Study:
         """The same causes at the same places in this model."""
         return tuple(self.recipes(recipe.candidate.key)[recipe.number] for recipe in recipes)
 
-    def at(self, theta: np.ndarray) -> "Study":
-        """The same at parameters theta (p,)."""
+    def at(self, one: Fit) -> "Study":
+        """The same at the parameters that a fit found."""
+        theta = one.model.base.parameters(one.point.x[: self.k])
         return Study(reduced(self.model.problem, theta))
 
 
@@ -105,7 +106,7 @@ def settled(one: Fit, study: Study) -> Fit:
         before = one.model.base.theta
         if not one.recipes or np.all(np.abs(theta - before) <= _MOVED * np.abs(before)):
             break
-        there = study.at(theta)
+        there = study.at(one)
         again = fit(Model(there.model, there.own(one.recipes)), one.c, one.point.x[: one.model.k])
         if again is None:
             break
@@ -194,9 +195,10 @@ def pairs(study: Study, baseline: Fit, singles: list[Fit]) -> list[Fit]:
     leading = _leading(singles)
     found: dict[tuple[str, ...], Fit] = {}
     for first in leading:
+        there = study.at(first)
         partners = registry() if first is leading[0] else [one.recipes[0].candidate.key for one in leading]
         for name in partners:
-            two = best(study, name, first)
+            two = best(there, name, first)
             if two is not None and _material(two, baseline, singles):
                 other = found.get(key(two))
                 if other is None or two.log_evidence > other.log_evidence:

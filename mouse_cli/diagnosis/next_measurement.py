@@ -22,8 +22,8 @@ Predictor = Callable[[Model, np.ndarray], np.ndarray | None]
 def proposals(one: Fit, other: Fit, names: tuple[str, str], most: int = 4) -> tuple[Proposal, ...]:
     """The measurements that separate two fits best, the best first, one of each kind."""
     found: dict[str, Proposal] = {}
-    for kind, text, added, predictor, sd in _measurements(one):
-        separation = _separation(one, other, added, predictor, sd)
+    for (kind, text, *here), (_, _, *there) in zip(_measurements(one), _measurements(other), strict=False):
+        separation = _separation((one, *here), (other, *there))
         if separation is not None and (kind not in found or separation > found[kind].separation):
             found[kind] = Proposal(text, names, separation)
     return tuple(sorted(found.values(), key=lambda p: -p.separation)[:most])
@@ -92,9 +92,9 @@ def _shape_at(row: np.ndarray) -> Predictor:
     return read
 
 
-def _separation(one: Fit, other: Fit, added: tuple, predictor: Predictor, sd: float) -> float | None:
+def _separation(*sides: tuple[Fit, tuple[Recipe, ...], Predictor, float]) -> float | None:
     parts = []
-    for fitted in (one, other):
+    for fitted, added, predictor, sd in sides:
         model = Model(fitted.model.base, (*fitted.recipes, *added))
         here = predictor(model, fitted.point.x)
         if here is None:

@@ -13,6 +13,7 @@ from mouse_cli.diagnosis.fit import Fit, Model, fit
 from mouse_cli.diagnosis.reduced import Reduced, restricted
 from mouse_cli.dynamics.correlation import mac
 from mouse_cli.model.diagnosis import HeldOut, Score
+from mouse_cli.model.hold_out import HoldOut
 from mouse_cli.model.modal_test import ModalTest
 
 _COVERED = 1.6448536269514722  # standard deviations of a 90 % interval
@@ -69,41 +70,35 @@ def score(parts: list[Prediction]) -> Score:
 
 def held_out(model: Reduced, baseline: Fit, best: Fit | None) -> HeldOut | None:
     """Both models on what the deck holds out, else on each mode in turn."""
-    cases = _cases(model)
-    if not cases:
+    held = model.problem.hold_out
+    if held is None or not (held.altered or (held.test is not None and held.test.m)):
         return cross_validated(model, baseline, best)
-    labels, measured = [], []
-    found: dict[str, list[Prediction]] = {"baseline": [], "revised": []}
-    for title, base, fixed in cases:
-        one = {"baseline": predict(baseline, base, fixed), "revised": best and predict(best, base, fixed)}
-        if one["baseline"] is None or (best is not None and one["revised"] is None):
-            continue
-        labels += [f"{title}mode {number}" for number in base.data.test.number]
-        measured.append(base.data.test.frequency_hz)
-        for name, part in one.items():
-            found[name].append(part)
-    if not measured:
+    parts = {"baseline": _foreseen(held, baseline), "revised": best and _foreseen(held, best)}
+    labels, kept = [], []
+    for i, (title, own) in enumerate(parts["baseline"]):
+        if own is not None and (best is None or parts["revised"][i][1] is not None):
+            labels += [f"{title}mode {number}" for number in own.test.number]
+            kept.append(i)
+    if not kept:
         return None
+    found = {name: part and [part[i][1] for i in kept] for name, part in parts.items()}
+    measured = np.concatenate([part.test.frequency_hz for part in found["baseline"]])
     revised = None if best is None else score(found["revised"])
-    return HeldOut("held out by the deck", tuple(labels), np.concatenate(measured), score(found["baseline"]), revised)
+    return HeldOut("held out by the deck", tuple(labels), measured, score(found["baseline"]), revised)
 
 
-def _cases(model: Reduced) -> list[tuple[str, Reduced, tuple[Recipe, ...]]]:
-    """Title, the reduced model with the test that was held out, and what was altered for it."""
-    held = getattr(model.problem, "hold_out", None)
-    if held is None:
-        return []
-    cases = []
+def _foreseen(held: HoldOut, one: Fit) -> list[tuple[str, Prediction | None]]:
+    """Title of each case that was held out, and what the model of `one` says of it."""
+    base, found = one.model.base, []
     if held.test is not None and held.test.m:
-        cases.append(("", model.with_test(held.test), ()))
+        found.append(("", predict(one, base.with_test(held.test))))
     for altered in held.altered:
-        none = np.zeros((0, len(altered.number)))
-        test = ModalTest(
-            altered.number, altered.frequency_hz, altered.frequency_sd_hz, np.zeros(0, int), none, none, "fitted"
-        )
-        base = model.with_test(test, sensing=np.zeros((0, model.r)))
-        cases.append((f"{altered.title}, ", base, (known(model, altered.masses, altered.springs),)))
-    return cases
+        unmeasured = np.full((base.data.s, len(altered.number)), np.nan)
+        frequencies = altered.number, altered.frequency_hz, altered.frequency_sd_hz
+        test = ModalTest(*frequencies, base.data.test.dofs, unmeasured, unmeasured, "fitted")
+        fixed = known(base, altered.masses, altered.springs)
+        found.append((f"{altered.title}, ", predict(one, base.with_test(test), (fixed,))))
+    return found
 
 
 def known(model: Reduced, masses: dict[int, float], springs: dict[int, float]) -> Recipe:
@@ -123,10 +118,11 @@ def cross_validated(model: Reduced, baseline: Fit, best: Fit | None) -> HeldOut 
     found: dict[str, list[Prediction]] = {"baseline": [], "revised": []}
     for i in range(test.m):
         own = np.arange(test.m) == i
-        rest, left = model.without(~own), model.with_test(restricted(test, own))
         for name, one in (("baseline", baseline), ("revised", best)):
             if one is None:
                 continue
+            base = one.model.base
+            rest, left = base.without(~own), base.with_test(restricted(test, own))
             again = fit(Model(rest, one.recipes), one.c, one.point.x[: one.model.k])
             part = None if again is None else predict(again, left)
             if part is None:

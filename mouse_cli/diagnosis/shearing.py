@@ -3,6 +3,7 @@
 import numpy as np
 
 from mouse_cli.diagnosis.bars import Bars
+from mouse_cli.diagnosis.change import Change, Softening
 from mouse_cli.diagnosis.extend import Edit, every_beam
 from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.model.problem import Problem
@@ -24,15 +25,15 @@ def shear_range(bars: Bars) -> tuple[float, float]:
     return 1e-5 * bars.span**2 / radius, 3e-2 * bars.span**2 / radius
 
 
-def shear(model: Reduced, ratio: float, turning: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Changes of K and M (r, r) for E / (kappa G) = `ratio`: F_aa = l / (3 EI) (1 + phi), and shapes with phi in the mass."""
+def shear(model: Reduced, ratio: float, turning: bool) -> Change:
+    """Bars with E / (kappa G) = `ratio`: F_aa = l / (3 EI) (1 + phi), and shapes with phi in the mass."""
     bars = model.bars
     phi = 12 * (bars.EI / bars.E) / bars.A * ratio / bars.length**2
     added = np.zeros((len(bars), 2, 2))
     added[:, 1, 1] = bars.length / (3 * bars.EI) * phi
-    K = bars.softened(np.arange(len(bars)), added)
     blocks = np.where(lumped(model)[:, None, None], 0.0, _mass(bars, phi) - _mass(bars, 0 * phi))
-    return K, bars.added(blocks) + (rotary(model, phi) if turning else 0.0)
+    M = bars.added(blocks) + (rotary(model, phi) if turning else 0.0)
+    return Change(M=M, softening=Softening(np.arange(len(bars)), added))
 
 
 def rotary(model: Reduced, phi: np.ndarray | None = None) -> np.ndarray:

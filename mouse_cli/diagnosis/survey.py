@@ -1,46 +1,83 @@
 """A first look over a large model: at which degrees of freedom a force could make the measured shapes.
 
-The same matching as `locate`, at the update alone: what the parameters leave uncertain of the shapes of the model as it is, times
-the misfit of the update, stands for what they leave uncertain of S R(lambda) B, so that every place costs a few products.
+The same matching as `locate`, at few values of the parameters: what those leave uncertain of the shapes of the model as it is,
+times the misfit, stands for what they leave uncertain of S R(lambda) B, so that every place costs a few products.
 """
 
 import numpy as np
 
 from mouse_cli.diagnosis.fit import Fit, Model, fit
+from mouse_cli.diagnosis.locate import matched
 from mouse_cli.diagnosis.matching import Matcher, shapes
 from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.model.arrays import Matrix
 
 _MODES = 8  # that are looked at
+_LOOKS, _FOLLOWED = 6, 24  # looks at most, and steps after each
 _LOOKED = 3000  # best degrees of freedom from which places are taken
-_ALIKE = 0.999  # cosine squared, the mean over the modes, from which on two places are one
-_PAIRS = 300_000  # pairs of degrees of freedom that are looked at; models that couple more of them are solids
+_TOLD = 1.0  # misfit of the shapes of two places up to which they are taken as one
+_EACH = 20_000  # places worked on at once
+_PAIRS = 20_000  # pairs that are looked at, those first between whose ends a force does best
 
 
 def survey(model: Reduced, K: Matrix, count: int) -> np.ndarray:
-    """At most `count` degrees of freedom, the best first, no two of which the sensors can hardly tell apart."""
+    """At most `count` degrees of freedom, the best first, no two of which the sensors can hardly tell apart.
+
+    A look with the parameters of the update, then with those that the best places found lead to, as long as that helps.
+    """
     measured, update = shapes(model), fit(Model(model), np.zeros(0))
     if update is None or count < 1 or measured.dof < 1 or not len(measured.modes):
         return np.zeros(0, int)
-    matcher = Matcher(model, measured, update.point.x)
+    pairs, z = _pairs(K), update.point.x
+    scale, best, found = max(1.0, update.point.chi2 / max(update.dof, 1)), np.inf, np.zeros(0, int)
+    for _ in range(_LOOKS):
+        places = _look(model, measured, update, z, scale, pairs, count)
+        tried = matched(model, measured, model.V[places], _FOLLOWED)
+        order = np.argsort(tried.cost, kind="stable")
+        found = _merged(places[order], found, count, tried.cost[order[0]] < best)
+        if tried.cost[order[0]] > best - 1:
+            break
+        best, z = float(tried.cost[order[0]]), tried.z[order[0]]
+        scale = max(1.0, best / measured.dof)
+    return found
+
+
+def _merged(new: np.ndarray, old: np.ndarray, count: int, better: bool) -> np.ndarray:
+    """The first of both: all of `new` that fit when they are better, with half of the old ones' share kept for those."""
+    first, second = (new, old) if better else (old, new)
+    joined = np.concatenate([first[: count - count // 4] if len(second) else first, second, first])
+    _, at = np.unique(joined, return_index=True)
+    return joined[np.sort(at)][:count]
+
+
+def _look(model, measured, update: Fit, z: np.ndarray, scale: float, pairs, count: int) -> np.ndarray:
+    """Degrees of freedom in the order of what a force on them, or on them and another, leaves at z (k,)."""
     looked = np.linspace(0, len(measured.modes) - 1, min(_MODES, len(measured.modes))).round().astype(int)
-    misfit, H = np.zeros(len(model.V)), []
-    one, other = _pairs(K)
-    between = np.zeros(len(one))
-    for i in looked:
-        W = _whitening(update, measured.modes[i], measured.weight[:, i])
-        y = W @ measured.y[:, i]
-        h = model.V @ (matcher.X @ (W @ matcher.response(i)).T)
-        misfit += _left(y, h)
-        for at in range(0, len(one), 50_000):
-            some = slice(at, at + 50_000)
-            between[some] += _left(y, h[one[some]] - h[other[some]])
-        H.append(h)
-    return _apart(_ordered(misfit, between, one, other), H, count)
+    own = [_whitening(update, mode, measured.weight[:, i], scale) for i, mode in enumerate(measured.modes)]
+    matcher = Matcher(model, measured, z, own)
+    one, other = pairs
+
+    def left(rows: np.ndarray) -> np.ndarray:
+        return sum(matcher.nearest(i, rows)[1] for i in looked)
+
+    misfit = np.concatenate([left(model.V[i : i + _EACH] @ matcher.X) for i in range(0, len(model.V), _EACH)])
+    near = np.minimum(misfit[one], misfit[other])
+    kept = np.argsort(near, kind="stable")[
+        :_PAIRS
+    ]  # a force at either end of where something gives way is no bad guess
+    one, other = one[kept], other[kept]
+    between = [
+        left((model.V[one[i : i + _EACH]] - model.V[other[i : i + _EACH]]) @ matcher.X)
+        for i in range(0, len(one), _EACH)
+    ]
+    order = _ordered(misfit, np.concatenate([*between, np.zeros(0)]), one, other)
+    rows = model.V[order] @ matcher.X
+    size = [float(np.sum(matcher.y(i) ** 2)) for i in looked]
+    return _apart(order, [matcher.nearest(i, rows)[2] for i in looked], size, count)
 
 
-def _whitening(update: Fit, mode: int, weight: np.ndarray) -> np.ndarray:
-    """(I + J C J')^-1/2 (s, s), J derivatives of the whitened shape, C covariance of the update times its misfit."""
+def _whitening(update: Fit, mode: int, weight: np.ndarray, scale: float) -> np.ndarray:
+    """(I + J C J')^-1/2 (s, s), J derivatives of the whitened shape, C covariance of the update, times `scale`."""
     test, k = update.model.base.data.test, update.model.k
     J = np.zeros((len(weight), k))
     have = update.model.base.data.has_shape
@@ -48,26 +85,16 @@ def _whitening(update: Fit, mode: int, weight: np.ndarray) -> np.ndarray:
     number = np.cumsum(have.ravel()).reshape(have.shape) - 1 + first
     T = update.model.jacobian(update.point)
     J[have[:, mode]] = T[number[have[:, mode], mode]]
-    scale = max(1.0, update.point.chi2 / max(update.dof, 1))
     size, Q = np.linalg.eigh(np.eye(test.s) + scale * J @ np.linalg.solve(update.hessian, J.T))
     return (Q / np.sqrt(size)) @ Q.T
 
 
-def _left(y: np.ndarray, h: np.ndarray) -> np.ndarray:
-    """|y - a h|^2 (j,) at the best a, for h (j, s)."""
-    size = np.einsum("js,js->j", h, h)
-    along = (h @ y) ** 2
-    return y @ y - np.divide(along, size, out=np.zeros(len(h)), where=size > 0)
-
-
 def _pairs(K: Matrix) -> tuple[np.ndarray, np.ndarray]:
-    """Degrees of freedom that K couples as a spring does; none where there are too many."""
+    """Degrees of freedom that K couples as a spring does."""
     from scipy.sparse import coo_array
 
     entries = coo_array(K)
     kept = (entries.row < entries.col) & (entries.data < 0)
-    if kept.sum() > _PAIRS:
-        kept[:] = False
     return entries.row[kept], entries.col[kept]
 
 
@@ -79,13 +106,12 @@ def _ordered(misfit: np.ndarray, between: np.ndarray, one: np.ndarray, other: np
     return np.argsort(best, kind="stable")[:_LOOKED]
 
 
-def _apart(order: np.ndarray, H: list[np.ndarray], count: int) -> np.ndarray:
-    """The first `count` of `order` that sensors tell apart."""
-    units = [h[order] / np.maximum(np.linalg.norm(h[order], axis=1), 1e-300)[:, None] for h in H]
+def _apart(order: np.ndarray, units: list[np.ndarray], size: list[float], count: int) -> np.ndarray:
+    """The first `count` of `order` that sensors tell apart: directions `units` of shapes (j, s), for measured ones of `size`."""
     taken, free = [], np.ones(len(order), bool)
     while free.any() and len(taken) < count:
         i = int(np.argmax(free))
         taken.append(i)
-        free &= np.mean([(u @ u[i]) ** 2 for u in units], axis=0) < _ALIKE
+        free &= sum(n * (1 - (u @ u[i]) ** 2) for n, u in zip(size, units, strict=True)) > _TOLD
         free[i] = False
     return order[taken]

@@ -7,6 +7,7 @@ import pytest
 from scipy.linalg import eigh
 
 from mouse_cli.diagnosis.candidates import registry
+from mouse_cli.diagnosis.fit import Model
 from mouse_cli.diagnosis.reduced import reduced
 from mouse_cli.formats import read_deck, write_deck
 from mouse_cli.model.arrays import dense
@@ -22,7 +23,10 @@ CANTILEVER = f"""
       - {{id: 1-30, type: beam, nodes: 1-31, material: steel, section: bar}}
 """
 MODELS = {
-    "cantilever": (CANTILEVER + "    supports: {1: all}\n    plane: XY\n", [(9, "TY"), (17, "TY"), (24, "TY"), (31, "TY")]),
+    "cantilever": (
+        CANTILEVER + "    supports: {1: all}\n    plane: XY\n",
+        [(9, "TY"), (17, "TY"), (24, "TY"), (31, "TY")],
+    ),
     "free": (CANTILEVER + "    plane: XY\n", [(1, "TY"), (11, "TY"), (18, "TY"), (31, "TY")]),
     "portal": (
         f"""
@@ -142,14 +146,10 @@ def sizes(recipe):
 
 def changed(model, recipe, values):
     """K, M and sensing of the reduced model with the cause."""
-    change, size = recipe.change(values), model.r + recipe.own
-    K, M = np.zeros((2, size, size))
-    S = np.zeros((len(model.sensing), size))
-    K[: model.r, : model.r], M[: model.r, : model.r] = np.diag(model.eigenvalues), np.eye(model.r)
-    S[:, : model.r] = model.sensing
-    K += 0 if change.K is None else change.K
-    M += 0 if change.M is None else change.M
-    S += 0 if change.sensing is None else change.sensing
+    K, M, S = Model(model, (recipe,)).added(recipe.coordinates(values))
+    K[: model.r, : model.r] += np.diag(model.eigenvalues)
+    M[: model.r, : model.r] += np.eye(model.r)
+    S[:, : model.r] += model.sensing
     return K, M, S
 
 
@@ -189,7 +189,10 @@ def test_the_deck_with_the_cause_is_the_reduced_model_with_it(models, name, key,
             assert found == pytest.approx(expected, rel=1e-3), (recipe.site(values), values)
             scale = max(np.abs(part).max() for part in seen)
             for one, other in zip(read, seen, strict=True):
-                assert one == pytest.approx(other, abs=0.02 * max(np.abs(other).max(), 1e-3 * scale)), (recipe.site(values), values)
+                assert one == pytest.approx(other, abs=0.02 * max(np.abs(other).max(), 1e-3 * scale)), (
+                    recipe.site(values),
+                    values,
+                )
             path = tmp_path / "extended.yaml"
             write_deck(extended, str(path))
             again = read_deck(str(path))
