@@ -21,6 +21,10 @@ TOLERANCE = 1e-8  # residual |A^-1 M x - theta x| / theta of a mode: its eigenva
 EXACT = 1e-12  # the same for partial derivatives that are to be exact to rounding
 _PARTED = 1e-4  # eigenvalues that lie so far apart, relative, can be counted from between them
 _TRIES = 4
+_COSTLY, _NOISY_LARGE = (
+    30_000,
+    1e-2,
+)  # degrees of freedom from which on refining costs too much for less, and then less than what
 _NOISY, _NOISY_EXACT = 1e-5, 1e-10  # rounding above which solutions are refined, by a bound 30 to 3000 times too large
 _CLEAN = 1e-9  # the same above which modes are freed of what rounding mixed into them
 _STEPS = 3  # of Newton's method for exact shapes
@@ -117,7 +121,8 @@ class EigenSolver:
         if factor.negative() != 0:  # Lanczos near the shift would not see what lies far below it
             raise IndefiniteError(f"the stiffness matrix has eigenvalues below {sigma:.6g} (rad/s)^2")
         noise = _noise(A, M, sigma)
-        refined = noise > (_NOISY if tolerance > EXACT else _NOISY_EXACT)
+        tolerated = _NOISY_EXACT if tolerance <= EXACT else _NOISY if A.shape[0] < _COSTLY else _NOISY_LARGE
+        refined = noise > tolerated
         extended = self._pencil.shifted(K, M, sigma, np.longdouble) if refined else None
         return Operator(factor, without_zeros(M), noise, extended)
 
