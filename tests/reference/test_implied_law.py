@@ -6,7 +6,7 @@ import pytest
 from mouse_cli.diagnosis.candidates import registry
 from mouse_cli.diagnosis.change import Change
 from mouse_cli.diagnosis.fit import Model, fit
-from mouse_cli.diagnosis.implied_law import _motion, implied_law
+from mouse_cli.diagnosis.implied_law import _gram, implied_law
 from mouse_cli.diagnosis.reduced import reduced
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
@@ -77,6 +77,10 @@ def test_its_standard_deviation_is_that_of_the_frequency():
         assert sd == pytest.approx(moved, rel=1e-3)
 
 
-def test_a_distributed_cause_has_none():
-    assert _motion(Change(K=np.diag([2.0, 3.0])), 2, 1.0, "N/m") is None
-    assert _motion(Change(K=np.diag([2.0, 0.0])), 2, 1.0, "1") is None
+def test_other_changes_have_none():
+    """A crack has no stiffness to the ground, and a change of K and M at once no law of one constant."""
+    spring = np.diag([2.0, 0.0])
+    assert _gram(Change(K=spring), 2, 2.0, "N/m").tolist() == [[1.0, 0.0], [0.0, 0.0]]
+    assert _gram(Change(K=spring), 2, 1.0, "1") is None
+    assert _gram(Change(K=spring, M=spring), 2, 1.0, "N/m") is None
+    assert _gram(Change(sensing=np.eye(2)), 2, 1.0, "kg") is None

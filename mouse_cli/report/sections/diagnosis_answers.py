@@ -118,7 +118,8 @@ def _open(found: Diagnosis) -> str:
     """What data that demand no cause leave possible."""
     if not found.probability < _DEMANDED:
         return ""
-    return f" The data demand no cause, and rule out none of those that lead the table either: no cause has {with_p(found.probability)}."
+    told = with_p(found.probability)
+    return f" The data demand no cause, and do not rule out those that lead the table either: no cause has {told}."
 
 
 def _noise(found: Diagnosis) -> str:
