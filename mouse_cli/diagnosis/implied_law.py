@@ -57,7 +57,7 @@ def _along(G: np.ndarray, x: np.ndarray) -> np.ndarray:
 
 
 def _dynamic(change: Change, lam: float, x: np.ndarray, G: np.ndarray) -> float:
-    """d(lambda) of the cause, its own degree of freedom condensed: x'(dK - lambda dM)x over the squared motion x'Gx of the place."""
+    """d(lambda) of the cause, its own degree of freedom condensed: x'(dK - lambda dM)x over x'Gx, the squared motion."""
     r = len(x)
     Z = np.zeros_like(change.K if change.K is not None else change.M)
     for matrix, factor in ((change.K, 1.0), (change.M, -lam)):
