@@ -4,13 +4,14 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from mouse_cli.diagnosis.decide import decide, explanations
+from mouse_cli.diagnosis.extended import extended
 from mouse_cli.diagnosis.fit import Fit
 from mouse_cli.diagnosis.implied_law import implied_law
 from mouse_cli.diagnosis.name import Ranking, group, rank
 from mouse_cli.diagnosis.next_measurement import proposals
 from mouse_cli.diagnosis.prove import held_out
 from mouse_cli.diagnosis.reduced import reduced
-from mouse_cli.model.diagnosis import NOTHING, ONE_OF, Diagnosis, Proposal
+from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, Diagnosis, Proposal
 from mouse_cli.model.problem import Problem
 from mouse_cli.updating.loop import run
 
@@ -28,6 +29,7 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None) -> Diagnosis:
     ranking = rank(model)
     decision = decide(ranking, result)
     best = None if decision.kind == NOTHING else leader(ranking)
+    deck = extended(problem, best) if decision.kind == NAMED else None
     return Diagnosis(
         problem=problem,
         kind=decision.kind,
@@ -39,6 +41,8 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None) -> Diagnosis:
         law=None if best is None else implied_law(best),
         held_out=held_out(model, ranking.baseline, best),
         proposals=_proposals(ranking) if decision.kind == ONE_OF else (),
+        extended=deck,
+        extended_result=None if deck is None else run(deck, notice=notice),
     )
 
 

@@ -1,0 +1,37 @@
+"""The deck with the named causes in it, and what it holds out brought to its degrees of freedom."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from mouse_cli.diagnosis.extend import moved
+from mouse_cli.diagnosis.fit import Fit
+from mouse_cli.model.hold_out import HoldOut
+from mouse_cli.model.problem import Problem
+
+
+def extended(problem: Problem, one: Fit) -> Problem | None:
+    """The deck with each cause of a fit added as a parameter; None where a cause cannot be put into a deck."""
+    deck = problem
+    for recipe, own in zip(one.recipes, one.model.own, strict=True):
+        if recipe.extend is None:
+            return None
+        deck = recipe.extend(deck, recipe.values(one.c[own]))
+    if problem.hold_out is None:
+        return deck
+    place = {label: i for i, label in enumerate(deck.structure.labels)}
+    to = np.array([place[label] for label in problem.structure.labels], int)
+    return replace(deck, hold_out=_moved(problem.hold_out, to, deck.structure.n))
+
+
+def _moved(held: HoldOut, to: np.ndarray, n: int) -> HoldOut:
+    """What is held out when degree of freedom i (from 0) of a model has become to[i] of n."""
+    altered = tuple(
+        replace(
+            one,
+            masses={int(to[dof]): value for dof, value in one.masses.items()},
+            springs={int(to[dof]): value for dof, value in one.springs.items()},
+        )
+        for one in held.altered
+    )
+    return replace(held, whole=moved(held.whole, to, n), altered=altered)
