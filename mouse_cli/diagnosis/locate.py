@@ -14,6 +14,7 @@ from mouse_cli.updating.chi_square import upper_tail
 _REGION = 0.9  # probability that the region holds
 _POINTS = 30  # most values of z that are tried besides the update and the prior mean
 _SETTLED = 0.5  # of the cost, that one more step for a place would gain
+_SCALES = np.linspace(-2.0, 2.0, 9)  # prior standard deviations of what moves all eigenvalues together
 _TRIES = 5  # steps for one place
 _FARTHEST = 2.0  # length of one
 _RIVAL = 12.0  # nats that a place may promise to be below the best and still be followed
@@ -77,8 +78,7 @@ def scores(model: Reduced) -> Scores | None:
 def matched(model: Reduced, measured: Shapes, rows: np.ndarray, most: int = _POINTS) -> Matches:
     """Places B (j, r), each at the best z found for it: every z that a leading place leads to is tried for all of them."""
     found = None
-    update = fit(Model(model), np.zeros(0))
-    for point in ([] if update is None else [update.point.x]) + [np.zeros_like(model.z)]:
+    for point in _starts(model):
         found = _better(found, _matches(model, measured, point, rows))
     damping, followed = np.zeros(len(rows)), np.zeros(len(rows), int)
     for number in range(most):
@@ -96,6 +96,19 @@ def matched(model: Reduced, measured: Shapes, rows: np.ndarray, most: int = _POI
         followed[place] += 1
         damping[place] = damping[place] / 10 if found.cost[place] < before else max(10 * damping[place], 0.1)
     return found
+
+
+def _starts(model: Reduced) -> list[np.ndarray]:
+    """z (k,) of the update, and along what moves all eigenvalues together, which a missing force upsets most."""
+    update, zero = fit(Model(model), np.zeros(0)), np.zeros_like(model.z)
+    first = [] if update is None else [update.point.x]
+    dK, dM = model.slopes(zero)
+    count = int(model.data.test.number.max())
+    lam = np.maximum(np.abs(model.eigenvalues[:count]), 1e-9 * np.abs(model.eigenvalues).max())
+    moved = np.einsum("krr->kr", dK)[:, :count] / lam - np.einsum("krr->kr", dM)[:, :count]
+    common = moved.mean(axis=1)
+    length = np.linalg.norm(common)
+    return first + ([zero] if length == 0 else [t * common / length for t in _SCALES])
 
 
 def _matches(model: Reduced, measured: Shapes, z: np.ndarray, rows: np.ndarray) -> Matches | None:

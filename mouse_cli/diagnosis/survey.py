@@ -70,10 +70,14 @@ def _look(model, measured, update: Fit, z: np.ndarray, scale: float, pairs, coun
         left((model.V[one[i : i + _EACH]] - model.V[other[i : i + _EACH]]) @ matcher.X)
         for i in range(0, len(one), _EACH)
     ]
-    order = _ordered(misfit, np.concatenate([*between, np.zeros(0)]), one, other)
-    rows = model.V[order] @ matcher.X
-    size = [float(np.sum(matcher.y(i) ** 2)) for i in looked]
-    return _apart(order, [matcher.nearest(i, rows)[2] for i in looked], size, count)
+    order = np.argsort(misfit, kind="stable")[:_LOOKED]
+    rows, size = model.V[order] @ matcher.X, [float(np.sum(matcher.y(i) ** 2)) for i in looked]
+    places = _apart(order, [matcher.nearest(i, rows)[2] for i in looked], size, count - count // 4)
+    if not len(one):
+        return places
+    ends = np.stack([one, other], axis=1)[np.argsort(np.concatenate(between), kind="stable")].ravel()
+    _, first = np.unique(np.concatenate([places, ends]), return_index=True)
+    return np.concatenate([places, ends])[np.sort(first)][:count]
 
 
 def _whitening(update: Fit, mode: int, weight: np.ndarray, scale: float) -> np.ndarray:
@@ -96,14 +100,6 @@ def _pairs(K: Matrix) -> tuple[np.ndarray, np.ndarray]:
     entries = coo_array(K)
     kept = (entries.row < entries.col) & (entries.data < 0)
     return entries.row[kept], entries.col[kept]
-
-
-def _ordered(misfit: np.ndarray, between: np.ndarray, one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """Degrees of freedom by the best of what a force on them, or on them and another, leaves."""
-    best = misfit.copy()
-    np.minimum.at(best, one, between)
-    np.minimum.at(best, other, between)
-    return np.argsort(best, kind="stable")[:_LOOKED]
 
 
 def _apart(order: np.ndarray, units: list[np.ndarray], size: list[float], count: int) -> np.ndarray:
