@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from benchmarks.saturn.decks import segments
-from benchmarks.saturn.following import Following
 from benchmarks.saturn.stack import MEASURED, Vehicle
 from benchmarks.saturn.vehicle import problem
 from mouse_cli.diagnosis.candidates import Candidate, registry
@@ -14,14 +13,6 @@ from mouse_cli.diagnosis.reduced import Reduced, reduced
 
 _STARTS, _FEWER = 8, 4  # fits of candidates with one unknown, and with more
 SENSORS = np.array([1, 3, 5, 7, 9, 11, 13, 14, 15, 17, 19, 20, 21, 22, 23, 25, 26, 27, 28]) - 1  # nodes of Table 5-5
-FOLLOW = (
-    "crack",
-    "joint",
-    "shear",
-    "stiffness-loss",
-    "taper",
-    "timoshenko",
-)  # candidates whose change depends on the EI of bars
 
 
 @dataclass(frozen=True)
@@ -57,8 +48,8 @@ def rivals(vehicle: Vehicle, fitted: int, keys: tuple[str, ...]) -> dict[str, Ri
 def _best(base: Reduced, candidate: Candidate) -> Fit | None:
     """The most probable of several fits, from the places and sizes that lower the misfit most."""
     starts = []
-    for place, recipe in enumerate(candidate.recipes(base, candidate)):
-        model = Model(base, (recipe,)) if candidate.key not in FOLLOW else Following(base, candidate, recipe, place)
+    for recipe in candidate.recipes(base, candidate):
+        model = Model(base, (recipe,))
         for values in recipe.grid:
             at = model.point(np.concatenate([base.z, recipe.coordinates(values)]))
             if at is not None:
