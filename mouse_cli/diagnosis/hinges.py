@@ -36,7 +36,7 @@ def places(
 
     extend(problem, bar, share, values): the deck with that in it.
     """
-    bars, chosen, found = model.bars, lines(model), []
+    chosen, found = lines(model), []
     total = sum(line.length for line in chosen)
     for line in chosen:
         where = Unknown("place", "m", 0.0, line.length, log=False)

@@ -23,7 +23,7 @@ def of_lines(model: Reduced, candidate: Candidate) -> list[Recipe]:
 
 
 def _recipe(model: Reduced, candidate: Candidate, line: Line, share: float) -> Recipe:
-    bars, L = model.bars, line.length
+    L = line.length
     d = Unknown("flexibility added", "1", 0.02, 3.0)
     w = Unknown("width over length", "1", 0.05, 0.4)
     x = Unknown("place", "m", 0.0, L, log=False)

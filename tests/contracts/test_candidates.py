@@ -146,7 +146,7 @@ def sizes(recipe):
 
 def changed(model, recipe, values):
     """K, M and sensing of the reduced model with the cause."""
-    K, M, S = Model(model, (recipe,)).added(recipe.coordinates(values))
+    K, M, S = Model(model, (recipe,)).added(np.append(model.z, recipe.coordinates(values)))
     K[: model.r, : model.r] += np.diag(model.eigenvalues)
     M[: model.r, : model.r] += np.eye(model.r)
     S[:, : model.r] += model.sensing
@@ -200,3 +200,41 @@ def test_the_deck_with_the_cause_is_the_reduced_model_with_it(models, name, key,
             for one, other in zip(total, back, strict=True):
                 assert dense(other) == pytest.approx(one, rel=1e-9, abs=1e-9 * np.abs(one).max())
             assert [p.name for p in again.parameters] == [p.name for p in extended.parameters]
+
+
+def test_every_candidate_acts_somewhere(models):
+    acting = {key for model in models.values() for key, c in registry().items() if c.recipes(model, c)}
+    assert acting == set(registry())
+
+
+@pytest.mark.parametrize(("name", "keys"), [("cantilever", ("crack", "mass")), ("portal", ("joint", "stiffness-loss")),
+    ("space", ("tension", "crack")), ("matrices", ("oscillator", "ground-spring")), ("matrices", ("stiffness-loss", "oscillator")), ("free", ("added-mass", "sensor-place"))])  # fmt: skip
+def test_two_causes_in_one_deck(models, name, keys, tmp_path):
+    model = models[name]
+    recipes = tuple(registry()[key].recipes(model, registry()[key])[0] for key in keys)
+    values = [next(sizes(recipe)) for recipe in recipes]
+    c = [recipe.coordinates(found) for recipe, found in zip(recipes, values, strict=True)]
+    expected = Model(model, recipes).point(np.concatenate([model.z, *c])).eigenvalues
+    extended = model.problem
+    for recipe, found in zip(recipes, values, strict=True):
+        extended = recipe.extend(extended, found)
+    write_deck(extended, str(tmp_path / "two.yaml"))
+    again = read_deck(str(tmp_path / "two.yaml"))
+    total = [dense(part) for part in assembly(again).matrices(again.prior.mean)]
+    found = eigh(*total, eigvals_only=True)[: len(expected)][:7]
+    assert found == pytest.approx(expected[:7], rel=2e-3, abs=1e-5 * found[-1])
+
+
+@pytest.mark.parametrize(("name", "key", "value"), [("cantilever", "ground-spring", 0), ("cantilever", "support-rotation", 0),
+    ("matrices", "ground-spring", 0), ("portal", "joint", 0), ("space", "tension", 0), ("masses", "mass", 0)])  # fmt: skip
+def test_what_was_found_is_what_is_estimated_next(models, name, key, value):
+    recipe = registry()[key].recipes(models[name], registry()[key])[0]
+    found = next(sizes(recipe))
+    extended = recipe.extend(models[name].problem, found)
+    new = extended.parameters[-1]
+    assert new.nominal == pytest.approx(found[value])
+    assert (new.transform, new.sd) == ("log", pytest.approx(new.nominal))
+    assert extended.prior.mean[-1] == new.nominal
+    changed_value = extended.prior.mean * np.append(np.ones(len(extended.parameters) - 1), 1.2)
+    one, other = (assembly(extended).matrices(theta) for theta in (extended.prior.mean, changed_value))
+    assert any(not np.allclose(dense(a), dense(b), rtol=1e-12, atol=0) for a, b in zip(one, other, strict=True))
