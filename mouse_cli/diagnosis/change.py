@@ -52,12 +52,23 @@ class Unknown:
 
 
 @dataclass(frozen=True)
+class Carried:
+    """Motion (r, a) of the model with a degrees of freedom of a cause's own; of all n that are free then (n, a), K and M times it."""
+
+    model: np.ndarray
+    whole: np.ndarray
+    K: np.ndarray
+    M: np.ndarray
+
+
+@dataclass(frozen=True)
 class Recipe:
     """A candidate at a place, or along a line of them when the place is an unknown.
 
     change(values), site(values): what it does, and where, for values (t,) of the unknowns. own: degrees of freedom of its own.
     grid (g, t): values to begin from. log_prior: ln of the share of the candidate's prior that this place has. extend(problem,
-    values): the deck with the cause in it. number: which of its candidate's recipes it is.
+    values): the deck with the cause in it. number: which of its candidate's recipes it is. carried: how degrees of
+    freedom of its own move the model along, which other causes see.
     """
 
     candidate: Any
@@ -69,6 +80,7 @@ class Recipe:
     log_prior: float = 0.0
     extend: Callable[[Problem, np.ndarray], Problem] | None = None
     number: int = 0
+    carried: Carried | None = None
 
     def values(self, coordinates: np.ndarray) -> np.ndarray:
         """Values (t,) at coordinates (t,)."""

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.change import Carried, Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.extend import Edit
 from mouse_cli.diagnosis.points import wanted
 from mouse_cli.diagnosis.reduced import Reduced
@@ -26,7 +26,7 @@ class Released:
     """a supports, (node, direction) in `held`, and their motion: K (r + a, r + a) and M with the cause but without springs.
 
     Those of the model itself are taken out. reading (s, a): what sensors read of them; resistance (a,): stiffness of the
-    structure against the motion of one support alone.
+    structure against the motion of one support alone. carried: motion of the structure with them.
     """
 
     held: tuple[tuple[int, int], ...]
@@ -34,6 +34,7 @@ class Released:
     M: np.ndarray
     reading: np.ndarray
     resistance: np.ndarray
+    carried: Carried
 
     def some(self, which: list[int], r: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """K, M and reading for a part of the supports."""
@@ -76,7 +77,8 @@ def released(model: Reduced, kinds: range) -> Released | None:
     blocks = [whole.T @ (matrix @ whole) for matrix in (K, M)]
     for block in blocks:
         block[: model.r, : model.r] = 0.0
-    return Released(tuple(held), *blocks, free.test.read(motion), np.asarray(K.diagonal())[s])
+    carried = Carried(model.V.T @ (M[f][:, f] @ motion[f]), motion, K @ motion, M @ motion)
+    return Released(tuple(held), *blocks, free.test.read(motion), np.asarray(K.diagonal())[s], carried)
 
 
 def _candidates(model: Reduced, kinds: range) -> list[tuple[int, int]]:
@@ -158,6 +160,7 @@ def _recipe(
         own=len(which),
         log_prior=-float(np.log(count)),
         extend=extend,
+        carried=Carried(*(getattr(found.carried, name)[:, which] for name in ("model", "whole", "K", "M"))),
     )
 
 

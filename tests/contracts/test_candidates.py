@@ -207,8 +207,17 @@ def test_every_candidate_acts_somewhere(models):
     assert acting == set(registry())
 
 
-@pytest.mark.parametrize(("name", "keys"), [("cantilever", ("crack", "mass")), ("portal", ("joint", "stiffness-loss")),
-    ("space", ("tension", "crack")), ("matrices", ("oscillator", "ground-spring")), ("matrices", ("stiffness-loss", "oscillator")), ("free", ("added-mass", "sensor-place"))])  # fmt: skip
+PAIRS = [
+    ("cantilever", ("crack", "mass")),
+    ("portal", ("joint", "stiffness-loss")),
+    ("space", ("tension", "crack")),
+    ("matrices", ("oscillator", "ground-spring")),
+    ("matrices", ("stiffness-loss", "oscillator")),
+    ("free", ("added-mass", "sensor-place")),
+]
+
+
+@pytest.mark.parametrize(("name", "keys"), PAIRS)
 def test_two_causes_in_one_deck(models, name, keys, tmp_path):
     model = models[name]
     recipes = tuple(registry()[key].recipes(model, registry()[key])[0] for key in keys)
