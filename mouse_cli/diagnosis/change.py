@@ -53,7 +53,7 @@ class Unknown:
 
 @dataclass(frozen=True)
 class Carried:
-    """Motion (r, a) of the model with a degrees of freedom of a cause's own; of all n that are free then (n, a), K and M times it."""
+    """Motion (r, a) of the model with a degrees of freedom of a cause's own; of all n free then (n, a), and K, M times it."""
 
     model: np.ndarray
     whole: np.ndarray
