@@ -12,13 +12,14 @@ import numpy as np
 
 from mouse_cli.diagnosis.lines import Line, joined_lines
 from mouse_cli.model.diagnosis import Site
-from mouse_cli.model.mesh import Mesh
+from mouse_cli.model.mesh import ElementSet, Mesh
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.bound_properties import BoundProperties, nominal_properties
 from mouse_cli.terms.constraints import Motion
 from mouse_cli.terms.elements import Layout, Properties, registry
 from mouse_cli.terms.elements import _beam as beam
 
+_BENDING, _STEP = ("E", "Iy", "Iz"), 1e-4  # properties that bending stiffness follows; step in them
 _STIFF = 1e-9  # share of the largest bending stiffness below which a bar does not bend in that plane
 
 
@@ -82,10 +83,13 @@ class Bars:
         """Mean EI over the length."""
         return float(np.average(self.EI, weights=self.length))
 
-    def softened(self, bars: np.ndarray, added: np.ndarray) -> np.ndarray:
-        """Change of K (r, r) when `added` (c, 2, 2) comes to the flexibility of `bars` (c,)."""
+    def lost(self, bars: np.ndarray, added: np.ndarray) -> np.ndarray:
+        """Change (c, 2, 2) of the stiffness of `bars` (c,) when `added` comes to their flexibility."""
         F = self.flexibility[bars]
-        core = np.linalg.inv(F + added) - np.linalg.inv(F)
+        return np.linalg.inv(F + added) - np.linalg.inv(F)
+
+    def strained(self, bars: np.ndarray, core: np.ndarray) -> np.ndarray:
+        """Matrix (r, r) of stiffnesses `core` (c, 2, 2) on the natural strains of `bars` (c,)."""
         rows = self.strain[bars]
         return rows.reshape(-1, rows.shape[-1]).T @ (core @ rows).reshape(-1, rows.shape[-1])
 
@@ -146,10 +150,7 @@ def bars(problem: Problem, motion: Motion, theta: np.ndarray, V: np.ndarray | No
     for number, elements in enumerate(mesh.elements):
         if elements.type != "beam" or elements.options.get("releases"):
             continue
-        layout = Layout(
-            mesh.coordinates[elements.nodes],
-            {k: o.default for k, o in registry()["beam"].options.items()} | elements.options,
-        )
+        layout = _layout(mesh, elements)
         own = tuple(b for b in problem.bindings if b.set == number)
         parts += _planes(number, mesh, layout, _properties(elements, layout, own, theta), motion, V)
     if not parts:
@@ -161,6 +162,34 @@ def bars(problem: Problem, motion: Motion, theta: np.ndarray, V: np.ndarray | No
     line, before, order = joined_lines(joined)
     joined = {name: value[order] for name, value in joined.items()}
     return Bars(**joined, line=line, before=before)
+
+
+def stiffening(problem: Problem, found: Bars, theta: np.ndarray) -> np.ndarray:
+    """d ln EI / d theta (b, p) of the bars."""
+    follows = np.zeros((len(found), len(theta)))
+    for j in sorted({b.parameter for b in problem.bindings if b.property in _BENDING}):
+        step = _STEP * (theta[j] or 1.0)
+        there = theta + step * (np.arange(len(theta)) == j)
+        follows[:, j] = (_stiffness(problem, found, there) / found.EI - 1) / step
+    return follows
+
+
+def _stiffness(problem: Problem, found: Bars, theta: np.ndarray) -> np.ndarray:
+    """EI (b,) of the bars at theta."""
+    EI = np.empty(len(found))
+    for number in np.unique(found.set).tolist():
+        elements = problem.mesh.elements[number]
+        own = tuple(b for b in problem.bindings if b.set == number)
+        p = _properties(elements, _layout(problem.mesh, elements), own, theta)
+        for plane, name in enumerate(("Iz", "Iy")):
+            at = (found.set == number) & (found.plane == plane)
+            EI[at] = (p["E"] * p[name])[found.member[at]]
+    return EI
+
+
+def _layout(mesh: Mesh, elements: ElementSet) -> Layout:
+    options = {key: option.default for key, option in registry()["beam"].options.items()}
+    return Layout(mesh.coordinates[elements.nodes], options | elements.options)
 
 
 def _properties(elements, layout: Layout, own: tuple, theta: np.ndarray) -> Properties:

@@ -45,23 +45,28 @@ class Model:
         """What each cause does at the coordinates c (t,)."""
         return [r.change(r.values(c[own])) for r, own in zip(self.recipes, self.own, strict=True)]
 
-    def added(self, c: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """K, M (size, size) and sensing (s, size) that the causes add at the coordinates c (t,)."""
-        changes = self.changes(c)
+    def added(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """K, M (size, size) and sensing (s, size) that the causes add at x (k + t,)."""
+        changes = self.changes(x[self.k :])
         K, M, S = self._sum(list(enumerate(changes)))
-        r = self.base.r
-        K[:r, :r] += self._softened(changes)
+        bars, core = self._softer(changes)
+        if len(bars):
+            K[: self.base.r, : self.base.r] += self.base.bars.strained(bars, core * self._follow(bars, x[: self.k]))
         return K, M, S
 
-    def _softened(self, changes: list[Change]) -> np.ndarray | float:
-        """Change of K (r, r) by all that makes bars softer, in series within each."""
+    def _softer(self, changes: list[Change]) -> tuple[np.ndarray, np.ndarray]:
+        """Bars (c,), and the changes of their stiffness (c, 2, 2) by all that makes them softer, in series within each."""
         parts = [change.softening for change in changes if change.softening is not None]
         if not parts:
-            return 0.0
+            return np.zeros(0, int), np.zeros((0, 2, 2))
         bars, at = np.unique(np.concatenate([part.bars for part in parts]), return_inverse=True)
         total = np.zeros((len(bars), 2, 2))
         np.add.at(total, at, np.concatenate([part.added for part in parts]))
-        return self.base.bars.softened(bars, total)
+        return bars, self.base.bars.lost(bars, total)
+
+    def _follow(self, bars: np.ndarray, z: np.ndarray) -> np.ndarray:
+        """EI of `bars` at z over what it is at the parameters of the base (c, 1, 1)."""
+        return np.exp(self.base.stiffening[bars] @ (z - self.base.z))[:, None, None]
 
     def _sum(self, parts: list[tuple[int, Change]]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """K, M (size, size) and sensing (s, size) that `parts` make, by number of the recipe; without what softens bars."""
@@ -79,7 +84,7 @@ class Model:
     def point(self, x: np.ndarray) -> "Point | None":
         """The model at x (k + t,); None where it is not physical."""
         r = self.base.r
-        K, M, S = self.added(x[self.k :])
+        K, M, S = self.added(x)
         K0, M0 = self.base.matrices(x[: self.k])
         K[:r, :r] += K0
         M[:r, :r] += M0
@@ -103,12 +108,12 @@ class Model:
         """d(prediction)/dx (q, k + t), whitened."""
         r, X, m = self.base.r, at.X, at.modes
         dK, dM = self.base.slopes(at.x[: self.k])
-        forces = [dK @ X[:r, m] - (dM @ X[:r, m]) * at.eigenvalues[m]]
-        inertia = [dM @ X[:r, m]]
-        G = [np.swapaxes(f, 1, 2) @ X[:r] for f in forces]  # (k, m, modes)
-        own = [np.einsum("prm,rm->pm", i, X[:r, m]) for i in inertia]
+        inertia = dM @ X[:r, m]
+        forces = dK @ X[:r, m] - inertia * at.eigenvalues[m] + self._following(at)
+        G = [np.swapaxes(forces, 1, 2) @ X[:r]]  # (k, m, modes)
+        own = [np.einsum("prm,rm->pm", inertia, X[:r, m])]
         sensed = np.zeros((self.k, at.seen.shape[0], len(m)))
-        for i, change in self._derivatives(at.x[self.k :]):
+        for i, change in self._derivatives(at.x):
             K, M, S = self._sum([(i, change)])
             moved = M @ X[:, m]
             G.append(((K @ X[:, m] - moved * at.eigenvalues[m]).T @ X)[None])
@@ -121,28 +126,39 @@ class Model:
         d_seen = np.einsum("sj,pmj->psm", at.seen, G / apart) - 0.5 * own[:, None] * at.seen[:, m] + sensed
         return self.base.data.jacobian(at.eigenvalues[m], at.seen[:, m], at.a, d_lambda.T, np.moveaxis(d_seen, 0, -1))
 
-    def _derivatives(self, c: np.ndarray) -> Iterator[tuple[int, Change]]:
+    def _following(self, at: "Point") -> np.ndarray | float:
+        """Forces (k, r, m) on the measured modes by what softens bars, as it follows their stiffness."""
+        bars, core = self._softer(self.changes(at.x[self.k :]))
+        if not len(bars):
+            return 0.0
+        rows = self.base.bars.strain[bars]
+        loads = (core * self._follow(bars, at.x[: self.k])) @ (rows @ at.X[: self.base.r, at.modes])
+        return np.einsum("bk,bir,bim->krm", self.base.stiffening[bars], rows, loads, optimize=True)
+
+    def _derivatives(self, x: np.ndarray) -> Iterator[tuple[int, Change]]:
         """Recipe and d(change)/dc, by central differences of the matrices, for each coordinate of the causes."""
+        z, c = x[: self.k], x[self.k :]
         changes = self.changes(c)
         for i, (recipe, own) in enumerate(zip(self.recipes, self.own, strict=True)):
             for j in range(own.start, own.stop):
                 sides = np.clip(c[j] + _STEP * self.width[j] * np.array([1, -1]), *self.bounds[j])
                 one, other = (self._with(recipe, c[own], j - own.start, side) for side in sides)
-                yield i, self._difference(changes, i, one, other, sides[0] - sides[1])
+                yield i, self._difference(z, changes, i, (one, other), sides[0] - sides[1])
 
     def _with(self, recipe: Recipe, c: np.ndarray, j: int, value: float) -> Change:
         there = c.copy()
         there[j] = value
         return recipe.change(recipe.values(there))
 
-    def _difference(self, changes: list[Change], i: int, one: Change, other: Change, length: float) -> Change:
-        """(one - other) / length for cause number i beside the other ones."""
+    def _difference(self, z: np.ndarray, changes: list[Change], i: int, sides: tuple[Change, Change], length: float):
+        """Their difference over `length`, for cause number i beside the other ones."""
         parts = []
         for name in ("K", "M", "sensing"):
-            a, b = getattr(one, name), getattr(other, name)
+            a, b = (getattr(side, name) for side in sides)
             parts.append(None if a is None else (a - b) / length)
-        if one.softening is not None:
-            a, b = (self._softened([*changes[:i], side, *changes[i + 1 :]]) for side in (one, other))
+        if sides[0].softening is not None:
+            one, other = (self._softer([*changes[:i], side, *changes[i + 1 :]]) for side in sides)
+            a, b = (self.base.bars.strained(bars, core * self._follow(bars, z)) for bars, core in (one, other))
             softer = (a - b) / length
             parts[0] = softer if parts[0] is None else parts[0] + softer
         return Change(*parts)

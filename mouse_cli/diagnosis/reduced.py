@@ -10,7 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
-from mouse_cli.diagnosis.bars import Bars, bars, motion_of
+from mouse_cli.diagnosis.bars import Bars, bars, motion_of, stiffening
 from mouse_cli.diagnosis.data import Data
 from mouse_cli.diagnosis.directions import Directions, directions, projected
 from mouse_cli.dynamics.contraction import Stack
@@ -98,6 +98,12 @@ class Reduced:
     def bars(self) -> Bars | None:
         """Bars that bend; None where there are none."""
         return None if self.motion is None else bars(self.problem, self.motion, self.theta, self.V)
+
+    @cached_property
+    def stiffening(self) -> np.ndarray:
+        """d ln EI / dz (b, k) of the bars: what softens them follows their stiffness."""
+        by = self.coordinates.slope(self.coordinates.mean + self.L @ self.z)[:, None] * self.L
+        return stiffening(self.problem, self.bars, self.theta) @ by
 
     def project(self, matrix) -> np.ndarray:
         """V' matrix V (r, r)."""

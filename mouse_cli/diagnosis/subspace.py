@@ -66,6 +66,11 @@ class Basis:
         T[:, before:], T[before:] = new, new.T
         self._T = T
 
+    def inertia(self, loads: np.ndarray) -> np.ndarray:
+        """M A^-1 `loads` (n, c): responses to them are what the first ones leave of R, in the next order of lambda."""
+        operator = self.space.operator
+        return operator.mass(operator.solve(np.ascontiguousarray(loads.T))).T
+
     def ritz(self) -> tuple[np.ndarray, np.ndarray]:
         """V (n, r) with V'MV = I, and eigenvalues (r,)."""
         if self.full:
@@ -90,6 +95,8 @@ def large(problem: Problem, total: Assembly, K: Matrix, M: Matrix, theta: np.nda
     if basis.full:
         return built(problem, total, theta, *basis.ritz(), by, stack)
     basis.responses(_moved(basis, stack, by.prior, int(problem.test.number.max())))
+    if basis.room >= _PLACES + problem.test.s:
+        basis.responses(basis.inertia(_placed(total.n, at, values)))
     model = built(problem, total, theta, *basis.ritz(), by, stack)
     places = survey(model, K, min(_PLACES, basis.room))
     basis.responses(_placed(total.n, places, np.eye(len(places))))
