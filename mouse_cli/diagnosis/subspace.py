@@ -95,7 +95,7 @@ def large(problem: Problem, total: Assembly, K: Matrix, M: Matrix, theta: np.nda
     if basis.full:
         return built(problem, total, theta, *basis.ritz(), by, stack)
     basis.responses(_moved(basis, stack, by.prior, int(problem.test.number.max())))
-    if basis.room >= _PLACES + problem.test.s:
+    if problem.test.s and basis.room >= _PLACES + problem.test.s:
         basis.responses(basis.inertia(_placed(total.n, at, values)))
     model = built(problem, total, theta, *basis.ritz(), by, stack)
     places = survey(model, K, min(_PLACES, basis.room))
