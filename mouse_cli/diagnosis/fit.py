@@ -49,6 +49,7 @@ class Model:
         """K, M (size, size) and sensing (s, size) that the causes add at x (k + t,)."""
         changes = self.changes(x[self.k :])
         K, M, S = self._sum(list(enumerate(changes)))
+        self._crossed(K, M)
         bars, core = self._softer(changes)
         if len(bars):
             K[: self.base.r, : self.base.r] += self.base.bars.strained(bars, core * self._follow(bars, x[: self.k]))
@@ -73,13 +74,38 @@ class Model:
         K, M = np.zeros((2, self.size, self.size))
         S = np.zeros((self.base.sensing.shape[0], self.size))
         for i, change in parts:
-            at = self.places[i]
+            at, G = self.places[i], self._carried(i)
             for into, matrix in ((K, change.K), (M, change.M)):
-                if matrix is not None:
+                if matrix is not None and G is not None:
+                    into += G.T @ matrix @ G
+                elif matrix is not None:
                     into[at[:, None], at] += matrix
-            if change.sensing is not None:
+            if change.sensing is not None and G is not None:
+                S += change.sensing @ G
+            elif change.sensing is not None:
                 S[:, at] += change.sensing
         return K, M, S
+
+    def _crossed(self, K: np.ndarray, M: np.ndarray) -> None:
+        """Adds what is between the own degrees of freedom of two causes that both carry the model along."""
+        own = [j for j, recipe in enumerate(self.recipes) if recipe.carried is not None]
+        for i, j in ((i, j) for i in own for j in own if i != j):
+            one, other = self.recipes[i].carried, self.recipes[j].carried
+            at = np.ix_(self.places[i][self.base.r :], self.places[j][self.base.r :])
+            K[at] += one.whole.T @ other.K
+            M[at] += one.whole.T @ other.M
+
+    def _carried(self, i: int) -> np.ndarray | None:
+        """Coordinates of cause i from those of all (., size), where other causes carry the model along."""
+        r, at = self.base.r, self.places[i]
+        others = [j for j, recipe in enumerate(self.recipes) if j != i and recipe.carried is not None]
+        if not others or self.recipes[i].carried is not None:
+            return None
+        G = np.zeros((len(at), self.size))
+        G[range(len(at)), at] = 1.0
+        for j in others:
+            G[:r, self.places[j][r:]] = self.recipes[j].carried.model
+        return G
 
     def point(self, x: np.ndarray) -> "Point | None":
         """The model at x (k + t,); None where it is not physical."""

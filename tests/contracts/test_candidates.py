@@ -209,6 +209,9 @@ def test_every_candidate_acts_somewhere(models):
 
 PAIRS = [
     ("cantilever", ("crack", "mass")),
+    ("cantilever", ("timoshenko", "support-rotation")),
+    ("cantilever", ("support-translation", "support-rotation")),
+    ("cantilever", ("support-translation", "mass")),
     ("portal", ("joint", "stiffness-loss")),
     ("space", ("tension", "crack")),
     ("matrices", ("oscillator", "ground-spring")),
