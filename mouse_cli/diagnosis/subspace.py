@@ -3,7 +3,8 @@
 Ritz vectors from what the eigensolver has already: its lowest modes and half as many of its Lanczos vectors besides; A^-1 L for
 loads L, A = K - sigma M by the factorisation that is there: unit loads at sensors, forces that the parameters put on the measured
 modes, and unit loads where a force that the model lacks may act. With A^-1 S' and A^-1 B in the space, S R(lambda) B is exact at
-lambda = sigma, twice over (Galerkin), and what is left of it elsewhere is of second order in lambda over the modes left out.
+lambda = sigma, twice over (Galerkin), and what is left of it elsewhere is of second order in lambda over the modes left out; where
+there is room, A^-1 M A^-1 S' makes it of the fourth.
 """
 
 from dataclasses import replace

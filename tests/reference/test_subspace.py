@@ -1,0 +1,124 @@
+"""The reduced model of a large one beside the whole: eigenvalues, receptances at sensors, parameters, with its error bounded."""
+
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+from scipy.sparse import csr_array, diags_array
+from scipy.sparse.linalg import splu
+
+from mouse_cli.diagnosis.reduced import WHOLE, reduced
+from mouse_cli.model.modal_test import ModalTest
+from mouse_cli.model.parameter import Gaussian, Parameter
+from mouse_cli.model.problem import Problem
+from mouse_cli.model.structure import ListedElements, Structure
+from mouse_cli.terms.assembly import assembly
+
+MODES, SENSORS = 6, 10
+
+
+def membrane(side: int) -> tuple[csr_array, csr_array]:
+    """K, M of side x (side + 3) unit masses on a net of springs that is held along its edges."""
+    from scipy.sparse import eye_array, kron
+
+    def line(n: int):
+        return diags_array([-np.ones(n - 1), 2 * np.ones(n), -np.ones(n - 1)], offsets=[-1, 0, 1])
+
+    K = kron(line(side), eye_array(side + 3)) + 1.3 * kron(eye_array(side), line(side + 3))
+    return csr_array(K * 1e4), csr_array(eye_array(K.shape[0]))
+
+
+def deck(side: int, p: int = 4) -> Problem:
+    """p factors, each of the springs of a share of the rows; a mass that the model lacks at 0.62 of the way, 3 % of the whole."""
+    K, M = membrane(side)
+    n, entries = K.shape[0], K.tocoo()
+    upper = entries.row <= entries.col
+    row, col, value = entries.row[upper], entries.col[upper], entries.data[upper]
+    A = np.zeros((len(row), p))
+    A[np.arange(len(row)), row * p // n] = value
+    heavy = M.toarray() + 0.03 * n * np.diag(np.eye(n)[hidden(n)])
+    lam, X = eigh(K.toarray(), heavy, subset_by_index=[0, MODES - 1])
+    dofs = np.linspace(3, n - 4, SENSORS).astype(int)
+    hz, shapes = np.sqrt(lam) / (2 * np.pi), X[dofs]
+    sd = 0.002 * np.abs(shapes).max(axis=0) * np.ones_like(shapes)
+    test = ModalTest(np.arange(1, MODES + 1), hz, 1e-4 * hz, dofs, shapes, sd)
+    parameters = tuple(Parameter(f"factor {j}", 0.02, 1.0) for j in range(p))
+    listed = ListedElements(np.zeros(len(row), bool), row, col)
+    return Problem("net", Structure(K, M), listed, A, parameters, Gaussian(np.ones(p), np.full(p, 0.02**2)), test)
+
+
+def hidden(n: int) -> int:
+    """Degree of freedom of the mass that the model lacks."""
+    return int(0.62 * n)
+
+
+@pytest.fixture(scope="module", params=[14, 30])
+def both(request):
+    problem = deck(request.param)
+    return problem, reduced(problem, problem.prior.mean)
+
+
+def test_it_is_smaller_and_has_the_measured_modes(both):
+    """Ritz values against LAPACK's eigenvalues of the whole matrices."""
+    problem, model = both
+    K, M = (matrix.toarray() for matrix in assembly(problem).matrices(problem.prior.mean))
+    assert len(K) > WHOLE and model.r <= 150 and model.r < len(K)
+    lam = eigh(K, M, eigvals_only=True, subset_by_index=[0, MODES + 3])
+    np.testing.assert_allclose(model.eigenvalues[: len(lam)], lam, rtol=1e-9)
+    np.testing.assert_allclose(model.V.T @ M @ model.V, np.eye(model.r), atol=1e-8)
+    np.testing.assert_allclose(
+        model.project(csr_array(K)), np.diag(model.eigenvalues), atol=1e-8 * model.eigenvalues[-1]
+    )
+
+
+def test_a_force_anywhere_is_seen_by_sensors_as_in_the_whole_model(both):
+    """S R(lambda) B at the measured eigenvalues, for B at every degree of freedom: sparse LU of K - lambda M at the sensors."""
+    problem, model = both
+    K, M = assembly(problem).matrices(problem.prior.mean)
+    S = np.eye(K.shape[0])[:, problem.test.dofs]
+    for hz in problem.test.frequency_hz:
+        lam = 1.01 * (2 * np.pi * hz) ** 2  # beside the mode that the mass leaves alone
+        whole = splu((K - lam * M).tocsc()).solve(S).T
+        ours = (model.sensing / (model.eigenvalues - lam)) @ model.V.T
+        assert np.abs(ours - whole).max() < 5e-4 * np.abs(whole).max()
+        at = model.places
+        assert np.abs(ours[:, at] - whole[:, at]).max() < 2e-5 * np.abs(whole).max()
+
+
+def test_parameters_move_it_as_they_move_the_whole_model(both):
+    """Two prior standard deviations away, in a direction of their own each: eigenvalues of the whole matrices there."""
+    problem, model = both
+    z = np.array([2.0, -1.0, 1.0, -2.0])
+    K, M = (matrix.toarray() for matrix in assembly(problem).matrices(model.parameters(z)))
+    np.testing.assert_allclose(
+        eigh(*model.matrices(z), eigvals_only=True)[:MODES], eigh(K, M, eigvals_only=True)[:MODES], rtol=1e-5
+    )
+
+
+def test_the_place_of_a_mass_is_among_those_looked_at(both):
+    """Or its neighbour, whose force the sensors cannot tell from it."""
+    problem, model = both
+    n = problem.structure.n
+    width = int(np.sqrt(n + 2.25) - 1.5) + 3
+    rows, cols = np.divmod(model.places, width)
+    row, col = divmod(hidden(n), width)
+    assert np.min(np.abs(rows - row) + np.abs(cols - col)) <= 1
+
+
+def test_of_many_parameters_the_directions_that_data_see_are_kept():
+    """80 of them: a unit step along what is kept moves the data as the whole model; what is dropped hardly moves a frequency."""
+    problem = deck(14, 80)
+    model = reduced(problem, problem.prior.mean)
+    assert model.dK.shape[0] == model.L.shape[1] <= 40
+    z = np.zeros(model.L.shape[1])
+    z[0] = 1.0
+    K, M = (matrix.toarray() for matrix in assembly(problem).matrices(model.parameters(z)))
+    np.testing.assert_allclose(
+        eigh(*model.matrices(z), eigvals_only=True)[:MODES], eigh(K, M, eigvals_only=True)[:MODES], rtol=1e-5
+    )
+    step = 1e-4 * np.random.default_rng(0).standard_normal(80)
+    D = model.L / 0.02
+    parts = (np.zeros(80), step, step - D @ (D.T @ step))
+    before, moved, left = (
+        eigh(*(m.toarray() for m in assembly(problem).matrices(1 + part)), eigvals_only=True)[:MODES] for part in parts
+    )
+    assert np.abs(left - before).max() < 0.02 * np.abs(moved - before).max()
