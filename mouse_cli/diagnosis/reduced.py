@@ -128,6 +128,24 @@ class Reduced:
             sensing=self.sensing[:, :r],
         )
 
+    def at(self, theta: np.ndarray) -> "Reduced":
+        """The same model at other values theta (p,) of its parameters; a large one in the same subspace, with the same places."""
+        if self.V.shape[0] <= WHOLE:
+            return replace(reduced(self.problem, theta), data=self.data, sensing=self.sensing)
+        step = self._along @ (theta - self.theta)
+        K = np.diag(self.eigenvalues) + np.tensordot(step, self.dK, 1)
+        solution = dense_solution(K, np.eye(self.r) + np.tensordot(step, self.dM, 1))
+        X = solution.shapes
+        return replace(
+            self,
+            theta=theta,
+            V=self.V @ X,
+            eigenvalues=solution.eigenvalues,
+            dK=X.T @ self.dK @ X,
+            dM=X.T @ self.dM @ X,
+            sensing=self.sensing @ X,
+        )
+
     def without(self, keep_modes: np.ndarray) -> "Reduced":
         """The same model with fewer measured modes: mask `keep_modes` (m,)."""
         return self.with_test(restricted(self.data.test, keep_modes))
