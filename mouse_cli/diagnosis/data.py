@@ -1,5 +1,7 @@
 """The modal test as a diagnosis sees it: logarithms of frequencies, and shapes of unknown sign and length."""
 
+from copy import copy
+
 import numpy as np
 
 from mouse_cli.dynamics.correlation import pair
@@ -28,7 +30,18 @@ class Data:
         self._w = np.where(self.has_shape, 1 / np.where(self.has_shape, sd, 1.0), 0.0)
         self._y = shapes * self._w
         self.scaled = test.scale != "none"
+        self.slack = 0.0  # by which log_sd is larger than that of the test as it was
         self.by_shape = bool(test.s) and self.has_shape.sum(axis=0).min(initial=0) >= 2
+
+    def loosened(self, of_frequencies: np.ndarray, of_shapes: np.ndarray) -> "Data":
+        """The same data with further errors: sd of ln f (m,), and of shapes (s, m) at their own scale."""
+        found = copy(self)
+        found.sd_log = np.hypot(self.sd_log, of_frequencies)
+        sd = np.hypot(1 / np.where(self.has_shape, self._w, 1.0), of_shapes)
+        found._w = np.where(self.has_shape, 1 / sd, 0.0)
+        found._y = np.nan_to_num(self.test.shapes) * found._w
+        found.slack = found.log_sd - (self.log_sd - self.slack)
+        return found
 
     @property
     def dof(self) -> int:

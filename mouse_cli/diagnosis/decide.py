@@ -38,6 +38,10 @@ def decide(ranking: Ranking, result: Result) -> Decision:
     dof = max(leader.dof, 1)
     if upper_tail(leader.misfit, dof) < GATE and leader.misfit > _INADEQUATE * dof:
         return Decision(UNKNOWN, probability)
+    if not leader.model.base.data.by_shape and any(recipe.own for recipe in leader.recipes):
+        return Decision(
+            ONE_OF, probability
+        )  # paired by number, a list of frequencies cannot prove that it holds one mode more
     odds = (leader.log_evidence - ranking.baseline.log_evidence) / ranking.noise_scale
     if probability >= _SURE and name != "none" and odds > _ODDS:
         return Decision(NAMED, probability)

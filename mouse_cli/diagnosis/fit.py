@@ -297,4 +297,11 @@ def _capped(H: np.ndarray, model: Model) -> np.ndarray:
 def _evidence(J: float, H: np.ndarray, model: Model) -> float:
     places = sum(recipe.log_prior for recipe in model.recipes)
     _, size = np.linalg.slogdet(_capped(H, model))
-    return -0.5 * J - float(np.log(model.width).sum()) + 0.5 * model.t * np.log(2 * np.pi) - 0.5 * size + places
+    return (
+        -0.5 * J
+        - float(np.log(model.width).sum())
+        + 0.5 * model.t * np.log(2 * np.pi)
+        - 0.5 * size
+        + places
+        - model.base.data.slack
+    )

@@ -17,6 +17,7 @@ from mouse_cli.updating.chi_square import upper_tail
 
 _STARTS = 3  # fits of a candidate, from the best places of its grid
 _SETTLE, _MOVED = 3, 5e-3  # times that causes are weighed anew, as long as parameters move more than that share
+_THEORY = 0.01  # of what a cause does to frequencies and shapes, by which its theory may be wrong
 _COARSE = 24  # coordinates at least for a first look
 _NONE = 0.3  # prior probability that nothing is missing
 _PAIRED = 5  # candidates that are tried in pairs
@@ -96,7 +97,22 @@ class Study:
     def at(self, one: Fit) -> "Study":
         """The same at the parameters that a fit found."""
         theta = one.model.base.parameters(one.point.x[: self.k])
-        return Study(reduced(self.model.problem, theta))
+        return Study(self.model.at(theta) if self.model.places is not None else reduced(self.model.problem, theta))
+
+
+def idealised(one: Fit | None) -> Fit | None:
+    """The fit when the theory of its causes is right to some share of what they do."""
+    if one is None or not one.recipes:
+        return one
+    base, at = one.model.base, one.point
+    bare = Model(base).point(at.x[: one.model.k])
+    if bare is None:
+        return one
+    off = _THEORY * 0.5 * np.log(at.eigenvalues[at.modes] / bare.eigenvalues[bare.modes])
+    _, a = base.data.residual(bare.eigenvalues[bare.modes], bare.seen[:, bare.modes])
+    moved = _THEORY * (at.a * at.seen[:, at.modes] - a * bare.seen[:, bare.modes])
+    loose = Model(replace(base, data=base.data.loosened(off, moved)), one.recipes)
+    return fit(loose, one.c, at.x[: one.model.k]) or one
 
 
 def settled(one: Fit, study: Study) -> Fit:
@@ -107,7 +123,8 @@ def settled(one: Fit, study: Study) -> Fit:
         if not one.recipes or np.all(np.abs(theta - before) <= _MOVED * np.abs(before)):
             break
         there = study.at(one)
-        again = fit(Model(there.model, there.own(one.recipes)), one.c, one.point.x[: one.model.k])
+        base = replace(there.model, data=one.model.base.data)
+        again = fit(Model(base, there.own(one.recipes)), one.c, one.point.x[: one.model.k])
         if again is None:
             break
         one = again
@@ -171,7 +188,7 @@ def best(study: Study, name: str, beside: Fit | None = None) -> Fit | None:
 
 
 def _summed(found: list[Fit]) -> Fit | None:
-    """The best of several optima; those at other places add to its evidence."""
+    """The best of several optima, its theory taken for as good as it is; those at other places add to its evidence."""
     if not found:
         return None
     found.sort(key=lambda one: -one.log_evidence)
@@ -179,8 +196,9 @@ def _summed(found: list[Fit]) -> Fit | None:
     for one in found:
         if not any(_same(one, other) for other in distinct):
             distinct.append(one)
-    total = np.logaddexp.reduce([one.log_evidence for one in distinct])
-    return replace(distinct[0], log_evidence=float(total))
+    others = np.logaddexp.reduce([one.log_evidence for one in distinct]) - distinct[0].log_evidence
+    best = idealised(distinct[0])
+    return replace(best, log_evidence=best.log_evidence + float(others))
 
 
 def _same(one: Fit, other: Fit) -> bool:

@@ -20,6 +20,10 @@ from mouse_cli.terms.matrix_entries import MatrixEntries
 from mouse_cli.updating.coordinates import Coordinates
 
 
+_ROUNDING = 1e-15  # error of an eigenvalue for each degree of freedom, as a share of the largest of all
+_UNSEEN = 1e-10  # the same where only the lowest eigenvalues are known, as a share of the largest of those
+
+
 @dataclass(frozen=True)
 class Setting:
     """What stays the same during a run: problem, assembly, coordinates, data at the scale of the theory, and the eigensolver."""
@@ -127,9 +131,13 @@ class State:
 
 
 def reference_eigenvalue(problem: Problem, eigenvalues: np.ndarray) -> float:
-    """The eigenvalue by which zero is judged: that of the first measured mode, else a share of the largest."""
+    """The eigenvalue by which zero is judged: that of the first measured mode, else what rounding makes of zero."""
     measured = _lowest_measured(problem)
-    return float(np.abs(eigenvalues).max()) * 1e-4 if measured is None else measured
+    if measured is not None:
+        return measured
+    whole = len(eigenvalues) == problem.structure.n
+    zero = _ROUNDING * len(eigenvalues) if whole else _UNSEEN
+    return float(np.abs(eigenvalues).max()) * zero / RIGID
 
 
 def _lowest_measured(problem: Problem) -> float | None:
