@@ -31,7 +31,7 @@ class Data:
         self._y = shapes * self._w
         self.scaled = test.scale != "none"
         self.slack = 0.0  # by which log_sd is larger than that of the test as it was
-        self.by_shape = bool(test.s) and self.has_shape.sum(axis=0).min(initial=0) >= 2
+        self.by_shape = self.has_shape.size > 0 and int(self.has_shape.sum(axis=0).min()) >= 2
 
     def loosened(self, of_frequencies: np.ndarray, of_shapes: np.ndarray) -> "Data":
         """The same data with further errors: sd of ln f (m,), and of shapes (s, m) at their own scale."""

@@ -12,8 +12,10 @@ from mouse_cli.diagnosis.next_measurement import proposals
 from mouse_cli.diagnosis.prove import held_out
 from mouse_cli.diagnosis.reduced import reduced
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, Diagnosis, Proposal
+from mouse_cli.model.modal_test import restricted
 from mouse_cli.model.problem import Problem
-from mouse_cli.updating.loop import run
+from mouse_cli.model.result import Result
+from mouse_cli.updating.loop import related, run
 
 Notice = Callable[[str], None]
 
@@ -24,7 +26,7 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None) -> Diagnosis:
     Raises DeckError and NumericalError as `run` does.
     """
     problem = replace(problem, run=replace(problem.run, recursion="anchored", estimator="bayes"))
-    result = run(problem, notice=notice)
+    result, remarks = _update(problem, notice)
     model = reduced(problem, problem.prior.mean)
     ranking = rank(model)
     decision = decide(ranking, result)
@@ -41,9 +43,20 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None) -> Diagnosis:
         law=None if best is None else implied_law(best),
         held_out=held_out(model, ranking.baseline, best),
         proposals=_proposals(ranking) if decision.kind == ONE_OF else (),
+        remarks=remarks,
         extended=deck,
         extended_result=None if deck is None else run(deck, notice=notice),
     )
+
+
+def _update(problem: Problem, notice: Notice) -> tuple[Result, tuple[str, ...]]:
+    """The update of the model as it is, by those modes that have to do with it; what to say of the others."""
+    kept = related(problem)
+    lost = ", ".join(str(number) for number in problem.test.number[~kept])
+    if kept.all() or not kept.any():
+        return run(problem, notice=notice), ()
+    told = f"no mode of the model is like measured mode {lost}: the update of the model as it is goes without"
+    return run(replace(problem, test=restricted(problem.test, kept)), notice=notice), (told,)
 
 
 def leader(ranking: Ranking) -> Fit | None:

@@ -19,10 +19,10 @@ _STARTS = 3  # fits of a candidate, from the best places of its grid
 _SETTLE, _MOVED = 3, 5e-3  # times that causes are weighed anew, as long as parameters move more than that share
 _THEORY = 0.01  # of what a cause does to frequencies and shapes, by which its theory may be wrong
 _COARSE = 24  # coordinates at least for a first look
-_NONE = 0.3  # prior probability that nothing is missing
+_PRIOR = 0.3, 0.6, 0.1  # probability that nothing is missing, one cause, two
 _PAIRED = 5  # candidates that are tried in pairs
 _ADEQUATE = 0.05  # probability of a misfit below which a second cause is sought
-_MATERIAL, _SHARE = 3.0, 0.01  # nats that a second cause must gain, and share of the gain so far
+_MATERIAL = 3.0  # nats that a second cause must gain
 
 
 @dataclass(frozen=True)
@@ -132,8 +132,9 @@ def settled(one: Fit, study: Study) -> Fit:
 
 
 def group(one: Fit) -> str:
-    """Groups of the causes of a fit; `none` without any."""
-    return " + ".join(sorted(recipe.candidate.group for recipe in one.recipes)) or "none"
+    """Groups of the causes of a fit; `none` without any. A support that gives way in two manners is one cause."""
+    groups = sorted(recipe.candidate.group for recipe in one.recipes)
+    return " + ".join(name for i, name in enumerate(groups) if name != "support" or name not in groups[:i]) or "none"
 
 
 def key(one: Fit) -> tuple[str, ...]:
@@ -148,24 +149,25 @@ def rank(model: Reduced) -> Ranking:
     singles = [one for name in registry() for one in [best(study, name)] if one is not None]
     fits = [baseline, *singles]
     if singles and not adequate(min(singles, key=lambda one: one.misfit)):
-        fits += pairs(study, baseline, singles)
+        fits += pairs(study, singles)
     return ranking(baseline, fits)
 
 
 def ranking(baseline: Fit, fits: list[Fit]) -> Ranking:
     """Probabilities of `fits` with the noise scale that the best of them needs."""
     scale = max(1.0, min(one.misfit / max(one.dof, 1) for one in fits))
-    kinds: dict[str, int] = {}
-    for one in fits:
-        kinds[group(one)] = kinds.get(group(one), 0) + 1
-    others = max(len(kinds) - 1, 1)
-    weights = [
-        np.log(_NONE if group(one) == "none" else (1 - _NONE) / others / kinds[group(one)]) + one.log_evidence / scale
-        for one in fits
-    ]
-    weights = np.exp(np.array(weights) - max(weights))
+    weights = np.array([_prior(one, fits) + one.log_evidence / scale for one in fits])
+    weights = np.exp(weights - weights.max())
     order = np.argsort(-weights)
     return Ranking(baseline, tuple(fits[i] for i in order), scale, weights[order] / weights.sum())
+
+
+def _prior(one: Fit, fits: list[Fit]) -> float:
+    """ln of the prior probability: shared evenly by groups, two causes by all pairs of groups, and within a group by its members."""
+    singles = {group(each) for each in fits if len(each.recipes) == 1}
+    share = {0: 1, 1: max(len(singles), 1), 2: max(len(singles) * (len(singles) + 1) // 2, 1)}[len(one.recipes)]
+    alike = sum(group(each) == group(one) and len(each.recipes) == len(one.recipes) for each in fits)
+    return float(np.log(_PRIOR[len(one.recipes)] / share / alike))
 
 
 def adequate(one: Fit, least: float = _ADEQUATE) -> bool:
@@ -208,7 +210,7 @@ def _same(one: Fit, other: Fit) -> bool:
     return bool((np.abs(one.c - other.c) < 2 * sd + 1e-3 * one.model.width).all())
 
 
-def pairs(study: Study, baseline: Fit, singles: list[Fit]) -> list[Fit]:
+def pairs(study: Study, singles: list[Fit]) -> list[Fit]:
     """Two causes: the leading one with every candidate, and the best of the leading groups with one another."""
     leading = _leading(singles)
     found: dict[tuple[str, ...], Fit] = {}
@@ -217,7 +219,7 @@ def pairs(study: Study, baseline: Fit, singles: list[Fit]) -> list[Fit]:
         partners = registry() if first is leading[0] else [one.recipes[0].candidate.key for one in leading]
         for name in partners:
             two = best(there, name, first)
-            if two is not None and _material(two, baseline, singles):
+            if two is not None and _material(two, singles):
                 other = found.get(key(two))
                 if other is None or two.log_evidence > other.log_evidence:
                     found[key(two)] = two
@@ -232,9 +234,7 @@ def _leading(singles: list[Fit]) -> list[Fit]:
     return list(found.values())[:_PAIRED]
 
 
-def _material(two: Fit, baseline: Fit, singles: list[Fit]) -> bool:
-    """Whether both causes are needed: what two gain over the better of them alone matters beside what that one gains."""
+def _material(two: Fit, singles: list[Fit]) -> bool:
+    """Whether both causes are needed: what two gain over the better of them alone."""
     alone = [one.log_evidence for one in singles if set(key(one)) <= set(key(two))]
-    if not alone:
-        return True
-    return two.log_evidence - max(alone) > max(_MATERIAL, _SHARE * (max(alone) - baseline.log_evidence))
+    return not alone or two.log_evidence - max(alone) > _MATERIAL

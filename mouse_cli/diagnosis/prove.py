@@ -10,11 +10,11 @@ import numpy as np
 
 from mouse_cli.diagnosis.change import Change, Recipe
 from mouse_cli.diagnosis.fit import Fit, Model, fit
-from mouse_cli.diagnosis.reduced import Reduced, restricted
+from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.dynamics.correlation import mac
 from mouse_cli.model.diagnosis import HeldOut, Score
 from mouse_cli.model.hold_out import HoldOut
-from mouse_cli.model.modal_test import ModalTest
+from mouse_cli.model.modal_test import ModalTest, restricted
 
 _COVERED = 1.6448536269514722  # standard deviations of a 90 % interval
 

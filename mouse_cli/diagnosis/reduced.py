@@ -17,7 +17,7 @@ from mouse_cli.dynamics.contraction import Stack
 from mouse_cli.dynamics.eigen import dense_solution
 from mouse_cli.dynamics.sensing import read
 from mouse_cli.model.arrays import dense
-from mouse_cli.model.modal_test import ModalTest
+from mouse_cli.model.modal_test import ModalTest, restricted
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import Assembly, assembly
 from mouse_cli.terms.constraints import Motion
@@ -153,18 +153,6 @@ class Reduced:
     def with_test(self, test: ModalTest, sensing: np.ndarray | None = None) -> "Reduced":
         """The same model for another test, of the same sensors or of `sensing` (s, r)."""
         return replace(self, data=Data(test), sensing=self.sensing if sensing is None else sensing)
-
-
-def restricted(test: ModalTest, modes: np.ndarray) -> ModalTest:
-    """The test with the modes of the mask `modes` (m,) alone."""
-    return replace(
-        test,
-        number=test.number[modes],
-        frequency_hz=test.frequency_hz[modes],
-        frequency_sd_hz=test.frequency_sd_hz[modes],
-        shapes=test.shapes[:, modes],
-        shape_sd=test.shape_sd[:, modes],
-    )
 
 
 def reduced(problem: Problem, theta: np.ndarray) -> Reduced:

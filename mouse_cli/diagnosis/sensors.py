@@ -29,6 +29,19 @@ def suspects(model: Reduced, most: int = _MOST) -> list[int]:
     return known[np.argsort(-size[known], kind="stable")][:most].tolist()
 
 
+def regressed(model: Reduced, k: int, limits: tuple[float, float]) -> float:
+    """The multiple of what the model lets sensor k read that comes nearest to its readings, within limits."""
+    from mouse_cli.diagnosis.fit import Model
+
+    at, data = Model(model).point(model.z), model.data
+    if at is None:
+        return 1.0
+    known = data.has_shape[k]
+    read, w = at.a[known] * at.seen[k, at.modes[known]], 1 / data.test.shape_sd[k, known]
+    gain = float(np.sum(w * w * read * data.test.shapes[k, known]) / max(np.sum((w * read) ** 2), 1e-300))
+    return float(np.clip(gain, *limits))
+
+
 def share(model: Reduced) -> float:
     """ln of the share of one sensor in the prior of all."""
     return -float(np.log(max(model.data.test.s, 1)))

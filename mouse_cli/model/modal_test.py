@@ -1,6 +1,6 @@
 """What a modal test measured: natural frequencies and mode shapes at some degrees of freedom, with their accuracies."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -61,3 +61,15 @@ class ModalTest:
     def read(self, shapes: np.ndarray) -> np.ndarray:
         """What the sensors read (s, k) of `shapes` (n, k)."""
         return shapes[self.dofs] if self.sensing is None else self.sensing @ shapes
+
+
+def restricted(test: ModalTest, modes: np.ndarray) -> ModalTest:
+    """The test with the modes of the mask `modes` (m,) alone."""
+    return replace(
+        test,
+        number=test.number[modes],
+        frequency_hz=test.frequency_hz[modes],
+        frequency_sd_hz=test.frequency_sd_hz[modes],
+        shapes=test.shapes[:, modes],
+        shape_sd=test.shape_sd[:, modes],
+    )

@@ -18,6 +18,7 @@ from mouse_cli.estimators.linear import (
     in_prior_units,
 )
 from mouse_cli.model.arrays import is_sparse
+from mouse_cli.model.modal_test import restricted
 from mouse_cli.model.problem import MOST_COVARIANCE, Problem
 from mouse_cli.model.result import ChiSquareTest, Result, Snapshot, Status
 from mouse_cli.observables.modal import UnrelatedShapes, observe
@@ -44,6 +45,20 @@ def run(problem: Problem, progress: Progress = lambda cycle: None, notice: Notic
         return _run(problem, estimator, progress, notice)
     except np.linalg.LinAlgError as reason:
         raise refusals.unphysical(problem, f"{reason} (values beyond what can be computed with)") from None
+
+
+def related(problem: Problem) -> np.ndarray:
+    """Mask (m,) of the measured modes whose shapes have anything to do with the modes of the prior model they are paired with."""
+    K, M = assemble(problem).matrices(problem.prior.mean)
+    solution = solve(problem, K, M)
+    modes, kept = paired(problem, solution), np.ones(problem.test.m, bool)
+    while kept.any():
+        try:
+            observe(restricted(problem.test, kept), M, solution, modes[kept])
+            return kept
+        except UnrelatedShapes as reason:
+            kept[np.flatnonzero(kept)[reason.mode]] = False
+    return kept
 
 
 def examine(problem: Problem) -> None:

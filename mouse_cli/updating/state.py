@@ -19,7 +19,6 @@ from mouse_cli.terms.assembly import Assembly
 from mouse_cli.terms.matrix_entries import MatrixEntries
 from mouse_cli.updating.coordinates import Coordinates
 
-
 _ROUNDING = 1e-15  # error of an eigenvalue for each degree of freedom, as a share of the largest of all
 _UNSEEN = 1e-10  # the same where only the lowest eigenvalues are known, as a share of the largest of those
 

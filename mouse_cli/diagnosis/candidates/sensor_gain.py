@@ -3,9 +3,9 @@
 import numpy as np
 
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.change import Change, Recipe, Unknown
 from mouse_cli.diagnosis.reduced import Reduced
-from mouse_cli.diagnosis.sensors import changed, row, share, site, suspects, with_readings
+from mouse_cli.diagnosis.sensors import changed, regressed, row, share, site, suspects, with_readings
 from mouse_cli.model.problem import Problem
 
 
@@ -16,7 +16,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
 
 def _recipe(model: Reduced, candidate: Candidate, k: int) -> Recipe:
     gain = Unknown("gain", "1", 0.1, 3.0)
-    where = site(model.problem, k)
+    where, start = site(model.problem, k), np.array([[regressed(model, k, (gain.lower, gain.upper))]])
 
     def change(values: np.ndarray) -> Change:
         return Change(sensing=changed(model, {k: values[0] * model.sensing[k]}))
@@ -24,7 +24,7 @@ def _recipe(model: Reduced, candidate: Candidate, k: int) -> Recipe:
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         return with_readings(problem, {k: values[0] * row(problem, k)})
 
-    return Recipe(candidate, (gain,), change, steps(gain, 3)[:, None], lambda values: where, 0, share(model), extend)
+    return Recipe(candidate, (gain,), change, start, lambda values: where, 0, share(model), extend)
 
 
 CANDIDATE = Candidate(
