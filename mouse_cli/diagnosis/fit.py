@@ -20,7 +20,7 @@ from mouse_cli.diagnosis.reduced import Reduced
 
 _STEP = 1e-5  # of a range, for derivatives of matrices
 _SMALL = 1e-4  # change of J, relative to 1 + its share of rounding, that ends the search
-_MOST = 40
+MOST = 40
 _GIVE_UP = 1e8
 
 
@@ -239,7 +239,7 @@ class Fit:
         return self.point.x[self.model.k :]
 
 
-def fit(model: Model, c: np.ndarray, z: np.ndarray | None = None, most: int = _MOST) -> Fit | None:
+def fit(model: Model, c: np.ndarray, z: np.ndarray | None = None, most: int = MOST) -> Fit | None:
     """The most probable x, from coordinates c (t,) of the causes and z (k,) on; None where the model is not physical there."""
     k = model.k
     lower = np.concatenate([np.full(k, -np.inf), model.bounds[:, 0]])

@@ -4,6 +4,7 @@ A second cause is sought only where one alone leaves more than noise; it must ga
 costs nothing is dropped again. Names are compared as groups: what the data cannot tell apart shares its probability.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -11,11 +12,16 @@ import numpy as np
 
 from mouse_cli.diagnosis.candidates import registry
 from mouse_cli.diagnosis.change import Recipe
-from mouse_cli.diagnosis.fit import Fit, Model, Point, fit
+from mouse_cli.diagnosis.fit import MOST, Fit, Model, Point, fit
 from mouse_cli.diagnosis.reduced import Reduced, reduced
 from mouse_cli.updating.chi_square import upper_tail
 
-_STARTS = 3  # fits of a candidate, from the best places of its grid
+_STARTS, _SECOND = 3, 2  # fits of a candidate, from the best places of its grid: alone, and beside another
+_QUICK, _SWAPPED, _FINISHED = (
+    8,
+    2,
+    6,
+)  # steps of a first try of two causes; of which so many are varied, and fitted to the end
 _SETTLE, _MOVED = 3, 5e-3  # times that causes are weighed anew, as long as parameters move more than that share
 _THEORY = 0.01  # of what a cause does to frequencies and shapes, by which its theory may be wrong
 _COARSE = 24  # coordinates at least for a first look
@@ -163,7 +169,7 @@ def ranking(baseline: Fit, fits: list[Fit]) -> Ranking:
 
 
 def _prior(one: Fit, fits: list[Fit]) -> float:
-    """ln of the prior probability: shared evenly by groups, two causes by all pairs of groups, and within a group by its members."""
+    """ln of the prior probability: shared evenly by groups, or by pairs of groups, and within a group by its members."""
     singles = {group(each) for each in fits if len(each.recipes) == 1}
     share = {0: 1, 1: max(len(singles), 1), 2: max(len(singles) * (len(singles) + 1) // 2, 1)}[len(one.recipes)]
     alike = sum(group(each) == group(one) and len(each.recipes) == len(one.recipes) for each in fits)
@@ -175,18 +181,20 @@ def adequate(one: Fit, least: float = _ADEQUATE) -> bool:
     return upper_tail(one.misfit, max(one.dof, 1)) > least
 
 
-def best(study: Study, name: str, beside: Fit | None = None) -> Fit | None:
-    """The most probable fit of candidate `name` over all of its places, its evidence summed over distinct optima.
+def best(study: Study, name: str) -> Fit | None:
+    """The most probable fit of candidate `name` over all of its places, its evidence summed over distinct optima."""
+    return _summed([settled(one, study) for one in tried(study, name, None, _STARTS)])
 
-    beside: causes that are there already.
-    """
+
+def tried(study: Study, name: str, beside: Fit | None, count: int, most: int = MOST) -> list[Fit]:
+    """Fits of candidate `name` from its `count` most promising places, in at most so many steps; beside: causes there already."""
     others = () if beside is None else study.own(beside.recipes)
     before = np.zeros(study.k) if beside is None else beside.point.x
     found = []
-    for number, x in study.coarse.starts(name, before, () if beside is None else beside.recipes)[:_STARTS]:
+    for number, x in study.coarse.starts(name, before, () if beside is None else beside.recipes)[:count]:
         trial = Model(study.model, (*others, study.recipes(name)[number]))
-        found.append(fit(trial, x[trial.k :], x[: trial.k]))
-    return _summed([settled(one, study) for one in found if one is not None])
+        found.append(fit(trial, x[trial.k :], x[: trial.k], most))
+    return [one for one in found if one is not None]
 
 
 def _summed(found: list[Fit]) -> Fit | None:
@@ -211,19 +219,38 @@ def _same(one: Fit, other: Fit) -> bool:
 
 
 def pairs(study: Study, singles: list[Fit]) -> list[Fit]:
-    """Two causes: the leading one with every candidate, and the best of the leading groups with one another."""
+    """Two causes: the leading one with every candidate, the best of the leading groups with one another, and their aliases.
+
+    All are tried in few steps; those that lead are fitted to the end.
+    """
     leading = _leading(singles)
     found: dict[tuple[str, ...], Fit] = {}
     for first in leading:
-        there = study.at(first)
         partners = registry() if first is leading[0] else [one.recipes[0].candidate.key for one in leading]
-        for name in partners:
-            two = best(there, name, first)
-            if two is not None and _material(two, singles):
-                other = found.get(key(two))
-                if other is None or two.log_evidence > other.log_evidence:
-                    found[key(two)] = two
-    return list(found.values())
+        _pair(study, first, partners, found)
+    for two in sorted(found.values(), key=lambda one: -one.log_evidence)[:_SWAPPED]:
+        for recipe in two.recipes:
+            aliases = [
+                n
+                for n, each in registry().items()
+                if each.group == recipe.candidate.group and n != recipe.candidate.key
+            ]
+            other = [one for one in singles if {*key(one)} == {*key(two)} - {recipe.candidate.key}]
+            for first in other:
+                _pair(study, first, aliases, found)
+    ordered = sorted(found.values(), key=lambda one: -one.log_evidence)[:_FINISHED]
+    finished = [_summed([settled(two, study)]) for two in ordered]
+    return [two for two in finished if _material(two, singles)]
+
+
+def _pair(study: Study, first: Fit, partners: Iterable[str], found: dict[tuple[str, ...], Fit]) -> None:
+    """Into `found` what `first` and each partner make together, where it is better than what is there."""
+    there = study.at(first)
+    for name in partners:
+        for two in tried(there, name, first, _SECOND, _QUICK):
+            other = found.get(key(two))
+            if other is None or two.log_evidence > other.log_evidence:
+                found[key(two)] = two
 
 
 def _leading(singles: list[Fit]) -> list[Fit]:
