@@ -48,6 +48,7 @@ def _case(truth: str, draw: Callable, k: int, rng: np.random.Generator) -> Case:
     fault = cause.pop("sensor_fault", {})
     groups = GROUPS[truth]
     shear = "shear" not in groups and L / h < VISIBLE
+    held = L / h < THICK and "slit" not in cause  # an edge crack couples bending with axial motion
     return Case(
         name=f"beam-{truth}-{k}",
         kind="beam",
@@ -55,13 +56,13 @@ def _case(truth: str, draw: Callable, k: int, rng: np.random.Generator) -> Case:
         groups=groups,
         inputs={"solid": asdict(solid) | cause, "added": mass},
         make=make,
-        model=_model(L, h, free, material, E, density),
+        model=_model(L, h, free, held, material, E, density),
         sites=tuple(_site(i, L) for i in range(STATIONS)),
-        numbers=_numbers(L / h, free),
+        numbers=_numbers(L / h, free, held),
         altered=f"{{{ELEMENTS + 1}: {mass:.8g}}}",
         places=tuple((x, 0.0, 0.0) for x in _places(cause)),
         span=L,
-        outside=truth in ("half foundation", "wavy"),
+        outside=truth in ("half foundation", "wavy", "thick + deep crack"),
         tolerated=("shear",) if shear else (),
         sensor_fault=fault,
         draws=4 if truth == "control" else 1,
@@ -74,19 +75,20 @@ def _site(i: int, L: float) -> str | dict:
     return f"{i // 2 + 1}TY" if i % 2 == 0 else {"at": [round(L * i / (STATIONS - 1), 9), 0, 0], "direction": "TY"}
 
 
-def _numbers(slenderness: float, free: bool) -> tuple[int, ...]:
-    """System mode numbers of bending modes in the deck, which counts rigid-body modes, and axial ones of slender beams."""
-    if slenderness < THICK:
+def _numbers(slenderness: float, free: bool, held: bool) -> tuple[int, ...]:
+    """System mode numbers of bending modes in the deck, which counts rigid-body modes, and axial ones unless they are held."""
+    if held:
         return tuple(range(2 * free + 1, 2 * free + 1 + KEPT))
     radius = 1 / (slenderness * 12**0.5)  # of gyration, by L
     axial = np.pi * (np.arange(1, 20) if free else np.arange(0.5, 20)) / radius  # in the units of (beta L)^2
     bending = np.square(ROOTS[free])[:KEPT]
+    bending = bending / np.sqrt(1 + 4.1 * bending * radius**2)  # shear and rotary inertia, as Timoshenko found first
     return tuple(int(3 * free + n + 1 + (axial < b).sum()) for n, b in enumerate(bending))
 
 
-def _model(L: float, h: float, free: bool, material: str, E: float, density: float) -> str:
-    held = ([] if free else ["1: all"]) + ([f"{1 if free else 2}-{ELEMENTS + 1}: [TX]"] if L / h < THICK else [])
-    support = f"\n    supports: {{{', '.join(held)}}}" if held else ""
+def _model(L: float, h: float, free: bool, held: bool, material: str, E: float, density: float) -> str:
+    places = ([] if free else ["1: all"]) + ([f"{1 if free else 2}-{ELEMENTS + 1}: [TX]"] if held else [])
+    support = f"\n    supports: {{{', '.join(places)}}}" if places else ""
     return f"""\
 model:
   structure:
@@ -118,6 +120,11 @@ def _reach(solid: Solid, rng: np.random.Generator, low: float, high: float) -> f
 
 def _crack(solid: Solid, rng: np.random.Generator, k: int) -> dict:
     return {"slit": (_reach(solid, rng, 0.05, 0.75), int(rng.integers(6, 11)) / 16)}
+
+
+def _shallow(solid: Solid, rng: np.random.Generator, k: int) -> dict:
+    """As deep as a hinge explains: a deeper edge crack of a thick beam couples bending with axial motion."""
+    return {"slit": (_reach(solid, rng, 0.05, 0.75), int(rng.integers(3, 7)) / 16)}
 
 
 def _mass(solid: Solid, rng: np.random.Generator, k: int) -> dict:
@@ -169,7 +176,8 @@ CAUSES: dict[str, Callable[[Solid, np.random.Generator, int], dict]] = {
     "soft": _segment,
     "foundation": lambda solid, rng, k: {"foundation": (0.0, solid.L, _stiffness(solid, rng))},
     "sensor": _sensor,
-    "thick + crack": _crack,
+    "thick + crack": _shallow,
+    "thick + deep crack": _crack,
     "two masses": _masses,
     "soft + mass": lambda solid, rng, k: _segment(solid, rng, k) | _mass(solid, rng, k),
     "half foundation": lambda solid, rng, k: {"foundation": (0.0, solid.L / 2, 3 * _stiffness(solid, rng, 0.05))},
@@ -189,10 +197,24 @@ GROUPS: dict[str, tuple[str, ...]] = {
     "foundation": ("foundation",),
     "sensor": ("sensor",),
     "thick + crack": ("shear", "local-stiffness"),
+    "thick + deep crack": (),
     "two masses": ("mass", "mass"),
     "soft + mass": ("local-stiffness", "mass"),
     "half foundation": (),
     "wavy": (),
 }
-SHARE = {"thick + crack": 2, "two masses": 1, "soft + mass": 1, "half foundation": 1, "wavy": 1}  # quarters
-SLENDERNESS = {"thick": (8.0, 25.0), "thick + crack": (8.0, 25.0), "crack": (80.0, 200.0), "root": (80.0, 200.0)}
+SHARE = {
+    "thick + crack": 2,
+    "thick + deep crack": 1,
+    "two masses": 1,
+    "soft + mass": 1,
+    "half foundation": 1,
+    "wavy": 1,
+}  # quarters
+SLENDERNESS = {
+    "thick": (8.0, 25.0),
+    "thick + crack": (8.0, 25.0),
+    "thick + deep crack": (8.0, 25.0),
+    "crack": (80.0, 200.0),
+    "root": (80.0, 200.0),
+}

@@ -2,7 +2,8 @@
 
 Bending of a bar of length l in a plane, in its natural strains e = [v_s'q, (2/l) v_a'q], v_s = [0, -1, 0, 1],
 v_a = [1, l/2, -1, l/2] on q = [w1, slope1, w2, slope2]: K = E'F^-1 E with the flexibility F = diag(l/EI, l/(3EI) (1 + phi)).
-A bending moment at 2 x/l - 1 = eta does work on [1, eta], so whatever gives way there adds c [1, eta]' [1, eta] to F.
+A bending moment at 2 x/l - 1 = eta does work on [1, eta], so whatever gives way there adds c [1, eta]' [1, eta] to F. The third
+strain is the elongation, with l/EA.
 """
 
 from dataclasses import dataclass
@@ -61,16 +62,17 @@ class Bars:
 
     @cached_property
     def strain(self) -> np.ndarray:
-        """E (b, 2, r)."""
+        """E (b, 3, r): bending, symmetric and antisymmetric, and elongation."""
         w1, s1, w2, s2 = np.moveaxis(self.ends, 1, 0)
         l = self.length[:, None]
-        return np.stack([s2 - s1, 2 / l * (w1 - w2) + s1 + s2], axis=1)
+        return np.stack([s2 - s1, 2 / l * (w1 - w2) + s1 + s2, self.axial[:, 1] - self.axial[:, 0]], axis=1)
 
     @cached_property
     def flexibility(self) -> np.ndarray:
-        """F (b, 2, 2)."""
-        F = np.zeros((len(self), 2, 2))
+        """F (b, 3, 3)."""
+        F = np.zeros((len(self), 3, 3))
         F[:, 0, 0], F[:, 1, 1] = self.length / self.EI, self.length / (3 * self.EI) * (1 + self.phi)
+        F[:, 2, 2] = self.length / (self.E * self.A)
         return F
 
     @cached_property
@@ -84,12 +86,12 @@ class Bars:
         return float(np.average(self.EI, weights=self.length))
 
     def lost(self, bars: np.ndarray, added: np.ndarray) -> np.ndarray:
-        """Change (c, 2, 2) of the stiffness of `bars` (c,) when `added` comes to their flexibility."""
+        """Change (c, 3, 3) of the stiffness of `bars` (c,) when `added` comes to their flexibility."""
         F = self.flexibility[bars]
         return np.linalg.inv(F + added) - np.linalg.inv(F)
 
     def strained(self, bars: np.ndarray, core: np.ndarray) -> np.ndarray:
-        """Matrix (r, r) of stiffnesses `core` (c, 2, 2) on the natural strains of `bars` (c,)."""
+        """Matrix (r, r) of stiffnesses `core` (c, 3, 3) on the natural strains of `bars` (c,)."""
         rows = self.strain[bars]
         return rows.reshape(-1, rows.shape[-1]).T @ (core @ rows).reshape(-1, rows.shape[-1])
 

@@ -12,10 +12,17 @@ from mouse_cli.model.problem import Problem
 
 @dataclass(frozen=True)
 class Softening:
-    """Bars (c,) that give way, each by what is added (c, 2, 2) to its flexibility; several causes add up in one bar."""
+    """Bars (c,) that give way, each by what is added to its flexibility (c, 3, 3), or to that in bending alone (c, 2, 2).
+
+    Several causes add up in one bar.
+    """
 
     bars: np.ndarray
     added: np.ndarray
+
+    def __post_init__(self) -> None:
+        missing = 3 - self.added.shape[1]
+        object.__setattr__(self, "added", np.pad(self.added, ((0, 0), (0, missing), (0, missing))))
 
 
 @dataclass(frozen=True)

@@ -61,28 +61,35 @@ def beams_within(edit: Edit, segments: Iterable[tuple[np.ndarray, np.ndarray]]) 
 
 
 def hinge(
-    edit: Edit, element: tuple[int, int], end: int, axes: np.ndarray, turning: float, sliding: float = 0.0
+    edit: Edit,
+    element: tuple[int, int],
+    end: int,
+    axes: np.ndarray,
+    turning: float,
+    sliding: float = 0.0,
+    parting: float = 0.0,
+    off: float = 0.0,
 ) -> tuple[int, int]:
     """A spring (N m/rad) in place of the rigid connection of one end of a beam: the element that it is.
 
     axes (3, 3), rows: along the bar, the direction in which it bends, and the axis about which it does. sliding: stiffness (N/m)
-    across the bar there; 0: rigid.
+    across the bar there, parting: along it; 0: rigid. off: how far from the axis it turns.
     """
     old = int(edit.sets[element[0]].nodes[element[1], end])
     new = edit.detach(element, end)
     turn, slide = (_global(axes[k]) for k in (2, 1))
-    if turn is not None and (slide is not None or not sliding):
+    if turn is not None and (slide is not None or not sliding) and not parting:
         free = {3 + turn} | ({slide} if sliding else set())
         edit.links.append(RigidLink(old, new, tuple(d for d in range(6) if d not in free)))
         values = {DIRECTIONS[3 + turn]: turning} | ({DIRECTIONS[slide]: sliding} if sliding else {})
         return edit.add("spring", [[old, new]], values)[0]
-    return _joint(edit, element, (old, new), axes, turning, sliding)
+    return _joint(edit, element, (old, new), axes, {"RZ": turning, "TY": sliding, "TX": parting}, off)
 
 
 def _joint(
-    edit: Edit, element, nodes: tuple[int, int], axes: np.ndarray, turning: float, sliding: float
+    edit: Edit, element, nodes: tuple[int, int], axes: np.ndarray, soft: dict[str, float], off: float
 ) -> tuple[int, int]:
-    """The same across any axes: what must be rigid is _STIFF times as stiff as the bar."""
+    """The same across any axes, `off` from the bar: what must be rigid is _STIFF times as stiff as the bar."""
     xyz = np.array(edit.coordinates)
     s, i = element
     length = float(np.linalg.norm(np.diff(xyz[edit.sets[s].nodes[i]], axis=0)))
@@ -90,10 +97,10 @@ def _joint(
     EI = E * max(edit.values(element, "Iy"), edit.values(element, "Iz"))
     across, along, turn = 12 * EI / length**3, E * A / length, max(4 * EI, G * J) / length
     values = dict(zip(DIRECTIONS, _STIFF * np.array([along, across, across, turn, turn, turn]), strict=True))
-    values["RZ"] = turning
-    if sliding:
-        values["TY"] = sliding
-    options = {"axes": [axes[0].tolist(), axes[1].tolist()]}
+    values |= {key: value for key, value in soft.items() if value}
+    options: dict = {"axes": [axes[0].tolist(), axes[1].tolist()]}
+    if off:
+        options["at"] = (xyz[nodes[0]] + off * axes[1]).tolist()
     return edit.add("joint", [list(nodes)], values, options)[0]
 
 

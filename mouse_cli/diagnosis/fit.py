@@ -56,12 +56,12 @@ class Model:
         return K, M, S
 
     def _softer(self, changes: list[Change]) -> tuple[np.ndarray, np.ndarray]:
-        """Bars (c,), and the changes of their stiffness (c, 2, 2) by all that makes them softer, in series within each."""
+        """Bars (c,), and the changes of their stiffness (c, 3, 3) by all that makes them softer, in series within each."""
         parts = [change.softening for change in changes if change.softening is not None]
         if not parts:
-            return np.zeros(0, int), np.zeros((0, 2, 2))
+            return np.zeros(0, int), np.zeros((0, 3, 3))
         bars, at = np.unique(np.concatenate([part.bars for part in parts]), return_inverse=True)
-        total = np.zeros((len(bars), 2, 2))
+        total = np.zeros((len(bars), 3, 3))
         np.add.at(total, at, np.concatenate([part.added for part in parts]))
         return bars, self.base.bars.lost(bars, total)
 

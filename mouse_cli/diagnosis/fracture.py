@@ -1,7 +1,8 @@
-"""Compliance of an edge crack of depth a in a bar of height h, plane strain: F1 in bending, F2 in shear, of s = a/h.
+"""Compliance of an edge crack of depth a in a bar of height h, plane strain, of s = a/h: F1 in bending, F2 in shear, F3 in tension.
 
-F = integral of pi s Y(s)^2 ds, Y the stress intensity factor in units of stress times sqrt(pi a) (Tada, Paris and Irwin,
-The Stress Analysis of Cracks Handbook): bending stress 6 M / (b h^2), mean shear stress V / (b h).
+F = integral of pi s Y(s)^2 ds, or of the product of two, Y the stress intensity factor in units of stress times sqrt(pi a) (Tada,
+Paris and Irwin, The Stress Analysis of Cracks Handbook): bending stress 6 M / (b h^2), mean stress N / (b h), mean shear stress
+V / (b h).
 """
 
 from functools import cache
@@ -11,14 +12,19 @@ import numpy as np
 _X, _W = np.polynomial.legendre.leggauss(24)
 
 
-def _integral(Y, depth: float) -> float:
+def _integral(one, other, depth: float) -> float:
     s = depth * (_X + 1) / 2
-    return float(depth / 2 * np.sum(_W * np.pi * s * Y(s) ** 2))
+    return float(depth / 2 * np.sum(_W * np.pi * s * one(s) * other(s)))
 
 
 def _opening(s: np.ndarray) -> np.ndarray:
     half = np.pi * s / 2
     return np.sqrt(np.tan(half) / half) * (0.923 + 0.199 * (1 - np.sin(half)) ** 4) / np.cos(half)
+
+
+def _stretching(s: np.ndarray) -> np.ndarray:
+    half = np.pi * s / 2
+    return np.sqrt(np.tan(half) / half) * (0.752 + 2.02 * s + 0.37 * (1 - np.sin(half)) ** 3) / np.cos(half)
 
 
 def _sliding(s: np.ndarray) -> np.ndarray:
@@ -28,10 +34,22 @@ def _sliding(s: np.ndarray) -> np.ndarray:
 @cache
 def bending(depth: float) -> float:
     """F1: the angle of the crack under a moment M is 6 (1 - nu^2) h F1 / EI times M."""
-    return _integral(_opening, depth)
+    return _integral(_opening, _opening, depth)
+
+
+@cache
+def coupling(depth: float) -> float:
+    """F12: under a moment M the two sides part at the axis by (1 - nu^2) h^2 F12 / EI times M, being open on one side."""
+    return _integral(_opening, _stretching, depth)
+
+
+@cache
+def stretching(depth: float) -> float:
+    """F3: they part by (1 - nu^2) h^3 F3 / (6 EI) times N under a tension N."""
+    return _integral(_stretching, _stretching, depth)
 
 
 @cache
 def shearing(depth: float) -> float:
     """F2: the sliding of the crack under a force V is (1 - nu^2) h^3 F2 / (6 EI) times V."""
-    return _integral(_sliding, depth)
+    return _integral(_sliding, _sliding, depth)

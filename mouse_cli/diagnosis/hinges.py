@@ -59,18 +59,29 @@ def places(
 
 
 def with_hinge(
-    problem: Problem, bars: Bars, bar: int, share: float, name: str, turning: float, sliding: float = 0.0
+    problem: Problem,
+    bars: Bars,
+    bar: int,
+    share: float,
+    name: str,
+    turning: float,
+    sliding: float = 0.0,
+    parting: float = 0.0,
+    off: float = 0.0,
 ) -> Problem:
-    """The deck with a spring (N m/rad) at `share` of a bar, in its plane, and one (N/m) across it if it slides there too."""
+    """The deck with a spring (N m/rad) at `share` of a bar, in its plane, and springs (N/m) across and along it if it gives way so.
+
+    off: distance from the axis of the point about which it turns.
+    """
     edit = Edit(problem)
     element, there = element_at(edit, np.array(bars.point(bar, share)), bars.axis[bar])
     node = edit.split(element, there)
     end = int(np.argmax(edit.sets[element[0]].nodes[element[1]] == node))
     axis, across = bars.axis[bar], bars.across[bar]
-    spring = hinge(edit, element, end, np.stack([axis, across, np.cross(axis, across)]), turning, sliding)
+    spring = hinge(edit, element, end, np.stack([axis, across, np.cross(axis, across)]), turning, sliding, parting, off)
     properties = edit.sets[spring[0]].properties
     if sliding or spring_is_joint(edit, spring):
-        _bind_factor(edit, spring, name, properties, turning, sliding)
+        _bind_factor(edit, spring, name, properties, (turning, sliding, parting))
     else:
         edit.bind(name, [spring], tuple(properties), unit="N m/rad")
     return edit.done()
@@ -81,11 +92,9 @@ def spring_is_joint(edit: Edit, element: tuple[int, int]) -> bool:
     return edit.sets[element[0]].type == "joint"
 
 
-def _bind_factor(
-    edit: Edit, spring: tuple[int, int], name: str, properties: dict, turning: float, sliding: float
-) -> None:
-    """Both springs follow one factor; those that stand for rigidity do not."""
-    soft = tuple(key for key, value in properties.items() if value[0] in (turning, sliding))
+def _bind_factor(edit: Edit, spring: tuple[int, int], name: str, properties: dict, given: tuple[float, ...]) -> None:
+    """The springs follow one factor; those that stand for rigidity do not."""
+    soft = tuple(key for key, value in properties.items() if value[0] in given)
     if len(soft) == 1:
         edit.bind(name, [spring], soft, unit="N m/rad")
     else:

@@ -24,9 +24,10 @@ _QUICK, _SWAPPED, _FINISHED = (
 )  # steps of a first try of two causes; of which so many are varied, and fitted to the end
 _SETTLE, _MOVED = 3, 5e-3  # times that causes are weighed anew, as long as parameters move more than that share
 _THEORY = 0.01  # of what a cause does to frequencies and shapes, by which its theory may be wrong
+_SHIFTS = np.array([-5, -3, -2, -1, 1, 2, 3, 5]) / 50  # of the range of a place
 _COARSE = 24  # coordinates at least for a first look
 _PRIOR = 0.3, 0.6, 0.1  # probability that nothing is missing, one cause, two
-_PAIRED = 5  # candidates that are tried in pairs
+_PAIRED = 8  # candidates that are tried in pairs
 _ADEQUATE = 0.05  # probability of a misfit below which a second cause is sought
 _MATERIAL = 3.0  # nats that a second cause must gain
 
@@ -106,6 +107,30 @@ class Study:
         return Study(self.model.at(theta) if self.model.places is not None else reduced(self.model.problem, theta))
 
 
+def shifted(one: Fit) -> Fit:
+    """The fit from places nearby: across the end of a finite element the misfit has a step, before which a descent stops."""
+    model = one.model
+    unknowns = [u for recipe in one.recipes for u in recipe.unknowns]
+    for j in (i for i, u in enumerate(unknowns) if not u.log):
+        T = np.delete(model.jacobian(one.point), model.k + j, axis=1)
+        H = T.T @ T + np.diag((np.arange(T.shape[1]) < model.k).astype(float))
+        best, start = one.misfit - 1, None
+        for share in _SHIFTS:
+            c = one.c.copy()
+            c[j] = np.clip(c[j] + share * model.width[j], *model.bounds[j])
+            at = model.point(np.concatenate([one.point.x[: model.k], c]))
+            if at is None:
+                continue
+            pull = T.T @ at.residual - np.where(np.arange(T.shape[1]) < model.k, np.delete(at.x, model.k + j), 0.0)
+            left = at.chi2 + at.x[: model.k] @ at.x[: model.k] - pull @ np.linalg.lstsq(H, pull, rcond=None)[0]
+            if left < best:
+                best, start = left, c
+        again = None if start is None else fit(model, start, one.point.x[: model.k])
+        if again is not None and again.misfit < one.misfit:
+            one = again
+    return one
+
+
 def idealised(one: Fit | None) -> Fit | None:
     """The fit when the theory of its causes is right to some share of what they do."""
     if one is None or not one.recipes:
@@ -183,7 +208,7 @@ def adequate(one: Fit, least: float = _ADEQUATE) -> bool:
 
 def best(study: Study, name: str) -> Fit | None:
     """The most probable fit of candidate `name` over all of its places, its evidence summed over distinct optima."""
-    return _summed([settled(one, study) for one in tried(study, name, None, _STARTS)])
+    return _summed([settled(shifted(one), study) for one in tried(study, name, None, _STARTS)])
 
 
 def tried(study: Study, name: str, beside: Fit | None, count: int, most: int = MOST) -> list[Fit]:
@@ -219,28 +244,37 @@ def _same(one: Fit, other: Fit) -> bool:
 
 
 def pairs(study: Study, singles: list[Fit]) -> list[Fit]:
-    """Two causes: the leading one with every candidate, the best of the leading groups with one another, and their aliases.
+    """Two causes: the leading one with every candidate, the leading ones with one another, and their aliases.
 
     All are tried in few steps; those that lead are fitted to the end.
     """
-    leading = _leading(singles)
+    leading = sorted(singles, key=lambda one: -one.log_evidence)[:_PAIRED]
     found: dict[tuple[str, ...], Fit] = {}
     for first in leading:
         partners = registry() if first is leading[0] else [one.recipes[0].candidate.key for one in leading]
         _pair(study, first, partners, found)
-    for two in sorted(found.values(), key=lambda one: -one.log_evidence)[:_SWAPPED]:
-        for recipe in two.recipes:
-            aliases = [
-                n
-                for n, each in registry().items()
-                if each.group == recipe.candidate.group and n != recipe.candidate.key
-            ]
-            other = [one for one in singles if {*key(one)} == {*key(two)} - {recipe.candidate.key}]
-            for first in other:
-                _pair(study, first, aliases, found)
-    ordered = sorted(found.values(), key=lambda one: -one.log_evidence)[:_FINISHED]
-    finished = [_summed([settled(two, study)]) for two in ordered]
+    done: set[tuple[str, ...]] = set()
+    for _ in range(2):  # both causes may be there by an alias
+        for two in _best_of(found, _SWAPPED):
+            if key(two) not in done:
+                done.add(key(two))
+                _swap(study, two, singles, found)
+    finished = [_summed([settled(shifted(two), study)]) for two in _best_of(found, _FINISHED)]
     return [two for two in finished if _material(two, singles)]
+
+
+def _best_of(found: dict[tuple[str, ...], Fit], count: int) -> list[Fit]:
+    return sorted(found.values(), key=lambda one: -one.log_evidence)[:count]
+
+
+def _swap(study: Study, two: Fit, singles: list[Fit], found: dict[tuple[str, ...], Fit]) -> None:
+    """Into `found` the same two causes with either replaced by what is hard to tell from it."""
+    for recipe in two.recipes:
+        own = recipe.candidate
+        aliases = [name for name, each in registry().items() if each.group == own.group and name != own.key]
+        rest = {*key(two)} - {own.key}
+        for first in (one for one in singles if {*key(one)} == rest):
+            _pair(study, first, aliases, found)
 
 
 def _pair(study: Study, first: Fit, partners: Iterable[str], found: dict[tuple[str, ...], Fit]) -> None:
@@ -251,14 +285,6 @@ def _pair(study: Study, first: Fit, partners: Iterable[str], found: dict[tuple[s
             other = found.get(key(two))
             if other is None or two.log_evidence > other.log_evidence:
                 found[key(two)] = two
-
-
-def _leading(singles: list[Fit]) -> list[Fit]:
-    """The best fit of each group, most evident first, as many as are paired."""
-    found: dict[str, Fit] = {}
-    for one in sorted(singles, key=lambda one: -one.log_evidence):
-        found.setdefault(group(one), one)
-    return list(found.values())[:_PAIRED]
 
 
 def _material(two: Fit, singles: list[Fit]) -> bool:

@@ -186,7 +186,7 @@ def test_the_deck_with_the_cause_is_the_reduced_model_with_it(models, name, key,
             total = [dense(part) for part in assembly(extended).matrices(extended.prior.mean)]
             expected, seen = lowest(K, M, lambda X, S=S: S @ X)
             found, read = lowest(*total, extended.test.read)
-            assert found == pytest.approx(expected, rel=1e-3), (recipe.site(values), values)
+            assert found == pytest.approx(expected, rel=1.5e-3), (recipe.site(values), values)  # a split moves mass
             scale = max(np.abs(part).max() for part in seen)
             for one, other in zip(read, seen, strict=True):
                 assert one == pytest.approx(other, abs=0.02 * max(np.abs(other).max(), 1e-3 * scale)), (
