@@ -4,14 +4,16 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from mouse_cli.diagnosis.decide import decide, explanations
+from mouse_cli.diagnosis.energy_map import energy_map
 from mouse_cli.diagnosis.extended import extended
 from mouse_cli.diagnosis.fit import Fit
 from mouse_cli.diagnosis.implied_law import implied_law
+from mouse_cli.diagnosis.locate import locate
 from mouse_cli.diagnosis.name import Ranking, group, rank
 from mouse_cli.diagnosis.next_measurement import proposals
 from mouse_cli.diagnosis.prove import held_out
 from mouse_cli.diagnosis.reduced import reduced
-from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, Diagnosis, Proposal
+from mouse_cli.model.diagnosis import NAMED, NOTHING, RIVAL, UNKNOWN, Diagnosis, Proposal, leading
 from mouse_cli.model.modal_test import restricted
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import Result
@@ -30,7 +32,8 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None) -> Diagnosis:
     model = reduced(problem, problem.prior.mean)
     ranking = rank(model)
     decision = decide(ranking, result)
-    best = None if decision.kind == NOTHING else leader(ranking)
+    missing = decision.kind != NOTHING
+    best, as_it_is = leader(ranking) if missing else None, ranking.baseline
     deck = extended(problem, best) if decision.kind == NAMED else None
     return Diagnosis(
         problem=problem,
@@ -40,9 +43,11 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None) -> Diagnosis:
         explanations=explanations(ranking),
         groups=ranking.groups,
         noise_scale=ranking.noise_scale,
+        location=locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None,
+        energy=energy_map(as_it_is) if missing else None,
         law=None if best is None else implied_law(best),
-        held_out=held_out(model, ranking.baseline, best),
-        proposals=_proposals(ranking) if decision.kind == ONE_OF else (),
+        held_out=held_out(model, as_it_is, best),
+        proposals=_proposals(ranking) if missing and decision.kind != UNKNOWN else (),
         remarks=remarks,
         extended=deck,
         extended_result=None if deck is None else run(deck, notice=notice),
@@ -60,12 +65,16 @@ def _update(problem: Problem, notice: Notice) -> tuple[Result, tuple[str, ...]]:
 
 
 def leader(ranking: Ranking) -> Fit | None:
-    """The most probable fit that has a cause."""
-    return next((one for one in ranking.fits if one.recipes), None)
+    """The leading fit of the leading group that has a cause, as `Diagnosis.best` is its explanation; None without any."""
+    at = leading(ranking.groups, [group(one) for one in ranking.fits])
+    return ranking.fits[at] if at is not None and ranking.fits[at].recipes else None
 
 
 def _proposals(ranking: Ranking) -> tuple[Proposal, ...]:
-    """What would separate the leading explanation from the best one of another group."""
-    first = ranking.fits[0]
-    second = next((one for one in ranking.fits if group(one) != group(first)), None)
-    return () if second is None else proposals(first, second, (group(first), group(second)))
+    """What would separate the two leading groups that have a cause, where the second one is a rival still."""
+    names = [group(one) for one in ranking.fits]
+    leaders = [(name, ranking.fits[names.index(name)]) for name, p in ranking.groups if name != "none" and p > RIVAL]
+    if len(leaders) < 2:
+        return ()
+    (first, one), (second, other) = leaders[:2]
+    return proposals(one, other, (first, second))

@@ -1,5 +1,6 @@
 """What a diagnosis found: where model and test part, what physics would explain it, how much of it, and whether that is true."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -50,6 +51,29 @@ class Cause:
     sizes: tuple[Size, ...]
 
 
+def joined(groups: Sequence[str]) -> str:
+    """The group of several causes, `none` without any: a support that gives way in two manners is one cause.
+
+    >>> joined(["support", "mass", "support"]), joined(["mass", "mass"]), joined([])
+    ('mass + support', 'mass + mass', 'none')
+    """
+    names = sorted(groups)
+    return " + ".join(name for i, name in enumerate(names) if name != "support" or name not in names[:i]) or "none"
+
+
+def leading(groups: Sequence[tuple[str, float]], members: Sequence[str]) -> int | None:
+    """Which of `members`, groups of explanations in the order of their probability, leads: the first of the most probable group.
+
+    A cause before none at all; None without members.
+
+    >>> leading([("none", 0.6), ("mass", 0.3), ("shear", 0.1)], ["none", "shear", "mass"])
+    2
+    """
+    order = [name for name, _ in groups if name != "none"] + ["none"]
+    found = [members.index(name) for name in order if name in members]
+    return found[0] if found else None
+
+
 @dataclass(frozen=True)
 class Explanation:
     """No cause, one or two, fitted beside all parameters of the deck.
@@ -68,8 +92,8 @@ class Explanation:
 
     @property
     def group(self) -> str:
-        """Groups of its causes, `none` without one."""
-        return " + ".join(sorted(cause.group for cause in self.causes)) or "none"
+        """Groups of its causes, `none` without one; see `joined`."""
+        return joined([cause.group for cause in self.causes])
 
     @property
     def physics(self) -> str:
@@ -104,6 +128,30 @@ class Location:
     def single(self) -> bool:
         """Whether a force at one place may explain all shapes."""
         return self.p > 1e-3
+
+
+@dataclass(frozen=True)
+class EnergyMap:
+    """Error in the constitutive relation: where the stiffness of the model and the measured shapes part.
+
+    sites (j,) of elements, nodes or degrees of freedom; share (j,) of the whole that lies there, 1 in all; mode (m,): numbers of
+    the measured modes, error (m,): of each, relative to the strain energy of its shape.
+    """
+
+    sites: tuple[Site, ...]
+    share: np.ndarray
+    mode: np.ndarray
+    error: np.ndarray
+
+    @property
+    def order(self) -> np.ndarray:
+        """Indices (j,) of the sites, the largest share first."""
+        return np.argsort(-self.share, kind="stable")
+
+    @property
+    def half(self) -> int:
+        """How few sites hold half of the whole."""
+        return int(np.searchsorted(np.cumsum(self.share[self.order]), 0.5)) + 1
 
 
 @dataclass(frozen=True)
@@ -159,7 +207,7 @@ class Diagnosis:
     """The answer of `diagnose`.
 
     kind: one of NOTHING, NAMED, ONE_OF, UNKNOWN. result: the update of the model as it is; best: the explanation named, or the
-    first of the rivals; probability: of its group. explanations: all that were tried, most probable first. noise_scale: by what
+    first of the rivals; probability: of its group. location, energy: what shapes alone say of the place. explanations: all that were tried, most probable first. noise_scale: by what
     the stated variances were multiplied. extended: the deck with the cause in it, and its update.
     """
 
@@ -171,6 +219,7 @@ class Diagnosis:
     groups: tuple[tuple[str, float], ...] = ()
     noise_scale: float = 1.0
     location: Location | None = None
+    energy: EnergyMap | None = None
     law: Law | None = None
     held_out: HeldOut | None = None
     proposals: tuple[Proposal, ...] = ()
@@ -180,10 +229,9 @@ class Diagnosis:
 
     @property
     def best(self) -> Explanation | None:
-        """The leading explanation of the leading group."""
-        leading = self.groups[0][0] if self.groups else None
-        own = [one for one in self.explanations if one.group == leading]
-        return next(iter((*own, *self.explanations)), None)
+        """The leading explanation of the leading group, one with a cause where there is any."""
+        at = leading(self.groups, [one.group for one in self.explanations])
+        return next(iter(self.explanations), None) if at is None else self.explanations[at]
 
     @property
     def baseline(self) -> Explanation | None:
@@ -197,9 +245,10 @@ class Diagnosis:
 
     @property
     def probability(self) -> float:
-        """Of the leading group, or of no cause where nothing is missing; NaN where nothing was compared."""
-        leading = "none" if self.kind == NOTHING else next((name for name, _ in self.groups), "")
-        return dict(self.groups).get(leading, float("nan"))
+        """Of the group of `best`, or of no cause where nothing is missing; NaN where nothing was compared."""
+        best = self.best
+        group = "none" if self.kind == NOTHING or best is None else best.group
+        return dict(self.groups).get(group, float("nan"))
 
     @property
     def exit_code(self) -> int:

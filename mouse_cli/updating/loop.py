@@ -48,9 +48,17 @@ def run(problem: Problem, progress: Progress = lambda cycle: None, notice: Notic
 
 
 def related(problem: Problem) -> np.ndarray:
-    """Mask (m,) of the measured modes whose shapes have anything to do with the modes of the prior model they are paired with."""
+    """Mask (m,) of the measured modes whose shapes have anything to do with the modes of the prior model they are paired with.
+
+    Raises DeckError without a test, NumericalError without an eigensolution, as `run` does.
+    """
+    if problem.test is None:
+        raise refusals.no_test(problem)
     K, M = assemble(problem).matrices(problem.prior.mean)
-    solution = solve(problem, K, M)
+    try:
+        solution = solve(problem, K, M)
+    except (IndefiniteError, np.linalg.LinAlgError) as reason:
+        raise refusals.unphysical(problem, str(reason)) from None
     modes, kept = paired(problem, solution), np.ones(problem.test.m, bool)
     while kept.any():
         try:

@@ -106,7 +106,7 @@ def _what(found: Diagnosis) -> str:
     if found.kind == ONE_OF:
         shares = ", ".join(f"{name} {with_p(p)}" for name, p in found.rivals)
         return f"Probabilities of the groups: {shares}{_noise(found)}. {conditional}."
-    if best is None or not best.causes:
+    if best is None or not best.causes or found.groups[0][0] == "none":
         return "No candidate does better than none at all."
     return (
         f"No candidate is adequate. The nearest, {best.title}, leaves a misfit that would by chance be larger "
