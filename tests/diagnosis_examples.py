@@ -15,6 +15,7 @@ from mouse_cli.model.diagnosis import (
     UNKNOWN,
     Cause,
     Diagnosis,
+    EnergyMap,
     Explanation,
     HeldOut,
     Law,
@@ -95,6 +96,7 @@ def named() -> Diagnosis:
         (("ground-spring", 0.98), ("local-stiffness", 0.02), ("none", 0.0)),
         noise_scale=1.15,
         location=Location(places, 1, 0.3),
+        energy=EnergyMap((SPRING.site, CRACK.site), np.array([0.2, 0.8]), np.array([1]), np.array([0.02])),
         law=law,
         held_out=held_out(),
         extended=_result().problem,
@@ -113,6 +115,7 @@ def two_causes() -> Diagnosis:
         (both, none),
         (("local-stiffness + shear", 0.99), ("none", 0.01)),
         location=Location(along, 9, 1e-9),
+        energy=EnergyMap(tuple(p.site for p in along), np.array([0.1] * 10), np.array([1, 2]), np.array([0.02, 0.1])),
         held_out=poor,
     )
 

@@ -17,6 +17,7 @@ import numpy as np
 from mouse_cli.diagnosis.fit import Fit
 from mouse_cli.diagnosis.matching import shapes
 from mouse_cli.diagnosis.reduced import Reduced
+from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.diagnosis import EnergyMap, Site
 from mouse_cli.model.mesh import ElementSet
 from mouse_cli.terms.bound_properties import BoundProperties, nominal_properties
@@ -24,11 +25,12 @@ from mouse_cli.terms.elements import Layout, registry
 
 _POLE = 1e-6  # least distance of lambda from an eigenvalue, and least eigenvalue, relative to lambda
 _SPAN, _HALVINGS = 30.0, 60  # decades of alpha
+_ROUNDING = 1e-9  # of the largest stiffness, below which a spring is none
 _BLOCK = 4096  # elements worked on at a time
 
 
 def energy_map(one: Fit) -> EnergyMap | None:
-    """Shares of elements, or of nodes where there are no elements; each mode counts by its relative error. None without shapes."""
+    """Shares of elements, else of springs or nodes; each mode counts by its relative error. None where no shape tells anything."""
     base, measured = one.model.base, shapes(one.model.base)
     found = [
         _strains(one, lam, weight, y)
@@ -39,7 +41,7 @@ def energy_map(one: Fit) -> EnergyMap | None:
         return None
     P = base.V @ np.stack([p for p, _ in found], axis=1)
     theta = base.parameters(one.point.x[: one.model.k])
-    sites, energy = _in_elements(base, theta, P) if base.motion is not None else _at_nodes(base, theta, P)
+    sites, energy = _in_elements(base, theta, P) if base.motion is not None else _in_matrices(base, theta, P)
     if not energy.sum() > 0:
         return None
     return EnergyMap(tuple(sites), energy / energy.sum(), base.data.test.number[measured.modes], error)
@@ -82,9 +84,7 @@ def _in_elements(base: Reduced, theta: np.ndarray, P: np.ndarray) -> tuple[list[
             energy.append(np.einsum("eim,eij,ejm->e", own, K, own, optimize=True))
             middles = mesh.coordinates[elements.nodes[members]].mean(axis=1).tolist()
             names = elements.ids[members].tolist()
-            sites += [
-                Site("element", (i,), tuple(at), f"element {i}") for i, at in zip(names, middles, strict=True)
-            ]
+            sites += [Site("element", (i,), tuple(at), f"element {i}") for i, at in zip(names, middles, strict=True)]
     return sites, np.concatenate([*energy, np.zeros(0)])
 
 
@@ -108,18 +108,43 @@ def _stiffness(
             yield members, K
 
 
-def _at_nodes(base: Reduced, theta: np.ndarray, P: np.ndarray) -> tuple[list[Site], np.ndarray]:
-    """Nodes, or degrees of freedom without one, and the work of the forces K p there on the motion p, over all modes."""
-    structure = base.problem.structure
+def _in_matrices(base: Reduced, theta: np.ndarray, P: np.ndarray) -> tuple[list[Site], np.ndarray]:
+    """The springs that K at theta (p,) is made of, else nodes."""
     K, _ = base.assembly.matrices(theta)
+    return _in_springs(base, K, P) or _at_nodes(base, K, P)
+
+
+def _in_springs(base: Reduced, K: Matrix, P: np.ndarray) -> tuple[list[Site], np.ndarray] | None:
+    """Springs between degrees of freedom and to the ground, and p'K_e p of each; None where K is not made of such springs."""
+    from scipy.sparse import coo_array
+
+    entries, labels = coo_array(K), base.problem.structure.labels
+    i, j, k = entries.row, entries.col, entries.data
+    ground, size = np.asarray(K.sum(axis=1)).ravel(), np.abs(k).max()
+    if (k[i != j] > _ROUNDING * size).any() or (ground < -_ROUNDING * size).any():
+        return None
+    pair, held = (i < j) & (k < 0), np.flatnonzero(ground > _ROUNDING * size)
+    i, j = i[pair], j[pair]
+    sites = [
+        Site("dof", (labels[a], labels[b]), None, f"between degrees of freedom {labels[a]} and {labels[b]}")
+        for a, b in zip(i, j, strict=True)
+    ]
+    sites += [Site("dof", (labels[a],), None, f"between degree of freedom {labels[a]} and the ground") for a in held]
+    between = -k[pair] * np.sum((P[i] - P[j]) ** 2, axis=1)
+    return sites, np.concatenate([between, ground[held] * np.sum(P[held] ** 2, axis=1)])
+
+
+def _at_nodes(base: Reduced, K: Matrix, P: np.ndarray) -> tuple[list[Site], np.ndarray]:
+    """Nodes, or degrees of freedom without one, and the size of the work of the forces K p there on the motion p."""
+    structure = base.problem.structure
     work = np.einsum("nm,nm->n", P, K @ P)
     at, labels = structure.geometry, structure.labels
     alone = np.arange(structure.n) if at is None else np.flatnonzero(at.node < 0)
     sites = [Site("dof", (labels[i],), None, f"degree of freedom {labels[i]}") for i in alone]
     if at is None:
-        return sites, work
+        return sites, np.abs(work)
     nodes = np.unique(at.node[at.node >= 0])
     names, places = at.node_ids[nodes].tolist(), at.coordinates[nodes].tolist()
     of_nodes = [Site("node", (i,), tuple(x), f"node {i}") for i, x in zip(names, places, strict=True)]
     total = np.bincount(at.node[at.node >= 0], work[at.node >= 0], minlength=nodes.max(initial=-1) + 1)[nodes]
-    return of_nodes + sites, np.concatenate([total, work[alone]])
+    return of_nodes + sites, np.abs(np.concatenate([total, work[alone]]))

@@ -207,8 +207,9 @@ class Diagnosis:
     """The answer of `diagnose`.
 
     kind: one of NOTHING, NAMED, ONE_OF, UNKNOWN. result: the update of the model as it is; best: the explanation named, or the
-    first of the rivals; probability: of its group. location, energy: what shapes alone say of the place. explanations: all that were tried, most probable first. noise_scale: by what
-    the stated variances were multiplied. extended: the deck with the cause in it, and its update.
+    first of the rivals; probability: of its group. explanations: all that were tried, most probable first. noise_scale: by what
+    the stated variances were multiplied. location, energy: what shapes alone say of the place. extended: the deck with the
+    cause in it, and its update.
     """
 
     problem: Problem

@@ -9,6 +9,7 @@ from mouse_cli.model.diagnosis import (
     ONE_OF,
     UNKNOWN,
     Diagnosis,
+    EnergyMap,
     Explanation,
     HeldOut,
     Law,
@@ -43,6 +44,7 @@ def document(found: Diagnosis) -> dict[str, Any]:
             "residual": of_result.tested(result.residual),
             "prior_shift": of_result.tested(result.prior_shift),
             "location": None if found.location is None else _location(found.location),
+            "energy": None if found.energy is None else _energy(found.energy),
             "law": None if found.law is None else _law(found.law),
             "held_out": None if found.held_out is None else _held_out(found.held_out),
             "next_measurement": [
@@ -113,6 +115,16 @@ def _location(location: Location) -> dict[str, Any]:
             {"site": site(p.site), "channel": p.channel, "probability": p.probability, "deficit": p.deficit}
             for p in location.places[:_PLACES]
         ],
+    }
+
+
+def _energy(energy: EnergyMap) -> dict[str, Any]:
+    """The places with the largest shares; `half` counts those that hold half of the whole."""
+    return {
+        "half": energy.half,
+        "of": len(energy.sites),
+        "modes": [{"mode": int(m), "error": e} for m, e in zip(energy.mode, energy.error, strict=True)],
+        "places": [{"site": site(energy.sites[i]), "share": energy.share[i]} for i in energy.order[:_PLACES]],
     }
 
 

@@ -146,7 +146,7 @@ def test_figures(name, tmp_path):
     for path in written:
         with open(path, "rb") as file:
             assert file.read(8) == b"\x89PNG\r\n\x1a\n"
-    expected = {"named": 5, "two": 4, "one-of": 2, "unknown": 2, "nothing": 3, "bare": 1}
+    expected = {"named": 6, "two": 5, "one-of": 2, "unknown": 2, "nothing": 3, "bare": 1}
     assert len(written) == expected[name]
     assert len(written) <= len(registry())
 

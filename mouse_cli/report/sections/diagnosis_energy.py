@@ -1,0 +1,32 @@
+"""The map of energy: where the stiffness of the model and the measured shapes part, for causes that are spread."""
+
+from collections.abc import Iterator
+
+from mouse_cli.model.diagnosis import Diagnosis
+from mouse_cli.report.blocks import Block, Column, Table, Text
+from mouse_cli.report.section import Options, Section
+from mouse_cli.report.sections._diagnosis_wording import place
+from mouse_cli.report.sections._wording import LEFT, counted
+
+_MOST = 10  # places listed
+
+
+def energy(found: Diagnosis, options: Options) -> Iterator[Block]:
+    """The places with the largest shares; nothing where none was computed."""
+    energy = found.energy
+    if energy is None:
+        return
+    shown = energy.order[:_MOST]
+    columns = (Column("place", align=LEFT), Column("share", "per cent"))
+    yield Table(columns, tuple((place(energy.sites[i]), 100 * float(energy.share[i])) for i in shown))
+    errors = ", ".join(
+        f"{100 * error:.2g} % in mode {mode}" for mode, error in zip(energy.mode, energy.error, strict=True)
+    )
+    yield Text(
+        f"Of the energy by which stresses and strains disagree when the measured shapes are imposed on the model as it is, "
+        f"{counted(energy.half, 'place')} of {len(energy.sites)} hold half: few for a local cause, many for one that is spread. It "
+        f"shows all that is missing as if it were stiffness. Relative to the strain energy: {errors}."
+    )
+
+
+SECTION = Section("diagnosis-energy", 65, "Energy of the disagreement", energy, (Diagnosis,))
