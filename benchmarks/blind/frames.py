@@ -208,7 +208,7 @@ def _cause(truth: str, rng: np.random.Generator, inputs: dict, weight: float, st
         number = 0 if truth == "foot" else number
         x1, y1, x2, y2 = inputs["members"][number]
         piece = inputs["depth"] / (abs(x2 - x1) + abs(y2 - y1))
-        low = 0.0 if truth == "foot" or rng.integers(2) else 1 - piece
+        low = 0.0 if truth == "foot" or (rng.integers(2) and y1 > 0) else 1 - piece  # a corner at a foot is a foot
         inputs["soft"].append([number, low, low + piece, log_uniform(rng, 0.01, 0.1)])
         t = low + piece / 2
     elif truth == "soft":

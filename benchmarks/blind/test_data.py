@@ -44,14 +44,17 @@ def measured(case: Case, truth: dict[str, np.ndarray], config: Config, words: tu
     """The test of `truth`; `words` seed the noise. `misstated`: one of MISSTATED, or nothing."""
     rng = generator(case.name, "test", *words)
     sites = _sites(case, config, rng)
-    count, shapes = len(truth["frequency"]), truth["shapes"].T
+    count = min(
+        len(truth["frequency"]), len(case.numbers)
+    )  # what hangs on a structure has modes that its model has not
+    shapes = truth["shapes"][:count].T
     readings = _moved(shapes, sites, rng) if misstated == "position" else shapes[sites]
     readings = _faulty(readings / abs(readings).max(axis=0), case.sensor_fault)
     if misstated == "gains":
         readings = readings * (1 + 0.02 * rng.standard_normal(len(sites)))[:, None]
     scale = 2.0 if misstated == "understated" else 1.0
     readings = readings + scale * config.shape_sd * rng.standard_normal(readings.shape)
-    frequency = truth["frequency"] * (1 + scale * config.frequency_sd * rng.standard_normal(count))
+    frequency = truth["frequency"][:count] * (1 + scale * config.frequency_sd * rng.standard_normal(count))
     if misstated == "drift":
         frequency = frequency * (1 + rng.uniform(-0.01, 0.01, count))
     altered = truth["altered"][:MEASURED]

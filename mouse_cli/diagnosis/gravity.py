@@ -15,6 +15,7 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
 
 G, G_INCH = 9.80665, 386.0886  # m/s2, in/s2
+_STOREYS, _BARS = (0.3, 3.0), (0.9, 1.1)  # effective heights are anybody's guess; of bars all is known but the mass
 _NOTHING = 1e-6  # share of an eigenvalue that a change must move to matter
 _LARGEST = 400  # degrees of freedom up to which a model of matrices is looked at as a chain
 _AXES = (("-Z", (0, 0, -1)), ("-Y", (0, -1, 0)), ("-X", (-1, 0, 0)), ("+X", (1, 0, 0)), ("+Y", (0, 1, 0)))
@@ -59,9 +60,9 @@ def _with_gravity(problem: Problem, down: tuple[int, int, int], factor: float) -
 
 
 def _under(model: Reduced, candidate: Candidate, name: str, Kg: np.ndarray, count: int) -> Recipe:
-    factor = Unknown("times 9.81 m/s2", "1", 0.3, 3.0)
     down = dict(_AXES)[name]
     stacked = any(each.type == "storey" for each in model.problem.mesh.elements)
+    factor = Unknown("times 9.81 m/s2", "1", *(_STOREYS if stacked else _BARS))
 
     def site(values: np.ndarray) -> Site:
         tall = f", as if storeys were {1 / values[0]:.3g} times as high as the deck says" if stacked else ""
