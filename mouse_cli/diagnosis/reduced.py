@@ -23,7 +23,7 @@ from mouse_cli.terms.assembly import Assembly, assembly
 from mouse_cli.terms.constraints import Motion
 from mouse_cli.updating.coordinates import Coordinates
 
-WHOLE = 130  # degrees of freedom up to which a model is not reduced
+WHOLE = 200  # degrees of freedom up to which a model is not reduced
 
 
 @dataclass(frozen=True)

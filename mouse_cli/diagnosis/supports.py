@@ -7,7 +7,6 @@ import numpy as np
 from mouse_cli.diagnosis.candidates import Candidate
 from mouse_cli.diagnosis.change import Carried, Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.extend import Edit
-from mouse_cli.diagnosis.points import wanted
 from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.diagnosis.scales import lowest
 from mouse_cli.model.arrays import is_sparse
@@ -19,6 +18,7 @@ from mouse_cli.terms.assembly import assembly
 _LOADED = 0.02  # share of the largest reaction of its kind below which a support is not loaded
 _SHIFT = 1e-3  # of the lowest measured eigenvalue, so that motions that nothing resists need no support
 _TOGETHER = 12  # supports that may give way alike
+_MOST = 24  # supports that are looked at: those that bear most
 
 
 @dataclass(frozen=True)
@@ -86,9 +86,7 @@ def _candidates(model: Reduced, kinds: range) -> list[tuple[int, int]]:
     mesh = model.problem.mesh
     if model.motion is None or mesh.gravity is not None:
         return []
-    keep = wanted(model)
-    own = [(node, d) for node, d in mesh.supports.tolist() if d in kinds and d in mesh.directions]
-    return own if keep is None else [(node, d) for node, d in own if keep[node]]
+    return [(node, d) for node, d in mesh.supports.tolist() if d in kinds and d in mesh.directions]
 
 
 def _without_supports(problem: Problem) -> Problem:
@@ -112,7 +110,8 @@ def _loaded(
     modes = slice(0, min(model.r, int(model.data.test.number.max()) + 1))
     reaction = K[s][:, f] @ model.V[:, modes] - (M[s][:, f] @ model.V[:, modes]) * model.eigenvalues[modes]
     size = np.abs(reaction).max(axis=1)
-    chosen = [i for i, one in zip(known, size, strict=True) if one > _LOADED * size.max()]
+    order = np.sort(np.argsort(-size, kind="stable")[:_MOST])
+    chosen = [known[i] for i in order if size[i] > _LOADED * size.max()]
     return [held[i] for i in chosen], [names[i] for i in chosen]
 
 

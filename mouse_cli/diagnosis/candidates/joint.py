@@ -6,7 +6,6 @@ from mouse_cli.diagnosis.bars import Bars
 from mouse_cli.diagnosis.candidates import Candidate
 from mouse_cli.diagnosis.change import Change, Recipe, Softening, Unknown, steps
 from mouse_cli.diagnosis.hinges import with_hinge
-from mouse_cli.diagnosis.points import wanted
 from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
@@ -18,10 +17,10 @@ _STEP = 1.3  # ratio of stiffnesses or masses from which on a straight line chan
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """F + c [1, eta]'[1, eta], eta = +-1, at each end of a bar where others begin, in each plane."""
-    bars, keep = model.bars, wanted(model)
+    bars = model.bars
     if bars is None:
         return []
-    ends = [(bar, end) for bar, end in _ends(bars) if keep is None or keep[bars.nodes[bar, end]]]
+    ends = _ends(bars)
     modes = slice(0, min(model.r, int(model.data.test.number.max()) + 1))
     bent = [np.abs(_moment(bars, bar, end, modes)).max() for bar, end in ends]
     chosen = [ends[i] for i in np.argsort(bent)[::-1][:_MOST]]
