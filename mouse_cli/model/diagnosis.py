@@ -241,8 +241,9 @@ class Diagnosis:
 
     @property
     def rivals(self) -> tuple[tuple[str, float], ...]:
-        """Groups that hold more than 5 % of the probability, and it; the leading one first."""
-        return tuple((name, p) for name, p in self.groups if p > RIVAL)
+        """Groups that hold more than 5 % of the probability, and it, the leading one first; never one alone of several."""
+        least = 2 if self.kind == ONE_OF else 0
+        return tuple((name, p) for i, (name, p) in enumerate(self.groups) if p > RIVAL or i < least)
 
     @property
     def probability(self) -> float:
