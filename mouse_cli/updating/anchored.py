@@ -29,6 +29,8 @@ def recur(trace: Trace, estimator: Estimator) -> Status:
     run = _Descent(trace, estimator)
     options = trace.setting.problem.run
     trace.record(trace.state, run.cost(trace.state, run.z))
+    if trace.guess is not None:
+        run.jump(trace.guess)
     most = options.cycles if options.cycles is not None else options.partials
     try:
         while trace.cycles[-1].index < most:
@@ -58,6 +60,20 @@ class _Descent:
     def cost(self, state: State, z: np.ndarray) -> float:
         """J at `state`, with the prior's share |z|^2."""
         return float(np.sum((state.residual / self.noise) ** 2)) + self.alpha * float(z @ z)
+
+    def jump(self, theta: np.ndarray) -> None:
+        """Go on from the values theta (p,), if J is lower there."""
+        coordinates = self.setting.coordinates
+        u = np.where(coordinates.logarithmic, np.log(np.maximum(theta, 1e-300)), theta) - coordinates.mean
+        L = coordinates.L
+        z = u / L if L.ndim == 1 else np.linalg.lstsq(L, u, rcond=None)[0]
+        at = coordinates.mean + self._expand(z)
+        if coordinates.lower is not None and not np.all((at >= coordinates.lower) & (at <= coordinates.upper)):
+            return
+        there = attempt(self.setting, at)
+        if there is not None and (cost := self.cost(there, z)) < self.trace.cycles[-1].cost:
+            self.z = z
+            self.trace.record(there, cost)
 
     def step(self) -> bool | None:
         """Take one step that lowers J, damped as far as needed: whether it was negligible, or None when there is none."""

@@ -33,16 +33,22 @@ from mouse_cli.updating.trace import Progress, Trace
 RECURSIONS = {"replaced": replaced, "anchored": anchored}
 
 
-def run(problem: Problem, progress: Progress = lambda cycle: None, notice: Notice = lambda text: None) -> Result:
+def run(
+    problem: Problem,
+    progress: Progress = lambda cycle: None,
+    notice: Notice = lambda text: None,
+    guess: np.ndarray | None = None,
+) -> Result:
     """Revise the model of `problem` by its test.
 
-    progress is called with each Cycle as it ends, notice with a sentence as each phase of a large model begins. Raises
-    DeckError for a deck whose test cannot belong to its model (a rigid-body mode named as measured, shapes that are
-    unrelated), NumericalError where no eigensolution exists.
+    progress is called with each Cycle as it ends, notice with a sentence as each phase of a large model begins. guess (p,):
+    values of the parameters near the answer, where the anchored recursion goes first; the prior stays. Raises DeckError for a
+    deck whose test cannot belong to its model (a rigid-body mode named as measured, shapes that are unrelated), NumericalError
+    where no eigensolution exists.
     """
     estimator = _estimator(problem)
     try:
-        return _run(problem, estimator, progress, notice)
+        return _run(problem, estimator, progress, notice, guess)
     except np.linalg.LinAlgError as reason:
         raise refusals.unphysical(problem, f"{reason} (values beyond what can be computed with)") from None
 
@@ -93,11 +99,15 @@ def _estimator(problem: Problem) -> Estimator:
         raise refusals.unknown_estimator(problem, str(reason)) from None
 
 
-def _run(problem: Problem, estimator: Estimator, progress: Progress, notice: Notice) -> Result:
+def _run(
+    problem: Problem, estimator: Estimator, progress: Progress, notice: Notice, guess: np.ndarray | None
+) -> Result:
     """`run`, once the estimator is known."""
     setting, start = _begin(problem, notice)
     innovation = model_form.innovation(setting, start)
-    trace = Trace(setting, ExceedanceTest(problem.run.confidence, problem.run.convergence), progress, start)
+    trace = Trace(
+        setting, ExceedanceTest(problem.run.confidence, problem.run.convergence), progress, start, guess=guess
+    )
     status = RECURSIONS[problem.run.recursion].recur(trace, estimator)
     result = _result(trace, start, status, estimator, innovation)
     return replace(result, warnings=tuple(remarks(result)))

@@ -16,13 +16,14 @@ _LISTED = 3  # properties that a status names
 
 @dataclass
 class Trace:
-    """Grows by one cycle at a time; `state` is the last good one."""
+    """Grows by one cycle at a time; `state` is the last good one. guess (p,): values of the parameters that may be near the end."""
 
     setting: Setting
     test: ExceedanceTest
     progress: Progress
     state: State
     cycles: list[Cycle] = field(default_factory=list)
+    guess: np.ndarray | None = None
 
     def record(self, state: State, cost: float, damping: float = 0.0) -> Cycle:
         """Accept `state` as the result of the next cycle."""
