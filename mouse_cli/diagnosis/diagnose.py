@@ -3,16 +3,20 @@
 from collections.abc import Callable
 from dataclasses import replace
 
+import numpy as np
+
+from mouse_cli.diagnosis.altered import Model
 from mouse_cli.diagnosis.decide import decide, explanations
 from mouse_cli.diagnosis.energy_map import energy_map
 from mouse_cli.diagnosis.extended import extended
-from mouse_cli.diagnosis.fit import Fit
+from mouse_cli.diagnosis.fit import Fit, fit
 from mouse_cli.diagnosis.implied_law import implied_law
 from mouse_cli.diagnosis.locate import locate
 from mouse_cli.diagnosis.name import Ranking, group, rank
 from mouse_cli.diagnosis.next_measurement import proposals
+from mouse_cli.diagnosis.numerics import numerics
 from mouse_cli.diagnosis.prove import held_out
-from mouse_cli.diagnosis.reduced import reduced
+from mouse_cli.diagnosis.reduced import Reduced, reduced
 from mouse_cli.model.diagnosis import NAMED, NOTHING, RIVAL, UNKNOWN, Diagnosis, Proposal, leading
 from mouse_cli.model.modal_test import restricted
 from mouse_cli.model.problem import Problem
@@ -28,8 +32,9 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None) -> Diagnosis:
     Raises DeckError and NumericalError as `run` does.
     """
     problem = replace(problem, run=replace(problem.run, recursion="anchored", estimator="bayes"))
-    result, remarks = _update(problem, notice)
-    model = reduced(problem, problem.prior.mean)
+    kept = related(problem)
+    model, told = _model(problem)
+    result, remarks = _update(problem, kept, notice, _guess(model))
     ranking = rank(model)
     decision = decide(ranking, result)
     missing = decision.kind != NOTHING
@@ -48,20 +53,46 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None) -> Diagnosis:
         law=None if best is None else implied_law(best),
         held_out=held_out(model, as_it_is, best),
         proposals=_proposals(ranking) if missing and decision.kind != UNKNOWN else (),
-        remarks=remarks,
+        remarks=remarks + told + (() if deck is None else _coarse(deck)),
         extended=deck,
         extended_result=None if deck is None else run(deck, notice=notice),
     )
 
 
-def _update(problem: Problem, notice: Notice) -> tuple[Result, tuple[str, ...]]:
-    """The update of the model as it is, by those modes that have to do with it; what to say of the others."""
-    kept = related(problem)
+def _guess(model: Reduced) -> np.ndarray | None:
+    """Values (p,) of the parameters of a large model that fit its test in few coordinates, so that the update has it near."""
+    update = None if model.places is None else fit(Model(model), np.zeros(0))
+    return None if update is None else model.parameters(update.point.x)
+
+
+def _update(
+    problem: Problem, kept: np.ndarray, notice: Notice, guess: np.ndarray | None
+) -> tuple[Result, tuple[str, ...]]:
+    """The update of the model as it is, by those modes (mask `kept`) that have to do with it; what to say of the others."""
     lost = ", ".join(str(number) for number in problem.test.number[~kept])
     if kept.all() or not kept.any():
-        return run(problem, notice=notice), ()
+        return run(problem, notice=notice, guess=guess), ()
     told = f"no mode of the model is like measured mode {lost}: the update of the model as it is goes without"
-    return run(replace(problem, test=restricted(problem.test, kept)), notice=notice), (told,)
+    return run(replace(problem, test=restricted(problem.test, kept)), notice=notice, guess=guess), (told,)
+
+
+def _model(problem: Problem) -> tuple[Reduced, tuple[str, ...]]:
+    """The reduced model at the prior mean, its data allowed what numerics do to them; and what to say of that."""
+    model = reduced(problem, problem.prior.mean)
+    bare = Model(model).point(model.z)
+    if bare is None:
+        return model, ()
+    found = numerics(problem, problem.prior.mean, bare.modes, model.data.sd_log)
+    still = np.zeros(model.data.has_shape.shape)
+    return replace(model, data=model.data.loosened(np.abs(found.moved), still)), found.remarks
+
+
+def _coarse(deck: Problem) -> tuple[str, ...]:
+    """What to say of the mesh of the extended deck."""
+    sd = deck.test.frequency_sd_hz / deck.test.frequency_hz
+    known = np.isfinite(sd)
+    found = numerics(deck, deck.prior.mean, deck.test.number[known] - 1, sd[known])
+    return tuple(f"with the cause: {text}" for text in found.remarks)
 
 
 def leader(ranking: Ranking) -> Fit | None:

@@ -14,7 +14,7 @@ from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
 
-G, G_INCH = 9.80665, 386.0886  # m/s2, in/s2
+G, INCH = 9.80665, 0.0254  # m/s2, m
 _STOREYS, _BARS = (0.3, 3.0), (0.9, 1.1)  # effective heights are anybody's guess; of bars all is known but the mass
 _NOTHING = 1e-6  # share of an eigenvalue that a change must move to matter
 _LARGEST = 400  # degrees of freedom up to which a model of matrices is looked at as a chain
@@ -93,8 +93,9 @@ def _chain(model: Reduced, candidate: Candidate) -> list[Recipe]:
     a = Unknown("g / h", "1/s2", 0.03 * scale, 10.0 * scale)
 
     def site(values: np.ndarray) -> Site:
-        h = f"{G / values[0]:.3g} m, or {G_INCH / values[0]:.3g} in where the deck is in inches"
-        return Site("structure", text=f"the whole structure, effective height h = {h}")
+        h = G / values[0]  # rigid storeys are h high, those whose columns bend between floors that do not turn 6/5 h
+        text = f"the whole structure, effective height h = {h:.3g} m ({h / INCH:.3g} in); storeys of h to 1.2 h would confirm it"
+        return Site("structure", text=text)
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         return with_entries(problem, found("gravity g / h", values[0], "1/s2"), K=entries)

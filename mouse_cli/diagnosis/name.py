@@ -13,7 +13,7 @@ import numpy as np
 from mouse_cli.diagnosis.candidates import registry
 from mouse_cli.diagnosis.change import Recipe
 from mouse_cli.diagnosis.fit import MOST, Fit, Model, Point, fit
-from mouse_cli.diagnosis.reduced import Reduced, reduced
+from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.updating.chi_square import upper_tail
 
 _STARTS, _SECOND = 3, 2  # fits of a candidate, from the best places of its grid: alone, and beside another
@@ -104,7 +104,7 @@ class Study:
     def at(self, one: Fit) -> "Study":
         """The same at the parameters that a fit found."""
         theta = one.model.base.parameters(one.point.x[: self.k])
-        return Study(self.model.at(theta) if self.model.places is not None else reduced(self.model.problem, theta))
+        return Study(self.model.at(theta))
 
 
 def shifted(one: Fit) -> Fit:

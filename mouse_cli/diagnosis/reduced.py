@@ -131,7 +131,7 @@ class Reduced:
     def at(self, theta: np.ndarray) -> "Reduced":
         """The same model at other values theta (p,) of its parameters; a large one in the same subspace, with the same places."""
         if self.V.shape[0] <= WHOLE:
-            return replace(reduced(self.problem, theta), data=self.data, sensing=self.sensing)
+            return replace(reduced(self.problem, theta), data=self.data)
         step = self._along @ (theta - self.theta)
         K = np.diag(self.eigenvalues) + np.tensordot(step, self.dK, 1)
         solution = dense_solution(K, np.eye(self.r) + np.tensordot(step, self.dM, 1))
