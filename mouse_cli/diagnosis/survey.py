@@ -23,22 +23,25 @@ _PAIRS = 20_000  # pairs that are looked at, those first between whose ends a fo
 def survey(model: Reduced, K: Matrix, count: int) -> np.ndarray:
     """At most `count` degrees of freedom, the best first, no two of which the sensors can hardly tell apart.
 
-    A look with the parameters of the update, then with those that the best places found lead to, as long as that helps.
+    A look with the parameters of the update, with those before the test, then with those that the best places found lead to, as
+    long as that helps.
     """
     measured, update = shapes(model), fit(Model(model), np.zeros(0))
     if update is None or count < 1 or measured.dof < 1 or not len(measured.modes):
         return np.zeros(0, int)
-    pairs, z = _pairs(K), update.point.x
-    scale, best, found = max(1.0, update.point.chi2 / max(update.dof, 1)), np.inf, np.zeros(0, int)
+    pairs, best, found = _pairs(K), np.inf, np.zeros(0, int)
+    scale, starts = max(1.0, update.point.chi2 / max(update.dof, 1)), [update.point.x, np.zeros_like(update.point.x)]
     for _ in range(_LOOKS):
-        places = _look(model, measured, update, z, scale, pairs, count)
+        places = _look(model, measured, update, starts.pop(0), scale, pairs, count)
         tried = matched(model, measured, model.V[places], _FOLLOWED)
         order = np.argsort(tried.cost, kind="stable")
-        found = _merged(places[order], found, count, tried.cost[order[0]] < best)
-        if tried.cost[order[0]] > best - 1:
+        least = float(tried.cost[order[0]])
+        found = _merged(places[order], found, count, least < best)
+        if least < best - 1:
+            best, scale = least, max(1.0, least / measured.dof)
+            starts.append(tried.z[order[0]])
+        if not starts:
             break
-        best, z = float(tried.cost[order[0]]), tried.z[order[0]]
-        scale = max(1.0, best / measured.dof)
     return found
 
 
@@ -81,7 +84,7 @@ def _look(model, measured, update: Fit, z: np.ndarray, scale: float, pairs, coun
 
 
 def _whitening(update: Fit, mode: int, weight: np.ndarray, scale: float) -> np.ndarray:
-    """(I + J C J')^-1/2 (s, s), J derivatives of the whitened shape, C covariance of the update, times `scale`."""
+    """(I + J C J')^-1/2 (s, s), J derivatives of the whitened shape, C covariance of the update with `scale` times the noise."""
     test, k = update.model.base.data.test, update.model.k
     J = np.zeros((len(weight), k))
     have = update.model.base.data.has_shape
@@ -89,7 +92,8 @@ def _whitening(update: Fit, mode: int, weight: np.ndarray, scale: float) -> np.n
     number = np.cumsum(have.ravel()).reshape(have.shape) - 1 + first
     T = update.model.jacobian(update.point)
     J[have[:, mode]] = T[number[have[:, mode], mode]]
-    size, Q = np.linalg.eigh(np.eye(test.s) + scale * J @ np.linalg.solve(update.hessian, J.T))
+    prior = np.eye(k)
+    size, Q = np.linalg.eigh(np.eye(test.s) + J @ np.linalg.solve((update.hessian - prior) / scale + prior, J.T))
     return (Q / np.sqrt(size)) @ Q.T
 
 
