@@ -55,7 +55,7 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None) -> Diagnosis:
         proposals=_proposals(ranking) if missing and decision.kind != UNKNOWN else (),
         remarks=remarks + told + (() if deck is None else _coarse(deck)),
         extended=deck,
-        extended_result=None if deck is None else run(deck, notice=notice),
+        extended_result=None if deck is None else run(deck, notice=notice, guess=_values(deck, best)),
     )
 
 
@@ -63,6 +63,12 @@ def _guess(model: Reduced) -> np.ndarray | None:
     """Values (p,) of the parameters of a large model that fit its test in few coordinates, so that the update has it near."""
     update = None if model.places is None else fit(Model(model), np.zeros(0))
     return None if update is None else model.parameters(update.point.x)
+
+
+def _values(deck: Problem, best: Fit) -> np.ndarray:
+    """Values of the parameters of the extended deck that its fit found: those of the deck first, then sizes of causes."""
+    own = best.model.base.parameters(best.point.x[: best.model.k])
+    return np.concatenate([own, deck.prior.mean[len(own) :]])
 
 
 def _update(
