@@ -9,6 +9,8 @@ from mouse_cli.diagnosis.points import Points, directions
 from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.diagnosis.scales import lowest, total_mass
 
+_ALONG, _AT = 6, 18  # stiffnesses to begin from: along a line each helps its neighbours, at one place nothing else does
+
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """K + k B'B, B the motion of a place in one direction."""
@@ -26,7 +28,7 @@ def _at(point: Points, k: Unknown, candidate: Candidate) -> Recipe:
         candidate,
         (k, *point.unknown),
         change,
-        product(steps(k, 6), *point.starts.T),
+        product(steps(k, _ALONG if point.unknown else _AT), *point.starts.T),
         lambda values: point.site(values[1:]),
         log_prior=float(np.log(point.share)),
         extend=lambda problem, values: with_spring(problem, point, values[1:], values[0]),

@@ -9,6 +9,8 @@ from mouse_cli.diagnosis.points import Points, all_motions
 from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.diagnosis.scales import total_mass
 
+_ALONG, _AT = 4, 8  # masses to begin from, along a line and at one place
+
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """M + m B'B, B the translations of a place."""
@@ -26,7 +28,7 @@ def _at(point: Points, m: Unknown, candidate: Candidate) -> Recipe:
         candidate,
         (m, *point.unknown),
         change,
-        product(steps(m, 4), *point.starts.T),
+        product(steps(m, _ALONG if point.unknown else _AT), *point.starts.T),
         lambda values: point.site(values[1:]),
         log_prior=float(np.log(point.share)),
         extend=lambda problem, values: with_mass(problem, point, values[1:], values[0]),

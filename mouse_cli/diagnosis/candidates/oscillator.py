@@ -15,10 +15,12 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     total, hz = total_mass(model), np.sqrt([lowest(model), highest(model)]) / (2 * np.pi)
     m = Unknown("mass", "kg", 1e-3 * total, 0.4 * total)
     f = Unknown("frequency", "Hz", 0.3 * hz[0], 1.5 * hz[1])
-    return [_at(point, m, f, candidate) for point in directions(model)]
+    measured = model.data.test.frequency_hz[model.data.has_frequency]
+    found = np.concatenate([steps(f, 14), measured])  # one of those measured may be its own
+    return [_at(point, m, f, found, candidate) for point in directions(model)]
 
 
-def _at(point: Points, m: Unknown, f: Unknown, candidate: Candidate) -> Recipe:
+def _at(point: Points, m: Unknown, f: Unknown, hz: np.ndarray, candidate: Candidate) -> Recipe:
     def change(values: np.ndarray) -> Change:
         B = point.motion(values[2:])[0]
         arm = np.append(B, -1.0)
@@ -30,7 +32,7 @@ def _at(point: Points, m: Unknown, f: Unknown, candidate: Candidate) -> Recipe:
         candidate,
         (m, f, *point.unknown),
         change,
-        product(steps(m, 2), steps(f, 14), *point.starts.T[:, :: max(1, len(point.starts) // 6)]),
+        product(steps(m, 2), hz, *point.starts.T[:, :: max(1, len(point.starts) // 6)]),
         lambda values: point.site(values[2:]),
         own=1,
         log_prior=float(np.log(point.share)),
