@@ -17,7 +17,11 @@ from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.updating.chi_square import upper_tail
 
 _STARTS, _SECOND = 3, 2  # fits of a candidate, from the best places of its grid: alone, and beside another
-_QUICK, _SWAPPED, _FINISHED = 8, 2, 6  # steps of a first try of two causes; pairs whose aliases are tried, and fitted to the end
+_QUICK, _SWAPPED, _FINISHED = (
+    8,
+    2,
+    6,
+)  # steps of a first try of two causes; pairs whose aliases are tried, and fitted to the end
 _SETTLE, _MOVED = 3, 5e-3  # times that causes are weighed anew, as long as parameters move more than that share
 _THEORY = 0.01  # of what a cause does to frequencies and shapes, by which its theory may be wrong
 _SHIFTS = np.array([-5, -3, -2, -1, 1, 2, 3, 5]) / 50  # of the range of a place
@@ -182,7 +186,9 @@ def rank(model: Reduced) -> Ranking:
 
 def ranking(baseline: Fit, fits: list[Fit]) -> Ranking:
     """Probabilities of `fits` with the noise scale that the best of them needs."""
-    scale = max(1.0, min(one.misfit / max(one.dof, 1) for one in fits))
+    scale = max(
+        1.0, min((one.misfit / one.dof for one in fits if one.dof > 0), default=1.0)
+    )  # saturated fits say nothing
     weights = np.array([_prior(one, fits) + one.log_evidence / scale for one in fits])
     weights = np.exp(weights - weights.max())
     order = np.argsort(-weights)

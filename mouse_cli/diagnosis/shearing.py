@@ -10,6 +10,9 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.terms.elements import _beam as beam
 
 
+_SOLID = 2.0, 10.0  # E / (kappa G) from what no solid section goes below to thin-walled ones
+
+
 def slender(model: Reduced) -> bool:
     """Whether all bars bend after Euler and Bernoulli without the inertia of turning sections, so that either can be added."""
     if model.bars is None:
@@ -20,9 +23,9 @@ def slender(model: Reduced) -> bool:
 
 
 def shear_range(bars: Bars) -> tuple[float, float]:
-    """E / (kappa G) for which EI / (kappa G A L^2) is between 1e-5 and 3e-2, L the longest line."""
+    """E / (kappa G) for which EI / (kappa G A L^2) is between 1e-5 and 3e-2, L the longest line; that of solid bars is within."""
     radius = float(np.average(bars.EI / bars.E / bars.A, weights=bars.length))
-    return 1e-5 * bars.span**2 / radius, 3e-2 * bars.span**2 / radius
+    return min(1e-5 * bars.span**2 / radius, _SOLID[0]), max(3e-2 * bars.span**2 / radius, _SOLID[1])
 
 
 def shear(model: Reduced, ratio: float, turning: bool) -> Change:
