@@ -218,7 +218,9 @@ def _steps(solid: Solid, mesh: Mesh) -> list[str]:
     left, right = mesh.axis(0.0), mesh.axis(solid.L)
     forces = [f"{right}, 1, {solid.tension:.12g}"] + ([f"{left}, 1, {-solid.tension:.12g}"] if solid.free else [])
     hold = ["*BOUNDARY", f"{left}, 1, 2", f"{right}, 2, 2"] if solid.free else []
-    hung = ["EXTRA, 1, 1", "EXTRA, 3, 3"] if solid.masses or solid.oscillator else []  # OP=NEW forgets all that was held
+    hung = (
+        ["EXTRA, 1, 1", "EXTRA, 3, 3"] if solid.masses or solid.oscillator else []
+    )  # OP=NEW forgets all that was held
     release = ["*BOUNDARY, OP=NEW", *hung] if solid.free else []
     return [
         *("*STEP, NLGEOM", "*STATIC", *hold, "*CLOAD", *forces, "*END STEP"),

@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.fit import Fit
 from mouse_cli.diagnosis.name import Ranking
-from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, UNKNOWN, Cause, Explanation, Size
+from mouse_cli.model.diagnosis import BY_DECK, NAMED, NOTHING, ONE_OF, UNKNOWN, Cause, Explanation, HeldOut, Size
 from mouse_cli.model.result import Result
 from mouse_cli.updating.chi_square import upper_tail
 
@@ -48,6 +48,13 @@ def decide(ranking: Ranking, result: Result) -> Decision:
     if name == "none" and probability >= _SURE:
         return Decision(UNKNOWN, probability)
     return Decision(ONE_OF, probability)
+
+
+def refuted(proof: HeldOut | None) -> bool:
+    """Whether data that were held out are predicted worse with the cause than without: then it is no name."""
+    if proof is None or proof.revised is None or proof.kind != BY_DECK:
+        return False
+    return proof.revised.log_predictive_density < proof.baseline.log_predictive_density - _ODDS
 
 
 def explanations(ranking: Ranking) -> tuple[Explanation, ...]:

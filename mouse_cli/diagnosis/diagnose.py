@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli.diagnosis.altered import Model
-from mouse_cli.diagnosis.decide import decide, explanations
+from mouse_cli.diagnosis.decide import decide, explanations, refuted
 from mouse_cli.diagnosis.energy_map import energy_map
 from mouse_cli.diagnosis.extended import extended
 from mouse_cli.diagnosis.fit import Fit, fit
@@ -17,7 +17,7 @@ from mouse_cli.diagnosis.next_measurement import proposals
 from mouse_cli.diagnosis.numerics import numerics
 from mouse_cli.diagnosis.prove import held_out
 from mouse_cli.diagnosis.reduced import Reduced, reduced
-from mouse_cli.model.diagnosis import NAMED, NOTHING, RIVAL, UNKNOWN, Diagnosis, Proposal, leading
+from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Diagnosis, Proposal, leading
 from mouse_cli.model.modal_test import restricted
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import Result
@@ -39,10 +39,12 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None) -> Diagnosis:
     decision = decide(ranking, result)
     missing = decision.kind != NOTHING
     best, as_it_is = leader(ranking) if missing else None, ranking.baseline
-    deck = extended(problem, best) if decision.kind == NAMED else None
+    proof = held_out(model, as_it_is, best)
+    kind = ONE_OF if decision.kind == NAMED and refuted(proof) else decision.kind
+    deck = extended(problem, best) if kind == NAMED else None
     return Diagnosis(
         problem=problem,
-        kind=decision.kind,
+        kind=kind,
         result=result,
         innovation=result.innovation,
         explanations=explanations(ranking),
@@ -51,7 +53,7 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None) -> Diagnosis:
         location=locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None,
         energy=energy_map(as_it_is) if missing else None,
         law=None if best is None else implied_law(best),
-        held_out=held_out(model, as_it_is, best),
+        held_out=proof,
         proposals=_proposals(ranking) if missing and decision.kind != UNKNOWN else (),
         remarks=remarks + told + (() if deck is None else _coarse(deck)),
         extended=deck,

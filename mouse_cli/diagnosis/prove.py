@@ -12,7 +12,7 @@ from mouse_cli.diagnosis.change import Change, Recipe
 from mouse_cli.diagnosis.fit import Fit, Model, fit
 from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.dynamics.correlation import mac
-from mouse_cli.model.diagnosis import HeldOut, Score
+from mouse_cli.model.diagnosis import BY_DECK, BY_MODE, HeldOut, Score
 from mouse_cli.model.hold_out import HoldOut
 from mouse_cli.model.modal_test import ModalTest, restricted
 
@@ -84,7 +84,7 @@ def held_out(model: Reduced, baseline: Fit, best: Fit | None) -> HeldOut | None:
     found = {name: part and [part[i][1] for i in kept] for name, part in parts.items()}
     measured = np.concatenate([part.test.frequency_hz for part in found["baseline"]])
     revised = None if best is None else score(found["revised"])
-    return HeldOut("held out by the deck", tuple(labels), measured, score(found["baseline"]), revised)
+    return HeldOut(BY_DECK, tuple(labels), measured, score(found["baseline"]), revised)
 
 
 def _foreseen(held: HoldOut, one: Fit) -> list[tuple[str, Prediction | None]]:
@@ -130,4 +130,4 @@ def cross_validated(model: Reduced, baseline: Fit, best: Fit | None) -> HeldOut 
             found[name].append(part)
     labels = tuple(f"mode {number}" for number in test.number)
     revised = None if best is None else score(found["revised"])
-    return HeldOut("each mode from the others", labels, test.frequency_hz, score(found["baseline"]), revised)
+    return HeldOut(BY_MODE, labels, test.frequency_hz, score(found["baseline"]), revised)

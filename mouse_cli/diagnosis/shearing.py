@@ -9,7 +9,6 @@ from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.elements import _beam as beam
 
-
 _SOLID = 2.0, 10.0  # E / (kappa G) from what no solid section goes below to thin-walled ones
 
 

@@ -182,9 +182,12 @@ class Score:
     mac: np.ndarray
 
 
+BY_DECK, BY_MODE = "held out by the deck", "each mode from the others"
+
+
 @dataclass(frozen=True)
 class HeldOut:
-    """Data kept from every fit. labels, measured_hz (h,); baseline, revised: how either model predicts them."""
+    """Data kept from every fit, BY_DECK or BY_MODE. labels, measured_hz (h,); baseline, revised: how either model predicts them."""
 
     kind: str
     labels: tuple[str, ...]

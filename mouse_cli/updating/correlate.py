@@ -74,9 +74,9 @@ def correlate(
 ) -> Correlation:
     """Compare the test of `problem` with its prior model; `method`: expand the measured shapes by that expansion.
 
-    exact: measured components stay as they are where the method would smooth them. notice is called with a sentence as each phase of a large
-    model begins. Raises DeckError for a deck without a test,
-    NumericalError where no eigensolution, or no such expansion, exists.
+    exact: measured components stay as they are where the method would smooth them. notice is called with a sentence as each
+    phase of a large model begins. Raises DeckError for a deck without a test, NumericalError where no eigensolution, or no
+    such expansion, exists.
     """
     if problem.test is None:
         raise refusals.no_test(problem)
