@@ -236,8 +236,8 @@ CODES = {
         "Shorten the title.",
     ),
     "MD150": Code(
-        "Names are lost",
-        "Cards number the properties and the degrees of freedom, and give no units.",
+        "Names, or data held out, are lost",
+        "Cards number the properties and the degrees of freedom, give no units, and hold only the test that is fitted.",
         "Keep the YAML deck beside the cards.",
     ),
     "MD151": Code(

@@ -509,6 +509,18 @@ def test_names_and_options_are_lost_with_a_warning():
     assert {d.code for d in warnings} == {"MD150", "MD151"} and all(d.severity == WARNING for d in warnings)
 
 
+def test_held_out_data_are_lost_with_a_warning():
+    from pathlib import Path
+
+    from mouse_cli.formats import read_deck
+
+    problem = read_deck(Path(__file__).parents[2] / "decks" / "ground_spring_proved.yaml")
+    with pytest.raises(DeckError):  # its prior values
+        card_writer.write(problem)
+    _, warnings = card_writer.write(problem, lossy=True)
+    assert any(d.code == "MD150" and "holds out" in d.message for d in warnings)
+
+
 # The manual, and what `mouse show` prints.
 
 

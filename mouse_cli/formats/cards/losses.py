@@ -90,6 +90,12 @@ def losses(problem: Problem, lossy: bool = False) -> Losses:
         found.error("MD140", "the deck has no modal test; five of the twelve groups of cards hold one")
     else:
         _test(found, problem.test)
+    if problem.hold_out is not None:
+        found.warn(
+            "MD150",
+            "what the deck holds out is not on cards, which fit the rest",
+            "keep the YAML deck beside the cards",
+        )
     _options(found, problem.run)
     _names(found, problem)
     return found
