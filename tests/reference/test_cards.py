@@ -510,8 +510,6 @@ def test_names_and_options_are_lost_with_a_warning():
 
 
 def test_held_out_data_are_lost_with_a_warning():
-    from pathlib import Path
-
     from mouse_cli.formats import read_deck
 
     problem = read_deck(Path(__file__).parents[2] / "decks" / "ground_spring_proved.yaml")
