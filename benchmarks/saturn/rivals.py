@@ -7,8 +7,9 @@ import numpy as np
 from benchmarks.saturn.decks import segments
 from benchmarks.saturn.stack import MEASURED, Vehicle
 from benchmarks.saturn.vehicle import problem
+from mouse_cli.diagnosis.altered import Model
 from mouse_cli.diagnosis.candidates import Candidate, registry
-from mouse_cli.diagnosis.fit import Fit, Model, fit
+from mouse_cli.diagnosis.fit import Fit, fit
 from mouse_cli.diagnosis.reduced import Reduced, reduced
 
 _STARTS, _FEWER = 8, 4  # fits of candidates with one unknown, and with more

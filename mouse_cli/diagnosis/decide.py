@@ -1,7 +1,5 @@
 """What may be said: nothing is missing, it is this, it is one of these, or something no candidate explains."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from mouse_cli.diagnosis.fit import Fit
@@ -16,38 +14,27 @@ _ODDS = 3.0  # nats over no cause at all that a name needs
 _INADEQUATE = 1.5  # noise scale of the best explanation above which it is none
 
 
-@dataclass(frozen=True)
-class Decision:
-    """kind; probability of the leading group."""
-
-    kind: str
-    probability: float
-
-
 def doubtful(baseline: Fit, result: Result) -> bool:
     """Whether what the update leaves is no chance: misfit, shift of the parameters, or both together."""
     return result.rejected or upper_tail(baseline.misfit, baseline.dof) < GATE
 
 
-def decide(ranking: Ranking, result: Result) -> Decision:
-    """The answer by the gates of adequacy, probability and odds."""
+def decide(ranking: Ranking, result: Result) -> str:
+    """The kind of answer, by the gates of adequacy, probability and odds."""
     if not doubtful(ranking.baseline, result):
-        return Decision(NOTHING, dict(ranking.groups).get("none", 0.0))
-    leader = ranking.fits[0]
-    name, probability = ranking.groups[0]
+        return NOTHING
+    leader, (name, probability) = ranking.fits[0], ranking.groups[0]
     dof = max(leader.dof, 1)
     if upper_tail(leader.misfit, dof) < GATE and leader.misfit > _INADEQUATE * dof:
-        return Decision(UNKNOWN, probability)
+        return UNKNOWN
     if not leader.model.base.data.by_shape and any(recipe.own for recipe in leader.recipes):
-        return Decision(
-            ONE_OF, probability
-        )  # paired by number, a list of frequencies cannot prove that it holds one mode more
+        return ONE_OF  # paired by number, a list of frequencies cannot prove that it holds one mode more
+    if probability < _SURE:
+        return ONE_OF
+    if name == "none":
+        return UNKNOWN
     odds = (leader.log_evidence - ranking.baseline.log_evidence) / ranking.noise_scale
-    if probability >= _SURE and name != "none" and odds > _ODDS:
-        return Decision(NAMED, probability)
-    if name == "none" and probability >= _SURE:
-        return Decision(UNKNOWN, probability)
-    return Decision(ONE_OF, probability)
+    return NAMED if odds > _ODDS else ONE_OF
 
 
 def refuted(proof: HeldOut | None) -> bool:

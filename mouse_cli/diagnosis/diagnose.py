@@ -36,11 +36,12 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None) -> Diagnosis:
     model, told = _model(problem)
     result, remarks = _update(problem, kept, notice, _guess(model))
     ranking = rank(model)
-    decision = decide(ranking, result)
-    missing = decision.kind != NOTHING
+    kind = decide(ranking, result)
+    missing = kind != NOTHING
     best, as_it_is = leader(ranking) if missing else None, ranking.baseline
     proof = held_out(model, as_it_is, best)
-    kind = ONE_OF if decision.kind == NAMED and refuted(proof) else decision.kind
+    if kind == NAMED and refuted(proof):
+        kind = ONE_OF
     deck = extended(problem, best) if kind == NAMED else None
     return Diagnosis(
         problem=problem,
@@ -54,7 +55,7 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None) -> Diagnosis:
         energy=energy_map(as_it_is) if missing else None,
         law=None if best is None else implied_law(best),
         held_out=proof,
-        proposals=_proposals(ranking) if missing and decision.kind != UNKNOWN else (),
+        proposals=_proposals(ranking) if missing and kind != UNKNOWN else (),
         remarks=remarks + told + (() if deck is None else _coarse(deck)),
         extended=deck,
         extended_result=None if deck is None else run(deck, notice=notice, guess=_values(deck, best)),

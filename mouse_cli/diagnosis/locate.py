@@ -4,8 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mouse_cli.diagnosis.altered import Model
 from mouse_cli.diagnosis.channels import LIKELY, Channel, channels
-from mouse_cli.diagnosis.fit import Model, fit
+from mouse_cli.diagnosis.fit import fit
 from mouse_cli.diagnosis.matching import Matcher, Matches, Shapes, shapes
 from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.model.diagnosis import Location, Place

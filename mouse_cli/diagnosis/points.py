@@ -2,13 +2,15 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
-from mouse_cli.diagnosis.change import Unknown
+from mouse_cli.diagnosis.change import Change, Recipe, Unknown, product
 from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.geometry import DIRECTIONS
+from mouse_cli.model.problem import Problem
 
 _STILL = 0.02  # share of the largest motion in a measured mode below which a direction does not take part
 _EACH = 6  # places to begin from on a line
@@ -45,6 +47,33 @@ def directions(model: Reduced) -> list[Points]:
     for d in range(3):
         found += _lines(model, d)
     return _shared(found + [point for node in _nodes(model) for point in _split(node)])
+
+
+def placed(
+    candidate: Any,
+    point: Points,
+    sizes: tuple[Unknown, ...],
+    starts: tuple[np.ndarray, ...],
+    change: Callable[[np.ndarray, np.ndarray], Change],
+    extend: Callable[..., Problem],
+    own: int = 0,
+) -> Recipe:
+    """What acts at one of these places: values are those of `sizes`, then of the place.
+
+    starts: values of each size to begin from. change(values of the sizes, B): for the motion B (d, r) of the place;
+    extend(problem, point, values of the place, *values of the sizes): the deck with it.
+    """
+    t = len(sizes)
+    return Recipe(
+        candidate,
+        (*sizes, *point.unknown),
+        lambda values: change(values[:t], point.motion(values[t:])),
+        product(*starts, *point.starts.T),
+        lambda values: point.site(values[t:]),
+        own,
+        float(np.log(point.share)),
+        lambda problem, values: extend(problem, point, values[t:], *values[:t]),
+    )
 
 
 def _shared(found: list[Points]) -> list[Points]:

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mouse_cli.diagnosis.altered import Model
 from mouse_cli.diagnosis.change import Change, Recipe
-from mouse_cli.diagnosis.fit import Fit, Model, fit
+from mouse_cli.diagnosis.fit import Fit, fit
 from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.dynamics.correlation import mac
 from mouse_cli.model.diagnosis import BY_DECK, BY_MODE, HeldOut, Score

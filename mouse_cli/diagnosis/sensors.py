@@ -16,7 +16,7 @@ _MOST = 24  # sensors that are suspected: those that fit worst
 
 def suspects(model: Reduced, most: int = _MOST) -> list[int]:
     """Sensors (from 0) whose shapes the model misses most, the worst first; those of fewer than two modes tell nothing."""
-    from mouse_cli.diagnosis.fit import Model
+    from mouse_cli.diagnosis.altered import Model
 
     data = model.data
     at = Model(model).point(model.z)

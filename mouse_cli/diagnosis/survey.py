@@ -6,7 +6,8 @@ times the misfit, stands for what they leave uncertain of S R(lambda) B, so that
 
 import numpy as np
 
-from mouse_cli.diagnosis.fit import Fit, Model, fit
+from mouse_cli.diagnosis.altered import Model
+from mouse_cli.diagnosis.fit import Fit, fit
 from mouse_cli.diagnosis.locate import matched
 from mouse_cli.diagnosis.matching import Matcher, shapes
 from mouse_cli.diagnosis.reduced import Reduced

@@ -52,6 +52,18 @@ def reader(package: str, path: str, what: str) -> Any:
     return (told or [each for each in own if each.claims is None] or own)[0]
 
 
+def rows_of(package: str, path: str, what: str, nothing: str, help: str) -> Any:
+    """What the format of `package` reads of the file `path`. Raises DeckError (MD250 to MD262), also where that is nothing."""
+    form = reader(package, path, what)
+    try:
+        rows = form.read(path)
+    except OSError as error:
+        reject("MD250", path, f"the file cannot be read: {error}", "check the file and its permissions")
+    if not rows:
+        reject("MD252", path, nothing, help)
+    return rows
+
+
 def text_lines(path: str) -> list[str]:
     """Lines of a text file, without their ends; bytes beyond ASCII stand for themselves, for the reader to refuse."""
     with open(path, encoding="latin-1", newline=None) as stream:

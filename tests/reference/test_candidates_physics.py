@@ -5,8 +5,8 @@ import pytest
 from scipy.linalg import eigh
 from scipy.optimize import brentq
 
+from mouse_cli.diagnosis.altered import Model
 from mouse_cli.diagnosis.candidates import registry
-from mouse_cli.diagnosis.fit import Model
 from mouse_cli.diagnosis.fracture import bending
 from mouse_cli.diagnosis.reduced import reduced
 from mouse_cli.formats import yaml_deck

@@ -1,13 +1,18 @@
 """A mass on a spring somewhere on the structure, with a resonance of its own: absorber, loose part, sloshing liquid."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Change, Recipe, Unknown, product, steps
+from mouse_cli.diagnosis.change import Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.extend_points import with_oscillator
-from mouse_cli.diagnosis.points import Points, directions
+from mouse_cli.diagnosis.points import Points, directions, placed
 from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.diagnosis.scales import highest, lowest, total_mass
+from mouse_cli.model.problem import Problem
+
+_PLACES = 6  # about so many of those on a line to begin from: there are many sizes for each
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
@@ -17,29 +22,18 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     f = Unknown("frequency", "Hz", 0.3 * hz[0], 1.5 * hz[1])
     measured = model.data.test.frequency_hz[model.data.has_frequency]
     found = np.concatenate([steps(f, 14), measured])  # one of those measured may be its own
-    return [_at(point, m, f, found, candidate) for point in directions(model)]
 
-
-def _at(point: Points, m: Unknown, f: Unknown, hz: np.ndarray, candidate: Candidate) -> Recipe:
-    def change(values: np.ndarray) -> Change:
-        B = point.motion(values[2:])[0]
-        arm = np.append(B, -1.0)
+    def change(sizes: np.ndarray, B: np.ndarray) -> Change:
+        arm = np.append(B[0], -1.0)
         M = np.zeros((len(arm), len(arm)))
-        M[-1, -1] = values[0]
-        return Change(values[0] * (2 * np.pi * values[1]) ** 2 * np.outer(arm, arm), M)
+        M[-1, -1] = sizes[0]
+        return Change(sizes[0] * (2 * np.pi * sizes[1]) ** 2 * np.outer(arm, arm), M)
 
-    return Recipe(
-        candidate,
-        (m, f, *point.unknown),
-        change,
-        product(steps(m, 2), hz, *point.starts.T[:, :: max(1, len(point.starts) // 6)]),
-        lambda values: point.site(values[2:]),
-        own=1,
-        log_prior=float(np.log(point.share)),
-        extend=lambda problem, values: with_oscillator(
-            problem, point, values[2:], values[0], values[0] * (2 * np.pi * values[1]) ** 2
-        ),
-    )
+    def extend(problem: Problem, point: Points, place: np.ndarray, mass: float, hz: float) -> Problem:
+        return with_oscillator(problem, point, place, mass, mass * (2 * np.pi * hz) ** 2)
+
+    points = [replace(p, starts=p.starts[:: max(1, len(p.starts) // _PLACES)]) for p in directions(model)]
+    return [placed(candidate, point, (m, f), (steps(m, 2), found), change, extend, own=1) for point in points]
 
 
 CANDIDATE = Candidate(

@@ -33,13 +33,8 @@ def read_dofs(path: str) -> DofMap:
 
     A direction is one of TX ... RZ, UX ... ROTZ or 1 to 6; 0 or S is that of a scalar. Raises DeckError (MD250 to MD262).
     """
-    form = data_files.reader(__name__, path, "a map of degrees of freedom")
-    try:
-        rows = form.read(path)
-    except OSError as error:
-        reject("MD250", path, f"the file cannot be read: {error}", "check the file and its permissions")
-    if not rows:
-        reject("MD252", path, "the file names no degree of freedom", "give a node and a direction on each line")
+    nothing = "the file names no degree of freedom", "give a node and a direction on each line"
+    rows = data_files.rows_of(__name__, path, "a map of degrees of freedom", *nothing)
     seen: dict[tuple[int, int], int] = {}
     for number, line, node, direction in rows:
         span = data_files.line_span(path, number, line)

@@ -27,13 +27,8 @@ def read_nodes(path: str) -> tuple[np.ndarray, np.ndarray]:
 
     Raises DeckError (MD250 to MD262).
     """
-    form = data_files.reader(__name__, path, "a file of nodes")
-    try:
-        rows = form.read(path)
-    except OSError as error:
-        reject("MD250", path, f"the file cannot be read: {error}", "check the file and its permissions")
-    if not rows:
-        reject("MD252", path, "the file holds no node", "export the nodes with their coordinates")
+    nothing = "the file holds no node", "export the nodes with their coordinates"
+    rows = data_files.rows_of(__name__, path, "a file of nodes", *nothing)
     seen: dict[int, list[float]] = {}
     for number, line, words in rows:
         node, place = _node(words)

@@ -1,5 +1,6 @@
 """Words that several sections share."""
 
+from mouse_cli import __version__
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import ChiSquareTest
 from mouse_cli.report.blocks import Column, Table
@@ -34,6 +35,12 @@ def chance(p: float) -> str:
         if times >= least:
             return f"{'once' if times == 1 else f'{times} times'} in {in_words}"
     return "less than once in a million" if p < 1e-6 else "less than once in 10 000"
+
+
+def deck_table(problem: Problem) -> Table:
+    """Which program, title and deck."""
+    rows = ("program", f"mouse {__version__}"), ("title", problem.title.strip()), ("source", problem.source.path)
+    return Table((Column("", align=LEFT), Column("", align=LEFT)), rows)
 
 
 def test_table(tests: tuple[ChiSquareTest, ...]) -> Table:

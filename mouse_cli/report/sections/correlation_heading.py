@@ -2,24 +2,16 @@
 
 from collections.abc import Iterator
 
-from mouse_cli import __version__
 from mouse_cli.model.correlation import ALONE, Correlation
-from mouse_cli.report.blocks import Block, Column, Table, Text
+from mouse_cli.report.blocks import Block, Text
 from mouse_cli.report.section import Options, Section
-from mouse_cli.report.sections._wording import LEFT, counted
+from mouse_cli.report.sections._wording import counted, deck_table
 
 
 def heading(found: Correlation, options: Options) -> Iterator[Block]:
     """What stands on either side."""
     problem = found.problem
-    yield Table(
-        (Column("", align=LEFT), Column("", align=LEFT)),
-        (
-            ("program", f"mouse {__version__}"),
-            ("title", problem.title.strip()),
-            ("source", problem.source.path),
-        ),
-    )
+    yield deck_table(problem)
     rigid = f", {found.rigid_modes} of them of a rigid body" if found.rigid_modes else ""
     yield Text(
         f"{counted(problem.test.m, 'measured mode')} at {counted(problem.test.s, 'sensor')} against the lowest "

@@ -2,21 +2,17 @@
 
 from collections.abc import Iterator
 
-from mouse_cli import __version__
 from mouse_cli.model.diagnosis import Diagnosis
-from mouse_cli.report.blocks import Block, Column, Table, Text
+from mouse_cli.report.blocks import Block, Text
 from mouse_cli.report.section import Options, Section
-from mouse_cli.report.sections._wording import LEFT, counted
+from mouse_cli.report.sections._wording import counted, deck_table
 from mouse_cli.report.sections.held_out import told
 
 
 def heading(found: Diagnosis, options: Options) -> Iterator[Block]:
     """Program and deck, then the size of both."""
     problem = found.problem
-    yield Table(
-        (Column("", align=LEFT), Column("", align=LEFT)),
-        (("program", f"mouse {__version__}"), ("title", problem.title.strip()), ("source", problem.source.path)),
-    )
+    yield deck_table(problem)
     held = f" Held out: {told(problem.hold_out)}." if problem.hold_out else ""
     yield Text(
         f"{counted(problem.test.m, 'measured mode')} at {counted(problem.test.s, 'sensor')}; a model of "

@@ -2,24 +2,16 @@
 
 from collections.abc import Iterator
 
-from mouse_cli import __version__
 from mouse_cli.model.result import Forecast
-from mouse_cli.report.blocks import Block, Column, Table, Text
+from mouse_cli.report.blocks import Block, Text
 from mouse_cli.report.section import Options, Section
-from mouse_cli.report.sections._wording import LEFT, counted
+from mouse_cli.report.sections._wording import counted, deck_table
 
 
 def heading(forecast: Forecast, options: Options) -> Iterator[Block]:
     """What the model is."""
     problem = forecast.problem
-    yield Table(
-        (Column("", align=LEFT), Column("", align=LEFT)),
-        (
-            ("program", f"mouse {__version__}"),
-            ("title", problem.title.strip()),
-            ("source", problem.source.path),
-        ),
-    )
+    yield deck_table(problem)
     yield Text(
         f"The model has {counted(problem.structure.n, 'degree', 'degrees')} of freedom and "
         f"{counted(len(problem.parameters), 'uncertain property', 'uncertain properties')}. The standard deviations of "

@@ -1,0 +1,165 @@
+"""The most probable fit of a cause: a first look at all places and sizes, descents from the best, and what ends them too soon."""
+
+from dataclasses import replace
+from functools import cached_property
+
+import numpy as np
+
+from mouse_cli.diagnosis.altered import Model, Point
+from mouse_cli.diagnosis.candidates import registry
+from mouse_cli.diagnosis.change import Recipe
+from mouse_cli.diagnosis.fit import MOST, Fit, fit
+from mouse_cli.diagnosis.reduced import Reduced
+
+_STARTS = 3  # fits of a candidate, from the best places of its grid
+_SETTLE, _MOVED = 3, 5e-3  # times that causes are weighed anew, as long as parameters move more than that share
+_THEORY = 0.01  # of what a cause does to frequencies and shapes, by which its theory may be wrong
+_SHIFTS = np.array([-5, -3, -2, -1, 1, 2, 3, 5]) / 50  # of the range of a place
+_COARSE = 24  # coordinates at least for a first look
+
+
+class Study:
+    """A reduced model, what each candidate can do to it, and the same at other parameters, where causes weigh otherwise."""
+
+    def __init__(self, model: Reduced):
+        self.model, self.k = model, model.L.shape[1]
+        self._made: dict[str, list[Recipe]] = {}
+
+    def recipes(self, name: str) -> list[Recipe]:
+        """What candidate `name` can do, and where; made when first asked for."""
+        if name not in self._made:
+            candidate = registry()[name]
+            made = candidate.recipes(self.model, candidate)
+            self._made[name] = [replace(recipe, number=i) for i, recipe in enumerate(made)]
+        return self._made[name]
+
+    @cached_property
+    def coarse(self) -> "Study":
+        """The same in the lowest coordinates alone, in which all places and sizes are looked at before any is fitted."""
+        least = max(_COARSE, 4 * self.model.data.m + 8, int(self.model.data.test.number.max()) + 12)
+        return self if least >= self.model.r else Study(self.model.truncated(least))
+
+    def starts(self, name: str, before: np.ndarray, beside: tuple[Recipe, ...]) -> list[tuple[int, np.ndarray]]:
+        """Numbers of recipes of candidate `name`, and x to begin from, the most promising first."""
+        others, found = self.own(beside), []
+        for recipe in self.recipes(name):
+            trial = Model(self.model, (*others, recipe))
+            for values in recipe.grid:
+                at = trial.point(np.concatenate([before, recipe.coordinates(values)]))
+                if at is not None:
+                    found.append((self.foreseen(at), recipe.number, at.x))
+        found.sort(key=lambda item: item[0])
+        return [(number, x) for _, number, x in found]
+
+    @cached_property
+    def _adapted(self) -> tuple[np.ndarray, np.ndarray]:
+        """T (q, k), and (T'T + I)^-1 [T', -I] (k, q + k): how far the deck's parameters follow a residual."""
+        plain = Model(self.model)
+        T = plain.jacobian(plain.point(np.zeros(self.k)))
+        return T, np.linalg.solve(T.T @ T + np.eye(self.k), np.hstack([T.T, -np.eye(self.k)]))
+
+    def foreseen(self, at: Point) -> float:
+        """The misfit that is left of `at` when the deck's parameters adapt, to first order."""
+        T, adapted = self._adapted
+        step = adapted @ np.concatenate([at.residual, at.x[: self.k]])
+        left, z = at.residual - T @ step, at.x[: self.k] + step
+        return float(left @ left + z @ z)
+
+    def own(self, recipes: tuple[Recipe, ...]) -> tuple[Recipe, ...]:
+        """The same causes at the same places in this model."""
+        return tuple(self.recipes(recipe.candidate.key)[recipe.number] for recipe in recipes)
+
+    def at(self, one: Fit) -> "Study":
+        """The same at the parameters that a fit found."""
+        theta = one.model.base.parameters(one.point.x[: self.k])
+        return Study(self.model.at(theta))
+
+
+def shifted(one: Fit) -> Fit:
+    """The fit from places nearby: across the end of a finite element the misfit has a step, before which a descent stops."""
+    model = one.model
+    unknowns = [u for recipe in one.recipes for u in recipe.unknowns]
+    for j in (i for i, u in enumerate(unknowns) if not u.log):
+        T = np.delete(model.jacobian(one.point), model.k + j, axis=1)
+        H = T.T @ T + np.diag((np.arange(T.shape[1]) < model.k).astype(float))
+        best, start = one.misfit - 1, None
+        for share in _SHIFTS:
+            c = one.c.copy()
+            c[j] = np.clip(c[j] + share * model.width[j], *model.bounds[j])
+            at = model.point(np.concatenate([one.point.x[: model.k], c]))
+            if at is None:
+                continue
+            pull = T.T @ at.residual - np.where(np.arange(T.shape[1]) < model.k, np.delete(at.x, model.k + j), 0.0)
+            left = at.chi2 + at.x[: model.k] @ at.x[: model.k] - pull @ np.linalg.lstsq(H, pull, rcond=None)[0]
+            if left < best:
+                best, start = left, c
+        again = None if start is None else fit(model, start, one.point.x[: model.k])
+        if again is not None and again.misfit < one.misfit:
+            one = again
+    return one
+
+
+def idealised(one: Fit) -> Fit:
+    """The fit when the theory of its causes is right to some share of what they do."""
+    base, at = one.model.base, one.point
+    bare = Model(base).point(at.x[: one.model.k])
+    if bare is None:
+        return one
+    off = _THEORY * 0.5 * np.log(at.eigenvalues[at.modes] / bare.eigenvalues[bare.modes])
+    _, a = base.data.residual(bare.eigenvalues[bare.modes], bare.seen[:, bare.modes])
+    moved = _THEORY * (at.a * at.seen[:, at.modes] - a * bare.seen[:, bare.modes])
+    loose = Model(replace(base, data=base.data.loosened(off, moved)), one.recipes)
+    return fit(loose, one.c, at.x[: one.model.k]) or one
+
+
+def settled(one: Fit, study: Study) -> Fit:
+    """The fit with its causes weighed at the parameters that it found, not at those where the search began."""
+    for _ in range(_SETTLE):
+        theta = one.model.base.parameters(one.point.x[: one.model.k])
+        before = one.model.base.theta
+        if not one.recipes or np.all(np.abs(theta - before) <= _MOVED * np.abs(before)):
+            break
+        there = study.at(one)
+        base = replace(there.model, data=one.model.base.data)
+        again = fit(Model(base, there.own(one.recipes)), one.c, one.point.x[: one.model.k])
+        if again is None:
+            break
+        one = again
+    return one
+
+
+def best(study: Study, name: str) -> Fit | None:
+    """The most probable fit of candidate `name` over all of its places, its evidence summed over distinct optima."""
+    return summed([settled(shifted(one), study) for one in tried(study, name, None, _STARTS)])
+
+
+def tried(study: Study, name: str, beside: Fit | None, count: int, most: int = MOST) -> list[Fit]:
+    """Fits of candidate `name` from its `count` most promising places, in at most so many steps; beside: causes there already."""
+    others = () if beside is None else study.own(beside.recipes)
+    before = np.zeros(study.k) if beside is None else beside.point.x
+    found = []
+    for number, x in study.coarse.starts(name, before, () if beside is None else beside.recipes)[:count]:
+        trial = Model(study.model, (*others, study.recipes(name)[number]))
+        found.append(fit(trial, x[trial.k :], x[: trial.k], most))
+    return [one for one in found if one is not None]
+
+
+def summed(found: list[Fit]) -> Fit | None:
+    """The best of several optima, its theory taken for as good as it is; those at other places add to its evidence."""
+    if not found:
+        return None
+    found.sort(key=lambda one: -one.log_evidence)
+    distinct: list[Fit] = []
+    for one in found:
+        if not any(_same(one, other) for other in distinct):
+            distinct.append(one)
+    others = np.logaddexp.reduce([one.log_evidence for one in distinct]) - distinct[0].log_evidence
+    best = idealised(distinct[0])
+    return replace(best, log_evidence=best.log_evidence + float(others))
+
+
+def _same(one: Fit, other: Fit) -> bool:
+    if [recipe.number for recipe in one.recipes] != [recipe.number for recipe in other.recipes]:
+        return False
+    sd = np.sqrt(np.abs(np.diag(one.covariance)[one.model.k :]))
+    return bool((np.abs(one.c - other.c) < 2 * sd + 1e-3 * one.model.width).all())
