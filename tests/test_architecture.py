@@ -22,10 +22,11 @@ RANKS = {
     "terms": 2,
     "dynamics": 2,
     "formats": 2,
+    "records": 2,
     "codes": 1,
     "model": 1,
 }
-OPTIONAL = {"matplotlib", "h5py", "pyuff", "pyyeti"}
+OPTIONAL = {"matplotlib", "h5py", "pyuff", "pyyeti", "nptdms", "soundfile", "sdypy", "pyoma2"}
 HEAVY = {"scipy", "yaml"}  # never at the head of a module: a small card deck needs neither
 
 

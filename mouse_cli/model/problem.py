@@ -5,10 +5,12 @@ from dataclasses import dataclass, field
 from mouse_cli._errors import Diagnostic
 from mouse_cli._span import Span
 from mouse_cli.model.arrays import Matrix, frozen
+from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.model.hold_out import HoldOut
 from mouse_cli.model.mesh import Binding, Mesh
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
+from mouse_cli.model.recording import Recording
 from mouse_cli.model.structure import ListedElements, Structure
 from mouse_cli.model.term import Term
 
@@ -69,7 +71,8 @@ class Problem:
 
     elements, A (e, p): d(element) = A d(parameter), Eq. (3-2) of the report; terms: further contributions, such as beams and
     springs; mesh, bindings: what they were made of, for models with geometry. test is None for a deck that only asks for modes; it
-    holds what is fitted, and hold_out what is kept from every fit.
+    holds what is fitted, and hold_out what is kept from every fit. frf, recordings: frequency response functions and time histories
+    of the test.
     """
 
     title: str
@@ -87,6 +90,8 @@ class Problem:
     mesh: Mesh | None = None
     bindings: tuple[Binding, ...] = ()
     hold_out: HoldOut | None = None
+    frf: tuple[FrfTest, ...] = ()
+    recordings: tuple[Recording, ...] = ()
 
     def place(self, key: str) -> Span:
         """Where `key` (`order`, `estimator`, `mode 3`) stands in the deck; its first line when that is not known."""

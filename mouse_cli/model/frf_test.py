@@ -1,0 +1,46 @@
+"""Frequency response functions as measured: response per unit force, line by line, with their accuracy."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.model.arrays import Matrix, frozen
+
+KINDS = {"receptance": 0, "mobility": 1, "accelerance": 2}  # the power of i omega that receptance is multiplied by
+
+
+@dataclass(frozen=True)
+class FrfTest:
+    """H at f lines, o responses and i forces.
+
+    frequency_hz (f,), ascending, Hz. H (f, o, i), complex, NaN where not measured: responses in the unit of `kind` (one of KINDS)
+    for e^{+i omega t}. variance (f, o, i): E|H - its mean|^2, real and imaginary part each half of it; NaN where unknown.
+    outputs (o, n), inputs (i, n): weights of what each response reads and of where each force acts, dense or sparse; or degrees
+    of freedom (o,), (i,), from 0, where each is one. output_names, input_names: as the deck writes them.
+    coherence (f, o): multiple coherence, None where it was not recorded. title: of the measurement; path: its file.
+    """
+
+    frequency_hz: np.ndarray
+    H: np.ndarray
+    kind: str
+    outputs: Matrix
+    inputs: Matrix
+    variance: np.ndarray
+    output_names: tuple[str, ...] = ()
+    input_names: tuple[str, ...] = ()
+    coherence: np.ndarray | None = None
+    title: str = ""
+    path: str = ""
+
+    def __post_init__(self) -> None:
+        shape = (len(self.frequency_hz), self.outputs.shape[0], self.inputs.shape[0])
+        object.__setattr__(self, "frequency_hz", frozen(self.frequency_hz, shape[:1], "frequency_hz"))
+        object.__setattr__(self, "H", frozen(self.H, shape, "H", complex))
+        object.__setattr__(self, "variance", frozen(self.variance, shape, "variance"))
+        if self.coherence is not None:
+            object.__setattr__(self, "coherence", frozen(self.coherence, shape[:2], "coherence"))
+
+    @property
+    def omega(self) -> np.ndarray:
+        """Angular frequencies (f,), rad/s."""
+        return 2 * np.pi * self.frequency_hz

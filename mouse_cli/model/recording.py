@@ -1,0 +1,65 @@
+"""Time histories of a test: what excited the structure and what it answered, channel by channel."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mouse_cli.model.arrays import frozen
+
+INPUT, OUTPUT = "input", "output"
+MOTIONS = {"displacement": 0, "velocity": 1, "acceleration": 2}  # how many times differentiated
+QUANTITIES = ("force", "moment", *MOTIONS, "rotation", "angular velocity", "angular acceleration", "sound", "other")
+
+
+@dataclass(frozen=True)
+class Channel:
+    """One channel of a recording. role: INPUT or OUTPUT; quantity: one of QUANTITIES; unit: of its samples.
+
+    sensor: what it is mounted on, as decks write a sensor (`12TY`, `3`, `12-TY` for one mounted backwards); empty while no deck
+    has said so. weights: what it reads of the model's degrees of freedom, from 0; empty where there is no model.
+    """
+
+    name: str
+    role: str
+    quantity: str
+    unit: str = ""
+    sensor: str = ""
+    weights: dict[int, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Recording:
+    """t samples of c channels, evenly spaced. time_step_s: s; samples (t, c), in the units of the channels.
+
+    title: of the record; path: the file it was read from. start: the first sample's number in that file, from 0, so that findings
+    name samples as the file counts them.
+    """
+
+    title: str
+    time_step_s: float
+    channels: tuple[Channel, ...]
+    samples: np.ndarray
+    path: str = ""
+    start: int = 0
+
+    def __post_init__(self) -> None:
+        shape = (len(self.samples), len(self.channels))
+        object.__setattr__(self, "samples", frozen(self.samples, shape, "samples"))
+
+    @property
+    def sample_rate_hz(self) -> float:
+        """Samples a second."""
+        return 1.0 / self.time_step_s
+
+    @property
+    def inputs(self) -> np.ndarray:
+        """Columns of the excitations (i,), from 0."""
+        return self._columns(INPUT)
+
+    @property
+    def outputs(self) -> np.ndarray:
+        """Columns of the responses (o,), from 0."""
+        return self._columns(OUTPUT)
+
+    def _columns(self, role: str) -> np.ndarray:
+        return np.array([j for j, channel in enumerate(self.channels) if channel.role == role], dtype=int)
