@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli.diagnosis.altered import Model
-from mouse_cli.diagnosis.candidates import registry
+from mouse_cli.diagnosis.candidates import Candidate
 from mouse_cli.diagnosis.fit import Fit, fit
 from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.diagnosis.search import Study, best, settled, shifted, summed, tried
@@ -53,13 +53,13 @@ def key(one: Fit) -> tuple[str, ...]:
     return tuple(sorted(recipe.candidate.key for recipe in one.recipes))
 
 
-def rank(model: Reduced) -> Ranking:
-    """All that the candidates make of the data."""
-    study = Study(model)
+def rank(model: Reduced, known: dict[str, Candidate] | None = None, causes: int = 2) -> Ranking:
+    """All that the candidates (`known`; None: all) make of the data, at most `causes` (1, 2) of them together."""
+    study = Study(model, known)
     baseline = settled(fit(Model(model), np.zeros(0)), study)
-    singles = [one for name in registry() for one in [best(study, name)] if one is not None]
+    singles = [one for name in study.known for one in [best(study, name)] if one is not None]
     fits = [baseline, *singles]
-    if singles and not adequate(min(singles, key=lambda one: one.misfit)):
+    if causes > 1 and singles and not adequate(min(singles, key=lambda one: one.misfit)):
         fits += pairs(study, singles)
     return ranking(baseline, fits)
 
@@ -69,8 +69,8 @@ def ranking(baseline: Fit, fits: list[Fit]) -> Ranking:
     telling = [one.misfit / one.dof for one in fits if one.dof > 0]  # saturated fits say nothing
     scale = max(1.0, min(telling, default=1.0))
     weights = np.array([_prior(one, fits) + one.log_evidence / scale for one in fits])
+    order = np.argsort(-weights, kind="stable")
     weights = np.exp(weights - weights.max())
-    order = np.argsort(-weights)
     return Ranking(baseline, tuple(fits[i] for i in order), scale, weights[order] / weights.sum())
 
 
@@ -95,7 +95,7 @@ def pairs(study: Study, singles: list[Fit]) -> list[Fit]:
     leading = sorted(singles, key=lambda one: -one.log_evidence)[:_PAIRED]
     found: dict[tuple[str, ...], Fit] = {}
     for first in leading:
-        partners = registry() if first is leading[0] else [one.recipes[0].candidate.key for one in leading]
+        partners = study.known if first is leading[0] else [one.recipes[0].candidate.key for one in leading]
         _pair(study, first, partners, found)
     done: set[tuple[str, ...]] = set()
     for _ in range(2):  # both causes may be there by an alias
@@ -115,7 +115,7 @@ def _swap(study: Study, two: Fit, singles: list[Fit], found: dict[tuple[str, ...
     """Into `found` the same two causes with either replaced by what is hard to tell from it."""
     for recipe in two.recipes:
         own = recipe.candidate
-        aliases = [name for name, each in registry().items() if each.group == own.group and name != own.key]
+        aliases = [name for name, each in study.known.items() if each.group == own.group and name != own.key]
         rest = {*key(two)} - {own.key}
         for first in (one for one in singles if {*key(one)} == rest):
             _pair(study, first, aliases, found)

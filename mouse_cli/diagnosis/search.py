@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from mouse_cli.diagnosis.altered import Model, Point
-from mouse_cli.diagnosis.candidates import registry
+from mouse_cli.diagnosis.candidates import Candidate, registry
 from mouse_cli.diagnosis.change import Recipe
 from mouse_cli.diagnosis.fit import MOST, Fit, fit
 from mouse_cli.diagnosis.reduced import Reduced
@@ -19,16 +19,20 @@ _COARSE = 24  # coordinates at least for a first look
 
 
 class Study:
-    """A reduced model, what each candidate can do to it, and the same at other parameters, where causes weigh otherwise."""
+    """A reduced model, what each candidate can do to it, and the same at other parameters, where causes weigh otherwise.
 
-    def __init__(self, model: Reduced):
+    known: candidates by key; None: all.
+    """
+
+    def __init__(self, model: Reduced, known: dict[str, Candidate] | None = None):
         self.model, self.k = model, model.L.shape[1]
+        self.known = registry() if known is None else known
         self._made: dict[str, list[Recipe]] = {}
 
     def recipes(self, name: str) -> list[Recipe]:
         """What candidate `name` can do, and where; made when first asked for."""
         if name not in self._made:
-            candidate = registry()[name]
+            candidate = self.known[name]
             made = candidate.recipes(self.model, candidate)
             self._made[name] = [replace(recipe, number=i) for i, recipe in enumerate(made)]
         return self._made[name]
@@ -37,7 +41,7 @@ class Study:
     def coarse(self) -> "Study":
         """The same in the lowest coordinates alone, in which all places and sizes are looked at before any is fitted."""
         least = max(_COARSE, 4 * self.model.data.m + 8, int(self.model.data.test.number.max()) + 12)
-        return self if least >= self.model.r else Study(self.model.truncated(least))
+        return self if least >= self.model.r else Study(self.model.truncated(least), self.known)
 
     def starts(self, name: str, before: np.ndarray, beside: tuple[Recipe, ...]) -> list[tuple[int, np.ndarray]]:
         """Numbers of recipes of candidate `name`, and x to begin from, the most promising first."""
@@ -72,7 +76,7 @@ class Study:
     def at(self, one: Fit) -> "Study":
         """The same at the parameters that a fit found."""
         theta = one.model.base.parameters(one.point.x[: self.k])
-        return Study(self.model.at(theta))
+        return Study(self.model.at(theta), self.known)
 
 
 def shifted(one: Fit) -> Fit:
