@@ -41,6 +41,7 @@ def assemble(draft: Draft) -> Problem:
         mesh=draft.mesh.mesh if draft.mesh else None,
         bindings=tuple(draft.mesh.bindings) if draft.mesh else (),
         hold_out=held,
+        units=draft.units,
     )
 
 

@@ -17,6 +17,7 @@ from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.geometry import Geometry
 from mouse_cli.model.parameter import Parameter
 from mouse_cli.model.problem import RunOptions, Source
+from mouse_cli.model.units import UNDECLARED, Units
 
 Where = Callable[[int], Span | None]
 
@@ -92,6 +93,7 @@ class Draft:
     mesh: MeshDraft | None = None
     geometry: Geometry | None = None
     labels: tuple[str, ...] = ()
+    units: Units = UNDECLARED
     where_order: Span | None = None
     where_covariance: Span | None = None
     where_total_mass: Span | None = None

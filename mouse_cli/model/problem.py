@@ -13,6 +13,7 @@ from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.recording import Recording
 from mouse_cli.model.structure import ListedElements, Structure
 from mouse_cli.model.term import Term
+from mouse_cli.model.units import UNDECLARED, Units
 
 RECURSIONS = ("replaced", "anchored")
 PAIRINGS = ("number", "mac")
@@ -72,7 +73,7 @@ class Problem:
     elements, A (e, p): d(element) = A d(parameter), Eq. (3-2) of the report; terms: further contributions, such as beams and
     springs; mesh, bindings: what they were made of, for models with geometry. test is None for a deck that only asks for modes; it
     holds what is fitted, and hold_out what is kept from every fit. frf, recordings: frequency response functions and time histories
-    of the test.
+    of the test. units: of all numbers that are not in s or Hz.
     """
 
     title: str
@@ -92,6 +93,7 @@ class Problem:
     hold_out: HoldOut | None = None
     frf: tuple[FrfTest, ...] = ()
     recordings: tuple[Recording, ...] = ()
+    units: Units = UNDECLARED
 
     def place(self, key: str) -> Span:
         """Where `key` (`order`, `estimator`, `mode 3`) stands in the deck; its first line when that is not known."""

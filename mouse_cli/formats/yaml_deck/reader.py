@@ -16,6 +16,7 @@ from mouse_cli.formats.yaml_deck.run import run_options
 from mouse_cli.formats.yaml_deck.sections import Section
 from mouse_cli.model.parameter import Parameter
 from mouse_cli.model.problem import Source
+from mouse_cli.model.units import SYSTEMS, UNDECLARED
 
 
 def read(text: str | bytes, path: str) -> Draft:
@@ -47,6 +48,7 @@ def _draft(deck: Section) -> Draft:
     run, where = run_options(deck.section("run"))
     title = deck.value("title", "")
     deck.value("source")
+    declared = SYSTEMS.get(deck.value("units", ""), UNDECLARED)
     return Draft(
         title=title,
         order=matrices.order,
@@ -64,6 +66,7 @@ def _draft(deck: Section) -> Draft:
         covariance=None if document.incomplete else covariance,  # a parameter may be missing
         test=test,
         labels=matrices.labels,
+        units=declared,
         where_order=document.span(matrices.where_order),
         where_covariance=document.span(deck.nodes["prior"]) if "prior" in deck else None,
         where_total_mass=where.get("fix_total_mass"),

@@ -12,6 +12,7 @@ from mouse_cli.formats.yaml_deck.writer_rows import rows
 from mouse_cli.formats.yaml_deck.writer_structure import structure
 from mouse_cli.model.arrays import Matrix, is_sparse, upper_triangle
 from mouse_cli.model.problem import Problem, RunOptions
+from mouse_cli.model.units import system
 
 LARGEST_INLINE = 2000  # stored entries of a matrix; more go to a file
 
@@ -33,6 +34,7 @@ def _heading(problem: Problem) -> list[str]:
         f"mouse: {VERSION}",
         f"title: {word(problem.title, flow=False)}",
         *([f"source: {word(note, flow=False)}"] if note else []),
+        *([f"units: {system(problem.units)}"] if problem.units.declared else []),
     ]
 
 

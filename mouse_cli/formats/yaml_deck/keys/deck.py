@@ -1,6 +1,7 @@
 """Top-level keys of a deck."""
 
 from mouse_cli.formats.yaml_deck.kinds import VERSION, Key, Section
+from mouse_cli.model.units import SYSTEMS
 
 SECTIONS = {
     "deck": Section(
@@ -9,6 +10,7 @@ SECTIONS = {
             "mouse": Key("whole", "version of the format", required=True, low=VERSION, high=VERSION),
             "title": Key("text", "heading of the printout", "empty"),
             "source": Key("text", "where the deck or its numbers come from", "empty"),
+            "units": Key("choice", "units of length, mass and force; time is in s", "not told", choices=tuple(SYSTEMS)),
             "model": Key("section model", "the matrices before the test", required=True),
             "elements": Key("section elements", "order in which the varying elements are listed (RS)", "see below"),
             "parameters": Key("list parameter", "what may be revised: one entry is one column of A", "none"),
