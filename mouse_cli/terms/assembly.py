@@ -37,9 +37,10 @@ class Assembly:
         return all(term.linear for term in self.terms)
 
     def slopes(self, theta: np.ndarray) -> dict[str, Slopes]:
-        """dK/dtheta and dM/dtheta at theta (p,), all terms together; large, and not kept here."""
+        """dK/dtheta and dM/dtheta at theta (p,), and of C and D where they move; all terms together; large, and not kept here."""
         parts = [term.slopes(theta) for term in self.terms]
-        return {name: _joined([part[name] for part in parts if name in part]) for name in ("K", "M")}
+        named = [name for name in MATRICES if name in ("K", "M") or any(name in part for part in parts)]
+        return {name: _joined([part[name] for part in parts if name in part]) for name in named}
 
     def total_mass(self, theta: np.ndarray, dofs: np.ndarray) -> np.ndarray:
         """d(total mass)/d(parameters) (p,): the mass that moves along when `dofs` translate together by 1."""

@@ -1,0 +1,204 @@
+"""The model in which frequency response functions are computed: the whole of a small one, a basis of a large one.
+
+The basis holds the modes found, vectors that the search for them left behind, A^-1 L, A^-1 M A^-1 L, ... of the loads L at sensors
+and forces (A = K - sigma M; static and dynamic attachment modes), and A^-1 C X, A^-1 D X where damping couples the modes X of the
+band. Galerkin's method in it errs by the product of two residuals in alpha and by one of them in motions and derivatives. At some
+lines both errors are found against full solutions, which the basis and A precondition; levels are added until they are small.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.dynamics.eigen import EigenSolution
+from mouse_cli.dynamics.frf import Dynamics, FrfModel, Loads
+from mouse_cli.dynamics.krylov import Krylov
+from mouse_cli.model.arrays import Matrix, dense, is_sparse
+
+WHOLE = 60  # degrees of freedom up to which a model is solved as it is
+BEYOND = 1.5  # modes are taken up to so many times the highest frequency
+FINAL, ITERATING = 1e-6, 1e-4  # relative errors of FRFs that are reported, and of those on the way
+_FIRST, _MOST = 2, 8  # levels of Krylov vectors at first, and at the end
+_REFINEMENTS = 60  # steps towards a full solution
+_SOLVED, _ROUNDED = 1e-10, 1e-6  # the last step of it, relative; the same where rounding keeps it from getting smaller
+
+
+def frf_model(
+    dynamics: Dynamics,
+    sensings: tuple[Matrix, ...],
+    checked: np.ndarray,
+    solution: EigenSolution | None = None,
+    tolerance: float = FINAL,
+    levels: int = _FIRST,
+) -> FrfModel:
+    """The model for loads at `sensings`: sets of degrees of freedom, or of weights (o, n), of sensors and of forces.
+
+    checked: some s (c,), rad/s, of the lines wanted, the highest among them, at which the error of a basis is found and brought
+    below `tolerance`. solution: of K and M, with the modes up to BEYOND times the highest line and, for a sparse model, its space
+    alive; a dense one needs none. levels: to begin with. Raises numpy.linalg.LinAlgError.
+    """
+    loads = Loads(sensings)
+    if dynamics.n <= WHOLE or (not is_sparse(dynamics.K) and solution is None) or _bare(solution):
+        return FrfModel(_dense(dynamics), loads.full(dynamics.n), loads.columns)
+    basis = _Basis(dynamics, loads, solution, float(np.abs(checked).max()))
+    while True:
+        while basis.levels < levels:
+            basis.extend()
+        model, levels = basis.model(), basis.levels + 1
+        errors = [_error(basis, model, complex(s)) for s in checked]
+        error, motion_error = (max(column) for column in zip(*errors, strict=True))
+        if error <= tolerance or basis.complete or levels > _MOST:
+            return FrfModel(model.matrices, model.loads, model.columns, model.V, basis.levels, error, motion_error)
+
+
+def _bare(solution: EigenSolution | None) -> bool:
+    """Whether a sparse model came without the space that its basis grows from."""
+    return solution is not None and not solution.complete and (solution.space is None or not solution.space.alive)
+
+
+def _dense(dynamics: Dynamics) -> Dynamics:
+    return Dynamics(*(None if m is None else dense(m) for m in (dynamics.K, dynamics.M, dynamics.C, dynamics.D)))
+
+
+@dataclass(frozen=True)
+class _Whole:
+    """A = K - sigma M of a dense model, as an operator like those of Krylov spaces."""
+
+    A: np.ndarray
+    M: np.ndarray
+    refined: bool = False
+
+    def solve(self, right: np.ndarray) -> np.ndarray:
+        return np.linalg.solve(self.A, right.T).T
+
+    def columns(self, right: np.ndarray) -> np.ndarray:
+        return np.linalg.solve(self.A, right)
+
+    def mass(self, vectors: np.ndarray) -> np.ndarray:
+        return vectors @ self.M
+
+
+class _Basis:
+    """Rows V (d, n), orthonormal in A, that grow by a level at a time."""
+
+    def __init__(self, dynamics: Dynamics, loads: Loads, solution: EigenSolution, top: float):
+        self.dynamics, self.loads, self.levels = dynamics, loads, 0
+        self.full = loads.full(dynamics.n)
+        space = solution.space
+        if space is None:
+            elastic = solution.eigenvalues[solution.eigenvalues > 0]
+            self.sigma = -0.3 * float(elastic[0]) if len(elastic) else -1.0
+            M = dense(dynamics.M)
+            self.operator = _Whole(dense(dynamics.K) - self.sigma * M, M)
+        else:
+            self.sigma, self.operator = solution.shift, space.operator
+        band = solution.eigenvalues <= (BEYOND * top) ** 2
+        X = solution.shapes.T if space is not None else solution.shapes.T[band]
+        mu = (solution.eigenvalues if space is not None else solution.eigenvalues[band]) - self.sigma
+        room = min(dynamics.n, 2 * len(X) + loads.count * (1 + _FIRST) + 8)
+        self.krylov = Krylov(self.operator, max(room, 1))
+        if len(X):
+            self.krylov.append(np.array(X), mu[:, None] * self.operator.mass(np.ascontiguousarray(X)))
+        self._half_found(space, len(X))
+        first = self.krylov.d
+        self._damped(X[: int(band.sum())])
+        self._append(np.ascontiguousarray(self.full.T))
+        self._newest = slice(first, self.krylov.d)  # where damping acts, it drives like a force
+
+    def _half_found(self, space: Krylov | None, modes: int) -> None:
+        """As many vectors again of what the search for modes had of higher ones."""
+        if space is not None:
+            _, S, _ = space.ritz()
+            S = S[:, modes : 2 * modes]
+            self.krylov.append(S.T @ space.V[: len(S)], S.T @ space.AV[: len(S)])
+
+    def _damped(self, X: np.ndarray) -> None:
+        """What coupling of the modes X (m, n) by damping does to them: A^-1 C X, A^-1 D X outside of their span."""
+        for damping in (self.dynamics.C, self.dynamics.D):
+            if damping is not None and len(X) and _follows(damping, self.dynamics) is None:
+                self._append(np.ascontiguousarray((damping @ np.ascontiguousarray(X.T)).T))
+
+    def _append(self, right: np.ndarray) -> None:
+        """Add A^-1 times the rows `right`; they are the newest."""
+        first = self.krylov.d
+        right = right[np.abs(right).max(axis=1) > 0]
+        if len(right):
+            self.krylov.append(self.operator.solve(right), right)
+        self._newest = slice(first, self.krylov.d)
+
+    @property
+    def complete(self) -> bool:
+        """Whether nothing is left that could be added."""
+        return self._newest.start == self._newest.stop or self.krylov.d >= self.dynamics.n
+
+    def extend(self) -> None:
+        """One level more: A^-1 M of the newest vectors."""
+        self.levels += 1
+        if not self.complete:
+            self._append(self.operator.mass(self.krylov.V[self._newest].copy()))
+
+    def model(self) -> FrfModel:
+        """Galerkin's matrices."""
+        V = self.krylov.V
+        M = V @ self.operator.mass(V).T
+        M = (M + M.T) / 2
+        K = np.eye(len(V)) + self.sigma * M
+        C, D = (self._projected(damping, K, M) for damping in (self.dynamics.C, self.dynamics.D))
+        return FrfModel(Dynamics(K, M, C, D), V @ self.full, self.loads.columns, V, self.levels)
+
+    def _projected(self, damping: Matrix | None, K: np.ndarray, M: np.ndarray) -> np.ndarray | None:
+        if damping is None:
+            return None
+        followed = _follows(damping, self.dynamics)
+        if followed is not None:
+            return followed[0] * K + followed[1] * M
+        out = self.krylov.V @ (damping @ np.ascontiguousarray(self.krylov.V.T))
+        return (out + out.T) / 2
+
+
+def _follows(damping: Matrix, dynamics: Dynamics) -> tuple[float, float] | None:
+    """a, b with sparse `damping` = a K + b M, as far as their patterns tell at once; None where it is not, or not easily seen."""
+    K, M = dynamics.K, dynamics.M
+    if not (is_sparse(damping) and is_sparse(K) and is_sparse(M)):
+        return None
+    if not (len(damping.data) == len(K.data) and np.array_equal(damping.indices, K.indices)):
+        return None
+    same = len(M.data) == len(K.data) and np.array_equal(M.indices, K.indices)
+    scale = float(K.data @ K.data)
+    a, b = float(damping.data @ K.data) / scale, 0.0
+    if same:
+        parts = np.stack([K.data, M.data], axis=1)
+        size = np.linalg.norm(parts, axis=0)
+        a, b = (np.linalg.lstsq(parts / size, damping.data, rcond=None)[0] / size).tolist()
+    rest = damping.data - a * K.data - (b * M.data if same else 0.0)
+    return (a, b) if np.abs(rest).max() <= 1e-11 * np.abs(damping.data).max() else None
+
+
+def _error(basis: _Basis, model: FrfModel, s: complex) -> tuple[float, float]:
+    """Relative errors of the FRFs and of the motions at one line, against a full solution; inf where that was not found."""
+    fields = model.at(np.array([s]))
+    x = model.V.T @ fields.Y[0]
+    exact = _full(basis, model, s, x)
+    if exact is None:
+        return np.inf, np.inf
+    at = basis.loads.at
+    alpha, reduced = basis.loads.values.T @ exact[at], basis.loads.values.T @ x[at]
+    size, far = np.abs(alpha).max(), np.linalg.norm(exact - x, axis=0) / np.linalg.norm(exact, axis=0)
+    return float(np.abs(alpha - reduced).max() / size), float(far.max())
+
+
+def _full(basis: _Basis, model: FrfModel, s: complex, x: np.ndarray) -> np.ndarray | None:
+    """Z(s)^-1 loads (n, l) from x (n, l) on: a correction by A^-1 outside of the basis, one within it, and so on."""
+    Z, before = model.matrices.at(s), np.inf
+    for _ in range(_REFINEMENTS):
+        rest = basis.full - basis.dynamics.times(s, x)
+        c = rest.shape[1]
+        moved = basis.operator.columns(np.asfortranarray(np.concatenate([rest.real, rest.imag], axis=1)))
+        better = x + moved[:, :c] + 1j * moved[:, c:]
+        rest = basis.full - basis.dynamics.times(s, better)
+        better = better + model.V.T @ np.linalg.solve(Z, model.V @ rest)
+        change = float((np.linalg.norm(better - x, axis=0) / np.linalg.norm(better, axis=0)).max())
+        if change <= _SOLVED or (change > 0.5 * before and change <= _ROUNDED):
+            return better
+        x, before = better, change
+    return None
