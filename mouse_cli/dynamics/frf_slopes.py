@@ -30,7 +30,7 @@ class Change:
 
 
 class _Rows:
-    """One matrix: `matrix` (t, n) holds the rows; row (t,) degree of freedom of each; start (p + 1,): where each parameter begins."""
+    """One matrix: `matrix` (t, n) holds the rows; row (t,) degree of freedom of each; start (p + 1,): where each begins."""
 
     def __init__(self, n: int, p: int, slopes: Slopes):
         keys = slopes.parameter.astype(np.int64) * n + slopes.row
