@@ -6,6 +6,7 @@ from mouse_cli.diagnosis.fit import Fit
 from mouse_cli.diagnosis.name import Ranking
 from mouse_cli.model.diagnosis import BY_DECK, NAMED, NOTHING, ONE_OF, UNKNOWN, Cause, Explanation, HeldOut, Size
 from mouse_cli.model.result import Result
+from mouse_cli.model.units import Units
 from mouse_cli.updating.chi_square import upper_tail
 
 GATE = 1e-3  # probability of so large a misfit by chance, below which something is missing
@@ -51,17 +52,19 @@ def explanations(ranking: Ranking) -> tuple[Explanation, ...]:
 
 def explanation(one: Fit, probability: float = 0.0) -> Explanation:
     """A fit as the report gives it."""
-    sd = np.sqrt(np.abs(np.diag(one.covariance)))[one.model.k :]
-    causes = tuple(_cause(recipe, one.c[own], sd[own]) for recipe, own in zip(one.recipes, one.model.own, strict=True))
+    sd, units = np.sqrt(np.abs(np.diag(one.covariance)))[one.model.k :], one.model.base.problem.units
+    causes = tuple(
+        _cause(recipe, one.c[own], sd[own], units) for recipe, own in zip(one.recipes, one.model.own, strict=True)
+    )
     theta = one.model.base.parameters(one.point.x[: one.model.k])
     p = upper_tail(one.misfit, max(one.dof, 1))
     return Explanation(causes, one.misfit, one.dof, p, one.log_evidence, theta, probability)
 
 
-def _cause(recipe, c: np.ndarray, sd: np.ndarray) -> Cause:
+def _cause(recipe, c: np.ndarray, sd: np.ndarray, units: Units) -> Cause:
     values = recipe.values(c)
     sizes = tuple(
-        Size(u.name, u.unit, float(v), float(s * v if u.log else s), u.lower, u.upper)
+        Size(u.name, units.of(u.unit), float(v), float(s * v if u.log else s), u.lower, u.upper)
         for u, v, s in zip(recipe.unknowns, values, sd, strict=True)
     )
     candidate = recipe.candidate

@@ -17,11 +17,18 @@ def extended(problem: Problem, one: Fit) -> Problem | None:
         if recipe.extend is None:
             return None
         deck = recipe.extend(deck, recipe.values(one.c[own]))
+    deck = _in_its_units(deck, len(problem.parameters))
     if problem.hold_out is None:
         return deck
     place = {label: i for i, label in enumerate(deck.structure.labels)}
     to = np.array([place[label] for label in problem.structure.labels], int)
     return replace(deck, hold_out=_moved(problem.hold_out, to, deck.structure.n))
+
+
+def _in_its_units(deck: Problem, own: int) -> Problem:
+    """The units of the new parameters, which candidates give in SI, as the deck declares them."""
+    new = tuple(replace(each, unit=deck.units.of(each.unit)) for each in deck.parameters[own:])
+    return replace(deck, parameters=deck.parameters[:own] + new)
 
 
 def _moved(held: HoldOut, to: np.ndarray, n: int) -> HoldOut:

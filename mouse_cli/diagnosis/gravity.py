@@ -14,7 +14,7 @@ from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
 
-G, INCH = 9.80665, 0.0254  # m/s2, m
+G = 9.80665  # m/s2
 _STOREYS, _BARS = (0.3, 3.0), (0.9, 1.1)  # effective heights are anybody's guess; of bars all is known but the mass
 _NOTHING = 1e-6  # share of an eigenvalue that a change must move to matter
 _LARGEST = 400  # degrees of freedom up to which a model of matrices is looked at as a chain
@@ -55,7 +55,7 @@ def _softening(model: Reduced, down: tuple[int, int, int]) -> np.ndarray | None:
 
 def _with_gravity(problem: Problem, down: tuple[int, int, int], factor: float) -> Problem:
     edit = Edit(problem)
-    edit.gravity = factor * G * np.array(down, float)
+    edit.gravity = factor * G / problem.units.metre * np.array(down, float)
     return edit.done()
 
 
@@ -94,8 +94,7 @@ def _chain(model: Reduced, candidate: Candidate) -> list[Recipe]:
 
     def site(values: np.ndarray) -> Site:
         h = G / values[0]  # rigid storeys are h high, those whose columns bend between floors that do not turn 6/5 h
-        text = f"the whole structure, effective height h = {h:.3g} m ({h / INCH:.3g} in); storeys of h to 1.2 h would confirm it"
-        return Site("structure", text=text)
+        return Site("structure", text=f"the whole structure, as if its storeys were {h:.3g} to {1.2 * h:.3g} m high")
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         return with_entries(problem, found("gravity g / h", values[0], "1/s2"), K=entries)

@@ -36,7 +36,7 @@ def implied_law(one: Fit) -> Law | None:
         H, slope = B @ u, u @ M @ u
         found.append((-1 / H, abs(slope / H**2) * 2 * lam * relative, _dynamic(change, lam, x, G)))
     stiffness, sd, fitted = np.array(found).T
-    return Law(site, "N/m", hz, stiffness, sd, fitted)
+    return Law(site, base.problem.units.of("N/m"), hz, stiffness, sd, fitted)
 
 
 def _gram(change: Change, r: int, size: float, unit: str) -> np.ndarray | None:

@@ -24,12 +24,14 @@ class Units:
     def of(self, unit: str) -> str:
         """What is in `unit` in SI, in the units of the deck.
 
-        >>> SYSTEMS["mm-t-N"].of("N m/rad"), SYSTEMS["in-lbf"].of("kg/m"), UNDECLARED.of("N/m2"), UNDECLARED.of("1/s2")
+        >>> SYSTEMS["mm-t-N"].of("N m/rad"), SYSTEMS["in-lbf"].of("kg/m"), UNDECLARED.of("Pa"), UNDECLARED.of("1/s2")
         ('N mm/rad', 'slinch/in', '[force/length2]', '1/s2')
         """
-        names = {"kg": self.mass, "N": self.force, "m": self.length}
-        found = re.sub(r"\b(kg|N|m)(?=\d?\b)", lambda at: names[at[1]], unit)
-        return f"[{found}]" if not self.declared and found != unit else found
+        if self == SYSTEMS["SI"]:
+            return unit
+        names, plain = {"kg": self.mass, "N": self.force, "m": self.length}, unit.replace("Pa", "N/m2")
+        found = re.sub(r"\b(kg|N|m)(?=\d?\b)", lambda at: names[at[1]], plain)
+        return found if self.declared or found == plain else f"[{found}]"
 
 
 UNDECLARED = Units("length", "mass", "force")

@@ -122,7 +122,7 @@ def test_cross_sections(shape, dimensions, expected):
 
 def test_nominal_values_units_and_factors():
     text = DECK.replace("test:", "  - {name: bending, elements: 1-2, property: [Iy, Iz], sd: 5 %}\ntest:")
-    found = problem(text)
+    found = problem(f"units: SI\n{text}")
     E, tip, bending = found.parameters
     assert (E.nominal, E.unit, E.sd) == (2.0e11, "Pa", pytest.approx(6e9))
     assert (tip.nominal, tip.unit) == (0.5, "kg")
@@ -159,7 +159,7 @@ parameters:
 test:
   modes: {frequency: [1], frequency_sd: 1 %, dofs: [tip], shapes: [[1]], shape_sd: 0.1}
 """
-    found = problem(text)
+    found = problem(f"units: SI\n{text}")
     K, M = assembly(found).matrices(np.array([3.0]))
     assert np.array_equal(K, [[7.0, -5.0], [-5.0, 8.0]]) and np.array_equal(M, np.diag([1.0, 1.5]))
     assert found.structure.labels == ("base", "tip") and found.test.dofs.tolist() == [1]
@@ -279,7 +279,7 @@ def test_a_written_structure_reads_back_with_its_tables(tmp_path):
 def test_each_element_may_be_a_parameter():
     """`each: k` stands for one parameter for every k elements, in their order; the last takes what is left."""
     text = DECK.replace("material: steel, property: E, sd: 3 %", "elements: 1-2, property: E, each: 1, sd: 3 %")
-    found = problem(text)
+    found = problem(f"units: SI\n{text}")
     assert [p.name for p in found.parameters] == ["E 1", "E 2", "tip"]
     assert [b.members.tolist() for b in found.bindings] == [[0], [1], [0]]
     written = DECK.replace("  - {name: E, material: steel", "  - {name: E 1, elements: 1").replace(

@@ -51,7 +51,7 @@ def _partly(candidate: Candidate, run: Line, wet: Wet, m: Unknown, back: bool, s
 
     def site(values: np.ndarray) -> Site:
         first, last = (ids[-1], ids[0]) if back else (ids[0], ids[-1])
-        text = f"{values[1] * L:.3g} m from the end at element {first} towards element {last}"
+        text = f"{values[1]:.2f} of the length from the end at element {first} towards element {last}"
         return Site("element", tuple(ids.tolist()), None, text)
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:

@@ -11,6 +11,7 @@ from mouse_cli.formats.yaml_deck.ids import ids as read_ids
 from mouse_cli.formats.yaml_deck.kinds import KINDS
 from mouse_cli.formats.yaml_deck.sections import Section
 from mouse_cli.model.mesh import Binding
+from mouse_cli.model.units import UNDECLARED, Units
 from mouse_cli.terms.elements import registry
 
 WHOSE = ("elements", "material", "section")
@@ -41,7 +42,7 @@ class _Part:
     unit: str
 
 
-def bound(section: Section, number: int, mesh: MeshDraft | None) -> Bound | None:
+def bound(section: Section, number: int, mesh: MeshDraft | None, units: Units = UNDECLARED) -> Bound | None:
     """The elements that parameter `number` (from 0) is a property of; None when it is none, or after an error."""
     given = [key for key in (*WHOSE, "property", "factor") if key in section]
     if not given:
@@ -61,7 +62,7 @@ def bound(section: Section, number: int, mesh: MeshDraft | None) -> Bound | None
     if names is None or chosen is None:
         return None
     parts = [part for name in names for part in _parts(section, name, whose[0], chosen, mesh)]
-    return _bound(section, number, parts) if parts else None
+    return _bound(section, number, parts, units) if parts else None
 
 
 def _incomplete(section: Section, whose: list[str], mesh: MeshDraft | None) -> None:
@@ -143,7 +144,7 @@ def _nothing(section: Section, name: str, key: str, owner: str | None, lacking: 
         section.document.error("MD413", node, message, help)
 
 
-def _bound(section: Section, number: int, parts: list[_Part]) -> Bound | None:
+def _bound(section: Section, number: int, parts: list[_Part], units: Units) -> Bound | None:
     """A value where all elements have the same one, else a factor."""
     values = np.concatenate([part.values for part in parts])
     document, node = section.document, section.nodes["property"]
@@ -156,4 +157,4 @@ def _bound(section: Section, number: int, parts: list[_Part]) -> Bound | None:
         message = f"{section.called} is a factor of {parts[0].name}, which is 0 in all its elements"
         return document.error("MD414", node, message, "leave factor out and give the value an sd, or give a value")
     bindings = [Binding(number, part.set, part.members, part.name, bool(factor)) for part in parts]
-    return Bound(bindings, None if factor else float(values[0]), "" if factor else parts[0].unit)
+    return Bound(bindings, None if factor else float(values[0]), "" if factor else units.of(parts[0].unit))

@@ -16,7 +16,7 @@ from mouse_cli.formats.yaml_deck.run import run_options
 from mouse_cli.formats.yaml_deck.sections import Section
 from mouse_cli.model.parameter import Parameter
 from mouse_cli.model.problem import Source
-from mouse_cli.model.units import SYSTEMS, UNDECLARED
+from mouse_cli.model.units import SYSTEMS, UNDECLARED, Units
 
 
 def read(text: str | bytes, path: str) -> Draft:
@@ -39,7 +39,8 @@ def _draft(deck: Section) -> Draft:
     document = deck.document
     below = deck.section("model")
     matrices = model(below) if below else Model(deck.node, {})
-    parameters, covariance, properties = _properties(deck, matrices.mesh)
+    declared = SYSTEMS.get(deck.value("units", ""), UNDECLARED)
+    parameters, covariance, properties = _properties(deck, matrices.mesh, declared)
     elements, A = yaml_parameters.moves(deck, properties, matrices.order, matrices.rows)
     measured = deck.section("test")
     test, held = modal_test(measured), hold_out(measured)
@@ -48,7 +49,6 @@ def _draft(deck: Section) -> Draft:
     run, where = run_options(deck.section("run"))
     title = deck.value("title", "")
     deck.value("source")
-    declared = SYSTEMS.get(deck.value("units", ""), UNDECLARED)
     return Draft(
         title=title,
         order=matrices.order,
@@ -74,10 +74,12 @@ def _draft(deck: Section) -> Draft:
     )
 
 
-def _properties(deck: Section, mesh: MeshDraft | None) -> tuple[list[Parameter], np.ndarray | None, list[Section]]:
+def _properties(
+    deck: Section, mesh: MeshDraft | None, units: Units
+) -> tuple[list[Parameter], np.ndarray | None, list[Section]]:
     """The parameters, their covariance when they are correlated, and their sections; those of elements are bound to `mesh`."""
     sections = yaml_parameters.sections(deck, mesh)
-    bound = [bindings.bound(section, i, mesh) for i, section in enumerate(sections)]
+    bound = [bindings.bound(section, i, mesh, units) for i, section in enumerate(sections)]
     if mesh is not None:
         mesh.bindings = [binding for each in bound if each is not None for binding in each.bindings]
     prior = deck.section("prior")
