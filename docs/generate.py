@@ -32,6 +32,7 @@ _RANGES = {
     "MD3": "What a deck says",
     "MD4": "Structures",
     "MD5": "What the numbers say",
+    "MD6": "Recordings",
 }
 _BLANKS = {  # the words in braces of a status sentence, as the page shows them
     "cycles": "c", "exceedances": "e", "data": "q", "allowed": "a", "cycle": "c", "reason": "reason", "names": "names",

@@ -48,6 +48,10 @@ class DeckError(MouseError):
     exit_code = 4
 
 
+class RecordError(DeckError):
+    """Measured data were rejected: a file that cannot be read, or channels that are no measurement."""
+
+
 class NumericalError(MouseError):
     """The numbers allow no answer: names the parameter, the cycle and the card or line that set it."""
 

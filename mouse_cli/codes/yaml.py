@@ -54,11 +54,6 @@ CODES = {
         "A key that this section needs was not given, or was given without a value.",
         "Give the key.",
     ),
-    "MD212": Code(
-        "key of a later release",
-        "The key belongs to the format but this release does not read it. The message says what is possible instead.",
-        "Give bare matrices and measured modes.",
-    ),
     "MD213": Code(
         "wrong kind of value",
         "The value is not of the kind that its key expects, for instance a word for a number or a number "

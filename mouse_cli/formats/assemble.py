@@ -5,7 +5,17 @@ from dataclasses import replace
 from mouse_cli._errors import WARNING
 from mouse_cli._span import Span
 from mouse_cli.formats.draft import Draft
-from mouse_cli.formats.rules import hold_out, matrices, modal_test, model, partials, prior, refusal
+from mouse_cli.formats.rules import (
+    hold_out,
+    hold_out_records,
+    matrices,
+    modal_test,
+    model,
+    partials,
+    prior,
+    records,
+    refusal,
+)
 from mouse_cli.model.problem import Problem
 
 
@@ -21,6 +31,8 @@ def assemble(draft: Draft) -> Problem:
     believed = prior.prior(draft)
     test = modal_test.modal_test(draft, found[0].geometry if found else None) if draft.order else None
     held = hold_out.hold_out(draft, test, found[0].geometry if found else None)
+    frf, recordings = records.records(draft, found[0].geometry if found else None) if draft.order else ((), ())
+    frf, recordings, kept = hold_out_records.divided(draft, frf, recordings)
     if draft.order:
         matrices.total_mass_dofs(draft)
     if draft.has_errors:
@@ -42,6 +54,9 @@ def assemble(draft: Draft) -> Problem:
         bindings=tuple(draft.mesh.bindings) if draft.mesh else (),
         hold_out=held,
         units=draft.units,
+        frf=frf,
+        recordings=recordings,
+        held_records=kept,
     )
 
 

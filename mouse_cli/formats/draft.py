@@ -12,6 +12,7 @@ from mouse_cli._errors import ERROR, WARNING, Diagnostic
 from mouse_cli._span import Span
 from mouse_cli.formats.hold_out_draft import HoldOutDraft
 from mouse_cli.formats.mesh_draft import MeshDraft
+from mouse_cli.formats.record_drafts import FrfDraft, RecordingDraft
 from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.geometry import Geometry
@@ -74,7 +75,8 @@ class Draft:
     that makes them or is attached to them; geometry: where the rows of imported matrices are. order, labels: of
     the matrices; 0 while only the structure can tell. elements: Entries whose value is 0 for stiffness and 1 for mass, in the
     order of group RS, stiffness first. A: Entries (listed element, parameter, partial).
-    covariance (p, p): the prior's, when it has off-diagonals; else the parameters' sd hold it.
+    covariance (p, p): the prior's, when it has off-diagonals; else the parameters' sd hold it. hold_out: what no fit uses of
+    frf and recordings.
     """
 
     title: str
@@ -94,6 +96,9 @@ class Draft:
     geometry: Geometry | None = None
     labels: tuple[str, ...] = ()
     units: Units = UNDECLARED
+    frf: tuple[FrfDraft, ...] = ()
+    recordings: tuple[RecordingDraft, ...] = ()
+    hold_out: HoldOutDraft | None = None
     where_order: Span | None = None
     where_covariance: Span | None = None
     where_total_mass: Span | None = None

@@ -24,9 +24,16 @@ class AlteredDraft:
 
 @dataclass
 class HoldOutDraft:
-    """modes: numbers of modes of the test, sensors: as `dofs` names them; each with its place."""
+    """modes: numbers of modes of the test, sensors: as `dofs` names them; each with its place.
+
+    recordings, frf: titles; segments: a title, and first sample and the one after the last; lines: lowest and highest Hz.
+    """
 
     where: Span
     modes: list[tuple[int, Span]] = field(default_factory=list)
     sensors: list[tuple[str, Span]] = field(default_factory=list)
     altered: list[AlteredDraft] = field(default_factory=list)
+    recordings: list[tuple[str, Span]] = field(default_factory=list)
+    segments: list[tuple[str, tuple[int, int], Span]] = field(default_factory=list)
+    frf: list[tuple[str, Span]] = field(default_factory=list)
+    lines: list[tuple[tuple[float, float], Span]] = field(default_factory=list)

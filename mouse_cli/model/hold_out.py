@@ -5,7 +5,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mouse_cli.model.arrays import frozen
+from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.model.modal_test import ModalTest
+from mouse_cli.model.recording import Recording
 
 
 @dataclass(frozen=True)
@@ -68,6 +70,14 @@ class HoldOut:
     @property
     def _kept_sensors(self) -> np.ndarray:
         return np.setdiff1d(np.arange(self.whole.s), self.sensors)
+
+
+@dataclass(frozen=True)
+class HeldRecords:
+    """Frequency response functions and recordings, or lines and stretches of them, that no fit uses."""
+
+    frf: tuple[FrfTest, ...] = ()
+    recordings: tuple[Recording, ...] = ()
 
 
 def part(test: ModalTest, modes: np.ndarray, sensors: np.ndarray) -> ModalTest:

@@ -6,7 +6,7 @@ from mouse_cli._errors import Diagnostic
 from mouse_cli._span import Span
 from mouse_cli.model.arrays import Matrix, frozen
 from mouse_cli.model.frf_test import FrfTest
-from mouse_cli.model.hold_out import HoldOut
+from mouse_cli.model.hold_out import HeldRecords, HoldOut
 from mouse_cli.model.mesh import Binding, Mesh
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
@@ -94,6 +94,7 @@ class Problem:
     frf: tuple[FrfTest, ...] = ()
     recordings: tuple[Recording, ...] = ()
     units: Units = UNDECLARED
+    held_records: HeldRecords | None = None
 
     def place(self, key: str) -> Span:
         """Where `key` (`order`, `estimator`, `mode 3`) stands in the deck; its first line when that is not known."""

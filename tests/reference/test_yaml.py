@@ -237,7 +237,6 @@ FAULTS = [
     ("MD211", "dofs: [1, 2], ", "", "[[1, 1], [2, -1]]", 17, "no dofs"),
     ("MD211", ", shape_sd: 2 %", "", "[[1, 1], [2, -1]]", 17, "no shape_sd"),
     ("MD211", "shapes: [[1, 1], [2, -1]], shape_sd: 2 %", "", "[1, 2], }", 6, "no shapes"),
-    ("MD212", "  modes: {freq", "  frf: []\n  modes: {freq", "frf", 3, "measured modes"),
     ("MD213", "partials: 5", "partials: five", "five", 4, "'five'"),
     ("MD213", "partials: 5", "partials: 5.5", "5.5", 3, "a whole number"),
     ("MD213", "partials: 5", "extra_update: 1", "1}\n", 1, "true or false"),

@@ -12,7 +12,7 @@ from mouse_cli.model.modal_test import ModalTest
 def hold_out(draft: Draft, test: ModalTest | None, geometry: Geometry | None) -> HoldOut | None:
     """The division of `test`; None where nothing is held out, or when a rule is broken."""
     given = draft.test.hold_out if draft.test else None
-    if given is None or test is None:
+    if given is None or test is None or not (given.modes or given.sensors or given.altered):
         return None
     before = len(draft.diagnostics)
     modes, sensors = _modes(draft, given, test), _sensors(draft, given)

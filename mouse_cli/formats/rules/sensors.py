@@ -38,6 +38,18 @@ def sensing(draft: Draft, sensors: tuple[SensorDraft, ...], geometry: Geometry |
     return Sensing(dofs, None if plain else _matrix(readings, n), names)
 
 
+def weights(
+    draft: Draft, sensors: tuple[SensorDraft, ...], geometry: Geometry | None, n: int
+) -> list[dict[int, float]] | None:
+    """What each of `sensors` reads: weights by degree of freedom, from 0; None after errors. Two may read the same."""
+    labels = draft.labels if geometry is None else geometry.labels()
+    place = {label: i for i, label in enumerate(labels)}
+    readings = [_reading(draft, sensor, geometry, place, n) for sensor in sensors]
+    if any(reading is None for reading in readings):
+        return None
+    return [dict(zip(dofs.tolist(), shares.tolist(), strict=True)) for dofs, shares in readings]
+
+
 def _matrix(readings: list[Reading], n: int) -> Matrix:
     from scipy.sparse import csr_array
 

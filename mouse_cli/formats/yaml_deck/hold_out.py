@@ -29,6 +29,10 @@ def hold_out(test: Section | None) -> HoldOutDraft | None:
         what = section.what("sensors")
         items = yaml_values.items(document, nodes["sensors"], what, KINDS["dofs"].words) or []
         found.sensors = [(str(place(document, item, what)), document.span(item)) for item in items]
+    if any(key in section for key in ("recordings", "segments", "frf", "lines")):
+        from mouse_cli.formats.yaml_deck.hold_out_records import read_records
+
+        read_records(section, found)
     if "altered" in section:
         what = section.what("altered")
         items = yaml_values.items(document, nodes["altered"], what, "a list, one item for each configuration") or []

@@ -24,6 +24,13 @@ def _list(*items: dict[str, Any], **limits: int) -> dict[str, Any]:
     return {"type": "array", "prefixItems": list(items), "items": False, "minItems": len(items)}
 
 
+def _each(section: str) -> dict[str, Any]:
+    """JSON Schema of sections by sensor: names or sections in a mapping, or sections in a list."""
+    below = {"$ref": f"#/$defs/{section}"}
+    named = {"type": "object", "additionalProperties": {"anyOf": [_NAME, below]}, "minProperties": 1}
+    return {"anyOf": [named, _list(below, minItems=1)]}
+
+
 @dataclass(frozen=True, slots=True)
 class Kind:
     """A kind of value: as messages call it, and as JSON Schema checks it."""
@@ -103,6 +110,18 @@ KINDS = {
         "{node: directions, ...}; nodes also as a range such as 1-5, or all",
         {"type": "object", "additionalProperties": {"anyOf": [_DIRECTIONS, {"const": "all"}]}},
     ),
+    "span": Kind("[first, last]", _list(_WHOLE, minItems=2, maxItems=2)),
+    "pairs of numbers": Kind("a list of [lowest, highest]", _list(_list(_NUMBER, minItems=2, maxItems=2), minItems=1)),
+    "pair": Kind("[lowest, highest]", _list(_NUMBER, minItems=2, maxItems=2)),
+    "text or numbers": Kind("a name, or a list of numbers", {"anyOf": [_NAME, _list(_MAYBE, minItems=1)]}),
+    "text or texts": Kind(
+        "a name, or a list of numbers such as 0.1+0.2j", {"anyOf": [_NAME, _list(_NAME, minItems=1)]}
+    ),
+    "channels": Kind("{sensor: channel, ...}, or a list of channels that name their sensors", _each("channel")),
+    "functions": Kind("{sensor: channel, ...}, or a list of functions that name their sensors", _each("function")),
+    "renames": Kind(
+        "{sensor: name in the file, ...}", {"type": "object", "additionalProperties": _NAME, "minProperties": 1}
+    ),
     "value or values": Kind(
         "a number, or a list of one number for each element", {"anyOf": [_NUMBER, _list(_NUMBER, minItems=1)]}
     ),
@@ -125,7 +144,7 @@ class Key:
 
 @dataclass(frozen=True, slots=True)
 class Section:
-    """A mapping: its keys; `forms`, sets of keys of which exactly one is given; `later`, keys to come.
+    """A mapping: its keys; `forms`, sets of keys of which exactly one is given.
 
     needs: sets of keys of which at least one is given as a whole. variants: names of the sections that it may be, told by `type`.
     """
@@ -133,6 +152,5 @@ class Section:
     meaning: str
     keys: dict[str, Key]
     forms: tuple[tuple[str, ...], ...] = ()
-    later: dict[str, str] | None = None
     needs: tuple[tuple[str, ...], ...] = ()
     variants: tuple[str, ...] = ()

@@ -12,6 +12,7 @@ from mouse_cli.formats.yaml_deck.hold_out import hold_out
 from mouse_cli.formats.yaml_deck.model import Model, model
 from mouse_cli.formats.yaml_deck.modes import modal_test
 from mouse_cli.formats.yaml_deck.nodes import compose
+from mouse_cli.formats.yaml_deck.records import records
 from mouse_cli.formats.yaml_deck.run import run_options
 from mouse_cli.formats.yaml_deck.sections import Section
 from mouse_cli.model.parameter import Parameter
@@ -46,6 +47,8 @@ def _draft(deck: Section) -> Draft:
     test, held = modal_test(measured), hold_out(measured)
     if test is not None:
         test.hold_out = held
+    declared = SYSTEMS.get(deck.value("units", ""), UNDECLARED)
+    frf, recordings = records(measured, declared)
     run, where = run_options(deck.section("run"))
     title = deck.value("title", "")
     deck.value("source")
@@ -67,6 +70,9 @@ def _draft(deck: Section) -> Draft:
         test=test,
         labels=matrices.labels,
         units=declared,
+        frf=frf,
+        recordings=recordings,
+        hold_out=held,
         where_order=document.span(matrices.where_order),
         where_covariance=document.span(deck.nodes["prior"]) if "prior" in deck else None,
         where_total_mass=where.get("fix_total_mass"),

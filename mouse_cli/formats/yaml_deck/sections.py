@@ -104,12 +104,7 @@ class Section:
             seen.add(name)
 
     def _unknown(self, key: Node, name: str) -> None:
-        known, later = self.definition.keys, self.definition.later or {}
-        place = self.called or "a deck"
-        if name in later:
-            message = f"{self.what(name)} comes in a later release"
-            self.document.error("MD212", key, message, later[name])
-            return
+        known, place = self.definition.keys, self.called or "a deck"
         near = get_close_matches(name, known, 1)
         help = f"write '{near[0]}'" if near else f"the keys of {place} are {_listed(known)}"
         self.document.error("MD210", key, f"'{name[:40]}' is not a key of {place}", help)

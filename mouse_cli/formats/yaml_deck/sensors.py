@@ -109,11 +109,12 @@ def listed(document: Document, node: Node, what: str, named: list[SensorDraft]) 
     if nodes is None:
         return None
     known = {sensor.name: sensor for sensor in named}
-    found = [_listed_item(document, item, what, known) for item in nodes]
+    found = [sensor(document, item, what, known) for item in nodes]
     return None if None in found else found
 
 
-def _listed_item(document: Document, node: Node, what: str, known: dict[str, SensorDraft]) -> SensorDraft | None:
+def sensor(document: Document, node: Node, what: str, known: dict[str, SensorDraft]) -> SensorDraft | None:
+    """The sensor that a number, a label, 12-TY, or the name of one that is `known` means; None after an error."""
     dof = place(document, node, what)
     if dof is None or dof in known:
         return known.get(dof)

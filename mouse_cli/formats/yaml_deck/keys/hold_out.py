@@ -8,7 +8,18 @@ SECTIONS = {
         {
             "modes": Key("wholes", "mode numbers of the test, as in `number`", "none"),
             "sensors": Key("dofs", "sensors of the test, as in `dofs`", "none"),
+            "recordings": Key("texts", "titles of recordings", "none"),
+            "segments": Key("list held_segment", "stretches of recordings", "none"),
+            "frf": Key("texts", "titles of frequency response functions", "none"),
+            "lines": Key("pairs of numbers", "bands of frequency response functions, [lowest, highest]", "none", "Hz"),
             "altered": Key("list altered", "the same structure with masses or springs added", "none"),
+        },
+    ),
+    "held_segment": Section(
+        "A stretch of a recording.",
+        {
+            "recording": Key("text", "title of the recording", required=True),
+            "segment": Key("span", "first sample and the one after the last, as its file counts from 0", required=True),
         },
     ),
     "altered": Section(

@@ -3,16 +3,17 @@
 from mouse_cli.formats.yaml_deck.kinds import Key, Section
 from mouse_cli.model.modal_test import SCALES
 
-_MODES_ONLY = "this release reads measured modes: give test: {modes: ...}"
 SECTIONS = {
     "test": Section(
         "What was measured.",
         {
             "sensors": Key("list sensor", "sensors that are no plain degrees of freedom", "none"),
-            "modes": Key("section modes", "natural frequencies and mode shapes", required=True),
+            "modes": Key("section modes", "natural frequencies and mode shapes", "none"),
+            "frf": Key("list frf", "frequency response functions", "none"),
+            "recordings": Key("list recording", "time histories", "none"),
             "hold_out": Key("section hold_out", "what of it no fit uses", "nothing"),
         },
-        later={"frf": _MODES_ONLY, "recordings": _MODES_ONLY},
+        needs=(("modes",), ("frf",), ("recordings",)),
     ),
     "sensor": Section(
         "A sensor with a name of its own, in one of three forms; on a matrix model only the last.",

@@ -1,0 +1,91 @@
+"""MD6xx: recordings and frequency response functions."""
+
+from mouse_cli.codes import Code
+
+CODES = {
+    "MD600": Code(
+        "no such channel",
+        "The deck or the command line names a channel that the file does not hold, or a name that several channels bear.",
+        "Give a name of the message, or the number of the channel, counted from 1. Column 3 of a table `A` of a MAT, NPZ or HDF5 file "
+        "is `A[3]`; a field of a struct is `struct.field`.",
+    ),
+    "MD601": Code(
+        "no measured data in the file",
+        "The file could be read, but holds no vector, table or function of numbers.",
+        "Give the file of the recording; export text as columns of numbers.",
+    ),
+    "MD602": Code(
+        "sample rate unknown",
+        "Nothing says how many samples a second there are: neither the deck, nor the file, nor an evenly spaced time column.",
+        "Give `sample_rate` in Hz, or name the time column with `time`.",
+    ),
+    "MD603": Code(
+        "sample rates contradict each other",
+        "The deck, the file and its time column, or two channels of one recording, give sample rates that differ by more than a "
+        "thousandth. All frequencies and dampings are proportional to it.",
+        "Find out which is right, and correct or delete the other.",
+    ),
+    "MD604": Code(
+        "samples missing",
+        "The time column leaps: samples were dropped while recording, or several recordings were joined, or time runs backwards. "
+        "Spectra over such a place are wrong.",
+        "Use a stretch without a leap: `segment: [first, last]`, samples counted from 0, the last one not included.",
+    ),
+    "MD605": Code(
+        "gap in the samples",
+        "Samples are empty, NaN or infinite.",
+        "Use a stretch without gaps: `segment: [first, last]`. In frequency response functions write null where nothing was measured.",
+    ),
+    "MD606": Code(
+        "channel clipped",
+        "Samples stand still at the largest or the smallest value of the channel, reached at once from well below: the amplifier or "
+        "the converter was overloaded. Clipping makes harmonics that look like a nonlinear structure.",
+        "Measure again with a wider range, use a stretch without it, or leave the channel out.",
+    ),
+    "MD607": Code(
+        "channel dead or constant",
+        "All samples of the channel are the same.",
+        "Leave the channel out; look for a broken cable or a wrong channel number.",
+    ),
+    "MD608": Code(
+        "lengths differ",
+        "Channels of one recording have different numbers of samples, or parts of one function different numbers of lines.",
+        "Record them together, or cut the file to what they share.",
+    ),
+    "MD609": Code(
+        "impossible segment",
+        "`segment: [first, last]` takes samples first up to but without last, counted from 0; it does not lie within the file.",
+        "Give 0 <= first < last <= number of samples.",
+    ),
+    "MD610": Code(
+        "units contradict each other",
+        "The deck says one unit or quantity of a channel or function and its file another, or a unit does not belong to the quantity. "
+        "g for m/s2 is a factor of 9.80665 in every mass and stiffness.",
+        "Delete `unit` where the file is right; else correct it.",
+    ),
+    "MD611": Code(
+        "unit not understood",
+        "The unit is none that is known, or volts without a sensitivity, or nothing says what kind of function was measured.",
+        "Units that are converted: N, kN, lbf; m/s2, mm/s2, g; m/s; m, mm, in; rad; N m; Pa; and V with `sensitivity: 100 mV/g`.",
+    ),
+    "MD612": Code(
+        "no unit given",
+        "Neither deck nor file says in what unit a channel is; the units of the deck, SI where it declares none, were taken.",
+        "Give `unit`.",
+    ),
+    "MD613": Code(
+        "channel stands still",
+        "For many samples in a row the channel keeps one value that is neither zero nor an extreme: the transmission broke off.",
+        "Use a stretch before or after it.",
+    ),
+    "MD614": Code(
+        "lines do not fit",
+        "Frequencies must ascend from 0 on, be the same in all functions of one measurement, and some must lie in `band`.",
+        "Name the channel of the frequencies, and give measurements that differ titles of their own.",
+    ),
+    "MD615": Code(
+        "complex where real is expected",
+        "The channel holds complex numbers, and a real part, a magnitude, a phase or samples in time are expected.",
+        "Name it as `value`, or give the right channel.",
+    ),
+}

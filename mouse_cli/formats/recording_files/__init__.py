@@ -1,0 +1,143 @@
+"""Measured data kept in files: one module = one format; here, what each of them hands over."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mouse_cli._errors import DeckError, RecordError
+from mouse_cli.formats import data_files
+from mouse_cli.formats.data_files import MAX_BYTES, reject
+
+__all__ = ["MAX_BYTES", "Column", "Contents", "Function", "RecordingFormat", "read_contents", "reject", "spread"]
+MOST_COLUMNS = 20_000  # of one file
+RATE_NAMES = ("fs", "sample_rate", "samplerate", "sampling_rate", "samplingrate", "sampling_frequency", "rate")
+STEP_NAMES = ("dt", "ts", "time_step", "sample_interval", "deltat", "delta_t")
+_DAMAGE = (
+    ArithmeticError,
+    AttributeError,
+    EOFError,
+    LookupError,
+    MemoryError,
+    OverflowError,
+    RuntimeError,
+    TypeError,
+    ValueError,
+)
+
+
+@dataclass(frozen=True)
+class Column:
+    """One channel of a file as it stands there: values (k,), real or complex; unit as the file spells it, empty where it is silent.
+
+    step_s: time between samples, None where the file does not say.
+    """
+
+    name: str
+    values: np.ndarray
+    unit: str = ""
+    step_s: float | None = None
+
+
+@dataclass(frozen=True)
+class Function:
+    """A frequency response function of a file that names its response and its force, as decks write a sensor: `12TY`, `12-TY`.
+
+    frequency_hz, values (f,); kind: of model.frf_test.KINDS, empty where the file does not say; unit: as it spells it.
+    variance: E|H - mean|^2 (f,); coherence (f,): both None where the file has none.
+    """
+
+    output: str
+    input: str
+    frequency_hz: np.ndarray
+    values: np.ndarray
+    kind: str = ""
+    unit: str = ""
+    variance: np.ndarray | None = None
+    coherence: np.ndarray | None = None
+
+
+@dataclass(frozen=True)
+class Contents:
+    """All channels and functions of a file; sample_rate_hz where it states one for all. remarks: what was passed over, and why."""
+
+    columns: tuple[Column, ...] = ()
+    sample_rate_hz: float | None = None
+    functions: tuple[Function, ...] = ()
+    remarks: tuple[str, ...] = field(default_factory=tuple)
+
+
+@dataclass(frozen=True, slots=True)
+class RecordingFormat:
+    """A format of recordings: read(path) gives Contents. suffixes: of its files, without the point; default: `key`."""
+
+    key: str
+    read: Callable[[str], Contents]
+    suffixes: tuple[str, ...] = ()
+    claims: Callable[[bytes], bool] | None = None
+
+
+def read_contents(path: str) -> Contents:
+    """What the file `path` holds. Raises RecordError (MD250 to MD261, MD601) for one that cannot be read or holds nothing."""
+    try:
+        form = data_files.reader(__name__, path, "a recording")
+        contents = _read(form, path)
+    except DeckError as error:
+        raise RecordError(error.diagnostics) from error
+    if not contents.columns and not contents.functions:
+        because = f": {'; '.join(contents.remarks[:3])}" if contents.remarks else ""
+        _refuse("MD601", path, f"the file holds no channel of numbers{because}", "give a file with measured data")
+    return contents
+
+
+def _read(form: RecordingFormat, path: str) -> Contents:
+    try:
+        return form.read(path)
+    except OSError as error:
+        reject("MD250", path, f"the file cannot be read: {error}", "check the file and its permissions")
+    except _DAMAGE as error:  # readers of other people's formats raise whatever their parts do
+        what = str(error).split("\n")[0][:200] or type(error).__name__
+        reject("MD252", path, f"damaged, or not of the format '{form.key}': {what}", "write the file anew")
+
+
+def _refuse(code: str, path: str, message: str, help: str) -> None:
+    try:
+        reject(code, path, message, help)
+    except DeckError as error:
+        raise RecordError(error.diagnostics) from None
+
+
+def spread(path: str, arrays: dict[str, np.ndarray]) -> Contents:
+    """Channels of named arrays: a vector is one; of a table (k, c) each column is one, `name[1]` to `name[c]`, time along k > c.
+
+    A number called fs, dt or alike states the sample rate; other numbers, texts and empty arrays are passed over.
+    """
+    columns, rate, passed = [], None, []
+    for name, array in arrays.items():
+        values = np.squeeze(np.asarray(array))
+        stem = name.rpartition(".")[2].lower()
+        if values.dtype.kind not in "biufc" or values.ndim > 2 or not values.size:
+            passed.append(f"'{name[:40]}' is no vector or table of numbers")
+        elif values.ndim == 0:
+            rate = _rate(stem, values) or rate
+        elif values.ndim == 1:
+            columns.append(Column(name, values))
+        else:
+            table = values if values.shape[0] >= values.shape[1] else values.T
+            columns += [Column(f"{name}[{j + 1}]", table[:, j]) for j in range(min(table.shape[1], MOST_COLUMNS))]
+    if len(columns) > MOST_COLUMNS:
+        reject(
+            "MD258",
+            path,
+            f"the file has more than {MOST_COLUMNS} channels",
+            "save tables with time along the longer side",
+        )
+    return Contents(tuple(columns), rate, remarks=tuple(passed))
+
+
+def _rate(name: str, value: np.ndarray) -> float | None:
+    """The sample rate in Hz that a number called `name` states."""
+    number = float(value.real)
+    if not np.isfinite(number) or number <= 0:
+        return None
+    return number if name in RATE_NAMES else 1 / number if name in STEP_NAMES else None

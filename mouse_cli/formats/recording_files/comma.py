@@ -1,0 +1,139 @@
+"""Tables as text (.csv, .txt, .tsv, .dat, .asc): one line for each sample or line of frequency, one column for each channel.
+
+Columns are separated by semicolons, tabulators, commas or blanks; before the numbers stand any lines, of which the last with as many
+cells as there are columns names them, `acc3`, `acc3 (g)`, `acc3 [m/s2]`; a line of units may follow. Complex numbers are written
+`0.1+0.2j`. Beside semicolons and tabulators, a comma in a number is a decimal comma.
+"""
+
+import io
+import re
+
+import numpy as np
+
+from mouse_cli.formats.data_files import line_span
+from mouse_cli.formats.recording_files import MOST_COLUMNS, Column, Contents, RecordingFormat, reject
+from mouse_cli.model.channel_units import unit
+
+_MOST_HEAD = 200  # lines before the numbers
+_MISSING = ("", "nan", "na", "n/a", "null", "-", "--", "#n/a", "inf", "-inf", "+inf")
+_DECIMAL_COMMA = re.compile(r"[-+]?[0-9]*,[0-9]+([eE][-+]?[0-9]+)?")
+_UNIT = re.compile(r"^(.*?)\s*[\[(](.*)[\])]$")
+_COMMENTS = "#%!"
+
+
+def _read(path: str) -> Contents:
+    with open(path, encoding="utf-8-sig", errors="replace", newline=None) as stream:
+        text = stream.read()
+    lines = text.split("\n")
+    first, separator = _first(path, lines)
+    width = len(_cells(lines[first], separator))
+    if width > MOST_COLUMNS:
+        reject("MD258", path, f"the table has {width} columns; at most {MOST_COLUMNS} are read", "divide it")
+    comma = separator in (";", "\t") and any(_DECIMAL_COMMA.fullmatch(cell) for cell in _cells(lines[first], separator))
+    values = _values(path, lines, first, separator, width, comma)
+    names, units = _head(lines[:first], separator, width)
+    return Contents(tuple(Column(names[j], values[:, j], units[j]) for j in range(width)))
+
+
+def _first(path: str, lines: list[str]) -> tuple[int, str | None]:
+    """The line of the first numbers, from 0, and what separates them."""
+    for i, line in enumerate(lines[:_MOST_HEAD]):
+        if not line.strip() or line.lstrip()[0] in _COMMENTS:
+            continue
+        separator = next((mark for mark in (";", "\t", ",") if mark in line), None)
+        cells = _cells(line, separator)
+        comma = separator in (";", "\t")
+        if any(_number(cell, comma) is not None for cell in cells) and all(
+            _number(cell, comma) is not None or cell.lower() in _MISSING for cell in cells
+        ):
+            return i, separator
+    reject(
+        "MD601",
+        path,
+        f"none of the first {min(len(lines), _MOST_HEAD)} lines is a row of numbers",
+        "give a table of numbers",
+    )
+
+
+def _cells(line: str, separator: str | None) -> list[str]:
+    cells = [cell.strip().strip('"').strip() for cell in line.split(separator)]
+    return cells[:-1] if len(cells) > 1 and separator and not cells[-1] and line.rstrip().endswith(separator) else cells
+
+
+def _number(cell: str, comma: bool) -> complex | None:
+    """The number that a cell spells; NaN is none."""
+    try:
+        value = complex(_spelled(cell, comma))
+    except ValueError:
+        return None
+    return None if value != value else value
+
+
+def _spelled(text: str, comma: bool) -> str:
+    text = text.replace(",", ".") if comma else text
+    return text.replace("i", "j").replace(" ", "").replace("jnf", "inf") if "i" in text or " " in text else text
+
+
+def _values(path: str, lines: list[str], first: int, separator: str | None, width: int, comma: bool) -> np.ndarray:
+    """The table (k, c): all at once where each cell is a number, else cell by cell."""
+    kept = [line for line in lines[first:] if line.strip()]
+    body = "\n".join(kept)
+    try:
+        is_complex = "j" in kept[0] or "i" in kept[0].lower().replace("inf", "")
+        text = body.replace(",", ".") if comma else body
+        text = text.replace("i", "j") if is_complex and "i" in kept[0] else text
+        found = np.loadtxt(
+            io.StringIO(text), complex if is_complex else float, delimiter=separator, comments=None, ndmin=2
+        )
+        if found.shape[1] == width:
+            return found
+    except ValueError:
+        pass
+    return _slowly(path, lines, first, separator, width, comma)
+
+
+def _slowly(path: str, lines: list[str], first: int, separator: str | None, width: int, comma: bool) -> np.ndarray:
+    """The table cell by cell: NaN for a cell that is empty or says so; refuses what is no number."""
+    rows = []
+    last = max(i for i, line in enumerate(lines) if line.strip())
+    for i in range(first, last + 1):
+        line = lines[i]
+        if not line.strip() or line.lstrip()[0] in _COMMENTS:
+            continue
+        cells = _cells(line, separator)
+        if len(cells) != width:
+            message = f"the line has {len(cells)} values; the first row of numbers, line {first + 1}, has {width}"
+            reject("MD252", path, message, "the file is cut short or damaged here", line_span(path, i + 1, line))
+        row = [np.nan if cell.lower() in _MISSING[:8] else _number(cell, comma) for cell in cells]
+        if None in row:
+            wrong = cells[row.index(None)]
+            if wrong.lower().strip("+-") in ("nan", "inf", "infinity"):
+                row = [np.nan if value is None else value for value in row]
+            else:
+                message = f"'{wrong[:40]}' is no number"
+                reject("MD252", path, message, "give numbers", line_span(path, i + 1, line, wrong))
+        rows.append(row)
+    table = np.array(rows, complex)
+    return table if table.imag.any() else table.real
+
+
+def _head(lines: list[str], separator: str | None, width: int) -> tuple[list[str], list[str]]:
+    """Names and units of the columns, from the lines before the numbers; without names, numbers from 1."""
+    rows = [_cells(line.lstrip().lstrip(_COMMENTS), separator) for line in lines if line.strip()]
+    rows = [row for row in rows if len(row) == width and any(row)]
+    units = [""] * width
+    if len(rows) > 1 and any(unit(cell) for cell in rows[-1]) and _are_units(rows[-1]):
+        units, rows = [cell.strip("[]()") for cell in rows[-1]], rows[:-1]
+    names = list(rows[-1]) if rows else [""] * width
+    for j, name in enumerate(names):
+        found = _UNIT.match(name)
+        if found and found[1]:
+            names[j], units[j] = found[1], units[j] or found[2]
+    return [name or str(j + 1) for j, name in enumerate(names)], units
+
+
+def _are_units(cells: list[str]) -> bool:
+    return all(unit(cell) or cell.strip("[]()").lower() in ("s", "sec", "ms", "hz", "-", "") for cell in cells)
+
+
+FORMAT = RecordingFormat("csv", _read, ("csv", "txt", "tsv", "dat", "asc"))

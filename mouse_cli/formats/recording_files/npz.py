@@ -1,0 +1,65 @@
+"""NumPy archives (.npz) and arrays (.npy): vectors are channels, tables are channels side by side.
+
+An archive with frequency_hz (f,), H (f, o, i), output_names (o,) and input_names (i,) holds frequency response functions; `mouse
+spectra` writes such ones, with kind, variance (f, o, i) and coherence (f, o).
+"""
+
+import zipfile
+
+import numpy as np
+
+from mouse_cli.formats.recording_files import MAX_BYTES, Contents, Function, RecordingFormat, reject, spread
+
+_OWN = ("frequency_hz", "H", "output_names", "input_names")
+
+
+def _read(path: str) -> Contents:
+    try:
+        with zipfile.ZipFile(path) as archive:
+            size = sum(item.file_size for item in archive.infolist())
+        if size > MAX_BYTES:
+            reject("MD258", path, f"the archive unpacks to {size} bytes; at most {MAX_BYTES} are read", "divide it")
+        with np.load(path, allow_pickle=False) as archive:
+            arrays = {name: archive[name] for name in archive.files}
+    except (zipfile.BadZipFile, zipfile.LargeZipFile) as error:
+        raise ValueError(str(error)) from error
+    if all(name in arrays for name in _OWN):
+        return Contents(functions=functions(arrays))
+    return spread(path, arrays)
+
+
+def functions(arrays: dict[str, np.ndarray]) -> tuple[Function, ...]:
+    """The functions of an archive that names responses and forces. Raises ValueError where its shapes do not fit."""
+    hz, H = np.asarray(arrays["frequency_hz"], float), np.asarray(arrays["H"], complex)
+    outputs, inputs = ([str(name) for name in np.ravel(arrays[key])] for key in ("output_names", "input_names"))
+    shape = (len(hz), len(outputs), len(inputs))
+    variance, coherence = (
+        np.asarray(arrays[key], float) if key in arrays else None for key in ("variance", "coherence")
+    )
+    wrong = H.shape != shape or (variance is not None and variance.shape != shape)
+    if wrong or (coherence is not None and coherence.shape != shape[:2]):
+        raise ValueError(
+            f"H, variance and coherence do not fit {shape[0]} lines, {shape[1]} responses and {shape[2]} forces"
+        )
+    kind = str(arrays["kind"]) if "kind" in arrays else ""
+    unit = str(arrays["unit"]) if "unit" in arrays else ""
+    return tuple(
+        Function(
+            output, force, hz, H[:, o, i], kind, unit,
+            None if variance is None else variance[:, o, i],
+            None if coherence is None else coherence[:, o],
+        )
+        for i, force in enumerate(inputs)
+        for o, output in enumerate(outputs)
+    )  # fmt: skip
+
+
+def _read_array(path: str) -> Contents:
+    return spread(path, {"data": np.load(path, allow_pickle=False)})
+
+
+def _either(path: str) -> Contents:
+    return _read_array(path) if path.lower().endswith(".npy") else _read(path)
+
+
+FORMAT = RecordingFormat("npz", _either, ("npz", "npy"))

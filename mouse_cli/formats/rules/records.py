@@ -1,0 +1,66 @@
+"""Rules for recordings and frequency response functions: their sensors read something of this model, their titles differ."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from mouse_cli.formats.draft import Draft
+from mouse_cli.formats.record_drafts import FrfDraft, RecordingDraft
+from mouse_cli.formats.rules.sensors import weights
+from mouse_cli.formats.sensor import SensorDraft
+from mouse_cli.model.arrays import Matrix
+from mouse_cli.model.frf_test import FrfTest
+from mouse_cli.model.geometry import Geometry
+from mouse_cli.model.recording import Recording
+
+
+def records(draft: Draft, geometry: Geometry | None) -> tuple[tuple[FrfTest, ...], tuple[Recording, ...]]:
+    """All of a deck that break no rule."""
+    frf = [_frf(draft, each, geometry) for each in draft.frf]
+    recordings = [_recording(draft, each, geometry) for each in draft.recordings]
+    _titles(draft)
+    return tuple(one for one in frf if one is not None), tuple(one for one in recordings if one is not None)
+
+
+def _frf(draft: Draft, each: FrfDraft, geometry: Geometry | None) -> FrfTest | None:
+    outputs, inputs = (_matrix(draft, sensors, geometry) for sensors in (each.outputs, each.inputs))
+    if outputs is None or inputs is None:
+        return None
+    names = [tuple(sensor.name for sensor in sensors) for sensors in (each.outputs, each.inputs)]
+    return FrfTest(
+        each.frequency_hz, each.H, each.kind, outputs, inputs, each.variance, *names, each.coherence, each.title, each.path
+    )  # fmt: skip
+
+
+def _matrix(draft: Draft, sensors: tuple[SensorDraft, ...], geometry: Geometry | None) -> Matrix | None:
+    """What each of `sensors` reads: degrees of freedom (s,), or weights (s, n) where that is not enough."""
+    found = weights(draft, sensors, geometry, draft.order)
+    if found is None:
+        return None
+    if all(list(each.values()) == [1.0] for each in found):
+        return np.array([next(iter(each)) for each in found], dtype=int)
+    from scipy.sparse import csr_array
+
+    ends = np.cumsum([0] + [len(each) for each in found])
+    dofs, shares = ([x for each in found for x in part(each)] for part in (dict.keys, dict.values))
+    return csr_array((np.array(shares), np.array(dofs, dtype=int), ends), shape=(len(found), draft.order))
+
+
+def _recording(draft: Draft, each: RecordingDraft, geometry: Geometry | None) -> Recording | None:
+    found = weights(draft, each.sensors, geometry, draft.order)
+    if found is None:
+        return None
+    channels = zip(each.recording.channels, found, strict=True)
+    return replace(each.recording, channels=tuple(replace(channel, weights=shares) for channel, shares in channels))
+
+
+def _titles(draft: Draft) -> None:
+    """Each title stands once; functions of one title are one measurement anyway."""
+    seen: set[str] = set()
+    for each in draft.recordings:
+        title = each.recording.title
+        if title in seen:
+            draft.error(
+                "MD226", f"two recordings are called '{title}'", each.where, help="give each a title of its own"
+            )
+        seen.add(title)

@@ -1,0 +1,86 @@
+"""Sensors and the channels they are, as `inputs` and `outputs` of a YAML deck give them."""
+
+from dataclasses import replace
+
+from mouse_cli.formats.record_drafts import Pick
+from mouse_cli.formats.sensor import SensorDraft
+from mouse_cli.formats.yaml_deck import sensors as yaml_sensors
+from mouse_cli.formats.yaml_deck import values as yaml_values
+from mouse_cli.formats.yaml_deck.kinds import KINDS
+from mouse_cli.formats.yaml_deck.nodes import Node
+from mouse_cli.formats.yaml_deck.sections import Section
+
+Known = dict[str, SensorDraft]
+
+
+def pairs(section: Section, key: str, known: Known, below: str) -> list[tuple[SensorDraft, Node | Section]]:
+    """Each sensor of a key with what stands for it: the node of a name, or a section `below`; what is wrong is left out."""
+    node, what, document = section.nodes.get(key), section.what(key), section.document
+    if node is None:
+        return []
+    words = KINDS[section.definition.keys[key].kind].words
+    if yaml_values.is_list(node):
+        sections = [Section(document, item, below, f"{what}[{i}]") for i, item in enumerate(node.value, 1)]
+        found = [(_sensor(each, known), each) for each in sections]
+    elif yaml_values.is_mapping(node) and node.value:
+        found = [
+            (_named(section, key, name, known), _below(section, what, name, item, below)) for name, item in node.value
+        ]
+    else:
+        yaml_values.mistyped(document, node, what, words)
+        return []
+    kept = [(sensor, item) for sensor, item in found if sensor is not None and item is not None]
+    return kept
+
+
+def _named(section: Section, key: str, node: Node, known: Known) -> SensorDraft | None:
+    return placed(section, node, section.what(key), known)
+
+
+def placed(section: Section, node: Node, what: str, known: Known) -> SensorDraft | None:
+    """The sensor that `node` names; findings on it say so in words of their own, since it is not in a list of `dofs`."""
+    found = yaml_sensors.sensor(section.document, node, what, known)
+    return (
+        replace(found, words=f"sensor {found.name} of {what}", plain=False)
+        if found is not None and found.plain
+        else found
+    )
+
+
+def _sensor(section: Section, known: Known) -> SensorDraft | None:
+    node = section.nodes.get("sensor")
+    if node is None:
+        message = f"{section.called} names no sensor"
+        return section.document.error(
+            "MD211", section.node, message, "give sensor: a degree of freedom or a name of sensors"
+        )
+    return placed(section, node, section.what("sensor"), known)
+
+
+def _below(section: Section, what: str, name: Node, node: Node, below: str) -> Node | Section | None:
+    """A plain name as it is; a mapping as a section, in which the sensor may not stand again."""
+    document = section.document
+    if not yaml_values.is_mapping(node):
+        return (
+            node
+            if yaml_values.text(document, node, f"{what}.{name.value}", "a name, a number, or a mapping") is not None
+            else None
+        )
+    found = Section(document, node, below, f"{what}.{name.value}")
+    if "sensor" in found:
+        message = f"{found.called} names its sensor twice"
+        return document.error("MD207", found.nodes["sensor"], message, "delete sensor")
+    return found
+
+
+def picks(section: Section, key: str, role: str, known: Known) -> list[Pick]:
+    """The channels of a recording that `inputs` or `outputs` chooses."""
+    found = []
+    for sensor, item in pairs(section, key, known, "channel"):
+        if isinstance(item, Section):
+            where = section.document.span(item.nodes.get("channel", item.node))
+            texts = [item.value(name, "") for name in ("channel", "quantity", "unit", "sensitivity")]
+        else:
+            where, texts = section.document.span(item), [item.value, "", "", ""]
+        found.append(Pick(sensor, role, *texts, where))
+    return found

@@ -1,0 +1,65 @@
+"""Keys of `test: recordings:` and `test: frf:`."""
+
+from mouse_cli.formats.yaml_deck.kinds import Key, Section
+from mouse_cli.model.frf_test import KINDS
+from mouse_cli.model.recording import QUANTITIES
+
+_SENSOR = "where: number or label of a degree of freedom, 12-TY, or a name of `sensors`; only in a list of channels"
+_FRF_UNIT = "unit of the values, as (m/s2)/N or g/lbf"
+SECTIONS = {
+    "recording": Section(
+        "Time histories of a file, or a stretch of them.",
+        {
+            "file": Key("path", "file below the folder of the deck: csv, txt, mat, npz, wav, h5, tdms, uff, unv", required=True),
+            "title": Key("text", "what the report and `hold_out` call it", "the name of the file, and its segment"),
+            "sample_rate": Key("number", "samples a second", "what the file says", unit="Hz"),
+            "time": Key("text", "channel that holds the time in s", "a column called t or time, where there is one"),
+            "segment": Key("span", "first sample and the one after the last, from 0", "the whole file"),
+            "inputs": Key("channels", "what excited the structure: {sensor: channel, ...}", "none: output only"),
+            "outputs": Key("channels", "what it answered: {sensor: channel, ...}", "all channels of a file that names its sensors"),
+        },
+    ),
+    "channel": Section(
+        "A channel of a recording.",
+        {
+            "sensor": Key("text", _SENSOR),
+            "channel": Key("text", "its name in the file, or its number from 1; column 3 of a table A is A[3]", required=True),
+            "quantity": Key(
+                "choice", "what it measures", "by its unit; without one force for inputs, acceleration for outputs", choices=QUANTITIES
+            ),
+            "unit": Key("text", "of its numbers: N, kN, lbf, m/s2, mm/s2, g, m, mm, V, ...", "what the file says"),
+            "sensitivity": Key("text", "of a transducer recorded in volts, as 100 mV/g", "none"),
+        },
+    ),
+    "frf": Section(
+        "Frequency response functions for e^(+i omega t); entries of one title are one measurement.",
+        {
+            "file": Key("path", "file below the folder of the deck: csv, txt, mat, npz, h5, uff, unv", "none: given here"),
+            "title": Key("text", "what the report and `hold_out` call it", "the name of the file"),
+            "kind": Key("choice", "displacement, velocity or acceleration per force", "by `unit`, or what the file says", choices=tuple(KINDS)),
+            "unit": Key("text", _FRF_UNIT, "what the file says, else units of the deck"),
+            "frequency": Key("text or numbers", "channel of the frequencies, or they themselves", "a channel called f, freq, ..., else the first", "Hz"),
+            "input": Key("text", "where the force acts, for a file that does not say: a sensor as in `outputs`"),
+            "inputs": Key("renames", "forces of a file that names them: {sensor: name in the file}", "all, under their names"),
+            "outputs": Key("functions", "{sensor: channel, ...}; of a file that names them {sensor: name in the file}", "all, under their names"),
+            "band": Key("pair", "lowest and highest frequency that is used", "all lines", "Hz"),
+            "sd": Key("sd", "of the real and the imaginary part; a percentage is of the magnitude", "from coherence and averages, else unknown"),
+            "averages": Key("number", "effective number of independent averages, which makes accuracies of coherences", low=1),
+        },
+    ),
+    "function": Section(
+        "The values of one response: complex, in two parts, or as magnitude and phase; each a channel of the file, or a list of numbers.",
+        {
+            "sensor": Key("text", _SENSOR),
+            "value": Key("text or texts", "complex numbers such as 0.1+0.2j"),
+            "real": Key("text or numbers", "real part"),
+            "imag": Key("text or numbers", "imaginary part"),
+            "magnitude": Key("text or numbers", "magnitude"),
+            "magnitude_db": Key("text or numbers", "magnitude, 20 log10 of it in `unit`", unit="dB"),
+            "phase": Key("text or numbers", "phase", unit="degrees"),
+            "phase_rad": Key("text or numbers", "phase", unit="rad"),
+            "coherence": Key("text or numbers", "coherence, 0 to 1", "unknown"),
+        },
+        needs=(("value",), ("real", "imag"), ("magnitude", "phase"), ("magnitude", "phase_rad"), ("magnitude_db", "phase"), ("magnitude_db", "phase_rad")),
+    ),
+}  # fmt: skip

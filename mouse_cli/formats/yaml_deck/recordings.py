@@ -1,0 +1,91 @@
+"""`test: recordings:` of a YAML deck."""
+
+import os
+
+from mouse_cli.formats.record_drafts import Pick, RecordingDraft
+from mouse_cli.formats.recording import recording
+from mouse_cli.formats.recording_files import Contents, read_contents
+from mouse_cli.formats.sensor import SensorDraft
+from mouse_cli.formats.yaml_deck import values as yaml_values
+from mouse_cli.formats.yaml_deck.channel_maps import Known, picks
+from mouse_cli.formats.yaml_deck.files import read_below
+from mouse_cli.formats.yaml_deck.kinds import KINDS
+from mouse_cli.formats.yaml_deck.sections import Section
+from mouse_cli.model.recording import INPUT, OUTPUT
+from mouse_cli.model.units import Units
+
+Files = dict[str, Contents | None]
+
+
+def recordings(test: Section | None, named: list[SensorDraft], files: Files, units: Units) -> list[RecordingDraft]:
+    """Those that could be read; each file is read once."""
+    if test is None or "recordings" not in test:
+        return []
+    what, document = test.what("recordings"), test.document
+    items = yaml_values.items(document, test.nodes["recordings"], what, "a list, one item for each recording") or []
+    known = {sensor.name: sensor for sensor in named}
+    sections = [Section(document, item, "recording", f"{what}[{i}]") for i, item in enumerate(items, 1)]
+    found = [_recording(section, known, files, units) for section in sections]
+    return [one for one in found if one is not None]
+
+
+def contents(section: Section, files: Files) -> Contents | None:
+    """The contents of the file that the section names; None after an error."""
+    node = section.nodes.get("file")
+    if node is None:
+        return None
+    name = yaml_values.text(section.document, node, section.what("file"))
+    if name is not None and name not in files:
+        files[name] = read_below(section.document, node, section.called, read_contents)
+    return files.get(name)
+
+
+def title(section: Section, segment: tuple[int, int] | None = None) -> str:
+    """What the deck calls the data, else the name of their file with the segment."""
+    name = os.path.splitext(os.path.basename(section.nodes["file"].value))[0] if "file" in section else ""
+    return section.value("title", f"{name}[{segment[0]}:{segment[1]}]" if segment else name)
+
+
+def span(section: Section, key: str = "segment") -> tuple[int, int] | None:
+    """First and last sample; None where not given, or after an error."""
+    node = section.nodes.get(key)
+    if node is None:
+        return None
+    words = KINDS["span"].words
+    values = yaml_values.wholes(section.document, node, section.what(key), words)
+    if values is not None and len(values) != 2:
+        return yaml_values.mistyped(section.document, node, section.what(key), words)
+    return None if values is None else (int(values[0]), int(values[1]))
+
+
+def _recording(section: Section, known: Known, files: Files, units: Units) -> RecordingDraft | None:
+    document, before = section.document, len(section.document.diagnostics)
+    chosen = [*picks(section, "inputs", INPUT, known), *picks(section, "outputs", OUTPUT, known)]
+    held = contents(section, files)
+    segment, rate = span(section), section.value("sample_rate")
+    if rate is not None and not 0 < rate < float("inf"):
+        document.error(
+            "MD215",
+            section.nodes["sample_rate"],
+            f"{section.what('sample_rate')} is {rate}; it must be positive",
+            "give it in Hz",
+        )
+    if held is None or (len(document.diagnostics) > before and document.incomplete):
+        return None
+    chosen = chosen or _own(held)
+    if not chosen:
+        message = f"{section.called} chooses no channel"
+        return document.error("MD211", section.node, message, "give outputs: {sensor: channel, ...}")
+    where = document.span(section.nodes["file"])
+    found = recording(
+        held, chosen, section.nodes["file"].value, title(section, segment), document, where,
+        sample_rate_hz=rate, time=section.value("time"), segment=segment, units=units,
+    )  # fmt: skip
+    return None if found is None else RecordingDraft(found, tuple(pick.sensor for pick in chosen), where)
+
+
+def _own(held: Contents) -> list[Pick]:
+    """The channels of a file that names their sensors."""
+    from mouse_cli.formats.own_names import own_picks
+
+    return own_picks(held)
