@@ -6,6 +6,7 @@ import numpy as np
 
 from mouse_cli.model.arrays import Matrix, frozen
 
+FORMS = ("complex", "log", "log-phase")  # what of a function is fitted: it, ln of its magnitude, that and its phase
 KINDS = {"receptance": 0, "mobility": 1, "accelerance": 2}  # the power of i omega that receptance is multiplied by
 
 
@@ -18,6 +19,7 @@ class FrfTest:
     outputs (o, n), inputs (i, n): weights of what each response reads and of where each force acts, dense or sparse; or degrees
     of freedom (o,), (i,), from 0, where each is one. output_names, input_names: as the deck writes them.
     coherence (f, o): multiple coherence, None where it was not recorded. title: of the measurement; path: its file.
+    form: one of FORMS; lines: at most so many are fitted.
     """
 
     frequency_hz: np.ndarray
@@ -31,6 +33,8 @@ class FrfTest:
     coherence: np.ndarray | None = None
     title: str = ""
     path: str = ""
+    form: str = "complex"
+    lines: int = 200
 
     def __post_init__(self) -> None:
         shape = (len(self.frequency_hz), self.outputs.shape[0], self.inputs.shape[0])

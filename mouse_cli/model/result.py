@@ -6,6 +6,7 @@ import numpy as np
 
 from mouse_cli._errors import Diagnostic
 from mouse_cli.model.arrays import Matrix
+from mouse_cli.model.frf_fit import FrfFit
 from mouse_cli.model.problem import Problem
 
 
@@ -87,7 +88,8 @@ class Result:
     covariance (p, p; None for many parameters, see RunOptions) and sd_theta (p,) of the revised parameters, in their units;
     at_limit (p,).
     B (q, e), T (q, p): partials at the revised model, only when asked for. innovation: before the cycles; residual and
-    prior_shift: after them. partials_error: estimated relative error of the final T; 0 where it is rounding alone.
+    prior_shift: after them. partials_error: estimated relative error of the final T; 0 where it is rounding alone. frf: before
+    and after, one for each measurement of frequency response functions.
     """
 
     problem: Problem
@@ -116,6 +118,7 @@ class Result:
     T: np.ndarray | None = None
     versions: dict[str, str] = field(default_factory=dict)
     partials_error: float | None = None
+    frf: tuple[FrfFit, ...] = ()
 
     @property
     def rejected(self) -> bool:

@@ -26,6 +26,10 @@ from mouse_cli.terms.assembly import assembly as assemble
 from mouse_cli.updating import anchored, model_form, refusals, replaced
 from mouse_cli.updating.convergence import ExceedanceTest
 from mouse_cli.updating.coordinates import coordinates
+from mouse_cli.updating.frf_fit import fits
+from mouse_cli.updating.frf_setting import begin as begin_frf
+from mouse_cli.updating.frf_setting import with_test
+from mouse_cli.updating.frf_start import start as frf_start
 from mouse_cli.updating.remarks import remarks
 from mouse_cli.updating.state import Setting, State, paired, reference_eigenvalue, solve
 from mouse_cli.updating.trace import Progress, Trace
@@ -105,6 +109,8 @@ def _run(
     """`run`, once the estimator is known."""
     setting, start = _begin(problem, notice)
     innovation = model_form.innovation(setting, start)
+    if setting.frf is not None and problem.run.recursion == "anchored":
+        guess = frf_start(setting, guess)
     trace = Trace(
         setting, ExceedanceTest(problem.run.confidence, problem.run.convergence), progress, start, guess=guess
     )
@@ -131,7 +137,7 @@ def _result(trace: Trace, start: State, status: Status, estimator: Estimator, in
         revised=_snapshot(end, estimate.predicted_variance(end.T)),
         y=setting.y,
         sd=setting.sd,
-        labels=tuple(setting.observable.labels()),
+        labels=tuple(setting.labels()),
         test_shapes=setting.observable.shapes,
         test_shape_sd=setting.observable.shape_sd,
         shape_factor=setting.observable.factor,
@@ -149,18 +155,25 @@ def _result(trace: Trace, start: State, status: Status, estimator: Estimator, in
         T=end.T if problem.run.print_partials else None,
         versions=_versions(),
         partials_error=end.error,
+        frf=fits(start, end, _root(setting.coordinates.L), estimate.root),
     )
+
+
+def _root(L: np.ndarray) -> np.ndarray:
+    """The root of the prior as a matrix (p, k)."""
+    return np.diag(L) if L.ndim == 1 else L
 
 
 def _begin(problem: Problem, notice: Notice = lambda text: None) -> tuple[Setting, State]:
     """O-1 for the prior model, and the test brought to its scale."""
+    problem = with_test(problem)
     if problem.test is None:
         raise refusals.no_test(problem)
     assembly = assemble(problem)
     K, M = assembly.matrices(problem.prior.mean)
     solver = EigenSolver(notice, sensors=problem.test.s)
     try:
-        solution = solve(problem, K, M, solver=solver, verify=True)
+        frf, solution = begin_frf(problem, K, lambda count: solve(problem, K, M, count, solver, verify=True))
     except IndefiniteError as reason:
         raise refusals.unphysical(problem, str(reason)) from None
     refusals.check_rigid_modes(problem, solution)
@@ -170,7 +183,9 @@ def _begin(problem: Problem, notice: Notice = lambda text: None) -> tuple[Settin
     except UnrelatedShapes as reason:
         raise refusals.unrelated(problem, solution, reason.mode, reason.ratio) from None
     y, sd = observable.measured()
-    setting = Setting(problem, assembly, coordinates(problem, assembly), observable, y, sd, solver)
+    if frf is not None:
+        y, sd = (np.concatenate(pair) for pair in zip((y, sd), frf.data(), strict=True))
+    setting = Setting(problem, assembly, coordinates(problem, assembly), observable, y, sd, solver, frf)
     return setting, State(setting, setting.coordinates.mean, solution)
 
 

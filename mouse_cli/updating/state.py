@@ -18,6 +18,7 @@ from mouse_cli.observables.modal import ModalObservable
 from mouse_cli.terms.assembly import Assembly
 from mouse_cli.terms.matrix_entries import MatrixEntries
 from mouse_cli.updating.coordinates import Coordinates
+from mouse_cli.updating.frf_state import FrfSetting, FrfState
 
 _ROUNDING = 1e-15  # error of an eigenvalue for each degree of freedom, as a share of the largest of all
 _UNSEEN = 1e-10  # the same where only the lowest eigenvalues are known, as a share of the largest of those
@@ -25,7 +26,10 @@ _UNSEEN = 1e-10  # the same where only the lowest eigenvalues are known, as a sh
 
 @dataclass(frozen=True)
 class Setting:
-    """What stays the same during a run: problem, assembly, coordinates, data at the scale of the theory, and the eigensolver."""
+    """What stays the same during a run: problem, assembly, coordinates, data at the scale of the theory, and the eigensolver.
+
+    y, sd (q,): the data of `observable`, then those of `frf` where frequency response functions are fitted.
+    """
 
     problem: Problem
     assembly: Assembly
@@ -34,6 +38,12 @@ class Setting:
     y: np.ndarray
     sd: np.ndarray
     solver: EigenSolver
+    frf: FrfSetting | None = None
+
+    def labels(self) -> list[str]:
+        """Names (q,) of the data."""
+        more = () if self.frf is None else self.frf.observables
+        return [*self.observable.labels(), *(label for o in more for label in o.labels())]
 
     @cached_property
     def _constant_forces(self) -> Forces:
@@ -45,6 +55,11 @@ class Setting:
 
     def _forces(self, theta: np.ndarray) -> Forces:
         return forces(self.assembly.n, self.assembly.p, self.assembly.slopes(theta))
+
+    def solve(self, K: Matrix, M: Matrix, verify: bool = False) -> EigenSolution:
+        """Eigensolution with the modes that the data need. Raises IndefiniteError."""
+        count = None if self.frf is None else self.frf.count
+        return solve(self.problem, K, M, count, self.solver, verify)
 
     def state(self, u: np.ndarray) -> "State":
         """The model at the coordinates u (p,). Raises IndefiniteError when K or M is not physical there."""
@@ -62,15 +77,21 @@ class State:
         problem = setting.problem
         self.theta, self.error = setting.coordinates.value(u), None
         self.K, self.M = setting.assembly.matrices(self.theta)
-        self.solution = solve(problem, self.K, self.M, solver=setting.solver) if solution is None else solution
+        self.solution = setting.solve(self.K, self.M) if solution is None else solution
         self.modes = paired(problem, self.solution)
         self.solution = aligned(self.solution, self.modes, setting.observable)
         self.shapes, self.factor = setting.observable.theory(self.solution, self.modes)
+        self.frf = self._frf() if setting.frf is not None else None
+
+    def _frf(self, final: bool = False) -> FrfState:
+        setting = self.setting
+        return FrfState(setting.frf, setting.assembly, self.theta, self.K, self.M, self.solution, final)
 
     @cached_property
     def predicted(self) -> np.ndarray:
         """h(theta) (q,): the data as this model predicts them."""
-        return self.setting.observable.stacked(self.solution.eigenvalues[self.modes], self.shapes.T)
+        modal = self.setting.observable.stacked(self.solution.eigenvalues[self.modes], self.shapes.T)
+        return modal if self.frf is None else np.concatenate([modal, self.frf.predicted])
 
     @cached_property
     def residual(self) -> np.ndarray:
@@ -100,6 +121,8 @@ class State:
             self.error = 0.0
             return
         self._solve_again(verify=True)
+        if self.frf is not None:
+            self.frf = self._frf(final=True)
         self.T = self._T(EXACT if self.setting.problem.run.exact else FINAL)
 
     def _T(self, accuracy: float | None) -> np.ndarray:
@@ -108,6 +131,13 @@ class State:
 
     def _partials(self, pattern: Forces, accuracy: float | None = FINAL) -> np.ndarray:
         """d(data)/d(what `pattern` moves)."""
+        modal = self._modal_partials(pattern, accuracy) if len(self.modes) else np.zeros((0, pattern.properties))
+        if self.frf is None:
+            return modal
+        return np.concatenate([modal, self.frf.partials(pattern.slopes, pattern.properties)])
+
+    def _modal_partials(self, pattern: Forces, accuracy: float | None) -> np.ndarray:
+        """The same of eigenvalues and shapes."""
         observable = self.setting.observable
         at = observable.test.measured_at
         if self.solution.space is not None and not self.solution.space.alive:
@@ -118,7 +148,7 @@ class State:
 
     def _solve_again(self, verify: bool = False) -> None:
         """Bring back the space of a solution after which another one was computed; shapes stay, with their signs."""
-        again = solve(self.setting.problem, self.K, self.M, solver=self.setting.solver, verify=verify)
+        again = self.setting.solve(self.K, self.M, verify)
         self.solution = replace(self.solution, space=again.space, shift=again.shift, verified=again.verified)
 
     @cached_property
@@ -178,7 +208,7 @@ def _modes_needed(problem: Problem) -> int:
     if problem.test is None:
         return min(16, problem.structure.n)
     more = 2 if problem.run.pairing == "number" else 6
-    return min(int(problem.test.number.max()) + more, problem.structure.n)
+    return min(int(problem.test.number.max(initial=0)) + more, problem.structure.n)
 
 
 def paired(problem: Problem, solution: EigenSolution) -> np.ndarray:
@@ -188,7 +218,7 @@ def paired(problem: Problem, solution: EigenSolution) -> np.ndarray:
     have = np.isfinite(test.shapes)
     if problem.run.pairing == "number" or not len(have) or have.sum(axis=0).min() < 2:
         return by_number
-    reach = min(solution.shapes.shape[1], 2 * int(test.number.max()) + 6)
+    reach = min(solution.shapes.shape[1], 2 * int(test.number.max(initial=0)) + 6)
     hz = solution.frequencies_hz[:reach].copy()
     hz[solution.eigenvalues[:reach] <= RIGID * reference_eigenvalue(problem, solution.eigenvalues)] = 0.0
     return pair(test.shapes, test.frequency_hz, test.read(solution.shapes[:, :reach]), hz)

@@ -1,0 +1,129 @@
+"""Frequency response functions as observable, in one of FORMS, at chosen lines.
+
+complex: real and imaginary part of H, each with half of its variance. log: ln|H|, to first order with sd(ln|H|) = sd(Re H) / |H|
+(delta method); log-phase: that and the phase of H with the same standard deviation. In these two a value that is no larger than
+its own noise is left out: its logarithm tells of the noise. What is NaN, or known to no accuracy (coherence 0), is left out always.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.dynamics.frf import kind_factor
+from mouse_cli.model.frf_test import KINDS, FrfTest
+
+UNKNOWN, MEDIAN = (
+    0.05,
+    0.01,
+)  # standard deviation where none is known: shares of the magnitude and of the function's median
+LEAST = 1e-3  # no value is held to be known better than to this share of its magnitude
+
+
+@dataclass(frozen=True)
+class FrfObservable:
+    """The values of `test` in `form` at its `lines` (l,), from 0; q data.
+
+    H (l, o, i), sd (l, o, i): as fitted, and standard deviation of its real and of its imaginary part. have (l, o, i): what is
+    fitted. width: it was taken at s = (i + width) omega, see `frf_smoothing`; 0: as measured. assumed: where no accuracy was known.
+    """
+
+    test: FrfTest
+    form: str
+    lines: np.ndarray
+    H: np.ndarray
+    sd: np.ndarray
+    have: np.ndarray
+    width: float = 0.0
+    assumed: bool = False
+
+    @property
+    def s(self) -> np.ndarray:
+        """Where on the complex plane (l,), rad/s."""
+        return (1j + self.width) * self.test.omega[self.lines]
+
+    @property
+    def factor(self) -> np.ndarray:
+        """What receptance is multiplied by (l, 1, 1)."""
+        return kind_factor(KINDS[self.test.kind], self.s)
+
+    def __len__(self) -> int:
+        return int(self.have.sum()) * (1 if self.form == "log" else 2)
+
+    def measured(self) -> tuple[np.ndarray, np.ndarray]:
+        """y (q,) and its standard deviations (q,)."""
+        own, sd = self.H[self.have], self.sd[self.have]
+        if self.form == "complex":
+            return np.concatenate([own.real, own.imag]), np.tile(sd, 2)
+        sd = sd / np.abs(own)
+        if self.form == "log":
+            return np.log(np.abs(own)), sd
+        return np.concatenate([np.log(np.abs(own)), np.angle(own)]), np.tile(sd, 2)
+
+    def predicted(self, receptance: np.ndarray) -> np.ndarray:
+        """The data (q,) of a model with this receptance (l, o, i); phases are those nearest to the measured ones."""
+        own = (receptance * self.factor)[self.have]
+        if self.form == "complex":
+            return np.concatenate([own.real, own.imag])
+        size = np.log(np.maximum(np.abs(own), 1e-300))
+        if self.form == "log":
+            return size
+        measured = self.H[self.have]
+        return np.concatenate([size, np.angle(measured) + np.angle(own / measured)])
+
+    def partials(self, receptance: np.ndarray, slopes: Iterable[tuple[slice, np.ndarray]], p: int) -> np.ndarray:
+        """T (q, p) from d receptance (l, o, i, p'), some parameters at a time."""
+        T, half = np.empty((len(self), p)), int(self.have.sum())
+        scale = np.broadcast_to(self.factor, self.have.shape)[self.have]
+        if self.form != "complex":
+            scale = 1 / receptance[self.have]  # d ln H = dH / H
+        for part, change in slopes:
+            own = change[self.have] * scale[:, None]
+            T[:half, part] = own.real
+            if self.form != "log":
+                T[half:, part] = own.imag
+        return T
+
+    def labels(self) -> list[str]:
+        """Names of the data, as `Re H(3TX,1TX) at 6.5 Hz`."""
+        test = self.test
+        hz = [f"{value:.6g}" for value in test.frequency_hz[self.lines]]
+        outputs, inputs = names(test)
+        at = [f"H({outputs[o]},{inputs[i]}) at {hz[k]} Hz" for k, o, i in np.argwhere(self.have).tolist()]
+        kinds = {"complex": ("Re", "Im"), "log": ("ln",), "log-phase": ("ln", "arg")}[self.form]
+        return [f"{kind} {place}" for kind in kinds for place in at]
+
+
+def names(test: FrfTest) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """What the responses and the forces are called; their numbers where the deck gives no names."""
+    outputs = test.output_names or tuple(str(k + 1) for k in range(test.H.shape[1]))
+    return outputs, test.input_names or tuple(str(k + 1) for k in range(test.H.shape[2]))
+
+
+def observe(test: FrfTest, form: str, lines: np.ndarray | None = None) -> FrfObservable:
+    """The observable of `test` at `lines` (default: chosen by `frf_lines`)."""
+    from mouse_cli.observables.frf_lines import chosen
+
+    sd, assumed = accuracy(test)
+    have = usable(test, sd, form)
+    lines = chosen(test, have, test.lines) if lines is None else lines
+    return FrfObservable(test, form, lines, test.H[lines], sd[lines], have[lines], assumed=assumed)
+
+
+def accuracy(test: FrfTest) -> tuple[np.ndarray, bool]:
+    """Standard deviation (f, o, i) of real and imaginary part, as measured or assumed; and whether any had to be assumed."""
+    size = np.abs(test.H)
+    with np.errstate(invalid="ignore"):
+        sd = np.sqrt(test.variance / 2)
+        unknown = np.isnan(sd) & np.isfinite(size)
+        median = np.nanmedian(np.where(np.isfinite(size), size, np.nan), axis=0) if size.size else 0.0
+        sd = np.where(unknown, np.hypot(UNKNOWN * size, MEDIAN * median), sd)
+        return np.maximum(sd, LEAST * size), bool(unknown.any())
+
+
+def usable(test: FrfTest, sd: np.ndarray, form: str) -> np.ndarray:
+    """Mask (f, o, i) of the values that say something in that form."""
+    size = np.abs(test.H)
+    with np.errstate(invalid="ignore"):
+        have = np.isfinite(test.H) & np.isfinite(sd) & (sd > 0) & (test.frequency_hz > 0)[:, None, None]
+        return have if form == "complex" else have & (size**2 > 2 * sd**2)
