@@ -87,7 +87,7 @@ def _whole(group: list[FrfDraft]) -> FrfDraft:
             coherence[:, at[1].ravel()] = np.fmin(coherence[:, at[1].ravel()], each.coherence)
     return FrfDraft(
         first.title, first.path, first.kind, first.frequency_hz, H, variance, tuple(outputs.values()), tuple(inputs.values()),
-        coherence, first.where,
+        coherence, first.where, first.form, first.lines,
     )  # fmt: skip
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from mouse_cli._errors import ERROR, WARNING, Diagnostic
 from mouse_cli._span import Span
 from mouse_cli.formats.sensor import SensorDraft
+from mouse_cli.model.frf_test import FORMS, MOST_LINES
 from mouse_cli.model.recording import Recording
 
 
@@ -37,7 +38,7 @@ class RecordingDraft:
 
 @dataclass
 class FrfDraft:
-    """Functions of one measurement: H, variance (f, o, i), NaN where unknown; coherence (f, o) or None."""
+    """Functions of one measurement: H, variance (f, o, i), NaN where unknown; coherence (f, o) or None; form, lines as fitted."""
 
     title: str
     path: str
@@ -49,6 +50,8 @@ class FrfDraft:
     inputs: tuple[SensorDraft, ...]
     coherence: np.ndarray | None = None
     where: Span | None = None
+    form: str = FORMS[0]
+    lines: int = MOST_LINES
 
 
 @dataclass

@@ -7,6 +7,7 @@ import numpy as np
 from mouse_cli.model.arrays import Matrix, frozen
 
 FORMS = ("complex", "log", "log-phase")  # what of a function is fitted: it, ln of its magnitude, that and its phase
+MOST_LINES = 200  # of a measurement that are fitted unless a deck says otherwise
 KINDS = {"receptance": 0, "mobility": 1, "accelerance": 2}  # the power of i omega that receptance is multiplied by
 
 
@@ -33,8 +34,8 @@ class FrfTest:
     coherence: np.ndarray | None = None
     title: str = ""
     path: str = ""
-    form: str = "complex"
-    lines: int = 200
+    form: str = FORMS[0]
+    lines: int = MOST_LINES
 
     def __post_init__(self) -> None:
         shape = (len(self.frequency_hz), self.outputs.shape[0], self.inputs.shape[0])

@@ -1,6 +1,6 @@
 """`test: frf:` of a YAML deck."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from mouse_cli.formats.yaml_deck.kinds import KINDS
 from mouse_cli.formats.yaml_deck.nodes import Node
 from mouse_cli.formats.yaml_deck.recordings import Files, contents, title
 from mouse_cli.formats.yaml_deck.sections import Section
+from mouse_cli.model.frf_test import FORMS, MOST_LINES
 from mouse_cli.model.units import Units
 
 FREQUENCY_NAMES = ("f", "freq", "freqs", "frequency", "frequencies", "freq_hz", "f_hz", "frequency_hz", "hz")
@@ -58,7 +59,9 @@ def _entry(section: Section, known: Known, files: Files, units: Units) -> FrfDra
     lines = _own(section, held, known) if held.functions else _columns(section, held, known)
     if not lines or any(d.severity == ERROR for d in document.diagnostics[before:]):
         return None
-    return _draft(section, lines, units)
+    whole = _draft(section, lines, units)
+    form, most = section.value("form", FORMS[0]), section.value("lines", MOST_LINES)
+    return None if whole is None else replace(whole, form=form, lines=most)
 
 
 def _own(section: Section, held: Contents, known: Known) -> list[Line]:

@@ -1,7 +1,7 @@
 """Keys of `test: recordings:` and `test: frf:`."""
 
 from mouse_cli.formats.yaml_deck.kinds import Key, Section
-from mouse_cli.model.frf_test import KINDS
+from mouse_cli.model.frf_test import FORMS, KINDS, MOST_LINES
 from mouse_cli.model.recording import QUANTITIES
 
 _SENSOR = "where: number or label of a degree of freedom, 12-TY, or a name of `sensors`; only in a list of channels"
@@ -44,6 +44,8 @@ SECTIONS = {
             "outputs": Key("functions", "{sensor: channel, ...}; of a file that names them {sensor: name in the file}", "all, under their names"),
             "band": Key("pair", "lowest and highest frequency that is used", "all lines", "Hz"),
             "sd": Key("sd", "of the real and the imaginary part; a percentage is of the magnitude", "from coherence and averages, else unknown"),
+            "form": Key("choice", "what is fitted: the functions themselves, ln of their magnitudes, that and their phases", FORMS[0], choices=FORMS),
+            "lines": Key("whole", "most lines that are fitted: half evenly over the band, half where resonances are", str(MOST_LINES), low=1),
             "averages": Key("number", "effective number of independent averages, which makes accuracies of coherences", low=1),
         },
     ),
