@@ -22,8 +22,8 @@ CODES = {
     ),
     "MD433": Code(
         "no such recording or function to hold out",
-        "`test.hold_out` keeps recordings, stretches of them, frequency response functions or lines of them from every fit; it names "
-        "one that the test does not have.",
+        "`test.hold_out` keeps recordings, stretches of them, frequency response functions or lines of them from every fit; it "
+        "names one that the test does not have.",
         "Give titles as they stand in test.recordings and test.frf, samples as the file counts them from 0, frequencies in Hz.",
     ),
 }

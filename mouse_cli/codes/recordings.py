@@ -6,8 +6,8 @@ CODES = {
     "MD600": Code(
         "no such channel",
         "The deck or the command line names a channel that the file does not hold, or a name that several channels bear.",
-        "Give a name of the message, or the number of the channel, counted from 1. Column 3 of a table `A` of a MAT, NPZ or HDF5 file "
-        "is `A[3]`; a field of a struct is `struct.field`.",
+        "Give a name of the message, or the number of the channel, counted from 1. Column 3 of a table `A` of a MAT, NPZ or "
+        "HDF5 file is `A[3]`; a field of a struct is `struct.field`.",
     ),
     "MD601": Code(
         "no measured data in the file",
@@ -34,12 +34,12 @@ CODES = {
     "MD605": Code(
         "gap in the samples",
         "Samples are empty, NaN or infinite.",
-        "Use a stretch without gaps: `segment: [first, last]`. In frequency response functions write null where nothing was measured.",
+        "Use a stretch without gaps: `segment: [first, last]`. In functions write null where nothing was measured.",
     ),
     "MD606": Code(
         "channel clipped",
-        "Samples stand still at the largest or the smallest value of the channel, reached at once from well below: the amplifier or "
-        "the converter was overloaded. Clipping makes harmonics that look like a nonlinear structure.",
+        "Samples stand still at the largest or the smallest value of the channel, reached at once from well below: the amplifier "
+        "or the converter was overloaded. Clipping makes harmonics that look like a nonlinear structure.",
         "Measure again with a wider range, use a stretch without it, or leave the channel out.",
     ),
     "MD607": Code(
@@ -59,8 +59,8 @@ CODES = {
     ),
     "MD610": Code(
         "units contradict each other",
-        "The deck says one unit or quantity of a channel or function and its file another, or a unit does not belong to the quantity. "
-        "g for m/s2 is a factor of 9.80665 in every mass and stiffness.",
+        "The deck says one unit or quantity of a channel or function and its file another, or a unit does not belong to the "
+        "quantity. g for m/s2 is a factor of 9.80665 in every mass and stiffness.",
         "Delete `unit` where the file is right; else correct it.",
     ),
     "MD611": Code(
@@ -87,5 +87,15 @@ CODES = {
         "complex where real is expected",
         "The channel holds complex numbers, and a real part, a magnitude, a phase or samples in time are expected.",
         "Name it as `value`, or give the right channel.",
+    ),
+    "MD616": Code(
+        "measured data without a file",
+        "A deck names the files of recordings and frequency response functions; those of this problem were read from no deck.",
+        "Write them to a file, and name it in the deck.",
+    ),
+    "MD617": Code(
+        "deck away from its recordings",
+        "The files that a deck names lie below its folder; those of the deck to be written would not.",
+        "Write the deck to the folder of its recordings, or copy them first.",
     ),
 }

@@ -49,7 +49,7 @@ def write_deck(problem: Problem, path: str | os.PathLike[str]) -> list[str]:
 
     path = os.fspath(path)
     folder, name = os.path.split(path)
-    text, attachments = yaml_deck.write(problem, os.path.splitext(name)[0])
+    text, attachments = yaml_deck.write(problem, os.path.splitext(name)[0], folder)
     written = []
     for attachment, matrix in attachments.items():  # before the deck: it must not name files that are not there
         written.append(os.path.join(folder, attachment))

@@ -46,6 +46,7 @@ _TABLE: dict[str, tuple[str, float]] = {
 }
 _SPELLINGS = (("²", "2"), ("**", ""), ("^", ""), ("µ", "u"), ("μ", "u"), ("·", " "))
 _SAME = {"meter": "m", "metre": "m", "newton": "N", "volt": "V", "inch": "in"}
+_INVERSE = re.compile(r"\(1/([^()]+)\)\s*[*·]?\s*\(?([^()]+)\)?")  # as Testlab writes it
 _SECONDS = re.compile(r"/\s*(sec|s)(?=[2\s/)]|$)", re.IGNORECASE)
 
 
@@ -89,7 +90,8 @@ def ratio(text: str) -> tuple[Unit, Unit] | None:
     >>> [each.quantity for each in ratio("g/lbf")]
     ['acceleration', 'force']
     """
-    above, stroke, below = text.strip().rpartition("/")
+    turned = _INVERSE.fullmatch(text.strip())
+    above, stroke, below = (turned[2], "/", turned[1]) if turned else text.strip().rpartition("/")
     found = unit(above), unit(below)
     return None if not stroke or None in found else found
 

@@ -12,7 +12,7 @@ _LIMITED = 0.5  # a signal that stands at its extremes for longer is a binary ex
 
 @dataclass(frozen=True)
 class Fault:
-    """kind: gap, dead, constant, clipped or stuck; sample: the first, from 0; count: of samples that are affected; value: theirs."""
+    """kind: gap, dead, constant, clipped or stuck; sample: the first, from 0; count: of those affected; value: theirs."""
 
     kind: str
     sample: int

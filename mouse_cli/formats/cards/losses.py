@@ -90,6 +90,12 @@ def losses(problem: Problem, lossy: bool = False) -> Losses:
         found.error("MD140", "the deck has no modal test; five of the twelve groups of cards hold one")
     else:
         _test(found, problem.test)
+    if problem.frf or problem.recordings:
+        found.warn(
+            "MD150",
+            "frequency response functions and recordings are not on cards",
+            "keep the YAML deck beside the cards",
+        )
     if problem.hold_out is not None:
         found.warn(
             "MD150",

@@ -1,8 +1,8 @@
 """Tables as text (.csv, .txt, .tsv, .dat, .asc): one line for each sample or line of frequency, one column for each channel.
 
-Columns are separated by semicolons, tabulators, commas or blanks; before the numbers stand any lines, of which the last with as many
-cells as there are columns names them, `acc3`, `acc3 (g)`, `acc3 [m/s2]`; a line of units may follow. Complex numbers are written
-`0.1+0.2j`. Beside semicolons and tabulators, a comma in a number is a decimal comma.
+Columns are separated by semicolons, tabulators, commas or blanks; before the numbers stand any lines, of which the last with as
+many cells as there are columns names them, `acc3`, `acc3 (g)`, `acc3 [m/s2]`; a line of units may follow. Complex numbers are
+written `0.1+0.2j`. Beside semicolons and tabulators, a comma in a number is a decimal comma.
 """
 
 import io

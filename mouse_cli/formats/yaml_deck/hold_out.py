@@ -59,8 +59,8 @@ def _added(section: Section, key: str) -> dict[int | str, float]:
 
 
 def hold_out_lines(held: HoldOut, items: list[str], geometry: Geometry | None) -> list[str]:
-    """The lines of `hold_out:`; items: how `dofs` names the sensors of the whole test."""
-    lines = ["  hold_out:"]
+    """The lines below `hold_out:`; items: how `dofs` names the sensors of the whole test."""
+    lines = []
     if len(held.modes):
         lines.append(f"    modes: {flow(map(str, held.whole.number[held.modes]))}")
     if len(held.sensors):
@@ -78,7 +78,7 @@ def hold_out_lines(held: HoldOut, items: list[str], geometry: Geometry | None) -
             f"        frequency: {_numbers(one.frequency_hz)}",
             f"        frequency_sd: {_numbers(one.frequency_sd_hz)}",
         ]
-    return lines if len(lines) > 1 else []
+    return lines
 
 
 def _places(added: dict[int, float], labels: tuple[str, ...] | None) -> str:

@@ -17,14 +17,15 @@ from mouse_cli.model.units import system
 LARGEST_INLINE = 2000  # stored entries of a matrix; more go to a file
 
 
-def write(problem: Problem, stem: str = "deck") -> tuple[str, dict[str, Matrix | str]]:
+def write(problem: Problem, stem: str = "deck", folder: str | None = None) -> tuple[str, dict[str, Matrix | str]]:
     """The deck, and the matrices and tables (texts) that belong beside it, by file name; names begin with `stem`.
 
-    Whatever a reader could take otherwise is written out, so the result stays the same when defaults change.
+    folder: that the deck is written to, None: that of the deck it was read from. Raises WrittenError where its recordings are not
+    below. Whatever a reader could take otherwise is written out, so the result stays the same when defaults change.
     """
     attachments: dict[str, Matrix | str] = {}
     lines = [*_heading(problem), *_model(problem, stem, attachments), *parameters(problem, stem, attachments)]
-    lines += [*prior(problem), *test_lines(problem), *_run(problem.run)]
+    lines += [*prior(problem), *test_lines(problem, folder), *_run(problem.run)]
     return "\n".join(lines) + "\n", attachments
 
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from mouse_cli.formats.yaml_deck.hold_out import hold_out_lines
 from mouse_cli.formats.yaml_deck.text import flow, maybe, real, word, wrapped
+from mouse_cli.formats.yaml_deck.writer_records import Written
 from mouse_cli.model.arrays import is_sparse
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.problem import Problem
@@ -13,23 +14,30 @@ from mouse_cli.model.problem import Problem
 _NODE_LABEL = re.compile(r"[0-9]+[TR][XYZ]", re.ASCII)
 
 
-def test_lines(problem: Problem) -> list[str]:
-    """The section `test:`, nothing for a deck without one."""
-    held = problem.hold_out
+def test_lines(problem: Problem, folder: str | None = None) -> list[str]:
+    """The section `test:`, nothing for a deck without one; folder: of the new deck, None for that of the old one."""
+    held, records = problem.hold_out, Written(problem, folder)
     test = problem.test if held is None else held.whole
-    if test is None:
+    if test is None and not records.test:
         return []
-    items, named = _rows(test, problem.structure.labels)
-    sensors = ["  sensors:", *(f"    - {sensor}" for sensor in named)] if named else []
-    lines = ["", "test:", *sensors, "  modes:", f"    number: {flow(map(str, test.number))}"]
+    items, named = _rows(test, problem.structure.labels) if test is not None else ([], [])
+    named += records.sensors(set(test.sensors) if test is not None else set())
+    lines = ["", "test:", *(["  sensors:", *(f"    - {sensor}" for sensor in named)] if named else [])]
+    lines += _modes(test, items) if test is not None else []
+    kept = [] if held is None else hold_out_lines(held, items, problem.structure.geometry)
+    kept += records.held()
+    return [*lines, *records.lines(), *(["  hold_out:"] if kept else []), *kept]
+
+
+def _modes(test: ModalTest, items: list[str]) -> list[str]:
+    lines = ["  modes:", f"    number: {flow(map(str, test.number))}"]
     lines.append(f"    frequency: {wrapped(map(maybe, test.frequency_hz), 4)}  # Hz")
     lines.append(f"    frequency_sd: {wrapped(map(maybe, test.frequency_sd_hz), 4)}  # Hz")
     if test.s:
         lines.append(f"    dofs: {wrapped(items, 4)}")
         lines += _grid("shapes", test.shapes, "one row for each of dofs, one column for each mode")
         lines += _grid("shape_sd", test.shape_sd, "standard deviations of shapes")
-    lines.append(f"    scale: {test.scale}")
-    return lines if held is None else [*lines, *hold_out_lines(held, items, problem.structure.geometry)]
+    return [*lines, f"    scale: {test.scale}"]
 
 
 def _rows(test: ModalTest, labels: tuple[str, ...]) -> tuple[list[str], list[str]]:

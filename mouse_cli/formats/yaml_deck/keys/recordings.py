@@ -25,7 +25,7 @@ SECTIONS = {
             "sensor": Key("text", _SENSOR),
             "channel": Key("text", "its name in the file, or its number from 1; column 3 of a table A is A[3]", required=True),
             "quantity": Key(
-                "choice", "what it measures", "by its unit; without one force for inputs, acceleration for outputs", choices=QUANTITIES
+                "choice", "what it measures", "by its unit; else force for inputs, acceleration for outputs", choices=QUANTITIES
             ),
             "unit": Key("text", "of its numbers: N, kN, lbf, m/s2, mm/s2, g, m, mm, V, ...", "what the file says"),
             "sensitivity": Key("text", "of a transducer recorded in volts, as 100 mV/g", "none"),
@@ -36,21 +36,33 @@ SECTIONS = {
         {
             "file": Key("path", "file below the folder of the deck: csv, txt, mat, npz, h5, uff, unv", "none: given here"),
             "title": Key("text", "what the report and `hold_out` call it", "the name of the file"),
-            "kind": Key("choice", "displacement, velocity or acceleration per force", "by `unit`, or what the file says", choices=tuple(KINDS)),
+            "kind": Key(
+                "choice", "displacement, velocity or acceleration per force", "by `unit`, or as the file says", choices=tuple(KINDS)
+            ),
             "unit": Key("text", _FRF_UNIT, "what the file says, else units of the deck"),
-            "frequency": Key("text or numbers", "channel of the frequencies, or they themselves", "a channel called f, freq, ..., else the first", "Hz"),
+            "frequency": Key(
+                "text or numbers", "channel of the frequencies, or they themselves", "one called f, freq, ..., else the first", "Hz"
+            ),
             "input": Key("text", "where the force acts, for a file that does not say: a sensor as in `outputs`"),
             "inputs": Key("renames", "forces of a file that names them: {sensor: name in the file}", "all, under their names"),
-            "outputs": Key("functions", "{sensor: channel, ...}; of a file that names them {sensor: name in the file}", "all, under their names"),
+            "outputs": Key(
+                "functions", "{sensor: channel, ...}; of a file that names them {sensor: its name}", "all, under their names"
+            ),
             "band": Key("pair", "lowest and highest frequency that is used", "all lines", "Hz"),
-            "sd": Key("sd", "of the real and the imaginary part; a percentage is of the magnitude", "from coherence and averages, else unknown"),
-            "form": Key("choice", "what is fitted: the functions themselves, ln of their magnitudes, that and their phases", FORMS[0], choices=FORMS),
-            "lines": Key("whole", "most lines that are fitted: half evenly over the band, half where resonances are", str(MOST_LINES), low=1),
+            "sd": Key(
+                "sd", "of the real and the imaginary part; a percentage is of the magnitude", "by coherence and averages, if known"
+            ),
+            "form": Key(
+                "choice", "what is fitted: the functions, ln of their magnitudes, or that and their phases", FORMS[0], choices=FORMS
+            ),
+            "lines": Key(
+                "whole", "most lines that are fitted: half evenly over the band, half where resonances are", str(MOST_LINES), low=1
+            ),
             "averages": Key("number", "effective number of independent averages, which makes accuracies of coherences", low=1),
         },
     ),
     "function": Section(
-        "The values of one response: complex, in two parts, or as magnitude and phase; each a channel of the file, or a list of numbers.",
+        "The values of one response: complex, in two parts, or as magnitude and phase; each a channel of the file or a list.",
         {
             "sensor": Key("text", _SENSOR),
             "value": Key("text or texts", "complex numbers such as 0.1+0.2j"),
@@ -62,6 +74,9 @@ SECTIONS = {
             "phase_rad": Key("text or numbers", "phase", unit="rad"),
             "coherence": Key("text or numbers", "coherence, 0 to 1", "unknown"),
         },
-        needs=(("value",), ("real", "imag"), ("magnitude", "phase"), ("magnitude", "phase_rad"), ("magnitude_db", "phase"), ("magnitude_db", "phase_rad")),
+        needs=(
+            ("value",), ("real", "imag"), ("magnitude", "phase"), ("magnitude", "phase_rad"), ("magnitude_db", "phase"),
+            ("magnitude_db", "phase_rad"),
+        ),
     ),
 }  # fmt: skip

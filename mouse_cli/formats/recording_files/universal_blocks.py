@@ -1,0 +1,84 @@
+"""Data sets of a universal file, ASCII and binary, told apart without trust in what instruments write between them."""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+_MARK = re.compile(rb"(?:^|(?<=\n)|(?<=\r))[ \t]*-1[ \t]*(?:\r\n|\n|\r|$)")
+_HEAD = re.compile(rb"[ \t]*([0-9]+)([bB]?)([^\r\n]*)(?:\r\n|\n|\r|$)")
+_LINE = re.compile(rb"([^\r\n]*)(?:\r\n|\n|\r|$)")
+
+
+@dataclass(frozen=True)
+class Block:
+    """One data set. number: 58, 164, ...; binary: of `58b`; extra: what its first line says after that.
+
+    at: byte at which its content begins; content: up to the mark that ends it, for a binary one far enough.
+    """
+
+    number: int
+    binary: bool
+    extra: str
+    at: int
+    content: memoryview
+
+
+def blocks(data: bytes) -> Iterator[Block]:
+    """Every data set that begins in `data`, binary ones by their length."""
+    view, at = memoryview(data), 0
+    while (mark := _MARK.search(data, at)) is not None:
+        head = _HEAD.match(data, mark.end())
+        if head is None:
+            at = mark.end()
+            continue
+        begin, extra = head.end(), head[3].decode("latin-1")
+        binary = bool(head[2]) or (head[1] == b"58" and extra.strip()[:1].lower() == "b")
+        least = begin + (_binary_bytes(data, begin, extra) if binary else 0)
+        end = _end(data, least)
+        yield Block(int(head[1]), binary, extra, begin, view[begin : end[0]])
+        at = end[1]
+
+
+def _binary_bytes(data: bytes, begin: int, extra: str) -> int:
+    """Bytes that the eleven lines of the head and the numbers take by what the first line says; less where it is wrong."""
+    fields = [int(word) for word in extra.split() if word.isdecimal()]
+    _, at = lines(data, begin, 11)
+    promised = fields[3] if len(fields) > 3 else 0
+    return min(at - begin + promised, len(data) - begin)
+
+
+def lines(data: bytes | memoryview, at: int, count: int) -> tuple[list[str], int]:
+    """So many lines from byte `at`, and the byte after them."""
+    found = []
+    for _ in range(count):
+        line = _LINE.match(data, at)
+        found.append(_decoded(bytes(line[1])))
+        at = line.end()
+    return found, at
+
+
+def _decoded(line: bytes) -> str:
+    try:
+        return line.decode("utf-8")
+    except UnicodeDecodeError:
+        return line.decode("latin-1")
+
+
+def _end(data: bytes, at: int) -> tuple[int, int]:
+    """Where the content ends, and where the search for the next data set goes on: after the mark that ends it.
+
+    A mark inside is a number of the data set, -1 alone in its line: then neither the end of the file nor another mark follows.
+    """
+    begin = at
+    while (mark := _MARK.search(data, at)) is not None:
+        after = data[mark.end() : mark.end() + 400].lstrip()
+        if not after or after.startswith(b"-1") or not _number_first(after):
+            return mark.start(), mark.end()
+        at = mark.end()
+    # binary data may end without a line end before the mark
+    close = data.find(b"    -1", begin)
+    return (close, close + 6) if close >= 0 else (len(data), len(data))
+
+
+def _number_first(text: bytes) -> bool:
+    return text[:1] in b"0123456789+-."
