@@ -34,6 +34,10 @@ class FrfFit:
         with np.errstate(divide="ignore", invalid="ignore"):
             return np.where(self.have, 20 * np.log10(np.abs(model) / np.abs(self.test.H)), np.nan)
 
+    def median_db(self, model: np.ndarray) -> float:
+        """Median of |off_db| over everything measured, dB."""
+        return float(np.nanmedian(np.abs(self.off_db(model)))) if self.have.any() else float("nan")
+
     def frac(self, model: np.ndarray) -> np.ndarray:
         """FRAC (o, i) of each function: |sum conj(h) g|^2 / (sum |h|^2 sum |g|^2) over its lines (Heylen and Lammens 1996)."""
         h, g = (np.where(self.have, np.where(self.have, x, 0.0), 0.0) for x in (self.test.H, model))

@@ -6,6 +6,7 @@ import numpy as np
 
 from mouse_cli._errors import Diagnostic
 from mouse_cli.model.arrays import Matrix
+from mouse_cli.model.conditioning import Conditioning
 from mouse_cli.model.frf_fit import FrfFit
 from mouse_cli.model.problem import Problem
 
@@ -89,7 +90,7 @@ class Result:
     at_limit (p,).
     B (q, e), T (q, p): partials at the revised model, only when asked for. innovation: before the cycles; residual and
     prior_shift: after them. partials_error: estimated relative error of the final T; 0 where it is rounding alone. frf: before
-    and after, one for each measurement of frequency response functions.
+    and after, one for each measurement of frequency response functions. conditioning: None for problems too large for it.
     """
 
     problem: Problem
@@ -119,6 +120,7 @@ class Result:
     versions: dict[str, str] = field(default_factory=dict)
     partials_error: float | None = None
     frf: tuple[FrfFit, ...] = ()
+    conditioning: Conditioning | None = None
 
     @property
     def rejected(self) -> bool:

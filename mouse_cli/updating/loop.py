@@ -9,6 +9,7 @@ from mouse_cli import __version__
 from mouse_cli.dynamics.eigen import IndefiniteError
 from mouse_cli.dynamics.solver import EigenSolver, Notice
 from mouse_cli.estimators import estimator as find_estimator
+from mouse_cli.estimators.conditioning import conditioning
 from mouse_cli.estimators.linear import (
     Estimator,
     LinearEstimate,
@@ -18,6 +19,7 @@ from mouse_cli.estimators.linear import (
     in_prior_units,
 )
 from mouse_cli.model.arrays import is_sparse
+from mouse_cli.model.conditioning import Conditioning
 from mouse_cli.model.modal_test import restricted
 from mouse_cli.model.problem import MOST_COVARIANCE, Problem
 from mouse_cli.model.result import ChiSquareTest, Result, Snapshot, Status
@@ -155,8 +157,21 @@ def _result(trace: Trace, start: State, status: Status, estimator: Estimator, in
         T=end.T if problem.run.print_partials else None,
         versions=_versions(),
         partials_error=end.error,
+        conditioning=_conditioning(setting, end, estimator),
         frf=fits(start, end, _root(setting.coordinates.L), estimate.root),
     )
+
+
+def _conditioning(setting: Setting, end: State, estimator: Estimator) -> Conditioning | None:
+    """What errors of data and sensitivities can do to the answer."""
+    L, shift = setting.coordinates.L, end.u - setting.coordinates.mean
+    z = (
+        np.divide(shift, L, out=np.zeros_like(shift), where=L > 0)
+        if L.ndim == 1
+        else np.linalg.lstsq(L, shift, rcond=None)[0]
+    )
+    problem = LinearProblem(end.T, end.residual + end.T @ shift, setting.sd, L)
+    return conditioning(problem, z, estimator.weighted, estimator.uses_prior, end.error)
 
 
 def _root(L: np.ndarray) -> np.ndarray:

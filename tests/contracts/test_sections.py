@@ -83,7 +83,9 @@ def test_order() -> None:
         "comparison",
         "properties",
         "covariance",
+        "conditioning",
         "before-after",
+        "frf-before-after",
         "held-out",
         "verdict",
     ]

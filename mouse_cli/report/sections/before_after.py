@@ -24,6 +24,8 @@ _COLUMNS = (
 def before_after(result: Result, options: Options) -> Iterator[Block]:
     """Frequencies and MAC of both models beside the test, and the root mean square of the differences."""
     test = result.problem.test.frequency_hz
+    if not len(test):
+        return
     before, after = _hz(result.prior), _hz(result.revised)
     off_before, off_after = 100 * (before / test - 1), 100 * (after / test - 1)
     columns = (test, before, off_before, after, off_after, result.prior.mac, result.revised.mac)

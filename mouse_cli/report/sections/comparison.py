@@ -14,7 +14,8 @@ from mouse_cli.report.sections._wording import counted
 
 def comparison(result: Result, options: Options) -> Iterator[Block]:
     """Both tables and what a star means."""
-    yield _eigenvalues(result)
+    if result.problem.test.m:
+        yield _eigenvalues(result)
     if (shape_index(result) != NOT_MEASURED).any():
         yield _eigenvectors(result)
     count = int(result.exceeding.sum())

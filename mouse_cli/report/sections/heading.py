@@ -55,9 +55,19 @@ def _size(result: Result) -> str:
     return (
         f"The model has {counted(problem.structure.n, 'degree', 'degrees')} of freedom and "
         f"{counted(len(problem.parameters), 'variable property', 'variable properties')}{_moved(problem)}; the test gave "
-        f"{counted(len(result.y), 'datum', 'data')} of {counted(problem.test.m, 'mode')} at "
-        f"{counted(problem.test.s, 'position')}."
+        f"{counted(len(result.y), 'datum', 'data')} of {' and of '.join(_measured(result))}."
     )
+
+
+def _measured(result: Result) -> Iterator[str]:
+    """What the data are of."""
+    test = result.problem.test
+    if test.m or not result.frf:
+        yield f"{counted(test.m, 'mode')} at {counted(test.s, 'position')}"
+    count = sum(int(fit.have.any(axis=0).sum()) for fit in result.frf)
+    if count:
+        lines = sum(len(fit.lines) for fit in result.frf)
+        yield f"{counted(count, 'frequency response function')} at {counted(lines, 'line')}"
 
 
 def _moved(problem: Problem) -> str:
@@ -76,11 +86,14 @@ def _moved(problem: Problem) -> str:
 
 def _method(problem: Problem) -> tuple[tuple[Cell, ...], ...]:
     run, method = problem.run, estimator(problem.run.estimator)
+    modal = (
+        ("scale", problem.test.scale, _SCALES[problem.test.scale]),
+        ("pairing", run.pairing, _PAIRINGS[run.pairing]),
+    )
     return (
         ("estimator", run.estimator, f"{method.title}: {method.equation}"),
         ("recursion", run.recursion, RECURSIONS[run.recursion].MEANING),
-        ("scale", problem.test.scale, _SCALES[problem.test.scale]),
-        ("pairing", run.pairing, _PAIRINGS[run.pairing]),
+        *(modal if problem.test.m else ()),
         ("step", run.step, _STEPS[run.step]),
     )
 

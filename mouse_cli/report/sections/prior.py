@@ -20,7 +20,7 @@ def prior(subject: Result | Forecast, options: Options) -> Iterator[Block]:
     if changes_only(problem):
         yield Text("The deck gives no values of the properties; they are counted as changes from the model as given.")
     yield from _correlations(problem, options)
-    if isinstance(subject, Result):
+    if isinstance(subject, Result) and problem.test.m:
         yield Heading("Measured data", 2)
         yield _frequencies(subject)
         yield from _shapes(subject)
