@@ -103,14 +103,9 @@ class Model:
         K[:r, :r] += K0
         M[:r, :r] += M0
         S[:, :r] += self.base.sensing
-        try:
-            C = np.linalg.inv(np.linalg.cholesky(M))
-            eigenvalues, Q = np.linalg.eigh(C @ K @ C.T)
-        except np.linalg.LinAlgError:
-            return None
+        eigenvalues, X = _modes(K, M)
         if not np.isfinite(eigenvalues).all() or eigenvalues[0] < -1e-5 * abs(eigenvalues[-1]):
             return None
-        X = C.T @ Q
         seen = S @ X
         modes = self.base.data.pair(eigenvalues, seen)
         if modes.max() >= len(eigenvalues) or eigenvalues[modes].min() <= 0:
@@ -176,6 +171,14 @@ class Model:
             softer = (a - b) / length
             parts[0] = softer if parts[0] is None else parts[0] + softer
         return Change(*parts)
+
+
+def _modes(K: np.ndarray, M: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Eigenvalues (size,) and mass-normalised shapes of symmetric K and M, which are overwritten; NaN where M is no mass."""
+    from scipy.linalg.lapack import dsygvd
+
+    eigenvalues, X, fault = dsygvd(K.T, M.T, overwrite_a=1, overwrite_b=1)
+    return (np.full(len(K), np.nan) if fault else eigenvalues), X
 
 
 @dataclass(frozen=True)

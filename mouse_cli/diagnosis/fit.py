@@ -19,6 +19,7 @@ from mouse_cli.diagnosis.change import Recipe
 _SMALL = 1e-4  # change of J, relative to 1 + its share of rounding, that ends the search
 MOST = 40
 _GIVE_UP = 1e8
+_HOPE = 4.0  # times the gain that a full step promises: what a search may gain at most
 
 
 @dataclass(frozen=True)
@@ -52,8 +53,13 @@ class Fit:
         return self.point.x[self.model.k :]
 
 
-def fit(model: Model, c: np.ndarray, z: np.ndarray | None = None, most: int = MOST) -> Fit | None:
-    """The most probable x, from coordinates c (t,) of the causes and z (k,) on; None where the model is not physical there."""
+def fit(
+    model: Model, c: np.ndarray, z: np.ndarray | None = None, most: int = MOST, reach: float = np.inf
+) -> Fit | None:
+    """The most probable x, from coordinates c (t,) of the causes and z (k,) on; None where the model is not physical there.
+
+    most: steps; reach: a misfit above which no fit matters: the search ends where it will not come so low.
+    """
     k = model.k
     lower = np.concatenate([np.full(k, -np.inf), model.bounds[:, 0]])
     upper = np.concatenate([np.full(k, np.inf), model.bounds[:, 1]])
@@ -66,6 +72,8 @@ def fit(model: Model, c: np.ndarray, z: np.ndarray | None = None, most: int = MO
     for _ in range(most):
         T = model.jacobian(at)
         H, slope = T.T @ T + np.diag(prior), T.T @ at.residual - prior * at.x
+        if reach < np.inf and J - _HOPE * float(slope @ _step(H, slope, 1e-6, at.x, lower, upper)) > reach:
+            return Fit(model, at, J, H, _evidence(J, H, model))
         moved = False
         while damping < _GIVE_UP:
             step = _step(H, slope, damping, at.x, lower, upper)

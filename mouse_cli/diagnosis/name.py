@@ -22,6 +22,7 @@ _SWAPPED, _FINISHED = 2, 6  # pairs whose aliases are tried; pairs that are fitt
 _PRIOR = 0.3, 0.6, 0.1  # probability that nothing is missing, one cause, two
 _PAIRED = 8  # candidates that are tried in pairs
 _ADEQUATE = 0.05  # probability of a misfit below which a second cause is sought
+_FAR = 200.0  # misfit above the best one, by the noise scale, from which on a fit is no rival
 _MATERIAL = 3.0  # nats that a second cause must gain
 
 
@@ -57,11 +58,20 @@ def rank(model: Reduced, known: dict[str, Candidate] | None = None, causes: int 
     """All that the candidates (`known`; None: all) make of the data, at most `causes` (1, 2) of them together."""
     study = Study(model, known)
     baseline = settled(fit(Model(model), np.zeros(0)), study)
-    singles = [one for name in study.known for one in [best(study, name)] if one is not None]
+    singles: list[Fit] = []
+    for name in study.promising():
+        one = best(study, name, _reach([baseline, *singles]))
+        singles += [] if one is None else [one]
     fits = [baseline, *singles]
     if causes > 1 and singles and not adequate(min(singles, key=lambda one: one.misfit)):
         fits += pairs(study, singles)
     return ranking(baseline, fits)
+
+
+def _reach(found: list[Fit]) -> float:
+    """Misfit above which a fit can be no rival of the best of `found`."""
+    least = min(found, key=lambda one: one.misfit)
+    return least.misfit + _FAR * max(1.0, least.misfit / max(least.dof, 1))
 
 
 def ranking(baseline: Fit, fits: list[Fit]) -> Ranking:
@@ -125,7 +135,7 @@ def _pair(study: Study, first: Fit, partners: Iterable[str], found: dict[tuple[s
     """Into `found` what `first` and each partner make together, where it is better than what is there."""
     there = study.at(first)
     for name in partners:
-        for two in tried(there, name, first, _SECOND, _QUICK):
+        for two in tried(there, name, first, _SECOND, _QUICK, _reach([first, *found.values()])):
             other = found.get(key(two))
             if other is None or two.log_evidence > other.log_evidence:
                 found[key(two)] = two

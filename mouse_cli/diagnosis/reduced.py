@@ -28,7 +28,8 @@ WHOLE = 200  # degrees of freedom up to which a model is not reduced
 
 @dataclass(frozen=True)
 class Reduced:
-    """theta (p,): where V is taken. eigenvalues (r,) there. dK, dM (k, r, r): derivatives along `directions` (p, k) of theta.
+    """theta (p,): where causes are weighed. eigenvalues (r,) where V is taken: there, or at `origin` (p,). dK, dM (k, r, r):
+    derivatives along `directions` (p, k) of theta.
 
     sensing (s, r); V (n, r); data: the test. places: degrees of freedom (from 0) at which a force is exact, of a large model;
     None: everywhere.
@@ -46,6 +47,7 @@ class Reduced:
     data: Data
     assembly: Assembly
     places: np.ndarray | None = None
+    origin: np.ndarray | None = None
 
     @property
     def r(self) -> int:
@@ -64,15 +66,27 @@ class Reduced:
 
     def matrices(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """K and M (r, r) at z (k,)."""
-        step = self._along @ (self.parameters(z) - self.theta)
-        K, M = np.diag(self.eigenvalues), np.eye(self.r)
-        return K + np.tensordot(step, self.dK, 1), M + np.tensordot(step, self.dM, 1)
+        key = z.tobytes()
+        if key not in self._at:
+            step = self._along @ (self.parameters(z) - (self.theta if self.origin is None else self.origin))
+            K, M = (step @ d.reshape(len(step), -1) for d in (self.dK, self.dM))
+            K[:: self.r + 1] += self.eigenvalues
+            M[:: self.r + 1] += 1.0
+            self._at.clear()
+            self._at[key] = K.reshape(self.r, self.r), M.reshape(self.r, self.r)
+        return self._at[key]
+
+    @cached_property
+    def _at(self) -> dict[bytes, tuple[np.ndarray, np.ndarray]]:
+        """K and M at the z that was asked for last: many causes are looked at with the same parameters."""
+        return {}
 
     def slopes(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """dK/dz and dM/dz (k, r, r)."""
         by = self.coordinates.slope(self.coordinates.mean + self.L @ z)[:, None] * self.L
-        by = self._along @ by
-        return np.tensordot(by.T, self.dK, 1), np.tensordot(by.T, self.dM, 1)
+        by = (self._along @ by).T
+        shape = len(by), self.r, self.r
+        return tuple((by @ d.reshape(len(d), -1)).reshape(shape) for d in (self.dK, self.dM))
 
     @cached_property
     def _along(self) -> np.ndarray:
@@ -105,6 +119,16 @@ class Reduced:
         by = self.coordinates.slope(self.coordinates.mean + self.L @ self.z)[:, None] * self.L
         return stiffening(self.problem, self.bars, self.theta) @ by
 
+    @cached_property
+    def total_mass(self) -> float:
+        """Mass (kg) that moves when the structure translates; without geometry the sum of the diagonal."""
+        _, M = self.assembly.matrices(self.theta)
+        at = self.problem.structure.geometry
+        if at is None:
+            return float(M.diagonal().sum())
+        rigid = ((at.direction == np.arange(3)[:, None]) & (at.node >= 0)).astype(float)
+        return max(float(row @ (M @ row)) for row in rigid) or float(M.diagonal().sum())
+
     def project(self, matrix) -> np.ndarray:
         """V' matrix V (r, r)."""
         return self.V.T @ (matrix @ self.V)
@@ -129,22 +153,10 @@ class Reduced:
         )
 
     def at(self, theta: np.ndarray) -> "Reduced":
-        """The same model at other values theta (p,) of its parameters; a large one in the same subspace, with the same places."""
+        """The same model at other values theta (p,) of its parameters; a large one in the same coordinates, with the same places."""
         if self.V.shape[0] <= WHOLE:
             return replace(reduced(self.problem, theta), data=self.data)
-        step = self._along @ (theta - self.theta)
-        K = np.diag(self.eigenvalues) + np.tensordot(step, self.dK, 1)
-        solution = dense_solution(K, np.eye(self.r) + np.tensordot(step, self.dM, 1))
-        X = solution.shapes
-        return replace(
-            self,
-            theta=theta,
-            V=self.V @ X,
-            eigenvalues=solution.eigenvalues,
-            dK=X.T @ self.dK @ X,
-            dM=X.T @ self.dM @ X,
-            sensing=self.sensing @ X,
-        )
+        return replace(self, theta=theta, origin=self.theta if self.origin is None else self.origin)
 
     def without(self, keep_modes: np.ndarray) -> "Reduced":
         """The same model with fewer measured modes: mask `keep_modes` (m,)."""

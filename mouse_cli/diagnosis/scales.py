@@ -7,16 +7,8 @@ from mouse_cli.dynamics.frequency import eigenvalue
 
 
 def total_mass(model: Reduced) -> float:
-    """Mass that moves when the structure translates; without geometry the sum of the diagonal."""
-    _, M = model.assembly.matrices(model.theta)
-    at = model.problem.structure.geometry
-    if at is None:
-        return float(M.diagonal().sum())
-    most = 0.0
-    for d in range(3):
-        rigid = ((at.direction == d) & (at.node >= 0)).astype(float)
-        most = max(most, float(rigid @ (M @ rigid)))
-    return most or float(M.diagonal().sum())
+    """Mass (kg) of the structure."""
+    return model.total_mass
 
 
 def lowest(model: Reduced) -> float:

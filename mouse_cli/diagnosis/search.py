@@ -28,6 +28,7 @@ class Study:
         self.model, self.k = model, model.L.shape[1]
         self.known = registry() if known is None else known
         self._made: dict[str, list[Recipe]] = {}
+        self._looked: dict[str, list[tuple[float, int, np.ndarray]]] = {}
 
     def recipes(self, name: str) -> list[Recipe]:
         """What candidate `name` can do, and where; made when first asked for."""
@@ -43,8 +44,20 @@ class Study:
         least = max(_COARSE, 4 * self.model.data.m + 8, int(self.model.data.test.number.max()) + 12)
         return self if least >= self.model.r else Study(self.model.truncated(least), self.known)
 
+    def promising(self) -> list[str]:
+        """All candidates, those first that a first look at them alone finds most promising."""
+        none = np.zeros(self.k)
+        looks = {name: self.coarse.looks(name, none, ()) for name in self.known}
+        return sorted(looks, key=lambda name: looks[name][0][0] if looks[name] else np.inf)
+
     def starts(self, name: str, before: np.ndarray, beside: tuple[Recipe, ...]) -> list[tuple[int, np.ndarray]]:
         """Numbers of recipes of candidate `name`, and x to begin from, the most promising first."""
+        return [(number, x) for _, number, x in self.looks(name, before, beside)]
+
+    def looks(self, name: str, before: np.ndarray, beside: tuple[Recipe, ...]) -> list[tuple[float, int, np.ndarray]]:
+        """The same, with the misfits that are to be expected; kept where nothing is beside."""
+        if not beside and name in self._looked:
+            return self._looked[name]
         others, found = self.own(beside), []
         for recipe in self.recipes(name):
             trial = Model(self.model, (*others, recipe))
@@ -53,7 +66,9 @@ class Study:
                 if at is not None:
                     found.append((self.foreseen(at), recipe.number, at.x))
         found.sort(key=lambda item: item[0])
-        return [(number, x) for _, number, x in found]
+        if not beside:
+            self._looked[name] = found
+        return found
 
     @cached_property
     def _adapted(self) -> tuple[np.ndarray, np.ndarray]:
@@ -72,6 +87,10 @@ class Study:
     def own(self, recipes: tuple[Recipe, ...]) -> tuple[Recipe, ...]:
         """The same causes at the same places in this model."""
         return tuple(self.recipes(recipe.candidate.key)[recipe.number] for recipe in recipes)
+
+    def with_cause(self, others: tuple[Recipe, ...], name: str, number: int) -> Model:
+        """The model with the causes `others`, from any study, and recipe `number` of candidate `name`."""
+        return Model(self.model, (*self.own(others), self.recipes(name)[number]))
 
     def at(self, one: Fit) -> "Study":
         """The same at the parameters that a fit found."""
@@ -132,34 +151,50 @@ def settled(one: Fit, study: Study) -> Fit:
     return one
 
 
-def best(study: Study, name: str) -> Fit | None:
-    """The most probable fit of candidate `name` over all of its places, its evidence summed over distinct optima."""
-    return summed([settled(shifted(one), study) for one in tried(study, name, None, _STARTS)])
+def best(study: Study, name: str, reach: float = np.inf) -> Fit | None:
+    """The most probable fit of candidate `name` over all of its places, its evidence summed over distinct optima.
+
+    reach: misfit above which no fit matters, and is left as it was found.
+    """
+    found = _distinct(tried(study, name, None, _STARTS, reach=reach))
+    return summed([settled(shifted(one), study) if one.misfit < reach else one for one in found], reach)
 
 
-def tried(study: Study, name: str, beside: Fit | None, count: int, most: int = MOST) -> list[Fit]:
-    """Fits of candidate `name` from its `count` most promising places, in at most so many steps; beside: causes there already."""
-    others = () if beside is None else study.own(beside.recipes)
+def tried(
+    study: Study, name: str, beside: Fit | None, count: int, most: int = MOST, reach: float = np.inf
+) -> list[Fit]:
+    """Fits of candidate `name` from its `count` most promising places, in at most so many steps; beside: causes there already.
+
+    Each first in the lowest coordinates, then in all. reach: misfit above which none matters.
+    """
+    others = () if beside is None else beside.recipes
     before = np.zeros(study.k) if beside is None else beside.point.x
     found = []
-    for number, x in study.coarse.starts(name, before, () if beside is None else beside.recipes)[:count]:
-        trial = Model(study.model, (*others, study.recipes(name)[number]))
-        found.append(fit(trial, x[trial.k :], x[: trial.k], most))
+    for number, x in study.coarse.starts(name, before, others)[:count]:
+        if study.coarse is not study:
+            near = fit(study.coarse.with_cause(others, name, number), x[study.k :], x[: study.k], most)
+            x = x if near is None else near.point.x
+        found.append(fit(study.with_cause(others, name, number), x[study.k :], x[: study.k], most, reach))
     return [one for one in found if one is not None]
 
 
-def summed(found: list[Fit]) -> Fit | None:
+def summed(found: list[Fit], reach: float = np.inf) -> Fit | None:
     """The best of several optima, its theory taken for as good as it is; those at other places add to its evidence."""
     if not found:
         return None
-    found.sort(key=lambda one: -one.log_evidence)
+    distinct = _distinct(found)
+    others = np.logaddexp.reduce([one.log_evidence for one in distinct]) - distinct[0].log_evidence
+    best = idealised(distinct[0]) if distinct[0].misfit < reach else distinct[0]
+    return replace(best, log_evidence=best.log_evidence + float(others))
+
+
+def _distinct(found: list[Fit]) -> list[Fit]:
+    """The fits in the order of their evidence, one of each optimum."""
     distinct: list[Fit] = []
-    for one in found:
+    for one in sorted(found, key=lambda one: -one.log_evidence):
         if not any(_same(one, other) for other in distinct):
             distinct.append(one)
-    others = np.logaddexp.reduce([one.log_evidence for one in distinct]) - distinct[0].log_evidence
-    best = idealised(distinct[0])
-    return replace(best, log_evidence=best.log_evidence + float(others))
+    return distinct
 
 
 def _same(one: Fit, other: Fit) -> bool:

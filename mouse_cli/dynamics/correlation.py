@@ -44,9 +44,13 @@ def pair(test_shapes: np.ndarray, test_hz: np.ndarray, shapes: np.ndarray, hz: n
     Shapes decide where they can, frequencies where shapes are alike. test_shapes (s, m), test_hz (m,) may hold NaN;
     shapes (s, k), hz (k,).
     """
+    apart = distance(mac(test_shapes, shapes), test_hz, hz)
+    nearest = apart.argmin(axis=1)
+    if len(set(nearest.tolist())) == len(nearest):  # no two want the same one: nothing to settle
+        return nearest
     from scipy.optimize import linear_sum_assignment
 
-    return linear_sum_assignment(distance(mac(test_shapes, shapes), test_hz, hz))[1]
+    return linear_sum_assignment(apart)[1]
 
 
 def match(apart: np.ndarray, limit: float = LIKELY) -> np.ndarray:
