@@ -153,7 +153,7 @@ class Reduced:
         )
 
     def at(self, theta: np.ndarray) -> "Reduced":
-        """The same model at other values theta (p,) of its parameters; a large one in the same coordinates, with the same places."""
+        """The same model at other values theta (p,) of its parameters; a large one in the same coordinates and places."""
         if self.V.shape[0] <= WHOLE:
             return replace(reduced(self.problem, theta), data=self.data)
         return replace(self, theta=theta, origin=self.theta if self.origin is None else self.origin)
