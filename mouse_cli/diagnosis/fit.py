@@ -24,13 +24,17 @@ _HOPE = 4.0  # times the gain that a full step promises: what a search may gain 
 
 @dataclass(frozen=True)
 class Fit:
-    """The end of a search. misfit = chi2 + |z|^2; covariance (k + t, k + t) of x; log_evidence."""
+    """The end of a search. misfit = chi2 + |z|^2; covariance (k + t, k + t) of x; log_evidence.
+
+    elsewhere: the same causes at other places, and their share in the evidence.
+    """
 
     model: Model
     point: Point
     misfit: float
     hessian: np.ndarray = field(repr=False)
     log_evidence: float
+    elsewhere: tuple[tuple["Fit", float], ...] = ()
 
     @property
     def recipes(self) -> tuple[Recipe, ...]:

@@ -171,10 +171,11 @@ def tried(
     before = np.zeros(study.k) if beside is None else beside.point.x
     found = []
     for number, x in study.coarse.starts(name, before, others)[:count]:
+        whole, one = study.with_cause(others, name, number), None
         if study.coarse is not study:
             near = fit(study.coarse.with_cause(others, name, number), x[study.k :], x[: study.k], most)
-            x = x if near is None else near.point.x
-        found.append(fit(study.with_cause(others, name, number), x[study.k :], x[: study.k], most, reach))
+            one = near and fit(whole, near.c, near.point.x[: study.k], most, reach)
+        found.append(one or fit(whole, x[study.k :], x[: study.k], most, reach))  # whole, it may not be physical there
     return [one for one in found if one is not None]
 
 
@@ -183,9 +184,11 @@ def summed(found: list[Fit], reach: float = np.inf) -> Fit | None:
     if not found:
         return None
     distinct = _distinct(found)
-    others = np.logaddexp.reduce([one.log_evidence for one in distinct]) - distinct[0].log_evidence
+    total = np.logaddexp.reduce([one.log_evidence for one in distinct])
+    others = tuple((one, float(np.exp(one.log_evidence - total))) for one in distinct[1:])
     best = idealised(distinct[0]) if distinct[0].misfit < reach else distinct[0]
-    return replace(best, log_evidence=best.log_evidence + float(others))
+    log_evidence = best.log_evidence + float(total - distinct[0].log_evidence)
+    return replace(best, log_evidence=log_evidence, elsewhere=others)
 
 
 def _distinct(found: list[Fit]) -> list[Fit]:
