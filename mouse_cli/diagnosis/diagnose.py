@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli.diagnosis.altered import Model
-from mouse_cli.diagnosis.decide import decide, explanations, refuted
+from mouse_cli.diagnosis.cautions import cautions
+from mouse_cli.diagnosis.decide import explanations, judge
 from mouse_cli.diagnosis.energy_map import energy_map
 from mouse_cli.diagnosis.extended import extended
 from mouse_cli.diagnosis.fit import Fit, fit
@@ -15,9 +16,8 @@ from mouse_cli.diagnosis.locate import locate
 from mouse_cli.diagnosis.name import Ranking, group, rank
 from mouse_cli.diagnosis.next_measurement import proposals
 from mouse_cli.diagnosis.numerics import numerics
-from mouse_cli.diagnosis.prove import held_out
 from mouse_cli.diagnosis.reduced import Reduced, reduced
-from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Diagnosis, Proposal, leading
+from mouse_cli.model.diagnosis import NAMED, NOTHING, RIVAL, UNKNOWN, Diagnosis, Proposal
 from mouse_cli.model.modal_test import restricted
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import Result
@@ -36,12 +36,10 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None) -> Diagnosis:
     model, told = _model(problem)
     result, remarks = _update(problem, kept, notice, _guess(model))
     ranking = rank(model)
-    kind = decide(ranking, result)
+    verdict, as_it_is = judge(ranking, result, model), ranking.baseline
+    kind, best = verdict.kind, verdict.best
     missing = kind != NOTHING
-    best, as_it_is = leader(ranking) if missing else None, ranking.baseline
-    proof = held_out(model, as_it_is, best)
-    if kind == NAMED and refuted(proof):
-        kind = ONE_OF
+    location = locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None
     deck = extended(problem, best) if kind == NAMED else None
     return Diagnosis(
         problem=problem,
@@ -51,10 +49,12 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None) -> Diagnosis:
         explanations=explanations(ranking),
         groups=ranking.groups,
         noise_scale=ranking.noise_scale,
-        location=locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None,
+        location=location,
         energy=energy_map(as_it_is) if missing else None,
         law=None if best is None else implied_law(best),
-        held_out=proof,
+        held_out=verdict.proof,
+        refuted=verdict.refuted,
+        cautions=cautions(ranking, verdict, location),
         proposals=_proposals(ranking) if missing and kind != UNKNOWN else (),
         remarks=remarks + told + (() if deck is None else _coarse(deck)),
         extended=deck,
@@ -102,12 +102,6 @@ def _coarse(deck: Problem) -> tuple[str, ...]:
     known = np.isfinite(sd)
     found = numerics(deck, deck.prior.mean, deck.test.number[known] - 1, sd[known])
     return tuple(f"with the cause: {text}" for text in found.remarks)
-
-
-def leader(ranking: Ranking) -> Fit | None:
-    """The leading fit of the leading group that has a cause, as `Diagnosis.best` is its explanation; None without any."""
-    at = leading(ranking.groups, [group(one) for one in ranking.fits])
-    return ranking.fits[at] if at is not None and ranking.fits[at].recipes else None
 
 
 def _proposals(ranking: Ranking) -> tuple[Proposal, ...]:

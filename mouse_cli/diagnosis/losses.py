@@ -1,4 +1,4 @@
-"""Elements other than bars, springs between degrees of freedom, and groups of matrix elements, that lose stiffness."""
+"""Elements other than bars, springs between degrees of freedom, and groups of matrix elements, that lose or gain stiffness."""
 
 import numpy as np
 
@@ -18,15 +18,15 @@ from mouse_cli.terms.elements import Layout, registry
 
 _MOST = 60  # places that are looked at: those that hold most energy in the lowest modes
 _STIFF = {"rod": ("E",), "spring": DIRECTIONS, "storey": DIRECTIONS, "joint": DIRECTIONS}
-_LOST = Unknown("share lost", "1", 0.02, 0.95)
+_LOST, _GAINED = Unknown("share lost", "1", 0.02, 0.95), Unknown("share gained", "1", 0.02, 3.0)
 
 
-def of_elements(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """K - d K_e of each rod, spring, storey and joint."""
+def of_elements(model: Reduced, candidate: Candidate, sign: int = -1) -> list[Recipe]:
+    """K - d K_e of each rod, spring, storey and joint, or K + d K_e by `sign`."""
     mesh = model.problem.mesh
     parts = [] if mesh is None else [_stiffness(model, s) for s in range(len(mesh.elements))]
     found = [(s, i, K) for s, blocks in enumerate(parts) for i, K in blocks]
-    return [_element(model, candidate, s, i, K, len(found)) for s, i, K in _strained(model, found)]
+    return [_element(model, candidate, s, i, sign * K, len(found), sign) for s, i, K in _strained(model, found)]
 
 
 def _strained(model: Reduced, found: list) -> list:
@@ -66,7 +66,7 @@ def _node(model: Reduced, n: int) -> np.ndarray:
     return np.vstack([model.V[n : n + 1], np.zeros((5, model.r))])
 
 
-def _element(model: Reduced, candidate: Candidate, s: int, i: int, K: np.ndarray, count: int) -> Recipe:
+def _element(model: Reduced, candidate: Candidate, s: int, i: int, K: np.ndarray, count: int, sign: int) -> Recipe:
     mesh = model.problem.mesh
     elements, number = mesh.elements[s], int(mesh.elements[s].ids[i])
     at = mesh.coordinates[elements.nodes[i]].mean(axis=0)
@@ -78,30 +78,36 @@ def _element(model: Reduced, candidate: Candidate, s: int, i: int, K: np.ndarray
         element = edit.element(number)
         own = edit.sets[element[0]].properties
         stiff = tuple(name for name in _STIFF[elements.type] if name in own and own[name][element[1]])
-        edit.bind(f"stiffness left of {text}", [element], stiff, factor=1 - values[0])
+        name = f"stiffness left of {text}" if sign < 0 else f"stiffness of {text}, strengthened"
+        edit.bind(name, [element], stiff, factor=1 + sign * values[0])
         return edit.done()
 
-    return _recipe(candidate, K, site, count, extend)
+    return _recipe(candidate, K, site, count, extend, sign)
 
 
-def _recipe(candidate: Candidate, K: np.ndarray, site: Site, count: int, extend) -> Recipe:
+def _recipe(candidate: Candidate, K: np.ndarray, site: Site, count: int, extend, sign: int) -> Recipe:
+    """K: what is added for a share of 1."""
+    share = _LOST if sign < 0 else _GAINED
     return Recipe(
         candidate,
-        (_LOST,),
-        lambda values: Change(K=-values[0] * K),
-        steps(_LOST, 3)[:, None],
+        (share,),
+        lambda values: Change(K=values[0] * K),
+        steps(share, 3)[:, None],
         lambda values: site,
         log_prior=-float(np.log(count)),
         extend=extend,
     )
 
 
-def of_springs(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """K - k b b' of each spring that a model of matrices shows, and K - d theta_j dK/dtheta_j of parameters of more than one."""
+def of_springs(model: Reduced, candidate: Candidate, sign: int = -1) -> list[Recipe]:
+    """K - d k b b' of each spring that a model of matrices shows, and K - d theta_j dK/dtheta_j of parameters of more than one.
+
+    Or K + d ... by `sign`.
+    """
     if not of_matrices(model.problem) or (model.problem.mesh is not None and not len(model.problem.elements)):
         return []
     found = _strained(model, _springs(model) + _groups(model))
-    return [_listed(candidate, K, entries, text, len(found)) for text, entries, K in found]
+    return [_listed(candidate, sign * K, entries, text, len(found), sign) for text, entries, K in found]
 
 
 Listed = tuple[str, Entries, np.ndarray]
@@ -165,8 +171,11 @@ def _groups(model: Reduced) -> list[Listed]:
     return found
 
 
-def _listed(candidate: Candidate, K: np.ndarray, entries: Entries, text: str, count: int) -> Recipe:
-    def extend(problem: Problem, values: np.ndarray) -> Problem:
-        return with_entries(problem, new_parameter(f"share lost by {text}", values[0], "1"), K=entries)
+def _listed(candidate: Candidate, K: np.ndarray, entries: Entries, text: str, count: int, sign: int) -> Recipe:
+    row, col, lost = entries
 
-    return _recipe(candidate, K, Site("dof", (), None, text), count, extend)
+    def extend(problem: Problem, values: np.ndarray) -> Problem:
+        name = f"share {'lost' if sign < 0 else 'gained'} by {text}"
+        return with_entries(problem, new_parameter(name, values[0], "1"), K=(row, col, -sign * lost))
+
+    return _recipe(candidate, K, Site("dof", (), None, text), count, extend, sign)

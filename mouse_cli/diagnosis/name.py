@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mouse_cli.diagnosis.accuracy import Doubt, doubts, ways
 from mouse_cli.diagnosis.altered import Model
 from mouse_cli.diagnosis.candidates import Candidate
 from mouse_cli.diagnosis.fit import Fit, fit
@@ -28,12 +29,17 @@ _MATERIAL = 3.0  # nats that a second cause must gain
 
 @dataclass(frozen=True)
 class Ranking:
-    """fits: the baseline first, then the best of each set of causes, most probable first; noise_scale s2; probabilities of them."""
+    """fits: no cause, and the best of each set of causes, most probable first; noise_scale s2; probabilities (f,) of them.
+
+    doubts: how probable errors of the test are, whatever the cause. stated (f,): that of none, for each fit.
+    """
 
     baseline: Fit
     fits: tuple[Fit, ...]
     noise_scale: float
     probabilities: np.ndarray
+    doubts: tuple[Doubt, ...]
+    stated: np.ndarray
 
     @property
     def groups(self) -> tuple[tuple[str, float], ...]:
@@ -75,13 +81,22 @@ def _reach(found: list[Fit]) -> float:
 
 
 def ranking(baseline: Fit, fits: list[Fit]) -> Ranking:
-    """Probabilities of `fits` with the noise scale that the best of them needs."""
-    telling = [one.misfit / one.dof for one in fits if one.dof > 0]  # saturated fits say nothing
+    """Probabilities of `fits`, errors of the test weighed beside each, with the noise scale that the best of them needs."""
+    beside = [ways(one) for one in fits]
+    telling = [
+        way.misfit.min() / one.dof for one, own in zip(fits, beside, strict=True) for way in own if one.dof > 0
+    ]  # saturated fits say nothing
     scale = max(1.0, min(telling, default=1.0))
-    weights = np.array([_prior(one, fits) + one.log_evidence / scale for one in fits])
+    parts = [np.array([way.log_weight(scale) for way in own]) for own in beside]
+    totals = np.array([np.logaddexp.reduce(part) for part in parts])
+    weights = totals + np.array([_prior(one, fits) + one.log_evidence / scale for one in fits])
     order = np.argsort(-weights, kind="stable")
     weights = np.exp(weights - weights.max())
-    return Ranking(baseline, tuple(fits[i] for i in order), scale, weights[order] / weights.sum())
+    weights /= weights.sum()
+    shares = [np.exp(part - total) for part, total in zip(parts, totals, strict=True)]
+    stated = np.array([share[0] for share in shares])[order]
+    found = doubts([(p, own, share) for p, own, share in zip(weights, beside, shares, strict=True)])
+    return Ranking(baseline, tuple(fits[i] for i in order), scale, weights[order], found, stated)
 
 
 def _prior(one: Fit, fits: list[Fit]) -> float:

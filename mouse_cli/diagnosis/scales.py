@@ -19,3 +19,9 @@ def lowest(model: Reduced) -> float:
 def highest(model: Reduced) -> float:
     """Eigenvalue of the highest measured frequency, (rad/s)^2."""
     return float(eigenvalue(np.nanmax(model.data.test.frequency_hz)))
+
+
+def span(model: Reduced) -> float:
+    """Largest distance between nodes along an axis, m; infinite without geometry."""
+    at = model.problem.structure.geometry
+    return float(np.ptp(at.coordinates, axis=0).max()) if at is not None else float("inf")

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from mouse_cli.diagnosis.lines import Line
 from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.model.arrays import is_sparse
 from mouse_cli.model.diagnosis import Site
@@ -11,6 +12,7 @@ from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.problem import Problem
 
+_SHIFT = 1e-3  # of a row of bars, for derivatives along it
 _MOST = 24  # sensors that are suspected: those that fit worst
 
 
@@ -98,6 +100,38 @@ def row(problem: Problem, k: int) -> np.ndarray:
     """What a sensor reads of the degrees of freedom (n,)."""
     weights = readings(problem.test, problem.structure.n)[[k]]
     return weights.toarray()[0] if is_sparse(weights) else weights[0]
+
+
+def standing(model: Reduced, k: int) -> tuple[Line, float, np.ndarray] | None:
+    """The row of bars, the distance along it and the direction (3,) of what a sensor reads."""
+    at, bars, weights = model.problem.structure.geometry, model.bars, row(model.problem, k)
+    node = int(at.node[model.problem.test.dofs[k]])
+    direction = np.array([weights[(at.direction == d) & (at.node >= 0)].sum() for d in range(3)])
+    if node < 0 or not direction.any():
+        return None
+    best, found = np.inf, None
+    for run in bars.runs:
+        ends = bars.nodes[run.members]
+        axis = bars.axis[run.members[0]]
+        along = abs(axis @ direction) / np.linalg.norm(direction)
+        for i, end in np.argwhere(ends == node)[:1].tolist():
+            if along < min(best, 0.9):
+                bar = run.members[i]
+                best, found = along, (run, float(bars.before[bar] + end * bars.length[bar]), direction)
+    return found
+
+
+def sliding(model: Reduced) -> np.ndarray:
+    """What sensors would read (s, r) of the motion along their rows of bars, for a shift by a whole row; else 0."""
+    found = np.zeros(model.sensing.shape)
+    for k in range(len(found)) if model.bars is not None else ():
+        on = standing(model, k)
+        if on is not None:
+            run, s, direction = on
+            first, last = np.clip([s - _SHIFT * run.length, s + _SHIFT * run.length], 0.0, run.length)
+            moved = model.bars.motion(*run.at(last)) - model.bars.motion(*run.at(first))
+            found[k] = direction @ moved * run.length / (last - first)
+    return found
 
 
 def exchanged(problem: Problem, i: int, j: int) -> Problem:

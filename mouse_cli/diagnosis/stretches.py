@@ -1,4 +1,4 @@
-"""Stretches of lines of bars that are softer than the model says."""
+"""Stretches of lines of bars that are softer, or stiffer, than the model says."""
 
 import numpy as np
 
@@ -15,29 +15,31 @@ from mouse_cli.model.problem import Problem
 _STARTS = 8  # places to begin from on a line
 
 
-def of_lines(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """1/EI (1 + d) over a stretch of width w about x, for each line of bars."""
+def of_lines(model: Reduced, candidate: Candidate, stiffer: bool = False) -> list[Recipe]:
+    """1/EI (1 + d), or EI (1 + d) of one that is stiffer, over a stretch of width w about x, for each line of bars."""
     chosen = lines(model)
     total = sum(line.length for line in chosen)
-    return [_recipe(model, candidate, line, line.length / total) for line in chosen]
+    return [_recipe(model, candidate, line, line.length / total, stiffer) for line in chosen]
 
 
-def _recipe(model: Reduced, candidate: Candidate, line: Line, share: float) -> Recipe:
+def _recipe(model: Reduced, candidate: Candidate, line: Line, share: float, stiffer: bool) -> Recipe:
     L = line.length
-    d = Unknown("flexibility added", "1", 0.02, 3.0)
+    d = Unknown("stiffness added" if stiffer else "flexibility added", "1", 0.02, 3.0)
     w = Unknown("width over length", "1", 0.05, 0.4)
     x = Unknown("place", "m", 0.0, L, log=False)
 
     def change(values: np.ndarray) -> Change:
         touched, a, b = covered(line, *stretch(line, values))
-        return Change(softening=Softening(touched, values[0] * bent(line, touched, a, b)))
+        more = -values[0] / (1 + values[0]) if stiffer else values[0]
+        return Change(softening=Softening(touched, more * bent(line, touched, a, b)))
 
     def site(values: np.ndarray) -> Site:
         here = line.site(values[2])
-        return Site(here.kind, here.ids, here.position, f"{values[1] * L:.3g} m about {here.text}")
+        return Site(here.kind, here.ids, here.position, f"{values[1]:.2g} of the length, about {here.text}")
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
-        return _with_loss(problem, line, *stretch(line, values), values[0], site(values).text)
+        factor = 1 + values[0] if stiffer else 1 / (1 + values[0])
+        return _with_stretch(problem, line, *stretch(line, values), factor, site(values).text)
 
     grid = product(steps(d, 2), steps(w, 2), line.starts(_STARTS, share))
     return Recipe(candidate, (d, w, x), change, grid, site, log_prior=float(np.log(share)), extend=extend)
@@ -66,13 +68,14 @@ def bent(line: Line, touched: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.nd
     return F * (bars.length[touched] / 2 / bars.EI[touched])[:, None, None]
 
 
-def _with_loss(problem: Problem, line: Line, first: float, last: float, d: float, where: str) -> Problem:
+def _with_stretch(problem: Problem, line: Line, first: float, last: float, factor: float, where: str) -> Problem:
     edit, bars = Edit(problem), line.bars
     ends = [np.array(bars.point(*line.at(s))) for s in (first, last)]
     axis = bars.axis[line.members[0]]
     for end in ends:
         edit.split(*element_at(edit, end, axis))
-    soft = beams_within(edit, [tuple(ends)])
+    touched = beams_within(edit, [tuple(ends)])
     name = "Iy" if bars.plane[line.members[0]] else "Iz"
-    edit.bind(f"stiffness left of {where}", soft, (name,), factor=1 / (1 + d))
+    what = f"stiffness left of {where}" if factor < 1 else f"stiffness of {where}, strengthened"
+    edit.bind(what, touched, (name,), factor=factor)
     return edit.done()

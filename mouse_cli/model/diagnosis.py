@@ -211,8 +211,9 @@ class Diagnosis:
 
     kind: one of NOTHING, NAMED, ONE_OF, UNKNOWN. result: the update of the model as it is; best: the explanation named, or the
     first of the rivals; probability: of its group. explanations: all that were tried, most probable first. noise_scale: by what
-    the stated variances were multiplied. location, energy: what shapes alone say of the place. extended: the deck with the
-    cause in it, and its update.
+    the stated variances were multiplied. refuted: groups that held-out data speak against; cautions: sentences on what the
+    answer stands or falls with, the accuracy of the test above all. location, energy: what shapes alone say of the place.
+    extended: the deck with the cause in it, and its update.
     """
 
     problem: Problem
@@ -230,11 +231,14 @@ class Diagnosis:
     extended: Problem | None = None
     extended_result: Result | None = None
     remarks: tuple[str, ...] = field(default=())
+    refuted: tuple[str, ...] = ()
+    cautions: tuple[str, ...] = ()
 
     @property
     def best(self) -> Explanation | None:
         """The leading explanation of the leading group, one with a cause where there is any."""
-        at = leading(self.groups, [one.group for one in self.explanations])
+        standing = [pair for pair in self.groups if self.kind != ONE_OF or pair[0] not in self.refuted]
+        at = leading(standing, [one.group for one in self.explanations])
         return next(iter(self.explanations), None) if at is None else self.explanations[at]
 
     @property
@@ -246,7 +250,8 @@ class Diagnosis:
     def rivals(self) -> tuple[tuple[str, float], ...]:
         """Groups that hold more than 5 % of the probability, and it, the leading one first; never one alone of several."""
         least = 2 if self.kind == ONE_OF else 0
-        return tuple((name, p) for i, (name, p) in enumerate(self.groups) if p > RIVAL or i < least)
+        standing = [pair for pair in self.groups if pair[0] not in self.refuted]
+        return tuple((name, p) for i, (name, p) in enumerate(standing) if p > RIVAL or i < least)
 
     @property
     def probability(self) -> float:

@@ -9,7 +9,7 @@ from mouse_cli.diagnosis.extend import Edit
 from mouse_cli.diagnosis.extend_places import element_at
 from mouse_cli.diagnosis.lines import Line
 from mouse_cli.diagnosis.reduced import Reduced
-from mouse_cli.diagnosis.sensors import changed, row, share, site, suspects, with_readings
+from mouse_cli.diagnosis.sensors import changed, row, share, site, standing, suspects, with_readings
 from mouse_cli.model.problem import Problem
 
 _REACH = 0.02  # of the length of the line
@@ -19,28 +19,9 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """y(s) -> y(s + dx) along the row of bars that the sensor stands on."""
     found = []
     for k in suspects(model) if model.bars is not None else ():
-        standing = _standing(model, k)
-        if standing is not None:
-            found.append(_recipe(model, candidate, k, *standing))
-    return found
-
-
-def _standing(model: Reduced, k: int) -> tuple[Line, float, np.ndarray] | None:
-    """The row of bars, the distance along it and the direction (3,) of what a sensor reads."""
-    at, bars, weights = model.problem.structure.geometry, model.bars, row(model.problem, k)
-    node = int(at.node[model.problem.test.dofs[k]])
-    direction = np.array([weights[(at.direction == d) & (at.node >= 0)].sum() for d in range(3)])
-    if node < 0 or not direction.any():
-        return None
-    best, found = np.inf, None
-    for run in bars.runs:
-        ends = bars.nodes[run.members]
-        axis = bars.axis[run.members[0]]
-        along = abs(axis @ direction) / np.linalg.norm(direction)
-        for i, end in np.argwhere(ends == node)[:1].tolist():
-            if along < min(best, 0.9):
-                bar = run.members[i]
-                best, found = along, (run, float(bars.before[bar] + end * bars.length[bar]), direction)
+        on = standing(model, k)
+        if on is not None:
+            found.append(_recipe(model, candidate, k, *on))
     return found
 
 
