@@ -14,9 +14,14 @@ def write_text_atomically(path: str | Path, text: str) -> None:
     A symbolic link is followed, so that the link stays one. Permissions of an existing file are kept.
     Raises WrittenError (MD290) when the file cannot be written.
     """
+    write_bytes_atomically(path, text.encode("utf-8", "replace"))
+
+
+def write_bytes_atomically(path: str | Path, data: bytes) -> None:
+    """Write `data` as `write_text_atomically` writes a text."""
     target = os.path.realpath(path)
     try:
-        _replace(target, text.encode("utf-8", "replace"))
+        _replace(target, data)
     except OSError as error:
         raise WrittenError(
             Diagnostic(

@@ -98,4 +98,31 @@ CODES = {
         "The files that a deck names lie below its folder; those of the deck to be written would not.",
         "Write the deck to the folder of its recordings, or copy them first.",
     ),
+    "MD618": Code(
+        "no functions of these channels",
+        "Frequency response functions are of motion per force: a recording has no input or no output, or a channel of "
+        "another quantity.",
+        "Name forces as inputs and responses as outputs; leave other channels out.",
+    ),
+    "MD619": Code(
+        "forces that cannot be told apart",
+        "Several forces moved together, or one of them was zero, or the estimator is defined for one force alone; periodic "
+        "excitation needs as many experiments as forces.",
+        "Drive the forces with independent signals, or one after another; use --estimator h1 or hv.",
+    ),
+    "MD620": Code(
+        "recording shorter than a block",
+        "Blocks of twice as many samples as lines do not fit into the recording, or after no stroke of the hammer.",
+        "Take fewer --lines.",
+    ),
+    "MD621": Code(
+        "double stroke",
+        "The hammer hit twice within one block; the spectrum of the force then has zeros. The block is left out.",
+        "Hit more briefly, or with a lighter hammer.",
+    ),
+    "MD622": Code(
+        "too few averages",
+        "With as many averages as forces every coherence is 1, whatever the noise. Variances are left unknown.",
+        "Take fewer --lines, or record for longer.",
+    ),
 }

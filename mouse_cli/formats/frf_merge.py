@@ -1,5 +1,7 @@
 """Frequency response functions of one measurement put side by side."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from mouse_cli.formats.record_drafts import Findings, FrfDraft
@@ -23,6 +25,10 @@ def _fit(group: list[FrfDraft], say: Findings) -> bool:
         return False
     for each in group[1:]:
         where, help = each.where, "give measurements that differ titles of their own"
+        if each.decay_rate != first.decay_rate:
+            message = f"functions of '{each.title}' have exponential windows of {first.decay_rate:g} and {each.decay_rate:g} 1/s"
+            say.error("MD614", where, message, help)
+            return False
         if each.kind != first.kind:
             say.error("MD614", where, f"'{each.title}' holds functions of {first.kind} and of {each.kind}", help)
             return False
@@ -85,10 +91,8 @@ def _whole(group: list[FrfDraft]) -> FrfDraft:
         H[at], variance[at] = np.where(new, each.H, H[at]), np.where(new, each.variance, variance[at])
         if coherence is not None:
             coherence[:, at[1].ravel()] = np.fmin(coherence[:, at[1].ravel()], each.coherence)
-    return FrfDraft(
-        first.title, first.path, first.kind, first.frequency_hz, H, variance, tuple(outputs.values()), tuple(inputs.values()),
-        coherence, first.where, first.form, first.lines,
-    )  # fmt: skip
+    sensors = {"outputs": tuple(outputs.values()), "inputs": tuple(inputs.values())}
+    return replace(first, H=H, variance=variance, coherence=coherence, **sensors)
 
 
 def _named(sensors) -> dict[str, SensorDraft]:

@@ -71,7 +71,7 @@ def response_unit(kind: str, units: Units) -> str:
 def variance(H: np.ndarray, coherence: np.ndarray | None, averages: float | None) -> np.ndarray:
     """E|H - mean|^2 = |H|^2 (1 - g2) / (g2 n) of coherences g2 and n averages; NaN where they are not known.
 
-    Bendat & Piersol, Random Data, 4th ed. (2010), Table 9.6: the normalized random error of |H| is sqrt(1 - g2) / (sqrt(2 n) |g|),
+    Bendat & Piersol, Random Data, 4th ed. (2010), ch. 9: the normalized random error of |H| is sqrt(1 - g2) / (sqrt(2 n) |g|),
     which is that of one of the two parts.
     """
     if coherence is None or averages is None:

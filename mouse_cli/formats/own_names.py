@@ -6,6 +6,7 @@ from mouse_cli.formats.record_drafts import Pick
 from mouse_cli.formats.recording_files import Contents
 from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.model.channel_units import unit
+from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.recording import INPUT, OUTPUT
 
 _OWN = re.compile(r"([0-9]+)(-?)([TR][XYZ])", re.ASCII)
@@ -30,3 +31,18 @@ def own_picks(contents: Contents) -> list[Pick]:
             role = INPUT if spelled is not None and spelled.quantity in _FORCES else OUTPUT
             found.append(Pick(sensor, role, str(i)))
     return found
+
+
+def direction_code(name: str) -> tuple[int, int] | None:
+    """Node and direction, 1 to 6, negative where it points backwards, as universal files number them; 0 for a bare number.
+
+    >>> direction_code("12-RZ"), direction_code("7")
+    ((12, -6), (7, 0))
+    """
+    if name.isascii() and name.isdecimal():
+        return int(name), 0
+    found = _OWN.fullmatch(name)
+    if found is None:
+        return None
+    code = DIRECTIONS.index(found[3]) + 1
+    return int(found[1]), -code if found[2] else code

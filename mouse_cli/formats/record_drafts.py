@@ -52,6 +52,7 @@ class FrfDraft:
     where: Span | None = None
     form: str = FORMS[0]
     lines: int = MOST_LINES
+    decay_rate: float = 0.0
 
 
 @dataclass

@@ -20,7 +20,8 @@ class FrfTest:
     outputs (o, n), inputs (i, n): weights of what each response reads and of where each force acts, dense or sparse; or degrees
     of freedom (o,), (i,), from 0, where each is one. output_names, input_names: as the deck writes them.
     coherence (f, o): multiple coherence, None where it was not recorded. title: of the measurement; path: its file.
-    form: one of FORMS; lines: at most so many are fitted.
+    form: one of FORMS; lines: at most so many are fitted. decay_rate: a of an exponential window e^{-a t}, 1/s; H is then that of
+    the structure at s = a + i omega, see `laplace`.
     """
 
     frequency_hz: np.ndarray
@@ -36,6 +37,7 @@ class FrfTest:
     path: str = ""
     form: str = FORMS[0]
     lines: int = MOST_LINES
+    decay_rate: float = 0.0
 
     def __post_init__(self) -> None:
         shape = (len(self.frequency_hz), self.outputs.shape[0], self.inputs.shape[0])
@@ -49,3 +51,8 @@ class FrfTest:
     def omega(self) -> np.ndarray:
         """Angular frequencies (f,), rad/s."""
         return 2 * np.pi * self.frequency_hz
+
+    @property
+    def laplace(self) -> np.ndarray:
+        """Where the functions were measured, s = decay_rate + i omega (f,), rad/s."""
+        return self.decay_rate + 1j * self.omega

@@ -40,7 +40,7 @@ class FrfObservable:
     @property
     def s(self) -> np.ndarray:
         """Where on the complex plane (l,), rad/s."""
-        return (1j + self.width) * self.test.omega[self.lines]
+        return self.test.laplace[self.lines] + self.width * self.test.omega[self.lines]
 
     @property
     def factor(self) -> np.ndarray:

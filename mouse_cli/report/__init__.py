@@ -5,9 +5,10 @@ from typing import Any
 from mouse_cli.model.correlation import Correlation
 from mouse_cli.model.diagnosis import Diagnosis
 from mouse_cli.model.result import Forecast, Result
+from mouse_cli.model.spectra import SpectraResult
 from mouse_cli.report.section import Options
 
-Subject = Result | Forecast | Correlation | Diagnosis
+Subject = Result | Forecast | Correlation | Diagnosis | SpectraResult
 
 __all__ = ["Options", "document", "markdown", "printout", "written"]
 
@@ -37,7 +38,18 @@ def markdown(subject: Subject, numbers: str = "modern", options: Options | None 
 
 def document(subject: Subject) -> dict[str, Any]:
     """The report of `subject` as JSON can hold it: no NaN, no infinity, plain Python values."""
-    from mouse_cli.report import correlation_document, diagnosis_document, modes_document, result_document
+    from mouse_cli.report import (
+        correlation_document,
+        diagnosis_document,
+        modes_document,
+        result_document,
+        spectra_document,
+    )
 
-    documents = {Forecast: modes_document, Correlation: correlation_document, Diagnosis: diagnosis_document}
+    documents = {
+        Forecast: modes_document,
+        Correlation: correlation_document,
+        Diagnosis: diagnosis_document,
+        SpectraResult: spectra_document,
+    }
     return documents.get(type(subject), result_document).document(subject)

@@ -44,7 +44,7 @@ class Function:
     """A frequency response function of a file that names its response and its force, as decks write a sensor: `12TY`, `12-TY`.
 
     frequency_hz, values (f,); kind: of model.frf_test.KINDS, empty where the file does not say; unit: as it spells it.
-    variance: E|H - mean|^2 (f,); coherence (f,): both None where the file has none.
+    variance: E|H - mean|^2 (f,); coherence (f,): both None where the file has none. decay_rate: that of an exponential window, 1/s.
     """
 
     output: str
@@ -55,6 +55,7 @@ class Function:
     unit: str = ""
     variance: np.ndarray | None = None
     coherence: np.ndarray | None = None
+    decay_rate: float = 0.0
 
 
 @dataclass(frozen=True)

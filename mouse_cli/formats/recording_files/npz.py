@@ -43,11 +43,12 @@ def functions(arrays: dict[str, np.ndarray]) -> tuple[Function, ...]:
         )
     kind = str(arrays["kind"]) if "kind" in arrays else ""
     unit = str(arrays["unit"]) if "unit" in arrays else ""
+    rate = float(arrays["decay_rate"]) if "decay_rate" in arrays else 0.0
     return tuple(
         Function(
             output, force, hz, H[:, o, i], kind, unit,
             None if variance is None else variance[:, o, i],
-            None if coherence is None else coherence[:, o],
+            None if coherence is None else coherence[:, o], rate,
         )
         for i, force in enumerate(inputs)
         for o, output in enumerate(outputs)

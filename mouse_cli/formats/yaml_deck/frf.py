@@ -37,6 +37,7 @@ class Line:
     unit: str = ""
     variance: np.ndarray | None = None
     coherence: np.ndarray | None = None
+    decay_rate: float = 0.0
 
 
 def functions(test: Section | None, named: list[SensorDraft], files: Files, units: Units) -> list[FrfDraft]:
@@ -86,7 +87,9 @@ def _own(section: Section, held: Contents, known: Known) -> list[Line]:
 
 
 def _line(output: SensorDraft, force: SensorDraft, each: Function) -> Line:
-    return Line(output, force, each.frequency_hz, each.values, each.kind, each.unit, each.variance, each.coherence)
+    return Line(
+        output, force, each.frequency_hz, each.values, each.kind, each.unit, each.variance, each.coherence, each.decay_rate
+    )  # fmt: skip
 
 
 def _renamed(section: Section, key: str, known: Known, names: set[str]) -> dict[str, SensorDraft] | None:
@@ -188,6 +191,7 @@ def _draft(section: Section, lines: list[Line], units: Units) -> FrfDraft | None
         found.append(FrfDraft(
             title(section), section.nodes["file"].value if "file" in section else "", scale[0], line.frequency_hz, H.reshape(shape),
             each.reshape(shape), (line.output,), (line.input,), coherence, where,
+            decay_rate=section.value("decay_rate", line.decay_rate),
         ))  # fmt: skip
     whole = merged(found, document)
     return _banded(section, whole[0]) if len(whole) == 1 else None
@@ -224,11 +228,8 @@ def _banded(section: Section, whole: FrfDraft) -> FrfDraft | None:
         hz = whole.frequency_hz
         message = f"{what} [{band[0]:g}, {band[1]:g}] Hz holds no line; there are lines from {hz[0]:g} to {hz[-1]:g} Hz"
         return document.error("MD614", node, message, "give a band that holds lines")
-    coherence = None if whole.coherence is None else whole.coherence[keep]
-    return FrfDraft(
-        whole.title, whole.path, whole.kind, whole.frequency_hz[keep], whole.H[keep], whole.variance[keep], whole.outputs,
-        whole.inputs, coherence, whole.where,
-    )  # fmt: skip
+    cut = {key: getattr(whole, key)[keep] for key in ("frequency_hz", "H", "variance")}
+    return replace(whole, **cut, coherence=None if whole.coherence is None else whole.coherence[keep])
 
 
 def pair(section: Section, node: Node, what: str) -> tuple[float, float] | None:

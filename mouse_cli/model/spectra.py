@@ -1,0 +1,81 @@
+"""From recordings to frequency response functions: how, and what came of it; reports read it and compute nothing."""
+
+from dataclasses import dataclass
+
+from mouse_cli._errors import Diagnostic
+from mouse_cli.model.frf_test import FrfTest
+
+WINDOWS = ("hann", "hamming", "blackmanharris", "flattop", "uniform", "exponential")
+ESTIMATORS = ("h1", "h2", "hv")
+
+
+@dataclass(frozen=True)
+class SpectraOptions:
+    """How recordings become frequency response functions; every field is an option of `mouse spectra`.
+
+    lines: spectral lines above 0 Hz, half the samples of a block; None: so many that there are 16 blocks or more. overlap: of
+    blocks, 0 to below 1; None: 0.5, and 0 for the windows uniform and exponential. final: value of the exponential window at the
+    end of the block. period: samples of a periodic excitation; with it there is neither window nor overlap, and the noise is that
+    between periods. skip: samples left out at the beginning. impact: blocks begin before each stroke of a hammer, pretrigger: so
+    many samples before. kind: of the functions, None: that of the first response.
+    """
+
+    estimator: str = "h1"
+    window: str = "hann"
+    lines: int | None = None
+    overlap: float | None = None
+    final: float = 0.01
+    period: int | None = None
+    skip: int = 0
+    impact: bool = False
+    pretrigger: int = 10
+    kind: str | None = None
+
+    @property
+    def shared(self) -> float:
+        """The overlap that is used."""
+        if self.overlap is not None:
+            return self.overlap
+        return 0.0 if self.window in ("uniform", "exponential") else 0.5
+
+
+@dataclass(frozen=True)
+class Quality:
+    """How good one function is. lines: with a value; median_coherence, median_noise: sd of the magnitude by it; NaN where unknown.
+
+    peak_hz: where its magnitude is largest.
+    """
+
+    response: str
+    force: str
+    lines: int
+    median_coherence: float
+    median_noise: float
+    peak_hz: float
+
+
+@dataclass(frozen=True)
+class MeasuredFrf:
+    """Functions and how they were averaged. averages: effective number of independent blocks; blocks: of which they were made.
+
+    recordings: their titles. quality: of each function, those of one force after another.
+    """
+
+    frf: FrfTest
+    averages: float
+    blocks: int
+    block_samples: int
+    sample_rate_hz: float
+    recordings: tuple[str, ...] = ()
+    quality: tuple[Quality, ...] = ()
+
+
+@dataclass(frozen=True)
+class SpectraResult:
+    """What `mouse spectra` found: one item for each set of recordings with the same channels."""
+
+    title: str
+    source: str
+    options: SpectraOptions
+    measured: tuple[MeasuredFrf, ...]
+    warnings: tuple[Diagnostic, ...] = ()

@@ -1,0 +1,38 @@
+"""Spectra as one JSON document, schema mouse.spectra/1."""
+
+from dataclasses import asdict
+from typing import Any
+
+from mouse_cli import __version__
+from mouse_cli.model.spectra import SpectraResult
+from mouse_cli.report.json_values import plain
+
+SCHEMA = "mouse.spectra/1"
+
+
+def document(result: SpectraResult) -> dict[str, Any]:
+    """`result` in plain Python values; functions themselves go to the file of -o."""
+    how = result.options
+    return plain(
+        {
+            "schema": SCHEMA,
+            "version": __version__,
+            "title": result.title,
+            "source": result.source,
+            "options": {**asdict(how), "overlap": how.shared},
+            "measurements": [
+                {
+                    "recordings": list(each.recordings),
+                    "sample_rate_hz": each.sample_rate_hz,
+                    "block_samples": each.block_samples,
+                    "blocks": each.blocks,
+                    "averages": each.averages,
+                    "decay_rate": each.frf.decay_rate,
+                    "kind": each.frf.kind,
+                    "functions": [asdict(one) for one in each.quality],
+                }
+                for each in result.measured
+            ],
+            "warnings": [f"{d.code}: {d.message}" for d in result.warnings],
+        }
+    )
