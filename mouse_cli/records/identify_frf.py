@@ -1,0 +1,94 @@
+"""Modes from frequency response functions: candidates that stay (p-LSCF), fit (LSFD, maximum likelihood), selection, covariance."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.model.frf_test import KINDS, FrfTest
+from mouse_cli.records import identify_noise
+from mouse_cli.records.maximum_likelihood import Fit, fitted
+from mouse_cli.records.modal_covariance import Correlation, ModalCovariance, correlation, covariance
+from mouse_cli.records.modal_model import ABOVE, BELOW, CURVED, Lines, start
+from mouse_cli.records.mode_selection import Dropped, doubled, selected
+from mouse_cli.records.pole_search import Search, search
+from mouse_cli.records.stabilisation import Track
+
+LEAST_LINES = 16
+_REFITS = 2
+
+
+@dataclass(frozen=True)
+class Found:
+    """What identification of one set of functions gives, before it is judged.
+
+    lines: with the sd that the fit used; stated: whether they were measured; misfit: of the fit with stated sd; raised: share of
+    lines whose sd were raised since the fit errs more.
+    """
+
+    lines: Lines
+    fit: Fit
+    covariance: ModalCovariance
+    errors: Correlation
+    search: Search
+    dropped: list[Dropped]
+    stated: bool
+    misfit: float
+    raised: float
+
+
+def banded(test: FrfTest, band: tuple[float, float] | None) -> np.ndarray:
+    """Which lines (f,) are used: within `band`, never 0 Hz, where inertia has no receptance."""
+    hz = test.frequency_hz
+    use = hz > 0
+    return use if band is None else use & (hz >= band[0]) & (hz <= band[1])
+
+
+def lines_of(test: FrfTest, use: np.ndarray) -> tuple[Lines, bool]:
+    """The lines used, and whether their variance is known."""
+    s, H, variance, kind = 2j * np.pi * test.frequency_hz[use], test.H[use], test.variance[use], KINDS[test.kind]
+    stated = bool(np.isfinite(variance).any())
+    if stated:
+        return identify_noise.with_sd(s, H, variance, kind), True
+    return identify_noise.without_sd(s, H, kind), False
+
+
+def identify_lines(lines: Lines, stated: bool, most: int | None, say: Callable[[str], None]) -> Found:
+    """Modes of the lines; `most`: highest order of the stabilisation diagram."""
+    say("poles")
+    seen = search(lines, most)
+    say("fit")
+    fit, lines, misfit, raised, dropped = _fitted(lines, stated, seen.candidates)
+    say("covariance")
+    errors = correlation(lines, fit.model)
+    found = covariance(lines, fit.model, errors)
+    return Found(lines, fit, found, errors, seen, dropped, stated, misfit, raised)
+
+
+def _fitted(lines: Lines, stated: bool, candidates: list[Track]) -> tuple[Fit, Lines, float, float, list[Dropped]]:
+    """The fit of what is significant, the lines with the sd it stands on, misfit, share of lines raised, what was dropped."""
+    centres = [track.centre() for track in candidates]
+    poles = np.array([pole for pole, _ in centres], complex)
+    inputs = lines.H.shape[2]
+    participation = np.array([vector for _, vector in centres], complex).reshape(len(poles), inputs).T
+    fit = fitted(lines, start(poles, participation, lines.H.shape[1], (BELOW, ABOVE, CURVED)))
+    given, raised, dropped = lines, 0.0, []
+    for choose in (_as_they_are, selected, doubled, selected):
+        fit, gone = choose(lines, fit, poles)
+        dropped += gone
+        for _ in range(_REFITS if gone or choose is _as_they_are else 0):
+            lines, raised = _weighted(given, fit, stated)
+            fit = fitted(lines, fit.model)
+    misfit = fitted(given, fit.model, 0).misfit if stated else float("nan")
+    return fit, lines, misfit, raised, dropped
+
+
+def _as_they_are(lines: Lines, fit: Fit, centres: np.ndarray) -> tuple[Fit, list[Dropped]]:
+    return fit, []
+
+
+def _weighted(given: Lines, fit: Fit, stated: bool) -> tuple[Lines, float]:
+    """The lines with sd as the fit shows them, and the share of lines where stated ones were raised."""
+    return (
+        identify_noise.widened(given, fit.model) if stated else (identify_noise.measured_noise(given, fit.model), 0.0)
+    )
