@@ -14,11 +14,11 @@ from itertools import pairwise
 
 import numpy as np
 
+from mouse_cli.dynamics.frf_uncoupled import Uncoupled, uncoupled
 from mouse_cli.dynamics.sensing import unit_loads
 from mouse_cli.model.arrays import Matrix
 
 _ROOM = 4_000_000  # complex numbers of the dynamic stiffness of as many lines as are solved at once
-_PROPORTIONAL = 1e-11  # what damping may differ from a combination of K and M, relative, to be taken for one
 
 
 @dataclass(frozen=True)
@@ -112,47 +112,19 @@ class FrfModel:
         return Fields(self, s, self._solved(s))
 
     @cached_property
-    def _uncoupled(self) -> tuple[np.ndarray, ...] | None:
-        """Damping that follows K and M leaves modes uncoupled: X, lambda and the multiples of K and M in C and in D."""
-        m = self.matrices
-        multiples = [proportional(damping, m.K, m.M) for damping in (m.C, m.D)]
-        if any(found is None for found in multiples):
-            return None
-        try:
-            lower = np.linalg.cholesky(m.M)
-        except np.linalg.LinAlgError:
-            return None
-        inverse = np.linalg.inv(lower)
-        reduced = inverse @ m.K @ inverse.T
-        eigenvalues, X = np.linalg.eigh((reduced + reduced.T) / 2)
-        return inverse.T @ X, eigenvalues, *multiples
+    def _uncoupled(self) -> Uncoupled | None:
+        return None if self.V is None else uncoupled(self.matrices)
 
     def _solved(self, s: np.ndarray) -> np.ndarray:
         """Z(s)^-1 loads (f, d, l)."""
-        if self.V is not None and self._uncoupled is not None:
-            X, lam, (c_K, c_M), (d_K, d_M) = self._uncoupled
-            s = s[:, None]
-            z = lam + s**2 + s * (c_K * lam + c_M) + 1j * (d_K * lam + d_M)
-            return X @ ((X.T @ self.loads) / z[:, :, None])
+        if self._uncoupled is not None:
+            return self._uncoupled.solve(s, self.loads)
         Y = np.empty((len(s), *self.loads.shape), complex)
         each = max(1, _ROOM // self.d**2)
         for first in range(0, len(s), each):
             part = s[first : first + each, None, None]
             Y[first : first + each] = np.linalg.solve(self.matrices.at(part), self.loads)
         return Y
-
-
-def proportional(damping: Matrix | None, K: np.ndarray, M: np.ndarray) -> tuple[float, float] | None:
-    """a, b with `damping` = a K + b M, for dense matrices; None where it is no such combination."""
-    if damping is None or not damping.any():
-        return 0.0, 0.0
-    scale = np.array([np.linalg.norm(K), np.linalg.norm(M)])
-    parts = np.stack([K.ravel(), M.ravel()], axis=1) / np.where(scale > 0, scale, 1.0)
-    found = np.linalg.lstsq(parts, damping.ravel(), rcond=None)[0]
-    if np.abs(parts @ found - damping.ravel()).max() > _PROPORTIONAL * np.abs(damping).max():
-        return None
-    a, b = (found / np.where(scale > 0, scale, 1.0)).tolist()
-    return a, b
 
 
 class Fields:

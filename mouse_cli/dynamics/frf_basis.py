@@ -20,8 +20,8 @@ BEYOND = 1.5  # modes are taken up to so many times the highest frequency
 FINAL, ITERATING = 1e-6, 1e-4  # relative errors of FRFs that are reported, and of those on the way
 _FIRST, _MOST = 2, 8  # levels of Krylov vectors at first, and at the end
 _REFINEMENTS = 60  # steps towards a full solution
-_CHECKED = 4  # loads for which they are found
-_SOLVED, _ROUNDED = 1e-9, 1e-6  # the last step of it, relative; the same where rounding keeps it from getting smaller
+_CHECKED = 2  # loads for which they are found
+_SOLVED, _ROUNDED = 1e-8, 1e-6  # the last step of it, relative; the same where rounding keeps it from getting smaller
 
 
 def frf_model(
@@ -42,11 +42,12 @@ def frf_model(
     if dynamics.n <= WHOLE or (not is_sparse(dynamics.K) and solution is None) or _bare(solution):
         return FrfModel(_dense(dynamics), loads.full(dynamics.n), loads.columns)
     basis = _Basis(dynamics, loads, solution, float(np.abs(checked).max()))
+    known: dict[complex, np.ndarray | None] = {}
     while True:
         while basis.levels < levels:
             basis.extend()
         model, levels = basis.model(), basis.levels + 1
-        errors = [_error(basis, model, complex(s)) for s in checked]
+        errors = [_error(basis, model, complex(s), known) for s in checked]
         error, motion_error = (max(column) for column in zip(*errors, strict=True))
         if error <= tolerance or basis.complete or levels > _MOST:
             return FrfModel(model.matrices, model.loads, model.columns, model.V, basis.levels, error, motion_error)
@@ -94,24 +95,20 @@ class _Basis:
         else:
             self.sigma, self.operator = solution.shift, space.operator
         band = solution.eigenvalues <= (BEYOND * top) ** 2
-        X = solution.shapes.T if space is not None else solution.shapes.T[band]
-        mu = (solution.eigenvalues if space is not None else solution.eigenvalues[band]) - self.sigma
-        room = min(dynamics.n, 2 * len(X) + loads.count * (1 + _FIRST) + 8)
-        self.krylov = Krylov(self.operator, max(room, 1))
-        if len(X):
-            self.krylov.append(np.array(X), mu[:, None] * self.operator.mass(np.ascontiguousarray(X)))
-        self._half_found(space, len(X))
-        first = self.krylov.d
-        self._damped(X[: int(band.sum())])
+        X = solution.shapes.T[band]
+        self.krylov = self._found(X, solution.eigenvalues[band]) if space is None else space.copy()
+        first = self.krylov.d if space is None else space.reached  # its last block is still to be expanded
+        self._damped(X)
         self._append(np.ascontiguousarray(self.full.T))
         self._newest = slice(first, self.krylov.d)  # where damping acts, it drives like a force
 
-    def _half_found(self, space: Krylov | None, modes: int) -> None:
-        """As many vectors again of what the search for modes had of higher ones."""
-        if space is not None:
-            _, S, _ = space.ritz()
-            S = S[:, modes : 2 * modes]
-            self.krylov.append(S.T @ space.V[: len(S)], S.T @ space.AV[: len(S)])
+    def _found(self, X: np.ndarray, eigenvalues: np.ndarray) -> Krylov:
+        """The modes X (m, n) of a dense model. For a sparse one there is what the search for them left, higher modes and all."""
+        krylov = Krylov(self.operator, max(1, min(self.dynamics.n, len(X) + self.loads.count * (1 + _FIRST))))
+        if len(X):
+            mu = eigenvalues[:, None] - self.sigma
+            krylov.append(np.array(X), mu * self.operator.mass(np.ascontiguousarray(X)))
+        return krylov
 
     def _damped(self, X: np.ndarray) -> None:
         """What coupling of the modes X (m, n) by damping does to them: A^-1 C X, A^-1 D X outside of their span."""
@@ -175,11 +172,16 @@ def _follows(damping: Matrix, dynamics: Dynamics) -> tuple[float, float] | None:
     return (a, b) if np.abs(rest).max() <= 1e-11 * np.abs(damping.data).max() else None
 
 
-def _error(basis: _Basis, model: FrfModel, s: complex) -> tuple[float, float]:
-    """Relative errors of the FRFs and of the motions at one line, against a full solution; inf where that was not found."""
+def _error(basis: _Basis, model: FrfModel, s: complex, known: dict[complex, np.ndarray | None]) -> tuple[float, float]:
+    """Relative errors of the FRFs and of the motions at one line, against a full solution; inf where that was not found.
+
+    known: full solutions found before.
+    """
     few = np.unique(np.linspace(0, basis.loads.count - 1, _CHECKED).astype(int))
     x = model.V.T @ model.at(np.array([s])).Y[0][:, few]
-    exact = _full(basis, model, s, x, basis.full[:, few])
+    if s not in known:
+        known[s] = _full(basis, model, s, x, basis.full[:, few])
+    exact = known[s]
     if exact is None:
         return np.inf, np.inf
     at = basis.loads.at

@@ -13,7 +13,7 @@ from mouse_cli.dynamics.frf import Fields
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.term import CONSTANT, MATRICES, Slopes
 
-_SPAN = 1e-7  # directions in which no motion has more than this share of its length are left out
+_SPAN = 1e-6  # directions in which no motion has more than this share of its length are left out
 _AT_ONCE = 3_000_000  # complex numbers worked on at once
 
 

@@ -80,11 +80,6 @@ class Krylov:
         return self._V[: self.d]
 
     @property
-    def AV(self) -> np.ndarray:
-        """A times all vectors (d, n)."""
-        return self._AV[: self.d]
-
-    @property
     def T(self) -> np.ndarray:
         """V M V' of the vectors that were expanded (reached, reached)."""
         return self._T[: self.reached, : self.reached]
