@@ -25,6 +25,12 @@ _TOLD = {
 }
 
 
+def misstated(ranking: Ranking) -> str | None:
+    """Key of the error that explains the data better than the accuracies of the deck do; None where those may be right."""
+    likely = [each.key for each in ranking.doubts if each.probability > _PROBABLE and ranking.noise_scale <= _NOISY]
+    return likely[0] if likely else None
+
+
 def cautions(ranking: Ranking, verdict: Verdict, location: Location | None) -> tuple[str, ...]:
     """The sentences, each whole; none where nothing is missing."""
     if verdict.kind == NOTHING:
@@ -33,9 +39,8 @@ def cautions(ranking: Ranking, verdict: Verdict, location: Location | None) -> t
 
 
 def _errors(ranking: Ranking) -> Iterator[str]:
-    """Errors of all sensors or frequencies, where they leave no more than noise."""
-    for doubt in ranking.doubts if ranking.noise_scale <= _NOISY else ():
-        if doubt.probability > _PROBABLE:
+    for doubt in ranking.doubts:
+        if doubt.key == misstated(ranking):
             p = f"P = {doubt.probability:.2f}" if doubt.probability < 0.995 else "P > 0.99"
             yield f"The test is less accurate than its deck says ({p}): {_TOLD[doubt.key].format(size=100 * doubt.size)}."
 

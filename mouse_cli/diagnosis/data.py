@@ -75,6 +75,11 @@ class Data:
         a = fitted if self.scaled else np.where(along < 0, -1.0, 1.0)
         return self._stacked(off, self._y - a * f), a
 
+    def scale_sd(self, seen: np.ndarray) -> np.ndarray:
+        """Standard deviation (m,) of the scale a that is fitted to shapes `seen` (s, m); 0 where the test states it."""
+        size = np.einsum("sm,sm->m", seen * self._w, seen * self._w)
+        return np.where(self.scaled & (size > 0), 1 / np.sqrt(np.maximum(size, 1e-300)), 0.0)
+
     def jacobian(self, eigenvalues, seen, a, d_eigenvalues, d_seen) -> np.ndarray:
         """d(prediction)/dx (q, k), whitened, for derivatives d_eigenvalues (m, k) and d_seen (s, m, k)."""
         d_log = 0.5 * d_eigenvalues / np.maximum(eigenvalues, 1e-300)[:, None] / self.sd_log[:, None]

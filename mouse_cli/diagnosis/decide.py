@@ -19,8 +19,8 @@ from mouse_cli.model.diagnosis import (
     Explanation,
     HeldOut,
     Size,
-    leading,
 )
+from mouse_cli.model.groups import leading
 from mouse_cli.model.result import Result
 from mouse_cli.model.units import Units
 from mouse_cli.updating.chi_square import upper_tail

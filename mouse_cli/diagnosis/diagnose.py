@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli.diagnosis.altered import Model
-from mouse_cli.diagnosis.cautions import cautions
+from mouse_cli.diagnosis.cautions import cautions, misstated
 from mouse_cli.diagnosis.decide import explanations, judge
 from mouse_cli.diagnosis.energy_map import energy_map
 from mouse_cli.diagnosis.extended import extended
@@ -55,6 +55,7 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None) -> Diagnosis:
         held_out=verdict.proof,
         refuted=verdict.refuted,
         cautions=cautions(ranking, verdict, location),
+        misstated=misstated(ranking) if missing else None,
         proposals=_proposals(ranking) if missing and kind != UNKNOWN else (),
         remarks=remarks + told + (() if deck is None else _coarse(deck)),
         extended=deck,

@@ -15,7 +15,7 @@ from mouse_cli.diagnosis.candidates import Candidate
 from mouse_cli.diagnosis.fit import Fit, fit
 from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.diagnosis.search import Study, best, settled, shifted, summed, tried
-from mouse_cli.model.diagnosis import joined
+from mouse_cli.model.groups import joined
 from mouse_cli.updating.chi_square import upper_tail
 
 _SECOND, _QUICK = 2, 8  # fits of a second cause beside a first, and their steps, in a first try

@@ -4,25 +4,32 @@ Data held out by the deck, an altered configuration among them, are kept from th
 each measured mode is predicted from the others: both models, of settled form, are fitted without it.
 """
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.altered import Model
+from mouse_cli.diagnosis.altered import Model, Point
 from mouse_cli.diagnosis.change import Change, Recipe
+from mouse_cli.diagnosis.data import THEORY_SHAPE
 from mouse_cli.diagnosis.fit import Fit, fit
 from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.dynamics.correlation import mac
+from mouse_cli.dynamics.sensing import read
 from mouse_cli.model.diagnosis import BY_DECK, BY_MODE, HeldOut, Score
 from mouse_cli.model.hold_out import HoldOut
 from mouse_cli.model.modal_test import ModalTest, restricted
 
+_STEP = 1e-4  # of a prior standard deviation, or of the range of an unknown, for derivatives
 _COVERED = 1.6448536269514722  # standard deviations of a 90 % interval
 
 
 @dataclass(frozen=True)
 class Prediction:
-    """Of a test that was not fitted: eigenvalues (m,) and sd of ln f (m,) by both model and data, MAC (m,), log density."""
+    """Of a test that was not fitted: frequencies (m,) and their sd by both model and data, MAC (m,), log density.
+
+    covered (f,): frequencies within their intervals; shape_error (c,): of components, over the largest of their mode.
+    """
 
     test: ModalTest
     hz: np.ndarray
@@ -30,6 +37,7 @@ class Prediction:
     mac: np.ndarray
     density: float
     covered: np.ndarray
+    shape_error: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
 
 def predict(one: Fit, base: Reduced, fixed: tuple[Recipe, ...] = ()) -> Prediction | None:
@@ -54,11 +62,52 @@ def predict(one: Fit, base: Reduced, fixed: tuple[Recipe, ...] = ()) -> Predicti
     return Prediction(data.test, hz, sd_hz, alike, float(density), np.abs(off) < _COVERED * sd)
 
 
+def readings(one: Fit, test: ModalTest) -> Prediction | None:
+    """What the model of `one` says of the modes that it was fitted to, at the sensors of `test`, which it was not.
+
+    Lengths and signs of the shapes are those of the sensors that were fitted, with the uncertainty that these leave.
+    """
+    base, at = one.model.base, one.point
+    sensing = np.asarray(read(test.measured_at, base.V))
+    known, scale = np.isfinite(test.shapes), np.abs(np.nan_to_num(base.data.test.shapes)).max(axis=0)
+    told = lambda point: (point.a * (sensing @ point.X[: base.r, point.modes]))[known]
+    sd = np.hypot(test.shape_sd, THEORY_SHAPE * scale)[known]
+    J = _sensitivity(one, told)
+    if J is None or not known.any():
+        return None
+    own = base.data.scale_sd(at.seen[:, at.modes]) / np.where(at.a == 0, 1.0, at.a)
+    of_mode = np.nonzero(known)[1][:, None] == np.arange(test.m)
+    J = np.hstack([J @ np.linalg.cholesky(one.covariance), of_mode * (told(at)[:, None] * own)]) / sd[:, None]
+    off = (test.shapes[known] - told(at)) / sd
+    total = np.eye(len(off)) + J @ J.T
+    density = -0.5 * (off @ np.linalg.solve(total, off) + np.linalg.slogdet(2 * np.pi * total)[1]) - np.log(sd).sum()
+    unmeasured = np.full(test.m, np.nan)
+    alike = mac(test.shapes, sensing @ at.X[: base.r, at.modes]).diagonal() if len(sensing) > 1 else unmeasured
+    left = off * sd / scale[np.nonzero(known)[1]]
+    blind = replace(test, frequency_hz=unmeasured)
+    return Prediction(blind, unmeasured, unmeasured, alike, float(density), np.zeros(0, bool), left)
+
+
+def _sensitivity(one: Fit, told: Callable[[Point], np.ndarray]) -> np.ndarray | None:
+    """d told / dx (q, k + t) at the end of a fit, by central differences."""
+    model, columns = one.model, []
+    low, high = np.vstack([np.tile([-np.inf, np.inf], (model.k, 1)), model.bounds]).T
+    for j, step in enumerate(_STEP * np.concatenate([np.ones(model.k), model.width])):
+        sides = [one.point.x.copy() for _ in range(2)]
+        for x, way in zip(sides, (step, -step), strict=True):
+            x[j] = np.clip(x[j] + way, low[j], high[j])
+        ends = [model.point(x) for x in sides]
+        if None in ends:
+            return None
+        columns.append((told(ends[0]) - told(ends[1])) / (sides[0][j] - sides[1][j]))
+    return np.column_stack([np.zeros((len(told(one.point)), 0)), *columns])
+
+
 def score(parts: list[Prediction]) -> Score:
     """Several predictions as one."""
     measured = np.concatenate([part.test.frequency_hz for part in parts])
     hz, have = np.concatenate([part.hz for part in parts]), np.isfinite(measured)
-    error = hz[have] / measured[have] - 1
+    error, left = hz[have] / measured[have] - 1, np.concatenate([part.shape_error for part in parts])
     return Score(
         rms_frequency_error=float(np.sqrt(np.mean(error**2))) if have.any() else float("nan"),
         log_predictive_density=float(sum(part.density for part in parts)),
@@ -66,19 +115,20 @@ def score(parts: list[Prediction]) -> Score:
         frequencies_hz=hz,
         sd_hz=np.concatenate([part.sd_hz for part in parts]),
         mac=np.concatenate([part.mac for part in parts]),
+        rms_shape_error=float(np.sqrt(np.mean(left**2))) if len(left) else float("nan"),
     )
 
 
 def held_out(model: Reduced, baseline: Fit, best: Fit | None) -> HeldOut | None:
     """Both models on what the deck holds out, else on each mode in turn."""
     held = model.problem.hold_out
-    if held is None or not (held.altered or (held.test is not None and held.test.m)):
+    if held is None or not (held.altered or len(held.modes) or len(held.sensors)):
         return cross_validated(model, baseline, best)
     parts = {"baseline": _foreseen(held, baseline), "revised": best and _foreseen(held, best)}
     labels, kept = [], []
     for i, (title, own) in enumerate(parts["baseline"]):
         if own is not None and (best is None or parts["revised"][i][1] is not None):
-            labels += [f"{title}mode {number}" for number in own.test.number]
+            labels += [title.format(number) for number in own.test.number]
             kept.append(i)
     if not kept:
         return None
@@ -92,13 +142,16 @@ def _foreseen(held: HoldOut, one: Fit) -> list[tuple[str, Prediction | None]]:
     """Title of each case that was held out, and what the model of `one` says of it."""
     base, found = one.model.base, []
     if held.test is not None and held.test.m:
-        found.append(("", predict(one, base.with_test(held.test))))
+        found.append(("mode {}", predict(one, base.with_test(held.test))))
+    if held.readings is not None and base.data.by_shape:
+        found.append(("mode {} at sensors held out", readings(one, held.readings)))
     for altered in held.altered:
         unmeasured = np.full((base.data.s, len(altered.number)), np.nan)
         frequencies = altered.number, altered.frequency_hz, altered.frequency_sd_hz
         test = ModalTest(*frequencies, base.data.test.dofs, unmeasured, unmeasured, "fitted")
         fixed = known(base, altered.masses, altered.springs)
-        found.append((f"{altered.title}, ", predict(one, base.with_test(test), (fixed,))))
+        title = altered.title.replace("{", "{{").replace("}", "}}")
+        found.append((title + ", mode {}", predict(one, base.with_test(test), (fixed,))))
     return found
 
 

@@ -1,10 +1,10 @@
 """What a diagnosis found: where model and test part, what physics would explain it, how much of it, and whether that is true."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
+from mouse_cli.model.groups import joined, leading
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import ChiSquareTest, Result
 
@@ -49,29 +49,6 @@ class Cause:
     title: str
     site: Site
     sizes: tuple[Size, ...]
-
-
-def joined(groups: Sequence[str]) -> str:
-    """The group of several causes, `none` without any: a support that gives way in two manners is one cause.
-
-    >>> joined(["support", "mass", "support"]), joined(["mass", "mass"]), joined([])
-    ('mass + support', 'mass + mass', 'none')
-    """
-    names = sorted(groups)
-    return " + ".join(name for i, name in enumerate(names) if name != "support" or name not in names[:i]) or "none"
-
-
-def leading(groups: Sequence[tuple[str, float]], members: Sequence[str]) -> int | None:
-    """Which of `members`, groups of explanations in the order of their probability, leads: the first of the most probable group.
-
-    A cause before none at all; None without members.
-
-    >>> leading([("none", 0.6), ("mass", 0.3), ("shear", 0.1)], ["none", "shear", "mass"])
-    2
-    """
-    order = [name for name, _ in groups if name != "none"] + ["none"]
-    found = [members.index(name) for name in order if name in members]
-    return found[0] if found else None
 
 
 @dataclass(frozen=True)
@@ -172,7 +149,7 @@ class Law:
 
 @dataclass(frozen=True)
 class Score:
-    """How well data that no fit has seen were predicted."""
+    """How well data that no fit has seen were predicted; rms_shape_error: at sensors held out, over the largest component."""
 
     rms_frequency_error: float
     log_predictive_density: float
@@ -180,6 +157,7 @@ class Score:
     frequencies_hz: np.ndarray
     sd_hz: np.ndarray
     mac: np.ndarray
+    rms_shape_error: float = float("nan")
 
 
 BY_DECK, BY_MODE = "held out by the deck", "each mode from the others"
@@ -212,8 +190,9 @@ class Diagnosis:
     kind: one of NOTHING, NAMED, ONE_OF, UNKNOWN. result: the update of the model as it is; best: the explanation named, or the
     first of the rivals; probability: of its group. explanations: all that were tried, most probable first. noise_scale: by what
     the stated variances were multiplied. refuted: groups that held-out data speak against; cautions: sentences on what the
-    answer stands or falls with, the accuracy of the test above all. location, energy: what shapes alone say of the place.
-    extended: the deck with the cause in it, and its update.
+    answer stands or falls with, the accuracy of the test above all; misstated: what of that the deck seems to have wrong,
+    `gains`, `places` or `drift`. location, energy: what shapes alone say of the place. extended: the deck with the cause in it,
+    and its update.
     """
 
     problem: Problem
@@ -233,6 +212,7 @@ class Diagnosis:
     remarks: tuple[str, ...] = field(default=())
     refuted: tuple[str, ...] = ()
     cautions: tuple[str, ...] = ()
+    misstated: str | None = None
 
     @property
     def best(self) -> Explanation | None:

@@ -1,0 +1,26 @@
+"""Groups of causes that are hard to tell apart: how those of several causes are called, and which of them leads."""
+
+from collections.abc import Sequence
+
+
+def joined(groups: Sequence[str]) -> str:
+    """The group of several causes, `none` without any: a support that gives way in two manners is one cause.
+
+    >>> joined(["support", "mass", "support"]), joined(["mass", "mass"]), joined([])
+    ('mass + support', 'mass + mass', 'none')
+    """
+    names = sorted(groups)
+    return " + ".join(name for i, name in enumerate(names) if name != "support" or name not in names[:i]) or "none"
+
+
+def leading(groups: Sequence[tuple[str, float]], members: Sequence[str]) -> int | None:
+    """Which of `members`, groups of explanations in the order of their probability, leads: the first of the most probable group.
+
+    A cause before none at all; None without members.
+
+    >>> leading([("none", 0.6), ("mass", 0.3), ("shear", 0.1)], ["none", "shear", "mass"])
+    2
+    """
+    order = [name for name, _ in groups if name != "none"] + ["none"]
+    found = [members.index(name) for name in order if name in members]
+    return found[0] if found else None
