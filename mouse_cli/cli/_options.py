@@ -77,6 +77,9 @@ READING = (
 )
 
 
+QUIET = (click.option("-q", "--quiet", is_flag=True, help="No warnings on standard error."),)
+
+
 def answer(schema: str) -> tuple[Callable, ...]:
     """Where the answer goes and in what form; `schema` is that of its JSON document."""
     where = click.option("-o", "--output", metavar="FILE", help="Write the answer to FILE instead of standard output.")

@@ -18,6 +18,7 @@ from mouse_cli.model.diagnosis import (
     Cause,
     Explanation,
     HeldOut,
+    Site,
     Size,
 )
 from mouse_cli.model.groups import leading
@@ -120,7 +121,12 @@ def explanation(one: Fit, probability: float = 0.0) -> Explanation:
     )
     theta = one.model.base.parameters(one.point.x[: one.model.k])
     p = upper_tail(one.misfit, max(one.dof, 1))
-    return Explanation(causes, one.misfit, one.dof, p, one.log_evidence, theta, probability)
+    elsewhere = tuple((_sites(other), share) for other, share in one.elsewhere if share > RIVAL)
+    return Explanation(causes, one.misfit, one.dof, p, one.log_evidence, theta, probability, elsewhere)
+
+
+def _sites(one: Fit) -> tuple[Site, ...]:
+    return tuple(r.site(r.values(one.c[own])) for r, own in zip(one.recipes, one.model.own, strict=True))
 
 
 def _cause(recipe, c: np.ndarray, sd: np.ndarray, units: Units) -> Cause:

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli.diagnosis.altered import Model
+from mouse_cli.diagnosis.candidates import Candidate, registry
 from mouse_cli.diagnosis.cautions import cautions, misstated
 from mouse_cli.diagnosis.decide import explanations, judge
 from mouse_cli.diagnosis.energy_map import energy_map
@@ -17,30 +18,33 @@ from mouse_cli.diagnosis.name import Ranking, group, rank
 from mouse_cli.diagnosis.next_measurement import proposals
 from mouse_cli.diagnosis.numerics import numerics
 from mouse_cli.diagnosis.reduced import Reduced, reduced
-from mouse_cli.model.diagnosis import NAMED, NOTHING, RIVAL, UNKNOWN, Diagnosis, Proposal
+from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Choices, Diagnosis, Proposal
 from mouse_cli.model.modal_test import restricted
-from mouse_cli.model.problem import Problem
+from mouse_cli.model.problem import Problem, RunOptions
 from mouse_cli.model.result import Result
 from mouse_cli.updating.loop import related, run
 
 Notice = Callable[[str], None]
 
+_ALL = Choices()
+_RIVALS = 4  # that are told apart from the leading explanation
 
-def diagnose(problem: Problem, notice: Notice = lambda text: None) -> Diagnosis:
-    """What the model of `problem` lacks, judged by its test.
+
+def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choices = _ALL) -> Diagnosis:
+    """What the model of `problem` lacks, judged by its test; choices: which candidates are considered.
 
     Raises DeckError and NumericalError as `run` does.
     """
-    problem = replace(problem, run=replace(problem.run, recursion="anchored", estimator="bayes"))
+    problem = replace(problem, run=_thorough(problem.run))
     kept = related(problem)
     model, told = _model(problem)
     result, remarks = _update(problem, kept, notice, _guess(model))
-    ranking = rank(model)
+    ranking = rank(model, _known(choices), choices.causes)
     verdict, as_it_is = judge(ranking, result, model), ranking.baseline
     kind, best = verdict.kind, verdict.best
     missing = kind != NOTHING
     location = locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None
-    deck = extended(problem, best) if kind == NAMED else None
+    deck = extended(problem, best) if kind in (NAMED, ONE_OF) else None
     return Diagnosis(
         problem=problem,
         kind=kind,
@@ -56,11 +60,26 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None) -> Diagnosis:
         refuted=verdict.refuted,
         cautions=cautions(ranking, verdict, location),
         misstated=misstated(ranking) if missing else None,
-        proposals=_proposals(ranking) if missing and kind != UNKNOWN else (),
+        proposals=_proposals(ranking, best, kind),
         remarks=remarks + told + (() if deck is None else _coarse(deck)),
         extended=deck,
         extended_result=None if deck is None else run(deck, notice=notice, guess=_values(deck, best)),
+        choices=choices,
     )
+
+
+def _thorough(options: RunOptions) -> RunOptions:
+    """The options of a deck, with the true posterior mode sought to the end: the prior is used once, however few cycles it asks."""
+    usual = RunOptions()
+    same = {
+        name: getattr(usual, name)
+        for name in ("estimator", "recursion", "passes", "cycles", "extra_update", "limit_sd")
+    }
+    return replace(options, partials=max(options.partials, usual.partials), **same)
+
+
+def _known(choices: Choices) -> dict[str, Candidate] | None:
+    return None if choices.candidates is None else {key: registry()[key] for key in choices.candidates}
 
 
 def _guess(model: Reduced) -> np.ndarray | None:
@@ -105,11 +124,15 @@ def _coarse(deck: Problem) -> tuple[str, ...]:
     return tuple(f"with the cause: {text}" for text in found.remarks)
 
 
-def _proposals(ranking: Ranking) -> tuple[Proposal, ...]:
-    """What would separate the two leading groups that have a cause, where the second one is a rival still."""
-    names = [group(one) for one in ranking.fits]
-    leaders = [(name, ranking.fits[names.index(name)]) for name, p in ranking.groups if name != "none" and p > RIVAL]
-    if len(leaders) < 2:
+def _proposals(ranking: Ranking, best: Fit | None, kind: str) -> tuple[Proposal, ...]:
+    """What would separate the leading cause from what else is possible: no cause, or those that lead other groups."""
+    if best is None or kind in (NOTHING, UNKNOWN):
         return ()
-    (first, one), (second, other) = leaders[:2]
-    return proposals(one, other, (first, second))
+    names = [group(one) for one in ranking.fits]
+    rivals = [name for name, p in ranking.groups if p > RIVAL and name != group(best)]
+    if kind == ONE_OF and not rivals:
+        rivals = [name for name, _ in ranking.groups if name != group(best)][:1]
+    if not rivals:
+        return ()
+    fits = [best, *(ranking.fits[names.index(name)] for name in rivals[:_RIVALS])]
+    return proposals(fits, [group(one) for one in fits])

@@ -4,65 +4,143 @@ D = 1/2 (h_A - h_B)' (R + J_A C_A J_A' + J_B C_B J_B')^-1 (h_A - h_B): above 4 t
 Each prediction h and its derivatives J are those of the fitted model itself.
 """
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-
 import numpy as np
 
 from mouse_cli.diagnosis.altered import Model, Point
-from mouse_cli.diagnosis.change import Change, Recipe
 from mouse_cli.diagnosis.fit import Fit
-from mouse_cli.diagnosis.points import Points, all_motions, directions
-from mouse_cli.diagnosis.reduced import Reduced
-from mouse_cli.diagnosis.scales import lowest, total_mass
-from mouse_cli.model.diagnosis import Proposal
+from mouse_cli.diagnosis.measurements import SHAPE_SD, Measurement, listed, measurements, places, unaltered
+from mouse_cli.diagnosis.points import directions
+from mouse_cli.model.diagnosis import Effort, Proposal
 
-_MORE = 3  # modes above the highest measured one
-_MASS = 0.05  # of the total mass, added
-_TIED = 1.0  # of the lowest modal stiffness: of a spring to the ground
 _STEP = 1e-2  # of a standard deviation
-_PLACES = 12
+_SENSORS = 4  # places at most of shapes that were not measured yet
+_FREE = 1e3  # largest components: sd of the unknown scale of a shape
+_ENOUGH = 6.0  # nats from which on no further place is sought
+
+Prediction = tuple[np.ndarray, np.ndarray]  # h (h,) and J C J' (h, h)
 
 
-@dataclass(frozen=True)
-class Measurement:
-    """kind: of those alike only the best is told; text: in words; sd: of what is read.
+class Rivals:
+    """Several fits, and what each says of a measurement, computed once."""
 
-    altered(fit): what is changed in the model for it. read(point, fit, modes): what it reads (h,), with the modes of the model
-    (m,) that are the measured ones; None where it cannot be.
+    def __init__(self, fits: list[Fit], names: list[str]):
+        self.fits, self.names = fits, names
+        self.every = list(measurements(fits[0]))
+        self._known: dict[tuple[int, int], Prediction | None] = {}
+        self._spots = places(fits[0].model.base, directions)
+
+    def proposals(self, first: int, second: int) -> list[Proposal]:
+        """The best measurement of each kind that separates two of them."""
+        pair, best = (self.names[first], self.names[second]), {}
+        for number, each in enumerate(self.every):
+            separation = _distance(self._of(first, number), self._of(second, number), each.sd)
+            if np.isfinite(separation) and (each.kind not in best or separation > best[each.kind].separation):
+                best[each.kind] = Proposal(each.text, pair, separation, each.effort)
+        shapes = self._shapes(first, second, pair)
+        return [*best.values(), *([shapes] if shapes else [])]
+
+    def _of(self, which: int, number: int) -> Prediction | None:
+        if (which, number) not in self._known:
+            self._known[which, number] = predicted(self.fits[which], self.every[number])
+        return self._known[which, number]
+
+    def _shapes(self, first: int, second: int, pair: tuple[str, str]) -> Proposal | None:
+        """Shapes at the fewest places that separate the two, where none were measured."""
+        test = self.fits[0].model.base.data.test
+        if self.fits[0].model.base.data.has_shape.any() or len(self._spots) < 2:
+            return None
+        parts = [self._all_shapes(which) for which in (first, second)]
+        if any(part is None for part in parts):
+            return None
+        chosen, separation = chosen_places(*parts, len(self._spots), test.m)
+        where = "; ".join(self._spots[i].text for i in chosen)
+        modes = f"mode{'s' if test.m > 1 else ''} {listed(test.number)}"
+        text = f"the shapes of {modes} at {where} (to {100 * SHAPE_SD:g} % of the largest component)"
+        return Proposal(text, pair, separation, Effort.SHAPES)
+
+    def _all_shapes(self, which: int) -> Prediction | None:
+        """Shapes (places x m,) of unit length at all places, place by place."""
+        if (which, -1) not in self._known:
+
+            def read(at: Point, fitted: Fit, modes: np.ndarray) -> np.ndarray:
+                shapes = np.array([spot.shape(at, fitted, modes) for spot in self._spots])
+                size = np.linalg.norm(shapes, axis=0)
+                turned = np.sign(np.sum(shapes**3, axis=0))
+                return (shapes * np.where(turned < 0, -1, 1) / np.where(size > 0, size, 1.0)).ravel()
+
+            whole = Measurement("shapes", "", Effort.SHAPES, unaltered, read, SHAPE_SD)
+            self._known[which, -1] = predicted(self.fits[which], whole)
+        return self._known[which, -1]
+
+
+def proposals(fits: list[Fit], names: list[str], most: int = 6) -> tuple[Proposal, ...]:
+    """What separates the first fit from the second by each kind of measurement, then from each of the others by the best.
+
+    Those that will settle it come first, the least effort before more; then those that may.
     """
+    rivals = Rivals(fits, names)
+    found = sorted(rivals.proposals(0, 1), key=order)[:most]
+    for other in range(2, len(fits)):
+        found += sorted(rivals.proposals(0, other), key=order)[:1]
+    return tuple(found)
 
-    kind: str
-    text: str
-    altered: Callable[[Fit], tuple[Recipe, ...]]
-    read: Callable[[Point, Fit, np.ndarray], np.ndarray | None]
-    sd: float
 
-
-def proposals(one: Fit, other: Fit, names: tuple[str, str], most: int = 4) -> tuple[Proposal, ...]:
-    """The measurements that separate two fits best, the best first, one of each kind."""
-    found: dict[str, Proposal] = {}
-    for each in measurements(one):
-        separation = separated(one, other, each)
-        if np.isfinite(separation) and (each.kind not in found or separation > found[each.kind].separation):
-            found[each.kind] = Proposal(each.text, names, separation)
-    return tuple(sorted(found.values(), key=lambda p: -p.separation)[:most])
+def order(proposal: Proposal) -> tuple[int, int, float]:
+    """Key by which proposals are sorted: what it promises, the effort, the separation."""
+    return -proposal.promise, int(proposal.effort), -proposal.separation
 
 
 def separated(one: Fit, other: Fit, measurement: Measurement) -> float:
     """D of a measurement; NaN where one of the models cannot be measured so."""
-    parts = [_predicted(fitted, measurement) for fitted in (one, other)]
-    if any(part is None for part in parts):
+    return _distance(predicted(one, measurement), predicted(other, measurement), measurement.sd)
+
+
+def _distance(one: Prediction | None, other: Prediction | None, sd: float) -> float:
+    if one is None or other is None:
         return float("nan")
-    (h, spread), (g, more) = parts
+    (h, spread), (g, more) = one, other
     apart = h - g
-    return float(0.5 * apart @ np.linalg.solve(measurement.sd**2 * np.eye(len(apart)) + spread + more, apart))
+    return float(0.5 * apart @ np.linalg.solve(sd**2 * np.eye(len(apart)) + spread + more, apart))
 
 
-def _predicted(fitted: Fit, measurement: Measurement) -> tuple[np.ndarray, np.ndarray] | None:
-    """h (h,) and J C J' (h, h)."""
-    model, x = Model(fitted.model.base, (*fitted.recipes, *measurement.altered(fitted))), fitted.point.x
+def chosen_places(one: Prediction, other: Prediction, count: int, m: int) -> tuple[list[int], float]:
+    """The fewest of `count` places at which shapes (count x m,) of two models part enough, and D there; scale and sign are free."""
+    (h, spread), (g, more) = one, other
+    h, g = h.reshape(count, m), g.reshape(count, m)
+    turned = np.where(np.sum(h * g, axis=0) < 0, -1, 1)
+    g, every = g * turned, np.tile(turned, count)
+    total, largest = spread + every[:, None] * more * every, np.abs(h).max(axis=0)
+    chosen: list[int] = []
+    best = 0.0
+    while len(chosen) < min(_SENSORS, count) and best < _ENOUGH:
+        trials = [(_apart(h, g, total, largest, [*chosen, i]), i) for i in range(count) if i not in chosen]
+        best, i = max(trials)
+        chosen.append(i)
+        if len(chosen) == 1:  # one place has no shape, only a scale
+            best = 0.0
+    return sorted(chosen), best
 
+
+def _apart(h: np.ndarray, g: np.ndarray, total: np.ndarray, largest: np.ndarray, chosen: list[int]) -> float:
+    """D of shapes (count, m) at some places, of unknown scale; of one place alone, how much it moves at all."""
+    if len(chosen) == 1:
+        return float(np.sum((h[chosen[0]] / largest) ** 2))
+    m = h.shape[1]
+    at = (np.array(chosen)[:, None] * m + np.arange(m)).ravel()
+    noise = np.tile(SHAPE_SD * largest, len(chosen))
+    scale = np.zeros((len(at), m))
+    scale[np.arange(len(at)), np.tile(np.arange(m), len(chosen))] = _FREE * h[chosen].ravel()
+    R = np.diag(noise**2) + scale @ scale.T + total[np.ix_(at, at)]
+    apart = (h - g)[chosen].ravel()
+    return float(0.5 * apart @ np.linalg.solve(R, apart))
+
+
+def predicted(fitted: Fit, measurement: Measurement) -> Prediction | None:
+    """h (h,) and J C J' (h, h); None where the model cannot be measured so."""
+    changes = measurement.altered(fitted)
+    if changes is None:
+        return None
+    model, x = Model(fitted.model.base, (*fitted.recipes, *changes)), fitted.point.x
     at = model.point(x)
     modes = None if at is None else _followed(fitted.point, at, fitted)
     here = None if modes is None else measurement.read(at, fitted, modes)
@@ -90,86 +168,3 @@ def _followed(before: Point, after: Point, fitted: Fit) -> np.ndarray:
     seen = np.linalg.norm(after.seen[:, :count], axis=0)
     left = np.sort(np.argsort(seen, kind="stable")[passed:])
     return left[np.argsort(np.argsort(modes))]
-
-
-def measurements(one: Fit) -> Iterator[Measurement]:
-    """Further modes, a mass added, a spring to the ground, one more sensor."""
-    base = one.model.base
-    test = base.data.test
-    sd, last = float(np.nanmedian(base.data.sd_log)), int(test.number.max())
-    for more in range(1, _MORE + 1):
-        words = f"frequencies of modes {last + 1} to {last + more}" if more > 1 else f"frequency of mode {last + 1}"
-        yield Measurement("modes", f"the {words}", _unaltered, _above(more), sd)
-    own = f"the frequencies of modes {_list(test.number)} with"
-    mass, spring = _MASS * total_mass(base), _TIED * lowest(base) * total_mass(base)
-    for place in _places(base, all_motions):
-        yield Measurement("mass", f"{own} {mass:.3g} kg more at {place.text}", place.altered(M=mass), _measured, sd)
-    for place in _places(base, directions):
-        words = f"{own} {place.text} tied to the ground by {spring:.3g} N/m"
-        yield Measurement("support", words, place.altered(K=spring), _measured, sd)
-    if test.s:
-        noise = float(np.nanmedian(test.shape_sd / np.nanmax(np.abs(test.shapes), axis=0)))
-        for place in _places(base, directions):
-            yield Measurement("sensor", f"the shapes at {place.text} too", _unaltered, place.seen, noise)
-
-
-@dataclass(frozen=True)
-class Spot:
-    """A place, as each of two models knows it: number `which` of what `among` finds in it, at `values`."""
-
-    among: Callable[[Reduced], list[Points]]
-    which: int
-    values: np.ndarray
-    text: str
-
-    def motion(self, base: Reduced) -> np.ndarray:
-        """Rows (d, r)."""
-        return self.among(base)[self.which].motion(self.values)
-
-    def altered(self, K: float = 0.0, M: float = 0.0) -> Callable[[Fit], tuple[Recipe, ...]]:
-        """The model with a spring to the ground or a mass there."""
-
-        def made(fitted: Fit) -> tuple[Recipe, ...]:
-            B = self.motion(fitted.model.base)
-            change = Change(K=K * B.T @ B, M=M * B.T @ B)
-            return (Recipe(None, (), lambda values: change, np.zeros((1, 0))),)
-
-        return made
-
-    def seen(self, at: Point, fitted: Fit, modes: np.ndarray) -> np.ndarray:
-        """Shapes of the measured modes there, in units of their largest component."""
-        row = self.motion(fitted.model.base)[0]
-        return at.a * (row @ at.X[: len(row)][:, modes]) / np.nanmax(np.abs(fitted.model.base.data.test.shapes), axis=0)
-
-
-def _list(numbers: np.ndarray) -> str:
-    return f"{numbers[0]} to {numbers[-1]}" if len(numbers) > 1 else str(numbers[0])
-
-
-def _places(base: Reduced, among: Callable[[Reduced], list[Points]]) -> list[Spot]:
-    """Some places all over the structure."""
-    points = among(base)
-    found = [(i, values) for i, point in enumerate(points) for values in point.starts]
-    chosen = found[:: max(1, -(-len(found) // _PLACES))]
-    return [Spot(among, i, values, points[i].site(values).text) for i, values in chosen]
-
-
-def _unaltered(fitted: Fit) -> tuple[Recipe, ...]:
-    return ()
-
-
-def _measured(at: Point, fitted: Fit, modes: np.ndarray) -> np.ndarray:
-    """ln of the frequencies of the measured modes."""
-    return 0.5 * np.log(np.maximum(at.eigenvalues[modes], 1e-300))
-
-
-def _above(more: int) -> Callable[[Point, Fit, np.ndarray], np.ndarray | None]:
-    """ln of the frequencies of so many modes above the highest measured one."""
-
-    def read(at: Point, fitted: Fit, modes: np.ndarray) -> np.ndarray | None:
-        last = int(modes.max())
-        return (
-            _measured(at, fitted, np.arange(last + 1, last + 1 + more)) if last + more < len(at.eigenvalues) else None
-        )
-
-    return read

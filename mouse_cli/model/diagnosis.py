@@ -1,6 +1,7 @@
 """What a diagnosis found: where model and test part, what physics would explain it, how much of it, and whether that is true."""
 
 from dataclasses import dataclass, field
+from enum import IntEnum
 
 import numpy as np
 
@@ -9,7 +10,7 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import ChiSquareTest, Result
 
 NOTHING, NAMED, ONE_OF, UNKNOWN = "nothing-missing", "named", "one-of", "unknown"
-RIVAL = 0.05  # probability of a group from which on it is listed beside the leading one
+RIVAL = 0.05  # probability of a group, or share of a place, from which on it is listed beside the leading one
 
 
 @dataclass(frozen=True)
@@ -56,7 +57,8 @@ class Explanation:
     """No cause, one or two, fitted beside all parameters of the deck.
 
     chi2 on dof: what stays of the data's misfit; p of it; log_evidence: ln of the probability of the data; probability: of this
-    explanation among all that were tried. theta (p,): values of the deck's own parameters.
+    explanation among all that were tried. theta (p,): values of the deck's own parameters. elsewhere: other places (sites of the
+    causes), and the share of each in this probability.
     """
 
     causes: tuple[Cause, ...]
@@ -66,6 +68,7 @@ class Explanation:
     log_evidence: float
     theta: np.ndarray
     probability: float = 0.0
+    elsewhere: tuple[tuple[tuple[Site, ...], float], ...] = ()
 
     @property
     def group(self) -> str:
@@ -174,13 +177,45 @@ class HeldOut:
     revised: Score | None
 
 
+class Effort(IntEnum):
+    """What a measurement takes, the least first: the band of the test, a sensor, several, a mass, a hold on the structure."""
+
+    MODES = 1
+    SENSOR = 2
+    SHAPES = 3
+    MASS = 4
+    SUPPORT = 5
+
+
+SETTLES, HELPS = 4.0, 1.0  # nats from which on a measurement will separate two explanations, and may
+
+
 @dataclass(frozen=True)
 class Proposal:
-    """A measurement that would separate two explanations: predicted separation in nats, above 4 it will, below 1 it will not."""
+    """A measurement that would separate two explanations: predicted separation in nats, and the effort."""
 
     text: str
     between: tuple[str, str]
     separation: float
+    effort: Effort = Effort.MODES
+
+    @property
+    def promise(self) -> int:
+        """2: it will settle it; 1: it may; 0: it will not."""
+        return int(self.separation > SETTLES) + int(self.separation >= HELPS)
+
+    @property
+    def outlook(self) -> str:
+        """The same in words."""
+        return ("will not settle it", "may settle it", "will settle it")[self.promise]
+
+
+@dataclass(frozen=True)
+class Choices:
+    """What a diagnosis was asked to consider. candidates: their keys, None for all; causes: most of them together."""
+
+    candidates: tuple[str, ...] | None = None
+    causes: int = 2
 
 
 @dataclass(frozen=True)
@@ -191,8 +226,8 @@ class Diagnosis:
     first of the rivals; probability: of its group. explanations: all that were tried, most probable first. noise_scale: by what
     the stated variances were multiplied. refuted: groups that held-out data speak against; cautions: sentences on what the
     answer stands or falls with, the accuracy of the test above all; misstated: what of that the deck seems to have wrong,
-    `gains`, `places` or `drift`. location, energy: what shapes alone say of the place. extended: the deck with the cause in it,
-    and its update.
+    `gains`, `places` or `drift`. location, energy: what shapes alone say of the place.
+    extended: the deck with the cause in it, and its update.
     """
 
     problem: Problem
@@ -213,6 +248,7 @@ class Diagnosis:
     refuted: tuple[str, ...] = ()
     cautions: tuple[str, ...] = ()
     misstated: str | None = None
+    choices: Choices = Choices()
 
     @property
     def best(self) -> Explanation | None:

@@ -23,6 +23,7 @@ STYLE = {
     "legend.fontsize": 8,
     "savefig.facecolor": "white",
 }
+_FILES = (".pdf", ".png", ".svg")
 BEFORE, AFTER = "0.55", "#0b5394"  # the model as it is, and extended; apart in grey print too
 
 
@@ -41,8 +42,8 @@ def registry() -> dict[str, Plot]:
     return _registry.discover(__name__, "PLOT")
 
 
-def require() -> None:
-    """Raise MouseError (MD530) where matplotlib is not installed."""
+def require(path: str = "") -> None:
+    """Raise MouseError (MD530) where matplotlib is not installed, and WrittenError (MD531) where it cannot write such a file."""
     try:
         import matplotlib  # noqa: F401
     except ImportError:
@@ -50,6 +51,12 @@ def require() -> None:
             "MD530", ERROR, "--plot needs the package matplotlib, which is not installed", help=_INSTALL
         )
         raise MouseError(problem) from None
+    kind = _kind(path)
+    if kind and kind not in _FILES:
+        told = f"cannot write figures to {path}: '{kind}' is no kind of figure"
+        raise WrittenError(
+            Diagnostic("MD531", ERROR, told, help=f"name a folder, or a file that ends in {', '.join(_FILES)}")
+        )
 
 
 def draw(found: Diagnosis, path: str) -> list[str]:
@@ -58,22 +65,24 @@ def draw(found: Diagnosis, path: str) -> list[str]:
     A path that ends in .pdf has one page a figure, another file suffix all figures below each other; else it is a folder, made
     where there is none, of PNG files. Raises WrittenError (MD531).
     """
-    require()
+    require(path)
     import matplotlib
 
-    kind = os.path.splitext(path)[1].lower()
+    kind = _kind(path)
     with matplotlib.rc_context(STYLE):
         drawn = _figures(found)
         try:
             if kind == ".pdf":
                 return _pages(drawn, path)
             return _sheet(found, [plot for plot, _ in drawn], path) if kind else _folder(drawn, path)
-        except (OSError, ValueError) as error:  # a suffix that matplotlib does not know is a ValueError
-            reason = getattr(error, "strerror", None) or str(error).splitlines()[0]
-            problem = Diagnostic(
-                "MD531", ERROR, f"cannot write figures to {path}: {reason}", help="name a folder or .pdf, .png"
-            )
-            raise WrittenError(problem) from error
+        except OSError as error:
+            told = f"cannot write figures to {path}: {error.strerror or error}"
+            raise WrittenError(Diagnostic("MD531", ERROR, told, help="name a folder or .pdf, .png")) from error
+
+
+def _kind(path: str) -> str:
+    """Suffix of a file of figures; empty for a folder."""
+    return "" if os.path.isdir(path) else os.path.splitext(path)[1].lower()
 
 
 def _figures(found: Diagnosis) -> list[tuple[Plot, Any]]:

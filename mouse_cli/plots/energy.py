@@ -6,29 +6,29 @@ import numpy as np
 
 from mouse_cli.model.diagnosis import Diagnosis
 from mouse_cli.plots import BEFORE, Plot
+from mouse_cli.plots._line import along, lying
+from mouse_cli.report.sections._diagnosis_wording import place
 
-_MOST = 25  # bars, where places have no positions in a row
+_MOST = 15  # bars, where places are not in one line
 
 
 def draw(found: Diagnosis, axes: Any) -> bool:
-    """Share of each element along the longest direction of the structure; bars of the largest where there is no geometry."""
+    """Share of each element along the longest direction of the structure; bars of the largest where it is no line."""
     energy = found.energy
     if energy is None:
         return False
-    axes.set_ylabel("share of the energy, per cent")
-    share = 100 * energy.share
-    if len(energy.sites) > 1 and all(site.position is not None for site in energy.sites):
-        at = np.array([site.position for site in energy.sites], dtype=float)
-        axis = int(np.argmax(np.ptp(at, axis=0)))
-        order = np.argsort(at[:, axis], kind="stable")
-        axes.vlines(at[order, axis], 0, share[order], color=BEFORE, linewidth=1.0)
-        axes.plot(at[order, axis], share[order], "o", markersize=3, color="black")
-        axes.set_xlabel(f"{'xyz'[axis]}, m")
+    value, share, row = "share of the energy, per cent", 100 * energy.share, along(energy.sites)
+    if row is None:
+        shown = energy.order[:_MOST]
+        lying(axes, [place(energy.sites[i]) for i in shown], share[shown].tolist(), BEFORE)
+        axes.set_xlabel(value)
         return True
-    shown = energy.order[:_MOST]
-    axes.bar([" - ".join(map(str, energy.sites[i].ids)) for i in shown], share[shown], color=BEFORE)
-    axes.tick_params(axis="x", labelrotation=90 if len(shown) > 6 else 0)
-    axes.grid(axis="x", visible=False)
+    at, name = row
+    order = np.argsort(at, kind="stable")
+    axes.vlines(at[order], 0, share[order], color=BEFORE, linewidth=1.0)
+    axes.plot(at[order], share[order], "o", markersize=3, color="black")
+    axes.set_xlabel(f"{name}, {found.problem.units.of('m')}")
+    axes.set_ylabel(value)
     return True
 
 

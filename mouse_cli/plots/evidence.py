@@ -25,7 +25,7 @@ def draw(found: Diagnosis, axes: Any) -> bool:
     axes.axvline(0, color="black", linewidth=0.8)
     axes.margins(x=0.2)
     axes.invert_yaxis()
-    axes.tick_params(axis="y", labelsize=8)
+    axes.tick_params(axis="y", labelsize=7)
     axes.grid(axis="y", visible=False)
     axes.set_xlabel("ln evidence over no cause, nats")
     return True
@@ -33,7 +33,7 @@ def draw(found: Diagnosis, axes: Any) -> bool:
 
 def _name(one: Any) -> str:
     sites = ", ".join(c.site.text or " ".join(map(str, c.site.ids)) for c in one.causes if c.site.kind != "structure")
-    return f"{one.physics}: {sites}" if sites and len(sites) < 40 else one.physics
+    return f"{one.physics}: {sites}" if sites and len(sites) < 52 else one.physics
 
 
 PLOT = Plot("evidence", 10, "Evidence for each candidate", draw)

@@ -7,7 +7,7 @@ import numpy as np
 from mouse_cli.dynamics.frequency import frequency_hz
 from mouse_cli.model.diagnosis import Diagnosis
 from mouse_cli.plots import Plot
-from mouse_cli.plots._pairs import pairs
+from mouse_cli.plots._pairs import names, pairs
 
 
 def draw(found: Diagnosis, axes: Any) -> bool:
@@ -19,7 +19,7 @@ def draw(found: Diagnosis, axes: Any) -> bool:
     if after is not None:
         errors.append(_error(after.revised, test.frequency_hz))
     sd = 100 * test.frequency_sd_hz / test.frequency_hz
-    pairs(axes, [f"mode {number}" for number in test.number], errors, sd)
+    pairs(axes, [f"mode {number}" for number in test.number], errors, sd, names(found))
     return True
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.model.diagnosis import Diagnosis
 from mouse_cli.plots import Plot
-from mouse_cli.plots._pairs import pairs
+from mouse_cli.plots._pairs import names, pairs
 
 
 def draw(found: Diagnosis, axes: Any) -> bool:
@@ -16,8 +16,8 @@ def draw(found: Diagnosis, axes: Any) -> bool:
         return False
     scores = [held.baseline] if held.revised is None else [held.baseline, held.revised]
     errors = [100 * (score.frequencies_hz / held.measured_hz - 1) for score in scores]
-    pairs(axes, list(held.labels), errors, 100 * scores[-1].sd_hz / held.measured_hz)
+    pairs(axes, list(held.labels), errors, 100 * scores[-1].sd_hz / held.measured_hz, names(found))
     return True
 
 
-PLOT = Plot("held-out", 50, "Frequencies that no fit has seen", draw)
+PLOT = Plot("held-out", 50, "Held-out frequencies", draw)

@@ -6,39 +6,40 @@ import numpy as np
 
 from mouse_cli.model.diagnosis import Diagnosis, Place
 from mouse_cli.plots import AFTER, Plot
+from mouse_cli.plots._line import along, lying
+from mouse_cli.report.sections._diagnosis_wording import place
 
-_MOST = 25  # bars, where places have no positions in a row
+_MOST = 15  # bars, where places are not in one line
 _DEEP, _TIE = -20.0, -3.0  # ln of the probability over that of the best: the least that is shown, and what is a tie
 _STYLES = ("-", "--", ":", "-.")
 
 
 def draw(found: Diagnosis, axes: Any) -> bool:
-    """ln P over that of the best for each channel along the longest direction; bars of P where there is no geometry."""
+    """ln P over that of the best for each channel along the longest direction; bars of P where it is no line."""
     location = found.location
     if location is None or not location.places:
         return False
     places = location.places
-    if all(p.site.position is not None for p in places) and len(places) > 1:
-        _along(places, axes)
+    row = along([p.site for p in places])
+    if row is not None:
+        _along(places, row[0], axes)
+        axes.set_xlabel(f"{row[1]}, {found.problem.units.of('m')}")
         return True
     shown = places[:_MOST]
-    axes.bar([_label(p) for p in shown], [p.probability for p in shown], color=AFTER)
-    axes.tick_params(axis="x", labelrotation=90 if len(shown) > 6 else 0)
-    axes.grid(axis="x", visible=False)
-    axes.set_ylabel("probability")
+    lying(axes, [f"{place(p.site)}, {p.channel}" for p in shown], [p.probability for p in shown], AFTER)
+    axes.set_xlabel("probability")
     return True
 
 
-def _along(places: tuple[Place, ...], axes: Any) -> None:
-    at = np.array([p.site.position for p in places], dtype=float)
-    axis = int(np.argmax(np.ptp(at, axis=0)))
+def _along(places: tuple[Place, ...], at: np.ndarray, axes: Any) -> None:
+    """at (j,): of each place along the structure."""
     with np.errstate(divide="ignore"):
         relative = np.log([p.probability for p in places]) - np.log(max(p.probability for p in places))
     for i, channel in enumerate(sorted({p.channel for p in places})):
         own: dict[float, float] = {}
         for j, p in enumerate(places):
             if p.channel == channel:
-                own[at[j, axis]] = max(own.get(at[j, axis], -np.inf), relative[j])
+                own[at[j]] = max(own.get(at[j], -np.inf), relative[j])
         if max(own.values()) < _DEEP:
             continue
         x = sorted(own)
@@ -49,12 +50,7 @@ def _along(places: tuple[Place, ...], axes: Any) -> None:
     axes.axhspan(_TIE, 0, color="0.88", zorder=0, label="tie")
     axes.set_ylim(_DEEP, 1)
     axes.set_ylabel("ln P over that of the best")
-    axes.set_xlabel(f"{'xyz'[axis]}, m")
     axes.legend(title="channel", loc="center left", bbox_to_anchor=(1.01, 0.5))
-
-
-def _label(place: Place) -> str:
-    return f"{place.site.kind} {' '.join(map(str, place.site.ids))}\n{place.channel}"
 
 
 PLOT = Plot("places", 20, "Where one force could make all measured shapes", draw)

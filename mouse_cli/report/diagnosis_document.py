@@ -14,10 +14,12 @@ from mouse_cli.model.diagnosis import (
     HeldOut,
     Law,
     Location,
+    Proposal,
     Score,
     Site,
 )
 from mouse_cli.model.result import Result
+from mouse_cli.model.units import system
 from mouse_cli.report import result_document as of_result
 from mouse_cli.report.json_values import dof_name, plain
 
@@ -47,9 +49,12 @@ def document(found: Diagnosis) -> dict[str, Any]:
             "energy": None if found.energy is None else _energy(found.energy),
             "law": None if found.law is None else _law(found.law),
             "held_out": None if found.held_out is None else _held_out(found.held_out),
-            "next_measurement": [
-                {"measure": p.text, "between": list(p.between), "separation": p.separation} for p in found.proposals
-            ],
+            "next_measurement": [_proposal(each) for each in found.proposals],
+            "cautions": list(found.cautions),
+            "refuted": list(found.refuted),
+            "misstated": found.misstated,
+            "asked": _asked(found),
+            "units": system(problem.units) or None,
             "baseline": _update(result),
             "extended": None if found.extended_result is None else _update(found.extended_result),
             "remarks": list(found.remarks),
@@ -74,6 +79,27 @@ def _verdict(found: Diagnosis) -> dict[str, Any]:
     }
 
 
+def _proposal(each: Proposal) -> dict[str, Any]:
+    return {
+        "measure": each.text,
+        "between": list(each.between),
+        "separation": each.separation,
+        "outlook": each.outlook,
+        "effort": int(each.effort),
+    }
+
+
+def _asked(found: Diagnosis) -> dict[str, Any]:
+    """The options that change the answer."""
+    only, run = found.choices.candidates, found.problem.run
+    return {
+        "candidates": None if only is None else list(only),
+        "causes": found.choices.causes,
+        "estimator": run.estimator,
+        "recursion": run.recursion,
+    }
+
+
 def _candidate(found: Diagnosis, one: Explanation) -> dict[str, Any]:
     sites = [cause.site for cause in one.causes] or [_NOWHERE]
     baseline = found.baseline
@@ -86,8 +112,17 @@ def _candidate(found: Diagnosis, one: Explanation) -> dict[str, Any]:
         "log_evidence": one.log_evidence,
         "log_evidence_over_none": None if baseline is None else one.log_evidence - baseline.log_evidence,
         "probability": one.probability,
+        "elsewhere": [{"sites": [site(each) for each in sites], "share": share} for sites, share in one.elsewhere],
         "parameters": [
-            {"name": s.name, "unit": s.unit, "value": s.value, "sd": s.sd, "cause": cause.physics}
+            {
+                "name": s.name,
+                "unit": s.unit,
+                "value": s.value,
+                "sd": s.sd,
+                "lower": s.lower,
+                "upper": s.upper,
+                "cause": cause.physics,
+            }
             for cause in one.causes
             for s in cause.sizes
         ],
@@ -157,6 +192,7 @@ def _score(score: Score) -> dict[str, Any]:
         "hz": score.frequencies_hz,
         "sd_hz": score.sd_hz,
         "mac": score.mac,
+        "rms_shape_error": score.rms_shape_error,
     }
 
 

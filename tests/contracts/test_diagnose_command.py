@@ -114,10 +114,68 @@ def test_reports_beside_the_answer(told):
     assert json.loads(Path("a.json").read_text())["schema"] == "mouse.diagnosis/1"
 
 
+def test_candidates_that_are_considered(told):
+    """Without the true cause another leads, and -o writes the model with it, as one that is not proved."""
+    code, out, _ = told(SPRING, "--json", "--candidates", "shear, mass,sensor-gain", "--causes", "1")
+    document = json.loads(out)
+    assert code == 1
+    assert {one["physics"] for one in document["candidates"]} <= {"none", "mass", "sensor-gain"}
+    assert document["asked"] == {
+        "candidates": ["mass", "sensor-gain", "shear"],
+        "causes": 1,
+        "estimator": "bayes",
+        "recursion": "anchored",
+    }
+    code, out, _ = told(SPRING, "--json", "--without", "mass")
+    assert "mass" not in json.loads(out)["asked"]["candidates"]
+    assert json.loads(out)["verdict"]["physics"] == "ground-spring"
+
+
+@pytest.mark.parametrize(
+    ("options", "word"),
+    [
+        (("--candidates", "shear", "--without", "mass"), "exclude each other"),
+        (("--candidates", "sheer"), "there is no candidate 'sheer'"),
+        (("--causes", "3"), "--causes"),
+    ],
+)
+def test_candidates_that_cannot_be(told, options, word):
+    code, out, err = told(SPRING, *options)
+    assert code == 2
+    assert not out
+    assert word in err
+
+
+def test_the_model_of_a_rival_runs(told):
+    """Three frequencies of a real building: no name, and yet the model with what leads is a deck that runs."""
+    from mouse_cli.updating import run
+
+    code, out, _ = told(str(DECKS / "three_storey_building.yaml"), "-o", "revised.yaml", "--without", "oscillator")
+    assert code == 1
+    assert "which leads and is not proved, is in revised.yaml" in out
+    assert run(read_deck("revised.yaml")).status.key == "converged"
+
+
+def test_the_1972_limits_of_a_deck_do_not_hold_a_diagnosis(told):
+    """Table 5-2 stops after two computations of the partial derivatives; a diagnosis goes on to the end."""
+    code, out, _ = told(str(DECKS / "table_5_2.yaml"))
+    assert code == 0
+    assert "Nothing is missing" in out
+    assert "Estimator: bayes, recursion: anchored" in out
+
+
 def test_figures(told):
     pytest.importorskip("matplotlib")
     assert told(SPRING, "--plot", "figures")[0] == 1
     assert (Path("figures") / "evidence.png").stat().st_size > 10_000
+
+
+def test_figures_of_no_kind_are_refused_before_anything_is_computed(told):
+    pytest.importorskip("matplotlib")
+    code, out, err = told(SPRING, "--plot", "figures.doc")
+    assert code == 5
+    assert not out
+    assert "MD531" in err and ".svg" in err
 
 
 def test_without_matplotlib(told, monkeypatch):
@@ -158,5 +216,5 @@ def test_help_names_the_options():
     from mouse_cli.cli.commands.diagnose import command
 
     text = CliRunner().invoke(command, ["--help"]).output
-    for option in ("--json", "--markdown", "--output", "--report", "--plot"):
+    for option in ("--json", "--markdown", "--output", "--report", "--plot", "--candidates", "--without", "--causes"):
         assert option in text

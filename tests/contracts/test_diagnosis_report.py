@@ -10,10 +10,11 @@ from test_sections import plain_python, valid
 
 from mouse_cli import _registry, report
 from mouse_cli._errors import MouseError, WrittenError
-from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, UNKNOWN, Diagnosis, Site
+from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, UNKNOWN, Choices, Diagnosis, Site
 from mouse_cli.plots import draw, registry, require
 from mouse_cli.report.renderers.printout import WIDTH
 from mouse_cli.report.section import Options, sections
+from mouse_cli.updating.statuses import STATUSES
 
 SECTIONS = _registry.discover("mouse_cli.report.sections", "SECTION")
 
@@ -82,7 +83,7 @@ def test_exit_codes():
     [
         ("nothing", "Nothing is missing that this test could show"),
         ("named", "The model lacks a spring to the ground: degree of freedom 2 (P = 0.98)."),
-        ("named", "the stated variances were multiplied by 1.15"),
+        ("named", "all stated variances multiplied by 1.15, which the best fit needs"),
         ("named", "on condition that the cause is one of those that mouse knows"),
         ("named", "stiffness 393.5 N/m (sd 6.8)"),
         ("named", "The extended model passes."),
@@ -90,8 +91,18 @@ def test_exit_codes():
         ("two", "depth over height 0.7 (sd 0.02, at the end of the range held possible)"),
         ("two", "No force at a single place makes the measured shapes"),
         ("two", "no full proof: the error falls too little, and too few frequencies lie within the intervals"),
-        ("one-of", "one of {ground-spring, local-stiffness}. Measure this to separate them: the frequency of mode 5"),
+        (
+            "one-of",
+            "one of {a spring to the ground; an open crack}. Measure this to separate them: the frequency of mode 5",
+        ),
         ("one-of", "predicted separation 5.2, will settle it"),
+        ("one-of", "No cause is probable enough to be named: that takes P = 0.9."),
+        ("one-of", "| an open crack | local-stiffness | 0.30 |"),
+        ("one-of", "| nothing | none | 0.10 |"),
+        (
+            "one-of",
+            "the shapes at node 3 too | a wider band | ground-spring and local-stiffness | 0.4 | will not settle it",
+        ),
         ("unknown", "Something is missing that no candidate explains."),
         ("unknown", "that it is nearest does not make it the cause"),
         ("unknown", "Held out: mode 4; 1 frequency of the configuration 'tip mass'."),
@@ -109,8 +120,65 @@ def test_nothing_missing_and_yet_not_excluded():
     open_ = replace(nothing, groups=(("shear", 0.8), ("none", 0.2)))
     assert report.document(nothing)["verdict"]["probability"] == 0.97
     assert report.document(open_)["verdict"]["probability"] == 0.2
-    assert "no cause has P = 0.20" in " ".join(report.markdown(open_).split())
+    assert "that there is none has P = 0.20" in " ".join(report.markdown(open_).split())
     assert "demand no cause" not in report.markdown(nothing)
+
+
+def _told(found) -> str:
+    return " ".join(report.markdown(found).split())
+
+
+def test_what_a_diagnosis_was_asked_is_echoed():
+    found = replace(named(), choices=Choices(("crack", "ground-spring"), 1))
+    assert "of all candidates only crack, ground-spring; one cause at a time. Estimator: bayes" in _told(found)
+    asked = report.document(found)["asked"]
+    assert (asked["candidates"], asked["causes"], asked["estimator"]) == (["crack", "ground-spring"], 1, "bayes")
+    assert report.document(named())["asked"]["candidates"] is None
+
+
+def test_cautions_stand_before_the_answers():
+    found = replace(named(), cautions=("Calibrate the sensors.",))
+    assert _told(found).index("Calibrate the sensors.") < _told(found).index("### Where?")
+    assert report.document(found)["cautions"] == ["Calibrate the sensors."]
+
+
+def test_other_places_of_the_cause_are_told():
+    found = named()
+    first = replace(found.best, elsewhere=(((Site("dof", ("3",), text="degree of freedom 3"),), 0.21),))
+    found = replace(found, explanations=(first, *found.explanations[1:]))
+    assert "Degree of freedom 2; or, to 21 %, degree of freedom 3." in _told(found)
+    (other,) = report.document(found)["candidates"][0]["elsewhere"]
+    assert (other["share"], other["sites"][0]["ids"]) == (0.21, [3])
+
+
+def test_measurements_that_settle_nothing_are_not_recommended():
+    found = DIAGNOSES["one-of"]()
+    poor = tuple(replace(p, separation=0.1 * p.separation) for p in found.proposals)
+    told = _told(replace(found, proposals=poor))
+    assert "None of the measurements that were tried will settle it; the best, the frequency of mode 5," in told
+    assert "Measure this" not in told
+    assert "No measurement can be proposed" in _told(replace(found, proposals=()))
+
+
+def test_a_list_of_frequencies_does_not_prove_a_mode_more():
+    found = DIAGNOSES["one-of"]()
+    cause = replace(found.best.causes[0], physics="oscillator", title="a hidden oscillator")
+    test = replace(found.problem.test, shapes=np.full(found.problem.test.shapes.shape, np.nan))
+    groups = (("ground-spring", 0.97), ("local-stiffness", 0.03), ("none", 0.0))
+    first = replace(found.best, causes=(cause,))
+    found = replace(
+        found, explanations=(first, *found.explanations[1:]), groups=groups, problem=replace(found.problem, test=test)
+    )
+    assert "A hidden oscillator leads with P = 0.97, but a list of frequencies alone does not prove" in _told(found)
+
+
+def test_nothing_missing_is_no_praise_for_an_update_that_failed():
+    found = DIAGNOSES["nothing"]()
+    failed = replace(found, result=replace(found.result, status=STATUSES["restless"]))
+    assert failed.exit_code == 1
+    assert "But its revision is not to be trusted. Not converged" in _told(failed)
+    saturated = replace(found, result=replace(found.result, residual=replace(found.result.residual, dof=0)))
+    assert "and it could show little" in _told(saturated)
 
 
 def test_a_faulty_sensor_is_no_fault_of_the_model():

@@ -209,40 +209,28 @@ def test_each_fault_is_named(name, text, variable, code, line, word, tmp_path):
     assert word in f"{found.message} {found.help}" and found.help
 
 
-@pytest.mark.parametrize(
-    ("name", "text", "line", "word"),
-    [
-        ("a.dof", "1.1\n1.x\n", 2, "'x'"),
-        ("a.dof", "1.1\n2.1\n1.1\n", 3, "line 1"),
-        ("a.dof", "", 1, "empty"),
-        ("a.dof", "\n", 1, "no degree of freedom"),
-        ("a.csv", "node,direction\n1,TX,3\n", 2, "node number"),
-        ("a.mapping", "head\n1 4 UX\n3 4 UY\n", 1, "equations 1 to 3"),
-        ("a.mapping", "head\n1 4 TEMP\n", 2, "TEMP"),
-    ],
-)
-def test_faults_of_maps(name, text, line, word, tmp_path):
-    with pytest.raises(DeckError) as caught:
-        read_dofs(kept(tmp_path, name, text))
-    (found,) = caught.value.diagnostics
-    assert (found.code, found.span.line) == ("MD252", line) and word in found.message
+FAULTS_BESIDE = [
+    (read_dofs, "a.dof", "1.1\n1.x\n", 2, "'x'"),
+    (read_dofs, "a.dof", "1.1\n2.1\n1.1\n", 3, "line 1"),
+    (read_dofs, "a.dof", "", 1, "empty"),
+    (read_dofs, "a.dof", "\n", 1, "no degree of freedom"),
+    (read_dofs, "a.csv", "node,direction\n1,TX,3\n", 2, "node number"),
+    (read_dofs, "a.mapping", "head\n1 4 UX\n3 4 UY\n", 1, "equations 1 to 3"),
+    (read_dofs, "a.mapping", "head\n1 4 TEMP\n", 2, "TEMP"),
+    (read_nodes, "a.csv", "1,0,0,0\n1,0,0,1\n", 2, "before"),
+    (read_nodes, "a.csv", "1,0,0\n", 1, "three coordinates"),
+    (read_nodes, "a.unv", "    -1\n  2411\n 1 1 1 11\n", 1, "does not end"),
+    (read_nodes, "a.unv", "    -1\n  2411\n 1 1 1 11\n    -1\n", 3, "without coordinates"),
+    (read_nodes, "a.unv", "nothing", 1, "no node"),
+    (read_nodes, "a.inp", "*NODE, SYSTEM=C\n1,1,0,0\n", 1, "another system"),
+    (read_nodes, "a.bdf", "GRID,1,7,0.,0.,0.\n", 1, "local system"),
+]
 
 
-@pytest.mark.parametrize(
-    ("name", "text", "line", "word"),
-    [
-        ("a.csv", "1,0,0,0\n1,0,0,1\n", 2, "before"),
-        ("a.csv", "1,0,0\n", 1, "three coordinates"),
-        ("a.unv", "    -1\n  2411\n 1 1 1 11\n", 1, "does not end"),
-        ("a.unv", "    -1\n  2411\n 1 1 1 11\n    -1\n", 3, "without coordinates"),
-        ("a.unv", "nothing", 1, "no node"),
-        ("a.inp", "*NODE, SYSTEM=C\n1,1,0,0\n", 1, "another system"),
-        ("a.bdf", "GRID,1,7,0.,0.,0.\n", 1, "local system"),
-    ],
-)
-def test_faults_of_nodes(name, text, line, word, tmp_path):
+@pytest.mark.parametrize(("read", "name", "text", "line", "word"), FAULTS_BESIDE, ids=range(len(FAULTS_BESIDE)))
+def test_faults_of_maps_and_nodes(read, name, text, line, word, tmp_path):
     with pytest.raises(DeckError) as caught:
-        read_nodes(kept(tmp_path, name, text))
+        read(kept(tmp_path, name, text))
     (found,) = caught.value.diagnostics
     assert (found.code, found.span.line) == ("MD252", line) and word in found.message
 

@@ -8,8 +8,10 @@ from test_locate import chain, measured, problem
 from mouse_cli.diagnosis.altered import Model
 from mouse_cli.diagnosis.candidates import registry
 from mouse_cli.diagnosis.fit import fit
-from mouse_cli.diagnosis.next_measurement import measurements, proposals, separated
+from mouse_cli.diagnosis.measurements import SHAPE_SD, measurements
+from mouse_cli.diagnosis.next_measurement import chosen_places, order, proposals, separated
 from mouse_cli.diagnosis.reduced import reduced
+from mouse_cli.model.diagnosis import Effort, Proposal
 
 HELD = 4e4  # N/m, of the spring to the ground that the model lacks
 
@@ -47,12 +49,12 @@ def separation(rivals, sd, *how):
 
 
 def test_every_kind_of_measurement(rivals):
-    """Modes, masses and springs at degrees of freedom 1 to 4 in turn: their separations are those of dense models."""
+    """Modes, masses at degrees of freedom 1 to 4 and each of these held: their separations are those of dense models."""
     every = list(measurements(rivals[0]))
-    assert {each.kind for each in every} == {"modes", "mass", "support", "sensor"}
+    assert {each.kind for each in every} == {"modes", "mass", "held", "sensor", "repeated"}
     for each in every:
         ours = separated(*rivals, each)
-        if each.kind == "sensor":
+        if each.kind in ("sensor", "repeated"):
             continue
         if each.kind == "modes":
             count = 1 if "frequency" in each.text else int(each.text.split()[-1]) - 2
@@ -63,17 +65,54 @@ def test_every_kind_of_measurement(rivals):
         else:
             at = int(each.text.split("degree of freedom ")[1].split()[0]) - 1
             size = np.outer(np.eye(4)[at], np.eye(4)[at])
-            added = 0.05 * 4 * size if each.kind == "mass" else float(each.text.split()[-2]) * size
-            how = (0.0, added) if each.kind == "mass" else (added, 0.0)
+            how = (0.0, 0.05 * 4 * size) if each.kind == "mass" else (1e9 * size, 0.0)  # rigid beside springs of 1e5
             theirs = separation(rivals, each.sd, np.arange(2), *how)
-        assert ours == pytest.approx(theirs, rel=0.1), (
-            each.text
-        )  # J is a difference over 0.01 sd, N/m are printed to 3 digits
+        assert ours == pytest.approx(theirs, rel=0.1), each.text  # J is a difference over 0.01 sd; what holds gives way a little
+
+
+def test_sensors_stand_where_there_are_none_yet(rivals):
+    """Sensors are at degrees of freedom 1 and 4; a further one is proposed elsewhere, another reading at these."""
+    every = list(measurements(rivals[0]))
+    assert [each.text for each in every if each.kind == "sensor"] == [
+        "the shapes at degree of freedom 2 too",
+        "the shapes at degree of freedom 3 too",
+    ]
+    assert [each.text for each in every if each.kind == "repeated"] == [
+        "the shapes at 1 again, by another sensor",
+        "the shapes at 4 again, by another sensor",
+    ]
 
 
 def test_the_best_of_each_kind_is_proposed(rivals):
-    found = proposals(*rivals, ("ground-spring", "mass"))
+    found = proposals(rivals, ["ground-spring", "mass"])
     every = [(each.kind, separated(*rivals, each)) for each in measurements(rivals[0])]
     best = {kind: np.nanmax([value for other, value in every if other == kind]) for kind, _ in every}
-    assert [p.separation for p in found] == pytest.approx(sorted(best.values(), reverse=True))
-    assert all(np.isfinite(p.separation) for p in found)
+    assert sorted(p.separation for p in found) == pytest.approx(sorted(best.values()))
+    assert list(found) == sorted(found, key=order)
+    assert all(p.between == ("ground-spring", "mass") for p in found)
+
+
+def test_what_settles_comes_first_and_with_the_least_effort():
+    """D > 4 before D > 1 before the rest; then what takes less; then what separates more."""
+    ways = [(0.5, Effort.MODES), (5.0, Effort.SUPPORT), (9.0, Effort.MASS), (3.0, Effort.MODES), (4.5, Effort.MASS)]
+    found = sorted((Proposal("", ("a", "b"), d, effort) for d, effort in ways), key=order)
+    assert [p.separation for p in found] == [9.0, 4.5, 5.0, 3.0, 0.5]
+    assert [p.outlook for p in found] == ["will settle it"] * 3 + ["may settle it", "will not settle it"]
+
+
+def test_shapes_are_proposed_at_the_fewest_places_that_separate():
+    """Two shapes at 5 places that differ at the fourth alone, by 0.5 of the largest component: with another place, which gives the
+    scale, it is enough. D = d^2 / (4 s^2) where two readings of sd s differ by d across the direction of the scale."""
+    h = np.array([[1.0], [0.9], [0.8], [1.0], [0.7]])
+    g = h.copy()
+    g[3] = 0.5
+    none = np.zeros((5, 5))
+    places, D = chosen_places((h.ravel(), none), (-g.ravel(), none), 5, 1)
+    assert len(places) == 2
+    assert 3 in places
+    assert D == pytest.approx(0.5 * (0.5 / np.sqrt(2) / SHAPE_SD) ** 2, rel=0.01)
+
+
+def test_shapes_that_are_alike_are_no_proof():
+    h = np.linspace(0.2, 1.0, 6)
+    assert chosen_places((h, np.zeros((6, 6))), (3 * h, np.zeros((6, 6))), 6, 1)[1] == pytest.approx(0.0, abs=1e-3)

@@ -2,7 +2,7 @@
 
 import click
 
-from mouse_cli.cli._options import READING, answer, options, reading
+from mouse_cli.cli._options import QUIET, READING, answer, options, reading
 
 
 @click.command()
@@ -10,7 +10,7 @@ from mouse_cli.cli._options import READING, answer, options, reading
 @click.option("--expand", "method", metavar="METHOD", help="Expand the measured shapes; see `mouse list expansions`.")
 @click.option("--exact", is_flag=True, help="Keep measured components as they are where METHOD would smooth them.")
 @options(answer("mouse.correlation/1"))
-@click.option("-q", "--quiet", is_flag=True, help="No warnings on standard error.")
+@options(QUIET)
 @options(READING)
 def command(
     deck: str,

@@ -1,17 +1,26 @@
 """mouse diagnose: what the model of a deck lacks."""
 
 import os
+from textwrap import fill
 
 import click
 
-from mouse_cli.cli._options import READING, answer_form, options, reading
+from mouse_cli.cli._options import QUIET, READING, answer_form, options, reading
 
+_WIDTH = 132  # columns of the printout
 _FORMS = {".json": "json", ".md": "markdown"}
+_CONSIDERED = (
+    click.option(
+        "--candidates", metavar="NAMES", help="Consider these alone, with commas between; see `mouse list candidates`."
+    ),
+    click.option("--without", metavar="NAMES", help="Consider all but these."),
+    click.option("--causes", type=click.IntRange(1, 2), default=2, show_default=True, help="Most causes together."),
+)
 
 
 @click.command()
 @click.argument("deck")
-@click.option("-o", "--output", metavar="FILE", help="Write the model with the named cause in it as a YAML deck.")
+@click.option("-o", "--output", metavar="FILE", help="Write the model with the cause in it as a YAML deck.")
 @options(answer_form("mouse.diagnosis/1"))
 @click.option(
     "--report",
@@ -23,7 +32,7 @@ _FORMS = {".json": "json", ".md": "markdown"}
 @click.option(
     "--plot", metavar="PATH", help="Write figures: to a folder, or to one file (.pdf, .png, .svg). Needs matplotlib."
 )
-@click.option("-q", "--quiet", is_flag=True, help="No warnings on standard error.")
+@options(_CONSIDERED, QUIET)
 @options(READING)
 def command(
     deck: str,
@@ -32,6 +41,9 @@ def command(
     numbers: str | None,
     reports: tuple[str, ...],
     plot: str | None,
+    candidates: str | None,
+    without: str | None,
+    causes: int,
     quiet: bool,
     **how: object,
 ) -> int:
@@ -44,21 +56,38 @@ def command(
     from mouse_cli.diagnosis.diagnose import diagnose
 
     _check_places(deck, output, plot, reports)
+    choices = _choices(candidates, without, causes)
     problem = read_problem(deck, **reading(**how))
     if not quiet:
         show_diagnostics(problem.warnings)
     with progress() as (_, say):
-        found = diagnose(problem, say)
+        found = diagnose(problem, say, choices)
     files = _revised(found, output)
     for path in reports:
         shape = _FORMS.get(os.path.splitext(path)[1].lower(), "printout")
         deliver(_text(found, shape, numbers, output, files), path, deck)
+    deliver(_text(found, form or "printout", numbers, output, files), None, deck)
     if plot:
         from mouse_cli.plots import draw
 
         draw(found, plot)
-    deliver(_text(found, form or "printout", numbers, output, files), None, deck)
     return found.exit_code
+
+
+def _choices(candidates: str | None, without: str | None, causes: int):
+    """What is to be considered. Raises click.UsageError for names that do not exist."""
+    from mouse_cli.diagnosis.candidates import registry
+    from mouse_cli.model.diagnosis import Choices
+
+    if candidates is None and without is None:
+        return Choices(causes=causes)
+    if candidates is not None and without is not None:
+        raise click.UsageError("--candidates and --without exclude each other")
+    known, given = registry(), [name.strip() for name in (candidates or without or "").split(",")]
+    for name in given:
+        if name not in known:
+            raise click.UsageError(f"there is no candidate '{name}'; there are {', '.join(known)}")
+    return Choices(tuple(name for name in known if (name in given) == (candidates is not None)), causes)
 
 
 def _check_places(deck: str, output: str | None, plot: str | None, reports: tuple[str, ...]) -> None:
@@ -69,15 +98,14 @@ def _check_places(deck: str, output: str | None, plot: str | None, reports: tupl
     if plot:
         from mouse_cli.plots import require
 
-        require()
+        require(plot)
 
 
 def _revised(found, output: str | None) -> list[str]:
-    """Names of the files of the extended deck; none where no cause is named."""
+    """Names of the files of the extended deck; none where there is none."""
     from mouse_cli.formats import write_deck
-    from mouse_cli.model.diagnosis import NAMED
 
-    if output is None or found.kind != NAMED or found.extended is None:
+    if output is None or found.extended is None:
         return []
     return write_deck(found.extended, output)
 
@@ -90,13 +118,20 @@ def _text(found, form: str, numbers: str | None, output: str | None, files: list
     if form == "json":
         return json_text(document(found) | {"revised_deck": files[-1] if files else None})
     text = written(found, form, numbers or "modern")
-    return text if output is None else f"{text}\n{_written(found, output, files)}\n"
+    return (
+        text if output is None else f"{text}\n{fill(_written(found, output, files), _WIDTH, break_long_words=False)}\n"
+    )
 
 
 def _written(found, output: str, files: list[str]) -> str:
-    from mouse_cli.model.diagnosis import NAMED
+    from mouse_cli.model.diagnosis import NAMED, ONE_OF
 
+    if files and found.kind == ONE_OF:
+        return (
+            f"The model with {found.best.title}, which leads and is not proved, is in {files[-1]}; `mouse run` accepts it. "
+            "--candidates NAME writes that of another rival."
+        )
     if files:
         return f"The extended model is in {files[-1]}; `mouse run` accepts it."
-    why = "its cause cannot be put into a deck" if found.kind == NAMED else "no cause is named"
+    why = "its cause cannot be put into a deck" if found.kind in (NAMED, ONE_OF) else "no cause is named"
     return f"Nothing was written to {output}: {why}."

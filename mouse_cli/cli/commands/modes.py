@@ -2,14 +2,14 @@
 
 import click
 
-from mouse_cli.cli._options import READING, answer, options, reading
+from mouse_cli.cli._options import QUIET, READING, answer, options, reading
 
 
 @click.command()
 @click.argument("deck")
 @click.option("-n", "--count", type=click.IntRange(min=1), help="How many modes, from the lowest.")
 @options(answer("mouse.modes/1"))
-@click.option("-q", "--quiet", is_flag=True, help="No warnings on standard error.")
+@options(QUIET)
 @options(READING)
 def command(
     deck: str,

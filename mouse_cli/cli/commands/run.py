@@ -2,14 +2,14 @@
 
 import click
 
-from mouse_cli.cli._options import READING, RUN, answer, options, reading, run_changes
+from mouse_cli.cli._options import QUIET, READING, RUN, answer, options, reading, run_changes
 
 
 @click.command()
 @click.argument("deck")
 @options(answer("mouse.result/1"))
 @click.option("--stacked", is_flag=True, help="The file holds several card decks, one after another.")
-@click.option("-q", "--quiet", is_flag=True, help="No warnings on standard error.")
+@options(QUIET)
 @options(RUN, READING)
 def command(
     deck: str,

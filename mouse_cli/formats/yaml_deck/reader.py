@@ -47,13 +47,11 @@ def _draft(deck: Section) -> Draft:
     test, held = modal_test(measured), hold_out(measured)
     if test is not None:
         test.hold_out = held
-    declared = SYSTEMS.get(deck.value("units", ""), UNDECLARED)
     frf, recordings = records(measured, declared)
     run, where = run_options(deck.section("run"))
-    title = deck.value("title", "")
     deck.value("source")
     return Draft(
-        title=title,
+        title=deck.value("title", ""),
         order=matrices.order,
         K=matrices.matrices.get("K"),
         M=matrices.matrices.get("M"),

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from mouse_cli.model.diagnosis import Diagnosis
+from mouse_cli.model.diagnosis import NOTHING, Diagnosis
 from mouse_cli.report.blocks import Block, Text
 from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._wording import test_table
@@ -13,7 +13,7 @@ def detection(found: Diagnosis, options: Options) -> Iterator[Block]:
     result = found.result
     yield test_table((found.innovation, result.residual, result.prior_shift))
     yield Text(f"The model as it is: {result.status.sentence} Form of the model: {result.model_form}.")
-    if found.noise_scale > 1:
+    if found.noise_scale > 1 and found.kind != NOTHING:
         yield Text(
             f"The best explanation leaves {found.noise_scale:.3g} times the variance that the test states, and the evidence is "
             "weighed with variances as much larger. Far above 1, the test is less accurate than it says, or the explanation is not "

@@ -6,7 +6,7 @@ from mouse_cli.model.diagnosis import Diagnosis
 from mouse_cli.report.blocks import Block, Column, Table, Text
 from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._diagnosis_wording import place
-from mouse_cli.report.sections._wording import LEFT, counted
+from mouse_cli.report.sections._wording import LEFT
 
 _MOST = 10  # places listed
 
@@ -18,13 +18,14 @@ def energy(found: Diagnosis, options: Options) -> Iterator[Block]:
         return
     shown = energy.order[:_MOST]
     columns = (Column("place", align=LEFT), Column("share", "per cent"))
-    yield Table(columns, tuple((place(energy.sites[i]), 100 * float(energy.share[i])) for i in shown))
+    yield Table(columns, tuple((place(energy.sites[i]), f"{100 * energy.share[i]:.3g}") for i in shown))
     errors = ", ".join(
         f"{100 * error:.2g} % in mode {mode}" for mode, error in zip(energy.mode, energy.error, strict=True)
     )
+    holds = "place" + (" holds" if energy.half == 1 else "s hold")
     yield Text(
         f"Of the energy by which stresses and strains disagree when the measured shapes are imposed on the model as it is, "
-        f"{counted(energy.half, 'place')} of {len(energy.sites)} hold half: few for a local cause, many for one that is spread. It "
+        f"{energy.half} {holds} half, of {len(energy.sites)}: few for a local cause, many for one that is spread. It "
         f"shows all that is missing as if it were stiffness. Relative to the strain energy: {errors}."
     )
 

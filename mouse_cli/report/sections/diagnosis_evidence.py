@@ -5,10 +5,11 @@ from collections.abc import Iterator
 from mouse_cli.model.diagnosis import Diagnosis, Explanation
 from mouse_cli.report.blocks import Block, Cell, Column, Heading, Table, Text
 from mouse_cli.report.section import Options, Section
-from mouse_cli.report.sections._diagnosis_wording import nats_over_none, probable, where
+from mouse_cli.report.sections._diagnosis_wording import nats, nats_over_none, probable, where
 from mouse_cli.report.sections._wording import LEFT
 
-_MOST = 30  # explanations listed
+_LEAST, _MOST = 1e-3, 30  # probability of explanations that are listed, and how many; a few are, however improbable
+_ALWAYS = 8
 _JUDGED = (
     Column("candidate", align=LEFT),
     Column("group", align=LEFT),
@@ -33,15 +34,16 @@ def evidence(found: Diagnosis, options: Options) -> Iterator[Block]:
     if not found.explanations:
         yield Text("No candidate has a meaning for this model.")
         return
-    shown = found.explanations[:_MOST]
+    likely = sum(one.probability >= _LEAST for one in found.explanations)
+    shown = found.explanations[: min(max(likely, _ALWAYS), _MOST)]
     yield Table(_JUDGED, tuple(_judged(found, one) for one in shown))
     more = len(found.explanations) - len(shown)
-    rest = f" {more} less probable ones are left out." if more else ""
+    rest = f" {more} less probable ones are left out; --json has all." if more else ""
     yield Text(
         "ln evidence is the logarithm of how many times more probable the data are with the candidate than with none, its "
         "freedom paid for. Probability shares 1 among all that were tried, none included, with equal shares for groups that "
-        "data can hardly tell apart; misfit probability: that noise alone leaves as much as the candidate leaves."
-        + rest
+        "data can hardly tell apart. Misfit probability: that noise alone leaves as much as the candidate leaves, blank where it "
+        "has as many parameters as there are data." + rest
     )
     rows = tuple(row for one in shown for row in _sized(one))
     if rows:
@@ -50,15 +52,16 @@ def evidence(found: Diagnosis, options: Options) -> Iterator[Block]:
 
 
 def _judged(found: Diagnosis, one: Explanation) -> tuple[Cell, ...]:
-    misfit = float(one.p) if one.dof > 0 else None
-    return (one.physics, one.group, where(one), nats_over_none(found, one), probable(one.probability), misfit)
+    misfit = probable(float(one.p)) if one.dof > 0 else None
+    return one.physics, one.group, where(one), nats(nats_over_none(found, one)), probable(one.probability), misfit
 
 
 def _sized(one: Explanation) -> Iterator[tuple[Cell, ...]]:
     for cause in one.causes:
         for size in cause.sizes:
-            numbers = (float(size.value), float(size.sd), size.unit, float(size.lower), float(size.upper))
-            yield one.physics, f"{cause.physics}: {size.name}" if len(one.causes) > 1 else size.name, *numbers
+            name = f"{cause.physics}: {size.name}" if len(one.causes) > 1 else size.name
+            value, sd, lower, upper = (f"{x:.4g}" for x in (size.value, size.sd, size.lower, size.upper))
+            yield one.physics, name, value, sd, size.unit, lower, upper
 
 
 SECTION = Section("diagnosis-evidence", 40, "Evidence", evidence, (Diagnosis,))

@@ -7,19 +7,22 @@ import numpy as np
 from mouse_cli.dynamics.frequency import frequency_hz
 from mouse_cli.model.diagnosis import Diagnosis
 from mouse_cli.model.result import Snapshot
-from mouse_cli.report.blocks import Block, Column, Table, Text
+from mouse_cli.report.blocks import Block, Cell, Column, Table, Text
 from mouse_cli.report.section import Options, Section
+from mouse_cli.report.sections._diagnosis_wording import likeness, per_cent, with_cause
 
-_COLUMNS = (
-    Column("mode"),
-    Column("test frequency", "Hz"),
-    Column("model as it is", "Hz"),
-    Column("difference", "per cent"),
-    Column("extended model", "Hz"),
-    Column("difference", "per cent"),
-    Column("MAC as it is"),
-    Column("MAC extended"),
-)
+
+def _columns(after: str) -> tuple[Column, ...]:
+    return (
+        Column("mode"),
+        Column("test frequency", "Hz"),
+        Column("model as it is", "Hz"),
+        Column("difference", "per cent"),
+        Column(after, "Hz"),
+        Column("difference", "per cent"),
+        Column("MAC as it is"),
+        Column(f"MAC {after}"),
+    )
 
 
 def fitted(found: Diagnosis, options: Options) -> Iterator[Block]:
@@ -31,8 +34,15 @@ def fitted(found: Diagnosis, options: Options) -> Iterator[Block]:
     columns += _against(after.revised, test) if after else [nothing, nothing, nothing]
     hz, off, alike, hz_after, off_after, alike_after = columns[1:]
     rows = zip(found.problem.test.number, test, hz, off, hz_after, off_after, alike, alike_after, strict=True)
-    yield Table(_COLUMNS, tuple((int(n), *map(float, row)) for n, *row in rows)).without_empty_columns()
-    yield Text("Both models with their parameters revised by these data; differences are model minus test.")
+    columns = _columns(with_cause(found))
+    yield Table(columns, tuple((int(n), *_told(row)) for n, *row in rows)).without_empty_columns()
+    which = "Both models with their" if after else "The model with its"
+    yield Text(f"{which} parameters revised by these data; differences are model minus test.")
+
+
+def _told(row: list[float]) -> tuple[Cell, ...]:
+    test, hz, off, hz_after, off_after, alike, alike_after = map(float, row)
+    return test, hz, per_cent(off), hz_after, per_cent(off_after), likeness(alike), likeness(alike_after)
 
 
 def _against(model: Snapshot, test: np.ndarray) -> list[np.ndarray]:

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from mouse_cli.model.diagnosis import Diagnosis
+from mouse_cli.model.units import system
 from mouse_cli.report.blocks import Block, Text
 from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._wording import counted, deck_table
@@ -19,6 +20,21 @@ def heading(found: Diagnosis, options: Options) -> Iterator[Block]:
         f"{counted(problem.structure.n, 'degree', 'degrees')} of freedom with "
         f"{counted(len(problem.parameters), 'parameter')}, which were revised beside each candidate.{held}"
     )
+    yield Text(_how(found))
+
+
+def _how(found: Diagnosis) -> str:
+    """What was considered, and in which units."""
+    run, asked = found.problem.run, found.choices
+    causes = "one cause at a time" if asked.causes == 1 else "one cause, or two where one is not enough"
+    which = "all candidates" if asked.candidates is None else f"of all candidates only {', '.join(asked.candidates)}"
+    named = system(found.problem.units)
+    units = (
+        f"units of the deck: {named}"
+        if named
+        else "the deck does not say its units: numbers are in those it is written in"
+    )
+    return f"Considered: {which}; {causes}. Estimator: {run.estimator}, recursion: {run.recursion}; {units}."
 
 
 SECTION = Section("diagnosis-heading", 20, "Deck", heading, (Diagnosis,))

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from mouse_cli.model.diagnosis import Diagnosis
 from mouse_cli.report.blocks import Block, Column, Table, Text
 from mouse_cli.report.section import Options, Section
-from mouse_cli.report.sections._diagnosis_wording import place, probable
+from mouse_cli.report.sections._diagnosis_wording import nats, place, probable
 from mouse_cli.report.sections._wording import LEFT, chance, counted
 
 _MOST = 15  # places listed
@@ -24,13 +24,16 @@ def places(found: Diagnosis, options: Options) -> Iterator[Block]:
         Column("below the best", "nats"),
     )
     shown = location.places[:_MOST]
-    yield Table(columns, tuple((place(p.site), p.channel, probable(p.probability), float(p.deficit)) for p in shown))
-    tied = sum(p.deficit <= TIE for p in location.places)
+    yield Table(columns, tuple((place(p.site), p.channel, probable(p.probability), nats(p.deficit)) for p in shown))
+    tied, region = sum(p.deficit <= TIE for p in location.places), location.region
+    left = "that leaves much more than noise: no single place is it"
+    if location.single:
+        left = f"noise alone leaves a larger misfit than the best place does {chance(location.p)}"
     yield Text(
-        f"Of {counted(len(location.places), 'place')} that were tried, {location.region} hold 90 % of the probability and "
-        f"{tied} {'lies' if tied == 1 else 'lie'} within {TIE:g} nats of the best, which the shapes hardly tell apart. By chance "
-        f"the best place would leave a larger misfit {chance(location.p)}"
-        + ("." if location.single else ": no single place is it.")
+        "One force that the model lacks, whatever its law and cause, would make the measured shapes if it acted there. Of "
+        f"{counted(len(location.places), 'place')} that were tried, {region} {'holds' if region == 1 else 'hold'} 90 % of the "
+        f"probability, and {tied} {'lies' if tied == 1 else 'lie'} within {TIE:g} nats of the best, which the shapes hardly tell "
+        f"apart; {left}."
     )
 
 
