@@ -1,0 +1,130 @@
+"""Modal identification: functions or outputs in, modes with covariance out, and what speaks against them."""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from mouse_cli._errors import ERROR, Diagnostic
+from mouse_cli.model.frf_test import FrfTest
+from mouse_cli.model.identification import Diagram, FrfFit, Identification, Modes, Rejected
+from mouse_cli.model.recording import Recording
+from mouse_cli.records import identify_output_only as outputs_only
+from mouse_cli.records.identify_combine import combined
+from mouse_cli.records.identify_frf import LEAST_LINES, Found, banded, identify_lines, lines_of
+from mouse_cli.records.identify_modes import Drive, from_fit, from_subspace
+from mouse_cli.records.identify_review import drive_points, reviewed, reviewed_outputs
+from mouse_cli.records.lscf import OrderPoles
+from mouse_cli.records.modal_model import synthesised
+from mouse_cli.records.mode_selection import Dropped
+from mouse_cli.records.stabilisation import Track
+
+Band = tuple[float, float] | None
+_BRIEF = 3  # orders in which a pole was stable: fewer are not worth a line of the report
+_TOP = 0.4  # of the sample rate: the band of outputs that nobody limits
+_QUIET = lambda phase: None
+
+
+def identify_frf(
+    tests: Sequence[FrfTest], band: Band = None, most: int | None = None, say: Callable[[str], None] = _QUIET
+) -> Identification:
+    """Modes of sets of functions: repeats, or forces in turn. band: Hz; most: highest order. Raises RecordError (MD655)."""
+    test, noise = combined(tests)
+    use = banded(test, band)
+    title, sources = test.title, tuple(dict.fromkeys(each.path or each.title for each in tests))
+    method = "p-LSCF, LSFD, maximum likelihood"
+    hz = test.frequency_hz[use]
+    edges = (float(hz[0]), float(hz[-1])) if len(hz) else band or (0.0, 0.0)
+    if len(hz) < LEAST_LINES:
+        few = f"there are {len(hz)} spectral lines between {edges[0]:.6g} and {edges[1]:.6g} Hz; at least {LEAST_LINES} are needed"
+        doubt = Diagnostic("MD651", ERROR, few, help="take finer lines, or a wider band")
+        return _nothing(title, sources, method, test.output_names, edges, noise, doubt)
+    lines, stated = lines_of(test, use)
+    found = identify_lines(lines, stated, most, say)
+    drives = drive_points(test)
+    judged = reviewed(found, drives)
+    modes = judged.modes
+    fit = FrfFit(
+        hz, np.where(np.isfinite(lines.sd), lines.H, np.nan), synthesised(lines, found.fit.model),
+        found.lines.sd, test.kind, test.output_names, test.input_names,
+    )  # fmt: skip
+    return Identification(
+        title, sources, method, test.output_names, edges, modes, _diagram_frf(found, hz, lines.H), noise, found.misfit,
+        (*judged.rejected, *_rejected(found.dropped, found.search.passing)), judged.doubts, judged.remarks, fit,
+        details={
+            "lines": len(hz), "orders": found.search.orders, "forces": test.H.shape[2], "lines raised": found.raised,
+            "correlated lines": len(found.errors.rho) - 1,
+        },
+    )  # fmt: skip
+
+
+def identify_recording(
+    recording: Recording, band: Band = None, most: int | None = None, say: Callable[[str], None] = _QUIET
+) -> Identification:
+    """Modes of a recording's outputs alone. band: Hz; most: highest order."""
+    top = min(band[1] if band else np.inf, _TOP * recording.sample_rate_hz)
+    edges = (float(band[0]) if band else 2 / (recording.time_step_s * max(len(recording.samples), 1)), float(top))
+    channels = [recording.channels[j] for j in recording.outputs]
+    names = tuple(channel.sensor or channel.name for channel in channels)
+    method, noise = "covariance-driven SSI", f"scatter of {outputs_only.BLOCKS} blocks of the record"
+    samples, rate = outputs_only.decimated(recording, top)
+    least = outputs_only.least_samples(len(names))
+    if len(samples) < least or not names:
+        few = f"the record has {len(samples)} samples at {rate:.6g} Hz, which the band takes; at least {least} are needed"
+        doubt = Diagnostic("MD651", ERROR, few, help="record for longer")
+        return _nothing(recording.title, (recording.path or recording.title,), method, names, edges, noise, doubt)
+    found = outputs_only.identify_outputs(samples, rate, edges, most, say)
+    judged = reviewed_outputs(found, edges)
+    level_hz, level = _spectrum(samples, rate)
+    return Identification(
+        recording.title, (recording.path or recording.title,), method, names, edges, judged.modes,
+        _diagram(found.poles, [*found.tracks, *found.passing], level_hz, level, found.orders[-1]), noise,
+        rejected=(*judged.rejected, *_rejected(found.dropped, found.passing)), doubts=judged.doubts, remarks=judged.remarks,
+        details={"samples": found.samples, "sample rate": found.rate_hz, "lags": 2 * found.lags, "orders": found.orders[-1]},
+    )  # fmt: skip
+
+
+def _nothing(
+    title: str, sources: tuple[str, ...], method: str, sensors: tuple[str, ...], edges: tuple[float, float], noise: str,
+    doubt: Diagnostic,
+) -> Identification:  # fmt: skip
+    """An answer without modes."""
+    none, s = np.zeros(0), len(sensors)
+    table = np.zeros((s, 0))
+    modes = Modes(none, none, none, none, np.zeros((0, 0)), table + 0j, table, table, none, (), none, none, none)
+    diagram = Diagram(none, none, none, none.astype(bool), none, none, 0)
+    return Identification(title, sources, method, sensors, edges, modes, diagram, noise, doubts=(doubt,))
+
+
+def _rejected(dropped: list[Dropped], passing: list[Track]) -> tuple[Rejected, ...]:
+    """What was dropped and what did not stay, by frequency."""
+    found = [Rejected(abs(d.pole) / 2 / np.pi, -d.pole.real / abs(d.pole), d.reason) for d in dropped]
+    for track in passing:
+        if track.stable_orders >= _BRIEF:
+            pole, _ = track.centre()
+            reason = f"stable in {track.stable_orders} orders only"
+            found.append(Rejected(abs(pole) / 2 / np.pi, -pole.real / abs(pole), reason))
+    return tuple(sorted(found, key=lambda each: each.frequency_hz))
+
+
+def _diagram_frf(found: Found, hz: np.ndarray, H: np.ndarray) -> Diagram:
+    """The diagram over the root mean square of all functions."""
+    level = np.sqrt((np.abs(H) ** 2).mean(axis=(1, 2)))
+    return _diagram(found.search.poles, [*found.search.candidates, *found.search.passing], hz, level, found.search.orders)
+
+
+def _diagram(poles: list[OrderPoles], every: list[Track], hz: np.ndarray, level: np.ndarray, orders: int) -> Diagram:
+    points = [(o, abs(p) / 2 / np.pi, -p.real / abs(p), s) for t in every for o, p, s in zip(t.order, t.pole, t.stable, strict=True)]
+    order, frequency, damping, stable = np.array(points).T if points else np.zeros((4, 0))
+    return Diagram(order.astype(int), frequency, damping, stable.astype(bool), hz, level, orders)
+
+
+def _spectrum(samples: np.ndarray, rate_hz: float) -> tuple[np.ndarray, np.ndarray]:
+    """Root mean square amplitude spectrum of all outputs, each over its sd."""
+    from scipy.signal import welch
+
+    size = samples.std(axis=0)
+    hz, power = welch(samples / np.where(size > 0, size, 1), rate_hz, nperseg=min(2048, len(samples)), axis=0)
+    return hz[1:], np.sqrt(power[1:].mean(axis=1))
+
+
+__all__ = ["Drive", "from_fit", "from_subspace", "identify_frf", "identify_recording"]

@@ -1,0 +1,115 @@
+"""Modes from outputs alone: decimation to the band, SSI, tracks that persist, and the order at which each mode is best known."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.model.recording import Recording
+from mouse_cli.records.lscf import OrderPoles
+from mouse_cli.records.mode_selection import HEAVIEST, Dropped
+from mouse_cli.records.ssi import Subspace, UncertainMode, poles, subspace, uncertain
+from mouse_cli.records.stabilisation import Track, persistent, tracks
+
+BLOCKS = 40  # of the record, for its scatter
+_LAGS, _SIZE, _ORDERS, _STEP = 30, 400, 40, 2
+_MARGIN = 2.56  # samples a second per Hz of the band
+_TRIED = 4  # orders at which the covariance of a mode is computed
+_OVERSHOT = 1.0  # sd of a frequency over the half of its half-power bandwidth: beyond, it is no resonance
+
+
+@dataclass(frozen=True)
+class FoundOutputs:
+    """modes: with their scatter; tracks: of each mode; dropped: what was rejected; rate_hz: after decimation."""
+
+    modes: list[UncertainMode]
+    tracks: list[Track]
+    passing: list[Track]
+    dropped: list[Dropped]
+    poles: list[OrderPoles]
+    orders: range
+    rate_hz: float
+    lags: int
+    samples: int
+
+
+def least_samples(outputs: int) -> int:
+    """Samples, after decimation, that the blocks and their lags take at least."""
+    return BLOCKS * 4 * lags_of(outputs)
+
+
+def lags_of(outputs: int) -> int:
+    """Block columns of the Hankel matrix."""
+    return int(np.clip(_SIZE // max(outputs, 1), 8, _LAGS if outputs > 2 else 2 * _LAGS))
+
+
+def decimated(recording: Recording, top_hz: float) -> tuple[np.ndarray, float]:
+    """Outputs (t, o) without their means, each over its sd, at a sample rate that `top_hz` needs, and that rate."""
+    from scipy.signal import decimate
+
+    samples = recording.samples[:, recording.outputs]
+    factor = max(1, int(recording.sample_rate_hz / (_MARGIN * top_hz)))
+    samples = samples - samples.mean(axis=0)
+    for part in _factors(factor):
+        samples = decimate(samples, part, ftype="fir", axis=0, zero_phase=True)
+    return samples, recording.sample_rate_hz / factor
+
+
+def _factors(number: int) -> list[int]:
+    """Prime factors; a prime above 13 is left as it is."""
+    found = []
+    for prime in (2, 3, 5, 7, 11, 13):
+        while number % prime == 0:
+            found.append(prime)
+            number //= prime
+    return [*found, number] if number > 1 else found
+
+
+def identify_outputs(
+    samples: np.ndarray, rate_hz: float, band_hz: tuple[float, float], most: int | None, say: Callable[[str], None]
+) -> FoundOutputs:
+    """Modes of outputs (t, o) within `band_hz`."""
+    size = samples.std(axis=0)
+    scaled = samples / np.where(size > 0, size, 1.0)
+    lags = lags_of(samples.shape[1])
+    say("correlations")
+    seen = subspace(scaled, lags, BLOCKS)
+    highest = min(most or _ORDERS, len(seen.singular) // 2)
+    orders = range(2, highest + 1, _STEP)
+    say("poles")
+    found = poles(seen, orders, rate_hz, band_hz)
+    every = tracks(found)
+    kept, modes, dropped = [], [], []
+    say("covariance")
+    for track in every:
+        if not persistent(track, orders):
+            continue
+        mode = _best(seen, track, rate_hz)
+        reason = _fault(mode)
+        if reason:
+            dropped.append(Dropped(mode.pole, reason))
+        else:
+            kept.append(track)
+            modes.append(UncertainMode(mode.pole, mode.shape * size, mode.scatter * np.r_[1, 1, np.repeat(size, 2)]))
+    passing = [track for track in every if not persistent(track, orders)]
+    return FoundOutputs(modes, kept, passing, dropped, found, orders, rate_hz, lags, len(samples))
+
+
+def _best(seen: Subspace, track: Track, rate_hz: float) -> UncertainMode:
+    """The mode at the order, of a few stable ones, where its pole is known best."""
+    members = [(order, pole) for order, pole, rests in zip(track.order, track.pole, track.stable, strict=True) if rests]
+    picked = np.unique(np.linspace(0, len(members) - 1, _TRIED).astype(int))
+    tried = [uncertain(seen, members[k][0], [members[k][1]], rate_hz)[0] for k in picked]
+    return min(tried, key=lambda mode: float((mode.scatter[:, :2] ** 2).sum()))
+
+
+def _fault(mode: UncertainMode) -> str:
+    """Why a persistent pole is no mode; empty where it may be one."""
+    if mode.pole.real >= 0:
+        return "has no positive damping"
+    if -mode.pole.real > HEAVIEST * abs(mode.pole):
+        return f"is damped by more than {100 * HEAVIEST:.0f} %: a slope of the spectra, no resonance"
+    sd = float(np.sqrt((mode.scatter[:, 1] ** 2).sum()))
+    if sd > _OVERSHOT * -mode.pole.real:
+        return "has a frequency that the record leaves more uncertain than half its half-power bandwidth"
+    return ""

@@ -1,0 +1,145 @@
+"""What speaks against identified modes: edges of the band, narrow resonances, poor fits, driving points that cannot be."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli._errors import ERROR, WARNING, Diagnostic
+from mouse_cli.model.frf_test import FrfTest
+from mouse_cli.model.identification import Modes, Rejected
+from mouse_cli.records.identify_frf import Found
+from mouse_cli.records.identify_modes import Drive, from_fit, from_subspace
+from mouse_cli.records.identify_output_only import FoundOutputs
+from mouse_cli.records.modal_model import ModalModel
+
+_NARROW = 2.0  # lines in a half-power bandwidth
+_POOR = 1 / 3
+_MISFIT = 2.0  # mean square of errors over stated variances that is worth a remark
+_UNKNOWN = 0.5  # sd of damping over damping
+_TURNED = (60.0, 120.0)  # degrees between residues and those of a structure
+
+
+@dataclass(frozen=True)
+class Review:
+    """The modes that stay, what was rejected, and what to say."""
+
+    modes: Modes
+    rejected: tuple[Rejected, ...]
+    doubts: tuple[Diagnostic, ...]
+    remarks: tuple[Diagnostic, ...]
+
+
+def drive_points(test: FrfTest) -> list[Drive]:
+    """Where a response is at a force, by name: 12TY at 12TY, or 12-TY, which looks backwards."""
+    plain = lambda name: name.replace("-", "").replace("+", "")
+    return [
+        Drive(o, i, 1 if output == force else -1)
+        for i, force in enumerate(test.input_names)
+        for o, output in enumerate(test.output_names)
+        if plain(output) == plain(force)
+    ]
+
+
+def reviewed(found: Found, drives: list[Drive]) -> Review:
+    """The modes of a fit that lie within the band and are known."""
+    model = found.fit.model
+    first, last = found.lines.s.imag[[0, -1]] / (2 * np.pi)
+    rejected, doubts, kept = [], [], []
+    for r in np.argsort(np.abs(model.poles)):
+        pole = model.poles[r]
+        hz, zeta = abs(pole) / (2 * np.pi), -pole.real / abs(pole)
+        reason = _at_edge(hz, zeta, first, last)
+        if reason:
+            message = f"a mode at {hz:.6g} Hz, {100 * zeta:.3g} % {reason}"
+            doubts.append(Diagnostic("MD652", ERROR, message, help="move the edge away from the resonance: --band LOW HIGH"))
+        elif np.sqrt(found.covariance.poles[2 * r, 2 * r]) > _UNKNOWN * abs(pole.real):
+            reason = "has a damping that is not known to half of it"
+        if reason:
+            rejected.append(Rejected(hz, zeta, reason))
+        else:
+            kept.append(int(r))
+    stable = np.array([_stable_orders(found, model.poles[r]) for r in kept], int)
+    modes, angles = from_fit(found, np.array(kept, int), drives, stable)
+    more, remarks = _of_modes(modes, angles)
+    if not modes.m:
+        more.append(_none(len(rejected) + len(found.dropped)))
+    remarks += _misfit(found) + _kind(found.fit.model, kept)
+    return Review(modes, tuple(rejected), (*doubts, *more), tuple(remarks))
+
+
+def _none(others: int) -> Diagnostic:
+    message = f"no mode was found in the band; {others} candidates were rejected" if others else "no stable pole was found in the band"
+    return Diagnostic("MD650", ERROR, message, help="look at the stabilisation diagram: --plot FOLDER; try another --band")
+
+
+def _at_edge(hz: float, zeta: float, first: float, last: float) -> str:
+    if not first <= hz <= last:
+        return f"lies outside of the band of {first:.6g} to {last:.6g} Hz"
+    if hz * (1 - zeta) < first or hz * (1 + zeta) > last:
+        return f"is cut by the edge of the band of {first:.6g} to {last:.6g} Hz"
+    return ""
+
+
+def _stable_orders(found: Found, pole: complex) -> int:
+    """In how many orders the candidate that became the mode was stable."""
+    nearest = min(found.search.candidates, key=lambda track: abs(track.centre()[0] - pole))
+    return nearest.stable_orders
+
+
+def _of_modes(modes: Modes, angles: list[float]) -> tuple[list[Diagnostic], list[Diagnostic]]:
+    """Doubts and remarks on single modes."""
+    doubts, remarks = [], []
+    for r in range(modes.m):
+        name = f"the mode at {modes.frequency_hz[r]:.6g} Hz"
+        if modes.lines[r] < _NARROW:
+            message = f"{name} has {modes.lines[r]:.2g} lines in its half-power bandwidth; at least {_NARROW:.0f} are needed"
+            doubts.append(Diagnostic("MD653", ERROR, message, help="measure with finer lines"))
+        if modes.error[r] > _POOR:
+            message = f"near {name} the fit differs from the functions by {100 * modes.error[r]:.0f} % of their size"
+            doubts.append(Diagnostic("MD654", ERROR, message, help="look at the fit: --plot FOLDER"))
+        if np.isfinite(angles[r]) and modes.scale[r] != "unit modal mass":
+            message = f"the driving point of {name} is {angles[r]:.0f} degrees from that of a structure; its shape has no scale"
+            remarks.append(Diagnostic("MD657", WARNING, message, help="check the signs of force cell and sensor"))
+    return doubts, remarks
+
+
+def _misfit(found: Found) -> list[Diagnostic]:
+    if not found.stated or not found.misfit > _MISFIT:
+        return []
+    message = (
+        f"the errors of the fit are {np.sqrt(found.misfit):.3g} times what the stated variances say; "
+        f"standard deviations were raised to them at {100 * found.raised:.0f} % of the lines"
+    )
+    return [Diagnostic("MD658", WARNING, message, help="look for modes that are missing, and for nonlinearity")]
+
+
+def _kind(model: ModalModel, kept: list[int]) -> list[Diagnostic]:
+    """A remark where the residues of the modes together are turned as those of functions of another kind."""
+    if not kept:
+        return []
+    residues = 2j * model.poles[kept].imag * model.shapes[:, None, kept] * model.participation[:, kept]
+    angle = np.degrees(np.angle((residues**2).sum())) / 2 % 180  # signs do not matter
+    if not _TURNED[0] < angle < _TURNED[1]:
+        return []
+    message = f"the residues of the modes are {angle:.0f} degrees from those of a structure: the functions are of another kind"
+    return [Diagnostic("MD656", WARNING, message, help="correct kind: receptance, mobility or accelerance")]
+
+
+def reviewed_outputs(found: FoundOutputs, band_hz: tuple[float, float]) -> Review:
+    """The modes of a record of outputs that lie within the band."""
+    rejected, doubts, kept = [], [], []
+    for k, mode in enumerate(found.modes):
+        hz, zeta = abs(mode.pole) / (2 * np.pi), -mode.pole.real / abs(mode.pole)
+        reason = _at_edge(hz, zeta, *band_hz)
+        if reason:
+            message = f"a mode at {hz:.6g} Hz, {100 * zeta:.3g} % {reason}"
+            doubts.append(Diagnostic("MD652", ERROR, message, help="move the edge away from the resonance: --band LOW HIGH"))
+            rejected.append(Rejected(hz, zeta, reason))
+        else:
+            kept.append(k)
+    kept.sort(key=lambda k: abs(found.modes[k].pole))
+    stable = np.array([found.tracks[k].stable_orders for k in kept], int)
+    modes = from_subspace([found.modes[k] for k in kept], stable)
+    if not modes.m:
+        doubts.append(_none(len(rejected) + len(found.dropped)))
+    return Review(modes, tuple(rejected), tuple(doubts), ())
