@@ -27,7 +27,7 @@ class Softening:
 
 @dataclass(frozen=True)
 class Change:
-    """K, M (r + a, r + a) that are added, a degrees of freedom of the cause's own behind the r of the model; None: no change.
+    """K, M, C (r + a, r + a) that are added, a degrees of freedom of the cause's own behind the r of the model; None: no change.
 
     sensing (s, r + a): added to what the sensors read. softening: of bars, when stiffness is lost in series.
     """
@@ -36,6 +36,7 @@ class Change:
     M: np.ndarray | None = None
     sensing: np.ndarray | None = None
     softening: Softening | None = None
+    C: np.ndarray | None = None
 
 
 @dataclass(frozen=True)
