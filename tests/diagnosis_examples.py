@@ -123,6 +123,7 @@ def two_causes() -> Diagnosis:
 def one_of() -> Diagnosis:
     first, second = explanation(SPRING, ln_z=-28.0, probability=0.6), explanation(CRACK, ln_z=-29.0, probability=0.3)
     none = explanation(ln_z=-35.0, probability=0.1)
+    first = replace(first, elsewhere=(((Site("dof", ("3",), text="degree of freedom 3"),), 0.21),))
     proposals = (
         Proposal("the frequency of mode 5", ("ground-spring", "local-stiffness"), 5.2),
         Proposal("the shapes at node 3 too", ("ground-spring", "local-stiffness"), 0.4),

@@ -8,7 +8,7 @@ import numpy as np
 from mouse_cli.diagnosis.altered import Model
 from mouse_cli.diagnosis.candidates import Candidate, registry
 from mouse_cli.diagnosis.cautions import cautions, misstated
-from mouse_cli.diagnosis.decide import explanations, judge
+from mouse_cli.diagnosis.decide import Verdict, explanations, judge
 from mouse_cli.diagnosis.energy_map import energy_map
 from mouse_cli.diagnosis.extended import extended
 from mouse_cli.diagnosis.fit import Fit, fit
@@ -60,7 +60,7 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choi
         refuted=verdict.refuted,
         cautions=cautions(ranking, verdict, location),
         misstated=misstated(ranking) if missing else None,
-        proposals=_proposals(ranking, best, kind),
+        proposals=_proposals(ranking, verdict),
         remarks=remarks + told + (() if deck is None else _coarse(deck)),
         extended=deck,
         extended_result=None if deck is None else run(deck, notice=notice, guess=_values(deck, best)),
@@ -124,14 +124,16 @@ def _coarse(deck: Problem) -> tuple[str, ...]:
     return tuple(f"with the cause: {text}" for text in found.remarks)
 
 
-def _proposals(ranking: Ranking, best: Fit | None, kind: str) -> tuple[Proposal, ...]:
+def _proposals(ranking: Ranking, verdict: Verdict) -> tuple[Proposal, ...]:
     """What would separate the leading cause from what else is possible: no cause, or those that lead other groups."""
-    if best is None or kind in (NOTHING, UNKNOWN):
+    best = verdict.best
+    if best is None or verdict.kind in (NOTHING, UNKNOWN):
         return ()
     names = [group(one) for one in ranking.fits]
-    rivals = [name for name, p in ranking.groups if p > RIVAL and name != group(best)]
-    if kind == ONE_OF and not rivals:
-        rivals = [name for name, _ in ranking.groups if name != group(best)][:1]
+    others = [(name, p) for name, p in ranking.groups if name not in (group(best), *verdict.refuted)]
+    rivals = [name for name, p in others if p > RIVAL]
+    if verdict.kind == ONE_OF and not rivals:
+        rivals = [name for name, _ in others[:1]]
     if not rivals:
         return ()
     fits = [best, *(ranking.fits[names.index(name)] for name in rivals[:_RIVALS])]
