@@ -19,12 +19,15 @@ from mouse_cli.diagnosis.next_measurement import proposals
 from mouse_cli.diagnosis.numerics import numerics
 from mouse_cli.diagnosis.reduced import Reduced, reduced
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Choices, Diagnosis, Proposal
+from mouse_cli.dynamics.solver import EigenSolver
 from mouse_cli.model.modal_test import restricted
 from mouse_cli.model.problem import Problem, RunOptions
 from mouse_cli.model.result import Result
 from mouse_cli.updating.loop import related, run
 
 Notice = Callable[[str], None]
+
+_ENOUGH = 1e-3  # share of the misfit of a large model that is no matter
 
 _ALL = Choices()
 _RIVALS = 4  # that are told apart from the leading explanation
@@ -36,9 +39,11 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choi
     Raises DeckError and NumericalError as `run` does.
     """
     problem = replace(problem, run=_thorough(problem.run))
-    kept = related(problem)
-    model, told = _model(problem)
-    result, remarks = _update(problem, kept, notice, _guess(model))
+    solver = EigenSolver(notice, sensors=0 if problem.test is None else problem.test.s)
+    kept = related(problem, solver)
+    model, told = _model(problem, solver)
+    enough = 0.0 if model.places is None else _ENOUGH
+    result, remarks = _update(problem, kept, notice, _guess(model), enough, solver)
     ranking = rank(model, _known(choices), choices.causes)
     verdict, as_it_is = judge(ranking, result, model), ranking.baseline
     kind, best = verdict.kind, verdict.best
@@ -63,7 +68,7 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choi
         proposals=_proposals(ranking, verdict),
         remarks=remarks + told + (() if deck is None else _coarse(deck)),
         extended=deck,
-        extended_result=None if deck is None else run(deck, notice=notice, guess=_values(deck, best)),
+        extended_result=None if deck is None else run(deck, notice=notice, guess=_values(deck, best), enough=enough),
         choices=choices,
     )
 
@@ -95,19 +100,20 @@ def _values(deck: Problem, best: Fit) -> np.ndarray:
 
 
 def _update(
-    problem: Problem, kept: np.ndarray, notice: Notice, guess: np.ndarray | None
+    problem: Problem, kept: np.ndarray, notice: Notice, guess: np.ndarray | None, enough: float, solver: EigenSolver
 ) -> tuple[Result, tuple[str, ...]]:
     """The update of the model as it is, by those modes (mask `kept`) that have to do with it; what to say of the others."""
     lost = ", ".join(str(number) for number in problem.test.number[~kept])
     if kept.all() or not kept.any():
-        return run(problem, notice=notice, guess=guess), ()
+        return run(problem, notice=notice, guess=guess, enough=enough, solver=solver), ()
     told = f"no mode of the model is like measured mode {lost}: the update of the model as it is goes without"
-    return run(replace(problem, test=restricted(problem.test, kept)), notice=notice, guess=guess), (told,)
+    own = replace(problem, test=restricted(problem.test, kept))
+    return run(own, notice=notice, guess=guess, enough=enough, solver=solver), (told,)
 
 
-def _model(problem: Problem) -> tuple[Reduced, tuple[str, ...]]:
+def _model(problem: Problem, solver: EigenSolver) -> tuple[Reduced, tuple[str, ...]]:
     """The reduced model at the prior mean, its data allowed what numerics do to them; and what to say of that."""
-    model = reduced(problem, problem.prior.mean)
+    model = reduced(problem, problem.prior.mean, solver)
     bare = Model(model).point(model.z)
     if bare is None:
         return model, ()

@@ -16,6 +16,7 @@ from mouse_cli.diagnosis.directions import Directions, directions, projected
 from mouse_cli.dynamics.contraction import Stack
 from mouse_cli.dynamics.eigen import dense_solution
 from mouse_cli.dynamics.sensing import read
+from mouse_cli.dynamics.solver import EigenSolver
 from mouse_cli.model.arrays import dense
 from mouse_cli.model.modal_test import ModalTest, restricted
 from mouse_cli.model.problem import Problem
@@ -167,14 +168,14 @@ class Reduced:
         return replace(self, data=Data(test), sensing=self.sensing if sensing is None else sensing)
 
 
-def reduced(problem: Problem, theta: np.ndarray) -> Reduced:
-    """The model of `problem` at theta (p,), reduced where it is large."""
+def reduced(problem: Problem, theta: np.ndarray, solver: EigenSolver | None = None) -> Reduced:
+    """The model of `problem` at theta (p,), reduced where it is large; solver: one that may have its modes."""
     total = assembly(problem)
     K, M = total.matrices(theta)
     if K.shape[0] > WHOLE:
         from mouse_cli.diagnosis.subspace import large
 
-        return large(problem, total, K, M, theta)
+        return large(problem, total, K, M, theta, solver)
     solution = dense_solution(dense(K), dense(M))
     stack = Stack(total.n, total.p, total.slopes(theta))
     V, eigenvalues = solution.shapes, solution.eigenvalues

@@ -33,10 +33,9 @@ _PLACES = 40  # degrees of freedom where a force may act
 class Basis:
     """Vectors V with V'AV = I, grown by responses to loads; theta and combinations S of them diagonalise V'MV."""
 
-    def __init__(self, K: Matrix, M: Matrix, problem: Problem):
-        solver = EigenSolver()
+    def __init__(self, K: Matrix, M: Matrix, problem: Problem, solver: EigenSolver | None = None):
         last = int(problem.test.number.max())
-        solution = solve(problem, K, M, min(last + 10, K.shape[0]), solver=solver)
+        solution = solve(problem, K, M, solver=solver)
         self.solution, self.full = solution, solution.space is None
         if self.full:
             return
@@ -83,11 +82,13 @@ class Basis:
         ]
 
 
-def large(problem: Problem, total: Assembly, K: Matrix, M: Matrix, theta: np.ndarray) -> Reduced:
+def large(
+    problem: Problem, total: Assembly, K: Matrix, M: Matrix, theta: np.ndarray, solver: EigenSolver | None = None
+) -> Reduced:
     """The reduced model of K and M (n, n) at theta (p,), and the places that candidates look at."""
     from scipy.sparse import csr_array
 
-    basis = Basis(csr_array(K), csr_array(M), problem)
+    basis = Basis(csr_array(K), csr_array(M), problem, solver)
     stack = Stack(total.n, total.p, total.slopes(theta))
     if not basis.full:
         at, values = unit_loads(problem.test.measured_at)

@@ -46,6 +46,7 @@ class EigenSolver:
         self._notice, self._backend, self._sensors = notice, backend, sensors
         self._pencil: Pencil | None = None
         self._last: EigenSolution | None = None
+        self._asked: tuple | None = None
         self._workspace = Workspace()
 
     def solve(
@@ -57,7 +58,7 @@ class EigenSolver:
         tolerance: float = TOLERANCE,
         verify: bool = False,
     ) -> EigenSolution:
-        """Lowest `count` modes, as `eigensolution`; dense matrices, and small ones, by LAPACK.
+        """Lowest `count` modes, as `eigensolution`; dense matrices, and small ones, by LAPACK. Asked again, it has them still.
 
         verify: count the eigenvalues below the highest mode by the inertia of K - s M (Sylvester), and search on when one was
         missed. Raises IndefiniteError, numpy.linalg.LinAlgError.
@@ -67,16 +68,29 @@ class EigenSolver:
             return dense_solution(dense(K), dense(M))
         if M.diagonal().min() < 0:
             raise IndefiniteError("the mass matrix is not positive semidefinite")
+        if not self._same(K, M, count, shift, tolerance):
+            self._last = self._solved(K, M, count, shift, tolerance)
+            self._asked = K, M, count, shift, tolerance
+        if verify and not self._last.verified:
+            self._last = self._verified(self._last, K, M, self._last.shift, count, tolerance)
+        return self._last
+
+    def _same(self, K: Matrix, M: Matrix, count: int, shift: float | None, tolerance: float) -> bool:
+        """Whether the last solution, whose space lives still, is what is asked for."""
+        if self._asked is None or self._last.space is None or not self._last.space.alive:
+            return False
+        stiff, mass, *how = self._asked
+        if count > how[0] or [shift, tolerance] != how[1:] or not self._pencil.fits(K, M):
+            return False
+        return all(np.array_equal(a.data, b.data) for a, b in ((stiff, K), (mass, M)))
+
+    def _solved(self, K: Matrix, M: Matrix, count: int, shift: float | None, tolerance: float) -> EigenSolution:
         self._release()
         if self._pencil is None or not self._pencil.fits(K, M):
             self._pencil, self._analysis = Pencil(K, M, self._pencil), None
         sigma, operator = self._operated(K, M, shift, count, tolerance)
         space = krylov_space(operator, count, tolerance, self._known(), self._workspace, self._notice)
-        solution = _solution(space, sigma, count, tolerance)
-        if verify:
-            solution = self._verified(solution, K, M, sigma, count, tolerance)
-        self._last = solution
-        return solution
+        return _solution(space, sigma, count, tolerance)
 
     def _release(self) -> None:
         """Give up the space of the last solution, its factorisation first: the next one needs its memory."""

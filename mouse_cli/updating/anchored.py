@@ -82,6 +82,9 @@ class _Descent:
         while self.damping <= _GIVE_UP * scale:
             change = self._solve(state)
             length = self._length(state, change)
+            if self.damping == 0.0 and length**2 < self.trace.enough * before:
+                self.arrived = True
+                return True
             there = attempt(self.setting, self.setting.coordinates.mean + self._expand(self.z + change))
             cost = np.inf if there is None else self.cost(there, self.z + change)
             small = length < TOLERANCE * self._misfit(before) and self.damping < scale
@@ -92,7 +95,8 @@ class _Descent:
                 self._damp(state, change, before - cost, scale)
                 self.z = self.z + change
                 self.trace.record(there, cost, self.damping)
-                self.arrived = small or there is state
+                trifle = self.damping < scale and before - cost < self.trace.enough * before
+                self.arrived = small or trifle or there is state
                 return self.arrived
             self.damping = max(self.damping * _GROWTH, _FIRST * scale)
         return None

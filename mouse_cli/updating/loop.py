@@ -44,22 +44,34 @@ def run(
     progress: Progress = lambda cycle: None,
     notice: Notice = lambda text: None,
     guess: np.ndarray | None = None,
+    enough: float = 0.0,
+    solver: EigenSolver | None = None,
 ) -> Result:
     """Revise the model of `problem` by its test.
 
     progress is called with each Cycle as it ends, notice with a sentence as each phase of a large model begins. guess (p,):
-    values of the parameters near the answer, where the anchored recursion goes first; the prior stays. Raises DeckError for a
-    deck whose test cannot belong to its model (a rigid-body mode named as measured, shapes that are unrelated), NumericalError
-    where no eigensolution exists.
+    values of the parameters near the answer, where the anchored recursion goes first; the prior stays. enough: the share of its
+    cost that a step must promise and gain, else the anchored recursion ends. solver: one that solved this model before. Raises
+    DeckError for a deck whose test cannot belong to its model (a rigid-body mode named as measured, shapes that are
+    unrelated), NumericalError where no eigensolution exists.
     """
     estimator = _estimator(problem)
     try:
-        return _run(problem, estimator, progress, notice, guess)
+        setting, start = _begin(problem, notice, solver)
+        trace = Trace(
+            setting,
+            ExceedanceTest(problem.run.confidence, problem.run.convergence),
+            progress,
+            start,
+            guess=guess,
+            enough=enough,
+        )
+        return _run(trace, estimator)
     except np.linalg.LinAlgError as reason:
         raise refusals.unphysical(problem, f"{reason} (values beyond what can be computed with)") from None
 
 
-def related(problem: Problem) -> np.ndarray:
+def related(problem: Problem, solver: EigenSolver | None = None) -> np.ndarray:
     """Mask (m,) of the measured modes whose shapes have anything to do with the modes of the prior model they are paired with.
 
     Raises DeckError without a test, NumericalError without an eigensolution, as `run` does.
@@ -68,7 +80,7 @@ def related(problem: Problem) -> np.ndarray:
         raise refusals.no_test(problem)
     K, M = assemble(problem).matrices(problem.prior.mean)
     try:
-        solution = solve(problem, K, M)
+        solution = solve(problem, K, M, solver=solver)
     except (IndefiniteError, np.linalg.LinAlgError) as reason:
         raise refusals.unphysical(problem, str(reason)) from None
     modes, kept = paired(problem, solution), np.ones(problem.test.m, bool)
@@ -105,18 +117,13 @@ def _estimator(problem: Problem) -> Estimator:
         raise refusals.unknown_estimator(problem, str(reason)) from None
 
 
-def _run(
-    problem: Problem, estimator: Estimator, progress: Progress, notice: Notice, guess: np.ndarray | None
-) -> Result:
-    """`run`, once the estimator is known."""
-    setting, start = _begin(problem, notice)
+def _run(trace: Trace, estimator: Estimator) -> Result:
+    """`run`, once the prior model is solved."""
+    setting, start = trace.setting, trace.state
     innovation = model_form.innovation(setting, start)
-    if setting.frf is not None and problem.run.recursion == "anchored":
-        guess = frf_start(setting, guess)
-    trace = Trace(
-        setting, ExceedanceTest(problem.run.confidence, problem.run.convergence), progress, start, guess=guess
-    )
-    status = RECURSIONS[problem.run.recursion].recur(trace, estimator)
+    if setting.frf is not None and setting.problem.run.recursion == "anchored":
+        trace.guess = frf_start(setting, trace.guess)
+    status = RECURSIONS[setting.problem.run.recursion].recur(trace, estimator)
     result = _result(trace, start, status, estimator, innovation)
     return replace(result, warnings=tuple(remarks(result)))
 
@@ -179,14 +186,16 @@ def _root(L: np.ndarray) -> np.ndarray:
     return np.diag(L) if L.ndim == 1 else L
 
 
-def _begin(problem: Problem, notice: Notice = lambda text: None) -> tuple[Setting, State]:
+def _begin(
+    problem: Problem, notice: Notice = lambda text: None, solver: EigenSolver | None = None
+) -> tuple[Setting, State]:
     """O-1 for the prior model, and the test brought to its scale."""
     problem = with_test(problem)
     if problem.test is None:
         raise refusals.no_test(problem)
     assembly = assemble(problem)
     K, M = assembly.matrices(problem.prior.mean)
-    solver = EigenSolver(notice, sensors=problem.test.s)
+    solver = EigenSolver(notice, sensors=problem.test.s) if solver is None else solver
     try:
         frf, solution = begin_frf(problem, K, lambda count: solve(problem, K, M, count, solver, verify=True))
     except IndefiniteError as reason:

@@ -5,6 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
+from mouse_cli._errors import NumericalError
 from mouse_cli.dynamics.correlation import align, mac, pair
 from mouse_cli.dynamics.eigen import RIGID, EigenSolution, IndefiniteError, clusters
 from mouse_cli.dynamics.forces import Forces, forces
@@ -186,21 +187,28 @@ def solve(
 ) -> EigenSolution:
     """Eigensolution of K, M as the problem needs it.
 
-    Raises IndefiniteError when an eigenvalue is negative beyond what rounding makes of a rigid-body mode.
+    Raises IndefiniteError when an eigenvalue is negative beyond what rounding makes of a rigid-body mode, NumericalError where
+    there is not the memory.
     """
     measured = _lowest_measured(problem)
-    solution = (EigenSolver() if solver is None else solver).solve(
-        K,
-        M,
-        count or _modes_needed(problem),
-        None if measured is None else -0.3 * measured,
-        EXACT_SHAPES if problem.run.exact else TOLERANCE,
-        verify,
-    )
+    shift = None if measured is None else -0.3 * measured
+    tolerance = EXACT_SHAPES if problem.run.exact else TOLERANCE
+    try:
+        solution = (EigenSolver() if solver is None else solver).solve(
+            K, M, count or _modes_needed(problem), shift, tolerance, verify
+        )
+    except NumericalError as refused:
+        raise _of_deck(problem, refused) from None
     lowest = float(solution.eigenvalues[0])
     if lowest < -RIGID * reference_eigenvalue(problem, solution.eigenvalues):
         raise IndefiniteError(f"the stiffness matrix has the negative eigenvalue {lowest:.6g} (rad/s)^2")
     return solution
+
+
+def _of_deck(problem: Problem, refused: NumericalError) -> NumericalError:
+    """The error with the deck and its place."""
+    note, at = f"the deck is '{problem.title.strip()}'", problem.place("order")
+    return NumericalError([replace(each, span=each.span or at, note=each.note or note) for each in refused.diagnostics])
 
 
 def _modes_needed(problem: Problem) -> int:

@@ -16,7 +16,10 @@ _LISTED = 3  # properties that a status names
 
 @dataclass
 class Trace:
-    """Grows by one cycle at a time; `state` is the last good one. guess (p,): values of the parameters that may be near the end."""
+    """Grows by one cycle at a time; `state` is the last good one. guess (p,): values of the parameters that may be near the end.
+
+    enough: the share of its cost that a step must promise and gain.
+    """
 
     setting: Setting
     test: ExceedanceTest
@@ -24,6 +27,7 @@ class Trace:
     state: State
     cycles: list[Cycle] = field(default_factory=list)
     guess: np.ndarray | None = None
+    enough: float = 0.0
 
     def record(self, state: State, cost: float, damping: float = 0.0) -> Cycle:
         """Accept `state` as the result of the next cycle."""
