@@ -18,8 +18,8 @@ from mouse_cli.diagnosis.name import Ranking, group, rank
 from mouse_cli.diagnosis.next_measurement import proposals
 from mouse_cli.diagnosis.numerics import numerics
 from mouse_cli.diagnosis.reduced import Reduced, reduced
-from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Choices, Diagnosis, Proposal
 from mouse_cli.dynamics.solver import EigenSolver
+from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Choices, Diagnosis, Proposal
 from mouse_cli.model.modal_test import restricted
 from mouse_cli.model.problem import Problem, RunOptions
 from mouse_cli.model.result import Result
