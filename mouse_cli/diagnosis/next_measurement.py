@@ -30,9 +30,11 @@ class Rivals:
         self._spots = places(fits[0].model.base, directions)
 
     def proposals(self, first: int, second: int) -> list[Proposal]:
-        """The best measurement of each kind that separates two of them."""
+        """The best measurement of each kind that separates two of them, of further modes the fewest that will."""
         pair, best = (self.names[first], self.names[second]), {}
         for number, each in enumerate(self.every):
+            if each.kind == "modes" and "modes" in best and best["modes"].promise == 2:
+                continue
             separation = _distance(self._of(first, number), self._of(second, number), each.sd)
             if np.isfinite(separation) and (each.kind not in best or separation > best[each.kind].separation):
                 best[each.kind] = Proposal(each.text, pair, separation, each.effort)

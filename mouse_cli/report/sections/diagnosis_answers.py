@@ -115,7 +115,7 @@ def _location(location: Location | None) -> str:
         return " No force at a single place makes the measured shapes; the cause is distributed, or there are several."
     first, region = location.places[0], counted(location.region, "place")
     return (
-        f" If one force made the measured shapes, whatever its law, it would act at {place(first.site)} "
+        f" If one force made the measured shapes, whatever its law, it would act here: {place(first.site)} "
         f"({with_p(first.probability)}; the 90 % region holds {region} of {len(location.places)})."
     )
 
