@@ -4,11 +4,12 @@ from typing import Any
 
 from mouse_cli.model.correlation import Correlation
 from mouse_cli.model.diagnosis import Diagnosis
+from mouse_cli.model.identification import Identification
 from mouse_cli.model.result import Forecast, Result
 from mouse_cli.model.spectra import SpectraResult
 from mouse_cli.report.section import Options
 
-Subject = Result | Forecast | Correlation | Diagnosis | SpectraResult
+Subject = Result | Forecast | Correlation | Diagnosis | SpectraResult | Identification
 
 __all__ = ["Options", "document", "markdown", "printout", "written"]
 
@@ -41,6 +42,7 @@ def document(subject: Subject) -> dict[str, Any]:
     from mouse_cli.report import (
         correlation_document,
         diagnosis_document,
+        identification_document,
         modes_document,
         result_document,
         spectra_document,
@@ -50,6 +52,7 @@ def document(subject: Subject) -> dict[str, Any]:
         Forecast: modes_document,
         Correlation: correlation_document,
         Diagnosis: diagnosis_document,
+        Identification: identification_document,
         SpectraResult: spectra_document,
     }
     return documents.get(type(subject), result_document).document(subject)

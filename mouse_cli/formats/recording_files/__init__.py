@@ -13,17 +13,6 @@ __all__ = ["MAX_BYTES", "Column", "Contents", "Function", "RecordingFormat", "re
 MOST_COLUMNS = 20_000  # of one file
 RATE_NAMES = ("fs", "sample_rate", "samplerate", "sampling_rate", "samplingrate", "sampling_frequency", "rate")
 STEP_NAMES = ("dt", "ts", "time_step", "sample_interval", "deltat", "delta_t")
-_DAMAGE = (
-    ArithmeticError,
-    AttributeError,
-    EOFError,
-    LookupError,
-    MemoryError,
-    OverflowError,
-    RuntimeError,
-    TypeError,
-    ValueError,
-)
 
 
 @dataclass(frozen=True)
@@ -94,9 +83,11 @@ def read_contents(path: str) -> Contents:
 def _read(form: RecordingFormat, path: str) -> Contents:
     try:
         return form.read(path)
+    except DeckError:
+        raise
     except OSError as error:
         reject("MD250", path, f"the file cannot be read: {error}", "check the file and its permissions")
-    except _DAMAGE as error:  # readers of other people's formats raise whatever their parts do
+    except Exception as error:  # readers of damaged files, NumPy's and SciPy's too, raise whatever their parts do
         what = str(error).split("\n")[0][:200] or type(error).__name__
         reject("MD252", path, f"damaged, or not of the format '{form.key}': {what}", "write the file anew")
 

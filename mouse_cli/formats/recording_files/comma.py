@@ -26,7 +26,7 @@ def _read(path: str) -> Contents:
         text = stream.read()
     lines = text.split("\n")
     first, separator = _first(path, lines)
-    width = len(_cells(lines[first], separator))
+    width = _columns(lines[first : first + 5], separator)
     if width > MOST_COLUMNS:
         reject("MD258", path, f"the table has {width} columns; at most {MOST_COLUMNS} are read", "divide it")
     comma = separator in (";", "\t") and any(_DECIMAL_COMMA.fullmatch(cell) for cell in _cells(lines[first], separator))
@@ -55,9 +55,14 @@ def _first(path: str, lines: list[str]) -> tuple[int, str | None]:
     )
 
 
+def _columns(lines: list[str], separator: str | None) -> int:
+    """How many there are: a separator that ends every line begins none."""
+    rows = [_cells(line, separator) for line in lines if line.strip()]
+    return len(rows[0]) - (len(rows[0]) > 1 and all(not row[-1] for row in rows))
+
+
 def _cells(line: str, separator: str | None) -> list[str]:
-    cells = [cell.strip().strip('"').strip() for cell in line.split(separator)]
-    return cells[:-1] if len(cells) > 1 and separator and not cells[-1] and line.rstrip().endswith(separator) else cells
+    return [cell.strip().strip('"').strip() for cell in line.split(separator)]
 
 
 def _number(cell: str, comma: bool) -> complex | None:
@@ -101,6 +106,7 @@ def _slowly(path: str, lines: list[str], first: int, separator: str | None, widt
         if not line.strip() or line.lstrip()[0] in _COMMENTS:
             continue
         cells = _cells(line, separator)
+        cells = cells[:width] if not any(cells[width:]) else cells
         if len(cells) != width:
             message = f"the line has {len(cells)} values; the first row of numbers, line {first + 1}, has {width}"
             reject("MD252", path, message, "the file is cut short or damaged here", line_span(path, i + 1, line))
@@ -120,7 +126,7 @@ def _slowly(path: str, lines: list[str], first: int, separator: str | None, widt
 def _head(lines: list[str], separator: str | None, width: int) -> tuple[list[str], list[str]]:
     """Names and units of the columns, from the lines before the numbers; without names, numbers from 1."""
     rows = [_cells(line.lstrip().lstrip(_COMMENTS), separator) for line in lines if line.strip()]
-    rows = [row for row in rows if len(row) == width and any(row)]
+    rows = [row[:width] for row in rows if len(row) >= width and not any(row[width:]) and any(row)]
     units = [""] * width
     if len(rows) > 1 and any(unit(cell) for cell in rows[-1]) and _are_units(rows[-1]):
         units, rows = [cell.strip("[]()") for cell in rows[-1]], rows[:-1]

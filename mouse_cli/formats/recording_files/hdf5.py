@@ -40,11 +40,8 @@ def read(path: str) -> Contents:
     arrays: dict[str, np.ndarray] = {}
     units: dict[str, str] = {}
     with h5py.File(path, "r") as file:
-        try:
-            _stated(file, arrays, "")
-            file.visititems(lambda name, item: _take(path, h5py, name, item, arrays, units))
-        except (OSError, KeyError) as error:
-            raise ValueError(str(error)) from error
+        _stated(file, arrays, "")
+        file.visititems(lambda name, item: _take(path, h5py, name, item, arrays, units))
     if all(name in arrays for name in ("frequency_hz", "H")) and "output_names" in arrays:
         return Contents(functions=npz.functions(arrays))
     contents = spread(path, arrays)

@@ -14,26 +14,19 @@ _DEEPEST = 6  # structs in structs
 def _read(path: str) -> Contents:
     if hdf5_matrices.claims(path):
         return hdf5.read(path)
+    import warnings
+
     from scipy.io import loadmat, whosmat
-    from scipy.io.matlab import MatReadError, MatReadWarning, matfile_version
+    from scipy.io.matlab import MatReadWarning, matfile_version
 
-    try:
-        if matfile_version(path)[0] == 1:
-            matlab_elements.check(path)
-        size = sum(8 * prod(shape) for _, shape, _ in whosmat(path))
-        if size > MAX_BYTES:
-            reject("MD258", path, f"the file unpacks to {size} bytes; at most {MAX_BYTES} are read", "divide it")
-        import warnings
-
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", MatReadWarning)
-            found = loadmat(path)
-    except (MatReadError, OSError, Exception) as error:
-        from mouse_cli._errors import DeckError
-
-        if isinstance(error, DeckError | MemoryError):
-            raise
-        raise ValueError(str(error)) from error  # SciPy's reader of damaged files raises whatever its parts do
+    if matfile_version(path)[0] == 1:
+        matlab_elements.check(path)
+    size = sum(8 * prod(shape) for _, shape, _ in whosmat(path))
+    if size > MAX_BYTES:
+        reject("MD258", path, f"the file unpacks to {size} bytes; at most {MAX_BYTES} are read", "divide it")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MatReadWarning)
+        found = loadmat(path)
     arrays: dict[str, np.ndarray] = {}
     for name, value in found.items():
         if not name.startswith("__"):

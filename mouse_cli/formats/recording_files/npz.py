@@ -14,15 +14,12 @@ _OWN = ("frequency_hz", "H", "output_names", "input_names")
 
 
 def _read(path: str) -> Contents:
-    try:
-        with zipfile.ZipFile(path) as archive:
-            size = sum(item.file_size for item in archive.infolist())
-        if size > MAX_BYTES:
-            reject("MD258", path, f"the archive unpacks to {size} bytes; at most {MAX_BYTES} are read", "divide it")
-        with np.load(path, allow_pickle=False) as archive:
-            arrays = {name: archive[name] for name in archive.files}
-    except (zipfile.BadZipFile, zipfile.LargeZipFile) as error:
-        raise ValueError(str(error)) from error
+    with zipfile.ZipFile(path) as archive:
+        size = sum(item.file_size for item in archive.infolist())
+    if size > MAX_BYTES:
+        reject("MD258", path, f"the archive unpacks to {size} bytes; at most {MAX_BYTES} are read", "divide it")
+    with np.load(path, allow_pickle=False) as archive:
+        arrays = {name: archive[name] for name in archive.files}
     if all(name in arrays for name in _OWN):
         return Contents(functions=functions(arrays))
     return spread(path, arrays)

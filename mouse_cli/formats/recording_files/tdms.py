@@ -18,22 +18,11 @@ def _read(path: str) -> Contents:
             "reading TDMS needs the package nptdms, which is not installed",
             "pip install 'mouse-cli[tdms]'",
         )
-    try:
-        with TdmsFile.open(path) as file:
-            channels = [channel for group in file.groups() for channel in group.channels()]
-            if len(channels) > MOST_COLUMNS or sum(8 * len(channel) for channel in channels) > MAX_BYTES:
-                reject(
-                    "MD258", path, f"the file has {len(channels)} channels of more than {MAX_BYTES} bytes", "divide it"
-                )
-            columns = [_column(channel) for channel in channels]
-    except MemoryError:
-        raise
-    except Exception as error:  # its reader of damaged files raises whatever its parts do
-        from mouse_cli._errors import DeckError
-
-        if isinstance(error, DeckError):
-            raise
-        raise ValueError(str(error) or type(error).__name__) from error
+    with TdmsFile.open(path) as file:
+        channels = [channel for group in file.groups() for channel in group.channels()]
+        if len(channels) > MOST_COLUMNS or sum(8 * len(channel) for channel in channels) > MAX_BYTES:
+            reject("MD258", path, f"the file has {len(channels)} channels of more than {MAX_BYTES} bytes", "divide it")
+        columns = [_column(channel) for channel in channels]
     return Contents(tuple(column for column in columns if column is not None))
 
 

@@ -40,11 +40,15 @@ def blocks(data: bytes) -> Iterator[Block]:
 
 
 def _binary_bytes(data: bytes, begin: int, extra: str) -> int:
-    """Bytes that the eleven lines of the head and the numbers take by what the first line says; less where it is wrong."""
+    """Bytes that the eleven lines of the head and the numbers take at least; by the head, since programs promise too few."""
     fields = [int(word) for word in extra.split() if word.isdecimal()]
-    _, at = lines(data, begin, 11)
-    promised = fields[3] if len(fields) > 3 else 0
-    return min(at - begin + promised, len(data) - begin)
+    head, at = lines(data, begin, 11)
+    counts = head[6].split()[:3]
+    least = fields[3] if len(fields) > 3 else 0
+    if len(counts) == 3 and all(word.isdecimal() for word in counts):
+        kind, count, even = (int(word) for word in counts)
+        least = count * ((8 if kind in (4, 6) else 4) * (2 if kind in (5, 6) else 1) + (0 if even else 4))
+    return min(at - begin + least, len(data) - begin)
 
 
 def lines(data: bytes | memoryview, at: int, count: int) -> tuple[list[str], int]:

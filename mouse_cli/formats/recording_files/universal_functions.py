@@ -112,11 +112,10 @@ def _binary(block: Block, at: int, kind: int, count: int, even: int) -> np.ndarr
             f"the function at byte {block.at} is in floating-point format {fields[1]}; IEEE 754 (2) is read"
         )
     item = f"{order}f{4 if kind in (2, 5) else 8}"
-    promised = fields[3] if len(fields) > 3 else 0
-    abscissa = [] if even else [("x", item if promised >= count * 8 * _width(kind, even) else f"{order}f4")]
+    held = len(block.content) - at
+    abscissa = [] if even else [("x", item if held >= count * 8 * _width(kind, even) else f"{order}f4")]
     record = np.dtype([*abscissa, ("y", item, (2 if kind in (5, 6) else 1,))])
     needed = count * record.itemsize
-    held = len(block.content) - at
     if held < needed:
         raise ValueError(f"the function at byte {block.at} promises {needed} bytes and holds {held}")
     if held > needed and bytes(block.content[at : at + 1]) in (b"\n", b"\r"):

@@ -13,21 +13,17 @@ def _read(path: str) -> Contents:
     from scipy.io import wavfile
 
     _check(path)
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", wavfile.WavFileWarning)
-            rate, samples = wavfile.read(path)
-    except (OSError, MemoryError):
-        raise
-    except Exception as error:  # SciPy's reader of damaged files raises whatever its parts do
-        raise ValueError(str(error)) from error
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", wavfile.WavFileWarning)
+        rate, samples = wavfile.read(path)
     if not 0 < rate < 1e9 or not samples.size:
         raise ValueError(f"{samples.shape[0]} samples at {rate} a second")
     table = samples.reshape(len(samples), -1)
     full = (
         1.0 if table.dtype.kind == "f" else 128.0 if table.dtype == np.uint8 else float(2 ** (8 * table.itemsize - 1))
     )
-    scaled = (table - (128.0 if table.dtype == np.uint8 else 0.0)) / full
+    with np.errstate(invalid="ignore"):
+        scaled = (table - (128.0 if table.dtype == np.uint8 else 0.0)) / full
     return Contents(tuple(Column(str(j + 1), scaled[:, j]) for j in range(table.shape[1])), float(rate))
 
 
