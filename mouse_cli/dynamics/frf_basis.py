@@ -12,7 +12,7 @@ import numpy as np
 
 from mouse_cli.dynamics.eigen import EigenSolution
 from mouse_cli.dynamics.frf import Dynamics, FrfModel, Loads
-from mouse_cli.dynamics.krylov import Krylov
+from mouse_cli.dynamics.krylov import BLOCK, Krylov
 from mouse_cli.model.arrays import Matrix, dense, is_sparse
 
 WHOLE = 60  # degrees of freedom up to which a model is solved as it is
@@ -96,15 +96,20 @@ class _Basis:
             self.sigma, self.operator = solution.shift, space.operator
         band = solution.eigenvalues <= (BEYOND * top) ** 2
         X = solution.shapes.T[band]
-        self.krylov = self._found(X, solution.eigenvalues[band]) if space is None else space.copy()
+        self.krylov = self._found(X, solution.eigenvalues[band]) if space is None else space.copy(self._room)
         first = self.krylov.d if space is None else space.reached  # its last block is still to be expanded
         self._damped(X)
         self._append(np.ascontiguousarray(self.full.T))
         self._newest = slice(first, self.krylov.d)  # where damping acts, it drives like a force
 
+    @property
+    def _room(self) -> int:
+        """Vectors that loads and levels usually add."""
+        return (self.loads.count + BLOCK) * (1 + _FIRST)
+
     def _found(self, X: np.ndarray, eigenvalues: np.ndarray) -> Krylov:
         """The modes X (m, n) of a dense model. For a sparse one there is what the search for them left, higher modes and all."""
-        krylov = Krylov(self.operator, max(1, min(self.dynamics.n, len(X) + self.loads.count * (1 + _FIRST))))
+        krylov = Krylov(self.operator, max(1, min(self.dynamics.n, len(X) + self._room)))
         if len(X):
             mu = eigenvalues[:, None] - self.sigma
             krylov.append(np.array(X), mu * self.operator.mass(np.ascontiguousarray(X)))

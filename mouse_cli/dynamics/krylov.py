@@ -134,12 +134,12 @@ class Krylov:
         T[last] = T[:, last].T
         return T
 
-    def copy(self) -> "Krylov":
-        """Another one with the same vectors, which may grow by itself."""
-        other = Krylov(self.operator, self.d)
+    def copy(self, more: int = 0) -> "Krylov":
+        """Another one with the same vectors, which may grow by itself; with room for so many `more`."""
+        other = Krylov(self.operator, min(self.d + more, max(self.n, self.d)))
         other.d, other.reached, other._expanded = self.d, self.reached, self._expanded
-        other._T, other.known = self._T[: self.d, : self.d].copy(), self.known
-        other._V[:], other._AV[:] = self.V, self._AV[: self.d]
+        other._T[: self.d, : self.d], other.known = self._T[: self.d, : self.d], self.known
+        other._V[: self.d], other._AV[: self.d] = self.V, self._AV[: self.d]
         return other
 
     def append(self, W: np.ndarray, R: np.ndarray, recent: int = 0) -> tuple[np.ndarray, np.ndarray]:

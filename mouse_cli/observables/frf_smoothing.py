@@ -7,6 +7,7 @@ H is analytic for Re s > 0, so that its values on a line sigma + i omega follow 
 They are the FRF of the records weighed by e^(-sigma t). With sigma = width omega every resonance is as broad as that of a damping
 ratio larger by `width`, in the model, which is solved at the same s, and in the measurement: resonances that lie apart by much more
 than their own width then overlap, and nothing need be known of which is which. No curve is fitted and no peak is picked.
+Below zero H(-i nu) is the conjugate of H(i nu).
 """
 
 import numpy as np
@@ -33,8 +34,10 @@ def smoothed(test: FrfTest, width: float) -> FrfObservable:
 
 def _on_line(test: FrfTest, have: np.ndarray, lines: np.ndarray, sigma: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Poisson's integral (l, o, i) over what was measured, scaled to the share (l, o, i) of its kernel that lies there."""
-    omega = test.omega
-    kernel = sigma[:, None] / ((omega[lines, None] - omega) ** 2 + sigma[:, None] ** 2) / np.pi * np.gradient(omega)
-    share = np.tensordot(kernel, have.astype(float), axes=1)
-    total = np.tensordot(kernel, np.where(have, test.H, 0.0), axes=1)
+    omega, weight = test.omega, np.gradient(test.omega) / np.pi
+    at, sigma = omega[lines, None], sigma[:, None]
+    above, below = (sigma / ((at - sign * omega) ** 2 + sigma**2) * weight for sign in (1, -1))
+    H = np.where(have, test.H, 0.0)
+    share = np.tensordot(above + below, have.astype(float), axes=1)
+    total = np.tensordot(above, H, axes=1) + np.tensordot(below, H.conj(), axes=1)
     return np.divide(total, share, out=np.full(share.shape, np.nan, complex), where=share > 0), share
