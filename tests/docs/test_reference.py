@@ -131,6 +131,15 @@ def test_json_of_modes():
     assert emitted == _documented("mouse.modes/1")
 
 
+def test_json_of_spectra(tmp_path):
+    path = tmp_path / "run.csv"
+    t = [i / 100 for i in range(400)]
+    rows = [f"{x:.2f},{((i * 7919) % 101) / 50 - 1},{((i * 104729) % 103) / 50 - 1}" for i, x in enumerate(t)]
+    path.write_text("t,force (N),acc (g)\n" + "\n".join(rows))
+    emitted = set(_paths(json.loads(_told("spectra", path, "--force", "force", "--lines", "20", "--json"))))
+    assert emitted == _documented("mouse.spectra/1")
+
+
 def test_json_of_correlate(tmp_path):
     """A deck with two close modes and a reversed sensor, so that every part of the document has an entry."""
     deck = tmp_path / "square.yaml"
