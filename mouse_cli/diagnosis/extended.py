@@ -6,7 +6,9 @@ import numpy as np
 
 from mouse_cli.diagnosis.extend import moved
 from mouse_cli.diagnosis.fit import Fit
+from mouse_cli.diagnosis.sensors import name, readings
 from mouse_cli.model.hold_out import HoldOut
+from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.problem import Problem
 
 
@@ -22,7 +24,25 @@ def extended(problem: Problem, one: Fit) -> Problem | None:
         return deck
     place = {label: i for i, label in enumerate(deck.structure.labels)}
     to = np.array([place[label] for label in problem.structure.labels], int)
-    return replace(deck, hold_out=_moved(problem.hold_out, to, deck.structure.n))
+    held = _moved(problem.hold_out, to, deck.structure.n)
+    if deck.test.sensors != problem.test.sensors or (deck.test.dofs != to[problem.test.dofs]).any():
+        held = replace(held, whole=_corrected(held, replace(deck, test=held.whole), deck.test))
+    return replace(deck, hold_out=held)
+
+
+def _corrected(held: HoldOut, whole: Problem, fitted: ModalTest) -> ModalTest:
+    """The whole test, the sensors that fits use read as those of `fitted`, which a cause has corrected."""
+    from scipy.sparse import csr_array, vstack
+
+    test, n = held.whole, whole.structure.n
+    kept = np.setdiff1d(np.arange(test.s), held.sensors).tolist()
+    dofs = np.array([fitted.dofs[kept.index(k)] if k in kept else test.dofs[k] for k in range(test.s)])
+    if fitted.sensing is None:
+        return replace(test, dofs=dofs)
+    old, new = readings(test, n), readings(fitted, n)
+    rows = vstack([new[[kept.index(k)]] if k in kept else old[[k]] for k in range(test.s)])
+    names = tuple(fitted.sensors[kept.index(k)] if k in kept else name(whole, k) for k in range(test.s))
+    return replace(test, dofs=dofs, sensing=csr_array(rows), sensors=names)
 
 
 def _in_its_units(deck: Problem, own: int) -> Problem:

@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
+import yaml
 from click.testing import CliRunner
 
 from mouse_cli.cli.main import main
@@ -104,6 +105,23 @@ def test_a_held_out_configuration_is_foreseen(told):
     again = read_deck("revised.yaml").hold_out
     assert again.altered[0].masses == {3: 1.0}
     assert again.whole.number[again.modes].tolist() == [4]
+
+
+@pytest.mark.parametrize("fault", ["gain", "swap"])
+def test_a_corrected_sensor_stays_corrected_beside_what_is_held_out(told, fault):
+    """The sound chain with a sensor that reads 0.7 of the truth, or with two exchanged, its highest mode and a sensor held out."""
+    from mouse_cli.updating import run
+
+    deck = yaml.safe_load(Path(SOUND).read_text())
+    modes = deck["test"]["modes"]
+    shapes = modes["shapes"]
+    shapes[1], shapes[2] = ([0.7 * x for x in shapes[1]], shapes[2]) if fault == "gain" else (shapes[2], shapes[1])
+    deck["test"]["hold_out"] = {"modes": [4], "sensors": [4]} if fault == "gain" else {"modes": [4]}
+    Path("faulty.yaml").write_text(yaml.safe_dump(deck))
+    code, out, _ = told("faulty.yaml", "-o", "revised.yaml")
+    assert code == 1
+    assert "The test is at fault, not the model" in out
+    assert run(read_deck("revised.yaml")).exit_code == 0
 
 
 def test_reports_beside_the_answer(told):
