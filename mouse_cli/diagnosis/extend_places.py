@@ -39,6 +39,9 @@ def node_at(edit: Edit, site: Site) -> int:
     """The node (index) of a place: one that is there, or a new one in the element that it is within."""
     if site.kind in ("node", "dof"):
         return edit.index(int(re.match(r"\d+", str(site.ids[0]))[0]))
+    if site.position is None:  # anywhere along these elements
+        s, i = edit.element(int(site.ids[len(site.ids) // 2]))
+        return int(edit.sets[s].nodes[i, 0])
     element, share = element_at(edit, np.array(site.position))
     return edit.split(element, share)
 

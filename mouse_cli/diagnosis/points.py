@@ -7,12 +7,15 @@ from typing import Any
 import numpy as np
 
 from mouse_cli.diagnosis.change import Change, Recipe, Unknown, product
+from mouse_cli.diagnosis.lines import Line, elements
 from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
+from mouse_cli.model.structure import Structure
 
 _STILL = 0.02  # share of the largest motion in a measured mode below which a direction does not take part
+_ALIKE = 0.01  # of the motion of a line: differences along it up to which it moves as one
 _EACH = 6  # places to begin from on a line
 _ALL = 300  # nodes or degrees of freedom that are looked at where nothing tells them apart
 
@@ -116,6 +119,9 @@ def _lines(model: Reduced, direction: int | None) -> list[Points]:
     for run, size in zip(runs, sizes, strict=True):
         if (size if direction is None else size[:, direction]).max() < _STILL * largest:
             continue
+        if direction is not None and _as_one(run, direction, used):
+            found.append(_whole(run, direction, run.length / bars.span))
+            continue
 
         def motion(values, run=run):
             u = bars.motion(*run.at(values[0]))
@@ -125,11 +131,25 @@ def _lines(model: Reduced, direction: int | None) -> list[Points]:
             here = run.site(values[0])
             return here if direction is None else replace(here, text=f"{here.text}, {DIRECTIONS[direction]}")
 
-        starts = run.starts(2 * _EACH, run.length / total)
+        starts = np.concatenate([[0.0], run.starts(2 * _EACH, run.length / total), [run.length]])
         where = Unknown("place", "m", 0.0, run.length, log=False)
         dofs = (0, 1, 2) if direction is None else (direction,)
         found.append(Points((where,), starts[:, None], motion, site, run.length / bars.span, dofs))
     return found
+
+
+def _as_one(run: Line, direction: int, used: np.ndarray) -> bool:
+    """Whether a line moves as one in a direction, as a bar does along itself: then no place on it is told from another."""
+    rows = run.middles[:, direction] * used
+    return bool(np.ptp(rows, axis=0).max() < _ALIKE * np.abs(rows).max())
+
+
+def _whole(run: Line, direction: int, share: float) -> Points:
+    """Anywhere along a line that moves as one in a direction."""
+    ids = tuple(int(run.bars.ids[bar]) for bar in run.members)
+    site = Site("element", ids, None, f"anywhere along {elements(ids)}, {DIRECTIONS[direction]}")
+    row = run.middles[len(run.members) // 2, direction]
+    return Points((), np.zeros((1, 0)), _fixed(row[None]), _fixed(site), share, (direction,))
 
 
 def _nodes(model: Reduced) -> list[Points]:
@@ -166,21 +186,26 @@ def _dofs(model: Reduced, together: bool) -> list[Points]:
     if at is not None:
         free = free[at.direction[free] < 3]
     if at is None or not together:
-        sites = [Site("dof", (structure.labels[i],), None, f"degree of freedom {structure.labels[i]}") for i in free]
+        sites = [_named(structure, int(i)) for i in free]
         return [_single(model, site, (int(i),)) for i, site in zip(free, sites, strict=True)]
     found = []
     for node in np.unique(at.node[free]):
         own = tuple(np.flatnonzero((at.node == node) & (at.direction < 3)).tolist())
         number = int(at.node_ids[node]) if node >= 0 else 0
         if node < 0:
-            labels = structure.labels
-            found += [
-                _single(model, Site("dof", (labels[i],), None, f"degree of freedom {labels[i]}"), (i,)) for i in own
-            ]
+            found += [_single(model, _named(structure, i), (i,)) for i in own]
         else:
             position = tuple(at.coordinates[node].tolist())
             found.append(_single(model, Site("node", (number,), position, f"node {number}"), own))
     return found
+
+
+def _named(structure: Structure, i: int) -> Site:
+    """A degree of freedom, and where it is if that is known."""
+    at, label = structure.geometry, structure.labels[i]
+    known = at is not None and at.node[i] >= 0
+    here = tuple(at.coordinates[at.node[i]].tolist()) if known else None
+    return Site("dof", (label,), here, f"degree of freedom {label}")
 
 
 def _single(model: Reduced, site: Site, dofs: tuple[int, ...]) -> Points:

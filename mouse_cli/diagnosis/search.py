@@ -11,10 +11,13 @@ from mouse_cli.diagnosis.change import Recipe
 from mouse_cli.diagnosis.fit import MOST, Fit, fit
 from mouse_cli.diagnosis.reduced import Reduced
 
-_STARTS = 3  # fits of a candidate, from the best places of its grid
+_STARTS = 3  # fits of a candidate to the end, from different optima
+_LOOKS, _MOST, _EACH, _BRIEF = 12, 40, 4, 4  # brief descents at least, at most, from one recipe, and their steps
+_APART = 0.08  # of a range: between starts of one recipe
 _SETTLE, _MOVED = 3, 5e-3  # times that causes are weighed anew, as long as parameters move more than that share
 _THEORY = 0.01  # of what a cause does to frequencies and shapes, by which its theory may be wrong
 _SHIFTS = np.array([-5, -3, -2, -1, 1, 2, 3, 5]) / 50  # of the range of a place
+_RIGID, _VISIBLE = 1e-3, 0.03  # eigenvalue and motion, of measured modes, below which a mode is rigid, or easily missed
 _COARSE = 24  # coordinates at least for a first look
 
 
@@ -70,6 +73,20 @@ class Study:
             self._looked[name] = found
         return found
 
+    def approached(self, name: str, before: np.ndarray, beside: tuple[Recipe, ...]) -> list[tuple[int, np.ndarray]]:
+        """Numbers of recipes and x where brief descents from different starts lead, the best first, no two alike.
+
+        What a first look finds best may be beside the true place many times over, and the true one at a wrong size.
+        """
+        trials = {i: self.with_cause(beside, name, i) for i in range(len(self.recipes(name)))}
+        most = min(max(_LOOKS, len(trials)), _MOST) // (2 if beside else 1)  # a partner is tried beside many
+        chosen = _spread(self.starts(name, before, beside), trials, most)
+        if len(chosen) < 2:
+            return chosen
+        descents = [(i, fit(trials[i], x[self.k :], x[: self.k], _BRIEF)) for i, x in chosen]
+        led = sorted(((i, one) for i, one in descents if one is not None), key=lambda item: item[1].misfit)
+        return _spread([(i, one.point.x) for i, one in led], trials, most)
+
     @cached_property
     def _adapted(self) -> tuple[np.ndarray, np.ndarray]:
         """T (q, k), and (T'T + I)^-1 [T', -I] (k, q + k): how far the deck's parameters follow a residual."""
@@ -96,6 +113,20 @@ class Study:
         """The same at the parameters that a fit found."""
         theta = one.model.base.parameters(one.point.x[: self.k])
         return Study(self.model.at(theta), self.known)
+
+
+def _spread(starts: list[tuple[int, np.ndarray]], trials: dict[int, Model], most: int) -> list[tuple[int, np.ndarray]]:
+    """The first `most` of `starts` (number of recipe, x), without such as are close to an earlier one of the same recipe."""
+    taken: dict[int, list[np.ndarray]] = {}
+    found = []
+    for number, x in starts:
+        trial, own = trials[number], taken.setdefault(number, [])
+        at = x[trial.k :] / trial.width
+        if len(own) < max(_EACH, most // len(trials)) and all(np.abs(at - other).max() > _APART for other in own):
+            own.append(at), found.append((number, x))
+        if len(found) == most:
+            break
+    return found
 
 
 def shifted(one: Fit) -> Fit:
@@ -135,6 +166,27 @@ def idealised(one: Fit) -> Fit:
     return fit(loose, one.c, at.x[: one.model.k]) or one
 
 
+def unseen(one: Fit) -> float:
+    """Nats against causes with a mode of their own that the test does not have, though its sensors would have seen it.
+
+    Of a mode below the highest measured one whose largest component is r times that of those measured (unit modal masses), a test
+    misses 1 in 1 + (r / 0.03)^2: what responds at resonance goes with r^2. Where the test counts that mode, nothing.
+    """
+    at, base = one.point, one.model.base
+    bare = Model(base).point(at.x[: one.model.k])
+    if bare is None or not at.modes.size or at.modes.max() + 1 <= base.data.test.number.max():
+        return 0.0
+    return max(0.0, _missed(at) - _missed(bare))
+
+
+def _missed(at: Point) -> float:
+    """ln of how rarely a test misses what `at` has between rigid modes and the highest measured one, and the test has not."""
+    measured, size = at.eigenvalues[at.modes], np.abs(at.seen).max(axis=0, initial=0.0)
+    between = (at.eigenvalues > _RIGID * measured.min()) & (at.eigenvalues < measured.max())
+    between[at.modes] = False
+    return float(np.log1p((size[between] / np.median(size[at.modes]) / _VISIBLE) ** 2).sum())
+
+
 def settled(one: Fit, study: Study) -> Fit:
     """The fit with its causes weighed at the parameters that it found, not at those where the search began."""
     for _ in range(_SETTLE):
@@ -170,7 +222,7 @@ def tried(
     others = () if beside is None else beside.recipes
     before = np.zeros(study.k) if beside is None else beside.point.x
     found = []
-    for number, x in study.coarse.starts(name, before, others)[:count]:
+    for number, x in study.coarse.approached(name, before, others)[:count]:
         whole, one = study.with_cause(others, name, number), None
         if study.coarse is not study:
             near = fit(study.coarse.with_cause(others, name, number), x[study.k :], x[: study.k], most)
@@ -187,7 +239,7 @@ def summed(found: list[Fit], reach: float = np.inf) -> Fit | None:
     total = np.logaddexp.reduce([one.log_evidence for one in distinct])
     others = tuple((one, float(np.exp(one.log_evidence - total))) for one in distinct[1:])
     best = idealised(distinct[0]) if distinct[0].misfit < reach else distinct[0]
-    log_evidence = best.log_evidence + float(total - distinct[0].log_evidence)
+    log_evidence = best.log_evidence + float(total - distinct[0].log_evidence) - unseen(best)
     return replace(best, log_evidence=log_evidence, elsewhere=others)
 
 

@@ -17,6 +17,7 @@ _MODES = 8  # that are looked at
 _LOOKS, _FOLLOWED = 6, 24  # looks at most, and steps after each
 _LOOKED = 3000  # best degrees of freedom from which places are taken
 _TOLD = 1.0  # misfit of the shapes of two places up to which they are taken as one
+_LIKE = 0.98  # cosine between effects on the data from which on two places are taken as one
 _EACH = 20_000  # places worked on at once
 _PAIRS = 20_000  # pairs that are looked at, those first between whose ends a force does best
 
@@ -43,7 +44,53 @@ def survey(model: Reduced, K: Matrix, count: int) -> np.ndarray:
             starts.append(tried.z[order[0]])
         if not starts:
             break
-    return found
+    weak = _felt(model, update, count // 4)
+    joined = np.concatenate([found[: count - len(weak)], weak, found[count - len(weak) :]])
+    return joined[np.sort(np.unique(joined, return_index=True)[1])][:count]
+
+
+def _felt(model: Reduced, update: Fit, count: int) -> np.ndarray:
+    """The `count` degrees of freedom where a little spring or mass lowers the misfit most, no two that do the same to the data.
+
+    To first order, the deck's parameters following: (g'r)^2 / (g'g - g'T (T'T + I)^-1 T'g) for derivatives g of the data. Shapes
+    of a model that is nearly right are made by a force anywhere: what is weak is found so.
+    """
+    T, X = update.model.jacobian(update.point), update.point.X
+    follow = np.linalg.solve(T.T @ T + np.eye(T.shape[1]), T.T)
+
+    def felt(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Gain (2, n) of a spring and of a mass, and what they do (2, q, n), of unit length."""
+        g = _effects(update, rows @ X)
+        left = np.maximum(np.einsum("cqn,cqn->cn", g, g - T @ (follow @ g)), 1e-300)
+        return np.maximum(np.einsum("q,cqn->cn", update.point.residual, g), 0.0) ** 2 / left, g / np.sqrt(left)[:, None]
+
+    size = _EACH // 10
+    gain = np.concatenate([felt(model.V[i : i + size])[0] for i in range(0, len(model.V), size)], axis=1)
+    found: list[int] = []
+    for c in range(2):
+        order = np.argsort(-gain[c], kind="stable")[: size // 4]
+        effect = felt(model.V[order])[1][c]
+        free = gain[c, order] > 0
+        for _ in range(count - count // 2):
+            if not free.any():
+                break
+            i = int(np.argmax(free))
+            found.append(int(order[i]))
+            free &= effect.T @ effect[:, i] < _LIKE * np.linalg.norm(effect[:, i]) * np.linalg.norm(effect, axis=0)
+    return np.array(found[:count], int)
+
+
+def _effects(update: Fit, B: np.ndarray) -> np.ndarray:
+    """Derivatives (2, q, n) of the whitened data by a spring to the ground, and by a mass, at each row of B (n, r) in own modes."""
+    at, data = update.point, update.model.base.data
+    measured = at.eigenvalues[at.modes]
+    apart = measured[:, None] - at.eigenvalues
+    apart[np.abs(apart) < 1e-9 * np.abs(measured)[:, None]] = np.inf
+    own = B[:, at.modes].T  # (m, n)
+    stretched = np.stack([(at.seen / apart[i]) @ B.T for i in range(len(measured))], axis=1) * own  # (s, m, n)
+    spring = own**2, stretched
+    mass = -measured[:, None] * own**2, -measured[:, None] * stretched - 0.5 * own**2 * at.seen[:, at.modes, None]
+    return np.stack([data.jacobian(measured, at.seen[:, at.modes], at.a, *each) for each in (spring, mass)])
 
 
 def _merged(new: np.ndarray, old: np.ndarray, count: int, better: bool) -> np.ndarray:
