@@ -2,7 +2,7 @@
 
 1000 lines up to the 20th mode, 20 responses to 2 forces, 100 parameters; loss factor 2 % and a dashpot at one of the
 forces, so that modes are coupled. What is compared: the eigensolution of mouse (numeric factorisation and 30 modes; symbolic
-analysis apart), the basis with its error checked at three lines against full solutions, the FRFs, all their derivatives.
+analysis apart), the basis with its error checked at two lines against full solutions, the FRFs, all their derivatives.
 Processor seconds of one thread, ratios within the run, and the most memory taken.
 """
 
@@ -58,7 +58,7 @@ def main() -> None:
     c = DASHPOT * top * M.diagonal()[inputs[0]] * n / 1000
     C = csr_array(([c], ([inputs[0]], [inputs[0]])), shape=(n, n))
     dynamics = Dynamics(K, M, C, LOSS * K)
-    checked = s[[0, len(s) // 2, -1]]
+    checked = s[[len(s) // 2, -1]]
     model = timed(parts, "basis, checked", lambda: frf_model(dynamics, (outputs, inputs), checked, solution))
     fields = timed(parts, "FRFs", lambda: model.at(s))
     alpha = timed(parts, "read", fields.receptance)

@@ -41,12 +41,6 @@ class Dynamics:
         Z = Z if self.C is None else Z + s * self.C
         return Z if self.D is None else Z + 1j * self.D
 
-    def times(self, s: complex, x: np.ndarray) -> np.ndarray:
-        """Z(s) x, for x (n, c) complex, without forming Z."""
-        out = product(self.K, x) + s**2 * product(self.M, x)
-        out = out if self.C is None else out + s * product(self.C, x)
-        return out if self.D is None else out + 1j * product(self.D, x)
-
 
 def product(matrix: Matrix, x: np.ndarray) -> np.ndarray:
     """A real matrix times complex columns, in real arithmetic."""

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli.dynamics.eigen import EigenSolution
-from mouse_cli.dynamics.frf import Dynamics, FrfModel, Loads
+from mouse_cli.dynamics.frf import Dynamics, FrfModel, Loads, product
 from mouse_cli.dynamics.krylov import BLOCK, Krylov
 from mouse_cli.model.arrays import Matrix, dense, is_sparse
 
@@ -21,7 +21,7 @@ FINAL, ITERATING = 1e-6, 1e-4  # relative errors of FRFs that are reported, and 
 _FIRST, _MOST = 2, 8  # levels of Krylov vectors at first, and at the end
 _REFINEMENTS = 60  # steps towards a full solution
 _CHECKED = 2  # loads for which they are found
-_SOLVED, _ROUNDED = 1e-8, 1e-6  # the last step of it, relative; the same where rounding keeps it from getting smaller
+_SOLVED, _ROUNDED = 3e-8, 1e-6  # the last step of it, relative; the same where rounding keeps it from getting smaller
 
 
 def frf_model(
@@ -85,6 +85,7 @@ class _Basis:
 
     def __init__(self, dynamics: Dynamics, loads: Loads, solution: EigenSolution, top: float):
         self.dynamics, self.loads, self.levels = dynamics, loads, 0
+        self.followed = {name: _follows(getattr(dynamics, name), dynamics) for name in ("C", "D")}
         self.full = loads.full(dynamics.n)
         space = solution.space
         if space is None:
@@ -117,8 +118,9 @@ class _Basis:
 
     def _damped(self, X: np.ndarray) -> None:
         """What coupling of the modes X (m, n) by damping does to them: A^-1 C X, A^-1 D X outside of their span."""
-        for damping in (self.dynamics.C, self.dynamics.D):
-            if damping is not None and len(X) and _follows(damping, self.dynamics) is None:
+        for name, followed in self.followed.items():
+            if followed is None and len(X):
+                damping = getattr(self.dynamics, name)
                 self._append(np.ascontiguousarray((damping @ np.ascontiguousarray(X.T)).T))
 
     def _append(self, right: np.ndarray) -> None:
@@ -146,22 +148,34 @@ class _Basis:
         M = V @ self.operator.mass(V).T
         M = (M + M.T) / 2
         K = np.eye(len(V)) + self.sigma * M
-        C, D = (self._projected(damping, K, M) for damping in (self.dynamics.C, self.dynamics.D))
+        C, D = (self._projected(name, K, M) for name in ("C", "D"))
         return FrfModel(Dynamics(K, M, C, D), V @ self.full, self.loads.columns, V, self.levels)
 
-    def _projected(self, damping: Matrix | None, K: np.ndarray, M: np.ndarray) -> np.ndarray | None:
+    def _projected(self, name: str, K: np.ndarray, M: np.ndarray) -> np.ndarray | None:
+        damping, followed = getattr(self.dynamics, name), self.followed[name]
         if damping is None:
             return None
-        followed = _follows(damping, self.dynamics)
         if followed is not None:
             return followed[0] * K + followed[1] * M
         out = self.krylov.V @ (damping @ np.ascontiguousarray(self.krylov.V.T))
         return (out + out.T) / 2
 
+    def times(self, s: complex, x: np.ndarray) -> np.ndarray:
+        """Z(s) x for x (n, c); damping that follows K and M costs no product of its own."""
+        of_K, of_M, out = 1.0 + 0j, s**2, 0.0
+        for name, weight in (("C", s), ("D", 1j)):
+            if self.followed[name] is not None:
+                of_K, of_M = (total + weight * a for total, a in zip((of_K, of_M), self.followed[name], strict=True))
+            else:
+                out = out + weight * product(getattr(self.dynamics, name), x)
+        return out + of_K * product(self.dynamics.K, x) + of_M * product(self.operator.M, x)
 
-def _follows(damping: Matrix, dynamics: Dynamics) -> tuple[float, float] | None:
+
+def _follows(damping: Matrix | None, dynamics: Dynamics) -> tuple[float, float] | None:
     """a, b with sparse `damping` = a K + b M, as far as their patterns tell at once; None where it is not, or not easily seen."""
     K, M = dynamics.K, dynamics.M
+    if damping is None:
+        return 0.0, 0.0
     if not (is_sparse(damping) and is_sparse(K) and is_sparse(M)):
         return None
     if not (len(damping.data) == len(K.data) and np.array_equal(damping.indices, K.indices)):
@@ -199,11 +213,11 @@ def _full(basis: _Basis, model: FrfModel, s: complex, x: np.ndarray, loads: np.n
     """Z(s)^-1 loads (n, c) from x (n, c) on: a correction by A^-1 outside of the basis, one within it, and so on."""
     Z, before = model.matrices.at(s), np.inf
     for _ in range(_REFINEMENTS):
-        rest = loads - basis.dynamics.times(s, x)
+        rest = loads - basis.times(s, x)
         c = rest.shape[1]
         moved = basis.operator.columns(np.asfortranarray(np.concatenate([rest.real, rest.imag], axis=1)))
         better = x + moved[:, :c] + 1j * moved[:, c:]
-        rest = loads - basis.dynamics.times(s, better)
+        rest = loads - basis.times(s, better)
         better = better + model.V.T @ np.linalg.solve(Z, model.V @ rest)
         change = float((np.linalg.norm(better - x, axis=0) / np.linalg.norm(better, axis=0)).max())
         if change <= _SOLVED or (change > 0.5 * before and change <= _ROUNDED):

@@ -6,64 +6,69 @@ The motions at all lines span few directions, many fewer than there are lines; d
 """
 
 from collections.abc import Iterator
+from functools import cached_property
 
 import numpy as np
 
+from mouse_cli.dynamics.contraction import Stack, rows_of
 from mouse_cli.dynamics.frf import Fields
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.term import CONSTANT, MATRICES, Slopes
 
 _SPAN = 1e-6  # directions in which no motion has more than this share of its length are left out
+_SMALL = 60  # degrees of freedom up to which derivatives are formed as dense matrices
+_ROWS = 100_000  # of derivatives, worked on at once
 _AT_ONCE = 3_000_000  # complex numbers worked on at once
 
 
 class Change:
-    """dK_j, dM_j, dC_j, dD_j of p parameters as sparse rows: row by row of those that are not zero, parameter under parameter."""
+    """dK_j, dM_j, dC_j, dD_j of p parameters, from their entries; as sparse rows where the model is large."""
 
     def __init__(self, n: int, p: int, slopes: dict[str, Slopes]):
         self.n, self.p = n, p
-        self.parts = {name: _Rows(n, p, slopes[name]) for name in MATRICES if len(slopes.get(name, CONSTANT))}
+        self._slopes = {name: slopes[name] for name in MATRICES if len(slopes.get(name, CONSTANT))}
+
+    @cached_property
+    def _stacks(self) -> dict[tuple[str, str], Stack]:
+        """K with M and C with D, row under row; Stack knows two matrices by the names of the first pair."""
+        found = {}
+        for pair in (("K", "M"), ("C", "D")):
+            own = {of: self._slopes[name] for of, name in zip(("K", "M"), pair, strict=True) if name in self._slopes}
+            if own:
+                found[pair] = Stack(self.n, self.p, own)
+        return found
 
     def projected(self, V: np.ndarray) -> dict[str, np.ndarray]:
         """V dK_j V' and so on (p, r, r), for rows V (r, n)."""
-        return {name: part.projected(V) for name, part in self.parts.items()}
-
-
-class _Rows:
-    """One matrix: `matrix` (t, n) holds the rows; row (t,) degree of freedom of each; start (p + 1,): where each begins."""
-
-    def __init__(self, n: int, p: int, slopes: Slopes):
-        keys = slopes.parameter.astype(np.int64) * n + slopes.row
-        present, place = np.unique(keys, return_inverse=True)
-        self.row = (present % n).astype(int)
-        self.start = np.searchsorted(present, np.arange(p + 1, dtype=np.int64) * n)
-        self.p, self._place, self._slopes = p, place, slopes
-        self.matrix = _sparse(slopes, place, len(present), n) if n > 200 else None
-
-    def projected(self, V: np.ndarray) -> np.ndarray:
-        r = len(V)
         columns = np.ascontiguousarray(V.T)
-        out = np.zeros((self.p, r, r))
-        for j in range(self.p):
-            rows = slice(self.start[j], self.start[j + 1])
-            if rows.start < rows.stop:
-                out[j] = columns[self.row[rows]].T @ self._forces(rows, columns)
-        return out
-
-    def _forces(self, rows: slice, columns: np.ndarray) -> np.ndarray:
-        """Those rows times `columns` (n, r)."""
-        if self.matrix is not None:
-            return self.matrix[rows] @ columns
-        own = (self._place >= rows.start) & (self._place < rows.stop)
-        force = np.zeros((rows.stop - rows.start, columns.shape[1]))
-        np.add.at(force, self._place[own] - rows.start, self._slopes.value[own, None] * columns[self._slopes.col[own]])
-        return force
+        if self.n <= _SMALL:
+            return {name: _small(part, self.p, columns) for name, part in self._slopes.items()}
+        found = {}
+        for pair, stack in self._stacks.items():
+            for name, matrix in zip(pair, (stack.K, stack.M), strict=True):
+                if name in self._slopes:
+                    found[name] = _of_rows(stack, matrix, columns)
+        return found
 
 
-def _sparse(slopes: Slopes, place: np.ndarray, t: int, n: int) -> Matrix:
-    from scipy.sparse import coo_array
+def _small(slopes: Slopes, p: int, columns: np.ndarray) -> np.ndarray:
+    """V dA_j V' (p, r, r), entry by entry."""
+    n = len(columns)
+    dA = np.bincount((slopes.parameter * n + slopes.row) * n + slopes.col, slopes.value, minlength=p * n * n)
+    return columns.T @ (dA.reshape(p, n, n) @ columns)
 
-    return coo_array((slopes.value, (place, slopes.col)), shape=(t, n)).tocsr()
+
+def _of_rows(stack: Stack, matrix: Matrix, columns: np.ndarray) -> np.ndarray:
+    """V dA_j V' (p, r, r), some parameters at a time."""
+    out = np.zeros((stack.p, columns.shape[1], columns.shape[1]))
+    for first, last in stack.chunks(_ROWS, stack.p):
+        start = stack.start[first : last + 1]
+        force = rows_of(matrix, slice(start[0], start[-1])) @ columns
+        for j in range(first, last):
+            at = slice(stack.start[j], stack.start[j + 1])
+            if at.start < at.stop:
+                out[j] = columns[stack.rows[at]].T @ force[at.start - start[0] : at.stop - start[0]]
+    return out
 
 
 def slopes(fields: Fields, change: Change, left: int = 0, right: int = 1) -> Iterator[tuple[slice, np.ndarray]]:

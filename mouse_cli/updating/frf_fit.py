@@ -47,7 +47,7 @@ def _sd(state: State, k: int, o: FrfObservable, root: np.ndarray) -> np.ndarray:
     if o.test.H.size * p > _MOST:
         return out
     setting, frf = state.setting, state.frf
-    change = Change(setting.assembly.n, p, setting.forces(state.theta).slopes)
+    change = setting.change(state.theta)
     slope = setting.coordinates.slope(state.u)
     for first in range(0, len(out), _LINES):
         at = slice(first, first + _LINES)

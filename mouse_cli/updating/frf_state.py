@@ -10,7 +10,6 @@ from mouse_cli.dynamics.frf import Dynamics, FrfModel
 from mouse_cli.dynamics.frf_basis import FINAL, ITERATING, frf_model
 from mouse_cli.dynamics.frf_slopes import Change
 from mouse_cli.model.arrays import Matrix
-from mouse_cli.model.term import Slopes
 from mouse_cli.observables.frf import FrfObservable
 from mouse_cli.terms.assembly import Assembly
 
@@ -39,11 +38,11 @@ class FrfSetting:
         return y, sd
 
     def checked(self) -> np.ndarray:
-        """Lines at which the error of a basis is found: the highest, those of the largest responses, the lowest."""
+        """Lines at which the error of a basis is found: the highest, and those of the largest responses."""
         found = []
         for o in self.observables:
             size = np.where(o.have, np.abs(o.H), 0.0).max(axis=(1, 2), initial=0.0)
-            found += [o.s[0], o.s[int(size.argmax())], o.s[-1]] if len(o.s) else []
+            found += [o.s[int(size.argmax())], o.s[-1]] if len(o.s) else []
         return np.array(sorted(set(found), key=abs, reverse=True))
 
 
@@ -81,12 +80,11 @@ class FrfState:
         pairs = zip(self.setting.observables, self.receptance, strict=True)
         return np.concatenate([o.predicted(alpha) for o, alpha in pairs])
 
-    def partials(self, slopes: dict[str, Slopes], p: int) -> np.ndarray:
-        """T (q, p): derivatives by whatever p things `slopes` are derivatives by."""
-        change = Change(self.assembly.n, p, slopes)
+    def partials(self, change: Change) -> np.ndarray:
+        """T (q, p): derivatives by whatever p things `change` is by."""
         parts = zip(self.setting.observables, self.receptance, self.fields, strict=True)
         return np.concatenate(
-            [o.partials(alpha, f.slopes(change, 2 * k, 2 * k + 1), p) for k, (o, alpha, f) in enumerate(parts)]
+            [o.partials(alpha, f.slopes(change, 2 * k, 2 * k + 1), change.p) for k, (o, alpha, f) in enumerate(parts)]
         )
 
     def everywhere(self) -> Iterator[np.ndarray]:

@@ -10,6 +10,7 @@ from mouse_cli.dynamics.correlation import align, mac, pair
 from mouse_cli.dynamics.eigen import RIGID, EigenSolution, IndefiniteError, clusters
 from mouse_cli.dynamics.forces import Forces, forces
 from mouse_cli.dynamics.frequency import eigenvalue
+from mouse_cli.dynamics.frf_slopes import Change
 from mouse_cli.dynamics.sensitivity import EXACT, FINAL, modal_partials
 from mouse_cli.dynamics.solver import EXACT as EXACT_SHAPES
 from mouse_cli.dynamics.solver import TOLERANCE, EigenSolver
@@ -56,6 +57,17 @@ class Setting:
 
     def _forces(self, theta: np.ndarray) -> Forces:
         return forces(self.assembly.n, self.assembly.p, self.assembly.slopes(theta))
+
+    @cached_property
+    def _constant_change(self) -> Change:
+        return self._change(np.zeros(self.assembly.p))
+
+    def change(self, theta: np.ndarray) -> Change:
+        """Derivatives of K, M, C and D at theta (p,), for FRFs."""
+        return self._constant_change if self.assembly.linear else self._change(theta)
+
+    def _change(self, theta: np.ndarray) -> Change:
+        return Change(self.assembly.n, self.assembly.p, self.assembly.slopes(theta))
 
     def solve(self, K: Matrix, M: Matrix, verify: bool = False) -> EigenSolution:
         """Eigensolution with the modes that the data need. Raises IndefiniteError."""
@@ -109,7 +121,9 @@ class State:
         """d(data)/d(listed elements) (q, e), Eq. O-4; only for those who want to read it."""
         problem = self.setting.problem
         listed = MatrixEntries(problem.elements, problem.A, problem.prior.mean)
-        return self._partials(forces(self.setting.assembly.n, len(problem.elements), listed.by_element()))
+        n, e, slopes = self.setting.assembly.n, len(problem.elements), listed.by_element()
+        modal = self._modal_partials(forces(n, e, slopes), FINAL)
+        return modal if self.frf is None else np.concatenate([modal, self.frf.partials(Change(n, e, slopes))])
 
     @cached_property
     def T(self) -> np.ndarray:
@@ -127,19 +141,16 @@ class State:
         self.T = self._T(EXACT if self.setting.problem.run.exact else FINAL)
 
     def _T(self, accuracy: float | None) -> np.ndarray:
-        T, coordinates = self._partials(self.setting.forces(self.theta), accuracy), self.setting.coordinates
+        T, coordinates = self._modal_partials(self.setting.forces(self.theta), accuracy), self.setting.coordinates
+        if self.frf is not None:
+            T = np.concatenate([T, self.frf.partials(self.setting.change(self.theta))])
         return T * coordinates.slope(self.u) if coordinates.logarithmic.any() else T
 
-    def _partials(self, pattern: Forces, accuracy: float | None = FINAL) -> np.ndarray:
-        """d(data)/d(what `pattern` moves)."""
-        modal = self._modal_partials(pattern, accuracy) if len(self.modes) else np.zeros((0, pattern.properties))
-        if self.frf is None:
-            return modal
-        return np.concatenate([modal, self.frf.partials(pattern.slopes, pattern.properties)])
-
     def _modal_partials(self, pattern: Forces, accuracy: float | None) -> np.ndarray:
-        """The same of eigenvalues and shapes."""
+        """d(eigenvalues and shapes)/d(what `pattern` moves)."""
         observable = self.setting.observable
+        if not len(self.modes):
+            return np.zeros((0, pattern.properties))
         at = observable.test.measured_at
         if self.solution.space is not None and not self.solution.space.alive:
             self._solve_again()
