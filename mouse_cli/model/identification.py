@@ -112,3 +112,18 @@ class Identification:
     def exit_code(self) -> int:
         """0: modes were found and nothing speaks against them; 1: not."""
         return 1 if self.doubts or not self.modes.m else 0
+
+
+_LEAST_SD = 0.25  # of the median of a mode: scaling leaves the largest component none of its own
+
+
+def deck_shapes(modes: Modes) -> tuple[np.ndarray, np.ndarray]:
+    """Real shapes (s, m) for a deck, and their sd: of their noise, and of imaginary parts beyond theirs.
+
+    A shape that is scaled by itself has components without errors of their own; none gets less than a share of the median.
+    """
+    if not modes.m:
+        return modes.shapes.real, modes.shape_sd
+    beyond = np.maximum((modes.shapes.imag**2 - modes.imaginary_sd**2).mean(axis=0), 0.0)
+    sd = np.sqrt(modes.shape_sd**2 + beyond)
+    return modes.shapes.real, np.maximum(sd, _LEAST_SD * np.median(sd, axis=0))

@@ -1,4 +1,4 @@
-"""Figures of a diagnosis: one module = one figure, found by `registry`; matplotlib, which draws them, is optional."""
+"""Figures of a diagnosis or an identification: one module = one figure, found by `registry`; matplotlib is optional."""
 
 import os
 from collections.abc import Callable
@@ -29,12 +29,16 @@ BEFORE, AFTER = "0.55", "#0b5394"  # the model as it is, and extended; apart in 
 
 @dataclass(frozen=True)
 class Plot:
-    """A figure. draw(diagnosis, axes) draws it into matplotlib axes and returns whether there was anything to draw."""
+    """A figure. draw(subject, axes) draws it into matplotlib axes and returns whether there was anything to draw.
+
+    subjects: of what it can be drawn.
+    """
 
     key: str
     order: int
     title: str
-    draw: Callable[[Diagnosis, Any], bool]
+    draw: Callable[[Any, Any], bool]
+    subjects: tuple[type, ...] = (Diagnosis,)
 
 
 def registry() -> dict[str, Plot]:
@@ -59,7 +63,7 @@ def require(path: str = "") -> None:
         )
 
 
-def draw(found: Diagnosis, path: str) -> list[str]:
+def draw(found: Any, path: str) -> list[str]:
     """Write every figure that has something to show; returns the names of the files.
 
     A path that ends in .pdf has one page a figure, another file suffix all figures below each other; else it is a folder, made
@@ -85,18 +89,23 @@ def _kind(path: str) -> str:
     return "" if os.path.isdir(path) else os.path.splitext(path)[1].lower()
 
 
-def _figures(found: Diagnosis) -> list[tuple[Plot, Any]]:
+def _figures(found: Any) -> list[tuple[Plot, Any]]:
     """Each figure that has something to show, drawn."""
     from matplotlib.figure import Figure
 
     drawn = []
-    for plot in sorted(registry().values(), key=lambda plot: plot.order):
+    for plot in sorted((p for p in registry().values() if isinstance(found, p.subjects)), key=lambda plot: plot.order):
         figure = Figure(figsize=(WIDTH, HEIGHT), layout="constrained")
         axes = figure.add_subplot()
         if plot.draw(found, axes):
-            axes.set_title(plot.title, loc="left")
+            _titled(axes, plot)
             drawn.append((plot, figure))
     return drawn
+
+
+def _titled(axes: Any, plot: Plot) -> None:
+    """The title, from the left edge of the figure on, above what names of bars take."""
+    axes.set_title(plot.title, loc="left", pad=18 if axes.get_legend() else 6)
 
 
 def _pages(drawn: list[tuple[Plot, Any]], path: str) -> list[str]:
@@ -117,13 +126,13 @@ def _folder(drawn: list[tuple[Plot, Any]], path: str) -> list[str]:
     return written
 
 
-def _sheet(found: Diagnosis, plots: list[Plot], path: str) -> list[str]:
+def _sheet(found: Any, plots: list[Plot], path: str) -> list[str]:
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(WIDTH, HEIGHT * max(len(plots), 1)), layout="constrained")
     for i, plot in enumerate(plots, 1):
         axes = figure.add_subplot(len(plots), 1, i)
         plot.draw(found, axes)
-        axes.set_title(plot.title, loc="left")
+        _titled(axes, plot)
     figure.savefig(path, dpi=DPI)
     return [path]

@@ -9,7 +9,7 @@ from mouse_cli.plots import AFTER, BEFORE
 from mouse_cli.report.sections._diagnosis_wording import with_cause
 
 _COLOURS = BEFORE, AFTER
-_SHORT, _MANY = 14, 12  # characters, labels up to which bars stand upright and in full size
+_SHORT, _MANY = 14, 8  # characters, labels up to which bars stand upright and names are in full size
 
 
 def names(found: Diagnosis) -> tuple[str, str]:
@@ -33,7 +33,7 @@ def pairs(axes: Any, labels: list[str], errors: list[np.ndarray], sd: np.ndarray
     value = "model minus test, per cent"
     if lying:
         axes.axvline(0, color="black", linewidth=0.8)
-        axes.set_yticks(at, labels, fontsize=8 if len(labels) <= _MANY else 5)
+        axes.set_yticks(at, labels, fontsize=8 if len(labels) <= _MANY else 6)
         axes.invert_yaxis()
         axes.grid(axis="y", visible=False)
         axes.set_xlabel(value)
@@ -42,4 +42,4 @@ def pairs(axes: Any, labels: list[str], errors: list[np.ndarray], sd: np.ndarray
         axes.set_xticks(at, labels)
         axes.grid(axis="x", visible=False)
         axes.set_ylabel(value)
-    axes.legend()
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2)

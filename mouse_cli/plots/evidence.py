@@ -1,12 +1,13 @@
 """Evidence of the candidates over none, as bars."""
 
+from textwrap import fill
 from typing import Any
 
 from mouse_cli.model.diagnosis import Diagnosis
 from mouse_cli.plots import AFTER, BEFORE, Plot
-from mouse_cli.report.sections._diagnosis_wording import with_p
+from mouse_cli.report.sections._diagnosis_wording import place, with_p
 
-_MOST = 10
+_MOST, _WIDTH = 10, 36  # bars; characters of a line of their names
 
 
 def draw(found: Diagnosis, axes: Any) -> bool:
@@ -32,8 +33,8 @@ def draw(found: Diagnosis, axes: Any) -> bool:
 
 
 def _name(one: Any) -> str:
-    sites = ", ".join(c.site.text or " ".join(map(str, c.site.ids)) for c in one.causes if c.site.kind != "structure")
-    return f"{one.physics}: {sites}" if sites and len(sites) < 52 else one.physics
+    sites = ", ".join(place(c.site) for c in one.causes if c.site.kind != "structure")
+    return fill(f"{one.physics}: {sites}" if sites else one.physics, _WIDTH)
 
 
 PLOT = Plot("evidence", 10, "Evidence for each candidate", draw)

@@ -13,7 +13,7 @@ from mouse_cli.plots._pairs import names, pairs
 def draw(found: Diagnosis, axes: Any) -> bool:
     """Two bars a mode, in per cent of the measured frequency, with the sd of its measurement."""
     test, after = found.problem.test, found.extended_result
-    if not np.isfinite(test.frequency_hz).any():
+    if test is None or not np.isfinite(test.frequency_hz).any():
         return False
     errors = [_error(found.result.revised, test.frequency_hz)]
     if after is not None:

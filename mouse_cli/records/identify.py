@@ -69,7 +69,9 @@ def identify_recording(
     samples, rate = outputs_only.decimated(recording, top)
     least = outputs_only.least_samples(len(names))
     if len(samples) < least or not names:
-        few = f"the record has {len(samples)} samples at {rate:.6g} Hz, which the band takes; at least {least} are needed"
+        few = (
+            f"the record has {len(samples)} samples at {rate:.6g} Hz, which the band takes; at least {least} are needed"
+        )
         doubt = Diagnostic("MD651", ERROR, few, help="record for longer")
         return _nothing(recording.title, (recording.path or recording.title,), method, names, edges, noise, doubt)
     found = outputs_only.identify_outputs(samples, rate, edges, most, say)
@@ -109,11 +111,17 @@ def _rejected(dropped: list[Dropped], passing: list[Track]) -> tuple[Rejected, .
 def _diagram_frf(found: Found, hz: np.ndarray, H: np.ndarray) -> Diagram:
     """The diagram over the root mean square of all functions."""
     level = np.sqrt((np.abs(H) ** 2).mean(axis=(1, 2)))
-    return _diagram(found.search.poles, [*found.search.candidates, *found.search.passing], hz, level, found.search.orders)
+    return _diagram(
+        found.search.poles, [*found.search.candidates, *found.search.passing], hz, level, found.search.orders
+    )
 
 
 def _diagram(poles: list[OrderPoles], every: list[Track], hz: np.ndarray, level: np.ndarray, orders: int) -> Diagram:
-    points = [(o, abs(p) / 2 / np.pi, -p.real / abs(p), s) for t in every for o, p, s in zip(t.order, t.pole, t.stable, strict=True)]
+    points = [
+        (o, abs(p) / 2 / np.pi, -p.real / abs(p), s)
+        for t in every
+        for o, p, s in zip(t.order, t.pole, t.stable, strict=True)
+    ]
     order, frequency, damping, stable = np.array(points).T if points else np.zeros((4, 0))
     return Diagram(order.astype(int), frequency, damping, stable.astype(bool), hz, level, orders)
 

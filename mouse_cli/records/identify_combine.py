@@ -8,7 +8,7 @@ import numpy as np
 from mouse_cli._errors import ERROR, Diagnostic, RecordError
 from mouse_cli.model.arrays import is_sparse
 from mouse_cli.model.frf_test import FrfTest
-from mouse_cli.records.identify_noise import averaged
+from mouse_cli.records.identify_noise import smoothed
 
 
 def combined(tests: Sequence[FrfTest]) -> tuple[FrfTest, str]:
@@ -18,7 +18,9 @@ def combined(tests: Sequence[FrfTest]) -> tuple[FrfTest, str]:
         _fits(first, each)
     groups: dict[tuple[str, ...], list[FrfTest]] = {}
     for each in tests:
-        groups.setdefault(each.input_names or tuple(f"{each.title}/{k}" for k in range(each.H.shape[2])), []).append(each)
+        groups.setdefault(each.input_names or tuple(f"{each.title}/{k}" for k in range(each.H.shape[2])), []).append(
+            each
+        )
     taken: set[str] = set()
     for names in groups:
         if taken & set(names):
@@ -57,11 +59,8 @@ def _mean(group: list[FrfTest]) -> FrfTest:
     mean = H.mean(axis=0)
     scatter = (np.abs(H - mean) ** 2).sum(axis=0) / (n * (n - 1))
     known = np.isfinite(scatter)
-    size = np.abs(np.where(known, mean, 0)) ** 2
-    share = averaged(np.where(known, scatter, 0), known) / np.maximum(averaged(size, known), 1e-300)
-    return replace(
-        group[0], H=mean, variance=np.where(known, 0.5 * (scatter + share * size), np.nan), coherence=None, title=group[0].title
-    )
+    spread = smoothed(np.where(known, scatter, 0), np.where(known, mean, 0), known)
+    return replace(group[0], H=mean, variance=np.where(known, spread, np.nan), coherence=None)
 
 
 def _beside(sets: list[FrfTest]) -> FrfTest:
@@ -70,7 +69,9 @@ def _beside(sets: list[FrfTest]) -> FrfTest:
     if any(is_sparse(each) for each in inputs):
         from scipy.sparse import csr_array, vstack
 
-        together = vstack([csr_array(each) for each in inputs]).tocsr() if all(each.ndim == 2 for each in inputs) else None
+        together = (
+            vstack([csr_array(each) for each in inputs]).tocsr() if all(each.ndim == 2 for each in inputs) else None
+        )
     else:
         together = np.concatenate(inputs) if len({each.ndim for each in inputs}) == 1 else None
     names = tuple(name for each in sets for name in each.input_names)

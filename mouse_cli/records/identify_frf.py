@@ -46,7 +46,7 @@ def banded(test: FrfTest, band: tuple[float, float] | None) -> np.ndarray:
 
 def lines_of(test: FrfTest, use: np.ndarray) -> tuple[Lines, bool]:
     """The lines used, and whether their variance is known."""
-    s, H, variance, kind = 2j * np.pi * test.frequency_hz[use], test.H[use], test.variance[use], KINDS[test.kind]
+    s, H, variance, kind = test.laplace[use], test.H[use], test.variance[use], KINDS[test.kind]
     stated = bool(np.isfinite(variance).any())
     if stated:
         return identify_noise.with_sd(s, H, variance, kind), True
@@ -68,7 +68,7 @@ def identify_lines(lines: Lines, stated: bool, most: int | None, say: Callable[[
 def _fitted(lines: Lines, stated: bool, candidates: list[Track]) -> tuple[Fit, Lines, float, float, list[Dropped]]:
     """The fit of what is significant, the lines with the sd it stands on, misfit, share of lines raised, what was dropped."""
     centres = [track.centre() for track in candidates]
-    poles = np.array([pole for pole, _ in centres], complex)
+    poles = np.array([pole for pole, _ in centres], complex) + lines.s[0].real  # of an exponential window
     inputs = lines.H.shape[2]
     participation = np.array([vector for _, vector in centres], complex).reshape(len(poles), inputs).T
     fit = fitted(lines, start(poles, participation, lines.H.shape[1], (BELOW, ABOVE, CURVED)))

@@ -37,7 +37,9 @@ def from_fit(found: Found, picked: np.ndarray, drives: list[Drive], stable: np.n
     parts = [_one(model, int(r), found.covariance.modes[int(r)], drives, inputs, outputs) for r in picked]
     places = np.stack([2 * picked, 2 * picked + 1], axis=1).ravel().astype(int)
     poles = np.stack([model.poles.real, model.poles.imag], axis=1).ravel()[places]
-    both = lambda x: np.stack([frequency_and_damping(x[2 * r : 2 * r + 2]) for r in range(m)], axis=1).ravel() if m else x
+    both = lambda x: (
+        np.stack([frequency_and_damping(x[2 * r : 2 * r + 2]) for r in range(m)], axis=1).ravel() if m else x
+    )
     value, covariance = propagated(both, poles, found.covariance.poles[np.ix_(places, places)])
     spacing = np.diff(found.lines.s.imag).mean() / (2 * np.pi)
     hz, zeta = value[:m], value[m:]
@@ -47,7 +49,7 @@ def from_fit(found: Found, picked: np.ndarray, drives: list[Drive], stable: np.n
 
 @dataclass(frozen=True)
 class Shape:
-    """One mode's shape (o,), sd of its real and imaginary parts (o,), scale, and the angle of its driving point, NaN without one."""
+    """One mode's shape (o,), sd of its parts (o,), scale, and the angle of its driving point, NaN without one."""
 
     shape: np.ndarray
     real_sd: np.ndarray
@@ -135,7 +137,9 @@ def from_subspace(modes: list[UncertainMode], stable: np.ndarray) -> Modes:
     m = len(modes)
     poles = np.array([[mode.pole.real, mode.pole.imag] for mode in modes]).reshape(-1)
     scatter = np.concatenate([mode.scatter[:, :2] for mode in modes], axis=1) if m else np.zeros((1, 0))
-    both = lambda x: np.stack([frequency_and_damping(x[2 * r : 2 * r + 2]) for r in range(m)], axis=1).ravel() if m else x
+    both = lambda x: (
+        np.stack([frequency_and_damping(x[2 * r : 2 * r + 2]) for r in range(m)], axis=1).ravel() if m else x
+    )
     value, covariance = propagated(both, poles, scatter.T @ scatter)
     parts = []
     for mode in modes:

@@ -40,16 +40,19 @@ def measured_noise(lines: Lines, model: ModalModel) -> Lines:
     power *= (
         2 * known.sum() / max(2 * known.sum() - 2 * model.m * sum(model.residuals.shape[1:]) - model.residuals.size, 1)
     )
-    size = np.abs(fitted) ** 2
-    expected = np.ones_like(power)
+    return replace(lines, sd=np.where(known, np.sqrt(smoothed(power, fitted, known)), np.inf))
+
+
+def smoothed(power: np.ndarray, H: np.ndarray, known: np.ndarray) -> np.ndarray:
+    """Variance (f, o, i) behind single squared errors `power`: a^2 + b^2 |H|^2 of each channel, times a ratio along the band."""
+    size, expected = np.abs(H) ** 2, np.ones_like(power)
     for o in range(power.shape[1]):
         for i in range(power.shape[2]):
             expected[:, o, i] = _two_sources(power[:, o, i], size[:, o, i], known[:, o, i])
-    level = np.sqrt((np.abs(lines.H) ** 2).mean(axis=0))
-    expected = np.maximum(expected, (_FLOOR * level) ** 2)
+    least = _FLOOR**2 * np.where(known, size, 0).mean(axis=0)
+    expected = np.maximum(expected, least)
     ratio = averaged(np.where(known, power / np.where(expected > 0, expected, 1.0), 0), known)
-    sd = np.sqrt(np.maximum(expected * ratio, (_FLOOR * level) ** 2))
-    return replace(lines, sd=np.where(known, sd, np.inf))
+    return np.maximum(expected * ratio, least)
 
 
 def _two_sources(power: np.ndarray, size: np.ndarray, known: np.ndarray) -> np.ndarray:

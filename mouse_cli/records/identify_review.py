@@ -16,6 +16,7 @@ _NARROW = 2.0  # lines in a half-power bandwidth
 _POOR = 1 / 3
 _MISFIT = 2.0  # mean square of errors over stated variances that is worth a remark
 _UNKNOWN = 0.5  # sd of damping over damping
+_RISE = 3.0  # of the level at an edge over the largest a twentieth to a sixth of the band within
 _TURNED = (60.0, 120.0)  # degrees between residues and those of a structure
 
 
@@ -51,7 +52,9 @@ def reviewed(found: Found, drives: list[Drive]) -> Review:
         reason = _at_edge(hz, zeta, first, last)
         if reason:
             message = f"a mode at {hz:.6g} Hz, {100 * zeta:.3g} % {reason}"
-            doubts.append(Diagnostic("MD652", ERROR, message, help="move the edge away from the resonance: --band LOW HIGH"))
+            doubts.append(
+                Diagnostic("MD652", ERROR, message, help="move the edge away from the resonance: --band LOW HIGH")
+            )
         elif np.sqrt(found.covariance.poles[2 * r, 2 * r]) > _UNKNOWN * abs(pole.real):
             reason = "has a damping that is not known to half of it"
         if reason:
@@ -59,6 +62,7 @@ def reviewed(found: Found, drives: list[Drive]) -> Review:
         else:
             kept.append(int(r))
     stable = np.array([_stable_orders(found, model.poles[r]) for r in kept], int)
+    doubts += [] if doubts else _flanks(found)
     modes, angles = from_fit(found, np.array(kept, int), drives, stable)
     more, remarks = _of_modes(modes, angles)
     if not modes.m:
@@ -68,8 +72,14 @@ def reviewed(found: Found, drives: list[Drive]) -> Review:
 
 
 def _none(others: int) -> Diagnostic:
-    message = f"no mode was found in the band; {others} candidates were rejected" if others else "no stable pole was found in the band"
-    return Diagnostic("MD650", ERROR, message, help="look at the stabilisation diagram: --plot FOLDER; try another --band")
+    message = (
+        f"no mode was found in the band; {others} candidates were rejected"
+        if others
+        else "no stable pole was found in the band"
+    )
+    return Diagnostic(
+        "MD650", ERROR, message, help="look at the stabilisation diagram: --plot FOLDER; try another --band"
+    )
 
 
 def _at_edge(hz: float, zeta: float, first: float, last: float) -> str:
@@ -78,6 +88,20 @@ def _at_edge(hz: float, zeta: float, first: float, last: float) -> str:
     if hz * (1 - zeta) < first or hz * (1 + zeta) > last:
         return f"is cut by the edge of the band of {first:.6g} to {last:.6g} Hz"
     return ""
+
+
+def _flanks(found: Found) -> list[Diagnostic]:
+    """Doubts where the functions rise towards an edge as on the flank of a resonance that lies beyond it."""
+    level = np.sqrt((np.abs(found.lines.H) ** 2).mean(axis=(1, 2)))
+    hz, count, doubts = found.lines.s.imag / (2 * np.pi), len(level), []
+    for edge, inwards in ((hz[0], level), (hz[-1], level[::-1])):
+        within = inwards[max(3, count // 20) : max(6, count // 6)]
+        if np.median(inwards[:3]) > _RISE * within.max():
+            message = f"the functions rise steeply towards {edge:.6g} Hz: a mode lies just outside of the band"
+            doubts.append(
+                Diagnostic("MD652", ERROR, message, help="move the edge away from the resonance: --band LOW HIGH")
+            )
+    return doubts
 
 
 def _stable_orders(found: Found, pole: complex) -> int:
@@ -92,7 +116,9 @@ def _of_modes(modes: Modes, angles: list[float]) -> tuple[list[Diagnostic], list
     for r in range(modes.m):
         name = f"the mode at {modes.frequency_hz[r]:.6g} Hz"
         if modes.lines[r] < _NARROW:
-            message = f"{name} has {modes.lines[r]:.2g} lines in its half-power bandwidth; at least {_NARROW:.0f} are needed"
+            message = (
+                f"{name} has {modes.lines[r]:.2g} lines in its half-power bandwidth; at least {_NARROW:.0f} are needed"
+            )
             doubts.append(Diagnostic("MD653", ERROR, message, help="measure with finer lines"))
         if modes.error[r] > _POOR:
             message = f"near {name} the fit differs from the functions by {100 * modes.error[r]:.0f} % of their size"
@@ -133,7 +159,9 @@ def reviewed_outputs(found: FoundOutputs, band_hz: tuple[float, float]) -> Revie
         reason = _at_edge(hz, zeta, *band_hz)
         if reason:
             message = f"a mode at {hz:.6g} Hz, {100 * zeta:.3g} % {reason}"
-            doubts.append(Diagnostic("MD652", ERROR, message, help="move the edge away from the resonance: --band LOW HIGH"))
+            doubts.append(
+                Diagnostic("MD652", ERROR, message, help="move the edge away from the resonance: --band LOW HIGH")
+            )
             rejected.append(Rejected(hz, zeta, reason))
         else:
             kept.append(k)

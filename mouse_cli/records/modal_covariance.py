@@ -1,9 +1,10 @@
 """Covariance of fitted poles, participations and shapes for errors of H that may be correlated between lines and channels.
 
-To first order the unknowns are linear in the weighted errors e: d theta = C sum_o (P_o G_o)' e_o, d psi_o = A_o^+ (e_o - G_o d theta),
-with C = (sum_o G_o' P_o G_o)^-1. For independent errors the covariance of theta is C. Windows correlate neighbouring lines and
-noise of the force correlates outputs; then E e e^H is taken as separable, rho(line distance) times a matrix of channels, both from
-the errors left by the fit, and goes through the same linear map (the `sandwich`: H. White, Econometrica 48 (1980) 817).
+To first order the unknowns are linear in the weighted errors e: d theta = C sum_o (P_o G_o)' e_o and
+d psi_o = A_o^+ (e_o - G_o d theta), with C = (sum_o G_o' P_o G_o)^-1. For independent errors the covariance of theta is C. Windows
+correlate neighbouring lines and noise of the force correlates outputs; then E e e^H is taken as separable, rho(line distance) times
+a matrix of channels, both from the errors left by the fit, and goes through the same linear map (the `sandwich`: H. White,
+Econometrica 48 (1980) 817).
 """
 
 from dataclasses import dataclass
@@ -70,10 +71,12 @@ class ModalCovariance:
 
 def covariance(lines: Lines, model: ModalModel, errors: Correlation = INDEPENDENT) -> ModalCovariance:
     """Covariance at the fitted `model`."""
+    if not model.m:
+        return ModalCovariance(np.zeros((0, 0)), ())
     free = [found.off(slope) for found, slope in per_output(lines, model)]
     normal = sum(part.T @ part for part in free)
     inverse = np.linalg.pinv(normal, hermitian=True)
-    f, o, i = lines.H.shape
+    f, _, i = lines.H.shape
     influence = [complexed(inverse @ part.T, f, i) for part in free]
     spread = _spread(influence, errors)
     theta = sum(_inner(a, b) for a, b in zip(influence, spread, strict=True))

@@ -39,7 +39,10 @@ class Lines:
 
 @dataclass(frozen=True)
 class ModalModel:
-    """poles (m,) rad/s, upper half plane; participation (i, m), largest component 1; shapes (o, m); residuals (t, o, i) of `powers`."""
+    """poles (m,) rad/s, upper half plane; participation (i, m), largest component 1; shapes (o, m).
+
+    residuals (t, o, i): real factors of `powers` of s.
+    """
 
     poles: np.ndarray
     participation: np.ndarray
@@ -104,8 +107,8 @@ def complexed(rows: np.ndarray, lines: int, inputs: int) -> np.ndarray:
 class Output:
     """One output's linear least squares min |data - design x|, weighted, real.
 
-    columns (2 f i, p) span the design; middle (p, p): columns middle columns' projects on them; back (p, p): x = back columns' data.
-    solution (p,); remainder (2 f i,) = data less its projection.
+    columns (2 f i, p) span the design; middle (p, p): columns middle columns' projects on them; back (p, p):
+    x = back columns' data. solution (p,); remainder (2 f i,) = data less its projection.
     """
 
     columns: np.ndarray

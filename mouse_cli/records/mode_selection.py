@@ -111,6 +111,8 @@ def doubled(lines: Lines, fit: Fit, centres: np.ndarray) -> tuple[Fit, list[Drop
 
 def _alike(model: ModalModel) -> list[tuple[int, int]]:
     """Pairs of modes with one shape, one participation, and overlapping half-power bandwidths."""
+    if model.m < 2:
+        return []
     residues = (model.shapes[:, None, :] * model.participation).reshape(-1, model.m)
     size = np.linalg.norm(residues, axis=0)
     likeness = np.abs(residues.conj().T @ residues) ** 2 / np.outer(size, size) ** 2

@@ -79,5 +79,5 @@ def _window(lines: Lines, window: slice, most: int | None) -> Search:
 
 
 def _spike(track: Track, s: np.ndarray) -> bool:
-    """Whether the half-power bandwidth is so far below the spacing of the lines that no resonance can be told from one wrong line."""
+    """Whether the half-power bandwidth is so far below the spacing of the lines that it may be that of one wrong line."""
     return -2 * track.centre()[0].real < _NARROWEST * (s.imag[-1] - s.imag[0]) / (len(s) - 1)

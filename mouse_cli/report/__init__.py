@@ -5,6 +5,7 @@ from typing import Any
 from mouse_cli.model.correlation import Correlation
 from mouse_cli.model.diagnosis import Diagnosis
 from mouse_cli.model.identification import Identification
+from mouse_cli.model.record_diagnosis import RecordDiagnosis
 from mouse_cli.model.result import Forecast, Result
 from mouse_cli.model.spectra import SpectraResult
 from mouse_cli.report.section import Options
@@ -44,6 +45,7 @@ def document(subject: Subject) -> dict[str, Any]:
         diagnosis_document,
         identification_document,
         modes_document,
+        record_document,
         result_document,
         spectra_document,
     )
@@ -52,6 +54,7 @@ def document(subject: Subject) -> dict[str, Any]:
         Forecast: modes_document,
         Correlation: correlation_document,
         Diagnosis: diagnosis_document,
+        RecordDiagnosis: record_document,
         Identification: identification_document,
         SpectraResult: spectra_document,
     }

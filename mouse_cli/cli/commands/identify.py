@@ -1,0 +1,81 @@
+"""mouse identify: modes of recordings and of frequency response functions, with their covariance."""
+
+import os
+
+import click
+
+from mouse_cli.cli._options import answer_form, options
+from mouse_cli.cli.commands.spectra import _FILE, _HOW
+
+
+@click.command()
+@click.argument("sources", nargs=-1, required=True, metavar="SOURCE...")
+@click.option(
+    "-o", "--output", metavar="FILE", help="Write the modes as `test:` to FILE: a whole deck where SOURCE has a model."
+)
+@click.option("--band", type=click.FloatRange(min=0), nargs=2, metavar="LOW HIGH", help="Hz. Default: all lines.")
+@click.option("--orders", type=click.IntRange(min=4), metavar="N", help="Highest order of the stabilisation diagram.")
+@click.option("--output-only", is_flag=True, help="Do not use measured forces.")
+@click.option(
+    "--plot", metavar="PATH", help="Write figures: to a folder, or to one file (.pdf, .png, .svg). Needs matplotlib."
+)
+@click.option(
+    "--recording", "titles", multiple=True, metavar="TITLE", help="Of a deck: this recording; may be repeated."
+)
+@options(_HOW, _FILE, answer_form("mouse.identification/1"))
+@click.option("-q", "--quiet", is_flag=True, help="No warnings on standard error.")
+def command(
+    sources: tuple[str, ...],
+    output: str | None,
+    band: tuple[float, float] | None,
+    orders: int | None,
+    output_only: bool,
+    plot: str | None,
+    form: str | None,
+    numbers: str | None,
+    quiet: bool,
+    **given: object,
+) -> int:
+    """Natural frequencies, damping and mode shapes that recordings or frequency response functions show.
+
+    SOURCE: a YAML deck, or files of functions or time histories; several are repeats, or have their forces in turn. Without
+    forces, or with --output-only, the outputs alone are used. Exit 0: modes found. 1: none, or none to be trusted. 4: rejected.
+    """
+    from mouse_cli.cli._identify import identified, write
+    from mouse_cli.cli._terminal import progress, show_diagnostics
+
+    if band and not band[0] < band[1]:
+        raise click.BadParameter(f"{band[0]:g} is not below {band[1]:g}", param_hint="--band")
+    if output and any(os.path.exists(s) and os.path.exists(output) and os.path.samefile(s, output) for s in sources):
+        raise click.UsageError(f"-o {output} would overwrite {output}")
+    if plot:
+        from mouse_cli.plots import draw, require
+
+        require()
+    with progress() as (_, say):
+        found, warnings = identified(sources, band, orders, output_only, given, say)
+    if not quiet:
+        show_diagnostics((*warnings, *found.doubts, *found.remarks))
+    if plot:
+        draw(found, plot)
+    files = write(found, output)
+    _answer(found, form, numbers, output, files)
+    return found.exit_code
+
+
+def _answer(found, form: str | None, numbers: str | None, output: str | None, files: list[str]) -> None:
+    """Print the answer, and what became of `-o`."""
+    from mouse_cli.cli._terminal import json_text
+    from mouse_cli.report import document, written
+
+    if form == "json":
+        click.echo(json_text(document(found) | {"deck": files[-1] if files else None}))
+        return
+    text = written(found, form or "printout", numbers or "modern")
+    if output:
+        text += (
+            f"\nThe modes are in {files[-1]}.\n"
+            if files
+            else f"\nNothing was written to {output}: there are no modes.\n"
+        )
+    click.echo(text, nl=False)

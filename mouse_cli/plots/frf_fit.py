@@ -1,0 +1,38 @@
+"""Measured and fitted frequency response functions, the strongest few."""
+
+from typing import Any
+
+import numpy as np
+
+from mouse_cli.model.identification import Identification
+from mouse_cli.plots import AFTER, Plot
+
+_MOST = 3
+
+
+def draw(found: Identification, axes: Any) -> bool:
+    """Magnitudes over frequency: measured, fitted, and the error of the fit."""
+    fit = found.fit
+    if fit is None:
+        return False
+    size = np.nanmax(np.abs(fit.measured), axis=0)
+    strongest = np.argsort(size, axis=None)[::-1][:_MOST]
+    shades = ("0.35", "0.55", "0.72")
+    for shade, k in zip(shades, strongest, strict=False):
+        o, i = np.unravel_index(k, size.shape)
+        name = f"{_name(fit.outputs, o)} / {_name(fit.inputs, i)}"
+        axes.semilogy(fit.frequency_hz, np.abs(fit.measured[:, o, i]), color=shade, linewidth=1.6, label=name)
+        axes.semilogy(fit.frequency_hz, np.abs(fit.fitted[:, o, i]), color=AFTER, linewidth=0.8)
+    axes.plot([], [], color=AFTER, linewidth=0.8, label="fitted")
+    axes.set_xlim(*found.band_hz)
+    axes.set_xlabel("frequency, Hz")
+    axes.set_ylabel(fit.kind)
+    axes.legend()
+    return True
+
+
+def _name(names: tuple[str, ...], k: int) -> str:
+    return names[k] if k < len(names) else str(k + 1)
+
+
+PLOT = Plot("frf-fit", 120, "Functions, measured and fitted", draw, (Identification,))
