@@ -6,10 +6,12 @@ from functools import cache
 
 import numpy as np
 
+from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.problem import Problem, RunOptions, Source
 from mouse_cli.model.result import Forecast, Result
+from mouse_cli.model.spectra import MeasuredFrf, Quality, SpectraOptions, SpectraResult
 from mouse_cli.model.structure import ListedElements, Structure
 from mouse_cli.updating import forecast, run
 
@@ -200,3 +202,17 @@ def _free() -> Problem:
         prior=Gaussian([1e5], [7.2e7]),
         test=None,
     )
+
+
+def spectra() -> SpectraResult:
+    """Two functions, one of a force with an exponential window, as `mouse spectra` reports them."""
+    hz = np.array([10.0, 20.0, 30.0])
+    H = np.array([[[0.5], [1j]], [[2.0], [3j]], [[1.0], [np.nan]]])
+    frf = FrfTest(
+        hz, H, "accelerance", np.array([0, 1]), np.array([0]), np.full((3, 2, 1), 0.02), ("1", "12-TY"), ("1",),
+        np.full((3, 2), 0.9), "taps", decay_rate=4.60517,
+    )  # fmt: skip
+    quality = (Quality("1", "1", 3, 0.9, 0.1, 20.0), Quality("12-TY", "1", 2, 0.9, 0.0666667, 20.0))
+    measured = MeasuredFrf(frf, 5.0, 5, 1024, 1000.0, ("taps",), quality)
+    options = SpectraOptions(window="exponential", impact=True, skip=100)
+    return SpectraResult("taps", "taps.csv", options, (measured,))

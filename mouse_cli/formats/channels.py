@@ -8,7 +8,7 @@ import numpy as np
 from mouse_cli.formats.record_drafts import Findings, Pick
 from mouse_cli.formats.recording_files import Column, Contents
 from mouse_cli.model.channel_units import ratio, target, unit
-from mouse_cli.model.recording import INPUT, MOTIONS, Channel
+from mouse_cli.model.recording import INPUT, Channel
 from mouse_cli.model.units import Units
 
 _SENSITIVITY = re.compile(r"\s*([0-9.]+(?:[eE][-+]?[0-9]+)?)\s*(\S.*)")
@@ -133,14 +133,6 @@ def unstated(picks: list[Pick], columns: list[Column], say: Findings, where) -> 
         say.warn("MD612", where, message, "give unit: N, m/s2, g, ...")
 
 
-def motion(quantity: str) -> bool:
-    """Whether it is displacement, velocity or acceleration."""
-    return quantity in MOTIONS
-
-
-def stacked(columns: list[Column], factors: list[float], first: int, last: int) -> np.ndarray:
-    """Samples first to last, the last one not included, of each channel times its factor, (t, c)."""
-    samples = np.empty((last - first, len(columns)))
-    for j, (each, factor) in enumerate(zip(columns, factors, strict=True)):
-        np.multiply(each.values[first:last].real, factor, out=samples[:, j])
-    return samples
+def scaled(each: Column, factor: float, first: int, last: int) -> np.ndarray:
+    """Samples first to last, the last one not included, times the factor (t,)."""
+    return np.multiply(each.values[first:last].real, factor, dtype=float)

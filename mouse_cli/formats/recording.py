@@ -5,7 +5,7 @@ import os
 import numpy as np
 
 from mouse_cli._span import Span
-from mouse_cli.formats.channels import channel, column, stacked, unstated
+from mouse_cli.formats.channels import channel, column, scaled, unstated
 from mouse_cli.formats.record_drafts import Findings, Pick
 from mouse_cli.formats.recording_files import Column, Contents
 from mouse_cli.formats.sampling import step_s
@@ -34,11 +34,11 @@ def recording(
         return None
     unstated(picks, columns, say, where)
     channels, factors = zip(*found, strict=True)
-    samples = stacked(columns, list(factors), *span)
+    samples = [scaled(each, factor, *span) for each, factor in zip(columns, factors, strict=True)]
     if _faulty(channels, samples, span[0], picks, say):
         return None
     title = title or os.path.splitext(os.path.basename(path))[0]
-    return Recording(title, step, tuple(channels), samples, path, span[0])
+    return Recording(title, step, tuple(channels), np.stack(samples, axis=1), path, span[0])
 
 
 def _span(
@@ -76,11 +76,13 @@ _WORDS = {
 }  # fmt: skip
 
 
-def _faulty(channels: tuple[Channel, ...], samples: np.ndarray, start: int, picks: list[Pick], say: Findings) -> bool:
+def _faulty(
+    channels: tuple[Channel, ...], samples: list[np.ndarray], start: int, picks: list[Pick], say: Findings
+) -> bool:
     """Say what is wrong with the samples; whether any of it forbids their use."""
     refused = False
     for j, (each, pick) in enumerate(zip(channels, picks, strict=True)):
-        for fault in faults(samples[:, j]):
+        for fault in faults(samples[j]):
             code, words, help = _WORDS[fault.kind]
             serious = code in ("MD605", "MD607")
             message = words.format(

@@ -26,10 +26,10 @@ def faults(x: np.ndarray) -> list[Fault]:
     clipped: at least two runs of three or more samples at the largest or the smallest value, into which the signal steps by more
     than its resolution; a peak that rounding makes flat is entered from one step of resolution below.
     """
-    finite = np.isfinite(x)
-    if not finite.all():
-        return [Fault("gap", int(np.argmin(finite)), int((~finite).sum()))]
     low, high = float(x.min()), float(x.max())
+    if not np.isfinite(high - low):
+        finite = np.isfinite(x)
+        return [Fault("gap", int(np.argmin(finite)), int((~finite).sum()))]
     if low == high:
         return [Fault("constant" if low else "dead", 0, len(x), low)]
     found = [_clipped(x, value) for value in (low, high) if abs(value) >= _EXTREME * max(-low, high)]
@@ -37,7 +37,10 @@ def faults(x: np.ndarray) -> list[Fault]:
 
 
 def _clipped(x: np.ndarray, value: float) -> Fault | None:
-    begin, length = _runs(x == value)
+    at = x == value
+    if np.count_nonzero(at) < 2 * _SHORTEST_TOP:
+        return None
+    begin, length = _runs(at)
     begin, length = begin[length >= _SHORTEST_TOP], length[length >= _SHORTEST_TOP]
     if len(begin) < 2 or length.sum() > _LIMITED * len(x):
         return None
@@ -51,7 +54,10 @@ def _clipped(x: np.ndarray, value: float) -> Fault | None:
 
 
 def _stuck(x: np.ndarray, low: float, high: float) -> Fault | None:
-    begin, length = _runs(x[1:] == x[:-1])
+    same = x[1:] == x[:-1]
+    if np.count_nonzero(same) < _STUCK:
+        return None
+    begin, length = _runs(same)
     if not len(begin) or length.max() < _STUCK:
         return None
     keep = (length >= _STUCK) & (x[begin] != 0) & (x[begin] != low) & (x[begin] != high)

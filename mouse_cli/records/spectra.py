@@ -48,7 +48,7 @@ def functions(
     added = decay_rate(options.final, block / fs) if options.window == "exponential" and not options.period else 0.0
     kind, by = _kinds(first, options, added + 2j * np.pi * hz)
     inputs, outputs = ([first.channels[j] for j in columns] for columns in (first.inputs, first.outputs))
-    _dependent(H, inputs, first, hz)
+    _dependent(H, inputs, first, options)
     frf = FrfTest(
         hz, H * by[:, :, None], kind, weights(outputs, n), weights(inputs, n), spread * np.abs(by[:, :, None]) ** 2,
         tuple(c.sensor or c.name for c in outputs), tuple(c.sensor or c.name for c in inputs), coherence,
@@ -135,16 +135,16 @@ def _averaged(first: Recording, averages: float, remarks: list[Diagnostic]) -> N
         remarks.append(Diagnostic("MD622", WARNING, message, help="take fewer --lines, or more recordings"))
 
 
-def _dependent(H: np.ndarray, inputs: list[Channel], first: Recording, hz: np.ndarray) -> None:
-    """Forces that move together cannot be told apart."""
+def _dependent(H: np.ndarray, inputs: list[Channel], first: Recording, options: SpectraOptions) -> None:
+    """Forces that move together cannot be told apart, nor noise from a period."""
     if np.isfinite(H).any():
         return
     names = ", ".join(channel.name for channel in inputs)
-    _refuse(
-        "MD619",
-        f"the forces {names} of '{first.title}' are not independent, or zero, at all {len(hz)} lines",
-        "drive them with different signals",
-    )
+    if options.period:
+        message = f"the force {names} of '{first.title}' does not repeat itself after {options.period} samples"
+        _refuse("MD619", message, "give its --period in samples, and --skip until it is steady")
+    message = f"the forces {names} of '{first.title}' are not independent, or zero, at all lines"
+    _refuse("MD619", message, "drive them with different signals")
 
 
 def _kinds(first: Recording, options: SpectraOptions, s: np.ndarray) -> tuple[str, np.ndarray]:

@@ -287,3 +287,35 @@ def test_correlate_needs_a_test(tmp_path, capsys):
     deck.write_text("mouse: 1\nmodel: {stiffness: {dense: [[2, -1], [-1, 1]]}, mass: {identity: 2}}\n")
     status, _, err = code(capsys, "correlate", str(deck))
     assert status == 4 and "MD333" in err
+
+
+RECORDED = "t,hammer (N),acc (g)\n" + "\n".join(
+    f"{i / 100:.2f},{i * 7919 % 101 / 50 - 1},{i * 104729 % 103 / 50 - 1}" for i in range(600)
+)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status", "told"),
+    [
+        (("--force", "hammer", "--lines", "20", "-o", "frf.npz"), 0, "independent averages"),
+        (("--force", "hammer", "--lines", "20", "--json"), 0, "mouse.spectra/1"),
+        (("--force", "hammer", "--lines", "20", "--period", "101", "--markdown"), 0, "over periods of 101 samples"),
+        (("--force", "hammer", "--lines", "4000"), 4, "MD620"),
+        (("--force", "hammer", "--period", "50"), 4, "does not repeat itself after 50 samples"),
+        (("--force", "nothing"), 4, "MD600"),
+        (("--response", "acc"), 4, "MD618"),
+        ((), 4, "MD600"),
+        (("--force", "hammer", "--unit", "hammer=g"), 4, "MD610"),
+        (("--force", "hammer", "--unit", "hammer"), 2, "CHANNEL=UNIT"),
+        (("--force", "hammer", "--window", "nonsense"), 2, "nonsense"),
+        (("--force", "hammer", "--recording", "a"), 2, "--recording"),
+        (("--force", "hammer", "--lines", "20", "-o", "frf.xls"), 5, "MD290"),
+        (("--force", "hammer", "--lines", "20", "-o", "no/such/folder/frf.npz"), 5, "MD290"),
+    ],
+)
+def test_spectra(capsys, tmp_path, monkeypatch, arguments, status, told):
+    monkeypatch.chdir(tmp_path)
+    Path("run.csv").write_text(RECORDED)
+    found, out, err = code(capsys, "spectra", "run.csv", *arguments)
+    assert (found, told in out + err) == (status, True), out + err
+    assert Path("frf.npz").exists() == ("frf.npz" in arguments)

@@ -76,6 +76,13 @@ def test_modes_report(golden) -> None:
     assert numbers(text) == pytest.approx(numbers(expected), rel=TOLERANCE, abs=NEGLIGIBLE)
 
 
+def test_spectra_report(golden) -> None:
+    text = without_version(report.printout(report_examples.spectra(), "modern"))
+    expected = golden("spectra_modern.txt", text)
+    assert squeezed(layout(text)).splitlines() == squeezed(layout(expected)).splitlines()
+    assert numbers(text) == pytest.approx(numbers(expected), rel=TOLERANCE, abs=NEGLIGIBLE)
+
+
 def test_document(golden) -> None:
     document = report.document(report_examples.result("noisy"))
     document["versions"], document["version"] = {}, "VERSION"

@@ -5,8 +5,8 @@ many cells as there are columns names them, `acc3`, `acc3 (g)`, `acc3 [m/s2]`; a
 written `0.1+0.2j`. Beside semicolons and tabulators, a comma in a number is a decimal comma.
 """
 
-import io
 import re
+from itertools import islice
 
 import numpy as np
 
@@ -23,15 +23,15 @@ _COMMENTS = "#%!"
 
 def _read(path: str) -> Contents:
     with open(path, encoding="utf-8-sig", errors="replace", newline=None) as stream:
-        text = stream.read()
-    lines = text.split("\n")
-    first, separator = _first(path, lines)
-    width = _columns(lines[first : first + 5], separator)
+        head = [line.rstrip("\n") for line in islice(stream, _MOST_HEAD)]
+    first, separator = _first(path, head)
+    width = _columns(head[first : first + 5], separator)
     if width > MOST_COLUMNS:
         reject("MD258", path, f"the table has {width} columns; at most {MOST_COLUMNS} are read", "divide it")
-    comma = separator in (";", "\t") and any(_DECIMAL_COMMA.fullmatch(cell) for cell in _cells(lines[first], separator))
-    values = _values(path, lines, first, separator, width, comma)
-    names, units = _head(lines[:first], separator, width)
+    values = _at_once(path, first, separator, head[first])
+    if values is None or values.shape[1] != width:
+        values = _slowly(path, first, separator, width)
+    names, units = _head(head[:first], separator, width)
     return Contents(tuple(Column(names[j], values[:, j], units[j]) for j in range(width)))
 
 
@@ -79,26 +79,27 @@ def _spelled(text: str, comma: bool) -> str:
     return text.replace("i", "j").replace(" ", "").replace("jnf", "inf") if "i" in text or " " in text else text
 
 
-def _values(path: str, lines: list[str], first: int, separator: str | None, width: int, comma: bool) -> np.ndarray:
-    """The table (k, c): all at once where each cell is a number, else cell by cell."""
-    kept = [line for line in lines[first:] if line.strip()]
-    body = "\n".join(kept)
+def _at_once(path: str, first: int, separator: str | None, line: str) -> np.ndarray | None:
+    """The table (k, c) as numpy reads it, decimal commas included; None where a cell is no plain number."""
+    kind = complex if "j" in line else float
     try:
-        is_complex = "j" in kept[0] or "i" in kept[0].lower().replace("inf", "")
-        text = body.replace(",", ".") if comma else body
-        text = text.replace("i", "j") if is_complex and "i" in kept[0] else text
-        found = np.loadtxt(
-            io.StringIO(text), complex if is_complex else float, delimiter=separator, comments=None, ndmin=2
-        )
-        if found.shape[1] == width:
-            return found
+        if not _has_decimal_commas(line, separator):
+            return np.loadtxt(path, kind, None, separator, skiprows=first, ndmin=2, encoding="latin-1")
+        with open(path, encoding="latin-1") as stream:
+            return np.loadtxt((row.replace(",", ".") for row in stream), kind, None, separator, skiprows=first, ndmin=2)
     except ValueError:
-        pass
-    return _slowly(path, lines, first, separator, width, comma)
+        return None
 
 
-def _slowly(path: str, lines: list[str], first: int, separator: str | None, width: int, comma: bool) -> np.ndarray:
-    """The table cell by cell: NaN for a cell that is empty or says so; refuses what is no number."""
+def _has_decimal_commas(line: str, separator: str | None) -> bool:
+    return separator in (";", "\t") and any(_DECIMAL_COMMA.fullmatch(cell) for cell in _cells(line, separator))
+
+
+def _slowly(path: str, first: int, separator: str | None, width: int) -> np.ndarray:
+    """The table cell by cell: NaN for a cell that is empty or says so, decimal commas, i for j; refuses what is no number."""
+    with open(path, encoding="utf-8-sig", errors="replace", newline=None) as stream:
+        lines = stream.read().split("\n")
+    comma = _has_decimal_commas(lines[first], separator)
     rows = []
     last = max(i for i, line in enumerate(lines) if line.strip())
     for i in range(first, last + 1):
