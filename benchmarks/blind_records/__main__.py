@@ -1,0 +1,122 @@
+"""The command: truths by OpenSees, decks, diagnoses, a table."""
+
+import argparse
+import json
+import tempfile
+from collections import Counter
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks.blind_records.chain import LAWS, SPLITS, Chain, chains
+from benchmarks.blind_records.decks import answer, write
+from benchmarks.blind_records.verify import verify
+
+RIGHT, WRONG, ABSTAINED, MISSED = OUTCOMES = ("right", "wrong", "abstained", "missed")
+
+
+def main() -> None:
+    """Parse the options and print the table."""
+    given = _options().parse_args()
+    if given.verify:
+        print(verify())
+        return
+    folder = given.output or Path(tempfile.mkdtemp(prefix="blind-records-"))
+    for name in ("truths", "decks", "answers", "found"):
+        (folder / name).mkdir(parents=True, exist_ok=True)
+    cases = [one for one in chains(given.split, given.seed, given.count, given.controls) if given.only in one.name]
+    with ProcessPoolExecutor(given.jobs) as pool:
+        paths = list(pool.map(_made, cases, [folder] * len(cases), [given.half] * len(cases)))
+        print(
+            f"{len(cases)} decks in {folder}, {given.split} split, seed {given.seed}, half the sensors: {given.half}",
+            flush=True,
+        )
+        results = []
+        for case, (known, found) in zip(cases, pool.map(_judged, paths), strict=True):
+            results.append((case, *outcome(known, found), found["seconds"]))
+            print(f"  {case.name:36} {results[-1][1]:10} {results[-1][2]}  {found['seconds']:.0f} s", flush=True)
+    print(table(results))
+
+
+def _made(case: Chain, folder: Path, half: bool) -> tuple[Path, Path, Path]:
+    """Truth, deck and answer of a case; a truth once made is kept."""
+    from benchmarks.blind_records.opensees import accelerations
+
+    kept = folder / "truths" / f"{case.name}.npy"
+    if not kept.exists():
+        np.save(kept, accelerations(case)[1])
+    path = write(folder / "decks", case, np.load(kept), half)
+    known = folder / "answers" / f"{path.stem}.json"
+    known.write_text(json.dumps(answer(case)))
+    return path, known, folder / "found" / f"{path.stem}.json"
+
+
+def _judged(paths: tuple[Path, Path, Path]) -> tuple[dict, dict]:
+    """What `mouse diagnose --json` says of a deck, beside the answer."""
+    import resource
+    import subprocess
+    import sys
+
+    deck, known, told = paths
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    done = subprocess.run(
+        [sys.executable, "-m", "mouse_cli", "diagnose", str(deck), "--json", "-q"], capture_output=True, text=True
+    )
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    found = json.loads(done.stdout) if done.returncode in (0, 1) else {"refused": done.stderr}
+    found["seconds"] = seconds
+    told.write_text(json.dumps(found))
+    return json.loads(known.read_text()), found
+
+
+def outcome(known: dict, found: dict) -> tuple[str, str]:
+    """right, wrong, abstained or missed; and what was said."""
+    if "refused" in found:
+        return MISSED, found["refused"].strip().splitlines()[-1]
+    verdict = found["verdict"]
+    kind, physics = verdict["kind"], verdict["physics"]
+    ids = [int(i) for i in (verdict["site"] or {"ids": []})["ids"]]
+    said = f"{kind} {physics or ''} {ids or ''}".strip()
+    if known["physics"] is None:
+        return (RIGHT if kind == "nothing-missing" else WRONG if kind == "named" else ABSTAINED), said
+    if kind == "named":
+        return (RIGHT if (physics, ids) == (known["physics"], known["ids"]) else WRONG), said
+    return (MISSED if kind == "nothing-missing" else ABSTAINED), said
+
+
+def table(results: list[tuple]) -> str:
+    """Outcomes by law; processor seconds."""
+    lines = [f"{'truth':20}" + "".join(f"{name:>11}" for name in OUTCOMES)]
+    for law in (*LAWS, "none"):
+        count = Counter(one[1] for one in results if one[0].law == law)
+        if count:
+            lines.append(f"{law:20}" + "".join(f"{count[name]:>11}" for name in OUTCOMES))
+    faults = [one for one in results if one[0].law != "none"]
+    count = Counter(one[1] for one in faults)
+    lines.append(f"{'all laws':20}" + "".join(f"{count[name]:>11}" for name in OUTCOMES) + f"   of {len(faults)}")
+    seconds = [one[3] for one in results]
+    lines.append(f"processor seconds for a diagnosis: median {np.median(seconds):.1f}, largest {max(seconds):.1f}")
+    return "\n".join(lines)
+
+
+def _options() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks.blind_records", description="Blind benchmark of diagnosis by recordings."
+    )
+    add = parser.add_argument
+    add("--verify", action="store_true", help="print how OpenSees does on closed forms, and stop")
+    add("--seed", type=int, default=1, help="structures, laws and noise")
+    add("--split", choices=SPLITS, default="development", help="structures used while developing, or others")
+    add("--count", type=int, default=6, help="structures of each law")
+    add("--controls", type=int, default=30, help="structures without a law")
+    add("--half", action="store_true", help="half of the accelerometers")
+    add("--only", default="", help="cases whose names hold this")
+    add("--jobs", type=int, default=1, help="processes")
+    add("--output", type=Path, help="folder of truths, decks and answers; else a temporary one")
+    return parser
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,12 @@
+"""MD64x: recordings that cannot be simulated."""
+
+from mouse_cli.codes import Code
+
+CODES = {
+    "MD640": Code(
+        "recording that cannot be simulated",
+        "Diagnosis by recordings simulates the model under the measured force. A record of the deck has no channel of a force at a "
+        "degree of freedom of the model, or none of a displacement, velocity or acceleration.",
+        "Name force and responses under inputs and outputs with their quantity and unit; `mouse identify` serves output-only tests.",
+    ),
+}

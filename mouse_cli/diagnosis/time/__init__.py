@@ -1,0 +1,1 @@
+"""Diagnosis by recordings: is the structure linear, where does it depart, which law, how much, and is it true."""

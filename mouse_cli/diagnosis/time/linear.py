@@ -1,0 +1,35 @@
+"""The linear model of a deck and what is uncertain in it: the deck's own parameters, and stiffness and damping of each part."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Linear:
+    """M, C, K (n, n) at the prior mean, and k nuisances with a standard normal prior.
+
+    matrices(z (P, k)) gives M, C, K (P, n, n); slopes: their derivatives dM, dC, dK (k, n, n) at the mean. names (k,).
+    """
+
+    M: np.ndarray
+    C: np.ndarray
+    K: np.ndarray
+    matrices: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray, np.ndarray]]
+    slopes: tuple[np.ndarray, np.ndarray, np.ndarray]
+    names: tuple[str, ...]
+
+    @property
+    def k(self) -> int:
+        """Number of nuisances."""
+        return len(self.names)
+
+
+def sum_of(M, C, K, dM, dC, dK, names) -> Linear:
+    """A linear model whose matrices are linear in the nuisances."""
+
+    def matrices(z: np.ndarray):
+        return tuple(m + np.einsum("pk,kij->pij", z, d) for m, d in ((M, dM), (C, dC), (K, dK)))
+
+    return Linear(M, C, K, matrices, (dM, dC, dK), tuple(names))

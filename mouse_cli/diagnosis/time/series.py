@@ -1,0 +1,76 @@
+"""A record prepared for comparison with simulations: band-limited, cut into segments, with the accuracy of each channel."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+REACH = 12  # samples on either side that the band-limiting filter takes in
+_EDGE, _WINDOW = 0.42, 6.0  # its edge by the sample rate; parameter of its Kaiser window
+
+
+@dataclass(frozen=True)
+class Series:
+    """t samples of one record, dt apart in s. force (t, i), measured (t, s); sd (s,) of the noise; factor: steps in a sample.
+
+    inputs (n, i), sensing (s, n): how they meet the model; order (s,): 0 displacement, 1 velocity, 2 acceleration.
+    """
+
+    title: str
+    dt: float
+    force: np.ndarray
+    measured: np.ndarray
+    sd: np.ndarray
+    inputs: np.ndarray
+    sensing: np.ndarray
+    order: np.ndarray
+    factor: int = 4
+    first: int = 0
+
+    def __len__(self) -> int:
+        return len(self.measured)
+
+    def part(self, begin: int, end: int) -> "Series":
+        """Samples begin to end."""
+        return replace(self, force=self.force[begin:end], measured=self.measured[begin:end], first=self.first + begin)
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether the record begins before anything moves."""
+        size = np.sqrt((self.measured**2).mean(axis=0))
+        return bool((np.abs(self.measured[:3]) < 5 * self.sd + 1e-3 * size).all()) and self.first == 0
+
+    @cached_property
+    def fine(self) -> np.ndarray:
+        """The force (t * factor, i) at every step, band-limited between samples."""
+        from scipy.signal import firwin, resample_poly
+
+        filter = firwin(2 * 24 * self.factor + 1, 1 / self.factor, window=("kaiser", 8.0))
+        return resample_poly(self.force, self.factor, 1, axis=0, window=filter, padtype="line")
+
+    @cached_property
+    def filtered(self) -> np.ndarray:
+        """Measured channels (t, s), limited to the band in which simulations are compared with them."""
+        from scipy.signal import oaconvolve
+
+        return oaconvolve(self.measured, limiter(1)[:, None], mode="same", axes=0)
+
+
+def limiter(factor: int) -> np.ndarray:
+    """The band-limiting filter at `factor` steps a sample."""
+    from scipy.signal import firwin
+
+    return firwin(2 * REACH * factor + 1, 2 * _EDGE / factor, window=("kaiser", _WINDOW))
+
+
+def passed() -> float:
+    """Share of white noise that the band-limiting filter leaves."""
+    return float((limiter(1) ** 2).sum())
+
+
+def sampled(fine: np.ndarray, factor: int) -> np.ndarray:
+    """Simulated channels (P, s, t * factor, G), band-limited and at the samples; REACH samples at either end are lost."""
+    from scipy.signal import oaconvolve
+
+    whole = oaconvolve(fine, limiter(factor)[None, None, :, None], mode="valid", axes=2)
+    return whole[:, :, ::factor]

@@ -1,0 +1,172 @@
+"""Time histories of M u'' + C u' + K u + B F(B'u, B'u', z) = P f: exact linear part, local forces by predictor and corrector.
+
+The linear part is stepped exactly for forces that are linear between steps (first-order hold, matrix exponential: Van Loan, IEEE
+Trans. Autom. Control 23, 1978). Many models and many segments of a record advance together.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+# force(x, v, z) -> (F, z): r local motions x, v (P, r, G) and internal states z to forces (P, r, G) and next states
+LocalForce = Callable[[np.ndarray, np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
+CORRECTIONS = 2  # of the local force at the end of a step; each gains a factor h^2 F'/(6 m)
+
+
+@dataclass(frozen=True)
+class Plant:
+    """P linear models alike in size: M, C, K (P, n, n); inputs (P, n, i); local (n, r): motions at which local forces act.
+
+    sensing (s, n); order (s,): 0 displacement, 1 velocity, 2 acceleration.
+    """
+
+    M: np.ndarray
+    C: np.ndarray
+    K: np.ndarray
+    inputs: np.ndarray
+    local: np.ndarray
+    sensing: np.ndarray
+    order: np.ndarray
+
+    @property
+    def count(self) -> int:
+        """How many models, P."""
+        return len(self.M)
+
+    @property
+    def states(self) -> int:
+        """Displacements and velocities, 2n."""
+        return 2 * self.M.shape[1]
+
+
+@dataclass(frozen=True)
+class Discrete:
+    """A plant stepped by h: next (P, 2n + 2r, 2n + 2i + r) takes [xi, f now, f next, F now] to [xi, B'u, B'u'] next without the
+    local force there, xi = state + hold F; drop (P, 2r, r): what that force takes off B'u, B'u'.
+
+    outputs (P, s, 2n + i + r) reads sensors from [xi, f, F].
+    """
+
+    next: np.ndarray
+    drop: np.ndarray
+    outputs: np.ndarray
+    hold: np.ndarray
+
+
+def discrete(plant: Plant, h: float) -> Discrete:
+    """The plant stepped by h s, exactly for forces that are linear within a step."""
+    n, i, r = plant.M.shape[1], plant.inputs.shape[2], plant.local.shape[1]
+    local = np.broadcast_to(-plant.local, (plant.count, n, r))
+    flexible = np.linalg.solve(plant.M, np.concatenate([plant.inputs, local], axis=2))
+    A = np.zeros((plant.count, 2 * n, 2 * n))
+    A[:, :n, n:] = np.eye(n)
+    A[:, n:, :n], A[:, n:, n:] = -np.linalg.solve(plant.M, plant.K), -np.linalg.solve(plant.M, plant.C)
+    B = np.concatenate([np.zeros_like(flexible), flexible], axis=1)
+    step, now, after = held(A, B, h)
+    hold = -after[:, :, i:]
+    read = np.zeros((2 * r, 2 * n))
+    read[:r, :n], read[r:, n:] = plant.local.T, plant.local.T
+    advance = np.concatenate([step, now[:, :, :i], after[:, :, :i], now[:, :, i:] - step @ hold], axis=2)
+    outputs = _outputs(plant, A, B)
+    outputs[:, :, 2 * n + i :] -= outputs[:, :, : 2 * n] @ hold
+    return Discrete(np.concatenate([advance, read @ advance], axis=1), read @ hold, outputs, hold)
+
+
+def held(A: np.ndarray, B: np.ndarray, h: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """exp(Ah) and the matrices that inputs at the beginning and at the end of a step act through: x1 = E x0 + B0 f0 + B1 f1."""
+    from scipy.linalg import expm
+
+    n, m = B.shape[-2:]
+    whole = np.zeros((*A.shape[:-2], n + 2 * m, n + 2 * m))
+    whole[..., :n, :n], whole[..., :n, n : n + m] = A * h, B * h
+    whole[..., n : n + m, n + m :] = np.eye(m)
+    found = expm(whole)[..., :n, :]
+    after = found[..., n + m :]
+    return found[..., :n], found[..., n : n + m] - after, after
+
+
+def _outputs(plant: Plant, A: np.ndarray, B: np.ndarray) -> np.ndarray:
+    """What sensors read from [u, u', f, F] (P, s, 2n + i + r)."""
+    n = plant.M.shape[1]
+    whole = np.concatenate([A, B], axis=2)
+    found = np.zeros((plant.count, len(plant.order), whole.shape[2]))
+    for order, first in ((0, 0), (1, n)):
+        own = plant.order == order
+        found[:, own, first : first + n] = plant.sensing[own]
+    own = plant.order == 2
+    found[:, own] = plant.sensing[own] @ whole[:, n:]
+    return found
+
+
+def simulate(
+    plant: Plant,
+    h: float,
+    force: np.ndarray,
+    start: np.ndarray,
+    local: LocalForce | None = None,
+    z: np.ndarray | None = None,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Sensors (P, s, t, G), and local motions, their velocities and forces (t, 3, P, r, G), at every step.
+
+    h: s; force (t, i, G): at every step; start (P, 2n, G): displacements and velocities; z: internal states of the local forces.
+    """
+    (t, i, G), P, n2 = force.shape, plant.count, plant.states
+    if not local:
+        plant = replace(plant, local=plant.local[:, :0])
+    by, r = discrete(plant, h), plant.local.shape[1]
+    x, motion = np.zeros((P, n2 + 2 * i + r, G)), np.zeros((t, 3, P, r, G))
+    x[:, :n2] = start
+    if local:
+        motion[0], z = _begun(plant, start, local, z)
+        x[:, n2 + 2 * i :] = motion[0, 2]
+        x[:, :n2] += by.hold @ motion[0, 2]
+    seen, out = _Sensors(by, n2, i), np.zeros((P, len(plant.order), t, G))
+    for k in range(t):
+        x[:, n2 : n2 + i] = force[k]
+        seen.put(x, out, k)
+        if k == t - 1:
+            break
+        x[:, n2 + i : n2 + 2 * i] = force[k + 1]
+        y = by.next @ x
+        x[:, :n2] = y[:, :n2]
+        if local:
+            F, z, moved = _corrected(local, y[:, n2:], by.drop, x[:, n2 + 2 * i :], z)
+            x[:, n2 + 2 * i :] = F
+            motion[k + 1, 0], motion[k + 1, 1], motion[k + 1, 2] = moved[:, :r], moved[:, r:], F
+    return out, motion
+
+
+class _Sensors:
+    """What sensors read, worked out for blocks of steps."""
+
+    def __init__(self, by: Discrete, n2: int, i: int):
+        self.outputs, self.n2, self.i = by.outputs, n2, i
+        self.kept: np.ndarray | None = None
+
+    def put(self, x: np.ndarray, out: np.ndarray, k: int) -> None:
+        """Note step k; write the block into `out` (P, s, t, G) when it is full, or the last."""
+        t, n2, i = out.shape[2], self.n2, self.i
+        if self.kept is None:
+            self.kept = np.zeros((max(1, min(t, 4_000_000 // x.size)), x.shape[0], x.shape[1] - i, x.shape[2]))
+        at = k % len(self.kept)
+        self.kept[at, :, : n2 + i], self.kept[at, :, n2 + i :] = x[:, : n2 + i], x[:, n2 + 2 * i :]
+        if at == len(self.kept) - 1 or k == t - 1:
+            out[:, :, k - at : k + 1] = np.matmul(self.outputs, self.kept[: at + 1]).transpose(1, 2, 0, 3)
+
+
+def _begun(plant: Plant, start: np.ndarray, local: LocalForce, z):
+    """Local motions, velocities and forces (3, P, r, G) of the initial state, and internal states after it."""
+    n = plant.states // 2
+    x, v = plant.local.T @ start[:, :n], plant.local.T @ start[:, n:]
+    F, z = local(x, v, z)
+    return np.stack([x, v, F]), z
+
+
+def _corrected(local: LocalForce, free: np.ndarray, drop: np.ndarray, F: np.ndarray, z):
+    """F at the end of a step by fixed-point iteration from its value before; states and local motions with it."""
+    r = F.shape[1]
+    for _ in range(CORRECTIONS):
+        moved = free - drop * F if r == 1 else free - drop @ F
+        F, after = local(moved[:, :r], moved[:, r:], z)
+    return F, after, moved

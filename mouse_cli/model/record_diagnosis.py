@@ -1,0 +1,94 @@
+"""What a diagnosis by recordings found, beside what every diagnosis finds."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mouse_cli.model.diagnosis import NOTHING, Diagnosis
+
+AS_IT_IS, WITH_CAUSE = "as it is", "with the cause"
+
+
+@dataclass(frozen=True)
+class LevelSign:
+    """The linear model fitted to parts of a record by level: rms of the first output, first resonance in Hz, damping ratio."""
+
+    rms: float
+    frequency_hz: float
+    damping: float
+
+
+@dataclass(frozen=True)
+class Linearity:
+    """Signs of nonlinearity, none of which decides. incoherent: share of the band with coherence below 0.95, nan for several
+    forces; even, odd: distortion at lines that were not excited, by the excited ones, nan without such an excitation; noise
+    likewise. levels: the lowest and the highest third.
+    """
+
+    incoherent: float = float("nan")
+    even: float = float("nan")
+    odd: float = float("nan")
+    noise: float = float("nan")
+    levels: tuple[LevelSign, ...] = ()
+
+
+@dataclass(frozen=True)
+class RecordScore:
+    """Errors of simulations of a record that no fit has seen, rms of each output (s,), in the units of the channels.
+
+    short: over horizons of horizon_s from fitted initial states; free: from the beginning of the record to its end, inf where
+    it does not stay finite. signal (s,): rms of the record.
+    """
+
+    title: str
+    horizon_s: float
+    signal: np.ndarray
+    short: dict[str, np.ndarray]
+    free: dict[str, np.ndarray]
+
+
+@dataclass(frozen=True)
+class Trace:
+    """A stretch of an output that no fit has seen, for a figure: time in s from its beginning, measured and simulated."""
+
+    title: str
+    unit: str
+    time_s: np.ndarray
+    measured: np.ndarray
+    simulated: dict[str, np.ndarray]
+
+
+@dataclass(frozen=True)
+class Surface:
+    """The force (t,) that the record asks for at the place of the cause, its motion x and velocity v, and the fitted law there."""
+
+    site: str
+    x: np.ndarray
+    v: np.ndarray
+    force: np.ndarray
+    law: np.ndarray
+
+
+@dataclass(frozen=True)
+class RecordDiagnosis(Diagnosis):
+    """The answer of `diagnose` for recordings; `result` is None: there is no modal test.
+
+    channels, sd (s,): outputs and the accuracy taken for them; inputs: names. variants: the law of each explanation in a word
+    (hardening, one side, ...). scores: of held-out records. fitted: titles of what was fitted. inputs_held: description.
+    """
+
+    channels: tuple[str, ...] = ()
+    units: tuple[str, ...] = ()
+    inputs: tuple[str, ...] = ()
+    sd: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    fitted: tuple[str, ...] = ()
+    variants: tuple[str, ...] = ()
+    linearity: Linearity = Linearity()
+    scores: tuple[RecordScore, ...] = ()
+    trace: Trace | None = None
+    surface: Surface | None = None
+
+    @property
+    def exit_code(self) -> int:
+        """0: nothing is missing; 1: something is."""
+        return 0 if self.kind == NOTHING else 1

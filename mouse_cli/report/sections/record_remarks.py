@@ -1,0 +1,19 @@
+"""What a careful reader of a diagnosis by recordings should know."""
+
+from collections.abc import Iterator
+
+from mouse_cli.model.record_diagnosis import RecordDiagnosis
+from mouse_cli.report.blocks import Block, Text
+from mouse_cli.report.section import Options, Section
+
+
+def remarks(found: RecordDiagnosis, options: Options) -> Iterator[Block]:
+    """One paragraph each."""
+    for text in found.remarks:
+        yield Text(f"{text[:1].upper()}{text[1:]}.")
+    for remark in found.problem.warnings:
+        place = f" ({remark.span})" if remark.span else ""
+        yield Text(f"{remark.code}{place}: {remark.message}.")
+
+
+SECTION = Section("record-remarks", 90, "Remarks", remarks, (RecordDiagnosis,))

@@ -1,0 +1,99 @@
+"""Laws of local forces: one module = one law, found by `registry`; each acts on one relative motion x of the structure."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli import _registry
+
+SIGNS = ({"sign": 1.0}, {"sign": -1.0})
+PLAIN = ({},)
+
+
+@dataclass(frozen=True)
+class Scale:
+    """What a motion is like in a record: stiffness and mass of the structure against it, rms of x and of its velocity.
+
+    band: lowest and highest frequency in the record, Hz.
+    """
+
+    stiffness: float
+    mass: float
+    x: float
+    v: float
+    band: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Unknown:
+    """A parameter of a law: its logarithm is uniform over (lower, upper) before the test."""
+
+    name: str
+    unit: str
+    lower: float
+    upper: float
+
+
+@dataclass(frozen=True)
+class Law:
+    """A law of one relative motion x.
+
+    force(x, v, z, p, **variant) -> (F, z): force against the motion and internal states after it, for arrays of any shape and
+    parameters p (q, ...) that broadcast with them; z (states, ...): None where there is none. matrices(p) -> K, C, M (1 + a, 1 + a)
+    instead, for linear laws, on x and a coordinates of their own. unknowns(scale): parameters. variants: signs and sides, told
+    apart as words. homogeneous: indices of parameters with which F grows in proportion. grid: values of each other parameter
+    that a first search tries. at: `anywhere`, or `ground` where it acts only between a point and the ground.
+    """
+
+    key: str
+    group: str
+    title: str
+    meaning: str
+    unknowns: Callable[[Scale], tuple[Unknown, ...]]
+    force: Callable | None = None
+    matrices: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray, np.ndarray]] | None = None
+    variants: tuple[dict[str, float], ...] = PLAIN
+    words: tuple[str, ...] = ("",)
+    homogeneous: tuple[int, ...] = (0,)
+    grid: int | tuple[int, ...] = 12
+    states: int = 0
+    at: str = "anywhere"
+    odd: bool = True
+
+    @property
+    def linear(self) -> bool:
+        """Whether superposition holds."""
+        return self.force is None
+
+    def inner(self, scale: Scale) -> Iterator[np.ndarray]:
+        """Parameters (q,) of a first search: the homogeneous ones such that the first of them is 1."""
+        unknowns = self.unknowns(scale)
+        free = [i for i in range(len(unknowns)) if i not in self.homogeneous[:1]]
+        counts = self.grid if isinstance(self.grid, tuple) else (self.grid,) * len(free)
+        axes = [np.geomspace(*self._range(unknowns, i), count) for i, count in zip(free, counts, strict=True)]
+        for values in np.stack(np.meshgrid(*axes, indexing="ij"), -1).reshape(-1, len(free)) if free else [[]]:
+            p = np.ones(len(unknowns))
+            p[free] = values
+            yield p
+
+    def _range(self, unknowns: tuple[Unknown, ...], i: int) -> tuple[float, float]:
+        """Of parameter i; of its ratio to the first homogeneous one when it is homogeneous too."""
+        own = unknowns[i]
+        if i not in self.homogeneous:
+            return own.lower, own.upper
+        first = unknowns[self.homogeneous[0]]
+        middle = np.sqrt(own.lower * own.upper / first.lower / first.upper)
+        reach = np.sqrt(own.upper / own.lower)
+        return middle / reach, middle * reach
+
+    def scaled(self, p: np.ndarray, factor: float) -> np.ndarray:
+        """Parameters with which the force is `factor` times as large."""
+        found = np.array(p, float)
+        found[list(self.homogeneous)] *= factor
+        return found
+
+
+def registry() -> dict[str, Law]:
+    """All laws by key."""
+    return _registry.discover(__name__, "LAW")

@@ -1,0 +1,34 @@
+"""Coulomb friction behind a spring (Jenkins element)."""
+
+import numpy as np
+
+from mouse_cli.terms.laws import Law, Scale, Unknown
+
+
+def force(x, v, z, p):
+    """F = kt (x - z), |F| <= Fs: the slider z is dragged along when the limit is reached."""
+    limit = p[1] / p[0]
+    stretch = np.clip(x - z[0], -limit, limit)
+    return p[0] * stretch, (x - stretch)[None]
+
+
+def unknowns(scale: Scale) -> tuple[Unknown, ...]:
+    """Stiffness before slip beside that of the structure; slip force beside the elastic force at the rms motion."""
+    k, x = scale.stiffness, scale.x
+    return (
+        Unknown("stiffness before slip", "N/m", 0.02 * k, 100 * k),
+        Unknown("slip force", "N", 0.003 * k * x, 3 * k * x),
+    )
+
+
+LAW = Law(
+    "friction",
+    "friction",
+    "friction (slip behind a spring)",
+    "F = kt (x - z), |F| <= Fs (Jenkins; Coulomb for stiff kt): damping falls with the amplitude, the frequency drops at slip",
+    unknowns,
+    force,
+    homogeneous=(0, 1),
+    grid=24,
+    states=1,
+)
