@@ -6,6 +6,7 @@ band. Galerkin's method in it errs by the product of two residuals in alpha and 
 lines both errors are found against full solutions, which the basis and A precondition; levels are added until they are small.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -51,6 +52,31 @@ def frf_model(
         error, motion_error = (max(column) for column in zip(*errors, strict=True))
         if error <= tolerance or basis.complete or levels > _MOST:
             return FrfModel(model.matrices, model.loads, model.columns, model.V, basis.levels, error, motion_error)
+
+
+def galerkin(
+    dynamics: Dynamics, solution: EigenSolution, levels: int = _FIRST
+) -> tuple[np.ndarray | None, Dynamics, Callable[[np.ndarray, np.ndarray], np.ndarray]]:
+    """V (d, n) and matrices in it for modes alone, no loads; V None for the model as it is. And residual(s (k,), shapes (n, k)).
+
+    That is the relative error (k,) of poles s, of second order in what the basis lacks: r'A^-1 r / psi'(2s^2 M + sC) psi, r = Z psi.
+    """
+    if dynamics.n <= WHOLE or _bare(solution) or (solution.space is None and not solution.complete):
+        return None, _dense(dynamics), lambda s, shapes: np.zeros(len(s))
+    top = float(np.sqrt(np.abs(solution.eigenvalues[-1])))
+    basis = _Basis(dynamics, Loads((np.zeros(0, int),)), solution, top)
+    for _ in range(levels):
+        basis.extend()
+
+    def residual(s: np.ndarray, shapes: np.ndarray) -> np.ndarray:
+        error = np.zeros(len(s))
+        for k, at in enumerate(s):
+            r = basis.times(at, shapes[:, [k]])
+            solved = basis.operator.columns(np.asfortranarray(np.concatenate([r.real, r.imag], axis=1)))
+            error[k] = np.abs(r[:, 0].real @ solved[:, 0] + r[:, 0].imag @ solved[:, 1]) / (2 * np.abs(at) ** 2)
+        return error
+
+    return basis.krylov.V, basis.model().matrices, residual
 
 
 def _bare(solution: EigenSolution | None) -> bool:
