@@ -78,10 +78,10 @@ def main() -> None:
                 options = SpectraOptions(lines=LINES)
                 parts["functions"].append(seconds(lambda: measure(problem.recordings, options, CHANNELS)))
             median = {part: statistics.median(values) for part, values in parts.items()}
-            whole = median["read"] + median["functions"]
+            ratios = [median["read"] / median["numpy"], (median["read"] + median["functions"]) / median["numpy"]]
             print(
-                f"  {kind}: numpy reads {median['numpy']:.3f}; mouse reads {median['read']:.3f}, functions "
-                f"{median['functions']:.3f}; ratio of reading {median['read'] / median['numpy']:.2f}, of all {whole / median['numpy']:.2f}"
+                f"  {kind}: numpy reads {median['numpy']:.3f}; mouse {median['read']:.3f}, functions "
+                f"{median['functions']:.3f}; ratio of reading {ratios[0]:.2f}, of all {ratios[1]:.2f}"
             )
 
 

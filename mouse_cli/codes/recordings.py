@@ -125,4 +125,9 @@ CODES = {
         "With as many averages as forces every coherence is 1, whatever the noise. Variances are left unknown.",
         "Take fewer --lines, or record for longer.",
     ),
+    "MD623": Code(
+        "function given twice",
+        "One measurement holds two functions of the same response and force, of which the last is used.",
+        "Choose one of them, or give repeats titles of their own.",
+    ),
 }

@@ -15,7 +15,7 @@ def merged(found: list[FrfDraft], say: Findings) -> list[FrfDraft]:
     groups: dict[str, list[FrfDraft]] = {}
     for each in found:
         groups.setdefault(each.title, []).append(each)
-    return [_whole(group) for group in groups.values() if _fit(group, say)]
+    return [_whole(group, say) for group in groups.values() if _fit(group, say)]
 
 
 def _fit(group: list[FrfDraft], say: Findings) -> bool:
@@ -74,7 +74,7 @@ def _ascending(each: FrfDraft, say: Findings) -> bool:
     return not len(infinite)
 
 
-def _whole(group: list[FrfDraft]) -> FrfDraft:
+def _whole(group: list[FrfDraft], say: Findings) -> FrfDraft:
     first = group[0]
     if len(group) == 1:
         return first
@@ -87,6 +87,10 @@ def _whole(group: list[FrfDraft]) -> FrfDraft:
     row, col = ({name: i for i, name in enumerate(named)} for named in (outputs, inputs))
     for each in group:
         at = np.ix_(range(shape[0]), [row[s.name] for s in each.outputs], [col[s.name] for s in each.inputs])
+        if (np.isfinite(each.H) & np.isfinite(H[at])).any():
+            names = f"{', '.join(s.name for s in each.outputs)} by {', '.join(s.name for s in each.inputs)}"
+            message = f"'{each.title}' holds the function of {names} more than once; the last is used"
+            say.warn("MD623", each.where, message, "give repeats titles of their own")
         new = np.isfinite(each.H) | ~np.isfinite(H[at])
         H[at], variance[at] = np.where(new, each.H, H[at]), np.where(new, each.variance, variance[at])
         if coherence is not None:

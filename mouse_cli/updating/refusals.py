@@ -46,15 +46,14 @@ def unknown_estimator(problem: Problem, reason: str) -> DeckError:
 
 def no_test(problem: Problem) -> DeckError:
     """The error for a deck that states no test, and so nothing to revise the model by."""
-    return DeckError(
-        Diagnostic(
-            "MD333",
-            ERROR,
-            f"the deck '{problem.title.strip()}' holds no test: there is nothing to revise the model by",
-            problem.place("test"),
-            help="add `test:` with measured modes, or ask for `mouse modes`",
+    message = f"the deck '{problem.title.strip()}' holds no test: there is nothing to revise the model by"
+    help = "add `test:` with measured modes or functions, or ask for `mouse modes`"
+    if problem.recordings:
+        message = (
+            f"the test of '{problem.title.strip()}' holds recordings alone; a run revises by modes and by functions"
         )
-    )
+        help = "make functions of them, `mouse spectra DECK -o frf.npz`, and give test: {frf: [{file: frf.npz}]}"
+    return DeckError(Diagnostic("MD333", ERROR, message, problem.place("test"), help=help))
 
 
 def unphysical(problem: Problem, reason: str) -> NumericalError:

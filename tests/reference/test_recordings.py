@@ -370,6 +370,16 @@ frf:
     )
 
 
+def test_arrays_of_functions_and_repeats(tmp_path):
+    """A matrix of functions (f, o, i) as others save it: `H[2,1]` is response 2 by force 1."""
+    hz, H = np.arange(1.0, 30), np.random.default_rng(2).standard_normal((29, 2, 3)) + 1j
+    np.savez(tmp_path / "frf.npz", freq=hz, H=H)
+    entry = "{title: m, file: frf.npz, kind: mobility, input: 1, outputs: {1: 'H[1,3]', 2: 'H[2,3]'}}"
+    given = problem(tmp_path, f"frf: [{entry}]")
+    assert (given.frf[0].H[:, :, 0] == H[:, :, 2]).all() and not given.warnings
+    assert [d.code for d in problem(tmp_path, f"frf: [{entry}, {entry}]").warnings] == ["MD623"]
+
+
 def test_backward_and_named_sensors(tmp_path):
     deck = """\
 mouse: 1

@@ -100,20 +100,24 @@ def _refuse(code: str, path: str, message: str, help: str) -> None:
 
 
 def spread(path: str, arrays: dict[str, np.ndarray]) -> Contents:
-    """Channels of named arrays: a vector is one; of a table (k, c) each column is one, `name[1]` to `name[c]`, time along k > c.
+    """Channels of named arrays: a vector is one, and each column of a table (k, c), `name[1]` to `name[c]`, time along k > c.
 
-    A number called fs, dt or alike states the sample rate; other numbers, texts and empty arrays are passed over.
+    Those of an array (k, a, b) are `name[1,1]` to `name[a,b]`. A number called fs, dt or alike states the sample rate; other numbers, texts and empty arrays are passed over.
     """
     columns, rate, passed = [], None, []
     for name, array in arrays.items():
         values = np.squeeze(np.asarray(array))
         stem = name.rpartition(".")[2].lower()
-        if values.dtype.kind not in "biufc" or values.ndim > 2 or not values.size:
+        if values.dtype.kind not in "biufc" or values.ndim > 3 or not values.size:
             passed.append(f"'{name[:40]}' is no vector or table of numbers")
         elif values.ndim == 0:
             rate = _rate(stem, values) or rate
         elif values.ndim == 1:
             columns.append(Column(name, values))
+        elif values.ndim == 3:
+            table = np.moveaxis(values, int(np.argmax(values.shape)), 0)
+            pairs = np.ndindex(table.shape[1:]) if values.size // len(table) <= MOST_COLUMNS else []
+            columns += [Column(f"{name}[{i + 1},{j + 1}]", table[:, i, j]) for i, j in pairs]
         else:
             table = values if values.shape[0] >= values.shape[1] else values.T
             columns += [Column(f"{name}[{j + 1}]", table[:, j]) for j in range(min(table.shape[1], MOST_COLUMNS))]
