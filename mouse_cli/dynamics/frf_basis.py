@@ -21,6 +21,7 @@ BEYOND = 1.5  # modes are taken up to so many times the highest frequency
 FINAL, ITERATING = 1e-6, 1e-4  # relative errors of FRFs that are reported, and of those on the way
 _FIRST, _MOST = 2, 8  # levels of Krylov vectors at first, and at the end
 _REFINEMENTS = 60  # steps towards a full solution
+_ROUNDING = 1e-11  # what damping may differ from a combination of K and M, relative, to be taken for one
 _CHECKED = 2  # loads for which they are found
 _SOLVED, _ROUNDED = 3e-8, 1e-6  # the last step of it, relative; the same where rounding keeps it from getting smaller
 
@@ -209,12 +210,12 @@ def _follows(damping: Matrix | None, dynamics: Dynamics) -> tuple[float, float] 
     same = len(M.data) == len(K.data) and np.array_equal(M.indices, K.indices)
     scale = float(K.data @ K.data)
     a, b = float(damping.data @ K.data) / scale, 0.0
-    if same:
+    if same and np.abs(damping.data - a * K.data).max() > _ROUNDING * np.abs(damping.data).max():
         parts = np.stack([K.data, M.data], axis=1)
         size = np.linalg.norm(parts, axis=0)
         a, b = (np.linalg.lstsq(parts / size, damping.data, rcond=None)[0] / size).tolist()
     rest = damping.data - a * K.data - (b * M.data if same else 0.0)
-    return (a, b) if np.abs(rest).max() <= 1e-11 * np.abs(damping.data).max() else None
+    return (a, b) if np.abs(rest).max() <= _ROUNDING * np.abs(damping.data).max() else None
 
 
 def _error(basis: _Basis, model: FrfModel, s: complex, known: dict[complex, np.ndarray | None]) -> tuple[float, float]:
@@ -223,7 +224,7 @@ def _error(basis: _Basis, model: FrfModel, s: complex, known: dict[complex, np.n
     known: full solutions found before.
     """
     few = np.unique(np.linspace(0, basis.loads.count - 1, _CHECKED).astype(int))
-    x = model.V.T @ model.at(np.array([s])).Y[0][:, few]
+    x = product(model.V.T, model.at(np.array([s])).Y[0][:, few])
     if s not in known:
         known[s] = _full(basis, model, s, x, basis.full[:, few])
     exact = known[s]
@@ -244,7 +245,7 @@ def _full(basis: _Basis, model: FrfModel, s: complex, x: np.ndarray, loads: np.n
         moved = basis.operator.columns(np.asfortranarray(np.concatenate([rest.real, rest.imag], axis=1)))
         better = x + moved[:, :c] + 1j * moved[:, c:]
         rest = loads - basis.times(s, better)
-        better = better + model.V.T @ np.linalg.solve(Z, model.V @ rest)
+        better = better + product(model.V.T, np.linalg.solve(Z, product(model.V, rest)))
         change = float((np.linalg.norm(better - x, axis=0) / np.linalg.norm(better, axis=0)).max())
         if change <= _SOLVED or (change > 0.5 * before and change <= _ROUNDED):
             return better
