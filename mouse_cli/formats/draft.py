@@ -44,8 +44,7 @@ class Entries:
 class TestDraft:
     """The modal test as read. dofs count from 1; shapes and shape_sd are (s, m), NaN where missing.
 
-    sensors (s,): what each row is measured by, in place of dofs, for readers of formats that describe sensors. hold_out: what of
-    it no fit uses.
+    sensors (s,): what each row is measured by, in place of dofs, for readers of formats that describe sensors.
     """
 
     __test__ = False  # not a pytest class
@@ -64,7 +63,6 @@ class TestDraft:
     where_shape: Callable[[int, int], Span | None] = lambda s, m: None
     where_shape_sd: Callable[[int, int], Span | None] = lambda s, m: None
     sensors: tuple[SensorDraft, ...] = ()
-    hold_out: HoldOutDraft | None = None
 
 
 @dataclass
@@ -76,7 +74,7 @@ class Draft:
     the matrices; 0 while only the structure can tell. elements: Entries whose value is 0 for stiffness and 1 for mass, in the
     order of group RS, stiffness first. A: Entries (listed element, parameter, partial).
     covariance (p, p): the prior's, when it has off-diagonals; else the parameters' sd hold it. hold_out: what no fit uses of
-    frf and recordings.
+    test, frf and recordings.
     """
 
     title: str

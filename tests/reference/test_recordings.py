@@ -428,6 +428,7 @@ hold_out: {recordings: [b], segments: [{recording: a, segment: [100, 200]}], lin
     again = read_deck(write_deck(given, tmp_path / "again.yaml")[-1])
     assert [(r.start, len(r.samples)) for r in again.recordings] == [(0, 100), (200, 400)]
     assert again.held_records.frf[0].H.tolist() == given.held_records.frf[0].H.tolist()
+    assert "has no test.modes" in found(tmp_path, test.replace("recordings: [b]", "modes: [1]"), "MD430")
     assert "'c', which is no title" in found(tmp_path, test.replace("[b]", "[c]"), "MD433")
 
 

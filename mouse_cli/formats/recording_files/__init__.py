@@ -102,7 +102,8 @@ def _refuse(code: str, path: str, message: str, help: str) -> None:
 def spread(path: str, arrays: dict[str, np.ndarray]) -> Contents:
     """Channels of named arrays: a vector is one, and each column of a table (k, c), `name[1]` to `name[c]`, time along k > c.
 
-    Those of an array (k, a, b) are `name[1,1]` to `name[a,b]`. A number called fs, dt or alike states the sample rate; other numbers, texts and empty arrays are passed over.
+    Those of an array (k, a, b) are `name[1,1]` to `name[a,b]`. A number called fs, dt or alike states the sample rate; other
+    numbers, texts and empty arrays are passed over.
     """
     columns, rate, passed = [], None, []
     for name, array in arrays.items():

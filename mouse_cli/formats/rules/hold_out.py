@@ -11,8 +11,13 @@ from mouse_cli.model.modal_test import ModalTest
 
 def hold_out(draft: Draft, test: ModalTest | None, geometry: Geometry | None) -> HoldOut | None:
     """The division of `test`; None where nothing is held out, or when a rule is broken."""
-    given = draft.test.hold_out if draft.test else None
-    if given is None or test is None or not (given.modes or given.sensors or given.altered):
+    given = draft.hold_out
+    if given is None or not (given.modes or given.sensors or given.altered):
+        return None
+    if draft.test is None:
+        message = "test.hold_out names modes or sensors of modes, but the deck has no test.modes"
+        draft.error("MD430", message, given.where, help="give modes, or hold out recordings, segments, frf or lines")
+    if test is None:
         return None
     before = len(draft.diagnostics)
     modes, sensors = _modes(draft, given, test), _sensors(draft, given)

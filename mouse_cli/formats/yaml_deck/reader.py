@@ -45,8 +45,6 @@ def _draft(deck: Section) -> Draft:
     elements, A = yaml_parameters.moves(deck, properties, matrices.order, matrices.rows)
     measured = deck.section("test")
     test, held = modal_test(measured), hold_out(measured)
-    if test is not None:
-        test.hold_out = held
     frf, recordings = records(measured, declared)
     run, where = run_options(deck.section("run"))
     deck.value("source")
