@@ -1,8 +1,8 @@
 """Complex modes: (s^2 M + s C + K + iD) psi = 0, poles s with Im s > 0.
 
-Without C they follow from (K + iD) psi = lambda M psi and s = i sqrt(lambda); with C from the first-order form of twice the size. A
-large model is solved in the basis of its FRFs, whose error is found for every pole by its residual. Damping ratio -Re s / |s|, which is
-half the loss factor at resonance; complexity 1 - |psi'M psi|^2 / (psi^H M psi)^2, 0 for a real shape (after Imregun and Ewins 1995).
+Without C they follow from (K + iD) psi = lambda M psi and s = i sqrt(lambda); with C from the first-order form of twice the size.
+A large model is solved in the basis of its FRFs, whose error is found for every pole by its residual. Damping ratio -Re s / |s|,
+half the loss factor at resonance; complexity 1 - |psi'M psi|^2 / (psi^H M psi)^2, 0 for a real shape (Imregun and Ewins 1995).
 """
 
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ _STILL = 1e-9  # of the largest |s|: a rigid-body motion, or one that does not o
 
 @dataclass(frozen=True)
 class ComplexModes:
-    """poles (k,), rad/s, by |s|; shapes (n, k), psi'(M + C / 2s) psi = 1; complexity (k,); error (k,): estimated, of s, relative."""
+    """poles (k,), rad/s, by |s|; shapes (n, k), psi'(M + C / 2s) psi = 1; complexity (k,); error (k,): estimated, of s."""
 
     poles: np.ndarray
     shapes: np.ndarray
@@ -52,7 +52,10 @@ class ComplexModes:
 
 
 def complex_modes(dynamics: Dynamics, solution: EigenSolution, count: int) -> ComplexModes:
-    """The `count` poles of the lowest |s| that oscillate; solution: of K and M, with at least as many modes, a sparse model's alive."""
+    """The `count` poles of the lowest |s|, those that oscillate.
+
+    solution: of K and M, with at least as many modes, and its space alive for a sparse model.
+    """
     V, reduced, residual = galerkin(dynamics, solution)
     poles, X = _solved(reduced)
     order = np.argsort(np.abs(poles), kind="stable")[:count]

@@ -60,7 +60,7 @@ def galerkin(
 ) -> tuple[np.ndarray | None, Dynamics, Callable[[np.ndarray, np.ndarray], np.ndarray]]:
     """V (d, n) and matrices in it for modes alone, no loads; V None for the model as it is. And residual(s (k,), shapes (n, k)).
 
-    That is the relative error (k,) of poles s, of second order in what the basis lacks: r'A^-1 r / psi'(2s^2 M + sC) psi, r = Z psi.
+    That is the relative error (k,) of poles s, of second order in what the basis lacks: r'A^-1 r / 2|s|^2 with r = Z psi.
     """
     if dynamics.n <= WHOLE or _bare(solution) or (solution.space is None and not solution.complete):
         return None, _dense(dynamics), lambda s, shapes: np.zeros(len(s))

@@ -144,7 +144,8 @@ class Result:
 class Forecast:
     """Answer of `modes`: natural frequencies and shapes of the prior model with the uncertainty the prior gives them.
 
-    frequencies_hz, sd_hz (k,); shapes, shape_sd (n, k), mass-normalised, largest component positive.
+    frequencies_hz, sd_hz (k,); shapes, shape_sd (n, k), mass-normalised, largest component positive. damped: of a model that has
+    damping.
     """
 
     problem: Problem
@@ -153,3 +154,19 @@ class Forecast:
     shapes: np.ndarray
     shape_sd: np.ndarray
     rigid_modes: int
+    damped: "DampedModes | None" = None
+
+
+@dataclass(frozen=True)
+class DampedModes:
+    """Modes of a damped model, by |s|: frequencies_hz |s| / 2 pi, damping ratios with sd, and complexity of shapes, all (k,).
+
+    shapes (n, k): complex. error: estimated, of the poles, relative.
+    """
+
+    frequencies_hz: np.ndarray
+    damping: np.ndarray
+    damping_sd: np.ndarray
+    complexity: np.ndarray
+    shapes: np.ndarray
+    error: float

@@ -4,7 +4,7 @@ from typing import Any
 
 from mouse_cli import __version__
 from mouse_cli.dynamics.frequency import eigenvalue
-from mouse_cli.model.result import Forecast
+from mouse_cli.model.result import DampedModes, Forecast
 from mouse_cli.report.json_values import dof_name, plain
 
 SCHEMA = "mouse.modes/1"
@@ -33,6 +33,16 @@ def document(forecast: Forecast) -> dict[str, Any]:
                 }
                 for i, (hz, sd, shape, shape_sd) in enumerate(modes, 1)
             ],
+            **({} if forecast.damped is None else {"damped": _damped(forecast.damped)}),
             "warnings": [f"{d.code}: {d.message}" for d in problem.warnings],
         }
     )
+
+
+def _damped(found: DampedModes) -> list[dict[str, Any]]:
+    """One entry a complex mode; its shape as real and imaginary parts, in the order of dofs."""
+    values = zip(found.frequencies_hz, found.damping, found.damping_sd, found.complexity, found.shapes.T, strict=True)
+    return [
+        {"hz": hz, "damping": ratio, "damping_sd": sd, "complexity": c, "shape": [shape.real, shape.imag]}
+        for hz, ratio, sd, c, shape in values
+    ]

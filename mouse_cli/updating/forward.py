@@ -2,14 +2,18 @@
 
 import numpy as np
 
-from mouse_cli.dynamics.eigen import IndefiniteError
+from mouse_cli.dynamics.complex_modes import complex_modes
+from mouse_cli.dynamics.eigen import EigenSolution, IndefiniteError
 from mouse_cli.dynamics.forces import forces
 from mouse_cli.dynamics.frequency import sd_frequency_hz
+from mouse_cli.dynamics.frf import Dynamics
+from mouse_cli.dynamics.frf_slopes import Change
 from mouse_cli.dynamics.sensitivity import modal_partials
 from mouse_cli.dynamics.solver import EigenSolver, Notice
 from mouse_cli.estimators.linear import in_prior_units
 from mouse_cli.model.problem import Problem
-from mouse_cli.model.result import Forecast
+from mouse_cli.model.result import DampedModes, Forecast
+from mouse_cli.terms.assembly import Assembly
 from mouse_cli.terms.assembly import assembly as assemble
 from mouse_cli.updating import refusals
 from mouse_cli.updating.coordinates import Coordinates, coordinates
@@ -49,7 +53,27 @@ def forecast(problem: Problem, count: int | None = None, notice: Notice = lambda
     sd_hz = np.where(hz > 0, sd_frequency_hz(hz, sd_lambda), 0.0)
     rigid = solution.rigid(reference_eigenvalue(problem, solution.eigenvalues))
     sd_hz[: min(rigid, k)] = 0.0
-    return Forecast(problem, hz, sd_hz, (solution.shapes * sign)[:, :k], sd_shape, rigid)
+    damped = _damped(problem, assembly, Dynamics(K, M, *assembly.damping(problem.prior.mean)), solution, k - rigid)
+    return Forecast(problem, hz, sd_hz, (solution.shapes * sign)[:, :k], sd_shape, rigid, damped)
+
+
+def _damped(
+    problem: Problem, assembly: Assembly, dynamics: Dynamics, solution: EigenSolution, count: int
+) -> DampedModes | None:
+    """Complex modes, as many as there are elastic ones; None without damping."""
+    if count <= 0 or not any(m is not None and abs(m).max() > 0 for m in (dynamics.C, dynamics.D)):
+        return None
+    theta, prior = problem.prior.mean, coordinates(problem, assembly)
+    found = complex_modes(dynamics, solution, count)
+    slopes = found.damping_slopes(dynamics, Change(assembly.n, assembly.p, assembly.slopes(theta)))
+    return DampedModes(
+        found.frequencies_hz,
+        found.damping,
+        _sd(slopes, prior),
+        found.complexity,
+        found.shapes,
+        float(found.error.max(initial=0.0)),
+    )
 
 
 def _sd(T: np.ndarray, prior: Coordinates) -> np.ndarray:
