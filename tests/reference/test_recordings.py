@@ -1,6 +1,7 @@
 """Measured data of decks: files written by independent programs read back, units, faults with channel and sample, real data."""
 
 import shutil
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -446,6 +447,25 @@ def test_file_without_data(tmp_path):
     with pytest.raises(RecordError) as caught:
         read_contents(str(tmp_path / "run.csv"))
     assert caught.value.diagnostics[0].code == "MD601" and caught.value.exit_code == 4
+
+
+@pytest.mark.parametrize(("name", "package"), [("run.h5", "h5py"), ("run.tdms", "nptdms")])
+def test_packages_that_are_not_installed(tmp_path, monkeypatch, name, package):
+    monkeypatch.setitem(sys.modules, package, None)
+    (tmp_path / name).write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(600))
+    with pytest.raises(RecordError) as caught:
+        read_contents(str(tmp_path / name))
+    told = caught.value.diagnostics[0]
+    assert told.code == "MD261" and package in told.message and told.help.startswith("pip install 'mouse-cli[")
+
+
+def test_a_deck_above_its_recordings(tmp_path):
+    """Written to the folder above, it names them through their own."""
+    (tmp_path / "runs").mkdir()
+    table(tmp_path / "runs" / "run.csv", T, FORCE, MOTION)
+    written = write_deck(problem(tmp_path / "runs", RUN), tmp_path / "deck.yaml")[-1]
+    assert "file: runs/run.csv" in Path(written).read_text()
+    assert read_deck(written).recordings[0].samples[:, 1] == pytest.approx(MOTION, abs=1e-6)
 
 
 # --- real recordings, decks of a few lines ---

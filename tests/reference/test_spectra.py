@@ -249,6 +249,19 @@ def test_files_read_back(rng, tmp_path):
     assert (again.kind, again.output_names) == (frf.kind, frf.output_names)
 
 
+def test_decay_rate_goes_along(tmp_path):
+    """From the window through the file and the deck to the axis on which the model is evaluated."""
+    x = np.zeros(1100)
+    x[20:24] = [1, 3, 2.5, 0.5]
+    y = scipy.signal.dlsim(_discrete(), x)[1][:, 0]
+    frf = measured(x, y, "displacement", window="exponential", impact=True, lines=512).frf
+    write_frf(frf, str(tmp_path / "frf.npz"))
+    deck = "mouse: 1\nmodel: {stiffness: {diagonal: [1]}, mass: {identity: 1}}\nparameters: []\ntest: {frf: [{file: frf.npz%s}]}\n"
+    for given, rate in (("", -np.log(0.01) * FS / 1024), (", decay_rate: 7", 7.0)):
+        (tmp_path / "deck.yaml").write_text(deck % given)
+        assert read_deck(tmp_path / "deck.yaml").frf[0].laplace.real == pytest.approx(rate)
+
+
 def test_universal_files_are_those_of_pyuff(rng, tmp_path):
     pyuff = pytest.importorskip("pyuff")
     x, y = coloured(rng, 8192)
