@@ -1,4 +1,4 @@
-"""MD65x: modal identification of recordings and frequency response functions."""
+"""MD65x, MD680: modal identification of recordings and frequency response functions."""
 
 from mouse_cli.codes import Code
 
@@ -61,5 +61,10 @@ CODES = {
         "nothing to identify",
         "The source holds neither recordings nor frequency response functions, or nothing that can be used as such.",
         "Give a file of functions or of time histories, or a deck with `test: {frf: ...}` or `test: {recordings: ...}`.",
+    ),
+    "MD680": Code(
+        "functions without modes",
+        "A diagnosis by frequency response functions first seeks causes by the modes that they show; they show none.",
+        "Look at what `mouse identify` says of the same deck, or give measured modes beside the functions (test.modes).",
     ),
 }

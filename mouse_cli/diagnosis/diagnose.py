@@ -12,12 +12,15 @@ from mouse_cli.diagnosis.decide import Verdict, explanations, judge
 from mouse_cli.diagnosis.energy_map import energy_map
 from mouse_cli.diagnosis.extended import extended
 from mouse_cli.diagnosis.fit import Fit, fit
+from mouse_cli.diagnosis.frf.identified import with_modes
+from mouse_cli.diagnosis.frf.rank import heard
 from mouse_cli.diagnosis.implied_law import implied_law
 from mouse_cli.diagnosis.locate import locate
 from mouse_cli.diagnosis.name import Ranking, group, rank
 from mouse_cli.diagnosis.next_measurement import proposals
 from mouse_cli.diagnosis.numerics import numerics
 from mouse_cli.diagnosis.reduced import Reduced, reduced
+from mouse_cli.diagnosis.time.diagnose import diagnose_records
 from mouse_cli.dynamics.solver import EigenSolver
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Choices, Diagnosis, Proposal
 from mouse_cli.model.modal_test import restricted
@@ -38,13 +41,15 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choi
 
     Raises DeckError and NumericalError as `run` does.
     """
-    problem = replace(problem, run=_thorough(problem.run))
+    if problem.recordings and problem.test is None and not problem.frf:
+        return diagnose_records(problem, notice, choices)
+    given, problem = problem, with_modes(replace(problem, run=_thorough(problem.run)))
     solver = EigenSolver(notice, sensors=0 if problem.test is None else problem.test.s)
     kept = related(problem, solver)
     model, told = _model(problem, solver)
     enough = 0.0 if model.places is None else _ENOUGH
     result, remarks = _update(problem, kept, notice, _guess(model), enough, solver)
-    ranking = rank(model, _known(choices), choices.causes)
+    ranking = heard(rank(model, _known(choices), choices.causes))
     verdict, as_it_is = judge(ranking, result, model), ranking.baseline
     kind, best = verdict.kind, verdict.best
     missing = kind != NOTHING
@@ -67,10 +72,15 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choi
         misstated=misstated(ranking) if missing else None,
         proposals=_proposals(ranking, verdict),
         remarks=remarks + told + (() if deck is None else _coarse(deck)),
-        extended=deck,
-        extended_result=None if deck is None else run(deck, notice=notice, guess=_values(deck, best), enough=enough),
+        extended=deck if deck is None or given.test is not None else replace(deck, test=None),
+        extended_result=None if deck is None else run(_by_modes(deck), notice=notice, guess=_values(deck, best), enough=enough),
         choices=choices,
     )
+
+
+def _by_modes(problem: Problem) -> Problem:
+    """The deck with its modes alone: where FRFs showed them, they are not to be counted twice."""
+    return replace(problem, frf=())
 
 
 def _thorough(options: RunOptions) -> RunOptions:
@@ -103,7 +113,7 @@ def _update(
     problem: Problem, kept: np.ndarray, notice: Notice, guess: np.ndarray | None, enough: float, solver: EigenSolver
 ) -> tuple[Result, tuple[str, ...]]:
     """The update of the model as it is, by those modes (mask `kept`) that have to do with it; what to say of the others."""
-    lost = ", ".join(str(number) for number in problem.test.number[~kept])
+    problem, lost = _by_modes(problem), ", ".join(str(number) for number in problem.test.number[~kept])
     if kept.all() or not kept.any():
         return run(problem, notice=notice, guess=guess, enough=enough, solver=solver), ()
     told = f"no mode of the model is like measured mode {lost}: the update of the model as it is goes without"

@@ -4,10 +4,13 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from mouse_cli.model.arrays import Matrix
+from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.model.mesh import Binding, ElementSet, Mesh, RigidLink
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.problem import Problem
+from mouse_cli.model.recording import Recording
 from mouse_cli.model.structure import ListedElements, Structure
 
 _NEAR = 0.03  # share of an element from its end within which its node serves
@@ -184,6 +187,8 @@ class Edit:
             mesh=mesh,
             bindings=tuple(self.bindings),
             test=None if old.test is None else moved(old.test, to, structure.n),
+            frf=tuple(_moved_functions(each, to, structure.n) for each in old.frf),
+            recordings=tuple(_moved_channels(each, to) for each in old.recordings),
             run=replace(old.run, total_mass_dofs=dofs),
         )
 
@@ -247,13 +252,27 @@ def with_parameters(problem: Problem, new: list[Parameter]) -> Problem:
 
 def moved(test: ModalTest, to: np.ndarray, n: int) -> ModalTest:
     """The test when degree of freedom i (from 0) of a model has become to[i] of n."""
-    sensing = test.sensing
-    if sensing is not None:
-        from scipy.sparse import coo_array
-
-        stored = coo_array(sensing)
-        sensing = coo_array((stored.data, (stored.row, to[stored.col])), shape=(test.s, n)).tocsr()
+    sensing = None if test.sensing is None else _moved_weights(test.sensing, to, n)
     return replace(test, dofs=to[test.dofs], sensing=sensing)
+
+
+def _moved_weights(weights: Matrix, to: np.ndarray, n: int) -> Matrix:
+    """What is read of n degrees of freedom (s, n), or which ones (s,)."""
+    if weights.ndim == 1:
+        return to[weights]
+    from scipy.sparse import coo_array
+
+    stored = coo_array(weights)
+    return coo_array((stored.data, (stored.row, to[stored.col])), shape=(weights.shape[0], n)).tocsr()
+
+
+def _moved_functions(test: FrfTest, to: np.ndarray, n: int) -> FrfTest:
+    return replace(test, outputs=_moved_weights(test.outputs, to, n), inputs=_moved_weights(test.inputs, to, n))
+
+
+def _moved_channels(recording: Recording, to: np.ndarray) -> Recording:
+    own = (replace(c, weights={int(to[i]): w for i, w in c.weights.items()}) for c in recording.channels)
+    return replace(recording, channels=tuple(own))
 
 
 def every_beam(edit: Edit) -> list[tuple[int, int]]:

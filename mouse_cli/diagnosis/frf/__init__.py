@@ -1,0 +1,1 @@
+"""Causes judged by frequency response functions: places and laws line by line, damping among them."""

@@ -1,0 +1,70 @@
+"""Frequency response functions as a diagnosis sees them: real and imaginary parts over their standard deviations."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mouse_cli.model.frf_test import MOST_LINES, FrfTest
+from mouse_cli.observables.frf import observe
+
+_MOST = 2 * MOST_LINES  # of one measurement
+
+
+@dataclass(frozen=True)
+class Lines:
+    """f lines of o responses to i forces: s (f,), rad/s; H, sd (f, o, i), sd of the real and of the imaginary part.
+
+    has (f, o, i): what was measured. factor (f, 1, 1): what receptance is multiplied by.
+    """
+
+    test: FrfTest
+    s: np.ndarray
+    H: np.ndarray
+    sd: np.ndarray
+    has: np.ndarray
+    factor: np.ndarray
+
+    @property
+    def omega(self) -> np.ndarray:
+        """rad/s (f,)."""
+        return self.s.imag
+
+    def loosened(self, theory: np.ndarray) -> "Lines":
+        """The same with a further error, E|H - measured|^2 = theory^2 (f, o, i)."""
+        return replace(self, sd=np.hypot(self.sd, theory / np.sqrt(2)))
+
+    def at(self, factor: float) -> "Lines":
+        """The same at other frequencies."""
+        return replace(self, s=self.s * factor)
+
+    def stacked(self, H: np.ndarray) -> np.ndarray:
+        """Real and imaginary parts (2 q, ...) of what was measured of H (f, o, i, ...), over their standard deviations."""
+        whitened = H[self.has] / self.sd[self.has].reshape(-1, *[1] * (H.ndim - 3))
+        return np.concatenate([whitened.real, whitened.imag])
+
+
+def lines(test: FrfTest) -> Lines:
+    """The lines of `test` that tell most, as a run chooses them, but more of them."""
+    seen = observe(replace(test, lines=max(test.lines, _MOST)), "complex")
+    H = np.where(seen.have, seen.H, 0.0)
+    return Lines(test, seen.s, H, np.where(seen.have, seen.sd, 1.0), seen.have, seen.factor)
+
+
+@dataclass(frozen=True)
+class FrfData:
+    """All FRFs of a diagnosis. slack: 0, as no datum is made less accurate between rivals."""
+
+    blocks: tuple[Lines, ...]
+    slack: float = 0.0
+    by_shape: bool = True  # modes are told apart by what several sensors read
+
+    @property
+    def dof(self) -> int:
+        """Real numbers measured."""
+        return 2 * int(sum(block.has.sum() for block in self.blocks))
+
+    @property
+    def middle(self) -> float:
+        """omega_0 (rad/s), the middle of the band on a logarithmic scale."""
+        omega = np.concatenate([block.omega for block in self.blocks])
+        return float(np.sqrt(omega.min() * omega.max()))

@@ -1,0 +1,55 @@
+"""Modes of a deck that gives frequency response functions alone: causes are first sought by them."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from mouse_cli._errors import ERROR, Diagnostic, NumericalError
+from mouse_cli.model.arrays import dense
+from mouse_cli.model.frf_test import FrfTest
+from mouse_cli.model.modal_test import ModalTest
+from mouse_cli.model.problem import Problem
+from mouse_cli.records.identify import identify_frf
+from mouse_cli.records.identify_combine import combined
+
+
+def with_modes(problem: Problem) -> Problem:
+    """`problem` with the modes that its FRFs show as its test, where it has no modes of its own.
+
+    Raises NumericalError (MD680) when the functions show none.
+    """
+    if problem.test is not None or not problem.frf:
+        return problem
+    found = identify_frf(problem.frf)
+    if not found.modes.m:
+        said = "; ".join(each.message for each in found.doubts) or "no pole is stable"
+        raise NumericalError(
+            Diagnostic(
+                "MD680",
+                ERROR,
+                f"the frequency response functions show no mode: {said}",
+                problem.place("frf"),
+                help="see `mouse identify` on this deck; or give measured modes beside the functions: test.modes",
+            )
+        )
+    return replace(problem, test=_test(combined(problem.frf)[0], found.modes))
+
+
+def _test(functions: FrfTest, modes) -> ModalTest:
+    """The modes at the sensors of the functions; frequencies alone where there is but one."""
+    number = np.arange(1, modes.m + 1)
+    if functions.outputs.shape[0] < 2:
+        none = np.zeros((0, modes.m))
+        return ModalTest(number, modes.frequency_hz, modes.frequency_sd_hz, np.zeros(0, int), none, none)
+    whole = functions.outputs
+    dofs = whole if whole.ndim == 1 else np.abs(dense(whole)).argmax(axis=1)
+    return ModalTest(
+        number,
+        modes.frequency_hz,
+        modes.frequency_sd_hz,
+        dofs,
+        modes.shapes.real,
+        modes.shape_sd,
+        sensing=None if whole.ndim == 1 else whole,
+        sensors=functions.output_names,
+    )
