@@ -9,6 +9,9 @@ from mouse_cli.cli._options import QUIET, READING, RUN, answer, options, reading
 @click.argument("deck")
 @options(answer("mouse.result/1"))
 @click.option("--stacked", is_flag=True, help="The file holds several card decks, one after another.")
+@click.option(
+    "--plot", metavar="PATH", help="Write figures of fitted FRFs: to a folder, or to one file (.pdf, .png, .svg)."
+)
 @options(QUIET)
 @options(RUN, READING)
 def command(
@@ -17,6 +20,7 @@ def command(
     form: str | None,
     numbers: str | None,
     stacked: bool,
+    plot: str | None,
     quiet: bool,
     legacy: bool,
     strip_73_80: bool,
@@ -31,6 +35,10 @@ def command(
     from mouse_cli.cli._terminal import deliver, progress, show_diagnostics
     from mouse_cli.updating import run
 
+    if plot:
+        from mouse_cli.plots import require
+
+        require()
     changes, how = run_changes(given), reading(legacy, strip_73_80, overrides)
     problems = read_cases(deck, changes, **how) if stacked else [read_problem(deck, changes, **how)]
     results = []
@@ -39,6 +47,10 @@ def command(
             show_diagnostics(problem.warnings)
         with progress() as (show, say):
             results.append(run(problem, show, say))
+    if plot:
+        from mouse_cli.plots import draw
+
+        draw(results[-1], plot)
     deliver(_text(results, form, numbers, stacked), output, deck)
     return max((result.exit_code for result in results), default=0)
 
