@@ -31,7 +31,7 @@ class Model:
 
     def changes(self, c: np.ndarray) -> list[Change]:
         """What each cause does at the coordinates c (t,)."""
-        return [r.change(r.values(c[own])) for r, own in zip(self.recipes, self.own, strict=True)]
+        return [recipe.at(c[own]) for recipe, own in zip(self.recipes, self.own, strict=True)]
 
     def added(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """K, M (size, size) and sensing (s, size) that the causes add at x (k + t,)."""
@@ -142,7 +142,9 @@ class Model:
             return 0.0
         rows = self.base.bars.strain[bars]
         loads = (core * self._follow(bars, at.x[: self.k])) @ (rows @ at.X[: self.base.r, at.modes])
-        return np.einsum("bk,bir,bim->krm", self.base.stiffening[bars], rows, loads, optimize=True)
+        b, follows = len(bars), self.base.stiffening[bars].T
+        loads = follows[:, :, None, None] * loads  # (k, b, 3, m)
+        return rows.reshape(3 * b, -1).T @ loads.reshape(len(follows), 3 * b, -1)
 
     def _derivatives(self, x: np.ndarray) -> Iterator[tuple[int, Change]]:
         """Recipe and d(change)/dc, by central differences of the matrices, for each coordinate of the causes."""

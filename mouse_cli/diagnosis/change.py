@@ -1,7 +1,7 @@
 """What a cause does to a model: changes of K, M and of what sensors read, in the coordinates of the reduced model."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -21,8 +21,9 @@ class Softening:
     added: np.ndarray
 
     def __post_init__(self) -> None:
-        missing = 3 - self.added.shape[1]
-        object.__setattr__(self, "added", np.pad(self.added, ((0, 0), (0, missing), (0, missing))))
+        given, added = self.added, np.zeros((len(self.added), 3, 3))
+        added[:, : given.shape[1], : given.shape[1]] = given
+        object.__setattr__(self, "added", added)
 
 
 @dataclass(frozen=True)
@@ -89,6 +90,16 @@ class Recipe:
     extend: Callable[[Problem, np.ndarray], Problem] | None = None
     number: int = 0
     carried: Carried | None = None
+    _last: dict[bytes, Change] = field(default_factory=dict, init=False, repr=False, compare=False)
+
+    def at(self, coordinates: np.ndarray) -> Change:
+        """What it does at coordinates (t,); the last one is kept, as other causes beside it are looked at."""
+        key = coordinates.tobytes()
+        if key not in self._last:
+            found = self.change(self.values(coordinates))
+            self._last.clear()
+            self._last[key] = found
+        return self._last[key]
 
     def values(self, coordinates: np.ndarray) -> np.ndarray:
         """Values (t,) at coordinates (t,)."""

@@ -14,6 +14,7 @@ from mouse_cli.diagnosis.reduced import Reduced
 _STARTS = 3  # fits of a candidate to the end, from different optima
 _LOOKS, _MOST, _EACH, _BRIEF = 12, 40, 4, 4  # brief descents at least, at most, from one recipe, and their steps
 _APART = 0.08  # of a range: between starts of one recipe
+_SLACK = 1.5  # times the misfit that matters in all coordinates: what matters in few
 _SETTLE, _MOVED = 3, 5e-3  # times that causes are weighed anew, as long as parameters move more than that share
 _THEORY = 0.01  # of what a cause does to frequencies and shapes, by which its theory may be wrong
 _SHIFTS = np.array([-5, -3, -2, -1, 1, 2, 3, 5]) / 50  # of the range of a place
@@ -73,17 +74,20 @@ class Study:
             self._looked[name] = found
         return found
 
-    def approached(self, name: str, before: np.ndarray, beside: tuple[Recipe, ...]) -> list[tuple[int, np.ndarray]]:
+    def approached(
+        self, name: str, before: np.ndarray, beside: tuple[Recipe, ...], reach: float = np.inf
+    ) -> list[tuple[int, np.ndarray]]:
         """Numbers of recipes and x where brief descents from different starts lead, the best first, no two alike.
 
-        What a first look finds best may be beside the true place many times over, and the true one at a wrong size.
+        reach: misfit from which on none need go on. What a first look finds best may be beside the true place many times
+        over, and the true one at a wrong size.
         """
         trials = {i: self.with_cause(beside, name, i) for i in range(len(self.recipes(name)))}
         most = min(max(_LOOKS, len(trials)), _MOST) // (2 if beside else 1)  # a partner is tried beside many
         chosen = _spread(self.starts(name, before, beside), trials, most)
         if len(chosen) < 2:
             return chosen
-        descents = [(i, fit(trials[i], x[self.k :], x[: self.k], _BRIEF)) for i, x in chosen]
+        descents = [(i, fit(trials[i], x[self.k :], x[: self.k], _BRIEF, reach)) for i, x in chosen]
         led = sorted(((i, one) for i, one in descents if one is not None), key=lambda item: item[1].misfit)
         return _spread([(i, one.point.x) for i, one in led], trials, most)
 
@@ -222,10 +226,11 @@ def tried(
     others = () if beside is None else beside.recipes
     before = np.zeros(study.k) if beside is None else beside.point.x
     found = []
-    for number, x in study.coarse.approached(name, before, others)[:count]:
+    for number, x in study.coarse.approached(name, before, others, _SLACK * reach)[:count]:
         whole, one = study.with_cause(others, name, number), None
         if study.coarse is not study:
-            near = fit(study.coarse.with_cause(others, name, number), x[study.k :], x[: study.k], most)
+            lean = study.coarse.with_cause(others, name, number)
+            near = fit(lean, x[study.k :], x[: study.k], most, _SLACK * reach)
             one = near and fit(whole, near.c, near.point.x[: study.k], most, reach)
         found.append(one or fit(whole, x[study.k :], x[: study.k], most, reach))  # whole, it may not be physical there
     return [one for one in found if one is not None]

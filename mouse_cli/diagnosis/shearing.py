@@ -33,7 +33,8 @@ def shear(model: Reduced, ratio: float, turning: bool) -> Change:
     phi = 12 * (bars.EI / bars.E) / bars.A * ratio / bars.length**2
     added = np.zeros((len(bars), 2, 2))
     added[:, 1, 1] = bars.length / (3 * bars.EI) * phi
-    blocks = np.where(lumped(model)[:, None, None], 0.0, _mass(bars, phi) - _mass(bars, 0 * phi))
+    thick, slender = _mass(bars, np.stack([phi, 0 * phi]))
+    blocks = np.where(lumped(model)[:, None, None], 0.0, thick - slender)
     M = bars.added(blocks) + (rotary(model, phi) if turning else 0.0)
     return Change(M=M, softening=Softening(np.arange(len(bars)), added))
 
@@ -54,8 +55,10 @@ def lumped(model: Reduced) -> np.ndarray:
 
 
 def _mass(bars: Bars, phi: np.ndarray) -> np.ndarray:
-    w, _, _ = beam.shapes(bars.length, phi)
-    return beam.integral(w, bars.line_mass * bars.length)
+    """Mass (c, b, 4, 4) of the bars for rows phi (c, b)."""
+    count = len(phi)
+    w, _, _ = beam.shapes(np.tile(bars.length, count), phi.ravel())
+    return beam.integral(w, np.tile(bars.line_mass * bars.length, count)).reshape(count, len(bars), 4, 4)
 
 
 def with_shear(problem: Problem, ratio: float, turning: bool) -> Problem:

@@ -17,8 +17,8 @@ def mac(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     >>> mac(np.array([[1.0], [2.0]]), np.array([[2.0, 2.0], [4.0, -1.0]])).round(12).tolist()
     [[1.0, 0.0]]
     """
-    have_one, have_other = np.isfinite(one).astype(float), np.isfinite(other).astype(float)
-    x, y = np.nan_to_num(one), np.nan_to_num(other)
+    have_one, have_other = np.isfinite(one), np.isfinite(other)
+    x, y = np.where(have_one, one, 0.0), np.where(have_other, other, 0.0)
     size = ((x * x).T @ have_other) * (have_one.T @ (y * y))
     return np.divide((x.T @ y) ** 2, size, out=np.zeros_like(size), where=size > 0)
 
