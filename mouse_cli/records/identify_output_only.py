@@ -7,13 +7,15 @@ import numpy as np
 
 from mouse_cli.model.recording import Recording
 from mouse_cli.records.lscf import OrderPoles
-from mouse_cli.records.mode_selection import HEAVIEST, Dropped
+from mouse_cli.records.mode_selection import ALIKE, HEAVIEST, Dropped
 from mouse_cli.records.ssi import Subspace, UncertainMode, poles, subspace, uncertain
 from mouse_cli.records.stabilisation import Track, persistent, tracks
 
 BLOCKS = 40  # of the record, for its scatter
 _LAGS, _SIZE, _ORDERS, _STEP = 30, 400, 40, 2
 _MARGIN = 2.56  # samples a second per Hz of the band
+_UNKNOWN = 0.5  # sd of the decay rate over it
+_BESIDE = 2.0  # half-power bandwidths within which one resonance may show twice
 _TRIED = 4  # orders at which the covariance of a mode is computed
 _OVERSHOT = 1.0  # sd of a frequency over the half of its half-power bandwidth: beyond, it is no resonance
 
@@ -92,7 +94,31 @@ def identify_outputs(
             kept.append(track)
             modes.append(UncertainMode(mode.pole, mode.shape * size, mode.scatter * np.r_[1, 1, np.repeat(size, 2)]))
     passing = [track for track in every if not persistent(track, orders)]
+    modes, kept, twice = _once(modes, kept)
+    dropped += twice
     return FoundOutputs(modes, kept, passing, dropped, found, orders, rate_hz, lags, len(samples))
+
+
+def _once(modes: list[UncertainMode], kept: list[Track]) -> tuple[list[UncertainMode], list[Track], list[Dropped]]:
+    """The modes without those that have the shape of one that was stable in more orders, within its bandwidth."""
+    dropped, stay = [], []
+    for k in sorted(range(len(modes)), key=lambda k: -kept[k].stable_orders):
+        other = next((j for j in stay if _alike(modes[j], modes[k])), None)
+        if other is None:
+            stay.append(k)
+        else:
+            hz = abs(modes[other].pole) / 2 / np.pi
+            reason = f"has the shape of the mode at {hz:.6g} Hz within its bandwidth: one resonance, found twice"
+            dropped.append(Dropped(modes[k].pole, reason))
+    return [modes[k] for k in stay], [kept[k] for k in stay], dropped
+
+
+def _alike(one: UncertainMode, other: UncertainMode) -> bool:
+    """Whether half-power bandwidths overlap and shapes are one; single sensors see one shape only."""
+    if abs(one.pole.imag - other.pole.imag) > -_BESIDE * (one.pole.real + other.pole.real):
+        return False
+    product = abs(one.shape.conj() @ other.shape) ** 2
+    return bool(product > ALIKE * (np.abs(one.shape) ** 2).sum() * (np.abs(other.shape) ** 2).sum())
 
 
 def _best(seen: Subspace, track: Track, rate_hz: float) -> UncertainMode:
@@ -109,7 +135,9 @@ def _fault(mode: UncertainMode) -> str:
         return "has no positive damping"
     if -mode.pole.real > HEAVIEST * abs(mode.pole):
         return f"is damped by more than {100 * HEAVIEST:.0f} %: a slope of the spectra, no resonance"
-    sd = float(np.sqrt((mode.scatter[:, 1] ** 2).sum()))
+    decay_sd, sd = np.sqrt((mode.scatter[:, :2] ** 2).sum(axis=0))
     if sd > _OVERSHOT * -mode.pole.real:
         return "has a frequency that the record leaves more uncertain than half its half-power bandwidth"
+    if decay_sd > _UNKNOWN * -mode.pole.real:
+        return "has a damping that is not known to half of it"
     return ""

@@ -11,6 +11,7 @@ from mouse_cli.records.identify_frf import Found
 from mouse_cli.records.identify_modes import Drive, from_fit, from_subspace
 from mouse_cli.records.identify_output_only import FoundOutputs
 from mouse_cli.records.modal_model import ModalModel
+from mouse_cli.records.pole_search import NARROWEST
 
 _NARROW = 2.0  # lines in a half-power bandwidth
 _POOR = 1 / 3
@@ -65,8 +66,10 @@ def reviewed(found: Found, drives: list[Drive]) -> Review:
     doubts += [] if doubts else _flanks(found)
     modes, angles = from_fit(found, np.array(kept, int), drives, stable)
     more, remarks = _of_modes(modes, angles)
+    spikes = [track.centre()[0] for track in found.search.spikes]
+    rejected += [Rejected(abs(p) / 2 / np.pi, -p.real / abs(p), f"is narrower than {NARROWEST} lines") for p in spikes]
     if not modes.m:
-        more.append(_none(len(rejected) + len(found.dropped)))
+        more += [_none(len(rejected) + len(found.dropped)), *_narrow(spikes)]
     remarks += _misfit(found) + _kind(found.fit.model, kept)
     return Review(modes, tuple(rejected), (*doubts, *more), tuple(remarks))
 
@@ -80,6 +83,15 @@ def _none(others: int) -> Diagnostic:
     return Diagnostic(
         "MD650", ERROR, message, help="look at the stabilisation diagram: --plot FOLDER; try another --band"
     )
+
+
+def _narrow(spikes: list[complex]) -> list[Diagnostic]:
+    """A doubt where all that is stable is narrower than the lines can show."""
+    if not spikes:
+        return []
+    hz = ", ".join(f"{abs(pole) / 2 / np.pi:.6g}" for pole in spikes[:5])
+    message = f"what is stable at {hz} Hz has half-power bandwidths below {NARROWEST} lines"
+    return [Diagnostic("MD653", ERROR, message, help="measure with finer lines")]
 
 
 def _at_edge(hz: float, zeta: float, first: float, last: float) -> str:

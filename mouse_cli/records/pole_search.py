@@ -14,15 +14,19 @@ from mouse_cli.records.stabilisation import Track, persistent, tracks
 
 _WINDOW, _WIDER = 400, 4  # lines of the narrowest window; each kind is so many times wider than the last
 _FIRST_ORDER, _ORDERS, _MOST_ORDERS = 2, 40, 100
-_NARROWEST = 0.3  # lines
+NARROWEST = 0.3  # lines
 _SAME = 0.5  # of the larger decay rate: poles of two windows that are nearer are one
 
 
 @dataclass(frozen=True)
 class Search:
-    """candidates: tracks that persist, each once; passing: others; poles: of every diagram; orders: highest order of any."""
+    """candidates: tracks that persist, each once; spikes: those narrower than lines can show; passing: others.
+
+    poles: of every diagram; orders: highest order of any.
+    """
 
     candidates: list[Track]
+    spikes: list[Track]
     passing: list[Track]
     poles: list[OrderPoles]
     orders: int
@@ -31,14 +35,20 @@ class Search:
 def search(lines: Lines, most: int | None = None) -> Search:
     """Candidates of the lines; `most`: highest order of every diagram."""
     found = [_window(lines, window, most) for window in windows(len(lines.s))]
-    candidates: list[Track] = []
-    ranked = sorted((t for one in found for t in one.candidates), key=lambda t: -t.stable_orders)
-    for track in ranked:
-        if all(not _same(track, other) for other in candidates):
-            candidates.append(track)
-    candidates.sort(key=lambda track: abs(track.centre()[0]))
+    candidates, spikes = (_each_once(found, key) for key in ("candidates", "spikes"))
     passing = [track for one in found for track in one.passing]
-    return Search(candidates, passing, [p for one in found for p in one.poles], max(one.orders for one in found))
+    return Search(
+        candidates, spikes, passing, [p for one in found for p in one.poles], max(one.orders for one in found)
+    )
+
+
+def _each_once(found: list[Search], key: str) -> list[Track]:
+    """Tracks of all diagrams by frequency; of those that are one pole the one that was stable in most orders."""
+    kept: list[Track] = []
+    for track in sorted((t for one in found for t in getattr(one, key)), key=lambda t: -t.stable_orders):
+        if all(not _same(track, other) for other in kept):
+            kept.append(track)
+    return sorted(kept, key=lambda track: abs(track.centre()[0]))
 
 
 def windows(lines: int) -> list[slice]:
@@ -72,12 +82,14 @@ def _window(lines: Lines, window: slice, most: int | None) -> Search:
         orders = range(_FIRST_ORDER, highest + 1)
         poles = lscf(s.imag, H, weight, orders)
         every = tracks(poles, (window.start, window.stop))
-        kept = [track for track in every if persistent(track, orders) and not _spike(track, s)]
+        stay = [track for track in every if persistent(track, orders)]
+        spikes = [track for track in stay if _spike(track, s)]
+        kept = [track for track in stay if track not in spikes]
         if most or len(kept) < highest * H.shape[2] / 3 or highest >= min(_MOST_ORDERS, room):
-            return Search(kept, [track for track in every if track not in kept], poles, highest)
+            return Search(kept, spikes, [track for track in every if track not in stay], poles, highest)
         highest = min(2 * highest, _MOST_ORDERS, room)
 
 
 def _spike(track: Track, s: np.ndarray) -> bool:
     """Whether the half-power bandwidth is so far below the spacing of the lines that it may be that of one wrong line."""
-    return -2 * track.centre()[0].real < _NARROWEST * (s.imag[-1] - s.imag[0]) / (len(s) - 1)
+    return -2 * track.centre()[0].real < NARROWEST * (s.imag[-1] - s.imag[0]) / (len(s) - 1)

@@ -1,0 +1,183 @@
+"""Modal identification against closed forms, measured data, and independent libraries where they are installed."""
+
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "property"))
+import vibrating
+
+from mouse_cli.model.frf_test import FrfTest
+from mouse_cli.model.recording import OUTPUT, Channel, Recording
+from mouse_cli.records.identify import identify_frf, identify_recording
+
+HZ = np.arange(2.0, 80.0, 0.2)
+SHARED = Path(__file__).resolve().parents[3] / "shared" / "data"
+
+
+def measured(seed: int = 1, inputs=(0, 2), zeta=0.01, omega=None, share=0.01, hz=HZ) -> FrfTest:
+    """Functions of the chain, forces at masses 1 and 3."""
+    own, damping, shapes = vibrating.modes(zeta)
+    H = vibrating.accelerance(hz, own if omega is None else omega, damping, shapes, list(inputs))
+    H, variance = vibrating.disturbed(H, share, np.random.default_rng(seed))
+    names = tuple(str(k + 1) for k in inputs)
+    return FrfTest(hz, H, "accelerance", np.arange(3), np.array(inputs), variance, ("1", "2", "3"), names)
+
+
+def force_alone(test: FrfTest, k: int) -> FrfTest:
+    """The functions of one of the forces."""
+    names = (test.input_names[k],)
+    return replace(
+        test, H=test.H[:, :, [k]], variance=test.variance[:, :, [k]], inputs=test.inputs[[k]], input_names=names
+    )
+
+
+def codes(found) -> list[str]:
+    return [each.code for each in (*found.doubts, *found.remarks)]
+
+
+def test_exact_functions_give_exact_modes():
+    omega, zeta, shapes = vibrating.modes([0.01, 0.05, 0.02])
+    test = measured(zeta=[0.01, 0.05, 0.02], share=0.0)
+    modes = identify_frf([replace(test, variance=np.full(test.H.shape, np.nan))]).modes
+    assert modes.frequency_hz == pytest.approx(omega / 2 / np.pi, rel=1e-6)
+    assert modes.damping == pytest.approx(zeta, rel=1e-5)
+    signs = np.sign((shapes * modes.shapes.real).sum(axis=0))
+    assert modes.shapes.real == pytest.approx(shapes * signs, abs=1e-4)
+    assert set(modes.scale) == {"unit modal mass"}
+
+
+def test_modes_one_per_cent_apart_are_two():
+    omega = vibrating.modes()[0].copy()
+    omega[2] = 1.01 * omega[1]
+    for seed in range(5):
+        found = identify_frf([measured(seed, omega=omega)])
+        assert found.modes.m == 3
+        away = (found.modes.frequency_hz - omega / 2 / np.pi) / found.modes.frequency_sd_hz
+        assert np.abs(away).max() < 4.5
+
+
+def test_noise_alone_has_no_modes():
+    shape = measured().H.shape
+    for seed in range(10):
+        noise = np.random.default_rng(seed).standard_normal((2, *shape))
+        known = replace(measured(), H=noise[0] + 1j * noise[1], variance=np.full(shape, 2.0))
+        for test in (known, replace(known, variance=np.full(shape, np.nan))):
+            found = identify_frf([test])
+            assert found.modes.m == 0 and found.exit_code == 1 and "MD650" in codes(found)
+
+
+@pytest.mark.parametrize(("band", "code"), [((5, 6), "MD651"), ((17, 30), "MD650"), ((5, 37.9), "MD652")])
+def test_bands_that_hold_no_whole_answer_are_said_to(band, code):
+    found = identify_frf([measured()], band)
+    assert found.exit_code == 1 and code in codes(found)
+
+
+@pytest.mark.parametrize("zeta", [0.0005, 0.0015])
+def test_a_resonance_narrower_than_the_lines_is_doubted(zeta):
+    found = identify_frf([measured(zeta=zeta)])
+    assert found.exit_code == 1 and "MD653" in codes(found)
+
+
+def test_functions_of_another_kind_are_told():
+    assert "MD656" in codes(identify_frf([replace(measured(), kind="mobility")]))
+
+
+def test_a_reversed_driving_point_gives_no_mass_unless_its_name_says_so():
+    test = measured(inputs=(2,))
+    turned = replace(test, H=-test.H)
+    assert "MD657" in codes(identify_frf([turned]))
+    named = replace(turned, output_names=("1-TX", "2-TX", "3-TX"), input_names=("3TX",))
+    assert set(identify_frf([named]).modes.scale) == {"unit modal mass"}
+
+
+def test_repeats_give_the_noise():
+    repeats = [replace(measured(seed), variance=np.full(measured().H.shape, np.nan)) for seed in range(6)]
+    one, mean = identify_frf([measured()]).modes, identify_frf(repeats)
+    assert mean.noise == "scatter of 6 repeats"
+    ratio = mean.modes.frequency_sd_hz / one.frequency_sd_hz
+    assert ratio == pytest.approx(6**-0.5, rel=0.25)
+
+
+def test_forces_in_turn_are_one_test():
+    both = measured()
+    turns = [force_alone(both, k) for k in (0, 1)]
+    assert identify_frf(turns).modes.frequency_hz == pytest.approx(identify_frf([both]).modes.frequency_hz, rel=1e-12)
+
+
+def test_an_exponential_window_is_taken_off():
+    omega, zeta, shapes = vibrating.modes(0.01)
+    s = 2.0 + 2j * np.pi * HZ[:, None]
+    H = np.einsum("or,ir,fr->foi", shapes, shapes[[0, 2]], s**2 / (s**2 + 2 * zeta * omega * s + omega**2))
+    modes = identify_frf([replace(measured(), H=H, variance=np.full(H.shape, 1e-10), decay_rate=2.0)]).modes
+    assert modes.damping == pytest.approx(zeta, rel=1e-5)
+
+
+def recorded(seed: int = 0, count: int = 30000) -> Recording:
+    samples = vibrating.responses(150.0, count, 0.01, 0.01, np.random.default_rng(seed))
+    return Recording("chain", 1 / 150.0, tuple(Channel(str(k + 1), OUTPUT, "acceleration") for k in range(3)), samples)
+
+
+def test_outputs_alone():
+    omega, zeta, _ = vibrating.modes(0.01)
+    modes = identify_recording(recorded(), (4.0, 70.0)).modes
+    assert np.abs((modes.frequency_hz - omega / 2 / np.pi) / modes.frequency_sd_hz).max() < 4
+    assert np.abs((modes.damping - zeta) / modes.damping_sd).max() < 4
+
+
+def test_a_short_record_is_said_to_be_short():
+    found = identify_recording(recorded(count=2000), (4.0, 70.0))
+    assert found.exit_code == 1 and codes(found) == ["MD651"]
+
+
+def three_storeys() -> FrfTest:
+    folder = SHARED / "three_storey_uk"
+    if not folder.exists():
+        pytest.skip("needs ../shared/data/three_storey_uk")
+    names = ("frf_Experimental.csv", "frf_test_2.csv", "frf_test_3.csv")
+    tables = [np.loadtxt(folder / name, delimiter=";", dtype=complex) for name in names]
+    H = np.stack([table[:, 1:] for table in tables], axis=2)
+    floors = ("1", "2", "3")
+    return FrfTest(
+        tables[0][:, 0].real, H, "accelerance", np.arange(3), np.arange(3), np.full(H.shape, np.nan), floors, floors
+    )
+
+
+def test_three_storey_building():
+    """Its makers state 6.50, 17.47 and 26.50 Hz; its storeys weigh 5.2 kg, which the modal masses of floor motion must show."""
+    found = identify_frf([three_storeys()], (2.0, 40.0))
+    for hz in (6.50, 17.47, 26.50):
+        assert np.abs(found.modes.frequency_hz / hz - 1).min() < 0.003
+    whole = [int(np.abs(found.modes.frequency_hz - hz).argmin()) for hz in (6.50, 17.47, 26.50)]
+    shapes = found.modes.shapes.real[:, whole]
+    masses = np.diag(np.linalg.inv(shapes @ shapes.T))
+    assert masses == pytest.approx(np.full(3, 5.201), rel=0.25)
+    assert (found.modes.mpc[whole] > 0.999).all()
+
+
+def test_agrees_with_sdypy_ema_on_the_three_storey_building():
+    EMA = pytest.importorskip("sdypy.EMA", reason="needs sdypy-EMA")
+    test = three_storeys()
+    found = identify_frf([force_alone(test, 0)], (2.0, 40.0)).modes
+    peer = EMA.Model(test.H[:, :, 0].T.copy(), test.frequency_hz, lower=2, upper=40, pol_order_high=40)
+    peer.get_poles(show_progress=False)
+    peer.select_closest_poles([6.50, 17.47, 26.50], f_window=5)
+    for hz in peer.nat_freq:
+        assert np.abs(found.frequency_hz / hz - 1).min() < 1e-3
+
+
+def test_agrees_with_pyoma2_on_simulated_outputs():
+    algorithms = pytest.importorskip("pyoma2.algorithms", reason="needs pyOMA-2")
+    from pyoma2.setup import SingleSetup
+
+    record = recorded()
+    own = identify_recording(record, (4.0, 70.0)).modes
+    setup = SingleSetup(record.samples.copy(), fs=150.0)
+    setup.add_algorithms(algorithms.SSI(name="SSIcov", method="cov", br=30, ordmax=20, calc_unc=True, nb=40))
+    setup.run_by_name("SSIcov")
+    setup.mpe("SSIcov", sel_freq=own.frequency_hz.tolist(), order_in=12)
+    result = setup["SSIcov"].result
+    assert np.abs((np.ravel(result.Fn) - own.frequency_hz) / own.frequency_sd_hz).max() < 2
