@@ -21,6 +21,7 @@ BEYOND = 1.5  # modes are taken up to so many times the highest frequency
 FINAL, ITERATING = 1e-6, 1e-4  # relative errors of FRFs that are reported, and of those on the way
 _FIRST, _MOST = 2, 8  # levels of Krylov vectors at first, and at the end
 _REFINEMENTS = 60  # steps towards a full solution
+_ASTRAY = 1e3  # a step so large, relative, that no solution is in reach
 _ROUNDING = 1e-11  # what damping may differ from a combination of K and M, relative, to be taken for one
 _CHECKED = 2  # loads for which they are found
 _SOLVED, _ROUNDED = 3e-8, 1e-6  # the last step of it, relative; the same where rounding keeps it from getting smaller
@@ -238,6 +239,8 @@ def _error(basis: _Basis, model: FrfModel, s: complex, known: dict[complex, np.n
 
 def _full(basis: _Basis, model: FrfModel, s: complex, x: np.ndarray, loads: np.ndarray) -> np.ndarray | None:
     """Z(s)^-1 loads (n, c) from x (n, c) on: a correction by A^-1 outside of the basis, one within it, and so on."""
+    if isinstance(basis.operator, _Whole):
+        return np.linalg.solve(_dense(basis.dynamics).at(s), loads)
     Z, before = model.matrices.at(s), np.inf
     for _ in range(_REFINEMENTS):
         rest = loads - basis.times(s, x)
@@ -249,5 +252,7 @@ def _full(basis: _Basis, model: FrfModel, s: complex, x: np.ndarray, loads: np.n
         change = float((np.linalg.norm(better - x, axis=0) / np.linalg.norm(better, axis=0)).max())
         if change <= _SOLVED or (change > 0.5 * before and change <= _ROUNDED):
             return better
+        if not change < _ASTRAY:
+            return None
         x, before = better, change
     return None
