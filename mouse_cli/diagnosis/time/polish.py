@@ -16,6 +16,7 @@ from mouse_cli.dynamics.response import simulate
 _DAMPING, _UP, _DOWN = 1e-3, 10.0, 0.2  # of Levenberg and Marquardt
 _STEPS = 25
 _SETTLED = 0.05  # of the cost in nats, at which a step is no more worth its time
+_PATIENCE, _BEHIND = 3, 2.0  # steps of a fit whose cost is so many times that of a better one
 _PERTURBED = 1e-4  # of prior or range
 
 
@@ -85,9 +86,12 @@ class Polish:
         self.measured = np.concatenate([part.measured for part in data], axis=2)
 
     def fit(
-        self, x: np.ndarray, states: np.ndarray, internal: np.ndarray | None = None, steps: int = _STEPS
+        self, x: np.ndarray, states: np.ndarray, internal=None, steps: int = _STEPS, beat: float = np.inf
     ) -> Fit | None:
-        """From x (k,) and states (2n, G); None where no simulation stays finite."""
+        """From x (k,), states (2n, G) and internal states of the law; None where no simulation stays finite.
+
+        beat: the cost of a better fit, far behind which this one is not followed to its end.
+        """
         states = self.h.padded_states(states)
         x = np.clip(x, *self.h.bounds)
         self.internal = internal
@@ -95,7 +99,9 @@ class Polish:
         cost, damping = self._cost(here, x, states), _DAMPING
         if not np.isfinite(cost):
             return None
-        for _ in range(steps):
+        for step in range(steps):
+            if step >= _PATIENCE and cost > _BEHIND * beat:
+                break
             moved, d_states = self._step(here, x, states, damping)
             nx, ns = np.clip(x + moved, *self.h.bounds), states + d_states
             there = self._point(nx, ns)

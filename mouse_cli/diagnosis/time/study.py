@@ -20,11 +20,10 @@ from mouse_cli.updating.chi_square import upper_tail
 
 GATE, MATERIAL, INADEQUATE = 1e-3, 1.1, 1.5  # probability of a misfit by chance; ratios to the variance expected
 OFFSET = 0.3  # sd of the offset of a force channel, by its rms
-_SAMPLES = 16384  # of a record that the closed form looks at
+_SAMPLES = 8192  # of a record that the closed form looks at
 _PERIODS, _SHORTEST, _LONGEST = 10, 256, 1024  # of the first mode in a horizon; its samples
 _SEGMENTS = 10
 _POLISHED, _MORE = 4, 8  # starts that are fitted; where none of them is adequate
-_FEW = 10  # steps of a fit that stays far behind the best
 
 Notice = Callable[[str], None]
 
@@ -94,14 +93,14 @@ def _band(series: Series, hz: np.ndarray) -> tuple[float, float]:
     return max(float(low), 0.2 * float(hz[hz > 1e-3 * hz.max()].min())), float(high)
 
 
-def fitted(study: Study, start: Start | None, limit: int = 25) -> Fit | None:
-    """A start followed to its optimum; the model as it is without one."""
+def fitted(study: Study, start: Start | None, beat: float = np.inf) -> Fit | None:
+    """A start followed to its optimum, or until it stays far behind `beat`; the model as it is without one."""
     hypothesis = study.base if start is None else start.hypothesis
     place = hypothesis.place or study.places[0]
     x = np.zeros(len(study.base.mean)) if start is None else start.x
     look = {id(data): study.at(place, _own(study, data)) for data in study.data}
     polish = Polish(hypothesis, study.data, look[id(study.data[0])].spread)
-    return polish.fit(x, *begin(hypothesis, x, study.data, [look[id(data)] for data in study.data]), steps=limit)
+    return polish.fit(x, *begin(hypothesis, x, study.data, [look[id(data)] for data in study.data]), beat=beat)
 
 
 def begin(hypothesis: Hypothesis, x: np.ndarray, data: list[Segments], looks: list[Regression]):
@@ -143,7 +142,7 @@ def weighed(study: Study, notice: Notice, known: list[Law] | None = None) -> tup
             break
         law = start.hypothesis.law
         notice(f"{law.title}, {start.hypothesis.place.site.text}")
-        one = fitted(study, start, _FEW if found and adequate(best) else 25)
+        one = fitted(study, start, best.cost if found else np.inf)
         if one is not None:
             found.append(one)
             best = min(best, one, key=lambda each: each.misfit)
@@ -166,7 +165,7 @@ def _relatives(study: Study, best: Fit, known: list[Law] | None) -> list[Fit]:
     """Laws that have no first look of their own, begun from the one they generalise: Iwan's from friction."""
     law = best.hypothesis.law
     relative = laws()["iwan"]
-    if law is None or law.key != "friction" or (known is not None and relative not in known):
+    if law is None or law.key != "friction" or adequate(best) or (known is not None and relative not in known):
         return []
     kt, slip = best.hypothesis.parameters(best.x[None])[:, 0]
     hypothesis = best.hypothesis.at(relative, 0)

@@ -1,0 +1,95 @@
+"""What every law of a local force must keep, and what single ones are known for."""
+
+import numpy as np
+import pytest
+
+from mouse_cli.terms.laws import Scale, registry
+from mouse_cli.terms.laws.iwan import sliders
+
+SCALE = Scale(1e5, 1.0, 2e-3, 0.4, (5.0, 100.0))
+LAWS = list(registry().values())
+NONLINEAR = [law for law in LAWS if not law.linear]
+key = lambda law: law.key
+
+
+def middle(law) -> np.ndarray:
+    return np.array([np.sqrt(u.lower * u.upper) for u in law.unknowns(SCALE)])
+
+
+def along(law, p: np.ndarray, x: np.ndarray, words: dict) -> np.ndarray:
+    v, z, found = np.gradient(x) * 1000, np.zeros((law.states, 1)), []
+    for xi, vi in zip(x, v, strict=True):
+        F, z = law.force(np.array([xi]), np.array([vi]), z, p[:, None], **words)
+        found.append(F[0])
+    return np.array(found)
+
+
+@pytest.mark.parametrize("law", LAWS, ids=key)
+def test_ranges_and_words(law):
+    assert all(0 < u.lower < u.upper for u in law.unknowns(SCALE))
+    assert len(law.words) == len(law.variants)
+    assert (law.force is None) != (law.matrices is None)
+
+
+@pytest.mark.parametrize("law", NONLINEAR, ids=key)
+def test_force_grows_with_its_homogeneous_parameters(law):
+    x = 4e-3 * np.sin(np.linspace(0, 12, 300))
+    for words in law.variants:
+        force = along(law, middle(law), x, words)
+        assert np.abs(force).max() > 0
+        np.testing.assert_allclose(along(law, law.scaled(middle(law), 2.5), x, words), 2.5 * force, rtol=1e-12)
+
+
+@pytest.mark.parametrize("law", NONLINEAR, ids=key)
+def test_odd_laws_are_odd_and_the_others_are_not(law):
+    x = 4e-3 * np.sin(np.linspace(0, 12, 300))
+    for words in law.variants:
+        there, back = (along(law, middle(law), sign * x, words) for sign in (1, -1))
+        assert np.allclose(there, -back, rtol=1e-12) == law.odd
+
+
+@pytest.mark.parametrize("law", LAWS, ids=key)
+def test_first_search_stays_within_reach_of_the_ranges(law):
+    lower, upper = (np.array([getattr(u, end) for u in law.unknowns(SCALE)]) for end in ("lower", "upper"))
+    for p in law.inner(SCALE):
+        assert p[law.homogeneous[0]] == 1
+        free = [i for i in range(len(p)) if i not in law.homogeneous]
+        assert (p[free] >= lower[free] * (1 - 1e-9)).all() and (p[free] <= upper[free] * (1 + 1e-9)).all()
+
+
+@pytest.mark.parametrize("law", [law for law in LAWS if law.linear], ids=key)
+def test_linear_laws_are_symmetric_and_their_own_coordinates_have_mass(law):
+    for words in law.variants:
+        K, C, M = law.matrices(middle(law), **words)
+        for matrix in (K, C, M):
+            assert matrix.shape == K.shape
+            np.testing.assert_array_equal(matrix, matrix.T)
+        assert (np.diag(M)[1:] > 0).all()
+
+
+def test_friction_loop_dissipates_what_it_should():
+    kt, Fs, A = 1e5, 40.0, 2e-3
+    x = A * np.sin(np.linspace(0, 4 * np.pi, 20001))
+    force = along(registry()["friction"], np.array([kt, Fs]), x, {})
+    cycle = slice(10000, None)
+    assert np.trapezoid(force[cycle], x[cycle]) == pytest.approx(4 * Fs * (A - Fs / kt), rel=1e-3)
+
+
+def test_iwan_slips_at_its_slip_force_and_is_as_stiff_as_said():
+    F, K = 60.0, 2e5
+    p, law = np.array([F, K, 0.5, 1.5]), registry()["iwan"]
+    force = along(law, p, np.linspace(0, 1.0, 2001), {})
+    assert force[-1] == pytest.approx(F, rel=0.02)
+    lengths, stiffness = sliders(p)
+    assert stiffness.sum() == pytest.approx(K, rel=1e-12)
+
+
+def test_iwan_dissipates_by_the_power_of_segalman():
+    power, law = 0.5, registry()["iwan"]  # 1 + chi: energy of a cycle goes with the amplitude to the power 3 + chi
+    p = np.array([60.0, 2e5, power, 1.5])
+    longest = sliders(p)[0][-1]
+    energy = []
+    for A in (0.05 * longest, 0.4 * longest):
+        x = A * np.sin(np.linspace(0, 4 * np.pi, 8001))
+        energy.append(np.trapezoid(along(law, p, x, {})[4000:], x[4000:]))
+    assert np.log(energy[1] / energy[0]) / np.log(8) == pytest.approx(2 + power, rel=0.05)
