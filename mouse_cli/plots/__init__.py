@@ -105,7 +105,7 @@ def _figures(found: Any) -> list[tuple[Plot, Any]]:
 
 def _titled(axes: Any, plot: Plot) -> None:
     """The title, from the left edge of the figure on, above what names of bars take."""
-    axes.set_title(plot.title, loc="left", pad=18 if axes.get_legend() else 6)
+    axes.set_title(plot.title, loc="left", pad=22 if axes.get_legend() else 6)
 
 
 def _pages(drawn: list[tuple[Plot, Any]], path: str) -> list[str]:

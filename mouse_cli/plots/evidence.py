@@ -34,7 +34,7 @@ def draw(found: Diagnosis, axes: Any) -> bool:
 
 def _name(one: Any) -> str:
     sites = ", ".join(place(c.site) for c in one.causes if c.site.kind != "structure")
-    return fill(f"{one.physics}: {sites}" if sites else one.physics, _WIDTH)
+    return fill(f"{one.physics}: {sites}" if sites else one.physics, _WIDTH, max_lines=2, placeholder=" ...")
 
 
 PLOT = Plot("evidence", 10, "Evidence for each candidate", draw)

@@ -127,10 +127,8 @@ def _written(found, output: str, files: list[str]) -> str:
     from mouse_cli.model.diagnosis import NAMED, ONE_OF
 
     if files and found.kind == ONE_OF:
-        return (
-            f"The model with {found.best.title}, which leads and is not proved, is in {files[-1]}; `mouse run` accepts it. "
-            "--candidates NAME writes that of another rival."
-        )
+        lead = f"The model with {found.best.title}, which leads and is not proved,"
+        return f"{lead} is in {files[-1]}; `mouse run` accepts it."
     if files:
         return f"The extended model is in {files[-1]}; `mouse run` accepts it."
     why = "its cause cannot be put into a deck" if found.kind in (NAMED, ONE_OF) else "no cause is named"

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from mouse_cli.dynamics.frequency import frequency_hz
-from mouse_cli.model.diagnosis import Diagnosis
+from mouse_cli.model.diagnosis import NAMED, Diagnosis
 from mouse_cli.model.result import Snapshot
 from mouse_cli.report.blocks import Block, Cell, Column, Table, Text
 from mouse_cli.report.section import Options, Section
@@ -38,6 +38,12 @@ def fitted(found: Diagnosis, options: Options) -> Iterator[Block]:
     yield Table(columns, tuple((int(n), *_told(row)) for n, *row in rows)).without_empty_columns()
     which = "Both models with their" if after else "The model with its"
     yield Text(f"{which} parameters revised by these data; differences are model minus test.")
+    if after and after.model_form == "rejected":
+        which = with_cause(found) if found.kind == NAMED else f"model {with_cause(found)}"
+        yield Text(
+            f"At the stated accuracies alone, which `mouse run` takes, the form of the {which} is rejected too: a diagnosis allows "
+            "for what theory leaves beside them."
+        )
 
 
 def _told(row: list[float]) -> tuple[Cell, ...]:
