@@ -15,7 +15,10 @@ RULE_OF_THREE = 0.05  # 1 - confidence of the bound beside counts of nothing
 
 @dataclass(frozen=True)
 class Scored:
-    """One deck. said: group or kind; error: of the place, by span, nan without one; probability: of the group that leads."""
+    """One deck. said: group or kind; error: of the place, by span, nan without one; probability: of the group that leads.
+
+    misstated: error of the test that was suspected.
+    """
 
     answer: dict
     outcome: str
@@ -25,6 +28,7 @@ class Scored:
     leads: bool
     seconds: float
     gains: dict[str, tuple[float, float]]
+    misstated: str = ""
 
 
 def scored(answer: dict, found: dict) -> Scored:
@@ -40,7 +44,15 @@ def scored(answer: dict, found: dict) -> Scored:
     leads = _same(answer, groups)
     probability = float(verdict.get("probability") or np.nan)
     return Scored(
-        answer, _outcome(answer, kind, leads, error), said, error, probability, leads, found["seconds"], _gains(found)
+        answer,
+        _outcome(answer, kind, leads, error),
+        said,
+        error,
+        probability,
+        leads,
+        found["seconds"],
+        _gains(found),
+        found.get("misstated") or "",
     )
 
 
@@ -168,9 +180,11 @@ def alarms(results: list[Scored]) -> str:
     alarmed = sum(one.said != "nothing-missing" for one in controls)
     false = sum(one.outcome == WRONG for one in controls)
     bound = 1 - RULE_OF_THREE ** (1 / len(controls))
+    errors = Counter(one.misstated for one in controls if one.misstated).most_common()
+    suspected = "".join(f"; {key} suspected in {n}" for key, n in errors)
     return (
         f"controls: {alarmed} of {len(controls)} not said to lack nothing, {false} given a name "
-        f"(none at all would bound the rate at {100 * bound:.1f} %, 95 %)"
+        f"(none at all would bound the rate at {100 * bound:.1f} %, 95 %){suspected}"
     )
 
 
