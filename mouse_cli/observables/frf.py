@@ -116,8 +116,10 @@ def accuracy(test: FrfTest) -> tuple[np.ndarray, bool]:
     with np.errstate(invalid="ignore"):
         sd = np.sqrt(test.variance / 2)
         unknown = np.isnan(sd) & np.isfinite(size)
-        median = np.nanmedian(np.where(np.isfinite(size), size, np.nan), axis=0) if size.size else 0.0
-        sd = np.where(unknown, np.hypot(UNKNOWN * size, MEDIAN * median), sd)
+        if unknown.any():
+            measured = np.where(np.isfinite(size), size, np.nan)
+            measured[:, np.isnan(measured).all(axis=0)] = 0.0  # functions that were not measured
+            sd = np.where(unknown, np.hypot(UNKNOWN * size, MEDIAN * np.nanmedian(measured, axis=0)), sd)
         return np.maximum(sd, LEAST * size), bool(unknown.any())
 
 

@@ -194,3 +194,49 @@ def test_widened_resonances_are_those_of_more_damping():
     assert np.abs(wide.H[kept, 0, 0] / H(wide.s[kept]) - 1).max() < 0.1  # the band ends
     peak = np.abs(wide.H[kept, 0, 0]).max()
     assert 4 < peak < 6  # about 1 / (2 * 0.1), where 63 was measured
+
+
+def test_large_model_by_its_basis():
+    """A sparse beam revised by FRFs that a dense solution line by line gave: E of both halves, loss factor, a dashpot."""
+    from scipy import sparse
+
+    from mouse_cli.terms.assembly import assembly
+
+    beam = """mouse: 1
+model:
+  structure:
+    nodes: {line: {from: 0, to: 180, start: [0, 0, 0], end: [1, 0, 0]}}
+    materials: {steel: {E: 2.1e+11, nu: 0.3, density: 7850}}
+    sections: {bar: {A: 3.0e-4, Iz: 9.0e-9, Iy: 9.0e-9}}
+    elements:
+      - {id: 1-180, type: beam, nodes: 0-180, material: steel, section: bar, loss_factor: 0.02}
+      - {id: 500, type: dashpot, nodes: [60], TY: 20.0}
+    supports: {0: all}
+    plane: XY
+parameters:
+  - {name: E1, elements: 1-90, property: E, sd: 20 %, transform: log}
+  - {name: E2, elements: 91-180, property: E, sd: 20 %, transform: log}
+  - {name: eta, elements: 1-180, property: loss_factor, sd: 60 %, transform: log}
+  - {name: c, elements: 500, property: TY, sd: 60 %, transform: log}
+test: {modes: {frequency: [1.0], frequency_sd: [1.0]}}
+"""
+    found = assemble(read(beam, "x.yaml"))
+    truth = np.array([1.75e11, 2.3e11, 0.03, 32.0])
+    made = assembly(found)
+    K, M, C, D = (m.toarray() for m in (*made.matrices(truth), *made.damping(truth)))
+    assert sparse.issparse(made.matrices(truth)[0])
+    labels = found.structure.labels
+    out, force = np.array([labels.index("90TY"), labels.index("180TY")]), np.array([labels.index("180TY")])
+    f = np.linspace(10.0, 500.0, 120)
+    s = 2j * np.pi * f
+    load = np.eye(len(K))[:, force]
+    H = np.array([x**2 * np.linalg.solve(K + 1j * D + x * C + x**2 * M, load)[out] for x in s])
+    rng = np.random.default_rng(4)
+    sd = 0.01 * np.abs(H)
+    H = H + sd * (rng.standard_normal(H.shape) + 1j * rng.standard_normal(H.shape))
+    test = FrfTest(f, H, "accelerance", out, force, 2 * sd**2)
+    result = run(replace(found, test=None, frf=(test,)))
+    assert result.status.key == "converged" and not result.rejected
+    assert np.abs((result.revised.theta - truth) / result.sd_theta).max() < 4
+    assert np.abs(result.revised.theta / truth - 1).max() < 0.02
+    assert result.frf[0].basis > 0 and result.frf[0].basis_error < 1e-6
