@@ -63,7 +63,14 @@ def test_error_falls_with_the_square_of_the_step():
     errors = []
     for h in (4e-4, 2e-4, 1e-4):
         x = free("cubic", [4e8], h, 0.2)
-        done = solve_ivp(lambda t, s: [s[1], -K * s[0] - 4e8 * s[0] ** 3], (0, 0.2), [0, 1], rtol=1e-11, atol=1e-14, dense_output=True)
+        done = solve_ivp(
+            lambda t, s: [s[1], -K * s[0] - 4e8 * s[0] ** 3],
+            (0, 0.2),
+            [0, 1],
+            rtol=1e-11,
+            atol=1e-14,
+            dense_output=True,
+        )
         errors.append(np.abs(x - done.sol(np.arange(len(x)) * h)[0]).max())
     assert errors[0] / errors[1] == pytest.approx(4, rel=0.1)
     assert errors[1] / errors[2] == pytest.approx(4, rel=0.1)
@@ -117,7 +124,9 @@ def test_models_and_segments_side_by_side_are_those_one_by_one():
     start, law = rng.standard_normal((3, 2, 2)) * 1e-2, registry()["cubic"]
     local = lambda p: lambda x, v, z: law.force(x, v, z, p)
     values = np.array([1e7, 2e7, 3e7]).reshape(1, 3, 1, 1)
-    plant = lambda i: Plant(M[i], C[i], stiff[i], np.ones((len(M[i]), 1, 1)), np.ones((1, 1)), np.ones((1, 1)), np.array([2]))
+    plant = lambda i: Plant(
+        M[i], C[i], stiff[i], np.ones((len(M[i]), 1, 1)), np.ones((1, 1)), np.ones((1, 1)), np.array([2])
+    )
     every, _ = simulate(plant(slice(None)), 1e-4, force, start, local(values))
     for i in range(3):
         for j in range(2):

@@ -10,7 +10,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.time.free_force import Spectrum
 from mouse_cli.diagnosis.time.hypothesis import Hypothesis
-from mouse_cli.diagnosis.time.polish import Fit, Polish, segments
+from mouse_cli.diagnosis.time.polish import Fit, followed, segments
 from mouse_cli.diagnosis.time.records import reduced
 from mouse_cli.diagnosis.time.regression import Regression, stepped
 from mouse_cli.diagnosis.time.series import REACH, Series
@@ -20,7 +20,6 @@ from mouse_cli.model.record_diagnosis import AS_IT_IS, WITH_CAUSE, RecordScore, 
 
 _SEGMENTS = 12
 _LONG = 45_000  # samples of a record that is simulated as a whole, at most
-_STATES = 8  # steps in which initial states are fitted
 
 
 def scores(study: Study, baseline: Fit, best: Fit | None) -> tuple[RecordScore, ...]:
@@ -62,7 +61,7 @@ def _short(study: Study, held: Series, one: Fit) -> Fit | None:
     """Short horizons of a record, in which only the initial states are fitted."""
     data = segments(held, study.length, _SEGMENTS)
     fixed, look = one.hypothesis.held(one.x), _look(study, held, one)
-    return Polish(fixed, [data], look.spread).fit(np.zeros(0), *begin(fixed, one.x, [data], [look]), steps=_STATES)
+    return followed(fixed, [data], look.spread, np.zeros(0), *begin(fixed, one.x, [data], [look]))
 
 
 def free_run(study: Study, held: Series, one: Fit, found: Fit | None) -> np.ndarray:

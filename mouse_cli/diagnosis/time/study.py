@@ -8,7 +8,7 @@ import numpy as np
 from mouse_cli.diagnosis.time.free_force import Spectrum
 from mouse_cli.diagnosis.time.hypothesis import Hypothesis, Place
 from mouse_cli.diagnosis.time.places import places
-from mouse_cli.diagnosis.time.polish import Fit, Polish, Segments, segments
+from mouse_cli.diagnosis.time.polish import Fit, Segments, followed, segments
 from mouse_cli.diagnosis.time.records import Records, reduced, steps
 from mouse_cli.diagnosis.time.regression import Regression, Start, starts
 from mouse_cli.diagnosis.time.series import REACH, Series
@@ -99,8 +99,9 @@ def fitted(study: Study, start: Start | None, beat: float = np.inf) -> Fit | Non
     place = hypothesis.place or study.places[0]
     x = np.zeros(len(study.base.mean)) if start is None else start.x
     look = {id(data): study.at(place, _own(study, data)) for data in study.data}
-    polish = Polish(hypothesis, study.data, look[id(study.data[0])].spread)
-    return polish.fit(x, *begin(hypothesis, x, study.data, [look[id(data)] for data in study.data]), beat=beat)
+    spread = look[id(study.data[0])].spread
+    states, internal = begin(hypothesis, x, study.data, [look[id(data)] for data in study.data])
+    return followed(hypothesis, study.data, spread, x, states, internal, beat)
 
 
 def begin(hypothesis: Hypothesis, x: np.ndarray, data: list[Segments], looks: list[Regression]):
