@@ -232,7 +232,11 @@ def _errors(base: Score, after: Score | None = None) -> Iterator[str]:
         base.rms_frequency_error,
         after and after.rms_frequency_error,
     )
-    shapes = "the root mean square error of shapes at sensors held out", base.rms_shape_error, after and after.rms_shape_error
+    shapes = (
+        "the root mean square error of shapes at sensors held out",
+        base.rms_shape_error,
+        after and after.rms_shape_error,
+    )
     for name, before, now in (frequencies, shapes):
         if before == before:
             yield (
