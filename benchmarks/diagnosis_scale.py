@@ -18,7 +18,9 @@ parser.add_argument("--modes", type=int, default=10)
 parser.add_argument("--sensors", type=int, default=20)
 parser.add_argument("--share", type=float, default=0.05, help="the mass, of the modal mass of mode 1 at its place")
 parser.add_argument(
-    "--whole", action="store_true", help="the whole of `diagnose` too, the extended model and its update included"
+    "--whole",
+    action="store_true",
+    help="the whole of `diagnose` in place of its parts, the extended model and its update included",
 )
 parser.add_argument("--sd", type=float, default=0.25, help="of the parameters, of what scale_models has")
 
@@ -49,13 +51,19 @@ def timed(label: str, work, unit: float | None = None):
     return found, seconds
 
 
+def _said(found) -> str:
+    return f"{found.kind}, {found.best.physics if found.best else 'no cause'}, P {found.probability:.3f}"
+
+
 def main() -> None:
     """Print the parts for each kind of model."""
     arguments = parser.parse_args()
     import numpy as np
 
     from mouse_cli.diagnosis import diagnose
+    from mouse_cli.dynamics.solver import EigenSolver
     from mouse_cli.diagnosis.altered import Model
+    from mouse_cli.diagnosis.diagnose import ENOUGH
     from mouse_cli.diagnosis.energy_map import energy_map
     from mouse_cli.diagnosis.fit import fit
     from mouse_cli.diagnosis.locate import locate
@@ -71,22 +79,22 @@ def main() -> None:
         problem = replace(problem, run=replace(problem.run, recursion="anchored", estimator="bayes"))
         print(f"{kind}: {problem.structure.n} degrees of freedom, mass at {problem.structure.labels[at]}")
         K, M = assembly(problem).matrices(problem.prior.mean)
-        _, unit = timed("eigensolution", lambda K=K, M=M, problem=problem: solve(problem, K, M))
-        model, first = timed(
-            "reduced model and places", lambda problem=problem: reduced(problem, problem.prior.mean), unit
-        )
-        near, second = timed("update in few coordinates", lambda model=model: fit(Model(model), np.zeros(0)), unit)
+        solver = EigenSolver(sensors=problem.test.s)
+        _, unit = timed("eigensolution", lambda: solve(problem, K, M, solver=solver))
+        if arguments.whole:
+            found, seconds = timed("the whole diagnosis", lambda: diagnose(problem), unit)
+            print(f"  {'':28s} {seconds:8.2f} s {seconds / unit:8.1f}   (aim 30)   {_said(found)}")
+            continue
+        model, first = timed("reduced model and places", lambda: reduced(problem, problem.prior.mean, solver), unit)
+        near, second = timed("update in few coordinates", lambda: fit(Model(model), np.zeros(0)), unit)
         guess = model.parameters(near.point.x)
-        _, third = timed("update", lambda problem=problem, guess=guess: run(problem, guess=guess), unit)
-        ranking, fourth = timed("candidates", lambda model=model: rank(model), unit)
+        _, third = timed("update", lambda: run(problem, guess=guess, enough=ENOUGH, solver=solver), unit)
+        ranking, fourth = timed("candidates", lambda: rank(model), unit)
         here = ranking.baseline
-        location, fifth = timed("location", lambda here=here: locate(here.model.base), unit)
-        _, sixth = timed("map of energy", lambda here=here: energy_map(here), unit)
+        location, fifth = timed("location", lambda: locate(here.model.base), unit)
+        _, sixth = timed("map of energy", lambda: energy_map(here), unit)
         total = first + second + third + fourth + fifth + sixth
         print(f"  {'sum of these':28s} {total:8.2f} s {total / unit:8.1f}   (aim 30)")
-        if arguments.whole:
-            found, _ = timed("the whole diagnosis", lambda problem=problem: diagnose(problem), unit)
-            print(f"  {found.kind}, {found.best.physics}, P {found.probability:.3f}")
         print(
             f"  places: {[(p.channel, p.site.ids, round(p.probability, 2)) for p in location.places[:3]]}, p {location.p:.2g}"
         )

@@ -30,7 +30,7 @@ from mouse_cli.updating.loop import related, run
 
 Notice = Callable[[str], None]
 
-_ENOUGH = 1e-3  # share of the misfit of a large model that is no matter
+ENOUGH = 1e-3  # share of the misfit of a large model that is no matter
 
 _ALL = Choices()
 _RIVALS = 4  # that are told apart from the leading explanation
@@ -47,7 +47,7 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choi
     solver = EigenSolver(notice, sensors=0 if problem.test is None else problem.test.s)
     kept = related(problem, solver)
     model, told = _model(problem, solver)
-    enough = 0.0 if model.places is None else _ENOUGH
+    enough = 0.0 if model.places is None else ENOUGH
     result, remarks = _update(problem, kept, notice, _guess(model), enough, solver)
     ranking = heard(rank(model, _known(choices), choices.causes))
     verdict, as_it_is = judge(ranking, result, model), ranking.baseline
