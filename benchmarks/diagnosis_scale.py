@@ -61,7 +61,6 @@ def main() -> None:
     import numpy as np
 
     from mouse_cli.diagnosis import diagnose
-    from mouse_cli.dynamics.solver import EigenSolver
     from mouse_cli.diagnosis.altered import Model
     from mouse_cli.diagnosis.diagnose import ENOUGH
     from mouse_cli.diagnosis.energy_map import energy_map
@@ -69,6 +68,7 @@ def main() -> None:
     from mouse_cli.diagnosis.locate import locate
     from mouse_cli.diagnosis.name import rank
     from mouse_cli.diagnosis.reduced import reduced
+    from mouse_cli.dynamics.solver import EigenSolver
     from mouse_cli.terms.assembly import assembly
     from mouse_cli.updating.loop import run
     from mouse_cli.updating.state import solve
