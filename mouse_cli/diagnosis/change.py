@@ -77,7 +77,7 @@ class Recipe:
     change(values), site(values): what it does, and where, for values (t,) of the unknowns. own: degrees of freedom of its own.
     grid (g, t): values to begin from. log_prior: ln of the share of the candidate's prior that this place has. extend(problem,
     values): the deck with the cause in it. number: which of its candidate's recipes it is. carried: how degrees of
-    freedom of its own move the model along, which other causes see.
+    freedom of its own move the model along, which other causes see. law: how its spring loses energy, see `frf/lossy.py`.
     """
 
     candidate: Any
@@ -90,6 +90,7 @@ class Recipe:
     extend: Callable[[Problem, np.ndarray], Problem] | None = None
     number: int = 0
     carried: Carried | None = None
+    law: str = ""
     _last: dict[bytes, Change] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def at(self, coordinates: np.ndarray) -> Change:

@@ -136,4 +136,4 @@ def _cause(recipe, c: np.ndarray, sd: np.ndarray, units: Units) -> Cause:
         for u, v, s in zip(recipe.unknowns, values, sd, strict=True)
     )
     candidate = recipe.candidate
-    return Cause(candidate.key, candidate.group, candidate.title, recipe.site(values), sizes)
+    return Cause(candidate.key, candidate.group, candidate.title, recipe.site(values), sizes, recipe.law)

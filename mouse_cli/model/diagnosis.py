@@ -43,13 +43,17 @@ class Size:
 
 @dataclass(frozen=True)
 class Cause:
-    """One piece of physics that the model does not have. physics: key of its candidate; group: of those hard to tell apart."""
+    """One piece of physics that the model does not have. physics: key of its candidate; group: of those hard to tell apart.
+
+    law: `structural` or `viscous` where FRFs show how its spring loses energy; empty: as the rest of the structure, or unknown.
+    """
 
     physics: str
     group: str
     title: str
     site: Site
     sizes: tuple[Size, ...]
+    law: str = ""
 
 
 @dataclass(frozen=True)

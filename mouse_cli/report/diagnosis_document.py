@@ -74,6 +74,7 @@ def _verdict(found: Diagnosis) -> dict[str, Any]:
         "group": best.group if told else None,
         "site": site(best.causes[0].site) if told else None,
         "sites": [site(cause.site) for cause in best.causes] if told else [],
+        "damping": [cause.law or None for cause in best.causes] if told else [],
         "probability": None if found.kind == UNKNOWN else found.probability,
         "rivals": rivals,
     }

@@ -5,7 +5,6 @@ import numpy as np
 from mouse_cli.diagnosis.candidates import Candidate
 from mouse_cli.diagnosis.change import Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.frf.extend import with_dashpot
-from mouse_cli.diagnosis.frf.lossy import SAME, Lossy, lossy
 from mouse_cli.diagnosis.points import directions, placed
 from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.diagnosis.scales import lowest, total_mass
@@ -13,7 +12,7 @@ from mouse_cli.diagnosis.scales import lowest, total_mass
 _SIZES = 4
 
 
-def dashpots(model: Reduced) -> list[Lossy]:
+def dashpots(model: Reduced) -> list[Recipe]:
     """A dashpot to the ground at each place: C + c B'B, B the motion of the place in one direction."""
     scale = total_mass(model) * np.sqrt(lowest(model))
     c = Unknown("damping", "N s/m", 1e-4 * scale, 10 * scale)
@@ -24,7 +23,7 @@ def dashpots(model: Reduced) -> list[Lossy]:
     def at(point) -> Recipe:
         return placed(DASHPOT, point, (c,), (steps(c, _SIZES),), change, with_dashpot)
 
-    return [lossy(at(point), SAME) for point in directions(model)]
+    return [at(point) for point in directions(model)]
 
 
 DASHPOT = Candidate(

@@ -4,7 +4,7 @@ The spring k of the cause becomes k g(omega): the same g as that of the rest of 
 g = 1 + i eta omega / omega_0 with omega_0 the middle of the band.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,41 +12,32 @@ from mouse_cli.diagnosis.change import Recipe, Unknown
 from mouse_cli.diagnosis.frf.extend import with_loss
 from mouse_cli.model.problem import Problem
 
-SAME, STRUCTURAL, VISCOUS = "same", "structural", "viscous"
+SAME, STRUCTURAL, VISCOUS = "", "structural", "viscous"
 LAWS = (SAME, STRUCTURAL, VISCOUS)
 GROUPS = ("local-stiffness", "ground-spring", "oscillator", "support")  # whose spring may have a loss of its own
-_LOSS = Unknown("loss factor", "1", 1e-3, 2.0)
+_LOSS = {
+    STRUCTURAL: Unknown("loss factor", "1", 1e-3, 2.0),
+    VISCOUS: Unknown("loss factor in mid-band", "1", 1e-3, 2.0),
+}
+_START = 0.05
 
 
-@dataclass(frozen=True)
-class Lossy(Recipe):
-    """A cause whose spring has a loss factor of its own, the last of its unknowns. law: how it depends on frequency."""
-
-    law: str = SAME
-
-    @property
-    def inner(self) -> int:
-        """Number of unknowns without the loss factor."""
-        return len(self.unknowns) - (self.law != SAME)
-
-
-def lossy(recipe: Recipe, law: str, middle: float = 1.0, start: float = 0.05) -> Lossy:
-    """The cause of `recipe` with a law of its own; middle: omega_0, rad/s."""
-    fields = {name: getattr(recipe, name) for name in Recipe.__dataclass_fields__}
-    if law == SAME:
-        return Lossy(**fields)
+def lossy(recipe: Recipe, law: str, middle: float) -> Recipe:
+    """The cause of `recipe` whose spring has a loss factor of its own, the last of its unknowns; middle: omega_0, rad/s."""
+    if law == SAME or recipe.candidate.group not in GROUPS:
+        return recipe
     count = len(recipe.unknowns)
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         name, loss = ("loss_factor", values[-1]) if law == STRUCTURAL else ("stiffness_damping", values[-1] / middle)
         return with_loss(recipe.extend(problem, values[:count]), problem, name, float(loss))
 
-    grid = np.hstack([recipe.grid, np.full((len(recipe.grid), 1), start)])
-    fields |= {
-        "unknowns": (*recipe.unknowns, _LOSS if law == STRUCTURAL else replace(_LOSS, name="loss factor at mid-band")),
-        "change": lambda values: recipe.change(values[:count]),
-        "site": lambda values: recipe.site(values[:count]),
-        "grid": grid,
-        "extend": recipe.extend and extend,
-    }
-    return Lossy(**fields, law=law)
+    return replace(
+        recipe,
+        unknowns=(*recipe.unknowns, _LOSS[law]),
+        change=lambda values: recipe.change(values[:count]),
+        site=lambda values: recipe.site(values[:count]),
+        grid=np.hstack([recipe.grid, np.full((len(recipe.grid), 1), _START)]),
+        extend=recipe.extend and extend,
+        law=law,
+    )

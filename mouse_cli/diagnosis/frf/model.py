@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli.diagnosis.altered import Model
-from mouse_cli.diagnosis.change import Change
+from mouse_cli.diagnosis.change import Change, Recipe
 from mouse_cli.diagnosis.frf.damping import Damping, of_low_rank
-from mouse_cli.diagnosis.frf.lossy import SAME, VISCOUS, Lossy
+from mouse_cli.diagnosis.frf.lossy import SAME, VISCOUS
 from mouse_cli.diagnosis.reduced import Reduced
 
 _STEP = 1e-5  # of a range, for derivatives of what causes do
@@ -49,7 +49,7 @@ class _Solved:
 class FrfModel:
     """What `fit` needs of a model: unknowns z of the deck and of the damping, coordinates of the causes, point and jacobian."""
 
-    def __init__(self, base: Reduced, damping: Damping, recipes: tuple[Lossy, ...] = ()):
+    def __init__(self, base: Reduced, damping: Damping, recipes: tuple[Recipe, ...] = ()):
         """base.data: FrfData."""
         self.base, self.damping, self.recipes = base, damping, recipes
         self.inner = Model(base, recipes)

@@ -43,8 +43,7 @@ class Judge:
 
     def fitted(self, one: Fit, law: str = SAME) -> Fit | None:
         """The explanation `one` of modes as FRFs see it, its springs by `law`."""
-        middle = self.data.middle
-        recipes = tuple(lossy(r, law if r.candidate.group in GROUPS else SAME, middle) for r in one.recipes)
+        recipes = tuple(lossy(recipe, law, self.data.middle) for recipe in one.recipes)
         model = FrfModel(replace(one.model.base, data=self.data), self.damping, recipes)
         parts = zip(recipes, one.model.own, strict=True)
         c = [np.append(one.c[part], _LOSS if recipe.law != SAME else []) for recipe, part in parts]

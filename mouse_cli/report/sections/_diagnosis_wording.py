@@ -97,8 +97,9 @@ def _at(site: Site, units: Units) -> str:
 
 
 def sized(cause: Cause) -> str:
-    """Its parameters with their standard deviations."""
-    return ", ".join(_size(size) for size in cause.sizes) or "nothing to be sized"
+    """Its parameters with their standard deviations, and the law by which its spring loses energy."""
+    law = f"; its damping is {cause.law}" if cause.law else ""
+    return (", ".join(_size(size) for size in cause.sizes) or "nothing to be sized") + law
 
 
 def _size(size: Size) -> str:
