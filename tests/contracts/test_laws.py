@@ -80,7 +80,7 @@ def test_iwan_slips_at_its_slip_force_and_is_as_stiff_as_said():
     p, law = np.array([F, K, 0.5, 1.5]), registry()["iwan"]
     force = along(law, p, np.linspace(0, 1.0, 2001), {})
     assert force[-1] == pytest.approx(F, rel=0.02)
-    lengths, stiffness = sliders(p)
+    _, stiffness = sliders(p)
     assert stiffness.sum() == pytest.approx(K, rel=1e-12)
 
 
