@@ -8,7 +8,7 @@ import numpy as np
 from benchmarks.blind.case import generator, log_uniform, near
 from benchmarks.blind_frf.exact import Beam, Joint, receptance
 
-SENSORS, LINES, NOISE, FLOOR = 8, 500, 0.01, 0.002  # noise: of each reading, and of the rms of all readings of a sensor
+SENSORS, LINES, NOISE, FLOOR = 8, 1200, 0.01, 0.002  # noise: of each reading, and of the rms of all readings of a sensor
 MODES = 5.5  # the band ends there, in modes of the beam
 DENSITY, E = 7850.0, 2.1e11
 ELEMENTS = 40
@@ -117,7 +117,7 @@ def measured(case: Case, words: tuple) -> Measured:
     wave = WAVES[case.nominal.ends[0]]
     ratio = MODES if case.nominal.ends[0] == "pinned" else (MODES - 0.5) * np.pi / wave
     top = (wave * ratio / case.nominal.length) ** 2 * np.sqrt(case.nominal.EI / case.nominal.mass) / (2 * np.pi)
-    frequency = np.linspace(0.01 * top, top, LINES)
+    frequency = np.geomspace(0.02 * top, top, LINES)  # a stepped sine: about two lines within each resonance
     H = receptance(case.true, frequency, case.force, case.sensors)
     variance = (NOISE * np.abs(H)) ** 2 + (FLOOR**2 * (np.abs(H) ** 2).mean(axis=0))
     noise = (rng.standard_normal(H.shape) + 1j * rng.standard_normal(H.shape)) * np.sqrt(variance / 2)

@@ -22,7 +22,6 @@ from mouse_cli.model.diagnosis import (
     Size,
 )
 from mouse_cli.model.groups import leading
-from mouse_cli.model.result import Result
 from mouse_cli.model.units import Units
 from mouse_cli.updating.chi_square import upper_tail
 
@@ -33,9 +32,9 @@ _BELIEVED = 0.5  # share of the stated accuracies in the leading explanation bel
 _INADEQUATE = 1.5  # noise scale of the best explanation above which it is none
 
 
-def doubtful(baseline: Fit, result: Result) -> bool:
-    """Whether what the update leaves is no chance: misfit, shift of the parameters, or both together."""
-    return result.rejected or upper_tail(baseline.misfit, baseline.dof) < GATE
+def doubtful(baseline: Fit, rejected: bool) -> bool:
+    """Whether what the update leaves is no chance: misfit, shift of the parameters, or both together (`rejected`)."""
+    return rejected or upper_tail(baseline.misfit, baseline.dof) < GATE
 
 
 @dataclass(frozen=True)
@@ -48,14 +47,14 @@ class Verdict:
     refuted: tuple[str, ...] = ()
 
 
-def judge(ranking: Ranking, result: Result, model: Reduced) -> Verdict:
-    """What may be said of all fits: by their evidence, and by data that none of them has seen.
+def judge(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
+    """What may be said of all fits: by their evidence, and by data that none of them has seen; rejected: by the update itself.
 
     Something is missing where the update leaves too much, or where it is sure that some cause acts and what the deck holds out
     confirms the first of them: two judgements on different data. A cause that is refuted gives its place to the next rival.
     """
     baseline, best = ranking.baseline, leader(ranking)
-    demanded, certain = doubtful(baseline, result), best is not None and sure(ranking)
+    demanded, certain = doubtful(baseline, rejected), best is not None and sure(ranking)
     proof = held_out(model, baseline, best if demanded or certain else None)
     if not demanded and not (certain and _gain(proof) > _ODDS):
         return Verdict(NOTHING, None, None if proof is None else replace(proof, revised=None))

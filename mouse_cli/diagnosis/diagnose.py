@@ -43,14 +43,15 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choi
     """
     if problem.recordings and problem.test is None and not problem.frf:
         return diagnose_records(problem, notice, choices)
-    given, problem = problem, with_modes(replace(problem, run=_thorough(problem.run)))
+    given = replace(problem, run=_thorough(problem.run))
+    problem, doubts = with_modes(given)
     solver = EigenSolver(notice, sensors=0 if problem.test is None else problem.test.s)
     kept = related(problem, solver)
     model, told = _model(problem, solver)
     enough = 0.0 if model.places is None else ENOUGH
     result, remarks = _update(problem, kept, notice, _guess(model), enough, solver)
     ranking = heard(rank(model, _known(choices), choices.causes))
-    verdict, as_it_is = judge(ranking, result, model), ranking.baseline
+    verdict, as_it_is = judge(ranking, result.rejected and given.test is not None, model), ranking.baseline
     kind, best = verdict.kind, verdict.best
     missing = kind != NOTHING
     location = locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None
@@ -71,7 +72,7 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choi
         cautions=cautions(ranking, verdict, location),
         misstated=misstated(ranking) if missing else None,
         proposals=_proposals(ranking, verdict),
-        remarks=remarks + told + (() if deck is None else _coarse(deck)),
+        remarks=doubts + remarks + told + (() if deck is None else _coarse(deck)),
         extended=deck if deck is None or given.test is not None else replace(deck, test=None),
         extended_result=None if deck is None else run(_by_modes(deck), notice=notice, guess=_values(deck, best), enough=enough),
         choices=choices,

@@ -41,8 +41,9 @@ def from_fit(found: Found, picked: np.ndarray, drives: list[Drive], stable: np.n
         np.stack([frequency_and_damping(x[2 * r : 2 * r + 2]) for r in range(m)], axis=1).ravel() if m else x
     )
     value, covariance = propagated(both, poles, found.covariance.poles[np.ix_(places, places)])
-    spacing = np.diff(found.lines.s.imag).mean() / (2 * np.pi)
     hz, zeta = value[:m], value[m:]
+    measured = found.lines.s.imag / (2 * np.pi)
+    spacing = np.interp(hz, measured, np.gradient(measured))
     modes = _modes(value, covariance, parts, stable, 2 * zeta * hz / spacing, _errors(found, picked))
     return modes, [part.angle for part in parts]
 

@@ -220,7 +220,7 @@ def test_rivals_that_held_out_data_refute_are_struck(against, kind, left, monkey
         return HeldOut(BY_DECK, ("mode 7",), np.ones(1), score(0.0), score(-10.0 if number < against else 10.0))
 
     monkeypatch.setattr(decide, "held_out", proof)
-    monkeypatch.setattr(decide, "doubtful", lambda baseline, result: True)
-    verdict = decide.judge(ranking, None, model)
+    monkeypatch.setattr(decide, "doubtful", lambda baseline, rejected: True)
+    verdict = decide.judge(ranking, True, model)
     assert verdict.kind == kind and verdict.refuted == tuple(names[:against])
     assert not left or verdict.best is first[1]

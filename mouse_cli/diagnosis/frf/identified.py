@@ -13,13 +13,13 @@ from mouse_cli.records.identify import identify_frf
 from mouse_cli.records.identify_combine import combined
 
 
-def with_modes(problem: Problem) -> Problem:
-    """`problem` with the modes that its FRFs show as its test, where it has no modes of its own.
+def with_modes(problem: Problem) -> tuple[Problem, tuple[str, ...]]:
+    """`problem` with the modes that its FRFs show as its test, where it has no modes of its own; and what speaks against them.
 
     Raises NumericalError (MD680) when the functions show none.
     """
     if problem.test is not None or not problem.frf:
-        return problem
+        return problem, ()
     found = identify_frf(problem.frf)
     if not found.modes.m:
         said = "; ".join(each.message for each in found.doubts) or "no pole is stable"
@@ -32,7 +32,8 @@ def with_modes(problem: Problem) -> Problem:
                 help="see `mouse identify` on this deck; or give measured modes beside the functions: test.modes",
             )
         )
-    return replace(problem, test=_test(combined(problem.frf)[0], found.modes))
+    doubts = tuple(f"modes of the functions: {each.message}" for each in found.doubts)
+    return replace(problem, test=_test(combined(problem.frf)[0], found.modes)), doubts
 
 
 def _test(functions: FrfTest, modes) -> ModalTest:
