@@ -1,6 +1,7 @@
 """The physics that a diagnosis knows, in Markdown: for `mouse explain candidates` and the reference."""
 
 from mouse_cli.diagnosis.candidates import Candidate, registry
+from mouse_cli.diagnosis.frf.dashpots import DASHPOT
 
 _HEAD = """# Candidates
 
@@ -10,7 +11,7 @@ can hardly tell apart share a group, and the group is decided first. [Diagnosis]
 
 def manual() -> str:
     """All candidates: a table of the groups, then each candidate."""
-    members = registry()
+    members = dict(sorted((registry() | {DASHPOT.key: DASHPOT}).items()))
     groups: dict[str, list[str]] = {}
     for key, candidate in members.items():
         groups.setdefault(candidate.group, []).append(key)

@@ -30,6 +30,7 @@ DASHPOT = Candidate(
     "dashpot",
     "a dashpot to the ground",
     "damping",
-    "friction of a viscous kind between one place and the surroundings (air, seal, cable, damper): C + c B'B",
+    "viscous damping between one place and the surroundings (seal, cable, damper): C + c B'B; sought in frequency response functions "
+    "alone, which show it",
     lambda model, candidate: [],
 )
