@@ -52,8 +52,7 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choi
     result, remarks = _update(problem, kept, notice, _guess(model), enough, solver)
     ranking = heard(rank(model, _known(choices), choices.causes))
     verdict, as_it_is = judge(ranking, result.rejected and given.test is not None, model), ranking.baseline
-    kind, best = verdict.kind, verdict.best
-    missing = kind != NOTHING
+    kind, best, missing = verdict.kind, verdict.best, verdict.kind != NOTHING
     location = locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None
     deck = extended(problem, best) if kind in (NAMED, ONE_OF) else None
     return Diagnosis(

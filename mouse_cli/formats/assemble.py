@@ -8,6 +8,7 @@ from mouse_cli.formats.draft import Draft
 from mouse_cli.formats.rules import (
     hold_out,
     hold_out_records,
+    laws,
     matrices,
     modal_test,
     model,
@@ -16,6 +17,7 @@ from mouse_cli.formats.rules import (
     records,
     refusal,
 )
+from mouse_cli.model.geometry import Geometry
 from mouse_cli.model.problem import Problem
 
 
@@ -29,10 +31,9 @@ def assemble(draft: Draft) -> Problem:
     elements = partials.elements(draft)
     A = partials.partials(draft)
     believed = prior.prior(draft)
-    test = modal_test.modal_test(draft, found[0].geometry if found else None) if draft.order else None
-    held = hold_out.hold_out(draft, test, found[0].geometry if found else None)
-    frf, recordings = records.records(draft, found[0].geometry if found else None) if draft.order else ((), ())
-    frf, recordings, kept = hold_out_records.divided(draft, frf, recordings)
+    geometry = found[0].geometry if found else None
+    test, held, frf, recordings, kept = _measured(draft, geometry)
+    acting = laws.laws(draft, geometry) if draft.order else ()
     if draft.order:
         matrices.total_mass_dofs(draft)
     if draft.has_errors:
@@ -57,7 +58,16 @@ def assemble(draft: Draft) -> Problem:
         frf=frf,
         recordings=recordings,
         held_records=kept,
+        laws=acting,
     )
+
+
+def _measured(draft: Draft, geometry: Geometry | None) -> tuple:
+    """The modal test and what of it is held out; functions and recordings, and what of them is."""
+    test = modal_test.modal_test(draft, geometry) if draft.order else None
+    held = hold_out.hold_out(draft, test, geometry)
+    frf, recordings = records.records(draft, geometry) if draft.order else ((), ())
+    return test, held, *hold_out_records.divided(draft, frf, recordings)
 
 
 def _places(draft: Draft) -> dict[str, Span]:

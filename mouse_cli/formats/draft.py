@@ -11,6 +11,7 @@ import numpy as np
 from mouse_cli._errors import ERROR, WARNING, Diagnostic
 from mouse_cli._span import Span
 from mouse_cli.formats.hold_out_draft import HoldOutDraft
+from mouse_cli.formats.law_draft import LawDraft
 from mouse_cli.formats.mesh_draft import MeshDraft
 from mouse_cli.formats.record_drafts import FrfDraft, RecordingDraft
 from mouse_cli.formats.sensor import SensorDraft
@@ -97,6 +98,7 @@ class Draft:
     frf: tuple[FrfDraft, ...] = ()
     recordings: tuple[RecordingDraft, ...] = ()
     hold_out: HoldOutDraft | None = None
+    laws: tuple[LawDraft, ...] = ()
     where_order: Span | None = None
     where_covariance: Span | None = None
     where_total_mass: Span | None = None

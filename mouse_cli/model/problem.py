@@ -7,6 +7,7 @@ from mouse_cli._span import Span
 from mouse_cli.model.arrays import Matrix, frozen
 from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.model.hold_out import HeldRecords, HoldOut
+from mouse_cli.model.local_law import LocalLaw
 from mouse_cli.model.mesh import Binding, Mesh
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
@@ -73,7 +74,7 @@ class Problem:
     elements, A (e, p): d(element) = A d(parameter), Eq. (3-2) of the report; terms: further contributions, such as beams and
     springs; mesh, bindings: what they were made of, for models with geometry. test is None for a deck that only asks for modes; it
     holds what is fitted, and hold_out what is kept from every fit. frf, recordings: frequency response functions and time histories
-    of the test. units: of all numbers that are not in s or Hz.
+    of the test. units: of all numbers that are not in s or Hz. laws: local forces that are not linear, which modes do not have.
     """
 
     title: str
@@ -95,6 +96,7 @@ class Problem:
     recordings: tuple[Recording, ...] = ()
     units: Units = UNDECLARED
     held_records: HeldRecords | None = None
+    laws: tuple[LocalLaw, ...] = ()
 
     def place(self, key: str) -> Span:
         """Where `key` (`order`, `estimator`, `mode 3`) stands in the deck; its first line when that is not known."""

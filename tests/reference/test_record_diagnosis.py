@@ -88,3 +88,14 @@ def test_friction_to_the_ground(tmp_path):
     assert found["verdict"]["kind"] != "nothing-missing"
     assert found["candidates"][0]["physics"] in ("friction", "iwan")
     assert found["candidates"][0]["site"]["ids"] == [1]
+
+
+def test_the_extended_deck_lacks_nothing(tmp_path):
+    def law(u, v):
+        F = 3e4 * (u[1] - u[0] - np.clip(u[1] - u[0], -1.5e-3, 1.5e-3))
+        return np.array([-F, F])
+
+    deck, revised = record(tmp_path, law), str(tmp_path / "revised.yaml")
+    done = CliRunner().invoke(cli, ["diagnose", deck, "--json", "-q", "-o", revised])
+    assert json.loads(done.stdout)["verdict"]["physics"] == "gap"
+    assert answer(revised)["verdict"]["kind"] == "nothing-missing"

@@ -128,8 +128,13 @@ def _written(found, output: str, files: list[str]) -> str:
 
     if files and found.kind == ONE_OF:
         lead = f"The model with {found.best.title}, which leads and is not proved,"
-        return f"{lead} is in {files[-1]}; `mouse run` accepts it."
+        return f"{lead} is in {files[-1]}; `mouse {_next(found)}` accepts it."
     if files:
-        return f"The extended model is in {files[-1]}; `mouse run` accepts it."
+        return f"The extended model is in {files[-1]}; `mouse {_next(found)}` accepts it."
     why = "its cause cannot be put into a deck" if found.kind in (NAMED, ONE_OF) else "no cause is named"
     return f"Nothing was written to {output}: {why}."
+
+
+def _next(found) -> str:
+    """The command for the extended deck: recordings by themselves are diagnosed, not run."""
+    return "run" if found.problem.test or found.problem.frf else "diagnose"

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 
+from mouse_cli.diagnosis.time.deck_laws import extended
 from mouse_cli.diagnosis.time.prove import ratio, scores, surface, trace
 from mouse_cli.diagnosis.time.records import records
 from mouse_cli.diagnosis.time.signs import linearity
@@ -53,4 +54,5 @@ def diagnose_records(problem: Problem, notice: Notice, choices: Choices) -> Diag
         scores=proof,
         trace=trace(own, baseline, best if kind != NOTHING else None),
         surface=None if told is None else surface(own, told),
+        extended=None if told is None else extended(problem, told, told.hypothesis.place.motion),
     )

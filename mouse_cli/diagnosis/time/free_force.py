@@ -91,12 +91,13 @@ class Spectrum:
         return found
 
     def motions(self, B: np.ndarray) -> np.ndarray:
-        """Lines (l, n) of the most probable motion when an unknown force acts through B (n,), and small ones everywhere.
+        """Lines (l, n) of the most probable motion when unknown forces act through B (n, r), and small ones everywhere.
 
-        A force of circular normal distribution with covariance Q: u = H f + H Q (SH)' (SH Q SH' + R)^-1 (y - S H f).
+        Forces of circular normal distribution with covariance Q: u = H f + H Q (SH)' (SH Q SH' + R)^-1 (y - S H f).
         """
-        n, size = len(B), np.sqrt((self.series.force**2).mean(axis=0).sum())
-        Q = size**2 * (_EVERYWHERE**2 * np.eye(n) + _HERE**2 * np.outer(B, B) / (B @ B))
+        size = np.sqrt((self.series.force**2).mean(axis=0).sum())
+        unit = B / np.linalg.norm(B, axis=0)
+        Q = size**2 * (_EVERYWHERE**2 * np.eye(len(B)) + _HERE**2 * unit @ unit.T)
         R = np.diag(self.series.sd**2)
         G = self.SH @ Q
         total = G @ self.SH.conj().transpose(0, 2, 1) + R

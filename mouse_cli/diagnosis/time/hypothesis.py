@@ -13,23 +13,38 @@ from mouse_cli.terms.laws import Law, Scale
 
 @dataclass(frozen=True)
 class Place:
-    """Where a law may act: B (n,), the motion in the coordinates of the model; ground: whether its other end is the ground."""
+    """Where a law may act. B (m,): the motion in the coordinates of the simulation; motion (n,): by the degrees of freedom of the
+    deck; ground: whether its other end is the ground.
+    """
 
     site: Site
     B: np.ndarray
     ground: bool
     scale: Scale
+    motion: np.ndarray
+
+
+@dataclass(frozen=True)
+class Acting:
+    """A nonlinear law that the deck has already: its motion B (n,), its parameters p (q,)."""
+
+    B: np.ndarray
+    law: Law
+    words: dict[str, float]
+    p: np.ndarray
 
 
 @dataclass(frozen=True)
 class Hypothesis:
     """x (k,): nuisances in prior sd, offsets of the measured forces among them, then ln parameters of the law.
 
-    offset (i,): prior sd of a constant that a force channel reads wrongly. fixed: x that no fit moves.
+    offset (i,): prior sd of a constant that a force channel reads wrongly; known: laws that the deck has already. fixed: x that
+    no fit moves.
     """
 
     linear: Linear
     offset: np.ndarray
+    known: tuple[Acting, ...] = ()
     place: Place | None = None
     law: Law | None = None
     variant: int = 0
@@ -83,11 +98,6 @@ class Hypothesis:
         return np.zeros(0) if self.fixed is not None else np.concatenate([nuisances, own])
 
     @property
-    def internal(self) -> int:
-        """Internal states of the law."""
-        return self.law.states if self.law else 0
-
-    @property
     def extra(self) -> int:
         """Degrees of freedom of the law's own."""
         return len(self._matrices(self.mean_law)[0]) - 1 if self.law and self.law.linear else 0
@@ -108,13 +118,32 @@ class Hypothesis:
         """Of the law (q, P)."""
         return np.exp(self.whole(many)[:, self._nuisances :]).T
 
+    def acting(self, x: np.ndarray) -> list[Acting]:
+        """The laws that are not linear at x (k,): those of the deck, then that of the hypothesis."""
+        return [*self.known, *([self._own(self.parameters(x[None])[:, 0])] if self._nonlinear else [])]
+
+    @property
+    def _nonlinear(self) -> bool:
+        return self.law is not None and not self.law.linear
+
+    def _own(self, p: np.ndarray) -> Acting:
+        return Acting(self.place.B, self.law, self.law.variants[self.variant], p)
+
     def local(self, many: np.ndarray) -> LocalForce | None:
-        """The force of the law at x (P, k); None for linear laws."""
-        if self.law is None or self.law.linear:
+        """The forces of all laws at x (P, k), internal states as a list; None where all is linear."""
+        every = [*self.known, *([self._own(self.parameters(many)[:, :, None, None])] if self._nonlinear else [])]
+        if not every:
             return None
-        p = self.parameters(many)[:, :, None, None]
-        variant, law = self.law.variants[self.variant], self.law.force
-        return lambda x, v, z: law(x, v, z, p, **variant)
+        shaped = [one.p if one.p.ndim > 1 else one.p[:, None, None, None] for one in every]
+
+        def forces(x: np.ndarray, v: np.ndarray, z: list):
+            found = [
+                one.law.force(x[:, [i]], v[:, [i]], z[i], p, **one.words)
+                for i, (one, p) in enumerate(zip(every, shaped, strict=True))
+            ]
+            return np.concatenate([F for F, _ in found], axis=1), [after for _, after in found]
+
+        return forces
 
     def plant(self, many: np.ndarray, series: Series) -> Plant:
         """The linear part at x (P, k), with the matrices of a linear law in it."""
@@ -124,7 +153,9 @@ class Hypothesis:
         inputs = np.repeat(series.inputs[None], len(many), 0)
         inputs = np.concatenate([inputs, constant[:, :, None]], axis=2)
         sensing, a = series.sensing, self.extra
-        local = np.zeros((M.shape[1] + a, 1)) if self.place is None else np.append(self.place.B, np.zeros(a))[:, None]
+        motions = [one.B for one in self.known] + ([self.place.B] if self._nonlinear else [])
+        local = np.zeros((M.shape[1] + a, len(motions)))
+        local[: M.shape[1]] = np.array(motions).reshape(-1, M.shape[1]).T
         if self.law and self.law.linear:
             M, C, K = (np.pad(m, ((0, 0), (0, a), (0, a))) for m in (M, C, K))
             B = np.zeros((M.shape[1], 1 + a))
@@ -148,6 +179,10 @@ class Hypothesis:
             own = [self.place.scale.x, self.place.scale.v]
         pad = [np.repeat(np.atleast_1d(one)[None], a, 0).reshape(a, *states.shape[1:]) for one in own]
         return np.concatenate([states[:n], pad[0], states[n:], pad[1]])
+
+    def placed(self, place: Place) -> "Hypothesis":
+        """The same with a place and no law there."""
+        return replace(self, place=place, law=None)
 
     def held(self, x: np.ndarray) -> "Hypothesis":
         """The same with x (k,) fixed: only initial states are free."""

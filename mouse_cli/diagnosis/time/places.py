@@ -61,5 +61,5 @@ def places(problem: Problem, spectrum: Spectrum, basis: np.ndarray, band: tuple[
         if size < 1e-24 or x == 0:
             continue
         scale = Scale(float(B @ model.K @ B) / size**2, float(B @ model.M @ B) / size**2, x, v, band)
-        found.append(Place(site, B, ground, scale))
+        found.append(Place(site, B, ground, scale, b))
     return found

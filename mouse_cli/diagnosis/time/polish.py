@@ -143,7 +143,7 @@ class Polish:
         """Filtered sensors over their sd (P, s, t, G)."""
         series, z = self.series, None
         if self.internal is not None:
-            z = np.repeat(self.internal[:, None], len(many), 1)
+            z = [None if one is None else np.repeat(one[:, None], len(many), 1) for one in self.internal]
         plant, local = self.h.plant(many, series), self.h.local(many)
         with np.errstate(all="ignore"):
             out, _ = simulate(plant, series.dt / series.factor, self.force, begin, local, z)
@@ -154,9 +154,12 @@ class Polish:
         return float((at.residual**2).sum() + prior)
 
     def _normal(self, at: _Point, x: np.ndarray, states: np.ndarray, damping: float):
-        """Normal equations with the initial states eliminated: matrix, right side, and what gives the states back."""
+        """Normal equations with the initial states eliminated: matrix, right side, and what gives the states back.
+
+        A parameter that the data do not feel is held by the width of its range.
+        """
         P0 = 1 / self.h.sd**2
-        H, g = np.diag(P0), -P0 * (x - self.h.mean)
+        H, g = np.diag(P0 + 2 * np.pi / self.h.width**2), -P0 * (x - self.h.mean)
         backs, logs = [], 0.0
         for j in range(states.shape[1]):
             r, J, X = (
@@ -183,14 +186,13 @@ class Polish:
     def _fit(self, at: _Point, x: np.ndarray, states: np.ndarray, cost: float) -> Fit:
         H, _, _, logs = self._normal(at, x, states, 0.0)
         width = self.h.width
-        whole = H + np.diag(np.where(np.isfinite(width), 2 * np.pi / width**2, 0.0))
         own = np.isfinite(width)
-        shape = np.linalg.slogdet(whole * np.outer(self.h.scale, self.h.scale))[1]
+        shape = np.linalg.slogdet(H * np.outer(self.h.scale, self.h.scale))[1]
         evidence = -cost / 2 - np.log(width[own] / np.sqrt(2 * np.pi)).sum() - shape / 2 - logs / 2
         evidence += np.log(self.h.scale[own]).sum()
         misfit = float((at.residual**2).sum())
         dof = passed() * at.residual.size - len(x) - states.size
-        covariance = np.linalg.inv(whole)
+        covariance = np.linalg.inv(H)
         return Fit(self.h, x, states, covariance, misfit, dof, cost, float(evidence), at.residual)
 
 

@@ -8,15 +8,19 @@ from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.time.free_force import Spectrum
-from mouse_cli.diagnosis.time.hypothesis import Hypothesis
 from mouse_cli.diagnosis.time.polish import Fit, followed, segments
 from mouse_cli.diagnosis.time.records import reduced
 from mouse_cli.diagnosis.time.regression import Regression, stepped
 from mouse_cli.diagnosis.time.series import REACH, Series
 from mouse_cli.diagnosis.time.study import Study, begin
 from mouse_cli.dynamics.response import simulate
-from mouse_cli.model.record_diagnosis import AS_IT_IS, WITH_CAUSE, RecordScore, Surface, Trace
+from mouse_cli.model.record_diagnosis import (
+    AS_IT_IS,
+    WITH_CAUSE,
+    RecordScore,
+    Surface,
+    Trace,
+)
 
 _SEGMENTS = 12
 _LONG = 45_000  # samples of a record that is simulated as a whole, at most
@@ -54,7 +58,7 @@ def _rms(x: np.ndarray) -> np.ndarray:
 
 def _look(study: Study, held: Series, one: Fit) -> Regression:
     place = one.hypothesis.place or study.places[0]
-    return Regression(Spectrum(held, study.model.linear), Hypothesis(study.base.linear, study.base.offset, place))
+    return study.at(place, held)
 
 
 def _short(study: Study, held: Series, one: Fit) -> Fit | None:
@@ -71,7 +75,7 @@ def free_run(study: Study, held: Series, one: Fit, found: Fit | None) -> np.ndar
     n2 = 2 * (len(one.hypothesis.linear.M) + h.extra)
     start = np.zeros((n2, 1)) if found is None or held.at_rest else found.states[:, :1]
     force = np.concatenate([part.fine[:, :, None], np.ones((len(part.fine), 1, 1))], axis=1)
-    z = np.zeros((h.internal, 1, 1, 1)) if h.internal else None
+    z = [np.zeros((one.law.states, 1, 1, 1)) for one in h.acting(one.x)]
     with np.errstate(all="ignore"):
         out, _ = simulate(h.plant(x, held), held.dt / held.factor, force, start[None], h.local(x), z)
     answer = np.full(held.measured.shape, np.nan)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli.diagnosis.time.free_force import Spectrum
-from mouse_cli.diagnosis.time.hypothesis import Hypothesis, Place
+from mouse_cli.diagnosis.time.hypothesis import Acting, Hypothesis, Place
 from mouse_cli.terms.laws import Law, registry
 
 _BEGIN = 0.02  # share of the record whose states are not known well, left out
@@ -42,7 +42,8 @@ class Regression:
 
     def __init__(self, spectrum: Spectrum, hypothesis: Hypothesis):
         self.spectrum, self.base = spectrum, hypothesis
-        place, U = hypothesis.place, spectrum.motions(hypothesis.place.B)
+        place = hypothesis.place
+        U = spectrum.motions(np.stack([place.B, *(one.B for one in hypothesis.known)], axis=1))
         self._U = U
         X = U @ place.B
         both = np.concatenate([U, 1j * spectrum.w[:, None] * U], axis=1)
@@ -52,25 +53,41 @@ class Regression:
         self.local = Local(place, *histories, X, spectrum.SH @ place.B)
         t = len(spectrum.series)
         self.kept = slice(int(_BEGIN * t), t - 2 * int(_BEGIN * t))
-        self.y = self._stacked(spectrum.missing)
+        self.missing = spectrum.missing + self._known()
+        self.y = self._stacked(self.missing)
         self.J = np.stack([self._stacked(column) for column in self._nuisances(U)], axis=1)
         k = self.J.shape[1]
         self.Q, self.R = np.linalg.qr(np.vstack([self.J, np.eye(k)]))
         self.target = np.concatenate([self.y, np.zeros(k)])
         self.target -= self.Q @ (self.Q.T @ self.target)
 
+    def _known(self) -> np.ndarray:
+        """What the laws that the deck has already take off the outputs (t, s), at the motion of the record."""
+        s, n, found = self.spectrum, len(self._states) // 2, np.zeros_like(self.spectrum.missing)
+        for one in self.base.known:
+            x, v = one.B @ self._states[:n], one.B @ self._states[n:]
+            if one.law.states:
+                F = stepped(one.law, x, v, one.p[:, None], one.words)[:, 0]
+            else:
+                F = one.law.force(x, v, None, one.p, **one.words)[0]
+            found += s.history(s.line(F * s.window)[:, None] * (s.SH @ one.B)) * s.window[:, None]
+        return found
+
     def states(self, at: np.ndarray) -> np.ndarray:
         """Displacements and velocities (2n, G) at samples (G,)."""
         return self._states[:, at]
 
-    def internal(self, law: Law, p: np.ndarray, words: dict[str, float], at: np.ndarray) -> np.ndarray | None:
+    def internal(self, one: Acting, at: np.ndarray) -> np.ndarray | None:
         """Internal states (states, 1, G) of a law at samples (G,)."""
+        law, p, words = one.law, one.p, one.words
         if not law.states:
             return None
+        n = len(one.B)
+        x, v = one.B @ self._states[:n], one.B @ self._states[n:]
         z, found = np.zeros((law.states, 1)), np.zeros((law.states, 1, len(at)))
         wanted = {int(sample): g for g, sample in enumerate(at)}
         for i in range(int(max(at)) + 1):
-            _, z = law.force(self.local.x[i], self.local.v[i], z, p[:, None], **words)
+            _, z = law.force(x[i], v[i], z, p[:, None], **words)
             if i in wanted:
                 found[:, :, wanted[i]] = z
         return found
@@ -91,10 +108,10 @@ class Regression:
         Lines in which no sensor feels a force there are left out.
         """
         s, k = self.spectrum, self.base.linear.k
-        answer = np.zeros_like(s.missing)
+        answer = np.zeros_like(self.missing)
         for z, column in zip(x[:k], self._nuisances(self._U), strict=True):
             answer += z * column
-        E = s.line(s.missing - answer) / s.series.sd
+        E = s.line(self.missing - answer) / s.series.sd
         A = self.local.answer / s.series.sd
         size = (np.abs(A) ** 2).sum(axis=1)
         G = -(A.conj() * E).sum(axis=1) / np.where(size > 1e-6 * size.max(), size, np.inf)
@@ -164,7 +181,7 @@ def starts(spectrum: Spectrum, base: Hypothesis, places: list[Place], laws: list
     """Every law at every place, that which leaves least first."""
     found = []
     for place in places:
-        at = Regression(spectrum, Hypothesis(base.linear, base.offset, place))
+        at = Regression(spectrum, base.placed(place))
         for law in laws or list(registry().values()):
             if (law.at == "ground" and not place.ground) or law.key == "iwan":
                 continue

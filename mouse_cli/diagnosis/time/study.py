@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mouse_cli.diagnosis.time.deck_laws import acting
 from mouse_cli.diagnosis.time.free_force import Spectrum
 from mouse_cli.diagnosis.time.hypothesis import Hypothesis, Place
 from mouse_cli.diagnosis.time.places import places
@@ -49,11 +50,9 @@ class Study:
     def at(self, place: Place, series: Series | None = None) -> Regression:
         """The regression at a place of the record that is looked at, or of another."""
         if series is not None:
-            return Regression(
-                Spectrum(series, self.model.linear), Hypothesis(self.base.linear, self.base.offset, place)
-            )
+            return Regression(Spectrum(series, self.model.linear), self.base.placed(place))
         if id(place) not in self._at:
-            self._at[id(place)] = Regression(self.spectrum, Hypothesis(self.base.linear, self.base.offset, place))
+            self._at[id(place)] = Regression(self.spectrum, self.base.placed(place))
         return self._at[id(place)]
 
 
@@ -71,7 +70,7 @@ def study(problem: Problem, found: Records) -> Study:
     share = max(2, _SEGMENTS // len(fitted))
     data = [segments(one, length, share) for one in fitted]
     rms = np.sqrt(np.mean([(one.force**2).mean(axis=0) for one in fitted], axis=0))
-    base = Hypothesis(model.linear, OFFSET * rms)
+    base = Hypothesis(model.linear, OFFSET * rms, acting(problem, model.basis))
     loudest = max(fitted, key=lambda one: float((one.measured / one.sd).std()))
     look = loudest.part(0, min(len(loudest), _SAMPLES))
     return Study(problem, found, model, base, look, data, (low, high), length)
@@ -105,17 +104,15 @@ def fitted(study: Study, start: Start | None, beat: float = np.inf) -> Fit | Non
 
 
 def begin(hypothesis: Hypothesis, x: np.ndarray, data: list[Segments], looks: list[Regression]):
-    """States (2n, G) and internal states (states, 1, G) in which the segments begin, by the motion that records show."""
+    """States (2n, G), and internal states of each law, in which the segments begin, by the motion that records show."""
     at = [part.starts - REACH for part in data]
-    states = np.concatenate([look.states(own) for look, own in zip(looks, at, strict=True)], axis=1)
-    law = hypothesis.law
-    if law is None or not law.states:
-        return states, None
-    p = hypothesis.parameters(x[None])[:, 0]
-    words = law.variants[hypothesis.variant]
-    return states, np.concatenate(
-        [look.internal(law, p, words, own) for look, own in zip(looks, at, strict=True)], axis=2
-    )
+    pairs = list(zip(looks, at, strict=True))
+    states = np.concatenate([look.states(own) for look, own in pairs], axis=1)
+    internal = []
+    for one in hypothesis.acting(x):
+        parts = [look.internal(one, own) for look, own in pairs]
+        internal.append(None if parts[0] is None else np.concatenate(parts, axis=2))
+    return states, internal or None
 
 
 def _own(study: Study, data: Segments) -> Series | None:

@@ -6,7 +6,15 @@ import numpy as np
 
 from mouse_cli.diagnosis.time.polish import Fit
 from mouse_cli.diagnosis.time.study import adequate, missing
-from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, UNKNOWN, Cause, Explanation, Size
+from mouse_cli.model.diagnosis import (
+    NAMED,
+    NOTHING,
+    ONE_OF,
+    UNKNOWN,
+    Cause,
+    Explanation,
+    Size,
+)
 from mouse_cli.updating.chi_square import upper_tail
 
 _PRIOR = 0.3, 0.7  # that nothing is missing, that one law is

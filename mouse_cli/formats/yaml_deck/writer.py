@@ -6,6 +6,7 @@ from dataclasses import fields
 from mouse_cli.formats.yaml_deck.kinds import MAX_WHOLE, VERSION
 from mouse_cli.formats.yaml_deck.nodes import compose
 from mouse_cli.formats.yaml_deck.text import flow, real, word, wrapped
+from mouse_cli.formats.yaml_deck.writer_laws import laws
 from mouse_cli.formats.yaml_deck.writer_modes import test_lines
 from mouse_cli.formats.yaml_deck.writer_parameters import parameters, prior
 from mouse_cli.formats.yaml_deck.writer_rows import rows
@@ -24,7 +25,12 @@ def write(problem: Problem, stem: str = "deck", folder: str | None = None) -> tu
     below. Whatever a reader could take otherwise is written out, so the result stays the same when defaults change.
     """
     attachments: dict[str, Matrix | str] = {}
-    lines = [*_heading(problem), *_model(problem, stem, attachments), *parameters(problem, stem, attachments)]
+    lines = [
+        *_heading(problem),
+        *_model(problem, stem, attachments),
+        *laws(problem),
+        *parameters(problem, stem, attachments),
+    ]
     lines += [*prior(problem), *test_lines(problem, folder), *_run(problem.run)]
     return "\n".join(lines) + "\n", attachments
 

@@ -25,6 +25,9 @@ class Scale:
     band: tuple[float, float]
 
 
+_ANY = Scale(1.0, 1.0, 1.0, 1.0, (1.0, 1.0))  # where ranges do not matter
+
+
 @dataclass(frozen=True)
 class Unknown:
     """A parameter of a law: its logarithm is uniform over (lower, upper) before the test."""
@@ -33,6 +36,15 @@ class Unknown:
     unit: str
     lower: float
     upper: float
+
+    @property
+    def key(self) -> str:
+        """How a deck calls it.
+
+        >>> Unknown("1 + chi", "1", 0.1, 1).key, Unknown("slip force", "N", 1, 2).key
+        ('one_plus_chi', 'slip_force')
+        """
+        return self.name.replace("1 + ", "one plus ").replace("'", "").replace(" ", "_")
 
 
 @dataclass(frozen=True)
@@ -65,6 +77,16 @@ class Law:
     def linear(self) -> bool:
         """Whether superposition holds."""
         return self.force is None
+
+    @property
+    def parameters(self) -> tuple[Unknown, ...]:
+        """Its parameters, where their ranges do not matter."""
+        return self.unknowns(_ANY)
+
+    @property
+    def sizes(self) -> dict[str, str]:
+        """Their names by how a deck calls them."""
+        return {size.key: size.name for size in self.parameters}
 
     def inner(self, scale: Scale) -> Iterator[np.ndarray]:
         """Parameters (q,) of a first search: the homogeneous ones such that the first of them is 1."""
