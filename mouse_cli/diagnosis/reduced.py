@@ -70,7 +70,7 @@ class Reduced:
         key = z.tobytes()
         if key not in self._at:
             step = self._along @ (self.parameters(z) - (self.theta if self.origin is None else self.origin))
-            K, M = (step @ d.reshape(len(step), -1) for d in (self.dK, self.dM))
+            K, M = (step @ d.reshape(len(step), self.r**2) for d in (self.dK, self.dM))
             K[:: self.r + 1] += self.eigenvalues
             M[:: self.r + 1] += 1.0
             self._at.clear()
@@ -87,7 +87,7 @@ class Reduced:
         by = self.coordinates.slope(self.coordinates.mean + self.L @ z)[:, None] * self.L
         by = (self._along @ by).T
         shape = len(by), self.r, self.r
-        return tuple((by @ d.reshape(len(d), -1)).reshape(shape) for d in (self.dK, self.dM))
+        return tuple((by @ d.reshape(len(d), self.r**2)).reshape(shape) for d in (self.dK, self.dM))
 
     @cached_property
     def _along(self) -> np.ndarray:
