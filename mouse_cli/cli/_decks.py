@@ -23,13 +23,27 @@ def shown(path: str) -> str:
     return "<stdin>" if path == "-" else path
 
 
-def read_problem(path: str, changes: dict[str, object] | None = None, **reading: object) -> Problem:
-    """The problem of one deck; `changes` are options of the command line that replace those of the deck."""
+def read_problem(
+    path: str,
+    changes: dict[str, object] | None = None,
+    prior: str | None = None,
+    loosened: dict[str, float] | None = None,
+    **reading: object,
+) -> Problem:
+    """The problem of one deck; `changes` are options of the command line that replace those of the deck.
+
+    prior: file with the result of an earlier run, which replaces its prior; loosened: sd by which properties may have changed.
+    """
     data = deck_bytes(path)
     if is_yaml(data, path) and (reading.get("overrides") or reading.get("strip_73_80")):
         raise click.UsageError("--set and --strip-73-80 are for card decks; a YAML deck has keys and options for that")
     draft = read_draft(data, shown(path), **reading)
-    return assemble(changed(draft, changes or {}))
+    problem = assemble(changed(draft, changes or {}))
+    if prior is None:
+        return problem
+    from mouse_cli.updating.earlier import after
+
+    return after(problem, prior, loosened or {})
 
 
 def read_cases(path: str, changes: dict[str, object], **reading: object) -> Iterator[Problem]:

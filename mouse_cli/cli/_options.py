@@ -76,6 +76,19 @@ READING = (
     ),
 )
 
+PRIOR = (
+    click.option(
+        "--prior",
+        metavar="RESULT",
+        help="Begin from what `mouse run --json` found by another test: values and covariance of equal names.",
+    ),
+    click.option(
+        "--loosen",
+        multiple=True,
+        metavar="NAME=SD",
+        help="With --prior: by how much a property may have changed since, added to its variance.",
+    ),
+)
 
 QUIET = (click.option("-q", "--quiet", is_flag=True, help="No warnings on standard error."),)
 
@@ -120,6 +133,22 @@ def reading(legacy: bool, strip_73_80: bool, overrides: tuple[str, ...]) -> dict
         except ValueError:
             raise click.BadParameter(f"'{item}' is not NAME=NUMBER", param_hint="--set") from None
     return {"legacy": legacy, "strip_73_80": strip_73_80, "overrides": values}
+
+
+def earlier(prior: str | None, loosen: tuple[str, ...]) -> dict[str, object]:
+    """Arguments of `read_problem` from the options PRIOR. Raises click.BadParameter."""
+    if loosen and not prior:
+        raise click.BadParameter("it says what may have changed since the result of --prior", param_hint="--loosen")
+    loosened: dict[str, float] = {}
+    for item in loosen:
+        name, _, value = item.rpartition("=")
+        try:
+            loosened[name.strip()] = sd = float(value)
+        except ValueError:
+            sd = -1.0
+        if not (name and isfinite(sd) and sd >= 0):
+            raise click.BadParameter(f"'{item}' is not NAME=SD", param_hint="--loosen")
+    return {"prior": prior, "loosened": loosened}
 
 
 def run_changes(given: dict[str, object]) -> dict[str, object]:

@@ -2,14 +2,14 @@
 
 import click
 
-from mouse_cli.cli._options import QUIET, READING, answer, options, reading
+from mouse_cli.cli._options import PRIOR, QUIET, READING, answer, earlier, options, reading
 
 
 @click.command()
 @click.argument("deck")
 @click.option("-n", "--count", type=click.IntRange(min=1), help="How many modes, from the lowest.")
 @options(answer("mouse.modes/1"))
-@options(QUIET)
+@options(PRIOR, QUIET)
 @options(READING)
 def command(
     deck: str,
@@ -17,6 +17,8 @@ def command(
     output: str | None,
     form: str | None,
     numbers: str | None,
+    prior: str | None,
+    loosen: tuple[str, ...],
     quiet: bool,
     legacy: bool,
     strip_73_80: bool,
@@ -31,7 +33,7 @@ def command(
     from mouse_cli.report import document, written
     from mouse_cli.updating import forecast
 
-    problem = read_problem(deck, **reading(legacy, strip_73_80, overrides))
+    problem = read_problem(deck, **earlier(prior, loosen), **reading(legacy, strip_73_80, overrides))
     if not quiet:
         show_diagnostics(problem.warnings)
     with progress() as (_, say):

@@ -1,8 +1,10 @@
 """mouse run: revise the model of a deck by its test."""
 
+from collections.abc import Iterable
+
 import click
 
-from mouse_cli.cli._options import QUIET, READING, RUN, answer, options, reading, run_changes
+from mouse_cli.cli._options import PRIOR, QUIET, READING, RUN, answer, earlier, options, reading, run_changes
 
 
 @click.command()
@@ -12,7 +14,7 @@ from mouse_cli.cli._options import QUIET, READING, RUN, answer, options, reading
 @click.option(
     "--plot", metavar="PATH", help="Write figures of fitted FRFs: to a folder, or to one file (.pdf, .png, .svg)."
 )
-@options(QUIET)
+@options(PRIOR, QUIET)
 @options(RUN, READING)
 def command(
     deck: str,
@@ -31,7 +33,6 @@ def command(
 
     Exit 0: converged, and the model explains the data. 1: do not trust the answer. 4: deck rejected. 5: no answer.
     """
-    from mouse_cli.cli._decks import read_cases, read_problem
     from mouse_cli.cli._terminal import deliver, progress, show_diagnostics
     from mouse_cli.updating import run
 
@@ -39,8 +40,8 @@ def command(
         from mouse_cli.plots import require
 
         require()
-    changes, how = run_changes(given), reading(legacy, strip_73_80, overrides)
-    problems = read_cases(deck, changes, **how) if stacked else [read_problem(deck, changes, **how)]
+    begun, how = earlier(given.pop("prior"), given.pop("loosen")), reading(legacy, strip_73_80, overrides)
+    problems = _problems(deck, stacked, run_changes(given), begun, how)
     results = []
     for problem in problems:
         if not quiet:
@@ -53,6 +54,17 @@ def command(
         draw(results[-1], plot)
     deliver(_text(results, form, numbers, stacked), output, deck)
     return max((result.exit_code for result in results), default=0)
+
+
+def _problems(deck: str, stacked: bool, changes: dict, begun: dict, how: dict) -> Iterable:
+    """The problem of the deck, or of all that are stacked in its file."""
+    from mouse_cli.cli._decks import read_cases, read_problem
+
+    if not stacked:
+        return [read_problem(deck, changes, **begun, **how)]
+    if begun["prior"]:
+        raise click.UsageError("--prior is for one deck, --stacked for several")
+    return read_cases(deck, changes, **how)
 
 
 def _text(results: list, form: str | None, numbers: str | None, stacked: bool) -> str:
