@@ -144,7 +144,7 @@ class Model:
         loads = (core * self._follow(bars, at.x[: self.k])) @ (rows @ at.X[: self.base.r, at.modes])
         b, follows = len(bars), self.base.stiffening[bars].T
         loads = follows[:, :, None, None] * loads  # (k, b, 3, m)
-        return rows.reshape(3 * b, -1).T @ loads.reshape(len(follows), 3 * b, -1)
+        return rows.reshape(3 * b, -1).T @ loads.reshape(len(follows), 3 * b, loads.shape[-1])
 
     def _derivatives(self, x: np.ndarray) -> Iterator[tuple[int, Change]]:
         """Recipe and d(change)/dc, by central differences of the matrices, for each coordinate of the causes."""

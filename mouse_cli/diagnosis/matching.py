@@ -23,6 +23,7 @@ from mouse_cli.dynamics.frequency import eigenvalue
 _POLE = 1e-7  # distance of lambda from an eigenvalue of the model, relative, below which R is taken beside it
 _STARTS = (-2.0, -1.0, 0.0, 1.0, 2.0)  # of t
 _WIDEST, _HALVINGS = 4.0, 22
+_VANISHED = 1e-9  # share of |u|^2 + |t v|^2 below which |u + t v|^2 is rounding
 _CHUNK = 20_000_000  # numbers of derivatives held at once
 
 
@@ -142,7 +143,8 @@ class Matcher:
         uy, vy = u @ y, v @ y
 
         def misfit(t: np.ndarray) -> np.ndarray:
-            return t**2 - (uy + t * vy) ** 2 / np.maximum(uu + t * (2 * uv + t * vv), 1e-300)
+            size = np.maximum(uu + t * (2 * uv + t * vv), _VANISHED * (uu + t**2 * vv))  # u + t v may vanish but for rounding
+            return t**2 - (uy + t * vy) ** 2 / np.maximum(size, 1e-300)
 
         with np.errstate(divide="ignore", invalid="ignore"):
             alike = np.nan_to_num((vy * uu - uy * uv) / (uy * vv - vy * uv), posinf=0.0, neginf=0.0)

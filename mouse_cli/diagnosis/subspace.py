@@ -12,6 +12,8 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli.diagnosis.directions import directions
+from mouse_cli.diagnosis.locate import matched
+from mouse_cli.diagnosis.matching import Matcher, shapes
 from mouse_cli.diagnosis.reduced import Reduced, built
 from mouse_cli.diagnosis.survey import survey
 from mouse_cli.dynamics.contraction import Stack
@@ -28,6 +30,8 @@ _MOST = 150  # coordinates
 _MODES = 70  # of them at most from the eigensolver
 _MOVED = 30  # responses to what the parameters do
 _PLACES = 40  # degrees of freedom where a force may act
+_CLOSER = 4  # one in so many of them about the best of the others
+_EACH = 20_000  # degrees of freedom worked on at once
 
 
 class Basis:
@@ -100,9 +104,29 @@ def large(
     if problem.test.s and basis.room >= _PLACES + problem.test.s:
         basis.responses(basis.inertia(_placed(total.n, at, values)))
     model = built(problem, total, theta, *basis.ritz(), by, stack)
-    places = survey(model, K, min(_PLACES, basis.room))
+    room = min(_PLACES, basis.room)
+    places = survey(model, K, room - room // _CLOSER)
     basis.responses(_placed(total.n, places, np.eye(len(places))))
+    if len(places):
+        model = built(problem, total, theta, *basis.ritz(), by, stack)
+        more = _closer(model, places, room // _CLOSER)
+        basis.responses(_placed(total.n, more, np.eye(len(more))))
+        places = np.concatenate([places, more])
     return replace(built(problem, total, theta, *basis.ritz(), by, stack), places=np.sort(places))
+
+
+def _closer(model: Reduced, places: np.ndarray, count: int) -> np.ndarray:
+    """`count` more degrees of freedom that match as well as the best of `places`, at the parameters that this one wants.
+
+    A survey leaves out what its looks could not tell from a place that it took.
+    """
+    measured = shapes(model)
+    tried = matched(model, measured, model.V[places])
+    matcher = Matcher(model, measured, tried.z[np.argmin(tried.cost)])
+    parts = [model.V[i : i + _EACH] @ matcher.X for i in range(0, len(model.V), _EACH)]
+    misfit = np.concatenate([sum(matcher.nearest(i, B)[1] for i in range(len(measured.modes))) for B in parts])
+    misfit[places] = np.inf
+    return np.argsort(misfit, kind="stable")[:count]
 
 
 def _placed(n: int, at: np.ndarray, values: np.ndarray) -> np.ndarray:

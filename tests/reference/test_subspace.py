@@ -1,11 +1,14 @@
 """The reduced model of a large one beside the whole: eigenvalues, receptances at sensors, parameters, with its error bounded."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.linalg import eigh
 from scipy.sparse import csr_array, diags_array
 from scipy.sparse.linalg import splu
 
+from mouse_cli.diagnosis.matching import Matcher, shapes
 from mouse_cli.diagnosis.reduced import WHOLE, reduced
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
@@ -134,3 +137,23 @@ def test_at_other_parameters_it_keeps_its_places_and_follows_the_whole_model(bot
     np.testing.assert_allclose(found[:MODES], eigh(K, M, eigvals_only=True)[:MODES], rtol=1e-5)
     np.testing.assert_allclose(there.V[problem.test.dofs], there.sensing, atol=1e-12)
     assert there.places is model.places
+
+
+def test_a_place_that_moves_in_one_mode_alone_is_matched_by_the_shape_of_that_mode(both):
+    """|y|^2 sin^2 of the angle to that shape, wherever lambda is: one sd away, at another pole, all of u + t v vanishes."""
+    _, model = both
+    measured, z = shapes(model), np.zeros(model.L.shape[1])
+    pole = Matcher(model, measured, z).eigenvalues[0]
+    sd = np.full(MODES, 1e-4 * pole)
+    near = replace(measured, eigenvalue=pole - sd, sd=sd)
+    matcher = Matcher(model, near, z)
+    y, seen = matcher.y(0), matcher.seen[:, 1:6] * near.weight[:, 0, None]
+    along = (seen.T @ y) ** 2 / np.sum(seen**2, axis=0)
+    cost = matcher.nearest(0, np.eye(model.r)[1:6])[1]
+    np.testing.assert_allclose(cost, y @ y - along, rtol=1e-6)
+
+
+def test_places_about_the_best_one_are_kept_apart(both):
+    """The degree of freedom that has the mass is among the places, and what the sensors hardly tell from it."""
+    problem, model = both
+    assert hidden(problem.structure.n) in model.places
