@@ -13,6 +13,7 @@ from mouse_cli.diagnosis.time.free_force import Spectrum
 from mouse_cli.diagnosis.time.hypothesis import Acting, Hypothesis, Place
 from mouse_cli.terms.laws import Law, registry
 
+_APART = 0.15  # of the logarithm of a size, from which on two starts are two
 _BEGIN = 0.02  # share of the record whose states are not known well, left out
 
 
@@ -23,7 +24,6 @@ class Start:
     hypothesis: Hypothesis
     x: np.ndarray
     left: float
-    free: float
 
 
 @dataclass(frozen=True)
@@ -136,28 +136,36 @@ class Regression:
                 yield s.line(law.force(local.x, local.v, None, p, **words)[0] * s.window)
 
     def best(self, law: Law, variant: int) -> Start | None:
-        """The sizes of the law that leave least."""
-        found, hypothesis = None, self.base.at(law, variant)
-        unknowns = law.unknowns(self.local.place.scale)
-        many, s = np.array(list(law.inner(self.local.place.scale))), self.spectrum
+        """The sizes of the law that leave least; None where no force of its sign leaves less than none."""
+        return next(iter(self.apart(law, variant, 1)), None)
+
+    def apart(self, law: Law, variant: int, most: int) -> list[Start]:
+        """Up to `most` sizes of the law, that which leaves least first, each far from those before it in what is not linear."""
+        many, s, tried = np.array(list(law.inner(self.local.place.scale))), self.spectrum, []
         for p, force in zip(many, self.forces(law, variant, many), strict=True):
             column = self._stacked(s.history(-force[:, None] * self.local.answer) * s.window[:, None])
             own = np.concatenate([column, np.zeros(self.J.shape[1])])
             own -= self.Q @ (self.Q.T @ own)
             size = float(own @ own)
-            if not size > 0:
-                continue
-            factor = float(own @ self.target) / size
-            left = self.nothing - factor**2 * size if factor > 0 else self.nothing
-            if factor > 0 and (found is None or left < found[0]):
-                found = left, law.scaled(p, factor), column * factor
-        if found is None:
-            return None
-        left, p, column = found
+            factor = float(own @ self.target) / size if size > 0 else 0.0
+            if factor > 0:
+                tried.append((self.nothing - factor**2 * size, p, factor))
+        found, near = [], []
+        for left, p, factor in sorted(tried, key=lambda one: one[0]):
+            if len(found) < most and all(np.abs(np.log(p / other)).max() > _APART for other in near):
+                near.append(p)
+                found.append(self._start(law, variant, law.scaled(p, factor), left))
+        return found
+
+    def _start(self, law: Law, variant: int, p: np.ndarray, left: float) -> Start:
+        """The nuisances that go with sizes p (q,) of a law."""
+        hypothesis, s = self.base.at(law, variant), self.spectrum
+        (force,) = self.forces(law, variant, p[None])
+        column = self._stacked(s.history(-force[:, None] * self.local.answer) * s.window[:, None])
         z = np.linalg.solve(self.R, self.Q.T @ np.concatenate([self.y - column, np.zeros(self.J.shape[1])]))
+        unknowns = hypothesis.unknowns
         p = np.clip(p, [u.lower for u in unknowns], [u.upper for u in unknowns])
-        x = np.concatenate([z, np.zeros(len(self.base.offset)), np.log(p)])
-        return Start(hypothesis, x, left, self.nothing)
+        return Start(hypothesis, np.concatenate([z, np.zeros(len(self.base.offset)), np.log(p)]), left)
 
 
 def _stiffness(matrices: tuple[np.ndarray, np.ndarray, np.ndarray], w: np.ndarray) -> np.ndarray:

@@ -24,7 +24,7 @@ OFFSET = 0.3  # sd of the offset of a force channel, by its rms
 _SAMPLES = 8192  # of a record that the closed form looks at
 _PERIODS, _SHORTEST, _LONGEST = 10, 256, 1024  # of the first mode in a horizon; its samples
 _SEGMENTS = 10
-_POLISHED, _MORE = 4, 8  # starts that are fitted; where none of them is adequate
+_POLISHED, _MORE, _AGAIN = 4, 12, 8  # starts that are fitted; where none of them is adequate; of the nearest law again
 
 Notice = Callable[[str], None]
 
@@ -84,12 +84,12 @@ def _resonances(model: Uncertain) -> np.ndarray:
 
 
 def _band(series: Series, hz: np.ndarray) -> tuple[float, float]:
-    """Where the response is: lowest and highest frequency that hold all but a thousandth of it, in Hz."""
+    """Where the response is, in Hz: all but a thousandth of its power, and the first mode."""
     power = (np.abs(np.fft.rfft((series.measured - series.measured.mean(axis=0)) / series.sd, axis=0)) ** 2).sum(axis=1)
     share = np.cumsum(power) / power.sum()
     lines = np.fft.rfftfreq(len(series), series.dt)
     low, high = lines[np.searchsorted(share, 0.001)], lines[np.searchsorted(share, 0.999)]
-    return max(float(low), 0.2 * float(hz[hz > 1e-3 * hz.max()].min())), float(high)
+    return min(float(low), 0.5 * float(hz[hz > 1e-3 * hz.max()].min())), float(high)
 
 
 def fitted(study: Study, start: Start | None, beat: float = np.inf) -> Fit | None:
@@ -144,19 +144,38 @@ def weighed(study: Study, notice: Notice, known: list[Law] | None = None) -> tup
         if one is not None:
             found.append(one)
             best = min(best, one, key=lambda each: each.misfit)
-    found += _relatives(study, best, known)
-    return baseline, found
+    if not adequate(best):
+        found += _again(study, best)
+    return baseline, found + _relatives(study, best, known)
+
+
+def _again(study: Study, best: Fit) -> list[Fit]:
+    """The law that comes nearest, begun from other sizes until one is adequate."""
+    if best.hypothesis.law is None:
+        return []
+    found = []
+    for start in study.at(best.hypothesis.place).apart(best.hypothesis.law, best.hypothesis.variant, _AGAIN)[1:]:
+        one = fitted(study, start)
+        found += [] if one is None else [one]
+        if one is not None and adequate(one):
+            break
+    return found
 
 
 def _varied(order: list[Start]) -> list[Start]:
-    """The first of each law at each place; laws of the same place and linear rivals after the leaders of other groups."""
+    """The first of each law at each place; after the leaders the first of each group that is not among them."""
     seen, found = set(), []
     for one in order:
         key = one.hypothesis.law.key, id(one.hypothesis.place)
         if key not in seen:
             seen.add(key)
             found.append(one)
-    return found
+    known = {one.hypothesis.law.group for one in found[:_POLISHED]}
+    groups, others = [], []
+    for one in found[_POLISHED:]:
+        (others if one.hypothesis.law.group in known else groups).append(one)
+        known.add(one.hypothesis.law.group)
+    return found[:_POLISHED] + groups + others
 
 
 def _relatives(study: Study, best: Fit, known: list[Law] | None) -> list[Fit]:
@@ -168,7 +187,7 @@ def _relatives(study: Study, best: Fit, known: list[Law] | None) -> list[Fit]:
     kt, slip = best.hypothesis.parameters(best.x[None])[:, 0]
     hypothesis = best.hypothesis.at(relative, 0)
     x = np.concatenate([best.x[: -len(best.hypothesis.unknowns)], np.log([1.3 * slip, 1.3 * kt, 0.6, 1.0])])
-    one = fitted(study, Start(hypothesis, x, 0.0, 0.0))
+    one = fitted(study, Start(hypothesis, x, 0.0))
     return [] if one is None else [one]
 
 

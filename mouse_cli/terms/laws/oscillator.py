@@ -28,6 +28,6 @@ LAW = Law(
     "a mass on a spring and a dashpot that the model does not have: one more resonance",
     unknowns,
     matrices=matrices,
-    grid=(48, 3),
+    grid=(80, 3),
     at="ground",
 )
