@@ -19,6 +19,7 @@ _SETTLE, _MOVED = 3, 5e-3  # times that causes are weighed anew, as long as para
 _THEORY = 0.01  # of what a cause does to frequencies and shapes, by which its theory may be wrong
 _SHIFTS = np.array([-5, -3, -2, -1, 1, 2, 3, 5]) / 50  # of the range of a place
 _RIGID, _VISIBLE = 1e-3, 0.03  # eigenvalue and motion, of measured modes, below which a mode is rigid, or easily missed
+_FEW = 16  # places and sizes that are looked at in all coordinates
 _COARSE = 24  # coordinates at least for a first look
 
 
@@ -221,15 +222,17 @@ def tried(
 ) -> list[Fit]:
     """Fits of candidate `name` from its `count` most promising places, in at most so many steps; beside: causes there already.
 
-    Each first in the lowest coordinates, then in all. reach: misfit above which none matters.
+    Each first in the lowest coordinates, then in all; in all at once where there is little to look at, for what is spread over
+    the structure, such as shear, is not to be had in few. reach: misfit above which none matters.
     """
     others = () if beside is None else beside.recipes
     before = np.zeros(study.k) if beside is None else beside.point.x
+    first = study if sum(len(recipe.grid) for recipe in study.recipes(name)) <= _FEW else study.coarse
     found = []
-    for number, x in study.coarse.approached(name, before, others, _SLACK * reach)[:count]:
+    for number, x in first.approached(name, before, others, _SLACK * reach)[:count]:
         whole, one = study.with_cause(others, name, number), None
-        if study.coarse is not study:
-            lean = study.coarse.with_cause(others, name, number)
+        if first is not study:
+            lean = first.with_cause(others, name, number)
             near = fit(lean, x[study.k :], x[: study.k], most, _SLACK * reach)
             one = near and fit(whole, near.c, near.point.x[: study.k], most, reach)
         found.append(one or fit(whole, x[study.k :], x[: study.k], most, reach))  # whole, it may not be physical there
