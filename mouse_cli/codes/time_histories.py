@@ -5,7 +5,7 @@ from mouse_cli.codes import Code
 CODES = {
     "MD641": Code(
         "law of a local force not understood",
-        "An entry of `laws` names sizes or a variant that its law does not have, or degrees of freedom that the model does not have.",
+        "An entry of `laws` names sizes or a variant that its law does not have, or degrees of freedom that the model has not.",
         "`docs/reference/yaml.md` lists laws, variants and sizes; give one degree of freedom (against the ground) or two.",
     ),
     "MD640": Code(

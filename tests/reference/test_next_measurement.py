@@ -67,7 +67,9 @@ def test_every_kind_of_measurement(rivals):
             size = np.outer(np.eye(4)[at], np.eye(4)[at])
             how = (0.0, 0.05 * 4 * size) if each.kind == "mass" else (1e9 * size, 0.0)  # rigid beside springs of 1e5
             theirs = separation(rivals, each.sd, np.arange(2), *how)
-        assert ours == pytest.approx(theirs, rel=0.1), each.text  # J is a difference over 0.01 sd; what holds gives way a little
+        assert ours == pytest.approx(theirs, rel=0.1), (
+            each.text
+        )  # J is a difference over 0.01 sd; what holds gives way a little
 
 
 def test_sensors_stand_where_there_are_none_yet(rivals):
@@ -111,7 +113,7 @@ def test_shapes_are_proposed_at_the_fewest_places_that_separate():
     places, D = chosen_places((h.ravel(), none), (-g.ravel(), none), 5, 1)
     assert len(places) == 2
     assert 3 in places
-    assert D == pytest.approx(0.5 * (0.5 / np.sqrt(2) / SHAPE_SD) ** 2, rel=0.01)
+    assert pytest.approx(0.5 * (0.5 / np.sqrt(2) / SHAPE_SD) ** 2, rel=0.01) == D
 
 
 def test_shapes_that_are_alike_are_no_proof():

@@ -30,7 +30,7 @@ DASHPOT = Candidate(
     "dashpot",
     "a dashpot to the ground",
     "damping",
-    "viscous damping between one place and the surroundings (seal, cable, damper): C + c B'B; sought in frequency response functions "
-    "alone, which show it",
+    "viscous damping between one place and the surroundings (seal, cable, damper): C + c B'B; sought in functions alone, which "
+    "show it",
     lambda model, candidate: [],
 )
