@@ -103,7 +103,7 @@ def table(results: list[tuple]) -> str:
 
 def _options() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="python -m benchmarks.blind_records", description="Blind benchmark of diagnosis by recordings."
+        prog="python -m benchmarks.blind_records", description="The blind benchmark of records."
     )
     add = parser.add_argument
     add("--verify", action="store_true", help="print how OpenSees does on closed forms, and stop")

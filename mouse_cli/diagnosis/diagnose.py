@@ -73,7 +73,9 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choi
         proposals=_proposals(ranking, verdict),
         remarks=doubts + remarks + told + (() if deck is None else _coarse(deck)),
         extended=deck if deck is None or given.test is not None else replace(deck, test=None),
-        extended_result=None if deck is None else run(_by_modes(deck), notice=notice, guess=_values(deck, best), enough=enough),
+        extended_result=None
+        if deck is None
+        else run(_by_modes(deck), notice=notice, guess=_values(deck, best), enough=enough),
         choices=choices,
     )
 

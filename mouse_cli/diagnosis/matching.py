@@ -143,7 +143,9 @@ class Matcher:
         uy, vy = u @ y, v @ y
 
         def misfit(t: np.ndarray) -> np.ndarray:
-            size = np.maximum(uu + t * (2 * uv + t * vv), _VANISHED * (uu + t**2 * vv))  # u + t v may vanish but for rounding
+            size = np.maximum(
+                uu + t * (2 * uv + t * vv), _VANISHED * (uu + t**2 * vv)
+            )  # u + t v may vanish but for rounding
             return t**2 - (uy + t * vy) ** 2 / np.maximum(size, 1e-300)
 
         with np.errstate(divide="ignore", invalid="ignore"):
