@@ -15,6 +15,7 @@ from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.model.problem import Problem
 
 _STARTS = 15  # places to begin from on a line
+_ENDS = 12  # ends of lines that a search in few coordinates knows to bend
 
 
 def lines(model: Reduced) -> list[Line]:
@@ -22,6 +23,19 @@ def lines(model: Reduced) -> list[Line]:
     keep, bars = wanted(model), model.bars
     found = () if bars is None else bars.lines
     return [line for line in found if keep is None or keep[bars.nodes[line.members]].any()]
+
+
+def ends(model: Reduced) -> np.ndarray:
+    """Pairs of moments (c, r) by which ends of lines give way where others begin, those first that bear most; few at most."""
+    bars = model.bars
+    if bars is None:
+        return np.zeros((0, model.r))
+    chosen = [(line.members[0], -1.0) for line in bars.lines] + [(line.members[-1], 1.0) for line in bars.lines]
+    b, eta = (np.array(part) for part in zip(*chosen, strict=True))
+    yields = (bars.strain[b] / np.diagonal(bars.flexibility[b], axis1=1, axis2=2)[:, :, None])[:, :2]
+    moments = yields[:, 0] + eta[:, None] * yields[:, 1]
+    count = min(model.r, int(model.data.test.number.max()) + 1)
+    return moments[np.argsort(-np.abs(moments[:, :count]).max(axis=1), kind="stable")[:_ENDS]]
 
 
 def places(

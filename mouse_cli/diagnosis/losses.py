@@ -34,7 +34,7 @@ def _strained(model: Reduced, found: list) -> list:
     count = min(model.r, int(model.data.test.number.max()) + 1)
     scale = np.maximum(model.eigenvalues[:count], 1e-9 * model.eigenvalues[-1])
     energy = np.array([(np.diag(each[-1])[:count] / scale).max() for each in found])
-    return [found[i] for i in np.argsort(-energy)[:_MOST] if energy[i] > 1e-6]
+    return [found[i] for i in sorted(np.argsort(-energy)[:_MOST]) if energy[i] > 1e-6]
 
 
 def _stiffness(model: Reduced, s: int) -> list[tuple[int, np.ndarray]]:
@@ -144,7 +144,7 @@ def _largest(model: Reduced, pairs) -> list[tuple[int, int, float]]:
         return []
     i, j, k = (np.array(part) for part in zip(*pairs, strict=True))
     energy = (k[:, None] * (model.V[i, :count] - model.V[j, :count]) ** 2).max(axis=1)
-    return [pairs[n] for n in np.argsort(-energy)[:_MOST]]
+    return [pairs[n] for n in sorted(np.argsort(-energy)[:_MOST])]
 
 
 def _spring(model: Reduced, text: str, k: float, i: int, j: int | None) -> Listed:

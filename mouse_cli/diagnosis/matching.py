@@ -10,6 +10,8 @@ its derivatives by z and e_i those by t_i, projected so that a_i follows (Kaufma
 
 h_i may turn within a small part of one standard deviation, where its mode of the model hardly moves at B. Times the distance from
 that pole it is almost linear in lambda, u + t v: so the least misfit over t is found in five products of each place.
+
+A place at a node of a mode cannot act on it: that mode stays the model's own, at its eigenvalue, and is compared with that.
 """
 
 from dataclasses import dataclass
@@ -21,6 +23,7 @@ from mouse_cli.diagnosis.reduced import Reduced
 from mouse_cli.dynamics.frequency import eigenvalue
 
 _POLE = 1e-7  # distance of lambda from an eigenvalue of the model, relative, below which R is taken beside it
+_NODE = 0.02  # of the largest motion in the measured modes: what does not move more sits at a node
 _STARTS = (-2.0, -1.0, 0.0, 1.0, 2.0)  # of t
 _WIDEST, _HALVINGS = 4.0, 22
 _VANISHED = 1e-9  # share of |u|^2 + |t v|^2 below which |u + t v|^2 is rounding
@@ -89,6 +92,7 @@ class Matcher:
         self.eigenvalues, Q = np.linalg.eigh(C @ K @ C.T)
         self.X = C.T @ Q
         self.seen = model.sensing @ self.X
+        self._reach = min(len(self.eigenvalues), int(model.data.test.number.max()) + 1)
         dK, dM = model.slopes(z)
         self.dK, self.dM = (self.X.T @ d @ self.X for d in (dK, dM))
 
@@ -104,16 +108,46 @@ class Matcher:
         N, b = np.zeros((j, k, k)) + np.eye(k), np.zeros((j, k)) - self.z
         cost, volume = np.full(j, self.z @ self.z), np.zeros(j)
         for i in range(len(self.measured.modes)):
-            t = self.nearest(i, B)[0]
+            t, _, _, own = self.nearest(i, B)
             r, e, J = self._derivatives(i, t, B)
             spread = 1 + np.einsum("js,js->j", e, e)
             eJ = np.einsum("js,jsk->jk", e, J)
-            N += np.swapaxes(J, 1, 2) @ J - eJ[:, :, None] * eJ[:, None, :] / spread[:, None, None]
             off = (np.einsum("js,js->j", e, r) - t) / spread  # what is left to go in t
-            b += np.einsum("jsk,js->jk", J, r) - eJ * off[:, None]
-            cost += np.einsum("js,js->j", r, r) + t**2
-            volume += np.log(spread)
+            parts = (
+                np.einsum("js,js->j", r, r) + t**2,
+                np.swapaxes(J, 1, 2) @ J - eJ[:, :, None] * eJ[:, None, :] / spread[:, None, None],
+                np.einsum("jsk,js->jk", J, r) - eJ * off[:, None],
+                np.log(spread),
+            )
+            if own.any():
+                for part, value in zip(parts, self._unmoved(i), strict=True):
+                    part[own] = value
+            for total, part in zip((cost, N, b, volume), parts, strict=True):
+                total += part
         return Matches(np.zeros((j, k)) + self.z, cost, N, b, volume)
+
+    def _own(self, i: int) -> tuple[int, float, float]:
+        """The mode of the model that measured mode i would be if nothing acted on it, how far off it is (sd), and the cost."""
+        S, y = self._seen(i), self.y(i)
+        size = np.maximum(np.einsum("sr,sr->r", S, S), 1e-300)
+        t = (self.eigenvalues - self.measured.eigenvalue[i]) / self.measured.sd[i]
+        cost = y @ y - (S.T @ y) ** 2 / size + t**2
+        p = int(np.argmin(cost))
+        return p, float(t[p]), float(cost[p])
+
+    def _unmoved(self, i: int) -> tuple[float, np.ndarray, np.ndarray, float]:
+        """Cost, half its curvature (k, k), J'r (k,) and no volume for measured mode i as the model's own."""
+        p, t, cost = self._own(i)
+        S, y = self._seen(i), self.y(i)
+        h = S[:, p] / np.linalg.norm(S[:, p])
+        G = self.dK[:, :, p] - self.eigenvalues[p] * self.dM[:, :, p]
+        apart = self._apart(self.eigenvalues[p])
+        share = -G / apart
+        share[:, p] = -0.5 * self.dM[:, p, p]
+        J = (h @ y) / np.linalg.norm(S[:, p]) * (S @ share.T)
+        J = np.vstack([J - np.outer(h, h @ J), G[:, p] / self.measured.sd[i]])
+        r = np.append(y - (h @ y) * h, -t)
+        return cost, J.T @ J, J.T @ r, 0.0
 
     def _seen(self, i: int) -> np.ndarray:
         seen = self.seen * self.measured.weight[:, i, None]
@@ -130,8 +164,11 @@ class Matcher:
         least = _POLE * np.abs(at)
         return np.where(np.abs(apart) < least, np.where(apart < 0, -least, least), apart)
 
-    def nearest(self, i: int, B: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """t (j,) for which a h comes nearest to y, for rows B (j, r) in own modes; the least cost (j,); h/|h| (j, s)."""
+    def nearest(self, i: int, B: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """t (j,) for which a h comes nearest to y, for rows B (j, r) in own modes; the least cost (j,); h/|h| (j, s).
+
+        And where the mode is the model's own instead (j,).
+        """
         y, apart = self.y(i), self.eigenvalues - self.measured.eigenvalue[i]
         pole = int(np.argmin(np.abs(apart)))
         fixed = 1 / self._apart(self.measured.eigenvalue[i])
@@ -152,8 +189,12 @@ class Matcher:
             alike = np.nan_to_num((vy * uu - uy * uv) / (uy * vv - vy * uv), posinf=0.0, neginf=0.0)
         starts = [np.full(len(B), t) for t in _STARTS] + [np.clip(alike, -_WIDEST, _WIDEST)]
         t = _least(misfit, np.array(starts))
-        h = u + t[:, None] * v
-        return t, y @ y + misfit(t), h / np.sqrt(np.maximum(np.einsum("js,js->j", h, h), 1e-300))[:, None]
+        h, cost = u + t[:, None] * v, y @ y + misfit(t)
+        h /= np.sqrt(np.maximum(np.einsum("js,js->j", h, h), 1e-300))[:, None]
+        p, _, alone = self._own(i)
+        own = (np.abs(B[:, p]) < _NODE * np.abs(B[:, : self._reach]).max(axis=1)) & (alone < cost)
+        cost[own], h[own] = alone, self._seen(i)[:, p] / np.linalg.norm(self._seen(i)[:, p])
+        return t, cost, h, own
 
     def _derivatives(self, i: int, t: np.ndarray, B: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Misfit r (j, s) of mode i at t (j,); by how much t and z move what it is compared with: e (j, s), J (j, s, k)."""

@@ -21,7 +21,7 @@ from mouse_cli.updating.chi_square import upper_tail
 _SECOND, _QUICK = 2, 8  # fits of a second cause beside a first, and their steps, in a first try
 _SWAPPED, _FINISHED = 2, 6  # pairs whose aliases are tried; pairs that are fitted to the end
 _PRIOR = 0.3, 0.6, 0.1  # probability that nothing is missing, one cause, two
-_PAIRED = 8  # candidates that are tried in pairs
+_PAIRED, _WIDE = 8, 5  # candidates that are tried in pairs; groups of which the best is tried with every candidate
 _ADEQUATE = 0.05  # probability of a misfit below which a second cause is sought
 _FAR = 200.0  # misfit above the best one, by the noise scale, from which on a fit is no rival
 _MATERIAL = 3.0  # nats that a second cause must gain
@@ -113,15 +113,17 @@ def adequate(one: Fit, least: float = _ADEQUATE) -> bool:
 
 
 def pairs(study: Study, singles: list[Fit]) -> list[Fit]:
-    """Two causes: the leading one with every candidate, the leading ones with one another, and their aliases.
+    """Two causes: the leading ones of different groups with every candidate, the leading ones with one another, and aliases.
 
     All are tried in few steps; those that lead are fitted to the end.
     """
     leading = sorted(singles, key=lambda one: -one.log_evidence)[:_PAIRED]
+    firsts = {group(one): one for one in reversed(leading)}  # the best of each group
+    wide = sorted(firsts.values(), key=lambda one: -one.log_evidence)[:_WIDE]
     found: dict[tuple[str, ...], Fit] = {}
     for first in leading:
-        partners = study.known if first is leading[0] else [one.recipes[0].candidate.key for one in leading]
-        _pair(study, first, partners, found)
+        any_of = any(first is one for one in wide)
+        _pair(study, first, study.known if any_of else [one.recipes[0].candidate.key for one in leading], found)
     done: set[tuple[str, ...]] = set()
     for _ in range(2):  # both causes may be there by an alias
         for two in _best_of(found, _SWAPPED):

@@ -142,15 +142,17 @@ class Reduced:
             rows[d] = factor @ self.V[dofs] if len(dofs) else 0.0
         return rows
 
-    def truncated(self, r: int) -> "Reduced":
-        """The same model in its first r coordinates."""
+    def within(self, Q: np.ndarray) -> "Reduced":
+        """The same model in fewer coordinates, combinations Q (r, c) of its own with Q'Q = I."""
+        eigenvalues, W = np.linalg.eigh((Q.T * self.eigenvalues) @ Q)
+        Q = Q @ W
         return replace(
             self,
-            V=self.V[:, :r],
-            eigenvalues=self.eigenvalues[:r],
-            dK=self.dK[:, :r, :r],
-            dM=self.dM[:, :r, :r],
-            sensing=self.sensing[:, :r],
+            V=self.V @ Q,
+            eigenvalues=eigenvalues,
+            dK=Q.T @ self.dK @ Q,
+            dM=Q.T @ self.dM @ Q,
+            sensing=self.sensing @ Q,
         )
 
     def at(self, theta: np.ndarray) -> "Reduced":

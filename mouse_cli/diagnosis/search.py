@@ -9,16 +9,20 @@ from mouse_cli.diagnosis.altered import Model, Point
 from mouse_cli.diagnosis.candidates import Candidate, registry
 from mouse_cli.diagnosis.change import Recipe
 from mouse_cli.diagnosis.fit import MOST, Fit, fit
+from mouse_cli.diagnosis.hinges import ends
 from mouse_cli.diagnosis.reduced import Reduced
+from mouse_cli.diagnosis.scales import lowest
+from mouse_cli.diagnosis.unseen import unseen
 
 _STARTS = 3  # fits of a candidate to the end, from different optima
 _LOOKS, _MOST, _EACH, _BRIEF = 12, 40, 4, 4  # brief descents at least, at most, from one recipe, and their steps
 _APART = 0.08  # of a range: between starts of one recipe
+_TOLD = 0.05  # squared distance of what two places predict, by the data's sd, up to which they are as one
 _SLACK = 1.5  # times the misfit that matters in all coordinates: what matters in few
+_TIED, _TIES = 6.0, 8  # misfit above the best up to which other places are as good, and how many of them are fitted
 _SETTLE, _MOVED = 3, 5e-3  # times that causes are weighed anew, as long as parameters move more than that share
 _THEORY = 0.01  # of what a cause does to frequencies and shapes, by which its theory may be wrong
 _SHIFTS = np.array([-5, -3, -2, -1, 1, 2, 3, 5]) / 50  # of the range of a place
-_RIGID, _VISIBLE = 1e-3, 0.03  # eigenvalue and motion, of measured modes, below which a mode is rigid, or easily missed
 _FEW = 16  # places and sizes that are looked at in all coordinates
 _COARSE = 24  # coordinates at least for a first look
 
@@ -45,9 +49,19 @@ class Study:
 
     @cached_property
     def coarse(self) -> "Study":
-        """The same in the lowest coordinates alone, in which all places and sizes are looked at before any is fitted."""
-        least = max(_COARSE, 4 * self.model.data.m + 8, int(self.model.data.test.number.max()) + 12)
-        return self if least >= self.model.r else Study(self.model.truncated(least), self.known)
+        """The same in few coordinates, in which all places and sizes are looked at before any is fitted.
+
+        Those are the lowest, and how the rest bends when one end of a line gives way, which they alone do not.
+        """
+        model = self.model
+        least = max(_COARSE, 4 * model.data.m + 8, int(model.data.test.number.max()) + 12)
+        if least >= model.r:
+            return self
+        bent = ends(model)[:, least:] / (model.eigenvalues[least:] + lowest(model))
+        bent = bent[: model.r - least]
+        Q = np.eye(model.r)[:, : least + len(bent)]
+        Q[least:, least:] = np.linalg.qr(bent.T)[0]
+        return Study(model.within(Q), self.known)
 
     def promising(self) -> list[str]:
         """All candidates, those first that a first look at them alone finds most promising."""
@@ -77,8 +91,8 @@ class Study:
 
     def approached(
         self, name: str, before: np.ndarray, beside: tuple[Recipe, ...], reach: float = np.inf
-    ) -> list[tuple[int, np.ndarray]]:
-        """Numbers of recipes and x where brief descents from different starts lead, the best first, no two alike.
+    ) -> list[tuple[float, int, list[np.ndarray]]]:
+        """Misfit, number of the recipe, x at the end and at the start of brief descents, the best first, no two alike.
 
         reach: misfit from which on none need go on. What a first look finds best may be beside the true place many times
         over, and the true one at a wrong size.
@@ -87,10 +101,14 @@ class Study:
         most = min(max(_LOOKS, len(trials)), _MOST) // (2 if beside else 1)  # a partner is tried beside many
         chosen = _spread(self.starts(name, before, beside), trials, most)
         if len(chosen) < 2:
-            return chosen
-        descents = [(i, fit(trials[i], x[self.k :], x[: self.k], _BRIEF, reach)) for i, x in chosen]
-        led = sorted(((i, one) for i, one in descents if one is not None), key=lambda item: item[1].misfit)
-        return _spread([(i, one.point.x) for i, one in led], trials, most)
+            return [(0.0, i, [x]) for i, x in chosen]
+        descents = [(i, x, fit(trials[i], x[self.k :], x[: self.k], _BRIEF, reach)) for i, x in chosen]
+        led: list[tuple[int, np.ndarray, Fit]] = []
+        for i, x, one in sorted((d for d in descents if d[2] is not None), key=lambda item: item[2].misfit):
+            if not any(_alike(one, other) for _, _, other in led):
+                led.append((i, x, one))
+        kept = {id(end) for _, end in _spread([(i, one.point.x) for i, _, one in led], trials, most)}
+        return [(one.misfit, i, [one.point.x, x]) for i, x, one in led if id(one.point.x) in kept]
 
     @cached_property
     def _adapted(self) -> tuple[np.ndarray, np.ndarray]:
@@ -107,8 +125,13 @@ class Study:
         return float(left @ left + z @ z)
 
     def own(self, recipes: tuple[Recipe, ...]) -> tuple[Recipe, ...]:
-        """The same causes at the same places in this model."""
-        return tuple(self.recipes(recipe.candidate.key)[recipe.number] for recipe in recipes)
+        """The same causes at the same places in this model, which may count places otherwise."""
+        return tuple(self._same(recipe) for recipe in recipes)
+
+    def _same(self, recipe: Recipe) -> Recipe:
+        made, text = self.recipes(recipe.candidate.key), recipe.site(recipe.grid[0]).text
+        order = sorted(made, key=lambda each: each.number != recipe.number)
+        return next((each for each in order if each.site(each.grid[0]).text == text), order[0])
 
     def with_cause(self, others: tuple[Recipe, ...], name: str, number: int) -> Model:
         """The model with the causes `others`, from any study, and recipe `number` of candidate `name`."""
@@ -132,6 +155,11 @@ def _spread(starts: list[tuple[int, np.ndarray]], trials: dict[int, Model], most
         if len(found) == most:
             break
     return found
+
+
+def _alike(one: Fit, other: Fit) -> bool:
+    """Whether both predict the same, as two nodes through the thickness of a plate do."""
+    return bool(np.sum((one.point.residual - other.point.residual) ** 2) < _TOLD * (1 + 1e-2 * one.misfit))
 
 
 def shifted(one: Fit) -> Fit:
@@ -171,27 +199,6 @@ def idealised(one: Fit) -> Fit:
     return fit(loose, one.c, at.x[: one.model.k]) or one
 
 
-def unseen(one: Fit) -> float:
-    """Nats against causes with a mode of their own that the test does not have, though its sensors would have seen it.
-
-    Of a mode below the highest measured one whose largest component is r times that of those measured (unit modal masses), a test
-    misses 1 in 1 + (r / 0.03)^2: what responds at resonance goes with r^2. Where the test counts that mode, nothing.
-    """
-    at, base = one.point, one.model.base
-    bare = Model(base).point(at.x[: one.model.k])
-    if bare is None or not at.modes.size or at.modes.max() + 1 <= base.data.test.number.max():
-        return 0.0
-    return max(0.0, _missed(at) - _missed(bare))
-
-
-def _missed(at: Point) -> float:
-    """ln of how rarely a test misses what `at` has between rigid modes and the highest measured one, and the test has not."""
-    measured, size = at.eigenvalues[at.modes], np.abs(at.seen).max(axis=0, initial=0.0)
-    between = (at.eigenvalues > _RIGID * measured.min()) & (at.eigenvalues < measured.max())
-    between[at.modes] = False
-    return float(np.log1p((size[between] / np.median(size[at.modes]) / _VISIBLE) ** 2).sum())
-
-
 def settled(one: Fit, study: Study) -> Fit:
     """The fit with its causes weighed at the parameters that it found, not at those where the search began."""
     for _ in range(_SETTLE):
@@ -228,15 +235,28 @@ def tried(
     others = () if beside is None else beside.recipes
     before = np.zeros(study.k) if beside is None else beside.point.x
     first = study if sum(len(recipe.grid) for recipe in study.recipes(name)) <= _FEW else study.coarse
-    found = []
-    for number, x in first.approached(name, before, others, _SLACK * reach)[:count]:
-        whole, one = study.with_cause(others, name, number), None
-        if first is not study:
-            lean = first.with_cause(others, name, number)
-            near = fit(lean, x[study.k :], x[: study.k], most, _SLACK * reach)
-            one = near and fit(whole, near.c, near.point.x[: study.k], most, reach)
-        found.append(one or fit(whole, x[study.k :], x[: study.k], most, reach))  # whole, it may not be physical there
+    near_by = first.approached(name, before, others, _SLACK * reach)
+    tied = 0 if beside is not None or not near_by else sum(left < near_by[0][0] + _TIED for left, _, _ in near_by)
+    found = [
+        _ended(study, first, others, name, i, x, most, reach) for _, i, x in near_by[: max(count, min(tied, _TIES))]
+    ]
     return [one for one in found if one is not None]
+
+
+def _ended(
+    study: Study, first: Study, others: tuple, name: str, i: int, starts: list, most: int, reach: float
+) -> Fit | None:
+    """The fit of recipe i, in the coordinates of `first`, then in all from where the whole misfits least: there, or a start."""
+    k, whole = study.k, study.with_cause(others, name, i)
+    if first is not study:
+        near = fit(first.with_cause(others, name, i), starts[0][k:], starts[0][:k], most, _SLACK * reach)
+        starts = starts if near is None else [near.point.x, *starts]
+        reach = reach if near is None or near.misfit > reach else np.inf
+    points = [at for at in map(whole.point, starts) if at is not None]
+    if not points:
+        return None
+    x = min(points, key=lambda at: at.chi2 + at.x[:k] @ at.x[:k]).x
+    return fit(whole, x[k:], x[:k], most, reach)
 
 
 def summed(found: list[Fit], reach: float = np.inf) -> Fit | None:

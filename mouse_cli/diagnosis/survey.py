@@ -18,6 +18,7 @@ _LOOKS, _FOLLOWED = 6, 24  # looks at most, and steps after each
 _LOOKED = 3000  # best degrees of freedom from which places are taken
 _TOLD = 1.0  # misfit of the shapes of two places up to which they are taken as one
 _LIKE = 0.98  # cosine between effects on the data from which on two places are taken as one
+_ONE = 0.9999  # from which on they are one place of a solid, such as nodes through its thickness
 _EACH = 20_000  # places worked on at once
 _PAIRS = 20_000  # pairs that are looked at, those first between whose ends a force does best
 
@@ -31,7 +32,8 @@ def survey(model: Reduced, K: Matrix, count: int) -> np.ndarray:
     measured, update = shapes(model), fit(Model(model), np.zeros(0))
     if update is None or count < 1 or measured.dof < 1 or not len(measured.modes):
         return np.zeros(0, int)
-    pairs, best, found = _pairs(K), np.inf, np.zeros(0, int)
+    solid = model.motion is None and _solid(K)
+    pairs, best, found = _pairs(K, solid), np.inf, np.zeros(0, int)
     scale, starts = max(1.0, update.point.chi2 / max(update.dof, 1)), [update.point.x, np.zeros_like(update.point.x)]
     for _ in range(_LOOKS):
         places = _look(model, measured, update, starts.pop(0), scale, pairs, count)
@@ -46,7 +48,22 @@ def survey(model: Reduced, K: Matrix, count: int) -> np.ndarray:
             break
     weak = _felt(model, update, count // 4)
     joined = np.concatenate([found[: count - len(weak)], weak, found[count - len(weak) :]])
-    return joined[np.sort(np.unique(joined, return_index=True)[1])][:count]
+    joined = joined[np.sort(np.unique(joined, return_index=True)[1])]
+    if not solid:
+        return joined[:count]
+    joined = np.concatenate([joined, np.setdiff1d(_felt(model, update, 2 * count), joined, assume_unique=True)])
+    effect = _effects(update, model.V[joined] @ update.point.X)[0]
+    effect /= np.maximum(np.linalg.norm(effect, axis=0), 1e-300)
+    return joined[_first(effect.T @ effect > _ONE)][:count]
+
+
+def _first(alike: np.ndarray) -> np.ndarray:
+    """Numbers of those that are not like an earlier one that is kept, for a matrix (n, n) of what is alike."""
+    free = np.ones(len(alike), bool)
+    for i in range(len(alike)):
+        if free[i]:
+            free[i + 1 :] &= ~alike[i, i + 1 :]
+    return np.flatnonzero(free)
 
 
 def _felt(model: Reduced, update: Fit, count: int) -> np.ndarray:
@@ -145,10 +162,20 @@ def _whitening(update: Fit, mode: int, weight: np.ndarray, scale: float) -> np.n
     return (Q / np.sqrt(size)) @ Q.T
 
 
-def _pairs(K: Matrix) -> tuple[np.ndarray, np.ndarray]:
-    """Degrees of freedom that K couples as a spring does."""
+def _solid(K: Matrix) -> bool:
+    """Whether K couples as a continuum does, some degrees of freedom with k_ij > 0: no two of them are joined by a spring."""
     from scipy.sparse import coo_array
 
+    entries = coo_array(K)
+    return bool((entries.data[entries.row != entries.col] > 0).any())
+
+
+def _pairs(K: Matrix, solid: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Degrees of freedom that K couples as a spring does; none in a solid."""
+    from scipy.sparse import coo_array
+
+    if solid:
+        return np.zeros(0, int), np.zeros(0, int)
     entries = coo_array(K)
     kept = (entries.row < entries.col) & (entries.data < 0)
     return entries.row[kept], entries.col[kept]

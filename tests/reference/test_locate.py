@@ -162,3 +162,16 @@ def test_frequencies_alone_tell_no_place():
         test.number, test.frequency_hz, test.frequency_sd_hz, np.zeros(0, int), np.zeros((0, 3)), np.zeros((0, 3))
     )
     assert located(K, M, bare).places == ()
+
+
+@pytest.mark.parametrize("factor", [1.0, 1.03])
+def test_a_mass_at_a_node_of_modes_is_found(factor: float):
+    """Five equal masses between two walls, more on the middle one: the antisymmetric modes 2 and 4 stay as they are."""
+    K, more = factor * 100e3 * (2 * np.eye(5) - np.eye(5, k=1) - np.eye(5, k=-1)), 0.4 * np.diag(np.eye(5)[2])
+    test = measured(K, np.eye(5) + more, range(5), 4)
+    assert np.allclose(test.shapes[2, [1, 3]], 0.0, atol=1e-9)
+    deck = problem(K / factor, np.eye(5), test, 0.05)
+    found = scores(reduced(deck, deck.prior.mean))
+    channel, number = found.find(int(np.argmin(found.matches.cost)))
+    assert (channel.name, channel.site(number).ids) == ("force", ("3",))
+    assert found.matches.cost.min() < 1.0  # with the factor 3 % off, which is 0.6 of its sd

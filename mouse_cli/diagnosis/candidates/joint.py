@@ -23,7 +23,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     ends = _ends(bars)
     modes = slice(0, min(model.r, int(model.data.test.number.max()) + 1))
     bent = [np.abs(_moment(bars, bar, end, modes)).max() for bar, end in ends]
-    chosen = [ends[i] for i in np.argsort(bent)[::-1][:_MOST]]
+    chosen = [ends[i] for i in sorted(np.argsort(bent)[::-1][:_MOST])]
     return [_recipe(model, candidate, bar, end, len(ends)) for bar, end in chosen]
 
 
