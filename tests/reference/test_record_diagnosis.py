@@ -1,6 +1,7 @@
 """Diagnosis by recordings: truths integrated by scipy, decks read from files, answers by the command."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -99,3 +100,25 @@ def test_the_extended_deck_lacks_nothing(tmp_path):
     done = CliRunner().invoke(cli, ["diagnose", deck, "--json", "-q", "-o", revised])
     assert json.loads(done.stdout)["verdict"]["physics"] == "gap"
     assert answer(revised)["verdict"]["kind"] == "nothing-missing"
+
+
+STRUCTURE = """mouse: 1
+model:
+  structure:
+    nodes: {line: {from: 0, to: 2, start: [0, 0, 0], end: [2, 0, 0]}}
+    elements:
+      - {id: 1, type: spring, nodes: [0, 1], stiffness: {TX: 2.0e4}, stiffness_damping: 1.2e-4}
+      - {id: 2, type: spring, nodes: [1, 2], stiffness: {TX: 3.0e4}, stiffness_damping: 1.2e-4}
+      - {id: 11-12, type: mass, nodes: [1, 2], mass: 1.0}
+    supports: {0: [TX, TY, TZ, RX, RY, RZ]}
+parameters:
+  - {name: k, elements: 1-2, property: TX, each: 1, sd: 5 %}
+"""
+
+
+def test_damping_of_springs_is_uncertain_beside_their_stiffness(tmp_path):
+    """Parameters that move both in proportion leave the damping, 10 % off, to be found as physics unless it is free by itself."""
+    text = Path(record(tmp_path, lambda u, v: np.zeros(2))).read_text()
+    told = text[text.index("test:") :].replace("sensor: 1,", "sensor: 1TX,").replace("sensor: 2,", "sensor: 2TX,")
+    (tmp_path / "structure.yaml").write_text(STRUCTURE + told)
+    assert answer(str(tmp_path / "structure.yaml"))["verdict"]["kind"] == "nothing-missing"

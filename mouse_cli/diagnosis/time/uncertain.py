@@ -122,7 +122,10 @@ def _extra(M, C, K, slopes, bare: bool) -> tuple[np.ndarray, np.ndarray, list[st
     at = links(K)
     dK, dC = _by_link(at, K, M, C, bare) if at is not None else _by_mode(M, C, K, bare)
     found = [(np.zeros_like(K), d, "stiffness") for d in _beyond(dK, slopes[2])]
-    found += [(d, np.zeros_like(K), "damping") for d in _beyond(dC, slopes[1])]
+    # a parameter that moves stiffness, and damping in proportion, leaves the damping alone uncertain
+    both = lambda c, k: np.concatenate([c / np.linalg.norm(C), k / np.linalg.norm(K)], axis=-1)
+    free = _beyond([both(d, np.zeros_like(K)) for d in dC], both(slopes[1], slopes[2]))
+    found += [(d[:, : len(K)] * np.linalg.norm(C), np.zeros_like(K), "damping") for d in free]
     C, K = (np.array([one[i] for one in found]).reshape(-1, *K.shape) for i in (0, 1))
     return C, K, [f"{name} {i}" for i, (_, _, name) in enumerate(found, 1)]
 
