@@ -29,6 +29,7 @@ GATE = 1e-3  # probability of so large a misfit by chance, below which something
 _SURE = 0.9  # probability of a group from which on it is named
 _ODDS = 3.0  # nats over no cause at all that a name needs
 _BELIEVED = 0.5  # share of the stated accuracies in the leading explanation below which the test itself is the finding
+_STANDS = 1e-6  # probability of no cause below which some cause acts, whatever errors the test has
 _INADEQUATE = 1.5  # noise scale of the best explanation above which it is none
 
 
@@ -88,7 +89,7 @@ def decide(ranking: Ranking) -> str:
     dof = max(first.dof, 1)
     if upper_tail(first.misfit, dof) < GATE and first.misfit > _INADEQUATE * dof:
         return UNKNOWN
-    if ranking.stated[0] < _BELIEVED:
+    if ranking.stated[0] < _BELIEVED and dict(ranking.groups).get("none", 0.0) > _STANDS:
         return UNKNOWN  # the test is not as accurate as it is said to be, and what is missing besides cannot be told
     if not first.model.base.data.by_shape and any(recipe.own for recipe in first.recipes):
         return ONE_OF  # paired by number, a list of frequencies cannot prove that it holds one mode more
