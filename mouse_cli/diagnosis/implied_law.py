@@ -30,13 +30,13 @@ def implied_law(one: Fit) -> Law | None:
     test, X = base.data.test, one.point.X[: base.r, one.point.modes[have]]
     hz, sd_hz = test.frequency_hz[have], test.frequency_sd_hz[have]
     found = []
-    for lam, relative, x in zip(eigenvalue(hz), sd_hz / hz, X.T, strict=True):
+    for own_hz, lam, relative, x in zip(hz, eigenvalue(hz), sd_hz / hz, X.T, strict=True):
         B = _along(G, x)
         u = np.linalg.solve(K - lam * M, B)
         H, slope = B @ u, u @ M @ u
-        found.append((-1 / H, abs(slope / H**2) * 2 * lam * relative, _dynamic(change, lam, x, G)))
-    stiffness, sd, fitted = np.array(found).T
-    return Law(site, base.problem.units.of("N/m"), hz, stiffness, sd, fitted)
+        if H:  # a place that the mode leaves still tells nothing
+            found.append((own_hz, -1 / H, abs(slope / H**2) * 2 * lam * relative, _dynamic(change, lam, x, G)))
+    return Law(site, base.problem.units.of("N/m"), *np.array(found).T) if found else None
 
 
 def _gram(change: Change, r: int, size: float, unit: str) -> np.ndarray | None:
