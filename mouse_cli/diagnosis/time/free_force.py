@@ -10,6 +10,7 @@ from mouse_cli.diagnosis.time.series import Series
 
 _EVERYWHERE = 0.03  # rms of small unknown forces at every degree of freedom, by that of the measured force
 _HERE = 3.0  # rms of the unknown force at one place, by that of the measured force
+_QUIET, _MOST = 9.0, 6  # times the slowest motion falls by e in the room after the record; at most so many records long
 _TAPER = 0.03  # share of the record at its end, and of its beginning where it does not begin at rest
 
 
@@ -25,8 +26,13 @@ class Spectrum:
 
     @cached_property
     def padded(self) -> int:
-        """Length of the transforms: room for what is left of the motion after the record."""
-        return 2 * len(self.series)
+        """Length of the transforms: room for the motion after the record to die away before it comes round to the beginning."""
+        from scipy.fft import next_fast_len
+
+        model, n, t = self.linear, len(self.linear.M), len(self.series)
+        A = np.block([[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(model.M, part) for part in (model.K, model.C)]])
+        slowest = max(float(-np.linalg.eigvals(A).real.max()), 1e-12)
+        return next_fast_len(t + int(np.clip(_QUIET / slowest / self.series.dt, t // 4, _MOST * t)), real=True)
 
     @cached_property
     def w(self) -> np.ndarray:
