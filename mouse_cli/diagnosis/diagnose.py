@@ -43,6 +43,11 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choi
     """
     if problem.recordings and problem.test is None and not problem.frf:
         return diagnose_records(problem, notice, choices)
+    return _by_its_modes(problem, notice, choices)
+
+
+def _by_its_modes(problem: Problem, notice: Notice, choices: Choices) -> Diagnosis:
+    """The same by measured modes, or those that measured functions show."""
     given = replace(problem, run=_thorough(problem.run))
     problem, doubts = with_modes(given)
     solver = EigenSolver(notice, sensors=0 if problem.test is None else problem.test.s)
