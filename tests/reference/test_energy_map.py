@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from test_locate import cantilever, chain, measured, problem
 
-from mouse_cli.diagnosis.altered import Model
-from mouse_cli.diagnosis.energy_map import energy_map
-from mouse_cli.diagnosis.fit import fit
-from mouse_cli.diagnosis.reduced import reduced
+from mouse_cli.diagnosis.baseline.altered import Model
+from mouse_cli.diagnosis.baseline.reduced import reduced
+from mouse_cli.diagnosis.locate.energy_map import energy_map
+from mouse_cli.diagnosis.name.fit import fit
 
 
 def mapped(K, M, test):

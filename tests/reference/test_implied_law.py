@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from mouse_cli.diagnosis.altered import Model
+from mouse_cli.diagnosis.baseline.altered import Model
+from mouse_cli.diagnosis.baseline.reduced import reduced
 from mouse_cli.diagnosis.candidates import registry
-from mouse_cli.diagnosis.change import Change
-from mouse_cli.diagnosis.fit import fit
-from mouse_cli.diagnosis.implied_law import _gram, implied_law
-from mouse_cli.diagnosis.reduced import reduced
+from mouse_cli.diagnosis.locate.implied_law import _gram, implied_law
+from mouse_cli.diagnosis.name.fit import fit
+from mouse_cli.diagnosis.physics.change import Change
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.problem import Problem

@@ -4,8 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from mouse_cli import _registry
-from mouse_cli.diagnosis.change import Recipe
-from mouse_cli.diagnosis.reduced import Reduced
+from mouse_cli.diagnosis.baseline.reduced import Reduced
+from mouse_cli.diagnosis.physics.change import Recipe
 
 
 @dataclass(frozen=True)

@@ -2,14 +2,14 @@
 
 import numpy as np
 
+from mouse_cli.diagnosis.baseline.reduced import Reduced
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Change, Recipe, Unknown, product, steps
-from mouse_cli.diagnosis.extend import Edit, every_beam
-from mouse_cli.diagnosis.extend_places import beams_within, element_at
-from mouse_cli.diagnosis.line_mass import Wet
-from mouse_cli.diagnosis.lines import Line
-from mouse_cli.diagnosis.preload import runs
-from mouse_cli.diagnosis.reduced import Reduced
+from mouse_cli.diagnosis.extend.edit import Edit, every_beam
+from mouse_cli.diagnosis.extend.places import beams_within, element_at
+from mouse_cli.diagnosis.physics.change import Change, Recipe, Unknown, product, steps
+from mouse_cli.diagnosis.physics.line_mass import Wet
+from mouse_cli.diagnosis.places.lines import Line
+from mouse_cli.diagnosis.places.preload import runs
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 

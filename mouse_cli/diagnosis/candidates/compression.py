@@ -1,9 +1,9 @@
 """Compression of a straight row of bars."""
 
+from mouse_cli.diagnosis.baseline.reduced import Reduced
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Recipe
-from mouse_cli.diagnosis.preload import preloads
-from mouse_cli.diagnosis.reduced import Reduced
+from mouse_cli.diagnosis.physics.change import Recipe
+from mouse_cli.diagnosis.places.preload import preloads
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:

@@ -2,11 +2,11 @@
 
 import numpy as np
 
+from mouse_cli.diagnosis.baseline.reduced import Reduced
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Recipe, Unknown, steps
-from mouse_cli.diagnosis.fracture import bending, coupling, shearing, stretching
-from mouse_cli.diagnosis.hinges import places, with_hinge
-from mouse_cli.diagnosis.reduced import Reduced
+from mouse_cli.diagnosis.physics.change import Recipe, Unknown, steps
+from mouse_cli.diagnosis.physics.fracture import bending, coupling, shearing, stretching
+from mouse_cli.diagnosis.physics.hinges import places, with_hinge
 from mouse_cli.model.problem import Problem
 
 

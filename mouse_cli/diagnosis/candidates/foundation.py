@@ -2,13 +2,13 @@
 
 import numpy as np
 
+from mouse_cli.diagnosis.baseline.reduced import Reduced
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Change, Recipe, Unknown, steps
-from mouse_cli.diagnosis.extend import Edit
-from mouse_cli.diagnosis.extend_places import beams_within
-from mouse_cli.diagnosis.hinges import lines
-from mouse_cli.diagnosis.lines import elements
-from mouse_cli.diagnosis.reduced import Reduced
+from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.extend.places import beams_within
+from mouse_cli.diagnosis.physics.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.physics.hinges import lines
+from mouse_cli.diagnosis.places.lines import elements
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.elements import _beam as beam

@@ -1,9 +1,9 @@
 """Weight that makes a structure softer against swaying."""
 
+from mouse_cli.diagnosis.baseline.reduced import Reduced
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Recipe
-from mouse_cli.diagnosis.gravity import weighed
-from mouse_cli.diagnosis.reduced import Reduced
+from mouse_cli.diagnosis.physics.change import Recipe
+from mouse_cli.diagnosis.physics.gravity import weighed
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:

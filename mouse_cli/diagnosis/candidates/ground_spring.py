@@ -2,12 +2,12 @@
 
 import numpy as np
 
+from mouse_cli.diagnosis.baseline.reduced import Reduced
+from mouse_cli.diagnosis.baseline.scales import lowest, total_mass
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Change, Recipe, Unknown, steps
-from mouse_cli.diagnosis.extend_points import with_spring
-from mouse_cli.diagnosis.points import Points, directions, placed
-from mouse_cli.diagnosis.reduced import Reduced
-from mouse_cli.diagnosis.scales import lowest, total_mass
+from mouse_cli.diagnosis.extend.points import with_spring
+from mouse_cli.diagnosis.physics.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.places.points import Points, directions, placed
 
 _ALONG, _AT = 6, 18  # stiffnesses to begin from: along a line each helps its neighbours, at one place nothing else does
 

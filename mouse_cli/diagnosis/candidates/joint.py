@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from mouse_cli.diagnosis.bars import Bars
+from mouse_cli.diagnosis.baseline.reduced import Reduced
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Change, Recipe, Softening, Unknown, steps
-from mouse_cli.diagnosis.hinges import with_hinge
-from mouse_cli.diagnosis.reduced import Reduced
+from mouse_cli.diagnosis.physics.change import Change, Recipe, Softening, Unknown, steps
+from mouse_cli.diagnosis.physics.hinges import with_hinge
+from mouse_cli.diagnosis.places.bars import Bars
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 

@@ -2,12 +2,12 @@
 
 import numpy as np
 
+from mouse_cli.diagnosis.baseline.reduced import Reduced
+from mouse_cli.diagnosis.baseline.scales import total_mass
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Change, Recipe, Unknown, steps
-from mouse_cli.diagnosis.extend_points import with_mass
-from mouse_cli.diagnosis.points import Points, all_motions, placed
-from mouse_cli.diagnosis.reduced import Reduced
-from mouse_cli.diagnosis.scales import total_mass
+from mouse_cli.diagnosis.extend.points import with_mass
+from mouse_cli.diagnosis.physics.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.places.points import Points, all_motions, placed
 
 _ALONG, _AT = 4, 8  # masses to begin from, along a line and at one place
 

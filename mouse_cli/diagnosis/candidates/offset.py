@@ -2,14 +2,14 @@
 
 import numpy as np
 
+from mouse_cli.diagnosis.baseline.reduced import Reduced
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Change, Recipe, Unknown
-from mouse_cli.diagnosis.extend import Edit
-from mouse_cli.diagnosis.extend_places import beams_within
-from mouse_cli.diagnosis.lines import Line
-from mouse_cli.diagnosis.preload import runs, site_of
-from mouse_cli.diagnosis.reduced import Reduced
-from mouse_cli.diagnosis.shearing import lumped
+from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.extend.places import beams_within
+from mouse_cli.diagnosis.physics.change import Change, Recipe, Unknown
+from mouse_cli.diagnosis.physics.shearing import lumped
+from mouse_cli.diagnosis.places.lines import Line
+from mouse_cli.diagnosis.places.preload import runs, site_of
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.elements import _beam as beam

@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from mouse_cli.diagnosis.baseline.reduced import Reduced
+from mouse_cli.diagnosis.baseline.scales import highest, lowest, total_mass
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Change, Recipe, Unknown, steps
-from mouse_cli.diagnosis.extend_points import with_oscillator
-from mouse_cli.diagnosis.points import Points, directions, placed
-from mouse_cli.diagnosis.reduced import Reduced
-from mouse_cli.diagnosis.scales import highest, lowest, total_mass
+from mouse_cli.diagnosis.extend.points import with_oscillator
+from mouse_cli.diagnosis.physics.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.places.points import Points, directions, placed
 from mouse_cli.model.problem import Problem
 
 _PLACES = 6  # about so many of those on a line to begin from: there are many sizes for each

@@ -2,13 +2,13 @@
 
 import numpy as np
 
+from mouse_cli.diagnosis.baseline.reduced import Reduced
+from mouse_cli.diagnosis.baseline.scales import total_mass
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Change, Recipe, Unknown, steps
-from mouse_cli.diagnosis.extend import Edit
-from mouse_cli.diagnosis.extend_matrices import of_matrices, with_entries
-from mouse_cli.diagnosis.extend_points import found
-from mouse_cli.diagnosis.reduced import Reduced
-from mouse_cli.diagnosis.scales import total_mass
+from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.extend.matrices import of_matrices, with_entries
+from mouse_cli.diagnosis.extend.points import found
+from mouse_cli.diagnosis.physics.change import Change, Recipe, Unknown, steps
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 

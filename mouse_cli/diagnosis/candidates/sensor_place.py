@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from mouse_cli.diagnosis.bars import deflected
+from mouse_cli.diagnosis.baseline.reduced import Reduced
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Change, Recipe, Unknown
-from mouse_cli.diagnosis.extend import Edit
-from mouse_cli.diagnosis.extend_places import element_at
-from mouse_cli.diagnosis.lines import Line
-from mouse_cli.diagnosis.reduced import Reduced
-from mouse_cli.diagnosis.sensors import changed, row, share, site, standing, suspects, with_readings
+from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.extend.places import element_at
+from mouse_cli.diagnosis.physics.change import Change, Recipe, Unknown
+from mouse_cli.diagnosis.physics.sensors import changed, row, share, site, standing, suspects, with_readings
+from mouse_cli.diagnosis.places.bars import deflected
+from mouse_cli.diagnosis.places.lines import Line
 from mouse_cli.model.problem import Problem
 
 _REACH = 0.02  # of the length of the line

@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from mouse_cli.diagnosis.baseline.reduced import Reduced
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Change, Recipe
-from mouse_cli.diagnosis.reduced import Reduced
-from mouse_cli.diagnosis.sensors import changed, row, share, site, suspects, with_readings
+from mouse_cli.diagnosis.physics.change import Change, Recipe
+from mouse_cli.diagnosis.physics.sensors import changed, row, share, site, suspects, with_readings
 from mouse_cli.model.problem import Problem
 
 

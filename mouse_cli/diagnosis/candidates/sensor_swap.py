@@ -4,10 +4,10 @@ from itertools import combinations
 
 import numpy as np
 
+from mouse_cli.diagnosis.baseline.reduced import Reduced
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Change, Recipe
-from mouse_cli.diagnosis.reduced import Reduced
-from mouse_cli.diagnosis.sensors import changed, exchanged, site, suspects
+from mouse_cli.diagnosis.physics.change import Change, Recipe
+from mouse_cli.diagnosis.physics.sensors import changed, exchanged, site, suspects
 from mouse_cli.model.problem import Problem
 
 _WORST = 5  # sensors among which pairs are tried

@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from mouse_cli.diagnosis.baseline.reduced import Reduced
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Recipe
-from mouse_cli.diagnosis.losses import of_elements, of_springs
-from mouse_cli.diagnosis.reduced import Reduced
-from mouse_cli.diagnosis.stretches import of_lines
+from mouse_cli.diagnosis.physics.change import Recipe
+from mouse_cli.diagnosis.physics.losses import of_elements, of_springs
+from mouse_cli.diagnosis.places.stretches import of_lines
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:

@@ -1,9 +1,9 @@
 """A support that gives way in translation."""
 
+from mouse_cli.diagnosis.baseline.reduced import Reduced
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Recipe
-from mouse_cli.diagnosis.reduced import Reduced
-from mouse_cli.diagnosis.supports import yielding
+from mouse_cli.diagnosis.physics.change import Recipe
+from mouse_cli.diagnosis.physics.supports import yielding
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:

@@ -2,14 +2,14 @@
 
 import numpy as np
 
+from mouse_cli.diagnosis.baseline.reduced import Reduced
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Change, Recipe, Softening, Unknown, product, steps
-from mouse_cli.diagnosis.extend import Edit
-from mouse_cli.diagnosis.extend_places import beams_within
-from mouse_cli.diagnosis.line_mass import uniform
-from mouse_cli.diagnosis.lines import Line, whole
-from mouse_cli.diagnosis.preload import runs, site_of
-from mouse_cli.diagnosis.reduced import Reduced
+from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.extend.places import beams_within
+from mouse_cli.diagnosis.physics.change import Change, Recipe, Softening, Unknown, product, steps
+from mouse_cli.diagnosis.physics.line_mass import uniform
+from mouse_cli.diagnosis.places.lines import Line, whole
+from mouse_cli.diagnosis.places.preload import runs, site_of
 from mouse_cli.model.problem import Problem
 
 _FEWEST = 4  # bars in a row that show a slope

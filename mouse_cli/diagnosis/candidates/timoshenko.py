@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from mouse_cli.diagnosis.baseline.reduced import Reduced
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Change, Recipe, Unknown, steps
-from mouse_cli.diagnosis.reduced import Reduced
-from mouse_cli.diagnosis.shearing import shear, shear_range, slender, with_shear
+from mouse_cli.diagnosis.physics.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.physics.shearing import shear, shear_range, slender, with_shear
 from mouse_cli.model.problem import Problem
 
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.diagnosis.reduced import Reduced
+from mouse_cli.diagnosis.baseline.reduced import Reduced
 from mouse_cli.model.arrays import Matrix
 
 _LOSS, _SPREAD = 0.01, 1.0  # loss factor of a structure whose deck states none, and sd of its logarithm

@@ -2,12 +2,12 @@
 
 import numpy as np
 
+from mouse_cli.diagnosis.baseline.reduced import Reduced
+from mouse_cli.diagnosis.baseline.scales import lowest, total_mass
 from mouse_cli.diagnosis.candidates import Candidate
-from mouse_cli.diagnosis.change import Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.frf.extend import with_dashpot
-from mouse_cli.diagnosis.points import directions, placed
-from mouse_cli.diagnosis.reduced import Reduced
-from mouse_cli.diagnosis.scales import lowest, total_mass
+from mouse_cli.diagnosis.physics.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.places.points import directions, placed
 
 _SIZES = 4
 

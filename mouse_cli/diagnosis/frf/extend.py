@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.extend import Edit
-from mouse_cli.diagnosis.extend_matrices import of_matrices
-from mouse_cli.diagnosis.extend_places import node_at
-from mouse_cli.diagnosis.extend_points import found
-from mouse_cli.diagnosis.points import Points
+from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.extend.matrices import of_matrices
+from mouse_cli.diagnosis.extend.places import node_at
+from mouse_cli.diagnosis.extend.points import found
+from mouse_cli.diagnosis.places.points import Points
 from mouse_cli.model.arrays import Matrix, is_sparse
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem

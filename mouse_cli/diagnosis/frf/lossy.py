@@ -8,8 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.change import Recipe, Unknown
 from mouse_cli.diagnosis.frf.extend import with_loss
+from mouse_cli.diagnosis.physics.change import Recipe, Unknown
 from mouse_cli.model.problem import Problem
 
 SAME, STRUCTURAL, VISCOUS = "", "structural", "viscous"

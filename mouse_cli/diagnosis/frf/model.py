@@ -12,11 +12,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.diagnosis.altered import Model
-from mouse_cli.diagnosis.change import Change, Recipe
+from mouse_cli.diagnosis.baseline.altered import Model
+from mouse_cli.diagnosis.baseline.reduced import Reduced
 from mouse_cli.diagnosis.frf.damping import Damping, of_low_rank
 from mouse_cli.diagnosis.frf.lossy import SAME, VISCOUS
-from mouse_cli.diagnosis.reduced import Reduced
+from mouse_cli.diagnosis.physics.change import Change, Recipe
 
 _STEP = 1e-5  # of a range, for derivatives of what causes do
 

@@ -4,16 +4,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.altered import Model
+from mouse_cli.diagnosis.baseline.altered import Model
+from mouse_cli.diagnosis.baseline.reduced import Reduced
 from mouse_cli.diagnosis.data import THEORY_LOG, THEORY_SHAPE
-from mouse_cli.diagnosis.fit import Fit, fit
 from mouse_cli.diagnosis.frf.damping import Damping, damping
 from mouse_cli.diagnosis.frf.dashpots import dashpots
 from mouse_cli.diagnosis.frf.data import FrfData, Lines, lines
 from mouse_cli.diagnosis.frf.lossy import GROUPS, LAWS, SAME, STRUCTURAL, lossy
 from mouse_cli.diagnosis.frf.model import FrfModel
-from mouse_cli.diagnosis.name import Ranking, ranking
-from mouse_cli.diagnosis.reduced import Reduced
+from mouse_cli.diagnosis.name.fit import Fit, fit
+from mouse_cli.diagnosis.name.rank import Ranking, ranking
 
 _REACH = 60.0  # nats by which modes may speak against an explanation that is judged by FRFs still
 _SINGLES = 3  # single causes that are judged in any case

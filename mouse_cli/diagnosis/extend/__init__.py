@@ -1,0 +1,1 @@
+"""The deck with the named cause in it: a deck that runs."""

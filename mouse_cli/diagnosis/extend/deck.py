@@ -1,0 +1,64 @@
+"""The deck with the named causes in it, and what it holds out brought to its degrees of freedom."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from mouse_cli.diagnosis.extend.edit import moved
+from mouse_cli.diagnosis.name.fit import Fit
+from mouse_cli.diagnosis.physics.sensors import name, readings
+from mouse_cli.model.hold_out import HoldOut
+from mouse_cli.model.modal_test import ModalTest
+from mouse_cli.model.problem import Problem
+
+
+def extended(problem: Problem, one: Fit) -> Problem | None:
+    """The deck with each cause of a fit added as a parameter; None where a cause cannot be put into a deck."""
+    deck = problem
+    for recipe, own in zip(one.recipes, one.model.own, strict=True):
+        if recipe.extend is None:
+            return None
+        deck = recipe.extend(deck, recipe.values(one.c[own]))
+    deck = _in_its_units(deck, len(problem.parameters))
+    if problem.hold_out is None:
+        return deck
+    place = {label: i for i, label in enumerate(deck.structure.labels)}
+    to = np.array([place[label] for label in problem.structure.labels], int)
+    held = _moved(problem.hold_out, to, deck.structure.n)
+    if deck.test.sensors != problem.test.sensors or (deck.test.dofs != to[problem.test.dofs]).any():
+        held = replace(held, whole=_corrected(held, replace(deck, test=held.whole), deck.test))
+    return replace(deck, hold_out=held)
+
+
+def _corrected(held: HoldOut, whole: Problem, fitted: ModalTest) -> ModalTest:
+    """The whole test, the sensors that fits use read as those of `fitted`, which a cause has corrected."""
+    from scipy.sparse import csr_array, vstack
+
+    test, n = held.whole, whole.structure.n
+    kept = np.setdiff1d(np.arange(test.s), held.sensors).tolist()
+    dofs = np.array([fitted.dofs[kept.index(k)] if k in kept else test.dofs[k] for k in range(test.s)])
+    if fitted.sensing is None:
+        return replace(test, dofs=dofs)
+    old, new = readings(test, n), readings(fitted, n)
+    rows = vstack([new[[kept.index(k)]] if k in kept else old[[k]] for k in range(test.s)])
+    names = tuple(fitted.sensors[kept.index(k)] if k in kept else name(whole, k) for k in range(test.s))
+    return replace(test, dofs=dofs, sensing=csr_array(rows), sensors=names)
+
+
+def _in_its_units(deck: Problem, own: int) -> Problem:
+    """The units of the new parameters, which candidates give in SI, as the deck declares them."""
+    new = tuple(replace(each, unit=deck.units.of(each.unit)) for each in deck.parameters[own:])
+    return replace(deck, parameters=deck.parameters[:own] + new)
+
+
+def _moved(held: HoldOut, to: np.ndarray, n: int) -> HoldOut:
+    """What is held out when degree of freedom i (from 0) of a model has become to[i] of n."""
+    altered = tuple(
+        replace(
+            one,
+            masses={int(to[dof]): value for dof, value in one.masses.items()},
+            springs={int(to[dof]): value for dof, value in one.springs.items()},
+        )
+        for one in held.altered
+    )
+    return replace(held, whole=moved(held.whole, to, n), altered=altered)

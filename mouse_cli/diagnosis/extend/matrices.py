@@ -1,0 +1,104 @@
+"""A model of matrices with something added: listed elements that a new parameter moves, and further degrees of freedom."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from mouse_cli.diagnosis.extend.edit import moved, with_parameters
+from mouse_cli.model.arrays import Matrix, is_sparse
+from mouse_cli.model.parameter import Parameter
+from mouse_cli.model.problem import Problem
+from mouse_cli.model.structure import ListedElements
+
+Entries = tuple[np.ndarray, np.ndarray, np.ndarray]  # rows <= columns, from 0, and values for one unit of the parameter
+_NONE: Entries = (np.zeros(0, int), np.zeros(0, int), np.zeros(0))
+
+
+def of_matrices(problem: Problem) -> bool:
+    """Whether the deck's degrees of freedom are not those of nodes of a mesh of its own."""
+    return problem.mesh is None or problem.structure.geometry is None
+
+
+def with_entries(problem: Problem, parameter: Parameter, K: Entries = _NONE, M: Entries = _NONE) -> Problem:
+    """The deck with `parameter` times `K` and `M` in its matrices, and `parameter` among those that are estimated."""
+    row, col, value = (np.concatenate([k, m]) for k, m in zip(K, M, strict=True))
+    is_mass = np.repeat([False, True], [len(K[0]), len(M[0])])
+    listed = problem.elements
+    known = {
+        key: i
+        for i, key in enumerate(zip(listed.is_mass.tolist(), listed.row.tolist(), listed.col.tolist(), strict=True))
+    }
+    keys = list(zip(is_mass.tolist(), row.tolist(), col.tolist(), strict=True))
+    for key in keys:
+        known.setdefault(key, len(known))
+    order = sorted(known, key=lambda key: (key[0], known[key]))
+    deck = with_parameters(problem, [parameter])
+    place = {key: i for i, key in enumerate(order)}
+    old = np.array([place[key] for key in list(known)[: len(listed)]], int)
+    A = _spread(deck.A, old, len(order), np.array([place[key] for key in keys], int), value)
+    structure = problem.structure
+    nominal = parameter.nominal
+    changed = {name: _plus(getattr(structure, name), part, nominal) for name, part in (("K", K), ("M", M))}
+    elements = ListedElements(*(np.array([key[k] for key in order]) for k in range(3)))
+    return replace(deck, structure=replace(structure, **changed), elements=elements, A=A)
+
+
+def _spread(A: Matrix, old: np.ndarray, e: int, at: np.ndarray, value: np.ndarray) -> Matrix:
+    """A (e, p) with its former rows at `old`, and `value` at the rows `at` of its last column."""
+    if not is_sparse(A):
+        found = np.zeros((e, A.shape[1]))
+        found[old] = A
+        np.add.at(found[:, -1], at, value)
+        return found
+    from scipy.sparse import coo_array
+
+    stored = A.tocoo()
+    rows = np.concatenate([old[stored.row], at])
+    cols = np.concatenate([stored.col, np.full(len(at), A.shape[1] - 1)])
+    return coo_array((np.concatenate([stored.data, value]), (rows, cols)), shape=(e, A.shape[1])).tocsr()
+
+
+def _plus(matrix: Matrix, entries: Entries, factor: float) -> Matrix:
+    row, col, value = entries
+    off = row != col
+    at = np.concatenate([row, col[off]]), np.concatenate([col, row[off]])
+    values = factor * np.concatenate([value, value[off]])
+    if is_sparse(matrix):
+        from scipy.sparse import coo_array
+
+        return (matrix + coo_array((values, at), shape=matrix.shape)).tocsr()
+    found = np.array(matrix)
+    np.add.at(found, at, values)
+    return found
+
+
+def with_degree_of_freedom(problem: Problem, label: str) -> Problem:
+    """The deck with one more row and column in its matrices, zero as yet."""
+    from mouse_cli.diagnosis.extend.edit import Edit
+
+    structure, n = problem.structure, problem.structure.n
+    changed = {}
+    for name in ("K", "M", "C", "D"):
+        matrix = getattr(structure, name)
+        if matrix is not None:
+            changed[name] = _bordered(matrix)
+    geometry = structure.geometry
+    if geometry is not None:
+        node, direction = (np.append(part, -1) for part in (geometry.node, geometry.direction))
+        geometry = replace(geometry, node=node, direction=direction)
+    larger = replace(structure, **changed, labels=(*structure.labels, label), geometry=geometry)
+    test = None if problem.test is None else moved(problem.test, np.arange(n), n + 1)
+    deck = replace(problem, structure=larger, test=test)
+    if problem.mesh is None:
+        return deck
+    edit = Edit(deck)
+    edit.node(np.zeros(3))
+    return edit.done()
+
+
+def _bordered(matrix: Matrix) -> Matrix:
+    if not is_sparse(matrix):
+        return np.pad(matrix, (0, 1))
+    from scipy.sparse import block_diag, csr_array
+
+    return csr_array(block_diag([matrix, csr_array((1, 1))]))

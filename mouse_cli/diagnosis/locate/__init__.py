@@ -1,0 +1,1 @@
+"""Where the model is wrong, before any physics is assumed."""

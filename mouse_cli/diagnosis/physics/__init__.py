@@ -1,0 +1,1 @@
+"""What causes do to stiffness, to mass and to what sensors read."""
