@@ -7,7 +7,8 @@ import numpy as np
 from mouse_cli._errors import ERROR, Diagnostic, NumericalError
 from mouse_cli.model.arrays import dense
 from mouse_cli.model.frf_test import FrfTest
-from mouse_cli.model.modal_test import ModalTest
+from mouse_cli.model.identification import Modes
+from mouse_cli.model.modal_test import ModalTest, restricted
 from mouse_cli.model.problem import Problem
 from mouse_cli.records.identify import identify_frf
 from mouse_cli.records.identify_combine import combined
@@ -33,10 +34,26 @@ def with_modes(problem: Problem) -> tuple[Problem, tuple[str, ...]]:
             )
         )
     doubts = tuple(f"modes of the functions: {each.message}" for each in found.doubts)
-    return replace(problem, test=_test(combined(problem.frf)[0], found.modes)), doubts
+    test, kept = _test(combined(problem.frf)[0], found.modes), _strongest(found.modes, problem.structure.n)
+    if not kept.all():
+        hz = ", ".join(f"{value:.6g} Hz" for value in test.frequency_hz[~kept])
+        doubts += (
+            f"the model has {problem.structure.n} degrees of freedom: the weakest modes of the functions, at {hz}, are none of its",
+        )
+        test = restricted(test, kept)
+        test = replace(test, number=np.arange(1, test.m + 1))
+    return replace(problem, test=test), doubts
 
 
-def _test(functions: FrfTest, modes) -> ModalTest:
+def _strongest(modes: Modes, most: int) -> np.ndarray:
+    """Mask (m,) of the `most` modes that respond most at their resonances, |shape|^2 / damping."""
+    strength = (np.abs(modes.shapes) ** 2).sum(axis=0) / np.maximum(modes.damping, 1e-6)
+    kept = np.zeros(modes.m, bool)
+    kept[np.argsort(-strength)[:most]] = True
+    return kept
+
+
+def _test(functions: FrfTest, modes: Modes) -> ModalTest:
     """The modes at the sensors of the functions; frequencies alone where there is but one."""
     number = np.arange(1, modes.m + 1)
     if functions.outputs.shape[0] < 2:
