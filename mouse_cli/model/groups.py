@@ -24,3 +24,15 @@ def leading(groups: Sequence[tuple[str, float]], members: Sequence[str]) -> int 
     order = [name for name, _ in groups if name != "none"] + ["none"]
     found = [members.index(name) for name in order if name in members]
     return found[0] if found else None
+
+
+def shares(groups: Sequence[str], probabilities: Sequence[float]) -> tuple[tuple[str, float], ...]:
+    """Groups of explanations with their probabilities together, the largest first.
+
+    >>> shares(["mass", "none", "mass"], [0.5, 0.25, 0.125])
+    (('mass', 0.625), ('none', 0.25))
+    """
+    found: dict[str, float] = {}
+    for name, p in zip(groups, probabilities, strict=True):
+        found[name] = found.get(name, 0.0) + float(p)
+    return tuple(sorted(found.items(), key=lambda item: -item[1]))

@@ -70,11 +70,26 @@ class Surface:
 
 
 @dataclass(frozen=True)
+class Noise:
+    """What a model leaves of a record, where it is more than the accuracy of the channels and yet noise. size (s,): rms.
+
+    explained: largest share of it that a force takes which follows from the motion of a place; effective: share of the samples
+    that count as independent ones; grows: exponent of its variance over that of the motion, nan for records of one level.
+    """
+
+    size: np.ndarray
+    explained: float
+    effective: float
+    grows: float
+
+
+@dataclass(frozen=True)
 class RecordDiagnosis(Diagnosis):
     """The answer of `diagnose` for recordings; `result` is None: there is no modal test.
 
     channels, sd (s,): outputs and the accuracy taken for them; inputs: names. variants: the law of each explanation in a word
-    (hardening, one side, ...). scores: of held-out records. fitted: titles of what was fitted. inputs_held: description.
+    (hardening, one side, ...). scores: of held-out records. noise: that which
+    the answer rests on, where the accuracy of the channels is not all. fitted: titles of what was fitted. inputs_held: description.
     """
 
     channels: tuple[str, ...] = ()
@@ -85,6 +100,7 @@ class RecordDiagnosis(Diagnosis):
     variants: tuple[str, ...] = ()
     linearity: Linearity = Linearity()
     scores: tuple[RecordScore, ...] = ()
+    noise: Noise | None = None
     trace: Trace | None = None
     surface: Surface | None = None
 

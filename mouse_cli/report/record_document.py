@@ -25,6 +25,7 @@ def document(found: RecordDiagnosis) -> dict[str, Any]:
             "groups": [{"group": name, "probability": p} for name, p in found.groups],
             "noise_scale": found.noise_scale,
             "residual": of_result.tested(found.innovation),
+            "noise": None if found.noise is None else vars(found.noise),
             "held_out": {"records": [_score(one) for one in found.scores]},
             "linearity": vars(found.linearity) | {"levels": [vars(level) for level in found.linearity.levels]},
             "recordings": {

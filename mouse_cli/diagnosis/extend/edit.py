@@ -188,7 +188,7 @@ class Edit:
             bindings=tuple(self.bindings),
             test=None if old.test is None else moved(old.test, to, structure.n),
             frf=tuple(_moved_functions(each, to, structure.n) for each in old.frf),
-            recordings=tuple(_moved_channels(each, to) for each in old.recordings),
+            recordings=tuple(moved_channels(each, to) for each in old.recordings),
             run=replace(old.run, total_mass_dofs=dofs),
         )
 
@@ -270,7 +270,8 @@ def _moved_functions(test: FrfTest, to: np.ndarray, n: int) -> FrfTest:
     return replace(test, outputs=_moved_weights(test.outputs, to, n), inputs=_moved_weights(test.inputs, to, n))
 
 
-def _moved_channels(recording: Recording, to: np.ndarray) -> Recording:
+def moved_channels(recording: Recording, to: np.ndarray) -> Recording:
+    """A recording when degree of freedom i (from 0) of its model has become to[i]."""
     own = (replace(c, weights={int(to[i]): w for i, w in c.weights.items()}) for c in recording.channels)
     return replace(recording, channels=tuple(own))
 

@@ -15,7 +15,7 @@ from mouse_cli.diagnosis.candidates import Candidate
 from mouse_cli.diagnosis.name.accuracy import Doubt, doubts, ways
 from mouse_cli.diagnosis.name.fit import Fit, fit
 from mouse_cli.diagnosis.name.search import Study, best, settled, shifted, summed, tried
-from mouse_cli.model.groups import joined
+from mouse_cli.model.groups import joined, shares
 from mouse_cli.updating.chi_square import upper_tail
 
 _SECOND, _QUICK = 2, 8  # fits of a second cause beside a first, and their steps, in a first try
@@ -44,10 +44,7 @@ class Ranking:
     @property
     def groups(self) -> tuple[tuple[str, float], ...]:
         """Probability of each group, the largest first; `none` among them."""
-        found: dict[str, float] = {}
-        for one, p in zip(self.fits, self.probabilities, strict=True):
-            found[group(one)] = found.get(group(one), 0.0) + float(p)
-        return tuple(sorted(found.items(), key=lambda item: -item[1]))
+        return shares([group(one) for one in self.fits], self.probabilities)
 
 
 def group(one: Fit) -> str:
@@ -80,13 +77,16 @@ def _reach(found: list[Fit]) -> float:
     return least.misfit + _FAR * max(1.0, least.misfit / max(least.dof, 1))
 
 
-def ranking(baseline: Fit, fits: list[Fit]) -> Ranking:
-    """Probabilities of `fits`, errors of the test weighed beside each, with the noise scale that the best of them needs."""
+def ranking(baseline: Fit, fits: list[Fit], alike: float = 1.0) -> Ranking:
+    """Probabilities of `fits`, errors of the test weighed beside each, with the noise scale that the best of them needs.
+
+    alike: how many data say the same, where what the best leaves is more than noise.
+    """
     beside = [ways(one) for one in fits]
     telling = [
         way.misfit.min() / one.dof for one, own in zip(fits, beside, strict=True) for way in own if one.dof > 0
     ]  # saturated fits say nothing
-    scale = max(1.0, min(telling, default=1.0))
+    scale = max(1.0, min(telling, default=1.0) * alike)
     parts = [np.array([way.log_weight(scale) for way in own]) for own in beside]
     totals = np.array([np.logaddexp.reduce(part) for part in parts])
     weights = totals + np.array([_prior(one, fits) + one.log_evidence / scale for one in fits])

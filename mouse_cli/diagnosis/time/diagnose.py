@@ -5,8 +5,9 @@ from collections.abc import Callable
 from mouse_cli.diagnosis.time.deck_laws import extended
 from mouse_cli.diagnosis.time.prove import ratio, scores, surface, trace
 from mouse_cli.diagnosis.time.records import records
+from mouse_cli.diagnosis.time.search import weighed
 from mouse_cli.diagnosis.time.signs import linearity
-from mouse_cli.diagnosis.time.study import study, weighed
+from mouse_cli.diagnosis.time.study import study
 from mouse_cli.diagnosis.time.verdict import decided, explanation, ranked
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, Choices, Diagnosis
 from mouse_cli.model.problem import Problem
@@ -25,12 +26,12 @@ def diagnose_records(problem: Problem, notice: Notice, choices: Choices) -> Diag
     known = (
         None if choices.candidates is None else [law for key, law in registry().items() if key in choices.candidates]
     )
-    baseline, fits = weighed(own, notice, known)
-    ranking = ranked(baseline, fits)
+    searched = weighed(own, notice, known, choices.causes)
+    baseline, ranking = searched.baseline, ranked(searched)
     notice("records that no fit has seen")
     best = ranking.best
     proof = scores(own, baseline, best)
-    kind = decided(ranking, ratio(proof))
+    kind = decided(ranking, searched, ratio(proof))
     told = best if kind in (NAMED, ONE_OF) else None
     theta = lambda one: own.model.theta(one.x[: own.model.own])
     shown = zip(ranking.fits, ranking.probabilities, strict=True)
@@ -53,6 +54,7 @@ def diagnose_records(problem: Problem, notice: Notice, choices: Choices) -> Diag
         linearity=linearity(own, baseline),
         scores=proof,
         trace=trace(own, baseline, best if kind != NOTHING else None),
+        noise=searched.noise,
         surface=None if told is None else surface(own, told),
-        extended=None if told is None else extended(problem, told, told.hypothesis.place.motion),
+        extended=None if told is None else extended(problem, told),
     )

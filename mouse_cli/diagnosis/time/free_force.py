@@ -18,11 +18,13 @@ _TAPER = 0.03  # share of the record at its end, and of its beginning where it d
 class Spectrum:
     """A record and a linear model line by line: w (l,) rad/s; H (l, n, n) receptance; S (l, s, n): what sensors read of motion.
 
-    missing (t, s): measured less the answer of the model, from rest.
+    missing (t, s): measured less the answer of the model, from rest. weights (l, s, s): of outputs over their sd, for noise
+    that is not white; None: 1.
     """
 
     series: Series
     linear: Linear
+    weights: np.ndarray | None = None
 
     @cached_property
     def padded(self) -> int:
@@ -66,6 +68,11 @@ class Spectrum:
     def history(self, X: np.ndarray) -> np.ndarray:
         """History (t, ...) of lines (l, ...)."""
         return np.fft.irfft(X, self.padded, axis=0)[: len(self.series)]
+
+    def weighed(self, x: np.ndarray) -> np.ndarray:
+        """Outputs (t, s) over their sd, and by the weights."""
+        own = x / self.series.sd
+        return own if self.weights is None else self.history(np.einsum("lij,lj->li", self.weights, self.line(own)))
 
     @cached_property
     def motion(self) -> np.ndarray:

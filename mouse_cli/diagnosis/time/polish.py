@@ -187,9 +187,8 @@ class Polish:
         H, _, _, logs = self._normal(at, x, states, 0.0)
         width = self.h.width
         own = np.isfinite(width)
-        shape = np.linalg.slogdet(H * np.outer(self.h.scale, self.h.scale))[1]
+        shape = np.linalg.slogdet(H)[1]
         evidence = -cost / 2 - np.log(width[own] / np.sqrt(2 * np.pi)).sum() - shape / 2 - logs / 2
-        evidence += np.log(self.h.scale[own]).sum()
         misfit = float((at.residual**2).sum())
         dof = passed() * at.residual.size - len(x) - states.size
         covariance = np.linalg.inv(H)

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from mouse_cli.diagnosis.time.free_force import Spectrum
 from mouse_cli.diagnosis.time.polish import Fit, followed, segments
 from mouse_cli.diagnosis.time.records import reduced
 from mouse_cli.diagnosis.time.regression import Regression, stepped
@@ -56,15 +57,18 @@ def _rms(x: np.ndarray) -> np.ndarray:
     return np.where(np.isfinite(found), found, np.inf)
 
 
-def _look(study: Study, held: Series, one: Fit) -> Regression:
-    place = one.hypothesis.place or study.places[0]
-    return study.at(place, held)
+def _look(study: Study, spectrum: Spectrum, one: Fit) -> Regression:
+    """The regression at the place of the last law, beside the others."""
+    hypothesis, x = one.hypothesis, one.x
+    if not hypothesis.parts:
+        return study.looked(study.places[0], spectrum)
+    return Regression(spectrum, hypothesis.without_last, x[: len(x) - len(hypothesis.parts[-1].unknowns)])
 
 
 def _short(study: Study, held: Series, one: Fit) -> Fit | None:
     """Short horizons of a record, in which only the initial states are fitted."""
     data = segments(held, study.length, _SEGMENTS)
-    fixed, look = one.hypothesis.held(one.x), _look(study, held, one)
+    fixed, look = one.hypothesis.held(one.x), _look(study, Spectrum(held, study.model.linear), one)
     return followed(fixed, [data], look.spread, np.zeros(0), *begin(fixed, one.x, [data], [look]))
 
 
@@ -114,12 +118,12 @@ def trace(study: Study, baseline: Fit, best: Fit | None) -> Trace | None:
 
 def surface(study: Study, best: Fit) -> Surface | None:
     """The force that the record asks for where the law acts, line by line, and the law at the same motion."""
-    hypothesis, look = best.hypothesis, study.at(best.hypothesis.place)
-    if hypothesis.law.linear:
+    part, p = best.hypothesis.sizes(best.x[None])[-1]
+    law, words, p = part.law, part.words, p[:, 0]
+    if law.linear:
         return None
+    look = _look(study, study.spectrum, best)
     force = look.free(best.x)
-    p = hypothesis.parameters(best.x[None])[:, 0]
-    words, law = hypothesis.law.variants[hypothesis.variant], hypothesis.law
     x, v, own = look.local.x, look.local.v, look.kept
     told = stepped(law, x, v, p[:, None], words)[:, 0] if law.states else law.force(x, v, None, p, **words)[0]
-    return Surface(hypothesis.place.site.text, x[own], v[own], force[own], told[own])
+    return Surface(part.place.site.text, x[own], v[own], force[own], told[own])

@@ -4,7 +4,7 @@ The true structure answers y = S H (f - dZ u - B F(B'u, B'u')), H of the model a
 u is known. u is taken from the record, so that the fit has a closed form; it gives starts for `polish` and no verdict.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +14,8 @@ from mouse_cli.diagnosis.time.hypothesis import Acting, Hypothesis, Place
 from mouse_cli.terms.laws import Law, registry
 
 _APART = 0.15  # of the logarithm of a size, from which on two starts are two
+_FAR = 0.7  # most that ln parameters of a law that is there already move in a first look
+_STEP = 1e-3  # of ln parameters, in differences
 _BEGIN = 0.02  # share of the record whose states are not known well, left out
 
 
@@ -38,12 +40,17 @@ class Local:
 
 
 class Regression:
-    """Regressions of one record at one place: nuisances are projected out once."""
+    """Regressions of one record at one place: nuisances are projected out once.
 
-    def __init__(self, spectrum: Spectrum, hypothesis: Hypothesis):
+    begun (k,): x of `hypothesis`, about which laws that it has already are linear; None where it has none.
+    """
+
+    def __init__(self, spectrum: Spectrum, hypothesis: Hypothesis, begun: np.ndarray | None = None):
         self.spectrum, self.base = spectrum, hypothesis
+        self.begun = np.zeros(hypothesis.nuisances) if begun is None else begun
         place = hypothesis.place
-        U = spectrum.motions(np.stack([place.B, *(one.B for one in hypothesis.known)], axis=1))
+        others = [*(one.B for one in hypothesis.known), *(part.place.B for part in hypothesis.parts)]
+        U = spectrum.motions(np.stack([place.B, *others], axis=1))
         self._U = U
         X = U @ place.B
         both = np.concatenate([U, 1j * spectrum.w[:, None] * U], axis=1)
@@ -53,25 +60,36 @@ class Regression:
         self.local = Local(place, *histories, X, spectrum.SH @ place.B)
         t = len(spectrum.series)
         self.kept = slice(int(_BEGIN * t), t - 2 * int(_BEGIN * t))
-        self.missing = spectrum.missing + self._known()
+        self.missing = spectrum.missing + self._answer(self.begun)
         self.y = self._stacked(self.missing)
-        self.J = np.stack([self._stacked(column) for column in self._nuisances(U)], axis=1)
+        self.J = np.stack([self._stacked(column) for column in (*self._nuisances(U), *self._slopes())], axis=1)
         k = self.J.shape[1]
         self.Q, self.R = np.linalg.qr(np.vstack([self.J, np.eye(k)]))
         self.target = np.concatenate([self.y, np.zeros(k)])
         self.target -= self.Q @ (self.Q.T @ self.target)
 
-    def _known(self) -> np.ndarray:
-        """What the laws that the deck has already take off the outputs (t, s), at the motion of the record."""
+    def _answer(self, x: np.ndarray) -> np.ndarray:
+        """What the laws of the deck and of the hypothesis, at x (k,), take off the outputs (t, s), at the motion of the record."""
         s, n, found = self.spectrum, len(self._states) // 2, np.zeros_like(self.spectrum.missing)
-        for one in self.base.known:
-            x, v = one.B @ self._states[:n], one.B @ self._states[n:]
+        add = lambda F, B: s.history(F[:, None] * (s.SH @ B)) * s.window[:, None]
+        for one in self.base.acting(x):
+            along, speed = one.B @ self._states[:n], one.B @ self._states[n:]
             if one.law.states:
-                F = stepped(one.law, x, v, one.p[:, None], one.words)[:, 0]
+                F = stepped(one.law, along, speed, one.p[:, None], one.words)[:, 0]
             else:
-                F = one.law.force(x, v, None, one.p, **one.words)[0]
-            found += s.history(s.line(F * s.window)[:, None] * (s.SH @ one.B)) * s.window[:, None]
+                F = one.law.force(along, speed, None, one.p, **one.words)[0]
+            found += add(s.line(F * s.window), one.B)
+        for part, p in self.base.sizes(x[None]):
+            if part.law.linear:
+                found += add(_stiffness(part.matrices(p[:, 0]), s.w) * (self._U @ part.place.B), part.place.B)
         return found
+
+    def _slopes(self) -> Iterator[np.ndarray]:
+        """Answers (t, s) to a change of the ln parameters of the laws that the hypothesis has."""
+        for j in range(self.base.nuisances, len(self.begun)):
+            step = np.zeros_like(self.begun)
+            step[j] = _STEP
+            yield (self._answer(self.begun - step) - self._answer(self.begun + step)) / (2 * _STEP)
 
     def states(self, at: np.ndarray) -> np.ndarray:
         """Displacements and velocities (2n, G) at samples (G,)."""
@@ -93,7 +111,7 @@ class Regression:
         return found
 
     def _stacked(self, columns: np.ndarray) -> np.ndarray:
-        return (columns / self.spectrum.series.sd)[self.kept].ravel()
+        return self.spectrum.weighed(columns)[self.kept].ravel()
 
     def _nuisances(self, U: np.ndarray) -> Iterator[np.ndarray]:
         """Answers (t, s) to forces -(dK + iw dC - w^2 dM) u of each nuisance."""
@@ -116,6 +134,26 @@ class Regression:
         size = (np.abs(A) ** 2).sum(axis=1)
         G = -(A.conj() * E).sum(axis=1) / np.where(size > 1e-6 * size.max(), size, np.inf)
         return s.history(G)
+
+    @property
+    def left(self) -> np.ndarray:
+        """What the nuisances leave of the outputs (t, s), weighed; 0 at either end."""
+        found = np.zeros_like(self.missing)
+        found[self.kept] = self.target[: len(self.y)].reshape(-1, found.shape[1])
+        return found
+
+    def share(self, forces: list[np.ndarray]) -> float:
+        """Share of what is left that any sum of histories (t,) of a force at the place takes."""
+        s, k = self.spectrum, self.J.shape[1]
+        columns = [
+            self._stacked(s.history(s.line(F * s.window)[:, None] * self.local.answer) * s.window[:, None])
+            for F in forces
+        ]
+        A = np.vstack([np.stack(columns, axis=1), np.zeros((k, len(forces)))])
+        A -= self.Q @ (self.Q.T @ A)
+        A /= np.maximum(np.linalg.norm(A, axis=0), 1e-300)
+        U, size, _ = np.linalg.svd(A, full_matrices=False)
+        return float(((U[:, size > 1e-6 * size[0]].T @ self.target) ** 2).sum()) / self.nothing
 
     @property
     def nothing(self) -> float:
@@ -163,9 +201,10 @@ class Regression:
         (force,) = self.forces(law, variant, p[None])
         column = self._stacked(s.history(-force[:, None] * self.local.answer) * s.window[:, None])
         z = np.linalg.solve(self.R, self.Q.T @ np.concatenate([self.y - column, np.zeros(self.J.shape[1])]))
-        unknowns = hypothesis.unknowns
-        p = np.clip(p, [u.lower for u in unknowns], [u.upper for u in unknowns])
-        return Start(hypothesis, np.concatenate([z, np.zeros(len(self.base.offset)), np.log(p)]), left)
+        k, first = self.base.linear.k, self.base.nuisances
+        moved = self.begun[first:] + np.clip(z[k:], -_FAR, _FAR)
+        x = np.concatenate([z[:k], self.begun[k:first], moved, np.log(p)])
+        return Start(hypothesis, np.clip(x, *hypothesis.bounds), left)
 
 
 def _stiffness(matrices: tuple[np.ndarray, np.ndarray, np.ndarray], w: np.ndarray) -> np.ndarray:
@@ -185,14 +224,17 @@ def stepped(law: Law, x: np.ndarray, v: np.ndarray, p: np.ndarray, words: dict[s
     return found
 
 
-def starts(spectrum: Spectrum, base: Hypothesis, places: list[Place], laws: list[Law] | None = None) -> list[Start]:
-    """Every law at every place, that which leaves least first."""
+def allowed(place: Place, laws: list[Law] | None = None) -> list[Law]:
+    """The laws that a first look tries at a place."""
+    own = registry().values() if laws is None else laws
+    return [law for law in own if law.key != "iwan" and (law.at != "ground" or place.ground)]
+
+
+def starts(looks: Iterable[Regression], laws: list[Law] | None = None) -> list[Start]:
+    """Every law at every place that is looked at, that which leaves least first."""
     found = []
-    for place in places:
-        at = Regression(spectrum, base.placed(place))
-        for law in laws or list(registry().values()):
-            if (law.at == "ground" and not place.ground) or law.key == "iwan":
-                continue
+    for at in looks:
+        for law in allowed(at.local.place, laws):
             options = [at.best(law, variant) for variant in range(len(law.variants))]
             found += [one for one in options if one is not None]
     return sorted(found, key=lambda one: one.left)

@@ -4,8 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mouse_cli.diagnosis.time.hypothesis import Part
 from mouse_cli.diagnosis.time.polish import Fit
-from mouse_cli.diagnosis.time.study import adequate, missing
+from mouse_cli.diagnosis.time.search import MATERIAL, Weighed, adequate, missing
 from mouse_cli.model.diagnosis import (
     NAMED,
     NOTHING,
@@ -15,9 +16,10 @@ from mouse_cli.model.diagnosis import (
     Explanation,
     Size,
 )
+from mouse_cli.model.groups import joined, shares
 from mouse_cli.updating.chi_square import upper_tail
 
-_PRIOR = 0.3, 0.7  # that nothing is missing, that one law is
+_PRIOR = 0.3, 0.6, 0.1  # that nothing is missing, one law, two
 _SURE, _ODDS = 0.9, 3.0  # probability of a group, nats over no cause, that a name takes
 _BETTER = 0.7  # ratio of errors on held-out records that a name takes
 
@@ -34,10 +36,7 @@ class Ranking:
     @property
     def groups(self) -> tuple[tuple[str, float], ...]:
         """The largest first; `none` among them."""
-        found: dict[str, float] = {}
-        for one, p in zip(self.fits, self.probabilities, strict=True):
-            found[group(one)] = found.get(group(one), 0.0) + float(p)
-        return tuple(sorted(found.items(), key=lambda item: -item[1]))
+        return shares([group(one) for one in self.fits], self.probabilities)
 
     @property
     def best(self) -> Fit | None:
@@ -46,17 +45,21 @@ class Ranking:
 
 
 def group(one: Fit) -> str:
-    """Group of its law, `none` without."""
-    return one.hypothesis.law.group if one.hypothesis.law else "none"
+    """Groups of its laws, `none` without."""
+    return joined([part.law.group for part in one.hypothesis.parts])
 
 
-def ranked(baseline: Fit, fits: list[Fit]) -> Ranking:
-    """Probabilities with the noise scale that the best fit needs."""
-    every = [baseline, *fits]
+def ranked(found: Weighed) -> Ranking:
+    """Probabilities with the noise scale that the best fit needs: more where the noise is coloured, so that samples are not
+    independent.
+    """
+    baseline, every = found.baseline, [found.baseline, *found.fits]
     scale = max(1.0, min(one.misfit / one.dof for one in every))
-    names = [group(one) for one in every]
-    kinds = max(len({*names} - {"none"}), 1)
-    prior = [_PRIOR[0] if name == "none" else _PRIOR[1] / kinds / names.count(name) for name in names]
+    if found.noise is not None:
+        scale /= found.noise.effective
+    names = [(len(one.hypothesis.parts), group(one)) for one in every]
+    kinds = lambda count: len({name for name in names if name[0] == count})
+    prior = [_PRIOR[name[0]] / kinds(name[0]) / names.count(name) for name in names]
     weights = np.log(prior) + np.array([one.log_evidence for one in every]) / scale
     order = np.argsort(-weights)
     weights = np.exp(weights - weights.max())
@@ -64,22 +67,28 @@ def ranked(baseline: Fit, fits: list[Fit]) -> Ranking:
     return Ranking(baseline, tuple(every[i] for i in order), scale, weights[order])
 
 
-def decided(ranking: Ranking, ratio: float) -> str:
+def decided(ranking: Ranking, found: Weighed, ratio: float) -> str:
     """The kind of answer; ratio: error on held-out records with the cause over that without, nan where there are none."""
     best = ranking.best
-    if not missing(ranking.baseline):
+    if not missing(ranking.baseline) or found.beside is found.baseline:
         return NOTHING
-    if best is None or not adequate(ranking.fits[0]) or ranking.groups[0][0] == "none":
+    first, beside = ranking.fits[0], found.beside
+    settled = adequate(first) or (beside is not None and first.misfit <= MATERIAL * beside.misfit)
+    if best is None or not settled or ranking.groups[0][0] == "none":
         return UNKNOWN
     odds = (best.log_evidence - ranking.baseline.log_evidence) / ranking.noise_scale
     same = sum(
         p
         for one, p in zip(ranking.fits, ranking.probabilities, strict=True)
-        if group(one) == group(best) and one.hypothesis.place.site == best.hypothesis.place.site
+        if group(one) == group(best) and _sites(one) == _sites(best)
     )
     if same < _SURE or odds <= _ODDS or ratio > _BETTER:
         return ONE_OF
     return NAMED
+
+
+def _sites(one: Fit) -> set[tuple[str, str]]:
+    return {(part.law.group, part.place.site.text) for part in one.hypothesis.parts}
 
 
 def explanation(one: Fit, probability: float, theta: np.ndarray) -> Explanation:
@@ -89,17 +98,20 @@ def explanation(one: Fit, probability: float, theta: np.ndarray) -> Explanation:
 
 
 def causes(one: Fit) -> tuple[Cause, ...]:
-    """Its law at its place, with its sizes."""
-    law, place = one.hypothesis.law, one.hypothesis.place
-    if law is None:
-        return ()
-    unknowns = one.hypothesis.unknowns
-    values = one.hypothesis.parameters(one.x[None])[:, 0]
-    sd = np.sqrt(np.abs(np.diag(one.covariance)))[-len(unknowns) :]
-    sizes = tuple(
-        Size(u.name, u.unit, float(v), float(v * s), u.lower, u.upper)
-        for u, v, s in zip(unknowns, values, sd, strict=True)
-    )
-    word = law.words[one.hypothesis.variant]
-    title = f"{law.title} ({word})" if word else law.title
-    return (Cause(law.key, law.group, title, place.site, sizes),)
+    """Its laws at their places, with their sizes."""
+    sd = np.sqrt(np.abs(np.diag(one.covariance)))[one.hypothesis.nuisances :]
+    found = []
+    for part, p in one.hypothesis.sizes(one.x[None]):
+        own, sd = sd[: len(part.unknowns)], sd[len(part.unknowns) :]
+        sizes = tuple(
+            Size(u.name, u.unit, float(v), float(v * s), u.lower, u.upper)
+            for u, v, s in zip(part.unknowns, p[:, 0], own, strict=True)
+        )
+        found.append(Cause(part.law.key, part.law.group, titled(part), part.place.site, sizes))
+    return tuple(found)
+
+
+def titled(part: Part) -> str:
+    """A law and its variant in words."""
+    word = part.law.words[part.variant]
+    return f"{part.law.title} ({word})" if word else part.law.title

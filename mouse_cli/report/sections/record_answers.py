@@ -25,7 +25,8 @@ def answers(found: RecordDiagnosis, options: Options) -> Iterator[Block]:
 
 def _verdict(found: RecordDiagnosis) -> str:
     if found.kind == NOTHING:
-        return "Nothing is missing that these records could show: the linear model, with its parameters revised, explains them."
+        told = "Nothing is missing that these records could show: the linear model, with its parameters revised, explains them"
+        return f"{told}{' but for noise of their own' if found.noise else ''}."
     if found.kind == NAMED:
         return f"The model lacks {found.best.title}: {where(found.best)} ({with_p(found.probability)})."
     if found.kind == ONE_OF:
@@ -34,10 +35,12 @@ def _verdict(found: RecordDiagnosis) -> str:
             f"Something is missing, and the records do not settle what: {each}. "
             "Another level of excitation tells most laws apart."
         )
-    return "Something is missing that no law of the library, at a single place, explains. Do not name a cause."
+    return "Something is missing that no law of the library explains, nor two of them. Do not name a cause."
 
 
 def _where(found: RecordDiagnosis) -> str:
+    if found.kind == NOTHING and found.noise:
+        return "Nowhere: no force that follows from the motion of any place explains what is left."
     if found.kind == NOTHING:
         return "Nowhere: model and records part no more than their accuracies let expect."
     if found.kind in (NAMED, ONE_OF):
@@ -50,14 +53,30 @@ def _where(found: RecordDiagnosis) -> str:
 
 def _what(found: RecordDiagnosis) -> str:
     baseline, best = found.baseline, found.best
-    left = f"The linear model leaves {baseline.chi2 / baseline.dof:.4g} times the variance of the noise"
+    left = f"The linear model leaves {baseline.chi2 / baseline.dof:.4g} times the variance that the accuracy of the channels has"
+    if found.kind == NOTHING and found.noise:
+        return f"{left}. {_noise(found)}"
     if found.kind == NOTHING:
         return f"{left}: by chance it would be more {chance(baseline.p)}, and less than 1.1 times is taken as none."
     if best is None or not best.causes:
         return f"{left}; no law was found that leaves less."
     after = f"with {best.title} {best.chi2 / best.dof:.4g} times"
     gained = f"ln evidence over none {best.log_evidence - baseline.log_evidence:.4g}"
-    return f"{left}, {after} ({gained}). P holds on condition that the cause is one law of the library at one place."
+    told = f"{left}, {after} ({gained}). P holds on condition that the cause is one law of the library, or two, at their places."
+    return f"{told} {_noise(found)}" if found.noise else told
+
+
+def _noise(found: RecordDiagnosis) -> str:
+    """What is left and is taken for noise, and why."""
+    noise = found.noise
+    sizes = ", ".join(f"{name} {size:.3g}" for name, size in zip(found.channels, noise.size, strict=True))
+    level = "the level does not vary enough to tell whether it grows with the motion"
+    if noise.grows == noise.grows:
+        level = "it does not grow with the motion"
+    return (
+        f"What is left (rms: {sizes}) has a spectrum of its own, and is taken for noise, of disturbing forces, hum or drift: "
+        f"no law at any place takes more than {100 * noise.explained:.2g} % of it, and {level}."
+    )
 
 
 def _how_much(found: RecordDiagnosis) -> str:
