@@ -5,6 +5,7 @@ from enum import IntEnum
 
 import numpy as np
 
+from mouse_cli.model.frf_fit import Damping, FrfFit
 from mouse_cli.model.groups import joined, leading
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import ChiSquareTest, Result
@@ -231,7 +232,8 @@ class Diagnosis:
     the stated variances were multiplied. refuted: groups that held-out data speak against; cautions: sentences on what the
     answer stands or falls with, the accuracy of the test above all; misstated: what of that the deck seems to have wrong,
     `gains`, `places` or `drift`. location, energy: what shapes alone say of the place.
-    extended: the deck with the cause in it, and its update.
+    extended: the deck with the cause in it, and its update. frf, held_frf: functions of the model as it is, and with the cause where
+    there is one, beside those fitted and those held out; damping: of the structure, as functions show it.
     """
 
     problem: Problem
@@ -253,6 +255,9 @@ class Diagnosis:
     cautions: tuple[str, ...] = ()
     misstated: str | None = None
     choices: Choices = Choices()
+    frf: tuple[FrfFit, ...] = ()
+    held_frf: tuple[FrfFit, ...] = ()
+    damping: tuple[Damping, ...] = ()
 
     @property
     def best(self) -> Explanation | None:

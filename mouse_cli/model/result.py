@@ -89,8 +89,9 @@ class Result:
     covariance (p, p; None for many parameters, see RunOptions) and sd_theta (p,) of the revised parameters, in their units;
     at_limit (p,).
     B (q, e), T (q, p): partials at the revised model, only when asked for. innovation: before the cycles; residual and
-    prior_shift: after them. partials_error: estimated relative error of the final T; 0 where it is rounding alone. frf: before
-    and after, one for each measurement of frequency response functions. conditioning: None for problems too large for it.
+    prior_shift: after them. partials_error: estimated relative error of the final T; 0 where it is rounding alone. frf, held_frf:
+    before and after, one for each measurement of frequency response functions that was fitted, or held out. conditioning: None for
+    problems too large for it.
     """
 
     problem: Problem
@@ -120,6 +121,7 @@ class Result:
     versions: dict[str, str] = field(default_factory=dict)
     partials_error: float | None = None
     frf: tuple[FrfFit, ...] = ()
+    held_frf: tuple[FrfFit, ...] = ()
     conditioning: Conditioning | None = None
 
     @property

@@ -13,10 +13,9 @@ import numpy as np
 from mouse_cli.dynamics.frf import kind_factor
 from mouse_cli.model.frf_test import KINDS, FrfTest
 
-UNKNOWN, MEDIAN = (
-    0.05,
-    0.01,
-)  # standard deviation where none is known: shares of the magnitude and of the function's median
+# Standard deviation of real and imaginary part where none is known: root of the sum of squares of these shares.
+ASSUMED_OF_MAGNITUDE = 0.05  # of the value's own magnitude
+ASSUMED_OF_MEDIAN = 0.01  # of the median magnitude of its function
 LEAST = 1e-3  # no value is held to be known better than to this share of its magnitude
 
 
@@ -119,8 +118,13 @@ def accuracy(test: FrfTest) -> tuple[np.ndarray, bool]:
         if unknown.any():
             measured = np.where(np.isfinite(size), size, np.nan)
             measured[:, np.isnan(measured).all(axis=0)] = 0.0  # functions that were not measured
-            sd = np.where(unknown, np.hypot(UNKNOWN * size, MEDIAN * np.nanmedian(measured, axis=0)), sd)
+            sd = np.where(unknown, _assumed(size, measured), sd)
         return np.maximum(sd, LEAST * size), bool(unknown.any())
+
+
+def _assumed(size: np.ndarray, measured: np.ndarray) -> np.ndarray:
+    """Standard deviation (f, o, i) where none is known; measured: the magnitudes with NaN where there is none."""
+    return np.hypot(ASSUMED_OF_MAGNITUDE * size, ASSUMED_OF_MEDIAN * np.nanmedian(measured, axis=0))
 
 
 def usable(test: FrfTest, sd: np.ndarray, form: str) -> np.ndarray:

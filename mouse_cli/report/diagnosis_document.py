@@ -21,6 +21,7 @@ from mouse_cli.model.diagnosis import (
 from mouse_cli.model.result import Result
 from mouse_cli.model.units import system
 from mouse_cli.report import result_document as of_result
+from mouse_cli.report.frf_document import damping, frf, held_frf
 from mouse_cli.report.json_values import dof_name, plain
 
 SCHEMA = "mouse.diagnosis/1"
@@ -49,6 +50,9 @@ def document(found: Diagnosis) -> dict[str, Any]:
             "energy": None if found.energy is None else _energy(found.energy),
             "law": None if found.law is None else _law(found.law),
             "held_out": None if found.held_out is None else _held_out(found.held_out),
+            "frf": frf(found.frf),
+            "held_out_frf": held_frf(found.held_frf),
+            "damping": damping(found.damping),
             "next_measurement": [_proposal(each) for each in found.proposals],
             "cautions": list(found.cautions),
             "refuted": list(found.refuted),

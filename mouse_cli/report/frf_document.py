@@ -1,17 +1,28 @@
-"""What the JSON of a run says of frequency response functions, and of how errors reach the answer."""
+"""What JSON says of frequency response functions, and of how errors reach the answer."""
 
 from typing import Any
 
 import numpy as np
 
-from mouse_cli.model.frf_fit import FrfFit
+from mouse_cli.model.frf_fit import Damping, FrfFit
 from mouse_cli.model.result import Result
 from mouse_cli.observables.frf import names
 
 
-def frf(result: Result) -> list[dict[str, Any]]:
-    """One entry a measurement, `functions` in it one a function; errors in dB."""
-    return [_measurement(fit) for fit in result.frf]
+def frf(fits: tuple[FrfFit, ...]) -> list[dict[str, Any]]:
+    """One entry a measurement, `functions` in it one a function; errors in dB, under the key of each model."""
+    return [_measurement(fit) for fit in fits]
+
+
+def held_frf(fits: tuple[FrfFit, ...]) -> list[dict[str, Any]]:
+    """The same of what was held out; `covered`: share of magnitudes within the 90 % intervals of a model."""
+    covered = [{f"{model.key}_covered": fit.covered(model) for model in fit.models} for fit in fits]
+    return [_measurement(fit) | shares for fit, shares in zip(fits, covered, strict=True)]
+
+
+def damping(found: tuple[Damping, ...]) -> list[dict[str, Any]]:
+    """Damping of the structure; told: whether the functions tell it."""
+    return [{"name": d.name, "unit": d.unit, "value": d.value, "sd": d.sd, "told": d.told} for d in found]
 
 
 def _measurement(fit: FrfFit) -> dict[str, Any]:
@@ -25,10 +36,9 @@ def _measurement(fit: FrfFit) -> dict[str, Any]:
         "accuracy": "assumed" if fit.assumed else "measured",
         "basis": fit.basis or None,
         "basis_error": fit.basis_error,
-        "prior_median_db": fit.median_db(fit.prior),
-        "revised_median_db": fit.median_db(fit.revised),
-        "prior_fdac": fit.fdac(fit.prior),
-        "revised_fdac": fit.fdac(fit.revised),
+        **{f"{model.key}_median_db": fit.median_db(model.H) for model in fit.models},
+        **{f"{model.key}_rms_sd": fit.rms_sd(model.H) for model in fit.models},
+        **{f"{model.key}_fdac": fit.fdac(model.H) for model in fit.models},
         "functions": [
             _function(fit, outputs[o], inputs[i], o, i)
             for i in range(len(inputs))
@@ -40,9 +50,9 @@ def _measurement(fit: FrfFit) -> dict[str, Any]:
 
 def _function(fit: FrfFit, output: str, force: str, o: int, i: int) -> dict[str, Any]:
     values: dict[str, Any] = {"output": output, "input": force, "lines": int(fit.have[:, o, i].sum())}
-    for when, model in (("prior", fit.prior), ("revised", fit.revised)):
-        values[f"{when}_median_db"] = float(np.nanmedian(np.abs(fit.off_db(model)[:, o, i])))
-        values[f"{when}_frac"] = fit.frac(model)[o, i]
+    for model in fit.models:
+        values[f"{model.key}_median_db"] = float(np.nanmedian(np.abs(fit.off_db(model.H)[:, o, i])))
+        values[f"{model.key}_frac"] = fit.frac(model.H)[o, i]
     return values
 
 

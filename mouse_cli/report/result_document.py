@@ -11,7 +11,7 @@ from mouse_cli.dynamics.frequency import frequency_hz, sd_frequency_hz
 from mouse_cli.model.arrays import dense, is_sparse
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import ChiSquareTest, Result
-from mouse_cli.report.frf_document import conditioned, frf
+from mouse_cli.report.frf_document import conditioned, frf, held_frf
 from mouse_cli.report.json_values import dof_name, plain
 from mouse_cli.report.measured import NOT_MEASURED, eigenvalue_index, positions, shape_index
 
@@ -53,7 +53,8 @@ def document(result: Result) -> dict[str, Any]:
             "model_form": result.model_form,
             "sensitivities": {"method": _method(result), "error": result.partials_error},
             **_partials(result),
-            **({"frf": frf(result)} if result.frf else {}),
+            **({"frf": frf(result.frf)} if result.frf else {}),
+            **({"held_out_frf": held_frf(result.held_frf)} if result.held_frf else {}),
             "conditioning": conditioned(result),
             "warnings": [_warning(d) for d in (*problem.warnings, *result.warnings)],
             "versions": result.versions,

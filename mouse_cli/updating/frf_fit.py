@@ -1,11 +1,12 @@
 """What the frequency response functions say at the beginning and at the end of a run."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
 from mouse_cli.dynamics.frf_slopes import Change
-from mouse_cli.model.frf_fit import FrfFit
+from mouse_cli.model.frf_fit import FrfFit, Modelled
 from mouse_cli.observables.frf import FrfObservable, accuracy, usable
 from mouse_cli.updating.frf_state import FrfState
 from mouse_cli.updating.state import State
@@ -14,31 +15,42 @@ _MOST = 40_000_000  # derivatives of all functions at all lines by all parameter
 _LINES = 256  # worked on at once
 
 
-def fits(start: State, end: State, prior_root: np.ndarray, root: Callable[[], np.ndarray]) -> tuple[FrfFit, ...]:
-    """One for each measurement; roots (p, k) of the covariances of u before and after."""
+@dataclass(frozen=True)
+class Fits:
+    """Fields of a Result: one for each measurement, fitted and held out."""
+
+    frf: tuple[FrfFit, ...] = ()
+    held_frf: tuple[FrfFit, ...] = ()
+
+
+def fits(start: State, end: State, prior_root: np.ndarray, root: Callable[[], np.ndarray]) -> Fits:
+    """What both models say of all measurements; roots (p, k) of the covariances of u before and after."""
     if start.frf is None:
-        return ()
-    before, after = list(start.frf.everywhere()), list(end.frf.everywhere())
-    found = []
-    for k, o in enumerate(start.frf.setting.observables):
+        return Fits()
+    found, fitted = tuple(_fits(start, end, prior_root, root())), len(start.frf.setting.observables)
+    return Fits(found[:fitted], found[fitted:])
+
+
+def _fits(start: State, end: State, prior_root: np.ndarray, root: np.ndarray) -> Iterator[FrfFit]:
+    setting = start.frf.setting
+    parts = zip(setting.everything, start.frf.everywhere(), end.frf.everywhere(), strict=True)
+    for k, (o, before, after) in enumerate(parts):
         sd, assumed = accuracy(o.test)
-        found.append(
-            FrfFit(
-                test=o.test,
-                form=o.form,
-                lines=o.lines,
-                have=usable(o.test, sd, "log"),
-                sd=sd,
-                assumed=assumed,
-                prior=before[k],
-                revised=after[k],
-                prior_sd=_sd(start, k, o, prior_root),
-                revised_sd=_sd(end, k, o, root()),
-                basis=0 if end.frf.model.V is None else end.frf.model.d,
-                basis_error=end.frf.model.error,
-            )
+        models = (
+            Modelled("prior", "prior", before, _sd(start, k, o, prior_root)),
+            Modelled("revised", "revised", after, _sd(end, k, o, root)),
         )
-    return tuple(found)
+        yield FrfFit(
+            test=o.test,
+            form=o.form,
+            lines=o.lines if k < len(setting.observables) else np.zeros(0, int),
+            have=usable(o.test, sd, "log"),
+            sd=sd,
+            assumed=assumed,
+            models=models,
+            basis=0 if end.frf.model.V is None else end.frf.model.d,
+            basis_error=end.frf.model.error,
+        )
 
 
 def _sd(state: State, k: int, o: FrfObservable, root: np.ndarray) -> np.ndarray:
@@ -51,7 +63,7 @@ def _sd(state: State, k: int, o: FrfObservable, root: np.ndarray) -> np.ndarray:
     slope = setting.coordinates.slope(state.u)
     for first in range(0, len(out), _LINES):
         at = slice(first, first + _LINES)
-        out[at] = _of_lines(frf, k, 1j * o.test.omega[at], change, slope[:, None] * root)
+        out[at] = _of_lines(frf, k, o.test.laplace[at], change, slope[:, None] * root)
     return out
 
 

@@ -31,9 +31,11 @@ def begin(
 
     A sparse model is solved for every mode up to BEYOND times the highest line.
     """
-    if not problem.frf:
+    held = problem.held_records.frf if problem.held_records else ()
+    if not problem.frf and not held:
         return None, solve(None)
-    setting = FrfSetting(tuple(observe(test, test.form) for test in problem.frf))
+    fitted, kept = (tuple(observe(test, test.form) for test in tests) for tests in (problem.frf, held))
+    setting = FrfSetting(fitted, held=kept)
     if not is_sparse(K):
         return setting, solve(None)
     least = int(problem.test.number.max(initial=0)) + 6

@@ -16,20 +16,29 @@ from mouse_cli.terms.assembly import Assembly
 
 @dataclass(frozen=True)
 class FrfSetting:
-    """What stays the same of FRFs during a run: one observable a measurement; modes that a basis needs (None: all there are)."""
+    """What stays the same of FRFs during a run: one observable a measurement; modes that a basis needs (None: all there are).
+
+    held: measurements that are predicted and not fitted.
+    """
 
     observables: tuple[FrfObservable, ...]
     count: int | None = None
+    held: tuple[FrfObservable, ...] = ()
+
+    @property
+    def everything(self) -> tuple[FrfObservable, ...]:
+        """All measurements, those that are held out behind the others."""
+        return self.observables + self.held
 
     @property
     def top(self) -> float:
         """Highest |s| of all lines, rad/s."""
-        return max((float(np.abs(o.s).max(initial=0.0)) for o in self.observables), default=0.0)
+        return max((float(np.abs(o.s).max(initial=0.0)) for o in self.everything), default=0.0)
 
     @property
     def sensings(self) -> tuple[Matrix, ...]:
         """Responses and forces of each measurement in turn."""
-        return tuple(side for o in self.observables for side in (o.test.outputs, o.test.inputs))
+        return tuple(side for o in self.everything for side in (o.test.outputs, o.test.inputs))
 
     def data(self) -> tuple[np.ndarray, np.ndarray]:
         """y (q,) and sd (q,) of all measurements, one after the other."""
@@ -40,7 +49,7 @@ class FrfSetting:
     def checked(self) -> np.ndarray:
         """Lines at which the error of a basis is found: the highest, and those of the largest responses."""
         found = []
-        for o in self.observables:
+        for o in self.everything:
             size = np.where(o.have, np.abs(o.H), 0.0).max(axis=(1, 2), initial=0.0)
             found += [o.s[int(size.argmax())], o.s[-1]] if len(o.s) else []
         return np.array(sorted(set(found), key=abs, reverse=True))
@@ -78,18 +87,19 @@ class FrfState:
     def predicted(self) -> np.ndarray:
         """The data (q,) of all measurements."""
         pairs = zip(self.setting.observables, self.receptance, strict=True)
-        return np.concatenate([o.predicted(alpha) for o, alpha in pairs])
+        return np.concatenate([np.zeros(0), *(o.predicted(alpha) for o, alpha in pairs)])
 
     def partials(self, change: Change) -> np.ndarray:
         """T (q, p): derivatives by whatever p things `change` is by."""
         parts = zip(self.setting.observables, self.receptance, self.fields, strict=True)
-        return np.concatenate(
-            [o.partials(alpha, f.slopes(change, 2 * k, 2 * k + 1), change.p) for k, (o, alpha, f) in enumerate(parts)]
-        )
+        found = [
+            o.partials(alpha, f.slopes(change, 2 * k, 2 * k + 1), change.p) for k, (o, alpha, f) in enumerate(parts)
+        ]
+        return np.concatenate([np.zeros((0, change.p)), *found])
 
     def everywhere(self) -> Iterator[np.ndarray]:
         """H (f, o, i) of each measurement at all of its lines, in its own kind."""
-        for k, o in enumerate(self.setting.observables):
+        for k, o in enumerate(self.setting.everything):
             whole = replace(o, lines=np.arange(len(o.test.omega)), width=0.0)
             with np.errstate(divide="ignore", invalid="ignore"):
                 yield self.model.at(whole.s).receptance(2 * k, 2 * k + 1) * whole.factor

@@ -121,7 +121,7 @@ def _run(trace: Trace, estimator: Estimator) -> Result:
     """`run`, once the prior model is solved."""
     setting, start = trace.setting, trace.state
     innovation = model_form.innovation(setting, start)
-    if setting.frf is not None and setting.problem.run.recursion == "anchored":
+    if setting.frf is not None and setting.frf.observables and setting.problem.run.recursion == "anchored":
         trace.guess = frf_start(setting, trace.guess)
     status = RECURSIONS[setting.problem.run.recursion].recur(trace, estimator)
     result = _result(trace, start, status, estimator, innovation)
@@ -165,7 +165,7 @@ def _result(trace: Trace, start: State, status: Status, estimator: Estimator, in
         versions=_versions(),
         partials_error=end.error,
         conditioning=_conditioning(setting, end, estimator),
-        frf=fits(start, end, _root(setting.coordinates.L), estimate.root),
+        **vars(fits(start, end, _root(setting.coordinates.L), estimate.root)),
     )
 
 

@@ -87,6 +87,7 @@ def test_order() -> None:
         "before-after",
         "frf-before-after",
         "held-out",
+        "frf-held-out",
         "verdict",
     ]
     for subject in (Result, Forecast, Correlation):

@@ -8,7 +8,7 @@ import pytest
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.formats.yaml_deck.reader import read
 from mouse_cli.model.frf_test import FrfTest
-from mouse_cli.observables.frf import MEDIAN, UNKNOWN, accuracy, observe
+from mouse_cli.observables.frf import ASSUMED_OF_MEDIAN, ASSUMED_OF_MAGNITUDE, accuracy, observe
 from mouse_cli.observables.frf_lines import chosen
 from mouse_cli.observables.frf_smoothing import smoothed
 from mouse_cli.updating import run
@@ -161,7 +161,7 @@ def test_assumed_accuracy():
     test = FrfTest(np.arange(1.0, 51.0), H, "mobility", np.array([0]), np.array([0]), np.full(H.shape, np.nan))
     sd, assumed = accuracy(test)
     assert assumed
-    assert np.allclose(sd, np.hypot(UNKNOWN * np.abs(H), MEDIAN * np.median(np.abs(H))))
+    assert np.allclose(sd, np.hypot(ASSUMED_OF_MAGNITUDE * np.abs(H), ASSUMED_OF_MEDIAN * np.median(np.abs(H))))
 
 
 def test_lines_lie_where_resonances_are():
