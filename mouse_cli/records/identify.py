@@ -53,6 +53,7 @@ def identify_frf(
         details={
             "lines": len(hz), "orders": found.search.orders, "forces": test.H.shape[2], "lines raised": found.raised,
             "correlated lines": len(found.errors.rho) - 1,
+            "sd raised": float(np.sqrt(found.covariance.excess.max(initial=1.0))),
         },
     )  # fmt: skip
 

@@ -7,7 +7,8 @@ import numpy as np
 
 from mouse_cli.model.frf_test import KINDS, FrfTest
 from mouse_cli.records import identify_noise
-from mouse_cli.records.maximum_likelihood import Fit, fitted
+from mouse_cli.records.local_fit import approached
+from mouse_cli.records.maximum_likelihood import ROUGH, Fit, fitted
 from mouse_cli.records.modal_covariance import Correlation, ModalCovariance, correlation, covariance
 from mouse_cli.records.modal_model import ABOVE, BELOW, CURVED, Lines, start
 from mouse_cli.records.mode_selection import Dropped, doubled, selected
@@ -71,14 +72,16 @@ def _fitted(lines: Lines, stated: bool, candidates: list[Track]) -> tuple[Fit, L
     poles = np.array([pole for pole, _ in centres], complex) + lines.s[0].real  # of an exponential window
     inputs = lines.H.shape[2]
     participation = np.array([vector for _, vector in centres], complex).reshape(len(poles), inputs).T
-    fit = fitted(lines, start(poles, participation, lines.H.shape[1], (BELOW, ABOVE, CURVED)))
+    first = approached(lines, start(poles, participation, lines.H.shape[1], (BELOW, ABOVE, CURVED)))
+    fit = fitted(lines, first, small=ROUGH)
     given, raised, dropped = lines, 0.0, []
     for choose in (_as_they_are, selected, doubled, selected):
         fit, gone = choose(lines, fit, poles)
         dropped += gone
         for _ in range(_REFITS if gone or choose is _as_they_are else 0):
             lines, raised = _weighted(given, fit, stated)
-            fit = fitted(lines, fit.model)
+            fit = fitted(lines, fit.model, small=ROUGH)
+    fit = fitted(lines, fit.model)
     misfit = fitted(given, fit.model, 0).misfit if stated else float("nan")
     return fit, lines, misfit, raised, dropped
 

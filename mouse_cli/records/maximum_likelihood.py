@@ -16,6 +16,7 @@ from mouse_cli.records.modal_model import Lines, ModalModel, Output, lsfd, parti
 _ITERATIONS, _SMALL = 25, 1e-6
 _FARTHEST = 3.0  # decay rates that a pole moves in one step: beyond, the slope says nothing of it
 _NEGLIGIBLE = 1e-4  # fall of chi2: it moves no unknown by more than a hundredth of its sd
+ROUGH = 1e-4  # of chi2: a fall that decides nothing while it is not settled which poles are modes
 
 
 @dataclass(frozen=True)
@@ -39,8 +40,11 @@ def unknowns(model: ModalModel) -> int:
     return 2 * model.m * (outputs + inputs) + model.residuals.size
 
 
-def fitted(lines: Lines, model: ModalModel, iterations: int = _ITERATIONS) -> Fit:
-    """The maximum of the likelihood from `model` on. Levenberg-Marquardt: a step that raises chi2 is shortened."""
+def fitted(lines: Lines, model: ModalModel, iterations: int = _ITERATIONS, small: float = _SMALL) -> Fit:
+    """The maximum of the likelihood from `model` on. Levenberg-Marquardt: a step that raises chi2 is shortened.
+
+    small: share of chi2 by which a step has to lower it for another one.
+    """
     model, chi2 = solved(lines, model)
     damping, free = 1e-3, 2 * lines.values - unknowns(model)
     for _ in range(iterations if model.m else 0):
@@ -49,7 +53,7 @@ def fitted(lines: Lines, model: ModalModel, iterations: int = _ITERATIONS) -> Fi
         if tried is None:
             return Fit(model, chi2, free)
         gain, model, chi2 = chi2 - lower, tried, lower
-        if gain <= _SMALL * chi2 + _NEGLIGIBLE:
+        if gain <= small * chi2 + _NEGLIGIBLE:
             return Fit(model, chi2, free)
     return Fit(model, chi2, free, converged=model.m == 0)
 
@@ -92,28 +96,46 @@ def free_participations(participation: np.ndarray) -> tuple[np.ndarray, np.ndarr
     return rows, columns
 
 
-def slopes(lines: Lines, model: ModalModel, shape: np.ndarray) -> np.ndarray:
-    """dH (f, i, t) of one output to real and imaginary parts of the poles, then of the free participations, by turns."""
+@dataclass(frozen=True)
+class Slopes:
+    """dH to the unknowns, poles then free participations, without the shapes: p, q (f, i, k) of a real shape and of i times it.
+
+    columns (k,): mode of each unknown.
+    """
+
+    p: np.ndarray
+    q: np.ndarray
+    columns: np.ndarray
+
+    def of(self, shape: np.ndarray, weight: np.ndarray) -> np.ndarray:
+        """weight dH of one output (2 f i, 2 k), stacked: to real and imaginary parts of the unknowns by turns."""
+        factor = shape[self.columns]
+        p, q = (stacked(weight[:, :, None] * part) for part in (self.p, self.q))
+        found = np.empty((*p.shape, 2))
+        found[:, :, 0], found[:, :, 1] = factor.real * p + factor.imag * q, factor.real * q - factor.imag * p
+        return found.reshape(len(p), -1)
+
+
+def slopes(lines: Lines, model: ModalModel) -> Slopes:
+    """Those of the model: with x of a shape and a participation, d/da of x (a + i b) + its mirror is p, d/db is q."""
     b, c = partial_fractions(lines.s, lines.kind, model.poles)
     d, e = partial_fractions(lines.s, lines.kind, model.poles, 2)
-    direct = shape * d, shape.conj() * e
     poles = [
-        part[:, None, :] * l for part, l in zip(direct, (model.participation, model.participation.conj()), strict=True)
+        part[:, None, :] * l for part, l in zip((d, e), (model.participation, model.participation.conj()), strict=True)
     ]
     rows, columns = free_participations(model.participation)
     place = (np.arange(model.participation.shape[0])[:, None] == rows).astype(float)
-    inputs = [(q * b_)[:, None, columns] * place for q, b_ in ((shape, b), (shape.conj(), c))]
+    inputs = [part[:, None, columns] * place for part in (b, c)]
     forward, mirrored = (np.concatenate(pair, axis=2) for pair in zip(poles, inputs, strict=True))
-    found = np.empty((*forward.shape[:2], 2 * forward.shape[2]), complex)
-    found[:, :, 0::2], found[:, :, 1::2] = forward + mirrored, 1j * (forward - mirrored)
-    return found
+    return Slopes(forward + mirrored, 1j * (forward - mirrored), np.concatenate([np.arange(model.m), columns]))
 
 
 def per_output(lines: Lines, model: ModalModel) -> Iterator[tuple[Output, np.ndarray]]:
     """Each output's linear part, and its weighted slopes (2 f i, t)."""
+    base, weight = slopes(lines, model), lines.weight
     for o, found in enumerate(lsfd(lines, model)):
         shape = found.solution[: model.m] + 1j * found.solution[model.m : 2 * model.m]
-        yield found, stacked(lines.weight[:, o, :, None] * slopes(lines, model, shape))
+        yield found, base.of(shape, weight[:, o])
 
 
 def _reduced(lines: Lines, model: ModalModel) -> tuple[np.ndarray, np.ndarray]:

@@ -4,7 +4,7 @@ To first order the unknowns are linear in the weighted errors e: d theta = C sum
 d psi_o = A_o^+ (e_o - G_o d theta), with C = (sum_o G_o' P_o G_o)^-1. For independent errors the covariance of theta is C. Windows
 correlate neighbouring lines and noise of the force correlates outputs; then E e e^H is taken as separable, rho(line distance) times
 a matrix of channels, both from the errors left by the fit, and goes through the same linear map (the `sandwich`: H. White,
-Econometrica 48 (1980) 817).
+Econometrica 48 (1980) 817). Where the errors that matter to one mode are larger than that, its covariance is raised (`excess`).
 """
 
 from dataclasses import dataclass
@@ -17,6 +17,8 @@ from mouse_cli.records.modal_model import Lines, ModalModel, complexed, synthesi
 _REACH = 0.05  # of the lines, over which errors may be correlated
 _FEW = 5  # distances from which on the correlation is tapered, so that its spectrum stays positive
 _SIGNIFICANT = 4.0  # standard errors
+_REACHED = 4  # lines on either side over which errors that matter to a mode are added up
+_CHANCE = 3.0  # sd of a mean square from which on it is no chance
 _LARGEST = 5_000_000  # values of the influence functions that are kept at once for correlated channels
 
 
@@ -63,26 +65,57 @@ def _channels(errors: np.ndarray) -> np.ndarray | None:
 @dataclass(frozen=True)
 class ModalCovariance:
     """poles (2 m, 2 m): of real and imaginary parts by turns. modes: for each mode the covariance of its pole (2), its free
-    participations (2 (i - 1)) and its shape (2 o), real and imaginary parts by turns."""
+    participations (2 (i - 1)) and its shape (2 o), real and imaginary parts by turns. excess (m,): what variances were raised by."""
 
     poles: np.ndarray
     modes: tuple[np.ndarray, ...]
+    excess: np.ndarray
 
 
 def covariance(lines: Lines, model: ModalModel, errors: Correlation = INDEPENDENT) -> ModalCovariance:
     """Covariance at the fitted `model`."""
     if not model.m:
-        return ModalCovariance(np.zeros((0, 0)), ())
-    free = [found.off(slope) for found, slope in per_output(lines, model)]
-    normal = sum(part.T @ part for part in free)
-    inverse = np.linalg.pinv(normal, hermitian=True)
+        return ModalCovariance(np.zeros((0, 0)), (), np.zeros(0))
     f, _, i = lines.H.shape
-    influence = [complexed(inverse @ part.T, f, i) for part in free]
+    both = [(found.off(slope), complexed(found.remainder, f, i)) for found, slope in per_output(lines, model)]
+    inverse = np.linalg.pinv(sum(part.T @ part for part, _ in both), hermitian=True)
+    influence = [complexed(inverse @ part.T, f, i) for part, _ in both]
     spread = _spread(influence, errors)
     theta = sum(_inner(a, b) for a, b in zip(influence, spread, strict=True))
     own, coupling, mixed = _outputs(lines, model, spread, errors)
-    modes = tuple(_mode(model, r, theta, own, coupling, mixed) for r in range(model.m))
-    return ModalCovariance(theta[: 2 * model.m, : 2 * model.m], modes)
+    over = excess(
+        [part[: 2 * model.m] for part in influence], [left for _, left in both], np.diag(theta)[: 2 * model.m]
+    )
+    modes = tuple(_mode(model, r, theta, own, coupling, mixed) * over[r] for r in range(model.m))
+    raised = np.sqrt(np.repeat(over, 2))
+    return ModalCovariance(theta[: 2 * model.m, : 2 * model.m] * np.outer(raised, raised), modes, over)
+
+
+def excess(influence: list[np.ndarray], left: list[np.ndarray], variance: np.ndarray) -> np.ndarray:
+    """By how much (m,) the variance of each mode is too small for the errors that the fit leaves where it matters to the mode.
+
+    influence: of weighted errors on real and imaginary parts of the poles, (2 m, f, i) of each output; left (f, i): those errors;
+    variance (2 m,): stated. A model that is not quite right (leakage, a frequency that changes with force, two tests that differ)
+    errs at resonances, on few lines, where means over the band do not see it. The larger of two mean squares counts, where it
+    is above 1 by more than chance makes it: of errors over their sd, weighted by their influence; and of the scores d = Re conj
+    (influence) error over what they should have, summed over channels and over neighbouring lines with Bartlett's weights
+    (W. K. Newey, K. D. West, Econometrica 55 (1987) 703).
+    """
+    size = np.stack([np.abs(part) ** 2 for part in influence], axis=2)
+    power = np.stack([np.abs(part) ** 2 / 2 for part in left], axis=1)
+    total = size.sum(axis=(1, 2, 3))
+    near = np.einsum("tfoi,foi->t", size, power) / total
+    scores = sum((part.conj() * error).real.sum(axis=2) for part, error in zip(influence, left, strict=True))
+    summed = (scores**2).sum(axis=1)
+    for lag in range(1, min(_REACHED, scores.shape[1] - 1) + 1):
+        summed += 2 * (1 - lag / (_REACHED + 1)) * (scores[:, lag:] * scores[:, :-lag]).sum(axis=1)
+    lines = size.sum(axis=(2, 3))
+    free = 2 * total**2 / (size**2).sum(axis=(1, 2, 3)), total**2 / (lines**2).sum(axis=1)
+    above = [
+        np.where(ratio > 1 + _CHANCE * np.sqrt(2 / count), ratio, 1.0)
+        for ratio, count in zip((near, summed / variance), free, strict=True)
+    ]
+    return np.max(above, axis=0).reshape(-1, 2).max(axis=1)
 
 
 def _inner(a: np.ndarray, b: np.ndarray) -> np.ndarray:

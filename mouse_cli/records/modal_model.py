@@ -125,6 +125,16 @@ class Output:
         """The first rows (rows, 2 f i) of the pseudo-inverse of the design."""
         return self.back[:rows] @ self.columns.T
 
+    def rises(self, m: int) -> np.ndarray:
+        """By how much the sum of squares (m,) grows without each of m modes: x_S' (C_SS)^-1 x_S, C = (design' design)^-1.
+
+        G. A. F. Seber, A. J. Lee, Linear Regression Analysis, 2003, section 4.3. S: real and imaginary part of the mode's shape.
+        """
+        rows = self.inverse(2 * m)
+        parts = np.stack([rows[:m], rows[m:]], axis=1)
+        x = self.solution[: 2 * m].reshape(2, m).T[:, :, None]
+        return (x.transpose(0, 2, 1) @ np.linalg.pinv(parts @ parts.transpose(0, 2, 1), hermitian=True) @ x).ravel()
+
 
 def lsfd(lines: Lines, model: ModalModel) -> Iterator[Output]:
     """Weighted least squares of each output in turn, poles and participations held (LSFD)."""
@@ -152,7 +162,7 @@ def solved(lines: Lines, model: ModalModel) -> tuple[ModalModel, float]:
     shapes, residuals, chi2 = np.empty_like(model.shapes), np.empty_like(model.residuals), 0.0
     for o, found in enumerate(lsfd(lines, model)):
         shapes[o] = found.solution[: model.m] + 1j * found.solution[model.m : 2 * model.m]
-        residuals[:, o] = found.solution[2 * model.m :].reshape(residuals.shape[0], -1)
+        residuals[:, o] = found.solution[2 * model.m :].reshape(residuals.shape[0], residuals.shape[2])
         chi2 += float(found.remainder @ found.remainder)
     return replace(model, shapes=shapes, residuals=residuals), chi2
 
