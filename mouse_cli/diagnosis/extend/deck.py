@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.extend.edit import moved
+from mouse_cli.diagnosis.extend.edit import moved, moved_functions
 from mouse_cli.diagnosis.name.fit import Fit
 from mouse_cli.diagnosis.physics.sensors import name, readings
 from mouse_cli.model.hold_out import HoldOut
@@ -20,10 +20,13 @@ def extended(problem: Problem, one: Fit) -> Problem | None:
             return None
         deck = recipe.extend(deck, recipe.values(one.c[own]))
     deck = _in_its_units(deck, len(problem.parameters))
-    if problem.hold_out is None:
-        return deck
     place = {label: i for i, label in enumerate(deck.structure.labels)}
     to = np.array([place[label] for label in problem.structure.labels], int)
+    if problem.held_records is not None:
+        functions = tuple(moved_functions(each, to, deck.structure.n) for each in problem.held_records.frf)
+        deck = replace(deck, held_records=replace(problem.held_records, frf=functions))
+    if problem.hold_out is None:
+        return deck
     held = _moved(problem.hold_out, to, deck.structure.n)
     if deck.test.sensors != problem.test.sensors or (deck.test.dofs != to[problem.test.dofs]).any():
         held = replace(held, whole=_corrected(held, replace(deck, test=held.whole), deck.test))

@@ -187,7 +187,7 @@ class Edit:
             mesh=mesh,
             bindings=tuple(self.bindings),
             test=None if old.test is None else moved(old.test, to, structure.n),
-            frf=tuple(_moved_functions(each, to, structure.n) for each in old.frf),
+            frf=tuple(moved_functions(each, to, structure.n) for each in old.frf),
             recordings=tuple(moved_channels(each, to) for each in old.recordings),
             run=replace(old.run, total_mass_dofs=dofs),
         )
@@ -266,7 +266,8 @@ def _moved_weights(weights: Matrix, to: np.ndarray, n: int) -> Matrix:
     return coo_array((stored.data, (stored.row, to[stored.col])), shape=(weights.shape[0], n)).tocsr()
 
 
-def _moved_functions(test: FrfTest, to: np.ndarray, n: int) -> FrfTest:
+def moved_functions(test: FrfTest, to: np.ndarray, n: int) -> FrfTest:
+    """Functions when degree of freedom i (from 0) of their model has become to[i] of n."""
     return replace(test, outputs=_moved_weights(test.outputs, to, n), inputs=_moved_weights(test.inputs, to, n))
 
 

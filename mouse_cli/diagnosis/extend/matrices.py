@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.extend.edit import moved, with_parameters
+from mouse_cli.diagnosis.extend.edit import moved, moved_functions, with_parameters
 from mouse_cli.model.arrays import Matrix, is_sparse
 from mouse_cli.model.parameter import Parameter
 from mouse_cli.model.problem import Problem
@@ -88,7 +88,8 @@ def with_degree_of_freedom(problem: Problem, label: str) -> Problem:
         geometry = replace(geometry, node=node, direction=direction)
     larger = replace(structure, **changed, labels=(*structure.labels, label), geometry=geometry)
     test = None if problem.test is None else moved(problem.test, np.arange(n), n + 1)
-    deck = replace(problem, structure=larger, test=test)
+    functions = tuple(moved_functions(each, np.arange(n), n + 1) for each in problem.frf)
+    deck = replace(problem, structure=larger, test=test, frf=functions)
     if problem.mesh is None:
         return deck
     edit = Edit(deck)
