@@ -11,7 +11,7 @@ from mouse_cli.records.local_fit import approached
 from mouse_cli.records.maximum_likelihood import ROUGH, Fit, fitted
 from mouse_cli.records.modal_covariance import Correlation, ModalCovariance, correlation, covariance
 from mouse_cli.records.modal_model import ABOVE, BELOW, CURVED, Lines, start
-from mouse_cli.records.mode_selection import Dropped, doubled, selected
+from mouse_cli.records.mode_selection import Dropped, doubled, known, selected
 from mouse_cli.records.pole_search import Search, search
 from mouse_cli.records.stabilisation import Track
 
@@ -75,7 +75,7 @@ def _fitted(lines: Lines, stated: bool, candidates: list[Track]) -> tuple[Fit, L
     first = approached(lines, start(poles, participation, lines.H.shape[1], (BELOW, ABOVE, CURVED)))
     fit = fitted(lines, first, small=ROUGH)
     given, raised, dropped = lines, 0.0, []
-    for choose in (_as_they_are, selected, doubled, selected):
+    for choose in (_as_they_are, selected, doubled, selected, known):
         fit, gone = choose(lines, fit, poles)
         dropped += gone
         for _ in range(_REFITS if gone or choose is _as_they_are else 0):

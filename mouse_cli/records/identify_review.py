@@ -11,12 +11,12 @@ from mouse_cli.records.identify_frf import Found
 from mouse_cli.records.identify_modes import Drive, from_fit, from_subspace
 from mouse_cli.records.identify_output_only import FoundOutputs
 from mouse_cli.records.modal_model import ModalModel
+from mouse_cli.records.mode_selection import UNKNOWN, UNKNOWN_DAMPING
 from mouse_cli.records.pole_search import NARROWEST
 
 _NARROW = 2.0  # lines in a half-power bandwidth
 _POOR = 1 / 3
 _MISFIT = 2.0  # mean square of errors over stated variances that is worth a remark
-_UNKNOWN = 0.5  # sd of damping over damping
 _RISE = 3.0  # of the level at an edge over the largest a twentieth to a sixth of the band within
 _TURNED = (60.0, 120.0)  # degrees between residues and those of a structure
 
@@ -56,8 +56,8 @@ def reviewed(found: Found, drives: list[Drive]) -> Review:
             doubts.append(
                 Diagnostic("MD652", ERROR, message, help="move the edge away from the resonance: --band LOW HIGH")
             )
-        elif np.sqrt(found.covariance.poles[2 * r, 2 * r]) > _UNKNOWN * abs(pole.real):
-            reason = "has a damping that is not known to half of it"
+        elif np.sqrt(found.covariance.poles[2 * r, 2 * r]) > UNKNOWN * abs(pole.real):
+            reason = UNKNOWN_DAMPING
         if reason:
             rejected.append(Rejected(hz, zeta, reason))
         else:

@@ -48,7 +48,7 @@ def fitted(lines: Lines, model: ModalModel, iterations: int = _ITERATIONS, small
     model, chi2 = solved(lines, model)
     damping, free = 1e-3, 2 * lines.values - unknowns(model)
     for _ in range(iterations if model.m else 0):
-        normal, gradient = _reduced(lines, model)
+        normal, gradient = reduced(lines, model)
         tried, lower, damping = _step(lines, model, chi2, normal, gradient, damping)
         if tried is None:
             return Fit(model, chi2, free)
@@ -138,7 +138,7 @@ def per_output(lines: Lines, model: ModalModel) -> Iterator[tuple[Output, np.nda
         yield found, base.of(shape, weight[:, o])
 
 
-def _reduced(lines: Lines, model: ModalModel) -> tuple[np.ndarray, np.ndarray]:
+def reduced(lines: Lines, model: ModalModel) -> tuple[np.ndarray, np.ndarray]:
     """sum_o G_o' P_o G_o (t, t) and sum_o G_o' P_o r_o (t,)."""
     normal = gradient = 0.0
     for found, slope in per_output(lines, model):

@@ -65,7 +65,8 @@ def _channels(errors: np.ndarray) -> np.ndarray | None:
 @dataclass(frozen=True)
 class ModalCovariance:
     """poles (2 m, 2 m): of real and imaginary parts by turns. modes: for each mode the covariance of its pole (2), its free
-    participations (2 (i - 1)) and its shape (2 o), real and imaginary parts by turns. excess (m,): what variances were raised by."""
+    participations (2 (i - 1)) and its shape (2 o), real and imaginary parts by turns. excess (m,): by what
+    variances were raised."""
 
     poles: np.ndarray
     modes: tuple[np.ndarray, ...]

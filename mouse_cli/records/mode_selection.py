@@ -9,14 +9,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.records.lscf import BEYOND
 from mouse_cli.records.local_fit import without
-from mouse_cli.records.maximum_likelihood import Fit
+from mouse_cli.records.lscf import BEYOND
+from mouse_cli.records.maximum_likelihood import Fit, reduced
 from mouse_cli.records.modal_model import Lines, ModalModel, lsfd
 
 FALSE_MODES = 1e-3  # in a test without any
 HEAVIEST = 0.25  # damping of a mode
 ALIKE = 0.9  # MAC of residues from which on two poles have one shape
+UNKNOWN = 0.5  # sd of the decay rate over it
+UNKNOWN_DAMPING = "has a damping that is not known to half of it"
 _STRAYED = 3.0  # decay rates
 _FEW = 6  # iterations after a mode was taken out
 _CLEAR = 20.0  # a rise of chi2 above this many limits, other poles held, needs no second fit
@@ -88,10 +90,27 @@ def _fault(lines: Lines, pole: complex, centres: np.ndarray) -> str:
         return "has no positive damping once fitted"
     if -pole.real > HEAVIEST * abs(pole):
         return f"is damped by more than {100 * HEAVIEST:.0f} %: a slope of the functions, no resonance"
-    # one beyond the edges stands for all that is there, and may be anywhere
-    if first < pole.imag < last and (np.abs(pole - centres) > _STRAYED * np.abs(centres.real)).all():
+    # one beyond the edges stands for all that is there; a sharp one has come to a resonance that was missed
+    apart, widest = np.abs(pole - centres), np.abs(centres.real)
+    if first < pole.imag < last and -pole.real > widest.max() and (apart > _STRAYED * widest).all():
         return "moves away from where it was stable once fitted"
     return ""
+
+
+def known(lines: Lines, fit: Fit, centres: np.ndarray) -> tuple[Fit, list[Dropped]]:
+    """The fit without poles that leave one another unknown: of two at one place neither has a decay rate known to half of it."""
+    dropped: list[Dropped] = []
+    while fit.model.m > 1:
+        sd = np.sqrt(
+            np.abs(np.diag(np.linalg.pinv(reduced(lines, fit.model)[0], hermitian=True))[: 2 * fit.model.m : 2])
+        )
+        unknown = np.flatnonzero(sd > UNKNOWN * np.abs(fit.model.poles.real))
+        if not len(unknown):
+            break
+        r = int(unknown[np.argmin(_rises(lines, fit.model)[unknown])])
+        dropped.append(Dropped(complex(fit.model.poles[r]), UNKNOWN_DAMPING))
+        fit = without(lines, fit, r, _FEW)
+    return fit, dropped
 
 
 def doubled(lines: Lines, fit: Fit, centres: np.ndarray) -> tuple[Fit, list[Dropped]]:
