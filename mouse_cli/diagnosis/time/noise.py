@@ -13,7 +13,7 @@ from mouse_cli.diagnosis.time.hypothesis import Hypothesis, Place
 from mouse_cli.diagnosis.time.regression import Regression, allowed
 from mouse_cli.model.record_diagnosis import Noise
 
-EXPLAINED = 0.25  # share of the excess that a law explains, from which on it is no noise
+EXPLAINED = 0.1  # share of what is left that a law takes, from which on it is no noise
 LOUD = 0.2  # rms of what is left by that of the record, from which on a record cannot be said to be explained
 _GROWS = 0.5  # exponent of its variance over that of the motion, from which on it grows with the motion
 _LEAST, _CHANCE = 40.0, 12.0  # effective samples that can judge; chi2 that the best of many laws explains by chance
@@ -40,10 +40,11 @@ def noise(spectrum: Spectrum, base: Hypothesis, places: list[Place], begun: np.n
         return None
     most = max(EXPLAINED, _CHANCE / count)
     explained = 0.0
-    for place in places:
-        explained = max(explained, _explained(look(white, place)))
-        if explained > most:
-            return None
+    for share in (_freely, _by_laws):  # the quicker one decides most
+        for place in places:
+            explained = max(explained, share(look(white, place)))
+            if explained > most:
+                return None
     return Noise(size * series.sd, explained, effective, grows)
 
 
@@ -51,7 +52,8 @@ def whitening(spectrum: Spectrum, left: np.ndarray) -> tuple[np.ndarray, float]:
     """Weights (l, s, s) that make `left` (t, s), in sd, white where it exceeds the accuracy of the channels, and leave out the
     rest; and the share of its samples that are then independent.
 
-    With S the spectrum of what is left, averaged over neighbouring lines: S = L L', weights w L^-1, w = tr S / (tr S + s).
+    With S = V diag(p) V' the spectrum of what is left, averaged over neighbouring lines: weights max(1 - 1/p, 0) / sqrt p V'.
+    A force at one place shows in one direction of V.
     """
     from scipy.ndimage import uniform_filter1d
 
@@ -60,10 +62,10 @@ def whitening(spectrum: Spectrum, left: np.ndarray) -> tuple[np.ndarray, float]:
     wide = max(8 * s * spectrum.padded // t, int(_LINES * len(lines)), 1)
     power = np.einsum("li,lj->lij", lines, lines.conj()) / t
     S = uniform_filter1d(power.real, wide, axis=0) + 1j * uniform_filter1d(power.imag, wide, axis=0)
-    size = np.trace(S, axis1=1, axis2=2).real / s
-    excess = size / (1 + size)
-    S += 1e-3 * (size + 1e-12)[:, None, None] * np.eye(s)
-    return excess[:, None, None] * np.linalg.inv(np.linalg.cholesky(S)), float(np.mean(excess**2))
+    p, V = np.linalg.eigh(S)
+    excess = np.maximum(1 - 1 / np.maximum(p, 1e-12), 0)
+    weights = (excess / np.sqrt(np.maximum(p, 1e-12)))[:, :, None] * V.conj().transpose(0, 2, 1)
+    return weights, float(np.mean(excess**2))
 
 
 def _growth(at: Regression) -> float:
@@ -83,20 +85,20 @@ def _growth(at: Regression) -> float:
     return float(max(slope - 2 * error, 0.0))
 
 
-def _explained(at: Regression) -> float:
-    """Largest share of what is left that a law of the library takes at a place, or a free function of motion and velocity."""
-    shares = [at.share(_free_columns(at))]
+def _freely(at: Regression) -> float:
+    """Share of what is left that forces take which are any function of the motion, and any of the velocity."""
+    found = []
+    for z in (at.local.x, at.local.v):
+        knots = np.quantile(z, np.linspace(0, 1, _BINS))
+        found += [np.interp(z, knots, row) for row in np.eye(_BINS)]
+    return at.share(found)
+
+
+def _by_laws(at: Regression) -> float:
+    """Largest share of what is left that a law of the library takes."""
+    shares = [0.0]
     for law in allowed(at.local.place):
         for variant in range(len(law.variants)):
             start = at.best(law, variant)
             shares.append(0.0 if start is None else 1 - start.left / at.nothing)
     return max(shares)
-
-
-def _free_columns(at: Regression) -> list[np.ndarray]:
-    """Histories (t,) of forces that are any function of the motion, and any function of the velocity."""
-    found = []
-    for z in (at.local.x, at.local.v):
-        knots = np.quantile(z, np.linspace(0, 1, _BINS))
-        found += [np.interp(z, knots, row) for row in np.eye(_BINS)]
-    return found
