@@ -36,14 +36,14 @@ class Model:
     def added(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """K, M (size, size) and sensing (s, size) that the causes add at x (k + t,)."""
         changes = self.changes(x[self.k :])
-        K, M, S = self._sum(list(enumerate(changes)))
+        K, M, S = self.summed(list(enumerate(changes)))
         self._crossed(K, M)
-        bars, core = self._softer(changes)
+        bars, core = self.softer(changes)
         if len(bars):
-            K[: self.base.r, : self.base.r] += self.base.bars.strained(bars, core * self._follow(bars, x[: self.k]))
+            K[: self.base.r, : self.base.r] += self.base.bars.strained(bars, core * self.follow(bars, x[: self.k]))
         return K, M, S
 
-    def _softer(self, changes: list[Change]) -> tuple[np.ndarray, np.ndarray]:
+    def softer(self, changes: list[Change]) -> tuple[np.ndarray, np.ndarray]:
         """Bars (c,), and the changes of their stiffness (c, 3, 3) by all that makes them softer, in series within each."""
         parts = [change.softening for change in changes if change.softening is not None]
         if not parts:
@@ -53,11 +53,11 @@ class Model:
         np.add.at(total, at, np.concatenate([part.added for part in parts]))
         return bars, self.base.bars.lost(bars, total)
 
-    def _follow(self, bars: np.ndarray, z: np.ndarray) -> np.ndarray:
+    def follow(self, bars: np.ndarray, z: np.ndarray) -> np.ndarray:
         """EI of `bars` at z over what it is at the parameters of the base (c, 1, 1)."""
         return np.exp(self.base.stiffening[bars] @ (z - self.base.z))[:, None, None]
 
-    def _sum(self, parts: list[tuple[int, Change]]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def summed(self, parts: list[tuple[int, Change]]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """K, M (size, size) and sensing (s, size) that `parts` make, by number of the recipe; without what softens bars."""
         K, M = np.zeros((2, self.size, self.size))
         S = np.zeros((self.base.sensing.shape[0], self.size))
@@ -103,7 +103,7 @@ class Model:
         K[:r, :r] += K0
         M[:r, :r] += M0
         S[:, :r] += self.base.sensing
-        eigenvalues, X = _modes(K, M)
+        eigenvalues, X = modes_of(K, M)
         if not np.isfinite(eigenvalues).all() or eigenvalues[0] < -1e-5 * abs(eigenvalues[-1]):
             return None
         seen = S @ X
@@ -122,8 +122,8 @@ class Model:
         G = [np.swapaxes(forces, 1, 2) @ X[:r]]  # (k, m, modes)
         own = [np.einsum("prm,rm->pm", inertia, X[:r, m])]
         sensed = np.zeros((self.k, at.seen.shape[0], len(m)))
-        for i, change in self._derivatives(at.x):
-            K, M, S = self._sum([(i, change)])
+        for i, change in self.derivatives(at.x):
+            K, M, S = self.summed([(i, change)])
             moved = M @ X[:, m]
             G.append(((K @ X[:, m] - moved * at.eigenvalues[m]).T @ X)[None])
             own.append(np.einsum("rm,rm->m", moved, X[:, m])[None])
@@ -137,16 +137,16 @@ class Model:
 
     def _following(self, at: "Point") -> np.ndarray | float:
         """Forces (k, r, m) on the measured modes by what softens bars, as it follows their stiffness."""
-        bars, core = self._softer(self.changes(at.x[self.k :]))
+        bars, core = self.softer(self.changes(at.x[self.k :]))
         if not len(bars):
             return 0.0
         rows = self.base.bars.strain[bars]
-        loads = (core * self._follow(bars, at.x[: self.k])) @ (rows @ at.X[: self.base.r, at.modes])
+        loads = (core * self.follow(bars, at.x[: self.k])) @ (rows @ at.X[: self.base.r, at.modes])
         b, follows = len(bars), self.base.stiffening[bars].T
         loads = follows[:, :, None, None] * loads  # (k, b, 3, m)
         return rows.reshape(3 * b, -1).T @ loads.reshape(len(follows), 3 * b, loads.shape[-1])
 
-    def _derivatives(self, x: np.ndarray) -> Iterator[tuple[int, Change]]:
+    def derivatives(self, x: np.ndarray) -> Iterator[tuple[int, Change]]:
         """Recipe and d(change)/dc, by central differences of the matrices, for each coordinate of the causes."""
         z, c = x[: self.k], x[self.k :]
         changes = self.changes(c)
@@ -168,14 +168,14 @@ class Model:
             a, b = (getattr(side, name) for side in sides)
             parts.append(None if a is None else (a - b) / length)
         if sides[0].softening is not None:
-            one, other = (self._softer([*changes[:i], side, *changes[i + 1 :]]) for side in sides)
-            a, b = (self.base.bars.strained(bars, core * self._follow(bars, z)) for bars, core in (one, other))
+            one, other = (self.softer([*changes[:i], side, *changes[i + 1 :]]) for side in sides)
+            a, b = (self.base.bars.strained(bars, core * self.follow(bars, z)) for bars, core in (one, other))
             softer = (a - b) / length
             parts[0] = softer if parts[0] is None else parts[0] + softer
         return Change(*parts)
 
 
-def _modes(K: np.ndarray, M: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def modes_of(K: np.ndarray, M: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Eigenvalues (size,) and mass-normalised shapes of symmetric K and M, which are overwritten; NaN where M is no mass."""
     from scipy.linalg.lapack import dsygvd
 

@@ -17,7 +17,8 @@ _SAME = 1e-6  # share of the damping below which what a deck states is like the 
 class Damping:
     """Unknowns ln eta, ln alpha, ln beta: loss factor, viscous damping by mass (1/s) and by stiffness (s), N(mean, sd) each.
 
-    rows (c, r), own (c,), viscous (c,): what the deck states besides, D + i omega C = rows' diag(own + i omega viscous) rows.
+    stated: loss factor that the deck gives most of the structure. rows (c, r), own (c,), viscous (c,): what it states besides,
+    D + i omega C = rows' diag(own + i omega viscous) rows.
     """
 
     mean: np.ndarray
@@ -25,6 +26,7 @@ class Damping:
     rows: np.ndarray
     own: np.ndarray
     viscous: np.ndarray
+    stated: float = 0.0
 
     def values(self, u: np.ndarray) -> np.ndarray:
         """eta, alpha, beta at u (3,), prior standard deviations from the mean."""
@@ -48,7 +50,7 @@ def damping(model: Reduced) -> Damping:
         rows.append(U.T), own.append(np.zeros(len(size))), viscous.append(size)
     mean = np.log([stated or _LOSS, 2 * _TRACE * middle, 2 * _TRACE / middle])
     parts = (np.concatenate(part) for part in (rows, own, viscous))
-    return Damping(mean, np.array([_SPREAD, _WIDE, _WIDE]), *parts)
+    return Damping(mean, np.array([_SPREAD, _WIDE, _WIDE]), *parts, stated)
 
 
 def _projected(matrix: Matrix | None, model: Reduced) -> np.ndarray | None:

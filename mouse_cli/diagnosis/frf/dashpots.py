@@ -9,7 +9,7 @@ from mouse_cli.diagnosis.frf.extend import with_dashpot
 from mouse_cli.diagnosis.physics.change import Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.places.points import directions, placed
 
-_SIZES = 4
+_SIZES = 10
 
 
 def dashpots(model: Reduced) -> list[Recipe]:

@@ -14,7 +14,7 @@ _MOST = 2 * MOST_LINES  # of one measurement
 class Lines:
     """f lines of o responses to i forces: s (f,), rad/s; H, sd (f, o, i), sd of the real and of the imaginary part.
 
-    has (f, o, i): what was measured. factor (f, 1, 1): what receptance is multiplied by.
+    has (f, o, i): what was measured. factor (f, 1, 1): what receptance is multiplied by. assumed: no accuracy was stated.
     """
 
     test: FrfTest
@@ -23,6 +23,7 @@ class Lines:
     sd: np.ndarray
     has: np.ndarray
     factor: np.ndarray
+    assumed: bool = False
 
     @property
     def omega(self) -> np.ndarray:
@@ -32,6 +33,11 @@ class Lines:
     def loosened(self, theory: np.ndarray) -> "Lines":
         """The same with a further error, E|H - measured|^2 = theory^2 (f, o, i)."""
         return replace(self, sd=np.hypot(self.sd, theory / np.sqrt(2)))
+
+    def every(self, count: int) -> "Lines":
+        """Every so manieth line of them."""
+        own = {name: getattr(self, name)[::count] for name in ("s", "H", "sd", "has")}
+        return replace(self, **own, factor=self.factor[::count])
 
     def at(self, factor: float) -> "Lines":
         """The same at other frequencies."""
@@ -47,21 +53,33 @@ def lines(test: FrfTest) -> Lines:
     """The lines of `test` that tell most, as a run chooses them, but more of them."""
     seen = observe(replace(test, lines=max(test.lines, _MOST)), "complex")
     H = np.where(seen.have, seen.H, 0.0)
-    return Lines(test, seen.s, H, np.where(seen.have, seen.sd, 1.0), seen.have, seen.factor)
+    return Lines(test, seen.s, H, np.where(seen.have, seen.sd, 1.0), seen.have, seen.factor, seen.assumed)
 
 
 @dataclass(frozen=True)
 class FrfData:
-    """All FRFs of a diagnosis. slack: 0, as no datum is made less accurate between rivals."""
+    """All FRFs of a diagnosis. alike: how many data say the same. slack: 0, as no datum is made less accurate between rivals."""
 
     blocks: tuple[Lines, ...]
+    alike: float = 1.0
     slack: float = 0.0
     by_shape: bool = True  # modes are told apart by what several sensors read
 
     @property
     def dof(self) -> int:
-        """Real numbers measured."""
-        return 2 * int(sum(block.has.sum() for block in self.blocks))
+        """Real numbers measured, those that say the same counted once."""
+        return int(2 * sum(block.has.sum() for block in self.blocks) / self.alike)
+
+    @property
+    def assumed(self) -> bool:
+        """Whether no accuracy was stated for some of them."""
+        return any(block.assumed for block in self.blocks)
+
+    def weighed(self, alike: float, scale: float) -> "FrfData":
+        """The same where `alike` data say the same, and variances are `scale` times what they were held to be."""
+        more = np.sqrt(alike * scale)
+        blocks = tuple(replace(block, sd=block.sd * more) for block in self.blocks)
+        return replace(self, blocks=blocks, alike=self.alike * alike)
 
     @property
     def middle(self) -> float:

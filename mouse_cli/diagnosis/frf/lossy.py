@@ -15,16 +15,16 @@ from mouse_cli.model.problem import Problem
 SAME, STRUCTURAL, VISCOUS = "", "structural", "viscous"
 LAWS = (SAME, STRUCTURAL, VISCOUS)
 GROUPS = ("local-stiffness", "ground-spring", "oscillator", "support")  # whose spring may have a loss of its own
-_LOSS = {
+LOSS = 0.1  # where a search for a loss factor begins
+_LOSSES = {
     STRUCTURAL: Unknown("loss factor", "1", 1e-3, 2.0),
     VISCOUS: Unknown("loss factor in mid-band", "1", 1e-3, 2.0),
 }
-_START = 0.05
 
 
 def lossy(recipe: Recipe, law: str, middle: float) -> Recipe:
     """The cause of `recipe` whose spring has a loss factor of its own, the last of its unknowns; middle: omega_0, rad/s."""
-    if law == SAME or recipe.candidate.group not in GROUPS:
+    if law == SAME or recipe.law != SAME or recipe.candidate.group not in GROUPS:
         return recipe
     count = len(recipe.unknowns)
 
@@ -34,10 +34,10 @@ def lossy(recipe: Recipe, law: str, middle: float) -> Recipe:
 
     return replace(
         recipe,
-        unknowns=(*recipe.unknowns, _LOSS[law]),
+        unknowns=(*recipe.unknowns, _LOSSES[law]),
         change=lambda values: recipe.change(values[:count]),
         site=lambda values: recipe.site(values[:count]),
-        grid=np.hstack([recipe.grid, np.full((len(recipe.grid), 1), _START)]),
+        grid=np.hstack([recipe.grid, np.full((len(recipe.grid), 1), LOSS)]),
         extend=recipe.extend and extend,
         law=law,
     )

@@ -1,25 +1,34 @@
-"""Explanations of modes, judged anew by the frequency response functions: with laws of damping, and causes that only damp."""
+"""Explanations of modes, judged anew by the frequency response functions: with laws of damping, and causes that only damp.
+
+All are fitted to few lines and in few steps first; those that lead are fitted to all lines and to the end.
+"""
 
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 
 from mouse_cli.diagnosis.baseline.altered import Model
 from mouse_cli.diagnosis.baseline.reduced import Reduced
 from mouse_cli.diagnosis.data import THEORY_LOG, THEORY_SHAPE
+from mouse_cli.diagnosis.frf.correlated import correlated
 from mouse_cli.diagnosis.frf.damping import Damping, damping
 from mouse_cli.diagnosis.frf.dashpots import dashpots
-from mouse_cli.diagnosis.frf.data import FrfData, Lines, lines
-from mouse_cli.diagnosis.frf.lossy import GROUPS, LAWS, SAME, STRUCTURAL, lossy
+from mouse_cli.diagnosis.frf.data import FrfData, lines
+from mouse_cli.diagnosis.frf.lossy import GROUPS, LAWS, LOSS, SAME, lossy
 from mouse_cli.diagnosis.frf.model import FrfModel
-from mouse_cli.diagnosis.name.fit import Fit, fit
-from mouse_cli.diagnosis.name.rank import Ranking, ranking
+from mouse_cli.diagnosis.name.fit import MOST, Fit, fit
+from mouse_cli.diagnosis.name.rank import Ranking, adequate, ranking
 
 _REACH = 60.0  # nats by which modes may speak against an explanation that is judged by FRFs still
 _SINGLES = 3  # single causes that are judged in any case
-_LOSS = np.log(0.1)  # where loss factors of causes begin
-_PLACES = 3  # places from which a dashpot begins
+_PLACES = 5  # places from which a dashpot begins
 _STEP = 1e-4  # of frequency, for derivatives of FRFs
+_THIN, _BRIEF = 4, 12  # in a first look: every so manieth line, and steps
+_FAR, _LEAST = (
+    200.0,
+    4,
+)  # nats below the leading one up to which an explanation is fitted to the end, and how many are at least
 
 
 @dataclass(frozen=True)
@@ -27,6 +36,7 @@ class Heard(Fit):
     """A fit of FRFs, with the model of modes at the same parameters beside it, which all that follows a ranking needs."""
 
     frf: Fit | None = None
+    bearable: ClassVar[float] = 1.2  # scatter of functions is measured better than that of modes
 
     @property
     def dof(self) -> int:
@@ -41,53 +51,98 @@ class Judge:
     data: FrfData
     damping: Damping
 
-    def fitted(self, one: Fit, law: str = SAME) -> Fit | None:
-        """The explanation `one` of modes as FRFs see it, its springs by `law`."""
+    def thinned(self) -> "Judge":
+        """By few lines."""
+        return replace(self, data=FrfData(tuple(block.every(_THIN) for block in self.data.blocks)))
+
+    def model(self, base: Reduced, recipes: tuple) -> FrfModel:
+        """The reduced model `base` with causes, as the FRFs see it."""
+        return FrfModel(replace(base, data=self.data), self.damping, recipes)
+
+    def fitted(self, one: Fit, law: str = SAME, most: int = MOST) -> Fit | None:
+        """The explanation `one` of modes, or of FRFs, fitted from where it is; law: of its springs, where they have none yet."""
         recipes = tuple(lossy(recipe, law, self.data.middle) for recipe in one.recipes)
-        model = FrfModel(replace(one.model.base, data=self.data), self.damping, recipes)
-        parts = zip(recipes, one.model.own, strict=True)
-        c = [np.append(one.c[part], _LOSS if recipe.law != SAME else []) for recipe, part in parts]
-        start = np.concatenate([one.point.x[: one.model.k], model.start[model.own :]])
-        return fit(model, np.concatenate([np.zeros(0), *c]), start)
+        model = self.model(one.model.base, recipes)
+        parts = zip(one.recipes, recipes, one.model.own, strict=True)
+        c = [np.append(one.c[own], [np.log(LOSS)] * (len(r.unknowns) - len(was.unknowns))) for was, r, own in parts]
+        start = np.concatenate([one.point.x[: one.model.k], model.start[one.model.k :]])
+        return fit(model, np.concatenate([np.zeros(0), *c]), start, most)
+
+    def all_of(self, fits: list[Fit]) -> list[Fit]:
+        """Each fitted to the end, from where it is."""
+        found = [self.fitted(one) for one in fits]
+        return [one for one in found if one is not None]
 
     def laws(self, one: Fit) -> list[Fit]:
-        """The same under each law of damping that its springs may follow, which share its prior."""
+        """A first look at the explanation `one` of modes under each law of damping that its springs may follow."""
         may = any(recipe.candidate.group in GROUPS for recipe in one.recipes)
-        found = [self.fitted(one, law) for law in (LAWS if may else (SAME,))]
-        share = np.log(len(found))
-        return [replace(each, log_evidence=each.log_evidence - share) for each in found if each is not None]
+        found = [self.fitted(one, law, _BRIEF) for law in (LAWS if may else (SAME,))]
+        return [each for each in found if each is not None]
 
     def damped(self, one: Fit, base: Reduced) -> list[Fit]:
-        """A dashpot beside the causes of `one`, a fit of FRFs, from its most promising places; base: its model with its modes."""
-        model, tried = one.model, []
+        """A first look at a dashpot beside the causes of `one`, a fit of FRFs; base: its model with its modes.
+
+        It begins where it does most, with the damping of the structure as it is held likely: `one` has made that of the dashpot.
+        """
+        x, tried = one.point.x.copy(), []
+        x[one.model.of_deck : one.model.lossy] = 0.0
         for recipe in dashpots(base):
-            trial = FrfModel(model.base, self.damping, (*model.recipes, recipe))
+            trial = self.model(one.model.base, (*one.recipes, recipe))
+            places: dict[bytes, tuple] = {}
             for values in recipe.grid:
-                at = trial.point(np.concatenate([one.point.x, recipe.coordinates(values)]))
-                if at is not None:
-                    tried.append((at.chi2, trial, at.x))
+                at = trial.point(np.concatenate([x, recipe.coordinates(values)]))
+                place = values[1:].tobytes()
+                if at is not None and (place not in places or at.chi2 < places[place][0]):
+                    places[place] = at.chi2, trial, at.x
+            tried += places.values()
         tried.sort(key=lambda item: item[0])
-        found = [fit(trial, x[trial.k :], x[: trial.k]) for _, trial, x in tried[:_PLACES]]
+        found = [fit(trial, x[trial.k :], x[: trial.k], _BRIEF) for _, trial, x in tried[:_PLACES]]
         return sorted((each for each in found if each is not None), key=lambda each: -each.log_evidence)[:1]
+
+    def loosened(self, one: Fit) -> "Judge":
+        """The same with what theory leaves: an error of every natural frequency, and of shapes, as for modes, by the fit `one`."""
+        near, up, down = (self._functions(one, factor) for factor in (1.0, 1 + _STEP, 1 - _STEP))
+        blocks = tuple(
+            block.loosened(np.hypot(THEORY_LOG * np.abs(a - b) / (2 * _STEP), THEORY_SHAPE * np.abs(H)))
+            for block, H, a, b in zip(self.data.blocks, near, up, down, strict=True)
+        )
+        return replace(self, data=FrfData(blocks))
+
+    def _functions(self, one: Fit, factor: float) -> list[np.ndarray]:
+        """H of each test at its frequencies times `factor`, by the fit `one`."""
+        moved = replace(self, data=FrfData(tuple(block.at(factor) for block in self.data.blocks)))
+        return [part.H for part in moved.model(one.model.base, one.recipes).point(one.point.x).parts]
 
 
 def heard(modal: Ranking) -> Ranking:
     """The ranking `modal` of what modes say, judged anew by the FRFs of the test; `modal` itself where there are none."""
-    tests = modal.baseline.model.base.problem.frf
-    if not tests:
+    base = modal.baseline.model.base
+    if not base.problem.frf:
         return modal
-    judge = Judge(FrfData(tuple(lines(test) for test in tests)), damping(modal.baseline.model.base))
-    first = judge.fitted(modal.fits[0], STRUCTURAL)
-    if first is not None:
-        judge = replace(judge, data=FrfData(tuple(_loosened(first, i) for i in range(len(tests)))))
-    baseline = judge.fitted(modal.baseline)
-    if baseline is None:
+    judge = Judge(FrfData(tuple(lines(test) for test in base.problem.frf)), damping(base))
+    first = judge.thinned().laws(modal.fits[0])
+    if first:
+        judge = judge.loosened(min(first, key=lambda one: one.misfit))
+    quick = judge.thinned()
+    none = quick.fitted(modal.baseline)
+    if none is None:
         return modal
-    fits = [baseline, *(each for one in _promising(modal) for each in judge.laws(one))]
-    found = ranking(baseline, fits + judge.damped(baseline, modal.baseline.model.base))
-    data = modal.baseline.model.base.data
-    views = {id(one): _beside_modes(one, data) for one in (baseline, *found.fits)}
-    return replace(found, baseline=views[id(baseline)], fits=tuple(views[id(one)] for one in found.fits))
+    looked = [law for one in _promising(modal) for law in quick.laws(one)] + quick.damped(none, base)
+    fits = judge.all_of([none, *_leading(looked)])
+    nearest = min(fits, key=lambda one: one.misfit)
+    if not adequate(nearest):
+        judge = replace(judge, data=_weighed(nearest))
+        fits = judge.all_of(fits)
+    fits = _shared(fits)
+    found = ranking(fits[0], fits)
+    views = {id(one): _beside_modes(one, base.data) for one in fits}
+    return replace(found, baseline=views[id(fits[0])], fits=tuple(views[id(one)] for one in found.fits))
+
+
+def _weighed(nearest: Fit) -> FrfData:
+    """Data as accurate as a fit says: neighbours that err alike count once, and what nobody stated is what it leaves."""
+    data = nearest.model.base.data
+    return data.weighed(correlated(nearest), nearest.misfit / nearest.dof if data.assumed else 1.0)
 
 
 def _promising(modal: Ranking) -> list[Fit]:
@@ -98,9 +153,25 @@ def _promising(modal: Ranking) -> list[Fit]:
     return near + singles[:_SINGLES]
 
 
+def _leading(looked: list[Fit]) -> list[Fit]:
+    """Those of a first look that may lead when all lines are used."""
+    order = sorted(looked, key=lambda one: -one.log_evidence)
+    best = order[0].log_evidence if order else 0.0
+    return [one for i, one in enumerate(order) if i < _LEAST or best - one.log_evidence < _FAR / _THIN]
+
+
+def _shared(fits: list[Fit]) -> list[Fit]:
+    """Fits whose springs follow one law of several: each law has its share of the prior of the cause."""
+    return [replace(one, log_evidence=one.log_evidence - np.log(_laws(one))) for one in fits]
+
+
+def _laws(one: Fit) -> int:
+    return len(LAWS) if any(recipe.candidate.group in GROUPS for recipe in one.recipes) else 1
+
+
 def _beside_modes(one: Fit, data) -> Fit:
     """The fit `one` of FRFs with the model of modes at its parameters; one itself where modes have none there."""
-    own, k = one.model.own, one.model.k
+    own, k = one.model.of_deck, one.model.k
     model = Model(replace(one.model.base, data=data), one.recipes)
     elastic = np.r_[0:own, k : k + one.model.t]
     at = model.point(one.point.x[elastic])
@@ -108,17 +179,3 @@ def _beside_modes(one: Fit, data) -> Fit:
         return one
     known = np.linalg.inv(one.covariance[np.ix_(elastic, elastic)])  # the damping of the structure integrated out
     return Heard(model, at, one.misfit, known, one.log_evidence, frf=one)
-
-
-def _loosened(one: Fit, i: int) -> Lines:
-    """Lines of test i with what theory leaves: an error of every natural frequency, and of shapes, as for modes."""
-    up, down = (_at(one, i, 1 + sign * _STEP) for sign in (1, -1))
-    moved, H = np.abs(up - down) / (2 * _STEP), np.abs(one.point.parts[i].H)
-    return one.model.base.data.blocks[i].loosened(np.hypot(THEORY_LOG * moved, THEORY_SHAPE * H))
-
-
-def _at(one: Fit, i: int, factor: float) -> np.ndarray:
-    """H of test i at its frequencies times `factor`."""
-    blocks = tuple(each.at(factor) if j == i else each for j, each in enumerate(one.model.base.data.blocks))
-    model = FrfModel(replace(one.model.base, data=FrfData(blocks)), one.model.damping, one.model.recipes)
-    return model.point(one.point.x).parts[i].H

@@ -30,7 +30,6 @@ _SURE = 0.9  # probability of a group from which on it is named
 _ODDS = 3.0  # nats over no cause at all that a name needs
 _BELIEVED = 0.5  # share of the stated accuracies in the leading explanation below which the test itself is the finding
 _STANDS = 1e-6  # probability of no cause below which some cause acts, whatever errors the test has
-_INADEQUATE = 1.5  # noise scale of the best explanation above which it is none
 
 
 def doubtful(baseline: Fit, rejected: bool) -> bool:
@@ -87,7 +86,7 @@ def decide(ranking: Ranking) -> str:
     """The kind of answer when something is missing, by the gates of adequacy, probability and odds."""
     first, (name, probability) = ranking.fits[0], ranking.groups[0]
     dof = max(first.dof, 1)
-    if upper_tail(first.misfit, dof) < GATE and first.misfit > _INADEQUATE * dof:
+    if upper_tail(first.misfit, dof) < GATE and first.misfit > first.bearable * dof:
         return UNKNOWN
     if ranking.stated[0] < _BELIEVED and dict(ranking.groups).get("none", 0.0) > _STANDS:
         return UNKNOWN  # the test is not as accurate as it is said to be, and what is missing besides cannot be told

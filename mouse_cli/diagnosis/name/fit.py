@@ -10,6 +10,7 @@ where what is added to H keeps an unknown that the data do not feel from being f
 """
 
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
 
@@ -35,6 +36,9 @@ class Fit:
     hessian: np.ndarray = field(repr=False)
     log_evidence: float
     elsewhere: tuple[tuple["Fit", float], ...] = ()
+    bearable: ClassVar[float] = (
+        1.5  # misfit over degrees of freedom above which no explanation is one: sd are rarely known better
+    )
 
     @property
     def recipes(self) -> tuple[Recipe, ...]:

@@ -77,16 +77,13 @@ def _reach(found: list[Fit]) -> float:
     return least.misfit + _FAR * max(1.0, least.misfit / max(least.dof, 1))
 
 
-def ranking(baseline: Fit, fits: list[Fit], alike: float = 1.0) -> Ranking:
-    """Probabilities of `fits`, errors of the test weighed beside each, with the noise scale that the best of them needs.
-
-    alike: how many data say the same, where what the best leaves is more than noise.
-    """
+def ranking(baseline: Fit, fits: list[Fit]) -> Ranking:
+    """Probabilities of `fits`, errors of the test weighed beside each, with the noise scale that the best of them needs."""
     beside = [ways(one) for one in fits]
     telling = [
         way.misfit.min() / one.dof for one, own in zip(fits, beside, strict=True) for way in own if one.dof > 0
     ]  # saturated fits say nothing
-    scale = max(1.0, min(telling, default=1.0) * alike)
+    scale = max(1.0, min(telling, default=1.0))
     parts = [np.array([way.log_weight(scale) for way in own]) for own in beside]
     totals = np.array([np.logaddexp.reduce(part) for part in parts])
     weights = totals + np.array([_prior(one, fits) + one.log_evidence / scale for one in fits])
