@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import click
 
+from mouse_cli._errors import WARNING, Diagnostic
 from mouse_cli.formats import file_bytes, is_yaml, read_draft
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.formats.draft import Draft
@@ -44,6 +45,17 @@ def read_problem(
     from mouse_cli.updating.earlier import after
 
     return after(problem, prior, loosened or {})
+
+
+def without_laws(problem: Problem, modes: bool = False) -> tuple[Diagnostic, ...]:
+    """The warning (MD642) that local laws of a deck are left out: of `modes`, and of what is revised by more than recordings."""
+    linear = modes or problem.test is not None or problem.frf
+    if not problem.laws or not linear:
+        return ()
+    laws = ", ".join(dict.fromkeys(one.law for one in problem.laws))
+    message = f"the laws of the deck ({laws}) are not linear: the modes are those of the linear structure without them"
+    help = "see `mouse explain MD642`; recordings alone are simulated with the laws"
+    return (Diagnostic("MD642", WARNING, message, problem.place("laws"), help=help),)
 
 
 def read_cases(path: str, changes: dict[str, object], **reading: object) -> Iterator[Problem]:

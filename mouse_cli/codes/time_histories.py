@@ -8,6 +8,18 @@ CODES = {
         "An entry of `laws` names sizes or a variant that its law does not have, or degrees of freedom that the model has not.",
         "`docs/reference/yaml.md` lists laws, variants and sizes; give one degree of freedom (against the ground) or two.",
     ),
+    "MD642": Code(
+        "modes without the local laws of the deck",
+        "The deck has `laws`, forces that are not linear. Modes, and an update by modes or by frequency response functions, are those "
+        "of the linear structure without them.",
+        "Nothing, where that is meant: clearances open, small motion. `mouse run` and `mouse diagnose` take laws into account where "
+        "the test holds recordings alone.",
+    ),
+    "MD540": Code(
+        "simulation that does not stay finite",
+        "The deck as it is, simulated under the measured force of its recordings, grows beyond all bounds.",
+        "Check the sizes of its laws (a softening spring that overcomes the stiffness?) and the units of the force channels.",
+    ),
     "MD640": Code(
         "recording that cannot be simulated",
         "Diagnosis by recordings simulates the model under the measured force. A record of the deck has no channel of a force at a "

@@ -6,11 +6,12 @@ from mouse_cli.model.correlation import Correlation
 from mouse_cli.model.diagnosis import Diagnosis
 from mouse_cli.model.identification import Identification
 from mouse_cli.model.record_diagnosis import RecordDiagnosis
+from mouse_cli.model.record_update import RecordUpdate
 from mouse_cli.model.result import Forecast, Result
 from mouse_cli.model.spectra import SpectraResult
 from mouse_cli.report.section import Options
 
-Subject = Result | Forecast | Correlation | Diagnosis | SpectraResult | Identification
+Subject = Result | Forecast | Correlation | Diagnosis | RecordUpdate | SpectraResult | Identification
 
 __all__ = ["Options", "document", "markdown", "printout", "written"]
 
@@ -46,6 +47,7 @@ def document(subject: Subject) -> dict[str, Any]:
         identification_document,
         modes_document,
         record_document,
+        record_update_document,
         result_document,
         spectra_document,
     )
@@ -55,6 +57,7 @@ def document(subject: Subject) -> dict[str, Any]:
         Correlation: correlation_document,
         Diagnosis: diagnosis_document,
         RecordDiagnosis: record_document,
+        RecordUpdate: record_update_document,
         Identification: identification_document,
         SpectraResult: spectra_document,
     }

@@ -26,7 +26,7 @@ def document(found: RecordDiagnosis) -> dict[str, Any]:
             "noise_scale": found.noise_scale,
             "residual": of_result.tested(found.innovation),
             "noise": None if found.noise is None else vars(found.noise),
-            "held_out": {"records": [_score(one) for one in found.scores]},
+            "held_out": {"records": [score(one) for one in found.scores]},
             "linearity": vars(found.linearity) | {"levels": [vars(level) for level in found.linearity.levels]},
             "recordings": {
                 "fitted": list(found.fitted),
@@ -43,7 +43,7 @@ def document(found: RecordDiagnosis) -> dict[str, Any]:
     )
 
 
-def _score(one: RecordScore) -> dict[str, Any]:
+def score(one: RecordScore) -> dict[str, Any]:
     """rms of the record and of what either model leaves, by output."""
     return {
         "title": one.title,

@@ -85,3 +85,10 @@ def unrelated(problem: Problem, solution: EigenSolution, mode: int, ratio: float
             help="check the mode numbers and the order of the measured points, or use --pairing mac or --scale none",
         )
     )
+
+
+def not_simulated(problem: Problem) -> NumericalError:
+    """The error for a model whose simulation under the measured force does not stay finite."""
+    message = f"the model of '{problem.title.strip()}' does not stay finite under the measured force"
+    help = "check the sizes of its laws, and the units of the force channels"
+    return NumericalError(Diagnostic("MD540", ERROR, message, problem.place("recordings"), help=help))

@@ -28,14 +28,14 @@ def command(
 
     The standard deviations follow from those of the properties.
     """
-    from mouse_cli.cli._decks import read_problem
+    from mouse_cli.cli._decks import read_problem, without_laws
     from mouse_cli.cli._terminal import deliver, json_text, progress, show_diagnostics
     from mouse_cli.report import document, written
     from mouse_cli.updating import forecast
 
     problem = read_problem(deck, **earlier(prior, loosen), **reading(legacy, strip_73_80, overrides))
     if not quiet:
-        show_diagnostics(problem.warnings)
+        show_diagnostics((*problem.warnings, *without_laws(problem, modes=True)))
     with progress() as (_, say):
         found = forecast(problem, count, say)
     deliver(json_text(document(found)) if form == "json" else written(found, form or "printout", numbers), output, deck)

@@ -33,7 +33,9 @@ def command(
 
     Exit 0: converged, and the model explains the data. 1: do not trust the answer. 4: deck rejected. 5: no answer.
     """
+    from mouse_cli.cli._decks import without_laws
     from mouse_cli.cli._terminal import deliver, progress, show_diagnostics
+    from mouse_cli.diagnosis.time.update import by_recordings, update_records
     from mouse_cli.updating import run
 
     if plot:
@@ -45,9 +47,9 @@ def command(
     results = []
     for problem in problems:
         if not quiet:
-            show_diagnostics(problem.warnings)
+            show_diagnostics((*problem.warnings, *without_laws(problem)))
         with progress() as (show, say):
-            results.append(run(problem, show, say))
+            results.append(update_records(problem, say) if by_recordings(problem) else run(problem, show, say))
     if plot:
         from mouse_cli.plots import draw
 

@@ -30,8 +30,7 @@ def noise(spectrum: Spectrum, base: Hypothesis, places: list[Place], begun: np.n
     size = np.sqrt((left[at.kept] ** 2).mean(axis=0))
     if (size * series.sd > LOUD * series.measured.std(axis=0)).any():
         return None
-    weights, effective = whitening(spectrum, left)
-    count = effective * left.size
+    weights, count, effective = whitening(spectrum, left)
     if count < _LEAST:
         return None
     white = replace(spectrum, weights=weights)
@@ -48,9 +47,10 @@ def noise(spectrum: Spectrum, base: Hypothesis, places: list[Place], begun: np.n
     return Noise(size * series.sd, explained, effective, grows)
 
 
-def whitening(spectrum: Spectrum, left: np.ndarray) -> tuple[np.ndarray, float]:
+def whitening(spectrum: Spectrum, left: np.ndarray) -> tuple[np.ndarray, float, float]:
     """Weights (l, s, s) that make `left` (t, s), in sd, white where it exceeds the accuracy of the channels, and leave out the
-    rest; and the share of its samples that are then independent.
+    rest; how many samples are then independent; and the share of all samples of such a spectrum that count as independent
+    ones, (sum p)^2 / (n sum p^2).
 
     With S = V diag(p) V' the spectrum of what is left, averaged over neighbouring lines: weights max(1 - 1/p, 0) / sqrt p V'.
     A force at one place shows in one direction of V.
@@ -65,7 +65,7 @@ def whitening(spectrum: Spectrum, left: np.ndarray) -> tuple[np.ndarray, float]:
     p, V = np.linalg.eigh(S)
     excess = np.maximum(1 - 1 / np.maximum(p, 1e-12), 0)
     weights = (excess / np.sqrt(np.maximum(p, 1e-12)))[:, :, None] * V.conj().transpose(0, 2, 1)
-    return weights, float(np.mean(excess**2))
+    return weights, float(np.mean(excess**2)) * left.size, float(p.sum() ** 2 / (p.size * (p**2).sum()))
 
 
 def _growth(at: Regression) -> float:

@@ -97,6 +97,12 @@ class Polish:
 
         beat: the cost of a better fit, far behind which this one is not followed to its end.
         """
+        try:
+            return self._followed(x, states, internal, steps, beat)
+        except np.linalg.LinAlgError:  # trajectories part so fast that data tell of initial states alone
+            return None
+
+    def _followed(self, x: np.ndarray, states: np.ndarray, internal, steps: int, beat: float) -> Fit | None:
         states = self.h.padded_states(states)
         x = np.clip(x, *self.h.bounds)
         self.internal = internal

@@ -3,23 +3,25 @@
 from collections.abc import Iterator
 
 from mouse_cli.model.record_diagnosis import AS_IT_IS, WITH_CAUSE, RecordDiagnosis, RecordScore
+from mouse_cli.model.record_update import RecordUpdate
 from mouse_cli.report.blocks import Block, Column, Table, Text
 from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._wording import LEFT
 
 
-def held_out(found: RecordDiagnosis, options: Options) -> Iterator[Block]:
+def held_out(found: RecordDiagnosis | RecordUpdate, options: Options) -> Iterator[Block]:
     """One line a record and output."""
     if not found.scores:
         return
+    after = "with the cause" if isinstance(found, RecordDiagnosis) else "revised"
     columns = (
         Column("record", align=LEFT),
         Column("output", align=LEFT),
         Column("rms measured"),
         Column("short horizon, as it is"),
-        Column("with the cause"),
+        Column(after),
         Column("whole record, as it is"),
-        Column("with the cause"),
+        Column(after),
     )
     rows = [
         (one.title, channel, f"{one.signal[i]:.4g}", *_row(one, i))
@@ -41,4 +43,4 @@ def _told(errors: dict, name: str, i: int) -> str:
     return f"{errors[name][i]:.4g}" if name in errors else ""
 
 
-SECTION = Section("record-held-out", 80, "Held-out records", held_out, (RecordDiagnosis,))
+SECTION = Section("record-held-out", 80, "Held-out records", held_out, (RecordDiagnosis, RecordUpdate))

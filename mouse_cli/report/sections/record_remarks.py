@@ -3,11 +3,12 @@
 from collections.abc import Iterator
 
 from mouse_cli.model.record_diagnosis import RecordDiagnosis
+from mouse_cli.model.record_update import RecordUpdate
 from mouse_cli.report.blocks import Block, Text
 from mouse_cli.report.section import Options, Section
 
 
-def remarks(found: RecordDiagnosis, options: Options) -> Iterator[Block]:
+def remarks(found: RecordDiagnosis | RecordUpdate, options: Options) -> Iterator[Block]:
     """One paragraph each."""
     for text in found.remarks:
         yield Text(f"{text[:1].upper()}{text[1:]}.")
@@ -16,4 +17,4 @@ def remarks(found: RecordDiagnosis, options: Options) -> Iterator[Block]:
         yield Text(f"{remark.code}{place}: {remark.message}.")
 
 
-SECTION = Section("record-remarks", 90, "Remarks", remarks, (RecordDiagnosis,))
+SECTION = Section("record-remarks", 90, "Remarks", remarks, (RecordDiagnosis, RecordUpdate))

@@ -1,0 +1,68 @@
+"""An update by recordings as one JSON document, schema mouse.result/1 with what recordings fill of it."""
+
+from typing import Any
+
+from mouse_cli import __version__
+from mouse_cli.model.diagnosis import Size
+from mouse_cli.model.record_update import RecordUpdate
+from mouse_cli.model.units import system
+from mouse_cli.report import diagnosis_document as of_diagnosis
+from mouse_cli.report import record_document as of_records
+from mouse_cli.report import result_document as of_result
+from mouse_cli.report.json_values import plain
+
+
+def document(found: RecordUpdate) -> dict[str, Any]:
+    """`found` in plain Python values; `--prior` takes parameters and covariance from it."""
+    problem = found.problem
+    return plain(
+        {
+            "schema": of_result.SCHEMA,
+            "version": __version__,
+            "title": problem.title.strip(),
+            "source": problem.source.path,
+            "status": "converged",
+            "message": found.message,
+            "exit_code": found.exit_code,
+            "model_form": "accepted" if found.explained else "rejected",
+            "parameters": _parameters(found),
+            "covariance": found.covariance,
+            "laws": [
+                {
+                    "physics": one.physics,
+                    "title": one.title,
+                    "site": of_diagnosis.site(one.site),
+                    "parameters": [_size(each) for each in one.sizes],
+                }
+                for one in found.laws
+            ],
+            "residual": of_result.tested(found.residual),
+            "noise_scale": found.noise_scale,
+            "noise": None if found.noise is None else vars(found.noise),
+            "held_out": {"records": [of_records.score(one) for one in found.scores]},
+            "units": system(problem.units) or None,
+            "remarks": list(found.remarks),
+            "warnings": [f"{d.code}: {d.message}" for d in problem.warnings],
+        }
+    )
+
+
+def _parameters(found: RecordUpdate) -> list[dict[str, Any]]:
+    prior = found.problem.prior
+    rows = zip(found.problem.parameters, prior.mean, prior.sd, found.theta, found.sd_theta, strict=True)
+    return [
+        {
+            "name": one.name,
+            "unit": one.unit,
+            "prior": mean,
+            "prior_sd": sd,
+            "posterior": value,
+            "posterior_sd": left,
+            "at_limit": False,
+        }
+        for one, mean, sd, value, left in rows
+    ]
+
+
+def _size(size: Size) -> dict[str, Any]:
+    return {"name": size.name, "unit": size.unit, "value": size.value, "sd": size.sd}
