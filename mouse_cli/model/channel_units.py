@@ -85,15 +85,16 @@ def _plain(text: str) -> str:
 
 
 def ratio(text: str) -> tuple[Unit, Unit] | None:
-    """The units above and below the last stroke of a unit such as `(m/s2)/N`, `g/N`, `mV/g`; None where they are not known.
+    """The units above and below a stroke, as of `(m/s2)/N`, `g/N`, `mV/(m/s2)`: the last one that has units on both sides, or None.
 
     >>> [each.quantity for each in ratio("g/lbf")]
     ['acceleration', 'force']
     """
     turned = _INVERSE.fullmatch(text.strip())
-    above, stroke, below = (turned[2], "/", turned[1]) if turned else text.strip().rpartition("/")
-    found = unit(above), unit(below)
-    return None if not stroke or None in found else found
+    text = f"{turned[2]}/{turned[1]}" if turned else text
+    strokes = [k for k, letter in enumerate(text) if letter == "/"]
+    pairs = ((unit(text[:k]), unit(text[k + 1 :])) for k in reversed(strokes))
+    return next((pair for pair in pairs if None not in pair), None)
 
 
 def target(quantity: str, units: Units = UNDECLARED) -> tuple[str, float]:
