@@ -57,6 +57,13 @@ CODES = {
         "A mode of the model lies in the band of the test, and no measured mode was paired with it.",
         "Look for it in the recordings; excite elsewhere; add a sensor where it moves.",
     ),
+    "MD518": Code(
+        "functions of a model without damping",
+        "Frequency response functions are fitted or foreseen, and the model has no damping anywhere: its resonances are infinite, and "
+        "lines near a measured resonance pull parameters away from it.",
+        "Give elements or a material `loss_factor` (structural), `stiffness_damping` or `mass_damping` (viscous), or add dashpots, and "
+        "make the amount a parameter with `transform: log`; in a deck of matrices give `damping` or `structural_damping`.",
+    ),
     "MD511": Code(
         "plug-in that cannot be used",
         "A distribution registers a member under an entry point of mouse, but it cannot be loaded, or has no `key`. The entry "

@@ -53,6 +53,7 @@ class FrfDraft:
     form: str = FORMS[0]
     lines: int = MOST_LINES
     decay_rate: float = 0.0
+    gain_sd: float = 0.0
 
 
 @dataclass

@@ -21,7 +21,8 @@ class FrfTest:
     of freedom (o,), (i,), from 0, where each is one. output_names, input_names: as the deck writes them.
     coherence (f, o): multiple coherence, None where it was not recorded. title: of the measurement; path: its file.
     form: one of FORMS; lines: at most so many are fitted. decay_rate: a of an exponential window e^{-a t}, 1/s; H is then that of
-    the structure at s = a + i omega, see `laplace`.
+    the structure at s = a + i omega, see `laplace`. gain_sd: standard deviation of the gain of each response and of each force; 0:
+    they are known.
     """
 
     frequency_hz: np.ndarray
@@ -38,6 +39,7 @@ class FrfTest:
     form: str = FORMS[0]
     lines: int = MOST_LINES
     decay_rate: float = 0.0
+    gain_sd: float = 0.0
 
     def __post_init__(self) -> None:
         shape = (len(self.frequency_hz), self.outputs.shape[0], self.inputs.shape[0])

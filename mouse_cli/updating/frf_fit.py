@@ -69,9 +69,9 @@ def _sd(state: State, k: int, o: FrfObservable, root: np.ndarray) -> np.ndarray:
 
 def _of_lines(frf: FrfState, k: int, s: np.ndarray, change: Change, root: np.ndarray) -> np.ndarray:
     fields = frf.model.at(s)
-    alpha = fields.receptance(2 * k, 2 * k + 1)
+    alpha = frf.read(k, fields)
     T = np.empty((*alpha.shape, change.p))
     with np.errstate(divide="ignore", invalid="ignore"):
-        for part, values in fields.slopes(change, 2 * k, 2 * k + 1):
+        for part, values in frf.slopes(k, fields, change, alpha):
             T[..., part] = (values / alpha[..., None]).real
         return np.linalg.norm(T @ root, axis=-1)

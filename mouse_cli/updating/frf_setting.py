@@ -11,6 +11,7 @@ from mouse_cli.model.arrays import Matrix, is_sparse
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.problem import Problem
 from mouse_cli.observables.frf import observe
+from mouse_cli.updating.frf_gains import gains
 from mouse_cli.updating.frf_state import FrfSetting
 
 _FIRST_COUNT = 20  # modes that a search for the top of the band begins with
@@ -35,7 +36,7 @@ def begin(
     if not problem.frf and not held:
         return None, solve(None)
     fitted, kept = (tuple(observe(test, test.form) for test in tests) for tests in (problem.frf, held))
-    setting = FrfSetting(fitted, held=kept)
+    setting = FrfSetting(fitted, gains(problem, problem.frf + held), held=kept)
     if not is_sparse(K):
         return setting, solve(None)
     least = int(problem.test.number.max(initial=0)) + 6

@@ -6,22 +6,24 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mouse_cli.dynamics.eigen import EigenSolution
-from mouse_cli.dynamics.frf import Dynamics, FrfModel
+from mouse_cli.dynamics.frf import Dynamics, Fields, FrfModel
 from mouse_cli.dynamics.frf_basis import FINAL, ITERATING, frf_model
 from mouse_cli.dynamics.frf_slopes import Change
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.observables.frf import FrfObservable
 from mouse_cli.terms.assembly import Assembly
+from mouse_cli.updating.frf_gains import Gains
 
 
 @dataclass(frozen=True)
 class FrfSetting:
     """What stays the same of FRFs during a run: one observable a measurement; modes that a basis needs (None: all there are).
 
-    held: measurements that are predicted and not fitted.
+    gains: of all measurements. held: those that are predicted and not fitted.
     """
 
     observables: tuple[FrfObservable, ...]
+    gains: Gains
     count: int | None = None
     held: tuple[FrfObservable, ...] = ()
 
@@ -81,7 +83,7 @@ class FrfState:
             FINAL if final else ITERATING,
         )
         self.fields = [self.model.at(o.s) for o in setting.observables]
-        self.receptance = [f.receptance(2 * k, 2 * k + 1) for k, f in enumerate(self.fields)]
+        self.receptance = [self.read(k, fields) for k, fields in enumerate(self.fields)]
 
     @property
     def predicted(self) -> np.ndarray:
@@ -92,9 +94,7 @@ class FrfState:
     def partials(self, change: Change) -> np.ndarray:
         """T (q, p): derivatives by whatever p things `change` is by."""
         parts = zip(self.setting.observables, self.receptance, self.fields, strict=True)
-        found = [
-            o.partials(alpha, f.slopes(change, 2 * k, 2 * k + 1), change.p) for k, (o, alpha, f) in enumerate(parts)
-        ]
+        found = [o.partials(alpha, self.slopes(k, f, change, alpha), change.p) for k, (o, alpha, f) in enumerate(parts)]
         return np.concatenate([np.zeros((0, change.p)), *found])
 
     def everywhere(self) -> Iterator[np.ndarray]:
@@ -102,4 +102,18 @@ class FrfState:
         for k, o in enumerate(self.setting.everything):
             whole = replace(o, lines=np.arange(len(o.test.omega)), width=0.0)
             with np.errstate(divide="ignore", invalid="ignore"):
-                yield self.model.at(whole.s).receptance(2 * k, 2 * k + 1) * whole.factor
+                yield self.read(k, self.model.at(whole.s)) * whole.factor
+
+    def read(self, k: int, fields: Fields) -> np.ndarray:
+        """Receptance (f, o, i) of measurement k, gains in it."""
+        return fields.receptance(2 * k, 2 * k + 1) * self.setting.gains.factor(k, self.theta)
+
+    def slopes(
+        self, k: int, fields: Fields, change: Change, receptance: np.ndarray
+    ) -> Iterator[tuple[slice, np.ndarray]]:
+        """Derivatives of `receptance` (f, o, i), read of measurement k, by whatever `change` is by: some at a time, gains last."""
+        factor = self.setting.gains.factor(k, self.theta)[..., None]
+        for part, values in fields.slopes(change, 2 * k, 2 * k + 1):
+            yield part, values * factor
+        if change.p == len(self.theta):
+            yield from self.setting.gains.slopes(k, self.theta, receptance)

@@ -29,6 +29,7 @@ from mouse_cli.updating import anchored, model_form, refusals, replaced
 from mouse_cli.updating.convergence import ExceedanceTest
 from mouse_cli.updating.coordinates import coordinates
 from mouse_cli.updating.frf_fit import fits
+from mouse_cli.updating.frf_gains import with_gains
 from mouse_cli.updating.frf_setting import begin as begin_frf
 from mouse_cli.updating.frf_setting import with_test
 from mouse_cli.updating.frf_start import start as frf_start
@@ -190,7 +191,7 @@ def _begin(
     problem: Problem, notice: Notice = lambda text: None, solver: EigenSolver | None = None
 ) -> tuple[Setting, State]:
     """O-1 for the prior model, and the test brought to its scale."""
-    problem = with_test(problem)
+    problem = with_gains(with_test(problem))
     if problem.test is None:
         raise refusals.no_test(problem)
     assembly = assemble(problem)

@@ -9,6 +9,7 @@ from mouse_cli._span import Span
 from mouse_cli.dynamics.correlation import mac
 from mouse_cli.dynamics.frequency import frequency_hz
 from mouse_cli.model.result import REJECT, Result
+from mouse_cli.terms.assembly import assembly
 
 _SILENT = 0.99  # revised over prior standard deviation: above this the data said nothing
 _TIED = 0.995  # correlation above which two properties are determined only together
@@ -28,6 +29,7 @@ def remarks(result: Result) -> Iterator[Diagnostic]:
     yield from _signs(result)
     yield from _places(result)
     yield from _strangers(result)
+    yield from _undamped(result)
 
 
 def _too_good(result: Result) -> Iterator[Diagnostic]:
@@ -133,6 +135,20 @@ def _strangers(result: Result) -> Iterator[Diagnostic]:
                     help="look at it with `mouse correlate`, and leave it out of the test until it is understood",
                 )
                 break
+
+
+def _undamped(result: Result) -> Iterator[Diagnostic]:
+    """Functions of a model whose resonances are infinite."""
+    measured = [fit.test for fit in (*result.frf, *result.held_frf)]
+    if not measured or any(test.decay_rate > 0 for test in measured):
+        return
+    damping = assembly(result.problem).damping(result.revised.theta)
+    if not any(abs(matrix).max() > 0 for matrix in damping if matrix is not None):
+        yield _remark(
+            "MD518",
+            "the model has no damping: its frequency response functions are infinite at its resonances",
+            help="give elements loss_factor, stiffness_damping or mass_damping, or dashpots, and make the amount a parameter",
+        )
 
 
 def _remark(code: str, message: str, span: Span | None = None, help: str = "") -> Diagnostic:

@@ -8,10 +8,11 @@ from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.model.mesh import Binding, ElementSet, Mesh, RigidLink
 from mouse_cli.model.modal_test import ModalTest
-from mouse_cli.model.parameter import Gaussian, Parameter
+from mouse_cli.model.parameter import Parameter
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.recording import Recording
 from mouse_cli.model.structure import ListedElements, Structure
+from mouse_cli.terms.further import with_parameters
 
 _NEAR = 0.03  # share of an element from its end within which its node serves
 
@@ -229,25 +230,6 @@ def _shifted(binding: Binding, i: int) -> Binding:
     """A binding after member i of its set was split in two."""
     members = np.where(binding.members > i, binding.members + 1, binding.members)
     return replace(binding, members=np.append(members, i + 1) if i in binding.members else members)
-
-
-def with_parameters(problem: Problem, new: list[Parameter]) -> Problem:
-    """The deck with further parameters behind its own, which no listed element follows and the prior holds independent."""
-    A, prior = problem.A, problem.prior
-    if not new:
-        return problem
-    if hasattr(A, "tocsr"):
-        from scipy.sparse import csr_array, hstack
-
-        A = csr_array(hstack([A, csr_array((A.shape[0], len(new)))]))
-    else:
-        A = np.hstack([A, np.zeros((A.shape[0], len(new)))])
-    sd, p = np.array([each.sd for each in new]), len(prior.mean)
-    cov = np.append(prior.cov, sd**2) if prior.cov.ndim == 1 else np.zeros((p + len(new), p + len(new)))
-    if prior.cov.ndim == 2:
-        cov[:p, :p], cov[range(p, len(cov)), range(p, len(cov))] = prior.cov, sd**2
-    mean = np.append(prior.mean, [each.nominal for each in new])
-    return replace(problem, A=A, parameters=problem.parameters + tuple(new), prior=Gaussian(mean, cov))
 
 
 def moved(test: ModalTest, to: np.ndarray, n: int) -> ModalTest:

@@ -4,11 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.extend.edit import moved, moved_functions, with_parameters
+from mouse_cli.diagnosis.extend.edit import moved, moved_functions
 from mouse_cli.model.arrays import Matrix, is_sparse
 from mouse_cli.model.parameter import Parameter
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.structure import ListedElements
+from mouse_cli.terms.further import with_parameters
 
 Entries = tuple[np.ndarray, np.ndarray, np.ndarray]  # rows <= columns, from 0, and values for one unit of the parameter
 _NONE: Entries = (np.zeros(0, int), np.zeros(0, int), np.zeros(0))

@@ -14,7 +14,7 @@ from mouse_cli.formats.recording_files import Contents, Function
 from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.channel_maps import Known, pairs, placed
-from mouse_cli.formats.yaml_deck.frf_parts import Parts, listed, parts
+from mouse_cli.formats.yaml_deck.frf_parts import Parts, gain_sd, listed, parts
 from mouse_cli.formats.yaml_deck.kinds import KINDS
 from mouse_cli.formats.yaml_deck.nodes import Node
 from mouse_cli.formats.yaml_deck.recordings import Files, contents, title
@@ -62,7 +62,7 @@ def _entry(section: Section, known: Known, files: Files, units: Units) -> FrfDra
         return None
     whole = _draft(section, lines, units)
     form, most = section.value("form", FORMS[0]), section.value("lines", MOST_LINES)
-    return None if whole is None else replace(whole, form=form, lines=most)
+    return None if whole is None else replace(whole, form=form, lines=most, gain_sd=gain_sd(section) or 0.0)
 
 
 def _own(section: Section, held: Contents, known: Known) -> list[Line]:

@@ -58,6 +58,9 @@ SECTIONS = {
             "lines": Key(
                 "whole", "most lines that are fitted: half evenly over the band, half where resonances are", str(MOST_LINES), low=1
             ),
+            "gain_sd": Key(
+                "sd", "of the gain of each response and of each force, which are then estimated: `2 %`, or 0.02", "they are known"
+            ),
             "decay_rate": Key(
                 "number", "a of an exponential window e^(-a t) on force and response", "what the file says, else 0", "1/s", low=0
             ),
