@@ -1,7 +1,8 @@
 """Is what a model leaves of a record noise? Noise has a spectrum of its own, not that of the accuracy of the channels alone.
 
 Disturbing forces, hum and drift leave coloured residuals that are many times the accuracy of a channel. What tells them from
-physics: no force that follows from the motion of any place explains them, and they do not grow with the motion.
+physics: no force that follows from the motion of any place explains them, they are not coherent with the measured force, and
+do not grow with the motion.
 """
 
 from dataclasses import replace
@@ -16,6 +17,8 @@ from mouse_cli.model.record_diagnosis import Noise
 EXPLAINED = 0.1  # share of what is left that a law takes, from which on it is no noise
 LOUD = 0.2  # rms of what is left by that of the record, from which on a record cannot be said to be explained
 _GROWS = 0.5  # exponent of its variance over that of the motion, from which on it grows with the motion
+_FOLLOWS = 0.3  # share that is coherent with the measured force, from which on it is a linear cause, or gains or timing of channels
+_AVERAGES = 24  # of a coherence
 _LEAST, _CHANCE = 40.0, 12.0  # effective samples that can judge; chi2 that the best of many laws explains by chance
 _LINES = 1 / 150  # share of the spectrum over which it is averaged, at least
 _STRETCHES = 16
@@ -31,7 +34,7 @@ def noise(spectrum: Spectrum, base: Hypothesis, places: list[Place], begun: np.n
     if (size * series.sd > LOUD * series.measured.std(axis=0)).any():
         return None
     weights, count, effective = whitening(spectrum, left)
-    if count < _LEAST:
+    if count < _LEAST or coherent(series.force[at.kept], left[at.kept]) > _FOLLOWS:
         return None
     white = replace(spectrum, weights=weights)
     grows = _growth(look(white, places[0]))
@@ -45,6 +48,21 @@ def noise(spectrum: Spectrum, base: Hypothesis, places: list[Place], begun: np.n
             if explained > most:
                 return None
     return Noise(size * series.sd, explained, effective, grows)
+
+
+def coherent(force: np.ndarray, left: np.ndarray) -> float:
+    """Share of the power of `left` (t, s) that is coherent with forces (t, i), less what it would be by chance."""
+    from scipy.signal import csd, welch
+
+    length = max(32, 2 * len(left) // (_AVERAGES + 1))
+    power = welch(left, nperseg=length, axis=0)[1].sum()
+    shared = 0.0
+    for f in force.T:
+        own = welch(f, nperseg=length)[1]
+        driven = own > 1e-9 * own.max()
+        cross = np.abs(csd(f[:, None], left, nperseg=length, axis=0)[1]) ** 2
+        shared += float((cross[driven] / own[driven, None]).sum() / power)
+    return shared - force.shape[1] * 2 / _AVERAGES
 
 
 def whitening(spectrum: Spectrum, left: np.ndarray) -> tuple[np.ndarray, float, float]:
