@@ -8,6 +8,7 @@ import numpy as np
 
 from mouse_cli.model.diagnosis import EVERYWHERE, Site
 from mouse_cli.model.problem import Problem
+from mouse_cli.model.unknown import Unknown
 
 
 @dataclass(frozen=True)
@@ -38,26 +39,6 @@ class Change:
     sensing: np.ndarray | None = None
     softening: Softening | None = None
     C: np.ndarray | None = None
-
-
-@dataclass(frozen=True)
-class Unknown:
-    """A parameter of a cause, uniform before the test over its range, or its logarithm is (`log`)."""
-
-    name: str
-    unit: str
-    lower: float
-    upper: float
-    log: bool = True
-
-    @property
-    def bounds(self) -> tuple[float, float]:
-        """Range of the coordinate: the logarithm or the value."""
-        return (float(np.log(self.lower)), float(np.log(self.upper))) if self.log else (self.lower, self.upper)
-
-    def value(self, coordinate: float) -> float:
-        """The value that a coordinate stands for."""
-        return float(np.exp(coordinate)) if self.log else float(coordinate)
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli import _registry
+from mouse_cli.model.unknown import Unknown
 
 SIGNS = ({"sign": 1.0}, {"sign": -1.0})
 PLAIN = ({},)
@@ -26,25 +27,6 @@ class Scale:
 
 
 _ANY = Scale(1.0, 1.0, 1.0, 1.0, (1.0, 1.0))  # where ranges do not matter
-
-
-@dataclass(frozen=True)
-class Unknown:
-    """A parameter of a law: its logarithm is uniform over (lower, upper) before the test."""
-
-    name: str
-    unit: str
-    lower: float
-    upper: float
-
-    @property
-    def key(self) -> str:
-        """How a deck calls it.
-
-        >>> Unknown("1 + chi", "1", 0.1, 1).key, Unknown("slip force", "N", 1, 2).key
-        ('one_plus_chi', 'slip_force')
-        """
-        return self.name.replace("1 + ", "one plus ").replace("'", "").replace(" ", "_")
 
 
 @dataclass(frozen=True)
