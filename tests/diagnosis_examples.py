@@ -26,6 +26,8 @@ from mouse_cli.model.diagnosis import (
     Site,
     Size,
 )
+from mouse_cli.model.frf_fit import Damping, FrfFit, Modelled
+from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.model.hold_out import Altered, HoldOut
 from mouse_cli.updating import run
 
@@ -149,6 +151,29 @@ def bare() -> Diagnosis:
     return _diagnosis(UNKNOWN, (), ())
 
 
+def functions() -> Diagnosis:
+    """Two receptances of a mass on a spring in closed form, 4 % noise: without and with 5 % more stiffness, some lines held out."""
+    rng = np.random.default_rng(1)
+    hz = np.linspace(1.0, 30.0, 400)
+    of = lambda k: (1 / (k * (1 + 0.02j) - (2 * np.pi * hz) ** 2))[:, None, None] * np.array([[1.0], [0.5]])
+    truth = of(1.05e4)
+    sd = 0.04 * np.abs(truth)
+    H = truth + sd * (rng.standard_normal(H_SHAPE) + 1j * rng.standard_normal(H_SHAPE))
+    test = FrfTest(
+        hz, H, "receptance", np.array([0, 1]), np.array([0]), 2 * sd**2, ("1TX", "2TX"), ("1TX",),
+        np.full(H_SHAPE[:2], 0.98), "hammer",
+    )  # fmt: skip
+    models = tuple(
+        Modelled(key, name, of(k), np.full(H_SHAPE, 0.01))
+        for key, name, k in (("baseline", "model as it is", 1.0e4), ("revised", "with a spring to the ground", 1.05e4))
+    )
+    fit = FrfFit(test, "complex", np.arange(0, 400, 2), np.ones(H_SHAPE, bool), sd, False, models)
+    amounts = (Damping("loss factor", "structural damping, of all stiffness", "1", 0.02, 0.001, True),
+               Damping("damping by mass", "viscous damping over mass", "1/s", 0.01, 0.02, False))  # fmt: skip
+    return replace(named(), frf=(fit,), held_frf=(replace(fit, lines=np.zeros(0, int)),), damping=amounts)
+
+
+H_SHAPE = (400, 2, 1)
 DIAGNOSES = {
     "nothing": nothing,
     "named": named,
@@ -156,4 +181,5 @@ DIAGNOSES = {
     "one-of": one_of,
     "unknown": unknown,
     "bare": bare,
+    "functions": functions,
 }

@@ -9,6 +9,8 @@ from mouse_cli.diagnosis.baseline.altered import Model
 from mouse_cli.diagnosis.baseline.reduced import Reduced, reduced
 from mouse_cli.diagnosis.candidates import Candidate, registry
 from mouse_cli.diagnosis.extend.deck import extended
+from mouse_cli.diagnosis.frf.compared import compared
+from mouse_cli.diagnosis.frf.deck import with_damping
 from mouse_cli.diagnosis.frf.identified import with_modes
 from mouse_cli.diagnosis.frf.rank import heard
 from mouse_cli.diagnosis.locate.energy_map import energy_map
@@ -77,11 +79,12 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices) -> Diagnos
         misstated=misstated(ranking) if missing else None,
         proposals=_proposals(ranking, verdict),
         remarks=doubts + remarks + told + (() if deck is None else _coarse(deck)),
-        extended=deck if deck is None or given.test is not None else replace(deck, test=None),
+        extended=deck and with_damping(replace(deck, test=given.test and deck.test), problem, best),
         extended_result=None
         if deck is None
         else run(_by_modes(deck), notice=notice, guess=_values(deck, best), enough=enough),
         choices=choices,
+        **vars(compared(problem, ranking, best if missing else None)),
     )
 
 

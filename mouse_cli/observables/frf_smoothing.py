@@ -18,6 +18,7 @@ from mouse_cli.observables.frf import FrfObservable, accuracy, usable
 LINES = 80  # at which it is compared
 SEEN = 0.8  # share of the kernel that the measured band must hold
 SD = 0.1  # accuracy given to logarithms of what was smoothed
+GAP = 4.0  # times the distance to its other neighbour, beyond which a line says nothing of what lies between
 
 
 def smoothed(test: FrfTest, width: float) -> FrfObservable:
@@ -34,10 +35,17 @@ def smoothed(test: FrfTest, width: float) -> FrfObservable:
 
 def _on_line(test: FrfTest, have: np.ndarray, lines: np.ndarray, sigma: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Poisson's integral (l, o, i) over what was measured, scaled to the share (l, o, i) of its kernel that lies there."""
-    omega, weight = test.omega, np.gradient(test.omega) / np.pi
+    omega, weight = test.omega, _widths(test.omega) / np.pi
     at, sigma = omega[lines, None], sigma[:, None]
     above, below = (sigma / ((at - sign * omega) ** 2 + sigma**2) * weight for sign in (1, -1))
     H = np.where(have, test.H, 0.0)
     share = np.tensordot(above + below, have.astype(float), axes=1)
     total = np.tensordot(above, H, axes=1) + np.tensordot(below, H.conj(), axes=1)
     return np.divide(total, share, out=np.full(share.shape, np.nan, complex), where=share > 0), share
+
+
+def _widths(omega: np.ndarray) -> np.ndarray:
+    """What of the axis (f,) each line stands for: half-way to its neighbours, but not across gaps, where nothing was measured."""
+    apart = np.diff(omega)
+    below, above = np.append(apart[:1], apart), np.append(apart, apart[-1:])
+    return (np.minimum(below, GAP * above) + np.minimum(above, GAP * below)) / 2

@@ -56,6 +56,16 @@ def test_document(name):
     assert (document["verdict"]["physics"] is not None) == (found.kind in (NAMED, ONE_OF))
 
 
+def test_document_of_functions():
+    """A model that leaves noise alone leaves 1, 90 % of the magnitudes lie within 90 %; 5 % of stiffness move a resonance by 2.5 %."""
+    document = report.document(DIAGNOSES["functions"]())
+    (fitted,), (held,) = document["frf"], document["held_out_frf"]
+    assert fitted["revised_rms_sd"] == pytest.approx(1.0, abs=4 / np.sqrt(2 * 800))
+    assert fitted["baseline_rms_sd"] > 3 and len(fitted["functions"]) == 2
+    assert held["revised_covered"] == pytest.approx(0.9, abs=4 * np.sqrt(0.09 / 800)) and held["lines"] == 0
+    assert [each["told"] for each in document["damping"]] == [True, False]
+
+
 def test_document_of_two_causes():
     document = report.document(DIAGNOSES["two"]())
     assert document["verdict"]["physics"] == "crack + shear"
@@ -73,6 +83,7 @@ def test_exit_codes():
         "one-of": 1,
         "unknown": 1,
         "bare": 1,
+        "functions": 1,
     }
     nothing = DIAGNOSES["nothing"]()
     assert nothing.exit_code == nothing.result.status.exit_code
@@ -108,6 +119,10 @@ def test_exit_codes():
         ("unknown", "Held out: mode 4; 1 frequency of the configuration 'tip mass'."),
         ("unknown", "MD513: sensor 2 does not fit."),
         ("bare", "No candidate has a meaning for this model."),
+        ("functions", "fitted at 200 of them, as they are"),
+        ("functions", "| loss factor: structural damping, of all stiffness | 0.02 | 0.001 | | |"),
+        ("functions", "Damping of the structure is that of the model with a spring to the ground."),
+        ("functions", "of what they leave is"),
     ],
 )
 def test_words(name, words):
@@ -214,7 +229,7 @@ def test_figures(name, tmp_path):
     for path in written:
         with open(path, "rb") as file:
             assert file.read(8) == b"\x89PNG\r\n\x1a\n"
-    expected = {"named": 6, "two": 5, "one-of": 2, "unknown": 2, "nothing": 3, "bare": 1}
+    expected = {"named": 6, "two": 5, "one-of": 2, "unknown": 2, "nothing": 3, "bare": 1, "functions": 10}
     assert len(written) == expected[name]
     assert len(written) <= len(registry())
 
