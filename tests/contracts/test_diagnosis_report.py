@@ -57,7 +57,7 @@ def test_document(name):
 
 
 def test_document_of_functions():
-    """A model that leaves noise alone leaves 1, 90 % of the magnitudes lie within 90 %; 5 % of stiffness move a resonance by 2.5 %."""
+    """A model that leaves noise alone leaves 1, and 90 % of the magnitudes lie within 90 % intervals."""
     document = report.document(DIAGNOSES["functions"]())
     (fitted,), (held,) = document["frf"], document["held_out_frf"]
     assert fitted["revised_rms_sd"] == pytest.approx(1.0, abs=4 / np.sqrt(2 * 800))
