@@ -130,4 +130,9 @@ CODES = {
         "One measurement holds two functions of the same response and force, of which the last is used.",
         "Choose one of them, or give repeats titles of their own.",
     ),
+    "MD624": Code(
+        "no mode shapes",
+        "The universal file holds no data set 55 or 2414 of normal or complex modes at nodes.",
+        "Export the modes of the analysis as data set 55; functions and time histories belong to `frf` and `recordings`.",
+    ),
 }

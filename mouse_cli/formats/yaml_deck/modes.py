@@ -6,28 +6,39 @@ import numpy as np
 
 from mouse_cli.formats import matrix_files
 from mouse_cli.formats.draft import TestDraft, nowhere
+from mouse_cli.formats.mode_files import ModeTable
 from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.files import named, read_kept
 from mouse_cli.formats.yaml_deck.kinds import KINDS
+from mouse_cli.formats.yaml_deck.modes_file import chosen, of_file, own_sensors
 from mouse_cli.formats.yaml_deck.sections import Section
 from mouse_cli.formats.yaml_deck.sensors import listed, sensors
+from mouse_cli.model.units import UNDECLARED, Units
 
 
-def modal_test(section: Section | None) -> TestDraft | None:
-    """The measured modes; None when there are none, or after an error that leaves no list of frequencies."""
+class Grid:
+    """Values (s, m) and their places."""
+
+    def __init__(self, values: np.ndarray, where=lambda s, m: None):
+        self.values, self.where = values, where
+
+
+def modal_test(section: Section | None, units: Units = UNDECLARED) -> TestDraft | None:
+    """The measured modes; units: of the deck. None when there are none, or after an error that leaves no list of frequencies."""
     if section is None:
         return None
     before, section.document.incomplete = section.document.incomplete, False  # gaps elsewhere are no gaps of the test
     try:
-        return _measured(section)
+        return _measured(section, units)
     finally:
         section.document.incomplete |= before
 
 
-def _measured(section: Section) -> TestDraft | None:
+def _measured(section: Section, units: Units) -> TestDraft | None:
     named, modes = sensors(section), section.section("modes")
-    frequency = modes.value("frequency") if modes else None
+    held = of_file(modes, units) if modes and "file" in modes else None
+    frequency = held.frequency_hz if held else modes.value("frequency") if modes else None
     if frequency is None:
         return None
     m, nodes, scale = len(frequency), modes.nodes, modes.value("scale", "fitted")
@@ -38,8 +49,10 @@ def _measured(section: Section) -> TestDraft | None:
     sd = frequency_sd(modes, frequency)
     number = modes.value("number", np.arange(1, m + 1))
     dofs = listed(modes.document, nodes["dofs"], modes.what("dofs"), named) if "dofs" in modes else named or None
+    if held:
+        dofs = own_sensors(modes, held) if dofs is None else dofs
     matching(modes, "number", len(number), m)
-    shapes, shape_sd = _shapes(modes, dofs, m)
+    shapes, shape_sd = _of_file(modes, held, dofs) if held else _shapes(modes, dofs, m)
     if modes.document.incomplete:
         return None
     where = modes.document.where
@@ -51,14 +64,23 @@ def _measured(section: Section) -> TestDraft | None:
         shapes.values,
         shape_sd.values,
         scale,
-        where(nodes["number"].value if "number" in modes else nodes["frequency"].value),
-        where(nodes["frequency"].value),
+        where(nodes["number"].value) if "number" in modes else _where_each(modes, "frequency"),
+        _where_each(modes, "frequency"),
         _where_each(modes, "frequency_sd"),
         _where_each(modes, "dofs"),
         shapes.where,
         shape_sd.where,
         tuple(dofs or ()),
     )
+
+
+def _of_file(modes: Section, held: ModeTable, dofs: list[SensorDraft]) -> tuple[Grid, Grid]:
+    """Shapes of a file at the sensors `dofs`, and their standard deviations."""
+    rows = chosen(modes, held, dofs)
+    if rows is None:
+        return Grid(np.zeros((0, len(held.frequency_hz)))), Grid(np.zeros((0, len(held.frequency_hz))))
+    span = modes.document.span(modes.nodes["file"])
+    return Grid(rows, lambda s, m: span), _shape_sd(modes, rows) or Grid(np.full(rows.shape, np.nan))
 
 
 def _where_each(modes: Section, key: str):
@@ -86,7 +108,7 @@ def frequency_sd(modes: Section, frequency: np.ndarray) -> np.ndarray:
             message = f"{modes.called} has no frequency_sd"
             document.error(
                 "MD211",
-                modes.nodes["frequency"],
+                modes.nodes.get("frequency", modes.node),
                 message,
                 "give frequency_sd: a number in Hz, or a percentage",
             )
@@ -102,13 +124,6 @@ def frequency_sd(modes: Section, frequency: np.ndarray) -> np.ndarray:
         return percent * frequency / 100
     value = yaml_values.number(document, node, what, words)
     return nothing if value is None else np.where(np.isnan(frequency), np.nan, value)
-
-
-class Grid:
-    """Values (s, m) and their places."""
-
-    def __init__(self, values: np.ndarray, where=lambda s, m: None):
-        self.values, self.where = values, where
 
 
 def _shapes(modes: Section, dofs: list[SensorDraft] | None, m: int) -> tuple[Grid, Grid]:
@@ -136,7 +151,9 @@ def _shape_sd(modes: Section, shapes: np.ndarray) -> Grid | None:
     node, document = modes.nodes.get("shape_sd"), modes.document
     if node is None:
         message = f"{modes.called} has no shape_sd"
-        return document.error("MD211", modes.nodes["shapes"], message, "give shape_sd: a number, a percentage, or rows")
+        return document.error(
+            "MD211", modes.nodes.get("shapes", modes.node), message, "give shape_sd: a number, a percentage, or rows"
+        )
     if not yaml_values.is_scalar(node):
         return _grid(modes, "shape_sd", *shapes.shape)
     percent = yaml_values.as_percent(node)

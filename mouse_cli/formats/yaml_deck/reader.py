@@ -46,7 +46,7 @@ def _draft(deck: Section) -> Draft:
     parameters, covariance, properties = _properties(deck, matrices.mesh, declared)
     elements, A = yaml_parameters.moves(deck, properties, matrices.order, matrices.rows)
     measured = deck.section("test")
-    test, held = modal_test(measured), hold_out(measured)
+    test, held = modal_test(measured, declared), hold_out(measured)
     frf, recordings = records(measured, declared)
     run, where = run_options(deck.section("run"))
     deck.value("source")

@@ -33,10 +33,16 @@ SECTIONS = {
         forms=(("name", "node", "direction"), ("name", "at", "direction"), ("name", "weights")),
     ),
     "modes": Section(
-        "m measured modes at s sensors.",
+        "m measured modes at s sensors: given here, or in a universal file.",
         {
+            "file": Key(
+                "path",
+                "universal file whose data sets 55 or 2414 give frequencies and shapes; its sensors are called 12TY, ...; `dofs` "
+                "chooses among them",
+                "none",
+            ),
             "number": Key("wholes", "system mode number of each measured mode, rigid-body modes counted", "1 to m"),
-            "frequency": Key("maybes", "natural frequencies, null where not measured", unit="Hz", required=True),
+            "frequency": Key("maybes", "natural frequencies, null where not measured", "those of `file`", unit="Hz"),
             "frequency_sd": Key(
                 "sds",
                 "their standard deviations; a percentage is of each frequency",
@@ -57,5 +63,6 @@ SECTIONS = {
             ),
             "scale": Key("choice", "how shapes are brought to the scale of the theory", "fitted", choices=SCALES),
         },
+        needs=(("frequency",), ("file",)),
     ),
 }

@@ -1,0 +1,51 @@
+"""`test.modes: file:` of a YAML deck: frequencies and shapes of a universal file."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from mouse_cli.formats.mode_files import ModeTable, read_modes
+from mouse_cli.formats.own_names import own_sensor
+from mouse_cli.formats.sensor import SensorDraft
+from mouse_cli.formats.yaml_deck.files import read_below
+from mouse_cli.formats.yaml_deck.sections import Section
+from mouse_cli.model.channel_units import unit
+from mouse_cli.model.units import Units
+
+_SHOWN = 12  # names of sensors in a message
+
+
+def of_file(modes: Section, units: Units) -> ModeTable | None:
+    """The modes of the file that `modes` names, shapes of unit modal mass in the units of the deck; None after an error."""
+    document, node = modes.document, modes.nodes["file"]
+    for key in ("frequency", "shapes"):
+        if key in modes:
+            message = f"{modes.what(key)} stands beside {modes.what('file')}, which gives it"
+            document.error("MD217", modes.nodes[key], message, f"delete {key}, or file")
+    held = read_below(document, node, modes.called, read_modes)
+    if held is None or held.mass_kg is None:
+        return held
+    own = unit(units.force).factor / units.metre if units.declared else 1.0
+    return replace(held, shapes=held.shapes * np.sqrt(own / held.mass_kg))
+
+
+def own_sensors(modes: Section, held: ModeTable) -> list[SensorDraft]:
+    """All sensors of the file, by its names."""
+    where = modes.document.span(modes.nodes["file"])
+    words = lambda name: f"sensor {name} of {modes.what('file')}"
+    return [own_sensor(name, where, words(name)) or SensorDraft(name, where) for name in held.names]
+
+
+def chosen(modes: Section, held: ModeTable, dofs: list[SensorDraft]) -> np.ndarray | None:
+    """The rows of shapes at `dofs`, each by its name in the file, reversed where that is; None after an error."""
+    rows = []
+    for sensor in dofs:
+        backwards = sensor.name.replace("-", "")
+        name, sign = (sensor.name, 1.0) if sensor.name in held.names else (backwards, -1.0)
+        if name not in held.names:
+            message = f"the file has no shape at '{sensor.name}'"
+            note = f"it has {', '.join(held.names[:_SHOWN])}{', ...' if len(held.names) > _SHOWN else ''}"
+            node = modes.nodes.get("dofs", modes.nodes["file"])
+            return modes.document.error("MD600", node, message, "name sensors as the file does", note)
+        rows.append(sign * held.shapes[held.names.index(name)])
+    return np.array(rows).reshape(len(dofs), len(held.frequency_hz))
