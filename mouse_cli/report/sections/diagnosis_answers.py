@@ -209,7 +209,7 @@ def _true(found: Diagnosis) -> Iterator[Block]:
     told = "Each mode, predicted from the others" if held.kind == BY_MODE else "Data that no fit has seen"
     base, after = held.baseline, held.revised
     if after is None or found.kind == NOTHING:
-        yield Text(f"{told}: {' and '.join(_errors(base))}.")
+        yield Text(f"{told}: {' and '.join(_errors(base))}.{_foreseen(found)}")
         return
     number = int(np.isfinite(held.measured_hz).sum())
     extended = {NAMED: "the extended model", ONE_OF: f"{found.best.title}, which leads,"}.get(
@@ -221,8 +221,17 @@ def _true(found: Diagnosis) -> Iterator[Block]:
         within = f", and {lie} lie within its 90 % intervals"
     yield Text(
         f"{told}: with {extended} {' and '.join(_errors(base, after))}, the ln predictive density from "
-        f"{base.log_predictive_density:.1f} to {after.log_predictive_density:.1f}{within}. {_proof(found, held)}"
+        f"{base.log_predictive_density:.1f} to {after.log_predictive_density:.1f}{within}. {_proof(found, held)}{_foreseen(found)}"
     )
+
+
+def _foreseen(found: Diagnosis) -> str:
+    """Functions that no fit has seen, over their noise."""
+    told = ""
+    for fit in found.held_frf:
+        left = " and ".join(f"{fit.rms_sd(model.H):.3g} times their noise ({model.name})" for model in fit.models)
+        told += f" Functions that no fit has seen, {len(fit.test.frequency_hz)} lines: what is left is {left}."
+    return told
 
 
 def _errors(base: Score, after: Score | None = None) -> Iterator[str]:
