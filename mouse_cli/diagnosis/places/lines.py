@@ -35,9 +35,14 @@ class Line:
         return self.bars.site(*self.at(s))
 
     def starts(self, most: int, share: float) -> np.ndarray:
-        """Places to begin a search from: at most one a bar and `most`, fewer where this is but a `share` of all lines."""
+        """Places to begin a search from: at most one a bar and `most`, fewer where this is but a `share` of all lines.
+
+        All are middles of bars: at an end the place has no slope, as a hinge there belongs to either bar.
+        """
         count = max(1, min(most, len(self.members), round(2 * most * share)))
-        return (np.arange(count) + 0.5) / count * self.length
+        first, length = self.bars.before[self.members], self.bars.length[self.members]
+        at = np.searchsorted(first, (np.arange(count) + 0.5) / count * self.length, side="right") - 1
+        return first[at] + 0.5 * length[at]
 
     @cached_property
     def middles(self) -> np.ndarray:
