@@ -7,7 +7,6 @@ import numpy as np
 from mouse_cli.diagnosis.time.free_force import Spectrum
 from mouse_cli.diagnosis.time.hypothesis import Place
 from mouse_cli.diagnosis.time.uncertain import LARGEST, links
-from mouse_cli.model.arrays import dense
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
@@ -20,10 +19,8 @@ def motions(problem: Problem, sensed: np.ndarray) -> Iterator[tuple[Site, np.nda
     for i in range(n):
         if not _turns(labels[i]) and (n <= LARGEST or sensed[i]):
             yield Site("dof", (labels[i],), text=f"between {_named(labels[i])} and the ground"), np.eye(n)[i], True
-    if n > LARGEST:
-        return
     K, _ = assembly(problem).matrices(problem.prior.mean)
-    found = links(dense(K))
+    found = links(K)
     for b in () if found is None else found.B.T:
         ends = np.flatnonzero(b)
         if len(ends) == 2 and _alike(*(labels[i] for i in ends)):

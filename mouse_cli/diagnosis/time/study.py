@@ -19,6 +19,10 @@ OFFSET = 0.3  # sd of the offset of a force channel, by its rms
 _SAMPLES = 8192  # of a record that the closed form looks at
 _PERIODS, _SHORTEST, _LONGEST = 10, 256, 1024  # of the first mode in a horizon; its samples
 _SEGMENTS = 10
+_ABOVE, _BEYOND = (
+    2.0,
+    0.75,
+)  # highest mode of a large model, by the highest frequency of the response; by the sample rate at most
 
 
 @dataclass
@@ -56,14 +60,16 @@ class Study:
 
 def study(problem: Problem, found: Records) -> Study:
     """What the fits of a deck begin from."""
-    half = 0.5 / found.fitted[0].dt
-    model = uncertain(problem, half)
+    first = found.fitted[0]
+    lowest, high = _occupied(first)
+    at = np.unique(np.hstack([first.inputs, first.sensing.T]), axis=1)
+    model = uncertain(problem, min(_ABOVE * high, _BEYOND / first.dt), at)
     hz = _resonances(model)
-    low, high = _band(found.fitted[0], hz)
+    low = min(lowest, 0.5 * float(hz[hz > 1e-3 * hz.max()].min()))
     make = lambda one: steps(reduced(one, model.basis), min(hz.max(), high))
     fitted = [make(one) for one in found.fitted]
-    first = hz[hz > 1e-3 * hz.max()].min()
-    length = int(np.clip(_PERIODS / first / fitted[0].dt, _SHORTEST, _LONGEST))
+    slowest = hz[hz > 1e-3 * hz.max()].min()
+    length = int(np.clip(_PERIODS / slowest / fitted[0].dt, _SHORTEST, _LONGEST))
     length = max(64, min(length, min(len(one) for one in fitted) // 3))
     share = max(2, _SEGMENTS // len(fitted))
     data = [segments(one, length, share) for one in fitted]
@@ -81,13 +87,12 @@ def _resonances(model: Uncertain) -> np.ndarray:
     return np.sqrt(np.maximum(values, 0.0)) / (2 * np.pi)
 
 
-def _band(series: Series, hz: np.ndarray) -> tuple[float, float]:
-    """Where the response is, in Hz: all but a thousandth of its power, and the first mode."""
+def _occupied(series: Series) -> tuple[float, float]:
+    """Where the response is, in Hz: all but a thousandth of its power."""
     power = (np.abs(np.fft.rfft((series.measured - series.measured.mean(axis=0)) / series.sd, axis=0)) ** 2).sum(axis=1)
     share = np.cumsum(power) / power.sum()
     lines = np.fft.rfftfreq(len(series), series.dt)
-    low, high = lines[np.searchsorted(share, 0.001)], lines[np.searchsorted(share, 0.999)]
-    return min(float(low), 0.5 * float(hz[hz > 1e-3 * hz.max()].min())), float(high)
+    return float(lines[np.searchsorted(share, 0.001)]), float(lines[np.searchsorted(share, 0.999)])
 
 
 def fitted(study: Study, start: Start | None, beat: float = np.inf, first: Fit | None = None) -> Fit | None:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli.diagnosis.time.linear import Linear
-from mouse_cli.model.arrays import dense
+from mouse_cli.model.arrays import Matrix, dense
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
 from mouse_cli.updating.coordinates import coordinates
@@ -18,8 +18,8 @@ from mouse_cli.updating.coordinates import coordinates
 STIFFER, DAMPED = 0.05, 0.5  # sd of the stiffness and of the damping of a link, by their values
 UNDAMPED = 0.01  # damping ratio assumed where the deck has no damping; its sd is as large
 LARGEST = 40  # degrees of freedom that are simulated as they are; larger models by modes
-_BEYOND = 1.5  # highest mode kept, by half the sample rate
 _MOST_MODES = 60
+_MOST_LINKED = 400  # degrees of freedom of a model all of whose links are looked at
 _STEP = 1e-4  # of finite differences, in prior sd
 
 
@@ -31,14 +31,18 @@ class Links:
     values: np.ndarray
 
 
-def links(K: np.ndarray) -> Links | None:
+def links(K: Matrix) -> Links | None:
     """The links of K = sum of values B B', B = e_i - e_j or e_i; None where it is not made of few of them."""
-    n = len(K)
-    least = 1e-9 * np.abs(K).max()
-    pairs = [(i, j) for i in range(n) for j in range(i + 1, n) if abs(K[i, j]) > least]
-    ground = [i for i in range(n) if abs(K[i].sum()) > least]
-    if len(pairs) > 2 * n:
+    from scipy.sparse import coo_array
+
+    n, entries = K.shape[0], coo_array(K)
+    least = 1e-9 * np.abs(entries.data).max()
+    own = (entries.row < entries.col) & (np.abs(entries.data) > least)
+    pairs = sorted(zip(entries.row[own].tolist(), entries.col[own].tolist(), strict=True))
+    ground = np.flatnonzero(np.abs(K.sum(axis=1)) > least)
+    if len(pairs) > 2 * n or n > _MOST_LINKED:
         return None
+    K = K if isinstance(K, np.ndarray) else K.tocsr()
     B, values = np.zeros((n, len(pairs) + len(ground))), []
     for l, (i, j) in enumerate(pairs):
         B[i, l], B[j, l] = -1.0, 1.0
@@ -63,14 +67,14 @@ class Uncertain:
     remarks: tuple[str, ...]
 
 
-def uncertain(problem: Problem, half_rate_hz: float) -> Uncertain:
-    """The model of a deck, simulated up to half the sample rate, and all that is uncertain in it."""
+def uncertain(problem: Problem, highest_hz: float, at: np.ndarray) -> Uncertain:
+    """The model of a deck, and all that is uncertain in it; see `_basis` for `highest_hz` and `at` (n, q)."""
     found = assembly(problem)
     where = coordinates(problem, found)
     L = np.diag(where.L) if where.L.ndim == 1 else where.L
     k = L.shape[1]
     value = lambda z: where.value(where.mean + L @ z)
-    V = _basis(*found.matrices(value(np.zeros(k))), half_rate_hz)
+    V = _basis(*found.matrices(value(np.zeros(k))), highest_hz, at)
     reduce = lambda matrix: V.T @ (matrix @ V)
 
     def own(z: np.ndarray) -> tuple[np.ndarray, ...]:
@@ -92,16 +96,27 @@ def uncertain(problem: Problem, half_rate_hz: float) -> Uncertain:
     return Uncertain(linear, V, value, k, _remarks(bare, len(extra[2])))
 
 
-def _basis(K, M, half_rate_hz: float) -> np.ndarray:
-    """The degrees of freedom themselves, or the modes of a larger model up to beyond half the sample rate."""
+def _basis(K: Matrix, M: Matrix, highest_hz: float, at: np.ndarray) -> np.ndarray:
+    """The degrees of freedom themselves; of a larger model the modes up to `highest_hz`, and what the others add by their static
+    flexibility at the motions `at` (n, q), those of sensors and forces.
+    """
     n = K.shape[0]
     if n <= LARGEST:
         return np.eye(n)
-    from mouse_cli.dynamics.solver import modes
+    from scipy.linalg import eigh
+    from scipy.sparse import csc_array
+    from scipy.sparse.linalg import splu
 
-    values, shapes = modes(K, M, min(_MOST_MODES, n))[:2]
-    kept = np.sqrt(np.maximum(values, 0)) < 2 * np.pi * _BEYOND * half_rate_hz
-    return np.asarray(shapes)[:, kept]
+    from mouse_cli.dynamics.solver import EigenSolver
+
+    limit = (2 * np.pi * highest_hz) ** 2
+    found = EigenSolver().solve(K, M, min(_MOST_MODES, n))
+    modes = np.asarray(found.shapes)[:, :_MOST_MODES][:, found.eigenvalues[:_MOST_MODES] < limit]
+    static = splu(csc_array(K + limit * M)).solve(np.ascontiguousarray(at))
+    static -= modes @ np.linalg.solve(modes.T @ (M @ modes), modes.T @ (M @ static))
+    own, shares = np.linalg.svd(static / np.maximum(np.linalg.norm(static, axis=0), 1e-300), full_matrices=False)[:2]
+    V = np.column_stack([modes, own[:, shares > 1e-6 * shares.max()]])
+    return V @ eigh(V.T @ (K @ V), V.T @ (M @ V))[1]
 
 
 def _viscous(K: np.ndarray, M: np.ndarray, C: np.ndarray | None, D: np.ndarray | None) -> np.ndarray:
