@@ -10,7 +10,7 @@ from mouse_cli._errors import ERROR, Diagnostic, RecordError
 from mouse_cli._span import Span
 from mouse_cli.cli._spectra import measured_data, spectra_options
 from mouse_cli.model.frf_test import FrfTest
-from mouse_cli.model.identification import Identification, deck_shapes
+from mouse_cli.model.identification import Identification, measured_test
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.recording import Recording
@@ -101,35 +101,19 @@ def _of_deck(found: Identification, problem: Problem | None, outputs) -> Identif
     """The identification with the deck whose test it becomes."""
     if problem is None or not found.modes.m:
         return found
-    shapes, sd = deck_shapes(found.modes)
-    number = np.arange(1, found.modes.m + 1)
-    if outputs.ndim == 1:
-        dofs, sensing, names = np.asarray(outputs, int), None, ()
-    else:
-        dofs, sensing, names = abs(outputs).argmax(axis=1).ravel(), outputs, found.sensors
-    test = ModalTest(
-        number,
-        found.modes.frequency_hz,
-        found.modes.frequency_sd_hz,
-        np.asarray(dofs, int),
-        shapes,
-        sd,
-        "fitted",
-        sensing,
-        names,
-    )
-    return replace(found, problem=problem, test=_numbered(problem, test))
+    return replace(found, problem=problem, test=_numbered(problem, measured_test(found.modes, outputs, found.sensors)))
 
 
 def _numbered(problem: Problem, test: ModalTest) -> ModalTest:
-    """The test with the numbers of the model's modes where every measured one has a partner of its own."""
+    """The test with the numbers of the model's modes where every measured one has a partner of its own; else in turn, above the
+    rigid-body modes."""
     from mouse_cli.model.correlation import ALONE
     from mouse_cli.updating.correlate import correlate
 
     found = correlate(replace(problem, test=test, frf=(), recordings=(), hold_out=None, held_records=None))
     own = found.modes != ALONE
     if not own.all() or len(set(found.modes.tolist())) < test.m or (np.diff(found.modes) <= 0).any():
-        return test
+        return replace(test, number=test.number + found.rigid_modes)
     return replace(test, number=found.modes + 1)
 
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mouse_cli._errors import Diagnostic
+from mouse_cli.model.arrays import Matrix, dense
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.problem import Problem
 
@@ -112,6 +113,24 @@ class Identification:
     def exit_code(self) -> int:
         """0: modes were found and nothing speaks against them; 1: not."""
         return 1 if self.doubts or not self.modes.m else 0
+
+
+def measured_test(modes: Modes, outputs: Matrix, names: tuple[str, ...]) -> ModalTest:
+    """Modes as a test of the model whose degrees of freedom `outputs` reads: (s,) numbers from 0, or weights (s, n).
+
+    Frequencies alone where there is but one sensor: no shape is to be seen.
+    """
+    number = np.arange(1, modes.m + 1)
+    if outputs.shape[0] < 2:
+        none = np.zeros((0, modes.m))
+        return ModalTest(number, modes.frequency_hz, modes.frequency_sd_hz, np.zeros(0, int), none, none)
+    shapes, sd = deck_shapes(modes)
+    plain = outputs.ndim == 1
+    dofs = np.asarray(outputs if plain else np.abs(dense(outputs)).argmax(axis=1), int)
+    return ModalTest(
+        number, modes.frequency_hz, modes.frequency_sd_hz, dofs, shapes, sd, "fitted", None if plain else outputs,
+        () if plain else names,
+    )  # fmt: skip
 
 
 _LEAST_SD = 0.25  # of the median of a mode: scaling leaves the largest component none of its own

@@ -5,10 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli._errors import ERROR, Diagnostic, NumericalError
-from mouse_cli.model.arrays import dense
-from mouse_cli.model.frf_test import FrfTest
-from mouse_cli.model.identification import Modes
-from mouse_cli.model.modal_test import ModalTest, restricted
+from mouse_cli.model.identification import Modes, measured_test
+from mouse_cli.model.modal_test import restricted
 from mouse_cli.model.problem import Problem
 from mouse_cli.records.identify import identify_frf
 from mouse_cli.records.identify_combine import combined
@@ -34,7 +32,9 @@ def with_modes(problem: Problem) -> tuple[Problem, tuple[str, ...]]:
             )
         )
     doubts = tuple(f"modes of the functions: {each.message}" for each in found.doubts)
-    test, kept = _test(combined(problem.frf)[0], found.modes), _strongest(found.modes, problem.structure.n)
+    functions = combined(problem.frf)[0]
+    test = measured_test(found.modes, functions.outputs, functions.output_names)
+    kept = _strongest(found.modes, problem.structure.n)
     if not kept.all():
         hz = ", ".join(f"{value:.6g} Hz" for value in test.frequency_hz[~kept])
         doubts += (
@@ -51,23 +51,3 @@ def _strongest(modes: Modes, most: int) -> np.ndarray:
     kept = np.zeros(modes.m, bool)
     kept[np.argsort(-strength)[:most]] = True
     return kept
-
-
-def _test(functions: FrfTest, modes: Modes) -> ModalTest:
-    """The modes at the sensors of the functions; frequencies alone where there is but one."""
-    number = np.arange(1, modes.m + 1)
-    if functions.outputs.shape[0] < 2:
-        none = np.zeros((0, modes.m))
-        return ModalTest(number, modes.frequency_hz, modes.frequency_sd_hz, np.zeros(0, int), none, none)
-    whole = functions.outputs
-    dofs = whole if whole.ndim == 1 else np.abs(dense(whole)).argmax(axis=1)
-    return ModalTest(
-        number,
-        modes.frequency_hz,
-        modes.frequency_sd_hz,
-        dofs,
-        modes.shapes.real,
-        modes.shape_sd,
-        sensing=None if whole.ndim == 1 else whole,
-        sensors=functions.output_names,
-    )
