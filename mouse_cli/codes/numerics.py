@@ -59,10 +59,16 @@ CODES = {
     ),
     "MD518": Code(
         "functions of a model without damping",
-        "Frequency response functions are fitted or foreseen, and the model has no damping anywhere: its resonances are infinite, and "
-        "lines near a measured resonance pull parameters away from it.",
-        "Give elements or a material `loss_factor` (structural), `stiffness_damping` or `mass_damping` (viscous), or add dashpots, and "
-        "make the amount a parameter with `transform: log`; in a deck of matrices give `damping` or `structural_damping`.",
+        "Frequency response functions are fitted or foreseen, and the model has no damping anywhere: its resonances are "
+        "infinite, and lines near a measured resonance pull parameters away from it.",
+        "Give elements or a material `loss_factor` (structural), `stiffness_damping` or `mass_damping` (viscous), or dashpots, and "
+        "make the amount a parameter with `transform: log`; or give `modal_damping: {ratio: 1 %, sd: 100 %}`; in a deck of "
+        "matrices `damping` or `structural_damping`.",
+    ),
+    "MD519": Code(
+        "modal damping of a large model",
+        "Damping by ratios of modes makes a full matrix C = M X diag(2 zeta omega) X'M, which large models have no room for.",
+        "Give elements or their material a `loss_factor`: a damping ratio at a resonance is half of it.",
     ),
     "MD511": Code(
         "plug-in that cannot be used",

@@ -59,6 +59,7 @@ def assemble(draft: Draft) -> Problem:
         recordings=recordings,
         held_records=kept,
         laws=acting,
+        modal_damping=draft.modal_damping,
     )
 
 

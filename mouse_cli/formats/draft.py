@@ -17,6 +17,7 @@ from mouse_cli.formats.record_drafts import FrfDraft, RecordingDraft
 from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.geometry import Geometry
+from mouse_cli.model.modal_damping import ModalDamping
 from mouse_cli.model.parameter import Parameter
 from mouse_cli.model.problem import RunOptions, Source
 from mouse_cli.model.units import UNDECLARED, Units
@@ -99,6 +100,7 @@ class Draft:
     recordings: tuple[RecordingDraft, ...] = ()
     hold_out: HoldOutDraft | None = None
     laws: tuple[LawDraft, ...] = ()
+    modal_damping: ModalDamping | None = None
     where_order: Span | None = None
     where_covariance: Span | None = None
     where_total_mass: Span | None = None

@@ -232,8 +232,8 @@ class Diagnosis:
     the stated variances were multiplied. refuted: groups that held-out data speak against; cautions: sentences on what the
     answer stands or falls with, the accuracy of the test above all; misstated: what of that the deck seems to have wrong,
     `gains`, `places` or `drift`. location, energy: what shapes alone say of the place.
-    extended: the deck with the cause in it, and its update. frf, held_frf: functions of the model as it is, and with the cause where
-    there is one, beside those fitted and those held out; damping: of the structure, as functions show it.
+    extended: the deck with the cause in it, and its update. frf, held_frf: functions of the model as it is, and with the cause
+    where there is one, beside those fitted and those held out; damping: of the structure, as functions show it.
     """
 
     problem: Problem

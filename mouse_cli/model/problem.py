@@ -9,6 +9,7 @@ from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.model.hold_out import HeldRecords, HoldOut
 from mouse_cli.model.local_law import LocalLaw
 from mouse_cli.model.mesh import Binding, Mesh
+from mouse_cli.model.modal_damping import ModalDamping
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.recording import Recording
@@ -75,6 +76,7 @@ class Problem:
     springs; mesh, bindings: what they were made of, for models with geometry. test is None for a deck that only asks for modes; it
     holds what is fitted, and hold_out what is kept from every fit. frf, recordings: frequency response functions and time histories
     of the test. units: of all numbers that are not in s or Hz. laws: local forces that are not linear, which modes do not have.
+    modal_damping: beside that of structure and terms.
     """
 
     title: str
@@ -97,6 +99,7 @@ class Problem:
     units: Units = UNDECLARED
     held_records: HeldRecords | None = None
     laws: tuple[LocalLaw, ...] = ()
+    modal_damping: ModalDamping | None = None
 
     def place(self, key: str) -> Span:
         """Where `key` (`order`, `estimator`, `mode 3`) stands in the deck; its first line when that is not known."""

@@ -15,6 +15,7 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import DampedModes, Forecast
 from mouse_cli.terms.assembly import Assembly
 from mouse_cli.terms.assembly import assembly as assemble
+from mouse_cli.terms.modal_damping import with_modal_damping
 from mouse_cli.updating import refusals
 from mouse_cli.updating.coordinates import Coordinates, coordinates
 from mouse_cli.updating.state import reference_eigenvalue, solve
@@ -27,6 +28,7 @@ def forecast(problem: Problem, count: int | None = None, notice: Notice = lambda
 
     notice is called with a sentence as each phase of a large model begins. Raises NumericalError.
     """
+    problem = with_modal_damping(problem)
     assembly = assemble(problem)
     K, M = assembly.matrices(problem.prior.mean)
     try:

@@ -25,6 +25,7 @@ from mouse_cli.model.problem import MOST_COVARIANCE, Problem
 from mouse_cli.model.result import ChiSquareTest, Result, Snapshot, Status
 from mouse_cli.observables.modal import UnrelatedShapes, observe
 from mouse_cli.terms.assembly import assembly as assemble
+from mouse_cli.terms.modal_damping import with_modal_damping
 from mouse_cli.updating import anchored, model_form, refusals, replaced
 from mouse_cli.updating.convergence import ExceedanceTest
 from mouse_cli.updating.coordinates import coordinates
@@ -191,7 +192,7 @@ def _begin(
     problem: Problem, notice: Notice = lambda text: None, solver: EigenSolver | None = None
 ) -> tuple[Setting, State]:
     """O-1 for the prior model, and the test brought to its scale."""
-    problem = with_gains(with_test(problem))
+    problem = with_gains(with_modal_damping(with_test(problem)))
     if problem.test is None:
         raise refusals.no_test(problem)
     assembly = assemble(problem)

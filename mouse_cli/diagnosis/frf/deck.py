@@ -24,7 +24,11 @@ def with_damping(deck: Problem, before: Problem, one: Fit) -> Problem:
     Amounts that the functions tell become parameters. A deck whose own parameters move damping keeps it, and estimates it itself.
     """
     fit = of_functions(one)
-    if not isinstance(fit.model, FrfModel) or any(b.property in DAMPING for b in before.bindings):
+    if (
+        not isinstance(fit.model, FrfModel)
+        or before.modal_damping
+        or any(b.property in DAMPING for b in before.bindings)
+    ):
         return deck
     found = found_damping(fit)
     stated = fit.model.damping.stated

@@ -10,6 +10,7 @@ from mouse_cli.formats.yaml_deck import parameters as yaml_parameters
 from mouse_cli.formats.yaml_deck import prior as yaml_prior
 from mouse_cli.formats.yaml_deck.hold_out import hold_out
 from mouse_cli.formats.yaml_deck.laws import laws
+from mouse_cli.formats.yaml_deck.modal_damping import modal_damping
 from mouse_cli.formats.yaml_deck.model import Model, model
 from mouse_cli.formats.yaml_deck.modes import modal_test
 from mouse_cli.formats.yaml_deck.nodes import compose
@@ -31,6 +32,7 @@ def read(text: str | bytes, path: str) -> Draft:
     deck.value("mouse")
     draft = _draft(deck)
     draft.laws = laws(deck)
+    draft.modal_damping = modal_damping(deck)
     draft.diagnostics.extend(document.diagnostics)
     if document.incomplete:
         raise review(draft)

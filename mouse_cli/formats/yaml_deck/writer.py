@@ -4,6 +4,7 @@ import os
 from dataclasses import fields
 
 from mouse_cli.formats.yaml_deck.kinds import MAX_WHOLE, VERSION
+from mouse_cli.formats.yaml_deck.modal_damping import modal_damping_lines
 from mouse_cli.formats.yaml_deck.nodes import compose
 from mouse_cli.formats.yaml_deck.text import flow, real, word, wrapped
 from mouse_cli.formats.yaml_deck.writer_laws import laws
@@ -28,6 +29,7 @@ def write(problem: Problem, stem: str = "deck", folder: str | None = None) -> tu
     lines = [
         *_heading(problem),
         *_model(problem, stem, attachments),
+        *modal_damping_lines(problem.modal_damping),
         *laws(problem),
         *parameters(problem, stem, attachments),
     ]

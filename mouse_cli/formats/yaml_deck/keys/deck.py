@@ -12,6 +12,9 @@ SECTIONS = {
             "source": Key("text", "where the deck or its numbers come from", "empty"),
             "units": Key("choice", "units of length, mass and force; time is in s", "not told", choices=tuple(SYSTEMS)),
             "model": Key("section model", "the matrices before the test", required=True),
+            "modal_damping": Key(
+                "section modal_damping", "damping by ratios of modes", "that of elements and matrices alone"
+            ),
             "laws": Key("list law", "local forces that are not linear", "none"),
             "elements": Key("section elements", "order in which the varying elements are listed (RS)", "see below"),
             "parameters": Key("list parameter", "what may be revised: one entry is one column of A", "none"),
