@@ -57,7 +57,7 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices) -> Diagnos
     model, told = _model(problem, solver)
     enough = 0.0 if model.places is None else ENOUGH
     result, remarks = _update(problem, kept, notice, _guess(model), enough, solver)
-    ranking = heard(rank(model, _known(choices), choices.causes))
+    ranking = rank(model, _known(choices), choices.causes, heard)
     verdict, as_it_is = judge(ranking, result.rejected and given.test is not None, model), ranking.baseline
     kind, best, missing = verdict.kind, verdict.best, verdict.kind != NOTHING
     location = locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None

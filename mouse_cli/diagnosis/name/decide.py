@@ -51,10 +51,12 @@ def judge(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
     """What may be said of all fits: by their evidence, and by data that none of them has seen; rejected: by the update itself.
 
     Something is missing where the update leaves too much, or where it is sure that some cause acts and what the deck holds out
-    confirms the first of them: two judgements on different data. A cause that is refuted gives its place to the next rival.
+    confirms the first of them: two judgements on different data. Of thousands of data that say so, none need be held out.
+    A cause that is refuted gives its place to the next rival.
     """
     baseline, best = ranking.baseline, leader(ranking)
-    demanded, certain = doubtful(baseline, rejected), best is not None and sure(ranking)
+    demanded = doubtful(baseline, rejected) or (baseline.telling and dict(ranking.groups).get("none", 0.0) < GATE)
+    certain = best is not None and sure(ranking)
     proof = held_out(model, baseline, best if demanded or certain else None)
     if not demanded and not (certain and _gain(proof) > _ODDS):
         return Verdict(NOTHING, None, None if proof is None else replace(proof, revised=None))

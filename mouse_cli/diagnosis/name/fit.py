@@ -36,9 +36,8 @@ class Fit:
     hessian: np.ndarray = field(repr=False)
     log_evidence: float
     elsewhere: tuple[tuple["Fit", float], ...] = ()
-    bearable: ClassVar[float] = (
-        1.5  # misfit over degrees of freedom above which no explanation is one: sd are rarely known better
-    )
+    bearable: ClassVar[float] = 1.5  # misfit over degrees of freedom above which no explanation is one
+    telling: ClassVar[bool] = False  # so many data that evidence alone says whether something is missing
 
     @property
     def recipes(self) -> tuple[Recipe, ...]:

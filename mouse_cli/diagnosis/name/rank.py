@@ -4,7 +4,7 @@ A second cause is sought only where one alone leaves more than noise, and must g
 what the data cannot tell apart shares its probability.
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -57,8 +57,16 @@ def key(one: Fit) -> tuple[str, ...]:
     return tuple(sorted(recipe.candidate.key for recipe in one.recipes))
 
 
-def rank(model: Reduced, known: dict[str, Candidate] | None = None, causes: int = 2) -> Ranking:
-    """All that the candidates (`known`; None: all) make of the data, at most `causes` (1, 2) of them together."""
+def rank(
+    model: Reduced,
+    known: dict[str, Candidate] | None = None,
+    causes: int = 2,
+    hear: Callable[[Ranking], Ranking] = lambda found: found,
+) -> Ranking:
+    """All that the candidates (`known`; None: all) make of the data, at most `causes` (1, 2) of them together.
+
+    hear: what further data make of a ranking, before a second cause is sought and after.
+    """
     study = Study(model, known)
     baseline = settled(fit(Model(model), np.zeros(0)), study)
     singles: list[Fit] = []
@@ -66,9 +74,11 @@ def rank(model: Reduced, known: dict[str, Candidate] | None = None, causes: int 
         one = best(study, name, _reach([baseline, *singles]))
         singles += [] if one is None else [one]
     fits = [baseline, *singles]
-    if causes > 1 and singles and not adequate(min(singles, key=lambda one: one.misfit)):
-        fits += pairs(study, singles)
-    return ranking(baseline, fits)
+    found = hear(ranking(baseline, fits))
+    with_cause = [one for one in found.fits if one.recipes]
+    if causes > 1 and with_cause and not adequate(min(with_cause, key=lambda one: one.misfit)):
+        found = hear(ranking(baseline, fits + pairs(study, singles)))
+    return found
 
 
 def _reach(found: list[Fit]) -> float:
