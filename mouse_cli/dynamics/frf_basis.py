@@ -25,6 +25,7 @@ _ASTRAY = 1e3  # a step so large, relative, that no solution is in reach
 _ROUNDING = 1e-11  # what damping may differ from a combination of K and M, relative, to be taken for one
 _CHECKED = 2  # loads for which they are found
 _SOLVED, _ROUNDED = 3e-8, 1e-6  # the last step of it, relative; the same where rounding keeps it from getting smaller
+_SHARE = 0.05  # of all steps together, the last one: what is off is then known to that share
 
 
 def frf_model(
@@ -45,12 +46,11 @@ def frf_model(
     if dynamics.n <= WHOLE or (not is_sparse(dynamics.K) and solution is None) or _bare(solution):
         return FrfModel(_dense(dynamics), loads.full(dynamics.n), loads.columns)
     basis = _Basis(dynamics, loads, solution, float(np.abs(checked).max()))
-    known: dict[complex, np.ndarray | None] = {}
     while True:
         while basis.levels < levels:
             basis.extend()
         model, levels = basis.model(), basis.levels + 1
-        errors = [_error(basis, model, complex(s), known) for s in checked]
+        errors = [_error(basis, model, complex(s)) for s in checked]
         error, motion_error = (max(column) for column in zip(*errors, strict=True))
         if error <= tolerance or basis.complete or levels > _MOST:
             return FrfModel(model.matrices, model.loads, model.columns, model.V, basis.levels, error, motion_error)
@@ -219,16 +219,11 @@ def _follows(damping: Matrix | None, dynamics: Dynamics) -> tuple[float, float] 
     return (a, b) if np.abs(rest).max() <= _ROUNDING * np.abs(damping.data).max() else None
 
 
-def _error(basis: _Basis, model: FrfModel, s: complex, known: dict[complex, np.ndarray | None]) -> tuple[float, float]:
-    """Relative errors of the FRFs and of the motions at one line, against a full solution; inf where that was not found.
-
-    known: full solutions found before.
-    """
+def _error(basis: _Basis, model: FrfModel, s: complex) -> tuple[float, float]:
+    """Relative errors of the FRFs and of the motions at one line, against a full solution; inf where that was not found."""
     few = np.unique(np.linspace(0, basis.loads.count - 1, _CHECKED).astype(int))
     x = product(model.V.T, model.at(np.array([s])).Y[0][:, few])
-    if s not in known:
-        known[s] = _full(basis, model, s, x, basis.full[:, few])
-    exact = known[s]
+    exact = _full(basis, model, s, x, basis.full[:, few])
     if exact is None:
         return np.inf, np.inf
     at = basis.loads.at
@@ -238,10 +233,13 @@ def _error(basis: _Basis, model: FrfModel, s: complex, known: dict[complex, np.n
 
 
 def _full(basis: _Basis, model: FrfModel, s: complex, x: np.ndarray, loads: np.ndarray) -> np.ndarray | None:
-    """Z(s)^-1 loads (n, c) from x (n, c) on: a correction by A^-1 outside of the basis, one within it, and so on."""
+    """Z(s)^-1 loads (n, c) from x (n, c) on: a correction by A^-1 outside of the basis, one within it, and so on.
+
+    As its last correction lies in the basis, what remains is orthogonal to it, and counts in FRFs by its square, as in x.
+    """
     if isinstance(basis.operator, _Whole):
         return np.linalg.solve(_dense(basis.dynamics).at(s), loads)
-    Z, before = model.matrices.at(s), np.inf
+    Z, before, start = model.matrices.at(s), np.inf, x
     for _ in range(_REFINEMENTS):
         rest = loads - basis.times(s, x)
         c = rest.shape[1]
@@ -250,7 +248,8 @@ def _full(basis: _Basis, model: FrfModel, s: complex, x: np.ndarray, loads: np.n
         rest = loads - basis.times(s, better)
         better = better + product(model.V.T, np.linalg.solve(Z, product(model.V, rest)))
         change = float((np.linalg.norm(better - x, axis=0) / np.linalg.norm(better, axis=0)).max())
-        if change <= _SOLVED or (change > 0.5 * before and change <= _ROUNDED):
+        whole = float((np.linalg.norm(better - start, axis=0) / np.linalg.norm(better, axis=0)).max())
+        if change <= max(_SOLVED, _SHARE * whole) or (change > 0.5 * before and change <= _ROUNDED):
             return better
         if not change < _ASTRAY:
             return None
