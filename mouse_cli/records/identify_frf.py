@@ -17,6 +17,7 @@ from mouse_cli.records.stabilisation import Track
 
 LEAST_LINES = 16
 _REFITS = 2
+_TOO_SHARP = "decays more slowly than the exponential window lets anything"
 
 
 @dataclass(frozen=True)
@@ -68,13 +69,18 @@ def identify_lines(lines: Lines, stated: bool, most: int | None, say: Callable[[
 
 def _fitted(lines: Lines, stated: bool, candidates: list[Track]) -> tuple[Fit, Lines, float, float, list[Dropped]]:
     """The fit of what is significant, the lines with the sd it stands on, misfit, share of lines raised, what was dropped."""
+    added = lines.s[
+        0
+    ].real  # by an exponential window, to the decay rate of every mode: a pole that has less is none of a mode
     centres = [track.centre() for track in candidates]
-    poles = np.array([pole for pole, _ in centres], complex) + lines.s[0].real  # of an exponential window
+    dropped = [Dropped(pole + added, _TOO_SHARP) for pole, _ in centres if pole.real + added >= 0]
+    centres = [(pole, vector) for pole, vector in centres if pole.real + added < 0]
+    poles = np.array([pole for pole, _ in centres], complex) + added
     inputs = lines.H.shape[2]
     participation = np.array([vector for _, vector in centres], complex).reshape(len(poles), inputs).T
     first = approached(lines, start(poles, participation, lines.H.shape[1], (BELOW, ABOVE, CURVED)))
     fit = fitted(lines, first, small=ROUGH)
-    given, raised, dropped = lines, 0.0, []
+    given, raised = lines, 0.0
     for choose in (_as_they_are, selected, doubled, selected, known):
         fit, gone = choose(lines, fit, poles)
         dropped += gone

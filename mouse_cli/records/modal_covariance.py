@@ -29,6 +29,17 @@ class Correlation:
     rho: np.ndarray
     channels: np.ndarray | None = None
 
+    @property
+    def loudest(self) -> float:
+        """Variance of the loudest combination of lines and channels over that of independent errors: largest eigenvalues."""
+        along = np.fft.rfft(np.concatenate([self.tapered, self.tapered[:0:-1]])).real.max()
+        return float(along * (1.0 if self.channels is None else np.linalg.eigvalsh(self.channels)[-1]))
+
+    @property
+    def tapered(self) -> np.ndarray:
+        """rho, tapered where it is long, so that its spectrum stays positive."""
+        return self.rho * (1 - np.arange(len(self.rho)) / len(self.rho) if len(self.rho) > _FEW else 1)
+
 
 INDEPENDENT = Correlation(np.ones(1))
 
@@ -124,14 +135,15 @@ def _inner(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return (a.reshape(len(a), -1).conj() @ b.reshape(len(b), -1).T).real
 
 
-def _along(values: np.ndarray, rho: np.ndarray) -> np.ndarray:
+def _along(values: np.ndarray, errors: Correlation) -> np.ndarray:
     """The correlation of lines applied to (..., f, i)."""
+    rho = errors.tapered
     if len(rho) == 1:
         return values
     lines = values.shape[-2]
     size = lines + 2 * len(rho)
     kernel = np.zeros(size)
-    kernel[: len(rho)] = rho * (1 - np.arange(len(rho)) / len(rho) if len(rho) > _FEW else 1)
+    kernel[: len(rho)] = rho
     kernel[-len(rho) + 1 :] = kernel[1 : len(rho)][::-1]
     spectrum = np.fft.fft(kernel)[:, None]
     return np.fft.ifft(np.fft.fft(values, size, axis=-2) * spectrum, axis=-2)[..., :lines, :]
@@ -139,7 +151,7 @@ def _along(values: np.ndarray, rho: np.ndarray) -> np.ndarray:
 
 def _spread(influence: list[np.ndarray], errors: Correlation) -> list[np.ndarray]:
     """E e e^H applied to the influence functions of each output."""
-    along = [_along(part, errors.rho) for part in influence]
+    along = [_along(part, errors) for part in influence]
     size = sum(part.size for part in influence)
     if errors.channels is None or size > _LARGEST:
         return along
@@ -157,7 +169,7 @@ def _outputs(
     for o, (found, slope) in enumerate(per_output(lines, model)):
         rows = found.inverse(2 * model.m)
         kernel = complexed(rows, f, i)
-        seen = _along(kernel, errors.rho)
+        seen = _along(kernel, errors)
         if errors.channels is not None:
             block = errors.channels[o * i : (o + 1) * i, o * i : (o + 1) * i]
             seen = seen @ block.T

@@ -12,7 +12,9 @@ import numpy as np
 from mouse_cli.records.local_fit import without
 from mouse_cli.records.lscf import BEYOND
 from mouse_cli.records.maximum_likelihood import Fit, reduced
+from mouse_cli.records.modal_covariance import correlation
 from mouse_cli.records.modal_model import Lines, ModalModel, lsfd
+from mouse_cli.records.pole_search import NARROWEST
 
 FALSE_MODES = 1e-3  # in a test without any
 HEAVIEST = 0.25  # damping of a mode
@@ -41,13 +43,17 @@ def limit(lines: Lines, model: ModalModel) -> float:
 
 
 def selected(lines: Lines, fit: Fit, centres: np.ndarray) -> tuple[Fit, list[Dropped]]:
-    """The fit with the significant modes alone, and what was taken out of it; centres (c,): poles of the candidates."""
+    """The fit with the significant modes alone, and what was taken out of it; centres (c,): poles of the candidates.
+
+    Errors that lines and channels share make a mode that is not there lower chi2 by more, at most by their largest eigenvalue.
+    """
     dropped: list[Dropped] = []
+    shared = correlation(lines, fit.model).loudest
     kept: set[complex] = set()
     while True:
         fit, gone = _physical(lines, fit, centres)
         dropped += gone
-        rise, least = _rises(lines, fit.model), limit(lines, fit.model)
+        rise, least = _rises(lines, fit.model), shared * limit(lines, fit.model)
         doubtful = [r for r in np.argsort(rise) if rise[r] < _CLEAR * least and complex(fit.model.poles[r]) not in kept]
         if not doubtful:
             return fit, dropped
@@ -90,6 +96,8 @@ def _fault(lines: Lines, pole: complex, centres: np.ndarray) -> str:
         return "has no positive damping once fitted"
     if -pole.real > HEAVIEST * abs(pole):
         return f"is damped by more than {100 * HEAVIEST:.0f} %: a slope of the functions, no resonance"
+    if -2 * pole.real < NARROWEST * (last - first) / (len(lines.s) - 1):
+        return f"is narrower than {NARROWEST} lines once fitted"
     # one beyond the edges stands for all that is there; a sharp one has come to a resonance that was missed
     apart, widest = np.abs(pole - centres), np.abs(centres.real)
     if first < pole.imag < last and -pole.real > widest.max() and (apart > _STRAYED * widest).all():
