@@ -15,6 +15,7 @@ _Z = 1.96  # half width of a band in standard deviations: 95 per cent
 _WIDEST = 3.0  # of ln|H| beyond which a band is cut off
 _DB = 20 / np.log(10)
 _MARGIN = 6.0  # dB above and below what was measured
+_GAP = 4.0  # times the distances beside it
 _LOW = 4.0  # times the height of the coherence is that of the figure
 _RATES = ("m/N", "m/(s N)", "m/(s2 N)")  # unit of receptance, mobility, accelerance
 _TURNS = re.compile(r"R[XYZ]$")
@@ -25,9 +26,16 @@ def colours(fit: FrfFit) -> list[str]:
     return [BEFORE] if len(fit.models) == 1 else [BEFORE, AFTER]
 
 
+def unbroken(hz: np.ndarray) -> np.ndarray:
+    """Frequencies (f,) with NaN for the first line behind a gap, so that no curve is drawn across it."""
+    apart = np.diff(hz)
+    beside = np.maximum(np.append(apart[1:], 0.0), np.append(0.0, apart[:-1]))
+    return np.where(np.append(False, apart > _GAP * beside) if len(apart) > 1 else False, np.nan, hz)
+
+
 def overlay(fit: FrfFit, o: int, i: int, units: Units, axes: Any) -> None:
     """Magnitudes in dB over frequency; bands of 95 % of the models, and of what was measured."""
-    hz = fit.test.frequency_hz
+    hz = unbroken(fit.test.frequency_hz)
     measured = _db(fit.test.H[:, o, i])
     with np.errstate(divide="ignore", invalid="ignore"):
         _band(axes, hz, measured, fit.sd[:, o, i] / np.abs(fit.test.H[:, o, i]), "black", 0.15)
@@ -38,7 +46,7 @@ def overlay(fit: FrfFit, o: int, i: int, units: Units, axes: Any) -> None:
         axes.plot(hz, level, style if len(fit.models) > 1 else "-", color=colour, lw=1.0, label=model.name)
     _labelled(fit, o, i, units, axes)
     _coherence(fit, o, axes)
-    axes.set_xlim(hz[0], hz[-1])
+    axes.set_xlim(fit.test.frequency_hz[0], fit.test.frequency_hz[-1])
     fitted_height(fit, o, i, np.ones(len(hz), bool), axes)
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, borderaxespad=0.1)
 
@@ -65,7 +73,7 @@ def _coherence(fit: FrfFit, o: int, axes: Any) -> None:
     if fit.test.coherence is None:
         return
     beside = axes.twinx()
-    beside.plot(fit.test.frequency_hz, fit.test.coherence[:, o], color="C2", lw=0.8)
+    beside.plot(unbroken(fit.test.frequency_hz), fit.test.coherence[:, o], color="C2", lw=0.8)
     beside.set_ylim(0, _LOW)
     beside.set_yticks([0, 1])
     beside.set_ylabel("coherence", loc="bottom", color="C2")

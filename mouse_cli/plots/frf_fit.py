@@ -6,6 +6,7 @@ import numpy as np
 
 from mouse_cli.model.identification import Identification
 from mouse_cli.plots import AFTER, Plot
+from mouse_cli.plots._functions import unbroken
 
 _MOST = 3
 
@@ -18,16 +19,17 @@ def draw(found: Identification, axes: Any) -> bool:
     size = np.nanmax(np.abs(fit.measured), axis=0)
     strongest = np.argsort(size, axis=None)[::-1][:_MOST]
     shades = ("0.35", "0.55", "0.72")
+    hz = unbroken(fit.frequency_hz)
     for shade, k in zip(shades, strongest, strict=False):
         o, i = np.unravel_index(k, size.shape)
         name = f"{_name(fit.outputs, o)} / {_name(fit.inputs, i)}"
-        axes.semilogy(fit.frequency_hz, np.abs(fit.measured[:, o, i]), color=shade, linewidth=1.6, label=name)
-        axes.semilogy(fit.frequency_hz, np.abs(fit.fitted[:, o, i]), color=AFTER, linewidth=0.8)
+        axes.semilogy(hz, np.abs(fit.measured[:, o, i]), color=shade, linewidth=1.6, label=name)
+        axes.semilogy(hz, np.abs(fit.fitted[:, o, i]), color=AFTER, linewidth=0.8)
     axes.plot([], [], color=AFTER, linewidth=0.8, label="fitted")
     axes.set_xlim(*found.band_hz)
     axes.set_xlabel("frequency, Hz")
     axes.set_ylabel(fit.kind)
-    axes.legend()
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4, borderaxespad=0.1)
     return True
 
 

@@ -8,7 +8,7 @@ from mouse_cli.model.diagnosis import Diagnosis
 from mouse_cli.model.frf_fit import FrfFit
 from mouse_cli.model.result import Result
 from mouse_cli.plots import Plot
-from mouse_cli.plots._functions import colours
+from mouse_cli.plots._functions import colours, unbroken
 
 _FLOOR = 0.2  # what lies below is no different from noise
 
@@ -20,7 +20,7 @@ def draw(found: Result | Diagnosis, axes: Any) -> bool:
     for k, fit in enumerate(found.frf):
         hz = fit.test.frequency_hz
         for model, colour in zip(fit.models, colours(fit), strict=False):
-            axes.semilogy(hz, _spectrum(fit, model.H), color=colour, lw=0.9, label=None if k else model.name)
+            axes.semilogy(unbroken(hz), _spectrum(fit, model.H), color=colour, lw=0.9, label=None if k else model.name)
     axes.axhline(1.0, color="black", lw=0.8, ls=":", label="noise alone")
     axes.set_ylim(bottom=_FLOOR)
     axes.set_xlabel("frequency, Hz")

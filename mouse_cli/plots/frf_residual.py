@@ -7,7 +7,7 @@ import numpy as np
 
 from mouse_cli.model.result import Result
 from mouse_cli.plots import Plot
-from mouse_cli.plots._functions import colours
+from mouse_cli.plots._functions import colours, unbroken
 
 
 def draw(found: Result, axes: Any) -> bool:
@@ -20,7 +20,7 @@ def draw(found: Result, axes: Any) -> bool:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", RuntimeWarning)  # lines at which nothing was measured
                 level = np.nanmedian(np.abs(fit.off_db(model.H)), axis=(1, 2))
-            axes.plot(hz, level, color=colour, lw=0.9, label=None if k else model.name)
+            axes.plot(unbroken(hz), level, color=colour, lw=0.9, label=None if k else model.name)
         axes.plot(hz[fit.lines], np.zeros(len(fit.lines)), "|", color="0.4", ms=5, label=None if k else "fitted lines")
     axes.set_xlabel("frequency, Hz")
     axes.set_ylabel("median |model / test|, dB")

@@ -18,7 +18,7 @@ def draw(found: Diagnosis, axes: Any) -> bool:
         axes.plot(shown.time_s, values, "--", color=color, linewidth=1.0, label=f"simulated, {name}")
     axes.set_xlabel("time, s")
     axes.set_ylabel(f"{shown.title}{f', {shown.unit}' if shown.unit else ''}")
-    axes.legend()
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, borderaxespad=0.1)
     return True
 
 

@@ -1,14 +1,17 @@
 """The restoring-force surface at the place of the cause: the force that the record asks for, over motion and velocity."""
 
+import re
 from typing import Any
 
 import numpy as np
 
 from mouse_cli.model.diagnosis import Diagnosis
 from mouse_cli.model.record_diagnosis import RecordDiagnosis
+from mouse_cli.model.units import Units
 from mouse_cli.plots import AFTER, BEFORE, Plot
 
 _POINTS = 4000
+_TURNS = re.compile(r"\dR[XYZ]\b")
 
 
 def draw(found: Diagnosis, axes: Any) -> bool:
@@ -22,10 +25,17 @@ def draw(found: Diagnosis, axes: Any) -> bool:
     )
     axes.plot(along[own], shown.force[own], ".", color=BEFORE, markersize=1.5, label="asked for by the record")
     axes.plot(along[own], shown.law[own], ".", color=AFTER, markersize=1.5, label=f"{found.best.physics}, fitted")
-    axes.set_xlabel(f"{name} {shown.site}")
-    axes.set_ylabel("force")
-    axes.legend(markerscale=6)
+    turns, units = _TURNS.search(shown.site), found.problem.units
+    rate = "/s" if name == "velocity" else ""
+    axes.set_xlabel(f"{name} {shown.site}{_in(units, f'rad{rate}' if turns else f'm{rate}')}")
+    axes.set_ylabel(f"{'moment' if turns else 'force'}{_in(units, 'N m' if turns else 'N')}")
+    axes.legend(markerscale=6, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, borderaxespad=0.1)
     return True
+
+
+def _in(units: Units, unit: str) -> str:
+    """The unit behind a name, where the deck says its units."""
+    return f", {units.of(unit)}" if units.declared else ""
 
 
 def _explains(along: np.ndarray, force: np.ndarray, bins: int = 40) -> float:
