@@ -135,7 +135,8 @@ def _what(found: Diagnosis) -> Iterator[Block]:
     best, conditional = found.best, "P holds on condition that the cause is one of those that mouse knows"
     if found.kind == NOTHING:
         total = found.result.residual
-        chances = f": noise alone leaves a larger misfit {chance(total.p)}" if total.dof else ""
+        p = found.baseline.p if found.frf and found.baseline else total.p  # functions alone decide where there are any
+        chances = f": noise alone leaves a larger misfit {chance(p)}" if total.dof else ""
         hidden = "An effect that moves the data by less than their accuracies stays hidden"
         yield Text(f"Nothing{chances}. {hidden}.{_open(found)}")
     elif found.kind == NAMED:
