@@ -2,6 +2,7 @@
 
 from mouse_cli.diagnosis.candidates import Candidate, registry
 from mouse_cli.diagnosis.frf.dashpots import DASHPOT
+from mouse_cli.diagnosis.frf.lossy_parts import LOSSY_PART
 
 _HEAD = """# Candidates
 
@@ -11,7 +12,7 @@ can hardly tell apart share a group, and the group is decided first. [Diagnosis]
 
 def manual() -> str:
     """All candidates: a table of the groups, then each candidate."""
-    members = dict(sorted((registry() | {DASHPOT.key: DASHPOT}).items()))
+    members = dict(sorted((registry() | {each.key: each for each in (DASHPOT, LOSSY_PART)}).items()))
     groups: dict[str, list[str]] = {}
     for key, candidate in members.items():
         groups.setdefault(candidate.group, []).append(key)

@@ -1,4 +1,4 @@
-"""Causes that only damp: what frequencies and real shapes cannot show."""
+"""Dashpots to the ground: they damp, and frequencies and real shapes cannot show them."""
 
 import numpy as np
 

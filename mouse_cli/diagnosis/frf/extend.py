@@ -1,5 +1,6 @@
 """Losses and dashpots as elements of the deck, or in its matrices."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -12,7 +13,9 @@ from mouse_cli.diagnosis.places.points import Points
 from mouse_cli.model.arrays import Matrix, is_sparse
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
+from mouse_cli.terms.elements import DAMPING
 
+Elements = list[tuple[int, int]]
 _SPRINGS = ("spring", "joint")
 
 
@@ -22,10 +25,7 @@ def with_loss(deck: Problem, before: Problem, name: str, value: float) -> Proble
     A stretch of bar that is softer has none of its own: the deck is then as it was.
     """
     if of_matrices(before):
-        added = _less(deck.structure.K, before.structure.K)
-        matrix = "D" if name == "loss_factor" else "C"
-        old = getattr(deck.structure, matrix)
-        return replace(deck, structure=replace(deck.structure, **{matrix: value * added + (0 if old is None else old)}))
+        return _with_matrix(deck, name, value * _less(deck.structure.K, before.structure.K))
     edit, known = Edit(deck), max(int(members.ids.max()) for members in before.mesh.elements)
     new = [
         (s, i)
@@ -40,6 +40,41 @@ def with_loss(deck: Problem, before: Problem, name: str, value: float) -> Proble
         values = np.where(members.ids > known, value, 0.0)
         edit.sets[s] = replace(members, properties={**members.properties, name: values})
     return edit.done()
+
+
+def with_loss_of_the_rest(
+    deck: Problem, before: Problem, name: str, value: float, left: float, ids: tuple[int, ...]
+) -> Problem:
+    """A loss in what is left of a part that lost stiffness since `before`: `left` times what went; ids: of its elements."""
+    if of_matrices(before):
+        return _with_matrix(deck, name, -left * value * _less(deck.structure.K, before.structure.K))
+    edit = Edit(deck)
+    edit.put([edit.element(number) for number in ids], name, np.full(len(ids), value))
+    return edit.done()
+
+
+def with_lossy_elements(problem: Problem, name: str, value: float, chosen: Callable[[Edit], Elements]) -> Problem:
+    """`value` more of the property `name`, one of DAMPING, in the elements that `chosen` finds; its amount is a new parameter."""
+    edit = Edit(problem)
+    elements = chosen(edit)
+    edit.put(elements, name, np.array([edit.values(each, name) + value for each in elements]))
+    unit = problem.units.of(DAMPING[name].unit)
+    edit.bind(
+        f"{name.replace('_', ' ')} of the part that loses energy", elements, (name,), unit="" if unit == "1" else unit
+    )
+    return edit.done()
+
+
+def with_lossy_entries(problem: Problem, name: str, value: float, stronger: Problem) -> Problem:
+    """`value` times what `stronger` has more of K, in D (`loss_factor`) or C (`stiffness_damping`) of a deck of matrices."""
+    return _with_matrix(problem, name, value * _less(stronger.structure.K, problem.structure.K))
+
+
+def _with_matrix(deck: Problem, name: str, more: Matrix) -> Problem:
+    """`more` in D or C of the deck, by the property that it stands for."""
+    matrix = "D" if name == "loss_factor" else "C"
+    old = getattr(deck.structure, matrix)
+    return replace(deck, structure=replace(deck.structure, **{matrix: more if old is None else old + more}))
 
 
 def with_dashpot(problem: Problem, point: Points, at: np.ndarray, c: float) -> Problem:

@@ -34,11 +34,16 @@ class Losses:
             cores.append((1j * self.damping.own + s[:, None] * self.damping.viscous)[:, :, None] * np.eye(len(stated)))
         springs = self._springs(s, g, c)
         for i, change in enumerate(changes):
-            if change.C is not None:
-                size, U = of_low_rank(change.C)
-                rows.append(self._wide(U.T, self.model.places[i])), cores.append(s[:, None, None] * np.diag(size))
-            if self.model.recipes[i].law != SAME and change.K is not None:
-                size, U = of_low_rank(self.model.summed([(i, change)])[0])
+            for matrix, unit in ((change.C, s), (change.D, np.full_like(s, 1j))):
+                if matrix is not None:
+                    size, U = of_low_rank(matrix)
+                    (
+                        rows.append(self._wide(U.T, self.model.places[i])),
+                        cores.append(unit[:, None, None] * np.diag(size)),
+                    )
+            spring = change.K if change.spring is None else change.spring
+            if self.model.recipes[i].law != SAME and spring is not None:
+                size, U = of_low_rank(self.model.summed([(i, Change(K=spring))])[0])
                 rows.append(U.T), cores.append((springs[i] - g)[:, None, None] * np.diag(size))
         softer = [(i, change.softening) for i, change in enumerate(changes) if change.softening is not None]
         if any(self.model.recipes[i].law != SAME for i, _ in softer):

@@ -8,15 +8,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.frf.extend import with_loss
+from mouse_cli.diagnosis.frf.extend import with_loss, with_loss_of_the_rest
 from mouse_cli.diagnosis.physics.change import Recipe, Unknown
+from mouse_cli.diagnosis.physics.losses import LOST
 from mouse_cli.model.problem import Problem
 
 SAME, STRUCTURAL, VISCOUS = "", "structural", "viscous"
 LAWS = (SAME, STRUCTURAL, VISCOUS)
 GROUPS = ("local-stiffness", "ground-spring", "oscillator", "support")  # whose spring may have a loss of its own
 LOSS = 0.1  # where a search for a loss factor begins
-_LOSSES = {
+LOSSES = {
     STRUCTURAL: Unknown("loss factor", "1", 1e-3, 2.0),
     VISCOUS: Unknown("loss factor in mid-band", "1", 1e-3, 2.0),
 }
@@ -30,11 +31,15 @@ def lossy(recipe: Recipe, law: str, middle: float) -> Recipe:
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         name, loss = ("loss_factor", values[-1]) if law == STRUCTURAL else ("stiffness_damping", values[-1] / middle)
-        return with_loss(recipe.extend(problem, values[:count]), problem, name, float(loss))
+        deck = recipe.extend(problem, values[:count])
+        if recipe.unknowns[0].name != LOST:
+            return with_loss(deck, problem, name, float(loss))
+        left, own = (1 - values[0]) / values[0], recipe.site(values[:count])
+        return with_loss_of_the_rest(deck, problem, name, float(loss), left, own.ids)
 
     return replace(
         recipe,
-        unknowns=(*recipe.unknowns, _LOSSES[law]),
+        unknowns=(*recipe.unknowns, LOSSES[law]),
         change=lambda values: recipe.change(values[:count]),
         site=lambda values: recipe.site(values[:count]),
         grid=np.hstack([recipe.grid, np.full((len(recipe.grid), 1), LOSS)]),

@@ -16,13 +16,15 @@ from mouse_cli.diagnosis.frf.damping import Damping, damping
 from mouse_cli.diagnosis.frf.dashpots import dashpots
 from mouse_cli.diagnosis.frf.data import FrfData, lines
 from mouse_cli.diagnosis.frf.lossy import GROUPS, LAWS, LOSS, SAME, lossy
+from mouse_cli.diagnosis.frf.lossy_parts import lossy_parts
 from mouse_cli.diagnosis.frf.model import FrfModel
 from mouse_cli.diagnosis.name.fit import MOST, Fit, fit
 from mouse_cli.diagnosis.name.rank import Ranking, adequate, ranking
+from mouse_cli.diagnosis.physics.change import Recipe
 
 _REACH = 60.0  # nats by which modes may speak against an explanation that is judged by FRFs still
 _SINGLES = 3  # single causes that are judged in any case
-_PLACES = 5  # places from which a dashpot begins
+_PLACES, _KEPT = 5, 2  # places from which what only damps begins, and how many of its kind go on
 _STEP = 1e-4  # of frequency, for derivatives of FRFs
 _THIN, _BRIEF = 4, 12  # in a first look: every so manieth line, and steps
 _FAR, _LEAST = (
@@ -81,13 +83,21 @@ class Judge:
         return [each for each in found if each is not None]
 
     def damped(self, one: Fit, base: Reduced) -> list[Fit]:
-        """A first look at a dashpot beside the causes of `one`, a fit of FRFs; base: its model with its modes.
+        """A first look at what only damps, beside the causes of `one`, a fit of FRFs; base: its model with its modes."""
+        found = []
+        for recipes in (dashpots(base), lossy_parts(base, self.data.middle)):
+            fits = [fit(trial, x[trial.k :], x[: trial.k], _BRIEF) for trial, x in self._starts(one, recipes)]
+            found += sorted((each for each in fits if each is not None), key=lambda each: -each.log_evidence)[:_KEPT]
+        return found
 
-        It begins where it does most, with the damping of the structure as it is held likely: `one` has made that of the dashpot.
+    def _starts(self, one: Fit, recipes: list[Recipe]) -> list[tuple[FrfModel, np.ndarray]]:
+        """Where what only damps does most: models and x, at most one for each place of a recipe.
+
+        The damping of the structure is as it is held likely: `one` has made that of the cause.
         """
         x, tried = one.point.x.copy(), []
         x[one.model.of_deck : one.model.lossy] = 0.0
-        for recipe in dashpots(base):
+        for recipe in recipes:
             trial = self.model(one.model.base, (*one.recipes, recipe))
             places: dict[bytes, tuple] = {}
             for values in recipe.grid:
@@ -96,9 +106,7 @@ class Judge:
                 if at is not None and (place not in places or at.chi2 < places[place][0]):
                     places[place] = at.chi2, trial, at.x
             tried += places.values()
-        tried.sort(key=lambda item: item[0])
-        found = [fit(trial, x[trial.k :], x[: trial.k], _BRIEF) for _, trial, x in tried[:_PLACES]]
-        return sorted((each for each in found if each is not None), key=lambda each: -each.log_evidence)[:1]
+        return [(trial, x) for _, trial, x in sorted(tried, key=lambda item: item[0])[:_PLACES]]
 
     def loosened(self, one: Fit) -> "Judge":
         """The same with what theory leaves: an error of every natural frequency, and of shapes, as for modes, by the fit `one`."""

@@ -29,7 +29,10 @@ class Softening:
 
 @dataclass(frozen=True)
 class Change:
-    """K, M, C (r + a, r + a) that are added, a degrees of freedom of the cause's own behind the r of the model; None: no change.
+    """K, M, C, D (r + a, r + a) that are added, a degrees of freedom of the cause's own behind the r of the model; None: none.
+
+    C is viscous damping, D structural, K times a loss factor: both are felt by functions alone. spring: stiffness of the part that
+    may lose energy by a law of its own; None: what is added.
 
     sensing (s, r + a): added to what the sensors read. softening: of bars, when stiffness is lost in series.
     """
@@ -39,6 +42,8 @@ class Change:
     sensing: np.ndarray | None = None
     softening: Softening | None = None
     C: np.ndarray | None = None
+    D: np.ndarray | None = None
+    spring: np.ndarray | None = None
 
 
 @dataclass(frozen=True)

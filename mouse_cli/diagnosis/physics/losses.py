@@ -18,7 +18,8 @@ from mouse_cli.terms.elements import Layout, registry
 
 _MOST = 60  # places that are looked at: those that hold most energy in the lowest modes
 _STIFF = {"rod": ("E",), "spring": DIRECTIONS, "storey": DIRECTIONS, "joint": DIRECTIONS}
-_LOST, _GAINED = Unknown("share lost", "1", 0.02, 0.95), Unknown("share gained", "1", 0.02, 3.0)
+LOST = "share lost"
+_LOST, _GAINED = Unknown(LOST, "1", 0.02, 0.95), Unknown("share gained", "1", 0.02, 3.0)
 
 
 def of_elements(model: Reduced, candidate: Candidate, sign: int = -1) -> list[Recipe]:
@@ -91,7 +92,7 @@ def _recipe(candidate: Candidate, K: np.ndarray, site: Site, count: int, extend,
     return Recipe(
         candidate,
         (share,),
-        lambda values: Change(K=values[0] * K),
+        lambda values: Change(K=values[0] * K, spring=(values[0] + sign) * K),
         steps(share, 3)[:, None],
         lambda values: site,
         log_prior=-float(np.log(count)),

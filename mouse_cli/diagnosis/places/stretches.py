@@ -68,13 +68,17 @@ def bent(line: Line, touched: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.nd
     return F * (bars.length[touched] / 2 / bars.EI[touched])[:, None, None]
 
 
+def elements_of(edit: Edit, line: Line, first: float, last: float) -> list[tuple[int, int]]:
+    """Elements of the deck between two distances along the line, split where they reach beyond."""
+    ends = [np.array(line.bars.point(*line.at(s))) for s in (first, last)]
+    for end in ends:
+        edit.split(*element_at(edit, end, line.bars.axis[line.members[0]]))
+    return beams_within(edit, [tuple(ends)])
+
+
 def _with_stretch(problem: Problem, line: Line, first: float, last: float, factor: float, where: str) -> Problem:
     edit, bars = Edit(problem), line.bars
-    ends = [np.array(bars.point(*line.at(s))) for s in (first, last)]
-    axis = bars.axis[line.members[0]]
-    for end in ends:
-        edit.split(*element_at(edit, end, axis))
-    touched = beams_within(edit, [tuple(ends)])
+    touched = elements_of(edit, line, first, last)
     name = "Iy" if bars.plane[line.members[0]] else "Iz"
     what = f"stiffness left of {where}" if factor < 1 else f"stiffness of {where}, strengthened"
     edit.bind(what, touched, (name,), factor=factor)

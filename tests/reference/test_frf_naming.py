@@ -1,0 +1,114 @@
+"""Causes concealed in the functions of a chain of six masses, truths by inverting K (1 + i eta) + i omega C - omega^2 M."""
+
+import numpy as np
+import pytest
+
+from mouse_cli.cli.main import _run
+from mouse_cli.diagnosis import diagnose
+from mouse_cli.formats import read_deck
+from mouse_cli.model.diagnosis import NAMED, NOTHING
+from mouse_cli.updating import run
+
+N, STIFFNESS, MASS, ETA = 6, 4.0e5, 10.0, 0.01  # N/m, kg
+DECK = f"""mouse: 1
+title: chain
+model:
+  structure:
+    nodes: {{line: {{from: 0, to: {N}, start: [0, 0, 0], end: [{N}.0, 0, 0]}}}}
+    elements:
+      - {{id: 1-{N}, type: spring, nodes: 0-{N}, TX: {STIFFNESS}, loss_factor: {ETA}}}
+      - {{id: 11-{10 + N}, type: mass, nodes: 1-{N}, mass: {MASS}}}
+    supports: {{0: all}}
+    directions: [TX]
+parameters:
+  - {{name: k, elements: 1-{N}, property: TX, factor: true, each: 1, sd: 3 %, transform: log}}
+  - {{name: m, elements: 11-{10 + N}, property: mass, each: 1, sd: 2 %, transform: log}}
+test:
+  frf: [{{file: measured.npz}}]
+"""
+
+
+def row(n: int, *at: int) -> np.ndarray:
+    """1 and -1 at degrees of freedom; -1 is the ground."""
+    b = np.zeros(n)
+    for sign, i in zip((1.0, -1.0), at, strict=False):
+        if i >= 0:
+            b[i] = sign
+    return b
+
+
+def receptance(omega, lost=0.0, loss=None, damper=None, dashpot=None, oscillator=None, ground=None):
+    """H (f, 6) for a force on the third mass of a chain whose properties scatter; springs and masses are numbered from 0."""
+    rng, n = np.random.default_rng(5), N + (oscillator is not None)
+    k, m = STIFFNESS * np.exp(0.02 * rng.standard_normal(N)), MASS * np.exp(0.01 * rng.standard_normal(N))
+    K, C, M = np.zeros((n, n), complex), np.zeros((n, n)), np.zeros((n, n))
+    M[range(N), range(N)] = m
+    for i in range(N):
+        b, eta = row(n, i, i - 1), loss[1] if loss and loss[0] == i else ETA
+        own = k[i] * (1 - lost * bool(loss and loss[0] == i))
+        K += own * (1 + 1j * eta) * np.outer(b, b)
+        C += (damper[1] if damper and damper[0] == i else 0.0) * np.outer(b, b)
+    if dashpot:
+        C[dashpot[0], dashpot[0]] += dashpot[1]
+    if ground:
+        K[ground[0], ground[0]] += ground[1] * (1 + 1j * ETA)
+    if oscillator:
+        i, mass, hz, eta = oscillator
+        b, M[N, N] = row(n, i, N), mass
+        K += mass * (2 * np.pi * hz) ** 2 * (1 + 1j * eta) * np.outer(b, b)
+    return np.array([np.linalg.inv(K + 1j * w * C - w * w * M)[:N, 2] for w in omega])
+
+
+def deck(folder, gain=None, **concealed):
+    """A deck of accelerances with 1 % noise and a floor."""
+    rng, hz = np.random.default_rng(8), np.geomspace(4, 70, 1500)
+    omega = 2 * np.pi * hz
+    H = -receptance(omega, **concealed) * (omega**2)[:, None]
+    if gain:
+        H[:, gain[0]] *= gain[1]
+    variance = (0.01 * np.abs(H)) ** 2 + 0.002**2 * (np.abs(H) ** 2).mean(axis=0)
+    H = H + np.sqrt(variance / 2) * (rng.standard_normal(H.shape) + 1j * rng.standard_normal(H.shape))
+    names = {"output_names": [f"{i + 1}TX" for i in range(N)], "input_names": ["3TX"], "kind": "accelerance"}
+    np.savez(
+        folder / "measured.npz", frequency_hz=hz, H=H[:, :, None], variance=variance[:, :, None],
+        **{key: np.array(value) for key, value in names.items()},
+    )  # fmt: skip
+    path = folder / "deck.yaml"
+    path.write_text(DECK)
+    return path
+
+
+CAUSES = {  # what is concealed: group, law, and sizes that must come back within three standard deviations
+    "lossy spring": ({"loss": (3, 0.25)}, "local-damping", "structural", [0.25 - ETA]),
+    "damper between masses": ({"damper": (2, 60.0)}, "local-damping", "viscous", []),
+    "dashpot to the ground": ({"dashpot": (4, 40.0)}, "damping", "", [40.0]),
+    "damaged spring that rubs": ({"lost": 0.4, "loss": (1, 0.2)}, "local-stiffness", "structural", [0.4, 0.2]),
+    "hidden oscillator": ({"oscillator": (5, 0.5, 17.0, 0.05)}, "oscillator", "structural", [0.5, 17.0, 0.05]),
+    "spring to the ground": ({"ground": (3, 6e4)}, "ground-spring", "", [6e4]),
+    "reversed sensor": ({"gain": (2, -1.0)}, "sensor", "", []),
+    "wrong gain": ({"gain": (4, 1.3)}, "sensor", "", [1.3]),
+}
+
+
+@pytest.mark.parametrize("name", CAUSES)
+def test_what_is_concealed_is_named_with_its_law_and_size(name, tmp_path):
+    concealed, group, law, sizes = CAUSES[name]
+    found = diagnose(read_deck(deck(tmp_path, **concealed)))
+    assert (found.kind, found.best.group) == (NAMED, group)
+    (cause,) = found.best.causes
+    if law:
+        assert cause.law == law
+    for size, true in zip(cause.sizes, sizes, strict=False):
+        assert abs(size.value - true) < 3 * size.sd
+
+
+def test_nothing_is_missing_in_a_control(tmp_path):
+    assert diagnose(read_deck(deck(tmp_path))).kind == NOTHING
+
+
+def test_the_extended_deck_runs_and_fits_as_well(tmp_path):
+    """A loss that only functions show is in the deck that is written, and its functions agree to the noise of 1 %."""
+    path = deck(tmp_path, lost=0.4, loss=(1, 0.2))
+    assert _run(["diagnose", str(path), "-q", "-o", str(tmp_path / "extended.yaml")]) == 1
+    fit = run(read_deck(tmp_path / "extended.yaml")).frf[0]
+    assert fit.median_db(fit.prior) > 0.1 > fit.median_db(fit.revised)
