@@ -196,6 +196,22 @@ def test_widened_resonances_are_those_of_more_damping():
     assert 4 < peak < 6  # about 1 / (2 * 0.1), where 63 was measured
 
 
+def test_what_lies_in_a_gap_of_the_lines_is_not_made_up():
+    """A resonance at 10 Hz in a gap from 8 to 13 Hz: what is kept is near the analytic continuation, near the gap nothing is."""
+    w0 = 2 * np.pi * 10.0
+    H = lambda s: 1 / (s**2 + 2 * 0.008 * w0 * s + w0**2)
+    f = np.arange(0.0, 200.0, 0.05)
+    f = f[(f < 8) | (f > 13)]
+    value = H(2j * np.pi * f)[:, None, None]
+    test = FrfTest(f, value, "receptance", np.array([0]), np.array([0]), np.full(value.shape, 1e-12))
+    wide = smoothed(test, 0.1)
+    kept = wide.have[:, 0, 0] & (f[wide.lines] < 100) & (f[wide.lines] > 1)
+    assert kept.sum() > 20
+    assert not (kept & (f[wide.lines] > 7.5) & (f[wide.lines] < 13.5)).any()
+    near = (f[wide.lines] > 4) & (f[wide.lines] < 20)
+    assert np.abs(wide.H[kept & ~near, 0, 0] / H(wide.s[kept & ~near]) - 1).max() < 0.25
+
+
 def test_large_model_by_its_basis():
     """A sparse beam revised by FRFs that a dense solution line by line gave: E of both halves, loss factor, a dashpot."""
     from scipy import sparse
