@@ -49,10 +49,8 @@ def no_test(problem: Problem) -> DeckError:
     message = f"the deck '{problem.title.strip()}' holds no test: there is nothing to revise the model by"
     help = "add `test:` with measured modes or functions, or ask for `mouse modes`"
     if problem.recordings:
-        message = (
-            f"the test of '{problem.title.strip()}' holds recordings alone; a run revises by modes and by functions"
-        )
-        help = "make functions of them, `mouse spectra DECK -o frf.npz`, and give test: {frf: [{file: frf.npz}]}"
+        message = f"the test of '{problem.title.strip()}' holds recordings alone, and neither modes nor functions"
+        help = "`mouse run` revises by recordings; `mouse identify` makes modes of them, `mouse spectra` functions"
     return DeckError(Diagnostic("MD333", ERROR, message, problem.place("test"), help=help))
 
 

@@ -71,3 +71,22 @@ def test_a_linear_circuit_under_the_same_input_lacks_nothing(tmp_path):
     records = [{"title": title, "file": "l.npz", "span": span, "u": "u", "y": "y"} for title, span in spans.items()]
     found = diagnosed(tmp_path, records, "its end")
     assert found["verdict"]["kind"] == "nothing-missing"
+
+
+def test_the_quiet_beginning_is_linear_but_for_noise(tmp_path):
+    """It leaves 5 times the variance that 1 % of the channel allows: a force of 5 uV/sqrt(Hz) that nobody measured, at all levels."""
+    shutil.copy(DATA, tmp_path / "s.mat")
+    spans = {"quiet": "0, 4200", "its end": "4200, 6000"}
+    records = [{"title": title, "file": "s.mat", "span": span, "u": "V1", "y": "V2"} for title, span in spans.items()]
+    found = diagnosed(tmp_path, records, "its end")
+    assert found["verdict"]["kind"] == "nothing-missing" and found["exit_code"] == 0
+    assert found["noise"]["size"][0] == pytest.approx(0.19e-3, rel=0.1)  # of an independent output-error fit
+    assert found["noise"]["explained"] < 0.1
+
+
+def test_the_spring_is_named_from_a_stretch_six_times_quieter_than_the_loudest(tmp_path):
+    shutil.copy(DATA, tmp_path / "s.mat")
+    spans = {"rising": "4000, 8200", "its end": "8200, 10000"}
+    records = [{"title": title, "file": "s.mat", "span": span, "u": "V1", "y": "V2"} for title, span in spans.items()]
+    found = diagnosed(tmp_path, records, "its end")
+    assert (found["verdict"]["kind"], found["verdict"]["physics"]) == ("named", "cubic")

@@ -6,52 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from scipy.integrate import solve_ivp
+from two_masses import linear, record
 
 from mouse_cli.cli.main import cli
-
-RATE, SECONDS, NOISE = 512.0, 8.0, 0.01
-K = np.array([[5e4, -3e4], [-3e4, 3e4]])  # springs 2e4 and 3e4 N/m of the deck, masses of 1 kg
-DECK = """mouse: 1
-title: two masses
-model:
-  stiffness: {{order: 2, entries: [[1, 1, 5.0e4], [1, 2, -3.0e4], [2, 2, 3.0e4]]}}
-  mass: {{diagonal: [1, 1]}}
-  damping: {{order: 2, entries: [[1, 1, 6.0], [1, 2, -3.6], [2, 2, 3.6]]}}
-parameters:
-  - {{name: k1, nominal: 2.0e4, sd: 5 %, stiffness: [[1, 1, 1]]}}
-  - {{name: k2, nominal: 3.0e4, sd: 5 %, stiffness: [[1, 1, 1], [1, 2, -1], [2, 2, 1]]}}
-test:
-  recordings:
-    - file: run.npz
-      sample_rate: {rate}
-      inputs: [{{sensor: 2, channel: f, quantity: force, unit: N}}]
-      outputs: [{outputs}]
-"""
-
-
-def record(folder, law, sensors=(1, 2)):
-    """A deck whose record scipy integrated, the springs 2 % off those of the deck, damping 10 %."""
-    rng, t = np.random.default_rng(7), np.arange(int(SECONDS * RATE)) / RATE
-    lines = np.fft.rfftfreq(len(t), 1 / RATE)
-    spectrum = np.where((lines > 2) & (lines < 60), np.exp(2j * np.pi * rng.uniform(size=len(lines))), 0)
-    ramp = np.minimum(t / 0.2, 1)
-    f = np.fft.irfft(spectrum, len(t))
-    f *= 40 * ramp / f.std()
-    fine = np.fft.irfft(np.pad(np.fft.rfft(f), (0, 15 * len(lines))), 16 * len(t)) * 16
-    times = np.arange(len(fine)) / RATE / 16
-    stiff, damp = K * 1.02, 1.2e-4 * K * 1.1
-    force = lambda s: np.interp(s, times, fine)
-    rhs = lambda s, y: np.concatenate(
-        [y[2:], np.array([0, force(s)]) - stiff @ y[:2] - damp @ y[2:] - law(y[:2], y[2:])]
-    )
-    done = solve_ivp(rhs, (0, t[-1]), np.zeros(4), method="RK45", t_eval=t, rtol=1e-7, atol=1e-9, max_step=5e-4)
-    a = np.array([rhs(s, y)[2:] for s, y in zip(t, done.y.T, strict=True)])
-    a += NOISE * a.std(axis=0) * rng.standard_normal(a.shape)
-    np.savez(folder / "run.npz", f=f, **{f"a{i}": a[:, i - 1] for i in sensors})
-    outputs = ", ".join(f"{{sensor: {i}, channel: a{i}, quantity: acceleration, unit: m/s2}}" for i in sensors)
-    (folder / "deck.yaml").write_text(DECK.format(rate=RATE, outputs=outputs))
-    return str(folder / "deck.yaml")
 
 
 def answer(deck: str) -> dict:
@@ -61,9 +18,26 @@ def answer(deck: str) -> dict:
 
 
 def test_a_linear_record_lacks_nothing(tmp_path):
-    found = answer(record(tmp_path, lambda u, v: np.zeros(2)))
+    found = answer(record(tmp_path, linear))
     assert found["verdict"]["kind"] == "nothing-missing" and found["exit_code"] == 0
     assert found["residual"]["chi2"] / found["residual"]["dof"] == pytest.approx(1, abs=0.1)
+
+
+def test_a_disturbing_force_that_nobody_measured_is_noise(tmp_path):
+    """It leaves many times the accuracy of the channels, in the shape of the resonances."""
+    found = answer(record(tmp_path, linear, disturbance=2.0))
+    assert found["residual"]["chi2"] / found["residual"]["dof"] > 2
+    assert found["verdict"]["kind"] == "nothing-missing" and found["exit_code"] == 0
+    assert found["noise"]["explained"] < 0.1
+
+
+def test_a_law_is_found_above_a_disturbing_force(tmp_path):
+    def law(u, v):
+        F = 2e8 * (u[1] - u[0]) ** 3
+        return np.array([-F, F])
+
+    found = answer(record(tmp_path, law, disturbance=2.0))
+    assert (found["verdict"]["physics"], found["verdict"]["site"]["ids"]) == ("cubic", [1, 2])
 
 
 @pytest.mark.parametrize("sensors", [(1, 2), (2,)])
@@ -118,7 +92,32 @@ parameters:
 
 def test_damping_of_springs_is_uncertain_beside_their_stiffness(tmp_path):
     """Parameters that move both in proportion leave the damping, 10 % off, to be found as physics unless it is free by itself."""
-    text = Path(record(tmp_path, lambda u, v: np.zeros(2))).read_text()
+    text = Path(record(tmp_path, linear)).read_text()
     told = text[text.index("test:") :].replace("sensor: 1,", "sensor: 1TX,").replace("sensor: 2,", "sensor: 2TX,")
     (tmp_path / "structure.yaml").write_text(STRUCTURE + told)
     assert answer(str(tmp_path / "structure.yaml"))["verdict"]["kind"] == "nothing-missing"
+
+
+def test_two_causes_at_two_places_and_the_deck_with_both_runs(tmp_path):
+    """A clearance between the masses, and a spring to the ground that the deck does not have."""
+
+    def law(u, v):
+        F = 3e4 * (u[1] - u[0] - np.clip(u[1] - u[0], -1.5e-3, 1.5e-3))
+        return np.array([-F, F + 4000 * u[1]])
+
+    deck, revised = record(tmp_path, law), str(tmp_path / "revised.yaml")
+    done = CliRunner().invoke(cli, ["diagnose", deck, "--json", "-q", "-o", revised])
+    found = json.loads(done.stdout)
+    assert found["verdict"]["kind"] == "named"
+    causes = dict(zip(found["verdict"]["physics"].split(" + "), found["verdict"]["sites"], strict=True))
+    assert {name: site["ids"] for name, site in causes.items()} == {"gap": [1, 2], "spring": [2]}
+    sizes = {one["name"]: one["value"] for one in found["candidates"][0]["parameters"]}
+    assert sizes["clearance"] == pytest.approx(1.5e-3, rel=0.02) and sizes["stiffness"] == pytest.approx(4000, rel=0.1)
+    assert CliRunner().invoke(cli, ["run", revised, "-q"], standalone_mode=False).return_value == 0
+
+
+def test_a_linear_cause_is_written_as_a_deck_that_lacks_nothing(tmp_path):
+    deck, revised = record(tmp_path, lambda u, v: np.array([0.0, 6000 * u[1]])), str(tmp_path / "revised.yaml")
+    done = CliRunner().invoke(cli, ["diagnose", deck, "--json", "-q", "-o", revised])
+    assert json.loads(done.stdout)["verdict"]["physics"] == "spring"
+    assert answer(revised)["verdict"]["kind"] == "nothing-missing"

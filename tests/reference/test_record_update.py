@@ -1,0 +1,57 @@
+"""`mouse run` on recordings alone: parameters of the deck and of its laws against truths that scipy integrated."""
+
+import json
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from two_masses import linear, record
+
+from mouse_cli.cli.main import cli
+
+LAW = "laws:\n  - {law: cubic, variant: hardening, at: [1, 2], values: {cubic_stiffness: 1.2e8}}\n"
+
+
+def hardening(u, v):
+    F = 2e8 * (u[1] - u[0]) ** 3
+    return np.array([-F, F])
+
+
+def run(deck: str, code: int, *options: str) -> dict:
+    done = CliRunner().invoke(cli, ["run", deck, "--json", "-q", *options], standalone_mode=False)
+    assert done.return_value == code, done.output
+    return json.loads(done.stdout)
+
+
+def test_linear_parameters_are_those_of_the_truth(tmp_path):
+    found = run(record(tmp_path, linear), 0)
+    for one, true in zip(found["parameters"], (2.04e4, 3.06e4), strict=True):
+        assert abs(one["posterior"] - true) < 4 * one["posterior_sd"] + 1e-3 * true
+        assert one["posterior_sd"] < 0.1 * one["prior_sd"]
+    (held,) = found["held_out"]["records"]
+    assert max(held["error"]["with the cause"]) < 0.2 * max(held["error"]["as it is"])
+
+
+def test_the_size_of_a_law_is_revised_and_the_answer_is_a_prior(tmp_path):
+    deck = record(tmp_path, hardening)
+    with open(deck, "a", encoding="utf-8") as file:
+        file.write(LAW)
+    found = run(deck, 0)
+    (size,) = found["laws"][0]["parameters"]
+    assert abs(size["value"] - 2e8) < 4 * size["sd"] + 0.01 * 2e8
+    (tmp_path / "result.json").write_text(json.dumps(found))
+    again = run(deck, 0, "--prior", str(tmp_path / "result.json"))
+    assert again["parameters"][0]["prior"] == pytest.approx(found["parameters"][0]["posterior"])
+
+
+def test_a_record_that_the_model_cannot_explain_is_said(tmp_path):
+    found = run(record(tmp_path, hardening), 1)
+    assert found["model_form"] == "rejected" and "mouse diagnose" in found["message"]
+
+
+def test_modes_say_that_laws_are_left_out(tmp_path):
+    deck = record(tmp_path, linear)
+    with open(deck, "a", encoding="utf-8") as file:
+        file.write(LAW)
+    done = CliRunner().invoke(cli, ["modes", deck])
+    assert done.exit_code == 0 and "MD642" in done.stderr and "cubic" in done.stderr
