@@ -74,7 +74,7 @@ def test_a_linear_circuit_under_the_same_input_lacks_nothing(tmp_path):
 
 
 def test_the_quiet_beginning_is_linear_but_for_noise(tmp_path):
-    """It leaves 5 times the variance that 1 % of the channel allows: a force of 5 uV/sqrt(Hz) that nobody measured, at all levels."""
+    """It leaves 5 times the variance of 1 % of the channel: a force of 5 uV/sqrt(Hz) that nobody measured, at all levels."""
     shutil.copy(DATA, tmp_path / "s.mat")
     spans = {"quiet": "0, 4200", "its end": "4200, 6000"}
     records = [{"title": title, "file": "s.mat", "span": span, "u": "V1", "y": "V2"} for title, span in spans.items()]
