@@ -6,7 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mouse_cli.diagnosis import diagnose
 from mouse_cli.formats import read_deck
+from mouse_cli.model.diagnosis import NOTHING, UNKNOWN
 from mouse_cli.updating import run
 
 MEASURED = Path(__file__).resolve().parents[3] / "shared" / "data" / "three_storey_uk"
@@ -85,3 +87,33 @@ def test_the_answer_is_not_called_exact(result):
     """Nothing is known of the accuracy, storeys are no springs: what is left is said to be more than chance."""
     assert result.frf[0].assumed
     assert result.exit_code == 1
+
+
+DRAWN = DECK[: DECK.index("parameters:")] + """parameters:
+  - {name: legs, elements: 1-3, property: TX, factor: true, sd: 10 %, transform: log}
+  - {name: storey, elements: 1-3, property: TX, factor: true, each: 1, sd: 3 %, transform: log}
+  - {name: m, elements: 11-13, property: mass, each: 1, sd: 5 %, transform: log}
+test:
+  frf:
+"""
+
+
+@pytest.mark.parametrize("legs", [True, False], ids=["legs alike", "nothing in common"])
+def test_diagnosis_needs_no_local_cause_where_all_legs_may_be_softer(legs, tmp_path):
+    """Softer by a quarter, alike: one parameter of all legs explains it. Without that parameter nothing is named."""
+    if not MEASURED.exists():
+        pytest.skip("the measured data are not beside the project")
+    text = DRAWN if legs else "".join(line for line in DRAWN.splitlines(True) if "name: legs" not in line)
+    (tmp_path / "deck.yaml").write_text(
+        text + "".join(ENTRY.format(file=f, input=i, form="complex") for i, f in FILES.items())
+    )
+    for name in FILES.values():
+        shutil.copy(MEASURED / name, tmp_path)
+    found = diagnose(read_deck(tmp_path / "deck.yaml"))
+    if not legs:
+        assert found.kind == UNKNOWN
+        return
+    assert found.kind == NOTHING
+    none = next(each for each in found.explanations if not each.causes)
+    np.testing.assert_allclose(none.theta[0] * none.theta[1:4], [0.716, 0.779, 0.723], rtol=0.08)
+    assert none.theta[0] < 0.85

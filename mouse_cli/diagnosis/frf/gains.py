@@ -7,7 +7,7 @@ import numpy as np
 from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.observables.frf import names
 
-SD = 0.02  # of the gain of an accelerometer or of a force transducer, as calibrated
+SD = 0.02  # of the gain of an accelerometer or of a force transducer, as calibrated, where the deck states none
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,14 @@ class Gains:
 def gains(tests: tuple[FrfTest, ...]) -> Gains:
     """One chain for each name of a response, the same in all tests, and one for each force of each test."""
     chains: dict[object, int] = {}
-    number = lambda key: chains.setdefault(key, len(chains))
-    outputs = tuple(np.array([number(name) for name in names(test)[0]], int) for test in tests)
-    inputs = tuple(np.array([number((k, name)) for name in names(test)[1]], int) for k, test in enumerate(tests))
-    return Gains(np.full(len(chains), SD), outputs, inputs)
+    sd: list[float] = []
+
+    def number(key: object, test: FrfTest) -> int:
+        if key not in chains:
+            chains[key] = len(sd)
+            sd.append(test.gain_sd or SD)
+        return chains[key]
+
+    outputs = tuple(np.array([number(name, test) for name in names(test)[0]], int) for test in tests)
+    inputs = tuple(np.array([number((k, n), test) for n in names(test)[1]], int) for k, test in enumerate(tests))
+    return Gains(np.array(sd), outputs, inputs)
