@@ -45,8 +45,10 @@ def with_damping(deck: Problem, before: Problem, one: Fit) -> Problem:
         less = stated if name == "loss_factor" else 0.0
         values = [each.value + (0.0 if at in brought else edit.values(at, name) - less) for at in damped]
         edit.put(damped, name, np.array(values))
-        if each.told and damped:
-            edit.bind(f"{each.name} of the structure", damped, (name,), unit="" if each.unit == "1" else each.unit)
+        taken = {(b.set, int(i)) for b in edit.bindings if b.property == name for i in b.members}  # by a cause
+        free = [at for at in damped if at not in taken]
+        if each.told and free:
+            edit.bind(f"{each.name} of the structure", free, (name,), unit="" if each.unit == "1" else each.unit)
     for name in _NAMES:
         lossy = [at for at in own_law if _has(edit, at, name) and edit.values(at, name)]
         if lossy:
