@@ -112,3 +112,22 @@ def test_the_deck_that_is_written_runs_and_fits_as_well(found, revised):
     assert fit.rms_sd(fit.revised) < 1.01 * own.rms_sd(own.revised)
     (held,) = revised.held_frf
     assert held.covered(held.models[-1]) == pytest.approx(0.9, abs=4 * np.sqrt(0.09 / held.have.sum()))
+
+
+def test_a_deck_of_matrices_has_the_damping_as_it_was_found(tmp_path):
+    """The same chain as K and M: damping is no parameter there, and yet the run is as good but for what its sd leaves."""
+    text = DECK.read_text()
+    n, k = make.N, make.STIFFNESS
+    K = k * (2 * np.eye(n) - np.eye(n, k=1) - np.eye(n, k=-1))
+    K[-1, -1] = k
+    model = f"model:\n  stiffness: {{dense: {K.tolist()}}}\n  mass: {{diagonal: {[make.MASS] * n}}}\n"
+    parameters = f"parameters:\n  - {{name: k1, nominal: {k}, sd: 5 %, transform: log, stiffness: [[1, 1, 1.0]]}}\n"
+    test = text[text.index("test:") :].replace("1TX", "1").replace("3TX", "3").replace("5TX", "5")
+    shutil.copytree(DECK.with_suffix(""), tmp_path / "chain_functions")
+    (tmp_path / "deck.yaml").write_text(text[: text.index("model:")] + model + parameters + test)
+    found = diagnose(read_deck(tmp_path / "deck.yaml"))
+    assert (found.kind, found.best.group) == (NAMED, "ground-spring")
+    result = run(read_deck(write_deck(found.extended, str(tmp_path / "revised.yaml"))[-1]))
+    assert result.status.key == "converged" and not result.rejected
+    (fit,), (own,) = result.frf, found.frf
+    assert fit.rms_sd(fit.revised) < 1.03 * own.rms_sd(own.revised)

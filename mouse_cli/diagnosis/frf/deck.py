@@ -7,8 +7,10 @@ import numpy as np
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.matrices import of_matrices
 from mouse_cli.diagnosis.frf.compared import found_damping, of_functions
+from mouse_cli.diagnosis.frf.lossy import SAME
 from mouse_cli.diagnosis.frf.model import FrfModel
 from mouse_cli.diagnosis.name.fit import Fit
+from mouse_cli.model.arrays import Matrix, is_sparse
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
 from mouse_cli.terms.elements import DAMPING, registry
@@ -33,7 +35,9 @@ def with_damping(deck: Problem, before: Problem, one: Fit) -> Problem:
     found = found_damping(fit)
     stated = fit.model.damping.stated
     if of_matrices(deck):
-        return _in_matrices(deck, *(each.value for each in found), stated)
+        same = all(recipe.law == SAME for recipe in one.recipes)
+        amounts = [each.value if each.told else 0.0 for each in found[1:]]
+        return _in_matrices(deck, deck if same else before, found[0].value - stated, *amounts)
     edit, known = Edit(deck), max(int(members.ids.max()) for members in before.mesh.elements)
     brought = [at for at in _all(edit) if edit.sets[at[0]].type in _OF_CAUSES and _id(edit, at) > known]
     own_law = [at for at in brought if any(edit.values(at, name) for name in _NAMES if _has(edit, at, name))]
@@ -69,11 +73,23 @@ def _has(edit: Edit, at: tuple[int, int], name: str) -> bool:
     return name in registry()[edit.sets[at[0]].type].damping
 
 
-def _in_matrices(deck: Problem, eta: float, alpha: float, beta: float, stated: float) -> Problem:
-    """D and C of a model of matrices: there they are constant, and no parameter."""
-    K, M = assembly(deck).matrices(deck.prior.mean)
+def _in_matrices(deck: Problem, damped: Problem, eta: float, alpha: float, beta: float) -> Problem:
+    """`deck` with the damping of all that is in `damped`; in a model of matrices D and C are constant, and no parameter."""
     old = deck.structure
-    D, C = (eta - stated) * K, alpha * M + beta * K
-    return replace(
-        deck, structure=replace(old, D=D if old.D is None else old.D + D, C=C if old.C is None else old.C + C)
-    )
+    K, M = (_widened(matrix, old.n) for matrix in assembly(damped).matrices(damped.prior.mean))
+    found = {"D": eta * K, "C": alpha * M + beta * K if alpha or beta else None}
+    for name, matrix in found.items():
+        own = getattr(old, name)
+        found[name] = own if matrix is None else matrix if own is None else own + matrix
+    return replace(deck, structure=replace(old, **found))
+
+
+def _widened(matrix: Matrix, n: int) -> Matrix:
+    """The matrix with zeros for degrees of freedom that a cause has added behind its own."""
+    more = n - matrix.shape[0]
+    if not is_sparse(matrix):
+        return np.pad(matrix, (0, more))
+    from scipy.sparse import coo_array
+
+    stored = coo_array(matrix)
+    return coo_array((stored.data, (stored.row, stored.col)), shape=(n, n)).tocsr()
