@@ -16,6 +16,7 @@ from mouse_cli.terms.assembly import assembly
 from mouse_cli.terms.elements import DAMPING, registry
 
 _OF_CAUSES = ("spring", "joint", "mass")  # types of elements that a cause brings with it
+_CYCLES = 150  # at most, as sharp resonances and losses make valleys that are followed in short steps
 _NAMES = ("loss_factor", "mass_damping", "stiffness_damping")  # in the order of `found_damping`
 Members = list[tuple[int, int]]
 
@@ -32,6 +33,7 @@ def with_damping(deck: Problem, before: Problem, one: Fit) -> Problem:
         or any(b.property in DAMPING for b in before.bindings)
     ):
         return deck
+    deck = replace(deck, run=replace(deck.run, partials=max(deck.run.partials, _CYCLES)))
     found = found_damping(fit)
     stated = fit.model.damping.stated
     if of_matrices(deck):
