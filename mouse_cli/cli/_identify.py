@@ -25,7 +25,7 @@ def identified(
     """The modes of all sources together, and warnings of reading. Raises DeckError, RecordError and click.UsageError."""
     from mouse_cli.records.identify import identify_frf, identify_recording
 
-    problem, (functions, recordings, warnings) = _read(sources, given)
+    problem, (functions, recordings, warnings) = _read(sources, given | {"output_only": output_only})
     if output_only:
         functions = []
     else:

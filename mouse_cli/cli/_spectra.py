@@ -40,7 +40,15 @@ def measured_data(source: str, titles: tuple[str, ...], given: dict[str, object]
     from mouse_cli.formats.recording_source import Choice, read_recording
 
     units = dict(_unit(text) for text in given["units"])
-    choice = Choice(given["forces"], given["responses"], units, given["sample_rate"], given["time"], given["segment"])
+    choice = Choice(
+        given["forces"],
+        given["responses"],
+        units,
+        given["sample_rate"],
+        given["time"],
+        given["segment"],
+        bool(given.get("output_only")),
+    )
     found, warnings = read_recording(source, choice)
     return Data((found,), found.title, warnings=warnings)
 

@@ -135,4 +135,9 @@ CODES = {
         "The universal file holds no data set 55 or 2414 of normal or complex modes at nodes.",
         "Export the modes of the analysis as data set 55; functions and time histories belong to `frf` and `recordings`.",
     ),
+    "MD625": Code(
+        "force window too short",
+        "The window that takes the force for 0 after the stroke of a hammer ends before the stroke does; functions are too large.",
+        "Give a longer --force-window, or no length: it is found in the strokes.",
+    ),
 }

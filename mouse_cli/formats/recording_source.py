@@ -17,7 +17,10 @@ from mouse_cli.model.recording import INPUT, OUTPUT, Recording
 
 @dataclass(frozen=True)
 class Choice:
-    """forces, responses: each `channel` or `SENSOR=channel`; without responses all other channels. units: by channel."""
+    """forces, responses: each `channel` or `SENSOR=channel`; without responses all other channels. units: by channel.
+
+    every: where no channel is chosen and none names its sensor, all are responses.
+    """
 
     forces: tuple[str, ...] = ()
     responses: tuple[str, ...] = ()
@@ -25,6 +28,7 @@ class Choice:
     sample_rate_hz: float | None = None
     time: str | None = None
     segment: tuple[int, int] | None = None
+    every: bool = False
 
 
 def read_recording(path: str, choice: Choice) -> tuple[Recording, tuple[Diagnostic, ...]]:
@@ -32,7 +36,12 @@ def read_recording(path: str, choice: Choice) -> tuple[Recording, tuple[Diagnost
     contents, say, where = read_contents(path), Findings(), Span(path, 1)
     picks = _picks(contents, choice, where)
     if not picks:
-        say.error("MD600", where, "no channel is chosen", "name forces and responses: --force NAME --response NAME")
+        say.error(
+            "MD600",
+            where,
+            "no channel is chosen",
+            "name forces and responses: --force NAME --response NAME; `mouse identify --output-only` takes all as responses",
+        )
     found = None
     if picks:
         found = recording(
@@ -45,8 +54,9 @@ def read_recording(path: str, choice: Choice) -> tuple[Recording, tuple[Diagnost
 
 def _picks(contents: Contents, choice: Choice, where: Span) -> list[Pick]:
     chosen = [(INPUT, text) for text in choice.forces] + [(OUTPUT, text) for text in choice.responses]
-    if not chosen:
-        return own_picks(contents)
+    own = [] if chosen else own_picks(contents)
+    if own or not (chosen or choice.every):
+        return own
     picks = [_pick(role, text, choice, where) for role, text in chosen]
     if not choice.responses:
         used = {pick.channel.lower() for pick in picks} | {(choice.time or "").lower()}

@@ -7,6 +7,7 @@ from mouse_cli.model.frf_test import FrfTest
 
 WINDOWS = ("hann", "hamming", "blackmanharris", "flattop", "uniform", "exponential")
 ESTIMATORS = ("h1", "h2", "hv")
+FOUND = -1  # as force_window: its length is found in the strokes
 
 
 @dataclass(frozen=True)
@@ -17,7 +18,8 @@ class SpectraOptions:
     blocks, 0 to below 1; None: 0.5, and 0 for the windows uniform and exponential. final: value of the exponential window at the
     end of the block. period: samples of a periodic excitation; with it there is neither window nor overlap, and the noise is that
     between periods. skip: samples left out at the beginning. impact: blocks begin before each stroke of a hammer, pretrigger: so
-    many samples before. kind: of the functions, None: that of the first response.
+    many samples before. force_window: samples from the beginning of such a block after which the force is taken to be 0, FOUND or
+    None: no such window. kind: of the functions, None: that of the first response.
     """
 
     estimator: str = "h1"
@@ -29,6 +31,7 @@ class SpectraOptions:
     skip: int = 0
     impact: bool = False
     pretrigger: int = 10
+    force_window: int | None = None
     kind: str | None = None
 
     @property
@@ -58,7 +61,7 @@ class Quality:
 class MeasuredFrf:
     """Functions and how they were averaged. averages: effective number of independent blocks; blocks: of which they were made.
 
-    recordings: their titles. quality: of each function, those of one force after another.
+    recordings: their titles. quality: of each function, those of one force after another. force_window: samples of it, 0 without.
     """
 
     frf: FrfTest
@@ -68,6 +71,7 @@ class MeasuredFrf:
     sample_rate_hz: float
     recordings: tuple[str, ...] = ()
     quality: tuple[Quality, ...] = ()
+    force_window: int = 0
 
 
 @dataclass(frozen=True)

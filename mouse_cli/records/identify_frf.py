@@ -1,7 +1,7 @@
 """Modes from frequency response functions: candidates that stay (p-LSCF), fit (LSFD, maximum likelihood), selection, covariance."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from mouse_cli.records import identify_noise
 from mouse_cli.records.local_fit import approached
 from mouse_cli.records.maximum_likelihood import ROUGH, Fit, fitted
 from mouse_cli.records.modal_covariance import Correlation, ModalCovariance, correlation, covariance
-from mouse_cli.records.modal_model import ABOVE, BELOW, CURVED, Lines, start
+from mouse_cli.records.modal_model import ABOVE, BELOW, CURVED, Lines, start, synthesised
 from mouse_cli.records.mode_selection import Dropped, doubled, known, selected
 from mouse_cli.records.pole_search import Search, search
 from mouse_cli.records.stabilisation import Track
@@ -69,10 +69,9 @@ def identify_lines(lines: Lines, stated: bool, most: int | None, say: Callable[[
 
 def _fitted(lines: Lines, stated: bool, candidates: list[Track]) -> tuple[Fit, Lines, float, float, list[Dropped]]:
     """The fit of what is significant, the lines with the sd it stands on, misfit, share of lines raised, what was dropped."""
-    added = lines.s[
-        0
-    ].real  # by an exponential window, to the decay rate of every mode: a pole that has less is none of a mode
     centres = [track.centre() for track in candidates]
+    # an exponential window adds to the decay rate of every mode: a pole that has less is none of a mode
+    added = lines.s[0].real
     dropped = [Dropped(pole + added, _TOO_SHARP) for pole, _ in centres if pole.real + added >= 0]
     centres = [(pole, vector) for pole, vector in centres if pole.real + added < 0]
     poles = np.array([pole for pole, _ in centres], complex) + added
@@ -81,10 +80,11 @@ def _fitted(lines: Lines, stated: bool, candidates: list[Track]) -> tuple[Fit, L
     first = approached(lines, start(poles, participation, lines.H.shape[1], (BELOW, ABOVE, CURVED)))
     fit = fitted(lines, first, small=ROUGH)
     given, raised = lines, 0.0
-    for choose in (_as_they_are, selected, doubled, selected, known):
+    for choose in (_as_they_are, selected, _second_look, selected, doubled, selected, known):
+        before = fit
         fit, gone = choose(lines, fit, poles)
         dropped += gone
-        for _ in range(_REFITS if gone or choose is _as_they_are else 0):
+        for _ in range(_REFITS if fit is not before or choose is _as_they_are else 0):
             lines, raised = _weighted(given, fit, stated)
             fit = fitted(lines, fit.model, small=ROUGH)
     fit = fitted(lines, fit.model)
@@ -94,6 +94,24 @@ def _fitted(lines: Lines, stated: bool, candidates: list[Track]) -> tuple[Fit, L
 
 def _as_they_are(lines: Lines, fit: Fit, centres: np.ndarray) -> tuple[Fit, list[Dropped]]:
     return fit, []
+
+
+def _second_look(lines: Lines, fit: Fit, centres: np.ndarray) -> tuple[Fit, list[Dropped]]:
+    """The fit with poles that are stable in what it leaves: weak modes beside strong ones show there first.
+
+    Those within a bandwidth of a mode, or narrower than two lines, are none of their own: they mend what is misfitted.
+    """
+    model, added = fit.model, lines.s[0].real
+    left = np.where(np.isfinite(lines.sd), lines.H - synthesised(lines, model), 0)
+    seen = [track.centre() for track in search(replace(lines, H=left)).candidates] if model.m else []
+    apart = lambda pole: np.abs(pole.imag - model.poles.imag) > -(pole.real + added) - model.poles.real
+    least = (lines.s.imag[-1] - lines.s.imag[0]) / (len(lines.s) - 1)  # decay rate of two lines
+    new = [(pole + added, vector) for pole, vector in seen if pole.real + added < -least and apart(pole).all()]
+    if not new:
+        return fit, []
+    poles = np.concatenate([model.poles, [pole for pole, _ in new]])
+    participation = np.concatenate([model.participation, np.array([vector for _, vector in new]).T], axis=1)
+    return fitted(lines, start(poles, participation, len(model.shapes), model.powers), small=ROUGH), []
 
 
 def _weighted(given: Lines, fit: Fit, stated: bool) -> tuple[Lines, float]:

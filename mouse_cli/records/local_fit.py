@@ -39,14 +39,15 @@ def approached(lines: Lines, model: ModalModel) -> ModalModel:
 
 
 def without(lines: Lines, fit: Fit, mode: int, steps: int) -> Fit:
-    """The fit without one of its modes: those near it are fitted anew, all where they are few."""
-    model = fit.model.without(mode)
-    if model.m < MANY:
-        return fitted(lines, model, steps)
-    away = np.abs(model.poles.imag - fit.model.poles[mode].imag)
-    model, _ = solved(lines, model)
+    """The fit without one of its modes: those near it are fitted anew; all, where they are few or that does not make up for it."""
+    rest = fit.model.without(mode)
+    if rest.m < MANY:
+        return fitted(lines, rest, steps)
+    away = np.abs(rest.poles.imag - fit.model.poles[mode].imag)
     near = np.sort(np.argsort(away)[:_GROUP])
-    model, chi2 = solved(lines, _fitted_group(lines, model, near, steps))
+    model, chi2 = solved(lines, _fitted_group(lines, solved(lines, rest)[0], near, steps))
+    if chi2 - fit.chi2 > _GAINED * fit.chi2:
+        return fitted(lines, rest, steps)
     return Fit(model, chi2, 2 * lines.values - unknowns(model))
 
 

@@ -8,17 +8,19 @@ from mouse_cli._errors import ERROR, WARNING, Diagnostic, RecordError
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.frf_test import KINDS, FrfTest
 from mouse_cli.model.recording import MOTIONS, Channel, Recording
-from mouse_cli.model.spectra import MeasuredFrf, Quality, SpectraOptions
+from mouse_cli.model.spectra import FOUND, MeasuredFrf, Quality, SpectraOptions
 from mouse_cli.records.blocks import decay_rate, products, starts
 from mouse_cli.records.conversion import factor
 from mouse_cli.records.frf_estimators import estimator, multiple_coherence, variance
 from mouse_cli.records.periodic import periodic
-from mouse_cli.records.strokes import strokes
+from mouse_cli.records.strokes import contact, strokes, windowed
 
 _FEWEST_BLOCKS = 16
 _OF = {"displacement": "receptance", "velocity": "mobility", "acceleration": "accelerance"}
 _TURNS = {"rotation": "displacement", "angular velocity": "velocity", "angular acceleration": "acceleration"}
 _SAME_RATE = 1e-6
+_CUT = 1e-3  # of the power of strokes, cut off by a window that is said to be a loss
+Piece = tuple[np.ndarray, np.ndarray, np.ndarray]  # x (t, i), y (t, o), first samples of blocks
 
 
 def functions(
@@ -33,13 +35,16 @@ def functions(
     fs = first.sample_rate_hz
     samples = [(r.samples[options.skip :, r.inputs], r.samples[options.skip :, r.outputs]) for r in recordings]
     remarks: list[Diagnostic] = []
+    length = 0
     if options.period:
         block = options.period
         H, spread, blocks = periodic(samples, block)
         coherence, averages = None, float(blocks)
     else:
         block = _block(samples, options)
-        found = products(_pieces(recordings, samples, block, options, remarks), block, options)
+        pieces = _pieces(recordings, samples, block, options, remarks)
+        pieces, length = _force_windowed(pieces, block, options, remarks)
+        found = products(pieces, block, options)
         chosen = estimator(options.estimator)
         H, coherence = chosen.estimate(found), multiple_coherence(found)
         spread, blocks, averages = variance(chosen, H, found, coherence), found.blocks, found.averages
@@ -54,7 +59,9 @@ def functions(
         tuple(c.sensor or c.name for c in outputs), tuple(c.sensor or c.name for c in inputs), coherence,
         first.title if len(recordings) == 1 else f"{first.title} and {len(recordings) - 1} more", first.path, decay_rate=added,
     )  # fmt: skip
-    return MeasuredFrf(frf, averages, blocks, block, fs, tuple(r.title for r in recordings), qualities(frf)), remarks
+    return MeasuredFrf(
+        frf, averages, blocks, block, fs, tuple(r.title for r in recordings), qualities(frf), length
+    ), remarks
 
 
 def _refuse(code: str, message: str, help: str) -> None:
@@ -126,6 +133,27 @@ def _pieces(
             "take fewer --lines, or check the channel of the force",
         )
     return found
+
+
+def _force_windowed(
+    pieces: list[Piece], block: int, options: SpectraOptions, remarks: list[Diagnostic]
+) -> tuple[list[Piece], int]:
+    """The pieces with forces that are 0 after each stroke, and the samples of the window; 0 where none is asked for."""
+    if options.force_window is None or not options.impact:
+        return pieces, 0
+    length = options.force_window
+    if length == FOUND:
+        length = max(
+            (contact(np.abs(x).sum(axis=1), begin, block) for x, _, begin in pieces if len(begin)), default=block
+        )
+    done = [(*windowed(x, begin, block, length), y, begin) for x, y, begin in pieces]
+    cut = max(share for _, share, _, _ in done)
+    if cut > _CUT:
+        message = f"the force window of {length} samples cuts off {100 * cut:.2g} % of the power of the strokes"
+        remarks.append(
+            Diagnostic("MD625", WARNING, message, help="make it longer, or give no length, so that it is found")
+        )
+    return [(x, y, begin) for x, _, y, begin in done], length
 
 
 def _averaged(first: Recording, averages: float, remarks: list[Diagnostic]) -> None:

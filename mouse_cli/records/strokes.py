@@ -3,6 +3,9 @@
 import numpy as np
 
 _LEVEL = 0.2  # of the largest stroke, at which one begins
+_CONTACT = 0.01  # of the largest value of a stroke, below which it has ended
+_ROOM = 2  # contacts that a force window is long
+_NOISE = 4.0  # sd of the force at rest, above which it is a stroke
 _BOUNCE = 0.1  # of the largest value of a stroke: a second contact above it is a double stroke
 
 
@@ -35,3 +38,37 @@ def _double(size: np.ndarray) -> bool:
     after = size[peak:] < limit
     end = peak + int(np.argmax(after)) if after.any() else len(size)
     return bool((size[end:] > 2 * limit).any())
+
+
+def contact(force: np.ndarray, begin: np.ndarray, block: int) -> int:
+    """Samples from the beginning of a block within which every stroke has ended, with room for as much again."""
+    size = np.abs(force - np.median(force))
+    least = _NOISE * 1.4826 * float(np.median(size))  # median absolute deviation to sd of normal noise
+    longest = 0
+    for first in begin:
+        own = size[first : first + block]
+        peak = int(np.argmax(own))
+        over = own[peak:] < max(_CONTACT * own[peak], least)
+        end = peak + int(np.argmax(over)) if over.any() else block
+        start = int(np.argmax(own > max(_CONTACT * own[peak], least)))
+        longest = max(longest, min(start + _ROOM * (end - start), block))
+    return longest
+
+
+def windowed(force: np.ndarray, begin: np.ndarray, block: int, length: int) -> tuple[np.ndarray, float]:
+    """The force (t, i) without its offset, 0 from `length` samples after each beginning on, and the share of its power cut off.
+
+    What a force cell reads after the stroke is noise: without it H1 keeps what the stroke alone put in, without bias. A half cosine
+    over a quarter of the window more ends it (D. J. Ewins, Modal Testing, 2000, section 3.7).
+    """
+    fade = max(1, length // 4)
+    shape = np.concatenate([np.ones(length), 0.5 * (1 + np.cos(np.pi * np.arange(1, fade + 1) / (fade + 1)))])[:block]
+    still = force - np.median(force, axis=0)
+    kept, cut, whole = np.zeros_like(still), 0.0, 0.0
+    for first in begin:
+        own = still[first : first + block]
+        kept[first : first + len(shape)] = own[: len(shape)] * shape[:, None]
+        after, rest = own[length:], own[-(block // 4) :]
+        cut += float((after**2).sum() - len(after) * (rest**2).mean(axis=0).sum())
+        whole += float((own**2).sum())
+    return kept, max(cut, 0.0) / max(whole, 1e-300)

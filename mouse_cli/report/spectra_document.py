@@ -27,6 +27,7 @@ def document(result: SpectraResult) -> dict[str, Any]:
                     "block_samples": each.block_samples,
                     "blocks": each.blocks,
                     "averages": each.averages,
+                    "force_window": each.force_window,
                     "decay_rate": each.frf.decay_rate,
                     "kind": each.frf.kind,
                     "functions": [asdict(one) for one in each.quality],

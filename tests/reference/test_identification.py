@@ -158,6 +158,73 @@ def test_three_storey_building():
     assert (found.modes.mpc[whole] > 0.999).all()
 
 
+def test_the_three_forces_agree_within_what_is_stated():
+    """Forces on floors 1, 2 and 3 are tests of one structure: frequencies and dampings of its three modes scatter as the sd say."""
+    whole, scores = three_storeys(), []
+    answers = [identify_frf([force_alone(whole, k)], (2.0, 40.0)).modes for k in range(3)]
+    for hz in (6.51, 17.46, 26.50):
+        at = [int(np.abs(modes.frequency_hz - hz).argmin()) for modes in answers]
+        for value, sd in (("frequency_hz", "frequency_sd_hz"), ("damping", "damping_sd")):
+            x, s = (np.array([getattr(m, name)[r] for m, r in zip(answers, at, strict=True)]) for name in (value, sd))
+            mean = (x / s**2).sum() / (1 / s**2).sum()
+            scores.append((((x - mean) / s) ** 2).sum())
+    chi2 = sum(scores)  # of 12 degrees of freedom: 2.6 to 26.2 in 99 of 100 cases; it was above 40 by noise alone
+    assert 2.6 < chi2 < 26.2
+
+
+# sdypy-EMA 0.31.0, functions of each force alone, 2 to 40 Hz: median over orders 10 to 59, and spread (interquartile range / 1.349)
+EMA_HZ = [[6.51254, 17.45727, 26.50342], [6.51268, 17.46075, 26.50303], [6.51282, 17.46113, 26.50425]]
+EMA_SPREAD = [[0.00020, 0.00347, 0.00308], [0.00054, 0.00017, 0.00206], [0.00059, 0.00060, 0.00056]]
+
+
+@pytest.mark.parametrize("force", range(3))
+def test_agrees_with_what_sdypy_ema_gave_on_the_three_storey_building(force):
+    found = identify_frf([force_alone(three_storeys(), force)], (2.0, 40.0)).modes
+    for hz, spread in zip(EMA_HZ[force], EMA_SPREAD[force], strict=True):
+        r = int(np.abs(found.frequency_hz - hz).argmin())
+        assert abs(found.frequency_hz[r] - hz) < 3 * np.hypot(found.frequency_sd_hz[r], spread)
+
+
+def many_modes(count: int = 30, lines: int = 1500) -> tuple[FrfTest, np.ndarray]:
+    """One force, six responses, modes 1 to 4 half-power bandwidths apart, some beyond the band; noise 2 % of each channel.
+
+    Returned with the frequencies in the band that the force excites by a tenth of a unit shape or more.
+    """
+    rng = np.random.default_rng(11)
+    omega = 2 * np.pi * (20 + np.cumsum(rng.uniform(2.0, 6.0, count + 3)))
+    shapes, hz = rng.standard_normal((6, count + 3)), np.linspace(5, omega[count - 1] / 2 / np.pi + 1.5, lines)
+    H, variance = vibrating.disturbed(
+        vibrating.accelerance(hz, omega, np.full(count + 3, 0.008), shapes, [0]), 0.02, rng
+    )
+    names = tuple(str(k + 1) for k in range(6))
+    test = FrfTest(hz, H, "accelerance", np.arange(6), np.array([0]), variance, names, ("1",))
+    return test, omega[:count][np.abs(shapes[0, :count]) > 0.1] / 2 / np.pi
+
+
+def test_many_modes_and_some_beyond_the_band():
+    test, hz = many_modes()
+    modes = identify_frf([test]).modes
+    nearest = [int(np.abs(modes.frequency_hz - each).argmin()) for each in hz]
+    assert len(set(nearest)) == len(hz) and modes.m <= 30
+    nearest, hz = nearest[:-1], hz[:-1]  # the last is 1.4 bandwidths from the edge, and those beyond push it
+    scores = (modes.frequency_hz[nearest] - hz) / modes.frequency_sd_hz[nearest]
+    damping = (modes.damping[nearest] - 0.008) / modes.damping_sd[nearest]
+    assert max(np.abs(scores).max(), np.abs(damping).max()) < 4.5
+    assert 0.6 < np.sqrt(np.mean(scores**2)) < 1.5
+
+
+def test_errors_that_channels_and_lines_share_make_no_modes():
+    """Errors of 2 %, smoothed over lines and alike in all channels, as noise of the force makes them."""
+    for seed in range(5):
+        rng, exact = np.random.default_rng(seed), measured(share=0.0, inputs=(0,))
+        white = rng.standard_normal((2, len(HZ) + 4))
+        along = np.convolve(white[0] + 1j * white[1], np.ones(5) / 10**0.5, "valid")
+        size = 0.02 * np.sqrt((np.abs(exact.H) ** 2).mean(axis=0))
+        H = exact.H + size * along[:, None, None]
+        found = identify_frf([replace(exact, H=H, variance=np.broadcast_to(size**2, H.shape).copy())])
+        assert found.modes.m == 3
+
+
 def test_agrees_with_sdypy_ema_on_the_three_storey_building():
     EMA = pytest.importorskip("sdypy.EMA", reason="needs sdypy-EMA")
     test = three_storeys()

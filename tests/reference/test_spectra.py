@@ -1,5 +1,7 @@
 """Frequency response functions of recordings against scipy.signal, closed forms, textbook bias, and repetition."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import scipy.signal
@@ -235,6 +237,38 @@ def test_strokes_of_a_hammer():
     force[4900:4905] = 6  # its block was not recorded to the end
     begin, double = strokes(force, 1000, 20)
     assert begin.tolist() == [481, 1681, 2981] and double.tolist() == [False, False, True]
+
+
+def strokes_of_noise(rng, noise: float) -> tuple[np.ndarray, np.ndarray]:
+    """Six half-sine strokes of 20 samples on one mass, the force read with noise and an offset."""
+    x = np.zeros(6 * 2048)
+    for at in range(50, len(x), 2048):
+        x[at : at + 20] = (1 + rng.random()) * np.sin(np.pi * np.arange(20) / 20)
+    y = scipy.signal.dlsim(_discrete(), x)[1][:, 0]
+    return x + 0.1 + noise * rng.standard_normal(len(x)), y
+
+
+def test_a_force_window_takes_off_noise_between_strokes(rng):
+    """Noise of a force cell makes H1 too small and uncertain; 0 after the stroke leaves what noise of the stroke alone makes."""
+    options = {"impact": True, "window": "uniform", "lines": 700}
+    x, y = strokes_of_noise(rng, 0.02)
+    plain, cut = (measured(x, y, "displacement", force_window=length, **options) for length in (None, -1))
+    assert plain.force_window == 0 and 30 < cut.force_window < 60
+    low = (plain.frf.frequency_hz > 20) & (plain.frf.frequency_hz < 200)
+    A, B, C, *_ = _discrete()
+    exact = np.array([(C @ np.linalg.solve(z * np.eye(2) - A, B))[0, 0] for z in np.exp(cut.frf.laplace[low] / FS)])
+    wrong = [np.median(np.abs(each.frf.H[low, 0, 0] / exact - 1)) for each in (plain, cut)]
+    assert wrong[1] < 0.25 * wrong[0]  # the window keeps 47 of 1400 samples of noise
+    assert wrong[1] < 3 * np.median(np.sqrt(cut.frf.variance[low, 0, 0]) / np.abs(exact))
+
+
+def test_a_force_window_that_cuts_strokes_is_said_to(rng):
+    x, y = strokes_of_noise(rng, 0.0)
+    options = SpectraOptions(impact=True, window="uniform", lines=700, force_window=15)
+    _, remarks = functions([recorded(x, y, "displacement")], options)
+    assert "MD625" in [each.code for each in remarks]
+    _, remarks = functions([recorded(x, y, "displacement")], replace(options, force_window=40))
+    assert "MD625" not in [each.code for each in remarks]
 
 
 def test_files_read_back(rng, tmp_path):

@@ -3,46 +3,7 @@
 import click
 
 from mouse_cli.cli._options import answer_form, options
-from mouse_cli.model.frf_test import KINDS
-from mouse_cli.model.spectra import ESTIMATORS, WINDOWS
-
-_FILE = (
-    click.option(
-        "--force", "forces", multiple=True, metavar="[SENSOR=]CHANNEL", help="A channel of a force; may be repeated."
-    ),
-    click.option(
-        "--response",
-        "responses",
-        multiple=True,
-        metavar="[SENSOR=]CHANNEL",
-        help="A channel of a response. Default: all others.",
-    ),
-    click.option("--unit", "units", multiple=True, metavar="CHANNEL=UNIT", help="Unit of a channel, as acc3=g."),
-    click.option(
-        "--sample-rate",
-        type=click.FloatRange(min=0, min_open=True),
-        help="Samples a second, where the file does not say.",
-    ),
-    click.option("--time", metavar="CHANNEL", help="The time column. Default: one called t or time."),
-    click.option(
-        "--segment", type=int, nargs=2, metavar="FIRST LAST", help="Samples from FIRST, from 0, up to but without LAST."
-    ),
-)
-_HOW = (
-    click.option("--estimator", type=click.Choice(ESTIMATORS), default="h1", show_default=True, help="Where the noise is."),
-    click.option("--window", type=click.Choice(WINDOWS), default="hann", show_default=True, help="Window of each block."),
-    click.option("--lines", type=click.IntRange(min=2), help="Spectral lines, half the samples of a block. Default: by length."),
-    click.option("--overlap", type=click.FloatRange(0, 0.95), help="Of blocks. Default: 0.5; 0 for uniform and exponential."),
-    click.option(
-        "--final", type=click.FloatRange(0, 1, min_open=True, max_open=True), default=0.01, show_default=True,
-        help="Value of the exponential window at the end of a block.",
-    ),
-    click.option("--impact", is_flag=True, help="A block begins at each stroke of a hammer."),
-    click.option("--pretrigger", type=click.IntRange(min=0), default=10, show_default=True, help="Samples before a stroke."),
-    click.option("--period", type=click.IntRange(min=4), metavar="SAMPLES", help="Of a periodic excitation: means over periods."),
-    click.option("--skip", type=click.IntRange(min=0), default=0, show_default=True, help="Samples left out at the beginning."),
-    click.option("--kind", type=click.Choice(tuple(KINDS)), help="Kind of the functions. Default: that of the first response."),
-)  # fmt: skip
+from mouse_cli.cli._recording_options import CHANNELS, SPECTRA
 
 
 @click.command()
@@ -53,7 +14,7 @@ _HOW = (
 @click.option(
     "--recording", "titles", multiple=True, metavar="TITLE", help="Of a deck: this recording; may be repeated."
 )
-@options(_HOW, _FILE, answer_form("mouse.spectra/1"))
+@options(SPECTRA, CHANNELS, answer_form("mouse.spectra/1"))
 @click.option("-q", "--quiet", is_flag=True, help="No warnings on standard error.")
 def command(
     source: str,

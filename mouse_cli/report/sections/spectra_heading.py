@@ -44,6 +44,7 @@ def _averaged(each: MeasuredFrf) -> str:
     return (
         f"{', '.join(each.recordings)}: {blocks} of {each.block_samples} samples at {each.sample_rate_hz:.6g} Hz, "
         f"lines {spacing:.5g} Hz apart, {each.averages:.4g} independent averages."
+        + (f" The force counts as 0 after {each.force_window} samples of each block." if each.force_window else "")
     )
 
 
