@@ -104,7 +104,7 @@ class FrfFit:
 class Damping:
     """An amount of damping of the whole structure that functions show: value and sd in `unit`.
 
-    told: whether the functions say anything of it; else it is what was held likely before.
+    told: whether the functions tell it from none.
     """
 
     name: str

@@ -20,7 +20,7 @@ from mouse_cli.observables.frf import accuracy, names, usable
 
 _MOST = 40_000_000  # derivatives of all functions at all lines by all unknowns, above which bands are left out
 _LINES = 256  # worked on at once
-_TOLD = 0.5  # posterior over prior standard deviation below which functions tell something of a damping
+_TOLD = 0.4  # standard deviation over value below which functions tell an amount of damping from none
 _KINDS = (
     ("loss factor", "structural damping, of all stiffness", "1"),
     ("damping by mass", "viscous damping over mass", "1/s"),
@@ -112,7 +112,8 @@ def _over(one: Fit, tests: Tests, at: slice) -> FrfModel:
         s, shape = test.laplace[at], test.H[at].shape
         factor = kind_factor(KINDS[test.kind], s)
         blocks.append(Lines(test, s, np.zeros(shape), np.ones(shape), np.ones(shape, bool), factor))
-    model = FrfModel(replace(one.model.base, data=FrfData(tuple(blocks))), one.model.damping, one.recipes)
+    data = replace(one.model.base.data, blocks=tuple(blocks))
+    model = FrfModel(replace(one.model.base, data=data), one.model.damping, one.recipes)
     model.losses.middle = one.model.losses.middle  # which loss factors of viscous springs belong to
     return model
 
@@ -132,7 +133,7 @@ def _carried(one: Fit, heard: Tests, model: FrfModel, tests: Tests) -> tuple[np.
     before, after = _chains(one.model, heard), _chains(model, tests)
     P = np.zeros((model.k + model.t, one.model.k + one.model.t))
     P[: model.lossy, : model.lossy] = np.eye(model.lossy)
-    P[model.k :, one.model.k :] = np.eye(model.t)
+    P[model.measured :, one.model.measured :] = np.eye(len(model.theory) + model.t)
     for key in before.keys() & after.keys():
         P[model.lossy + after[key], model.lossy + before[key]] = 1.0
     new = np.diag((~P.any(axis=1)).astype(float))
@@ -150,12 +151,12 @@ def _chains(model: FrfModel, tests: Tests) -> dict[tuple[str, ...], int]:
 
 def found_damping(one: Fit) -> tuple[Damping, ...]:
     """Loss factor and viscous damping of the structure, each with its standard deviation."""
-    _, own, _, _ = one.model.split(one.point.x)
+    _, own, *_ = one.model.split(one.point.x)
     values = one.model.damping.values(own)
     spread = np.sqrt(np.diag(one.covariance)[one.model.of_deck : one.model.lossy])
     sd = values * one.model.damping.sd * spread
     units = one.model.base.problem.units
     return tuple(
-        Damping(name, meaning, units.of(unit), float(value), float(own_sd), bool(share < _TOLD))
-        for (name, meaning, unit), value, own_sd, share in zip(_KINDS, values, sd, spread, strict=True)
+        Damping(name, meaning, units.of(unit), float(value), float(own_sd), bool(own_sd < _TOLD * value))
+        for (name, meaning, unit), value, own_sd in zip(_KINDS, values, sd, strict=True)
     )

@@ -38,8 +38,8 @@ def with_damping(deck: Problem, before: Problem, one: Fit) -> Problem:
     stated = fit.model.damping.stated
     if of_matrices(deck):
         same = all(recipe.law == SAME for recipe in one.recipes)
-        amounts = [each.value if each.told else 0.0 for each in found[1:]]
-        return _in_matrices(deck, deck if same else before, found[0].value - stated, *amounts)
+        eta, alpha, beta = (each.value for each in found)  # all of them, as no parameter stands for what is left out
+        return _in_matrices(deck, deck if same else before, eta - stated, alpha, beta)
     edit, known = Edit(deck), max(int(members.ids.max()) for members in before.mesh.elements)
     brought = [at for at in _all(edit) if edit.sets[at[0]].type in _OF_CAUSES and _id(edit, at) > known]
     own_law = [at for at in brought if any(edit.values(at, name) for name in _NAMES if _has(edit, at, name))]
@@ -79,10 +79,10 @@ def _in_matrices(deck: Problem, damped: Problem, eta: float, alpha: float, beta:
     """`deck` with the damping of all that is in `damped`; in a model of matrices D and C are constant, and no parameter."""
     old = deck.structure
     K, M = (_widened(matrix, old.n) for matrix in assembly(damped).matrices(damped.prior.mean))
-    found = {"D": eta * K, "C": alpha * M + beta * K if alpha or beta else None}
+    found = {"D": eta * K, "C": alpha * M + beta * K}
     for name, matrix in found.items():
         own = getattr(old, name)
-        found[name] = own if matrix is None else matrix if own is None else own + matrix
+        found[name] = matrix if own is None else own + matrix
     return replace(deck, structure=replace(old, **found))
 
 

@@ -33,7 +33,7 @@ def fitted(found: Diagnosis, options: Options) -> Iterator[Block]:
 
 
 def _said(told: bool) -> str:
-    return "" if told else "as held likely before: the functions hardly tell"
+    return "" if told else "hardly told by the functions"
 
 
 SECTION = Section("diagnosis-functions", 74, "Frequency response functions, before and after", fitted, (Diagnosis,))
