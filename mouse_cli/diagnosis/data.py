@@ -44,6 +44,14 @@ class Data:
         return found
 
     @property
+    def theory(self) -> np.ndarray:
+        """sd of ln f (m,) beside that of the measurement: what theory and numerics leave; THEORY_LOG where none was measured."""
+        with np.errstate(invalid="ignore"):
+            stated = np.where(self.has_frequency, self.test.frequency_sd_hz / self.test.frequency_hz, 1.0)
+        own = np.sqrt(np.maximum(self.sd_log**2 - stated**2, THEORY_LOG**2))
+        return np.where(self.has_frequency, own, THEORY_LOG)
+
+    @property
     def dof(self) -> int:
         """Data less the scales that are fitted to them."""
         profiled = int(self.has_shape.any(axis=0).sum()) if self.scaled else 0

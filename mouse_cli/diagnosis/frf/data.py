@@ -1,13 +1,18 @@
 """Frequency response functions as a diagnosis sees them: real and imaginary parts over their standard deviations."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from mouse_cli.diagnosis.data import THEORY_SHAPE
 from mouse_cli.model.frf_test import MOST_LINES, FrfTest
 from mouse_cli.observables.frf import observe
 
-_MOST = 2 * MOST_LINES  # of one measurement
+_VALUES, _FEW, _MOST = (
+    4000,
+    MOST_LINES,
+    2 * MOST_LINES,
+)  # values of one measurement, and its lines, at least and at most
 
 
 @dataclass(frozen=True)
@@ -30,18 +35,10 @@ class Lines:
         """rad/s (f,)."""
         return self.s.imag
 
-    def loosened(self, theory: np.ndarray) -> "Lines":
-        """The same with a further error, E|H - measured|^2 = theory^2 (f, o, i)."""
-        return replace(self, sd=np.hypot(self.sd, theory / np.sqrt(2)))
-
     def every(self, count: int) -> "Lines":
         """Every so manieth line of them."""
         own = {name: getattr(self, name)[::count] for name in ("s", "H", "sd", "has")}
         return replace(self, **own, factor=self.factor[::count])
-
-    def at(self, factor: float) -> "Lines":
-        """The same at other frequencies."""
-        return replace(self, s=self.s * factor)
 
     def stacked(self, H: np.ndarray) -> np.ndarray:
         """Real and imaginary parts (2 q, ...) of what was measured of H (f, o, i, ...), over their standard deviations."""
@@ -50,17 +47,29 @@ class Lines:
 
 
 def lines(test: FrfTest) -> Lines:
-    """The lines of `test` that tell most, as a run chooses them, but more of them."""
-    seen = observe(replace(test, lines=max(test.lines, _MOST)), "complex")
+    """The lines of `test` that tell most, as a run chooses them, but more of them; with what theory leaves of shapes."""
+    most = int(np.clip(_VALUES / (test.H.shape[1] * test.H.shape[2]), _FEW, _MOST))
+    seen = observe(replace(test, lines=max(test.lines, most)), "complex")
     H = np.where(seen.have, seen.H, 0.0)
-    return Lines(test, seen.s, H, np.where(seen.have, seen.sd, 1.0), seen.have, seen.factor, seen.assumed)
+    sd = np.where(seen.have, np.hypot(seen.sd, THEORY_SHAPE / np.sqrt(2) * _largest(H)), 1.0)
+    return Lines(test, seen.s, H, sd, seen.have, seen.factor, seen.assumed)
+
+
+def _largest(H: np.ndarray) -> np.ndarray:
+    """|H| (f, o, i) as large as that of the response that is largest at its line, each beside its own mean square."""
+    size = np.sqrt((np.abs(H) ** 2).mean(axis=0))
+    share = np.divide(np.abs(H), size, out=np.zeros(H.shape), where=size > 0)
+    return size * share.max(axis=1, keepdims=True)
 
 
 @dataclass(frozen=True)
 class FrfData:
-    """All FRFs of a diagnosis. alike: how many data say the same. slack: 0, as no datum is made less accurate between rivals."""
+    """All FRFs of a diagnosis. theory (c,): sd of ln f of the lowest modes by what theory and mesh leave. alike: how many data say
+    the same. slack: 0, as no datum is made less accurate between rivals.
+    """
 
     blocks: tuple[Lines, ...]
+    theory: np.ndarray = field(default_factory=lambda: np.zeros(0))
     alike: float = 1.0
     slack: float = 0.0
     by_shape: bool = True  # modes are told apart by what several sensors read

@@ -51,7 +51,10 @@ class Functions:
 
 
 class FrfModel:
-    """What `fit` needs of a model. x: k unknowns N(0, 1), of the deck, of the damping and of the gains, then t of the causes."""
+    """What `fit` needs of a model. x: k unknowns N(0, 1), then t of the causes.
+
+    The k are of the deck, of the damping, of the gains, and what theory errs in ln f of the lowest modes.
+    """
 
     def __init__(self, base: Reduced, damping: Damping, recipes: tuple[Recipe, ...] = (), middle: float | None = None):
         """base.data: FrfData; middle: omega_0, rad/s, of viscous losses; None: the middle of the band."""
@@ -60,7 +63,8 @@ class FrfModel:
         self.gains = gains(tuple(block.test for block in base.data.blocks))
         self.losses = Losses(self.elastic, damping, base.data.middle if middle is None else middle)
         self.of_deck, self.lossy = base.L.shape[1], base.L.shape[1] + len(damping.mean)
-        self.k, self.t = self.lossy + self.gains.count, self.elastic.t
+        self.theory, self.measured = base.data.theory, self.lossy + self.gains.count
+        self.k, self.t = self.measured + len(self.theory), self.elastic.t
         self.bounds, self.width, self.own = self.elastic.bounds, self.elastic.width, self.elastic.own
         self._ends = [(self._rows(block.test.outputs), self._rows(block.test.inputs)) for block in base.data.blocks]
         self._sensors = [_same(S[:, : base.r], base.sensing) for S, _ in self._ends]
@@ -71,8 +75,8 @@ class FrfModel:
         return np.concatenate([self.base.z, np.zeros(self.k - self.of_deck)])
 
     def split(self, x: np.ndarray) -> tuple[np.ndarray, ...]:
-        """Coordinates of the deck's parameters, of the damping, of the gains and of the causes."""
-        return x[: self.of_deck], x[self.of_deck : self.lossy], x[self.lossy : self.k], x[self.k :]
+        """Coordinates of the deck's parameters, of the damping, of the gains, of what theory errs, and of the causes."""
+        return tuple(np.split(x, [self.of_deck, self.lossy, self.measured, self.k]))
 
     def _rows(self, sensing) -> np.ndarray:
         """What is read of, or forces on, each coordinate (s, size)."""
@@ -85,7 +89,7 @@ class FrfModel:
 
     def point(self, x: np.ndarray) -> FrfPoint | None:
         """The model at x (k + t,); None where it is not physical."""
-        r, (z, _, _, c) = self.base.r, self.split(x)
+        r, (z, _, _, errs, c) = self.base.r, self.split(x)
         K, M, sensing = self.elastic.added(np.concatenate([z, c]))
         K0, M0 = self.base.matrices(z)
         K[:r, :r] += K0
@@ -93,6 +97,7 @@ class FrfModel:
         eigenvalues, X = modes_of(K, M)
         if not np.isfinite(eigenvalues).all() or eigenvalues[0] < -1e-5 * abs(eigenvalues[-1]):
             return None
+        eigenvalues[: len(errs)] *= np.exp(2 * self.theory * errs)
         parts = tuple(self._functions(i, x, eigenvalues, X, sensing) for i in range(len(self._ends)))
         blocks = self.base.data.blocks
         residual = np.concatenate([b.stacked(b.H - part.H) for b, part in zip(blocks, parts, strict=True)])
@@ -102,7 +107,7 @@ class FrfModel:
         self, i: int, x: np.ndarray, eigenvalues: np.ndarray, X: np.ndarray, sensing: np.ndarray
     ) -> Functions:
         """Functions of block i; sensing (s, size): what causes add to what the sensors of the test read."""
-        block, (S, B), (z, own, u, c) = self.base.data.blocks[i], self._ends[i], self.split(x)
+        block, (S, B), (z, own, u, _, c) = self.base.data.blocks[i], self._ends[i], self.split(x)
         s, S = block.s, S + self._sensors[i] @ sensing
         g, alpha = self.losses.of_structure(s, own)
         flat = 1 / (g[:, None] * eigenvalues + (s**2 + s * alpha)[:, None])
@@ -125,7 +130,7 @@ class FrfModel:
     def _moved(self, i: int, at: FrfPoint) -> np.ndarray:
         """dH/dx (f, o, i, k + t) of block i."""
         part, s = at.parts[i], self.base.data.blocks[i].s
-        _, own, _, _ = self.split(at.x)
+        _, own, _, errs, _ = self.split(at.x)
         g, _ = self.losses.of_structure(s, own)
         left, right = part.left @ at.X.T, at.X @ part.right  # in the coordinates of the model
         K, M, S = self._slopes(at)
@@ -138,15 +143,24 @@ class FrfModel:
         damping = self.damping.values(own) * self.damping.sd * np.stack([1j * stiff, s * inert, s * stiff], axis=-1)
         found = np.concatenate([elastic[..., : self.of_deck], damping, elastic[..., self.of_deck :]], axis=-1)
         for j, slope in self._of_losses(i, at.x, left, right):
-            found[..., j - self.gains.count * (j >= self.k)] += slope
-        found *= -part.factor[..., None]
+            found[..., j - (self.k - self.lossy) * (j >= self.k)] += slope
+        c = len(errs)
+        own = part.left[:, :, None, :c] * np.swapaxes(part.right[:, :c], 1, 2)[:, None]  # (f, o, i, c)
+        own = g[:, None, None, None] * own * (2 * self.theory * at.eigenvalues[:c])
+        factor = part.factor[..., None]
         return np.concatenate(
-            [found[..., : self.lossy], self.gains.slopes(i, part.H), found[..., self.lossy :]], axis=-1
+            [
+                -factor * found[..., : self.lossy],
+                self.gains.slopes(i, part.H),
+                -factor * own,
+                -factor * found[..., self.lossy :],
+            ],
+            axis=-1,
         )
 
     def _slopes(self, at: FrfPoint) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """dK, dM (p, size, size) and d(sensing) (p, s, size) by the deck's parameters, then by the causes, all elastic."""
-        r, (z, _, _, c) = self.base.r, self.split(at.x)
+        r, (z, *_, c) = self.base.r, self.split(at.x)
         count, size = self.of_deck + self.t, self.elastic.size
         K, M, S = (np.zeros((count, rows, size)) for rows in (size, size, len(self.base.sensing)))
         K[: self.of_deck, :r, :r], M[: self.of_deck, :r, :r] = self.base.slopes(z)
@@ -161,7 +175,7 @@ class FrfModel:
 
     def _of_losses(self, i: int, x: np.ndarray, left: np.ndarray, right: np.ndarray):
         """j and S Z^-1 d(G' W G)/dx_j Z^-1 B' (f, o, i), by central differences, of every x_j that the losses may follow."""
-        s, (z, own, _, c) = self.base.data.blocks[i].s, self.split(x)
+        s, (z, own, _, _, c) = self.base.data.blocks[i].s, self.split(x)
         if not len(self.losses.local(s[:1], z, own, c)[0]):
             return
         for j in chain(range(self.lossy), range(self.k, self.k + self.t)):
@@ -171,7 +185,7 @@ class FrfModel:
                 there[j] += sign * _STEP * (self.width[j - self.k] if j >= self.k else 1.0)
                 if j >= self.k:
                     there[j] = np.clip(there[j], *self.bounds[j - self.k])
-                z, own, _, c = self.split(there)
+                z, own, _, _, c = self.split(there)
                 G, W = self.losses.local(s, z, own, c)
                 sides.append((left @ G.T) @ W @ (G @ right))
                 length += sign * there[j]

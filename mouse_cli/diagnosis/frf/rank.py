@@ -10,23 +10,28 @@ import numpy as np
 
 from mouse_cli.diagnosis.baseline.altered import Model
 from mouse_cli.diagnosis.baseline.reduced import Reduced
-from mouse_cli.diagnosis.data import THEORY_LOG, THEORY_SHAPE
+from mouse_cli.diagnosis.data import THEORY_LOG
 from mouse_cli.diagnosis.frf.correlated import correlated
 from mouse_cli.diagnosis.frf.damping import Damping, damping
 from mouse_cli.diagnosis.frf.dashpots import dashpots
 from mouse_cli.diagnosis.frf.data import FrfData, lines
 from mouse_cli.diagnosis.frf.lossy import GROUPS, LAWS, LOSS, SAME, lossy
 from mouse_cli.diagnosis.frf.lossy_parts import lossy_parts
+from mouse_cli.diagnosis.frf.mesh import of_mesh
 from mouse_cli.diagnosis.frf.model import FrfModel
-from mouse_cli.diagnosis.name.fit import MOST, Fit, fit
+from mouse_cli.diagnosis.name.fit import GATE, MOST, Fit, fit
 from mouse_cli.diagnosis.name.rank import Ranking, adequate, ranking
 from mouse_cli.diagnosis.physics.change import Recipe
+from mouse_cli.updating.chi_square import upper_tail
 
 _REACH = 60.0  # nats by which modes may speak against an explanation that is judged by FRFs still
-_SINGLES = 3  # single causes that are judged in any case
+_SINGLES, _ELSEWHERE = (
+    3,
+    2,
+)  # single causes that are judged in any case; other places at which modes leave a cause possible
 _PLACES, _KEPT = 5, 2  # places from which what only damps begins, and how many of its kind go on
-_STEP = 1e-4  # of frequency, for derivatives of FRFs
 _THIN, _BRIEF = 4, 12  # in a first look: every so manieth line, and steps
+_WEIGHED = 3  # times that accuracies nobody stated are taken from what is left
 _FAR, _LEAST = (
     200.0,
     4,
@@ -46,6 +51,12 @@ class Heard(Fit):
         """Degrees of freedom of the FRFs."""
         return self.frf.dof
 
+    @property
+    def strained(self) -> bool:
+        """The same of functions of no stated accuracy, which any explanation leaves as much as it does."""
+        z = self.frf.point.x[: self.frf.model.of_deck]
+        return self.frf.model.base.data.assumed and upper_tail(float(z @ z), max(len(z), 1)) < GATE
+
 
 @dataclass(frozen=True)
 class Judge:
@@ -56,7 +67,7 @@ class Judge:
 
     def thinned(self) -> "Judge":
         """By few lines."""
-        return replace(self, data=FrfData(tuple(block.every(_THIN) for block in self.data.blocks)))
+        return replace(self, data=replace(self.data, blocks=tuple(block.every(_THIN) for block in self.data.blocks)))
 
     def model(self, base: Reduced, recipes: tuple) -> FrfModel:
         """The reduced model `base` with causes, as the FRFs see it."""
@@ -108,58 +119,57 @@ class Judge:
             tried += places.values()
         return [(trial, x) for _, trial, x in sorted(tried, key=lambda item: item[0])[:_PLACES]]
 
-    def loosened(self, one: Fit) -> "Judge":
-        """The same with what theory leaves: an error of every natural frequency, and of shapes, as for modes, by the fit `one`."""
-        near, up, down = (self._functions(one, factor) for factor in (1.0, 1 + _STEP, 1 - _STEP))
-        blocks = tuple(
-            block.loosened(np.hypot(THEORY_LOG * np.abs(a - b) / (2 * _STEP), THEORY_SHAPE * np.abs(H)))
-            for block, H, a, b in zip(self.data.blocks, near, up, down, strict=True)
-        )
-        return replace(self, data=FrfData(blocks))
-
-    def _functions(self, one: Fit, factor: float) -> list[np.ndarray]:
-        """H of each test at its frequencies times `factor`, by the fit `one`."""
-        moved = replace(self, data=FrfData(tuple(block.at(factor) for block in self.data.blocks)))
-        return [part.H for part in moved.model(one.model.base, one.recipes).point(one.point.x).parts]
-
 
 def heard(modal: Ranking) -> Ranking:
     """The ranking `modal` of what modes say, judged anew by the FRFs of the test; `modal` itself where there are none."""
     base = modal.baseline.model.base
     if not base.problem.frf:
         return modal
-    judge = Judge(FrfData(tuple(lines(test) for test in base.problem.frf)), damping(base))
-    first = judge.thinned().laws(modal.fits[0])
-    if first:
-        judge = judge.loosened(min(first, key=lambda one: one.misfit))
+    judge = Judge(FrfData(tuple(lines(test) for test in base.problem.frf), _theory(modal.baseline)), damping(base))
     quick = judge.thinned()
     none = quick.fitted(modal.baseline)
     if none is None:
         return modal
     looked = [law for one in _promising(modal) for law in quick.laws(one)] + quick.damped(none, base)
     fits = judge.all_of([none, *_leading(looked)])
-    nearest = min(fits, key=lambda one: one.misfit)
-    if not adequate(nearest):
-        judge = replace(judge, data=_weighed(nearest))
+    alike = None
+    for _ in range(_WEIGHED):
+        nearest = min(fits, key=lambda one: one.misfit)
+        if adequate(nearest) or not (alike is None or judge.data.assumed):
+            break
+        alike = correlated(nearest) if alike is None else 1.0
+        judge = replace(judge, data=judge.data.weighed(alike, _scatter(nearest)))
         fits = judge.all_of(fits)
     fits = _shared(fits)
+    fits[0] = replace(fits[0], log_evidence=fits[0].log_evidence + of_mesh(fits[0], base) / 2)
     found = ranking(fits[0], fits)
     views = {id(one): _beside_modes(one, base.data) for one in fits}
     return replace(found, baseline=views[id(fits[0])], fits=tuple(views[id(one)] for one in found.fits))
 
 
-def _weighed(nearest: Fit) -> FrfData:
-    """Data as accurate as a fit says: neighbours that err alike count once, and what nobody stated is what it leaves."""
-    data = nearest.model.base.data
-    return data.weighed(correlated(nearest), nearest.misfit / nearest.dof if data.assumed else 1.0)
+def _theory(one: Fit) -> np.ndarray:
+    """sd of ln f (c,) of the lowest modes, by what theory and numerics leave, of the fit `one` of modes."""
+    data, modes = one.model.base.data, one.point.modes
+    found = np.full(min(one.model.base.r, int(modes.max()) + 2), THEORY_LOG)
+    found[modes] = data.theory
+    return found
+
+
+def _scatter(nearest: Fit) -> float:
+    """Variance of the data over what it was held to be: 1 where a deck states it, else what the nearest fit leaves."""
+    return nearest.misfit / nearest.dof if nearest.model.base.data.assumed else 1.0
 
 
 def _promising(modal: Ranking) -> list[Fit]:
-    """Explanations that modes leave possible, the best of single causes whatever modes say of them."""
+    """Explanations that modes leave possible, at all places that do; the best of single causes whatever modes say of them."""
     best = modal.fits[0].log_evidence / modal.noise_scale
     near = [one for one in modal.fits if one.recipes and one.log_evidence / modal.noise_scale > best - _REACH]
     singles = [one for one in modal.fits if len(one.recipes) == 1 and not any(one is other for other in near)]
-    return near + singles[:_SINGLES]
+    return [
+        place
+        for one in near + singles[:_SINGLES]
+        for place in (one, *(other for other, _ in one.elsewhere[:_ELSEWHERE]))
+    ]
 
 
 def _leading(looked: list[Fit]) -> list[Fit]:

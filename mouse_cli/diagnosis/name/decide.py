@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mouse_cli.diagnosis.baseline.reduced import Reduced
-from mouse_cli.diagnosis.name.fit import Fit
+from mouse_cli.diagnosis.name.fit import GATE, Fit
 from mouse_cli.diagnosis.name.rank import Ranking, group
 from mouse_cli.diagnosis.prove.held_out import held_out
 from mouse_cli.model.diagnosis import (
@@ -25,7 +25,6 @@ from mouse_cli.model.groups import leading
 from mouse_cli.model.units import Units
 from mouse_cli.updating.chi_square import upper_tail
 
-GATE = 1e-3  # probability of so large a misfit by chance, below which something is missing
 _SURE = 0.9  # probability of a group from which on it is named
 _ODDS = 3.0  # nats over no cause at all that a name needs
 _BELIEVED = 0.5  # share of the stated accuracies in the leading explanation below which the test itself is the finding
@@ -34,7 +33,7 @@ _STANDS = 1e-6  # probability of no cause below which some cause acts, whatever 
 
 def doubtful(baseline: Fit, rejected: bool) -> bool:
     """Whether what the update leaves is no chance: misfit, shift of the parameters, or both together (`rejected`)."""
-    return rejected or upper_tail(baseline.misfit, baseline.dof) < GATE
+    return rejected or baseline.strained or upper_tail(baseline.misfit, baseline.dof) < GATE
 
 
 @dataclass(frozen=True)
@@ -89,6 +88,8 @@ def decide(ranking: Ranking) -> str:
     first, (name, probability) = ranking.fits[0], ranking.groups[0]
     dof = max(first.dof, 1)
     if upper_tail(first.misfit, dof) < GATE and first.misfit > first.bearable * dof:
+        return UNKNOWN
+    if first.strained:
         return UNKNOWN
     if ranking.stated[0] < _BELIEVED and dict(ranking.groups).get("none", 0.0) > _STANDS:
         return UNKNOWN  # the test is not as accurate as it is said to be, and what is missing besides cannot be told

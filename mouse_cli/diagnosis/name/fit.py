@@ -19,6 +19,7 @@ from mouse_cli.diagnosis.physics.change import Recipe
 
 _SMALL = 1e-4  # change of J, relative to 1 + its share of rounding, that ends the search
 MOST = 40
+GATE = 1e-3  # probability of so large a misfit by chance, below which something is missing
 _GIVE_UP = 1e8
 _HOPE = 4.0  # times the gain that a full step promises: what a search may gain at most
 
@@ -38,6 +39,11 @@ class Fit:
     elsewhere: tuple[tuple["Fit", float], ...] = ()
     bearable: ClassVar[float] = 1.5  # misfit over degrees of freedom above which no explanation is one
     telling: ClassVar[bool] = False  # so many data that evidence alone says whether something is missing
+
+    @property
+    def strained(self) -> bool:
+        """Whether parameters are further from their priors than chance allows, where the misfit cannot tell."""
+        return False
 
     @property
     def recipes(self) -> tuple[Recipe, ...]:

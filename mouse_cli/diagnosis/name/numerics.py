@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli.diagnosis.extend.edit import Edit, every_beam
+from mouse_cli.dynamics.eigen import dense_solution
 from mouse_cli.model.arrays import dense
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
@@ -28,9 +29,7 @@ class Numerics:
 def numerics(problem: Problem, theta: np.ndarray, numbers: np.ndarray, sd: np.ndarray) -> Numerics:
     """What mesh and lumping do to the modes `numbers` (m,), from 0, of `problem` at theta, beside the sd (m,) of ln f."""
     still = Numerics(np.zeros(len(numbers)))
-    if problem.mesh is None or not len(numbers) or not any(each.type == "beam" for each in problem.mesh.elements):
-        return still
-    if 2 * problem.structure.n > _LARGEST:
+    if not len(numbers) or not refinable(problem):
         return still
     finer = halved(problem)
     found = [_logarithms(each, theta, int(numbers.max()) + 1) for each in (problem, finer)]
@@ -49,6 +48,12 @@ def numerics(problem: Problem, theta: np.ndarray, numbers: np.ndarray, sd: np.nd
     return Numerics(moved, (told,))
 
 
+def refinable(problem: Problem) -> bool:
+    """Whether the deck has beams, and few enough degrees of freedom, to be looked at on half as long elements."""
+    beams = problem.mesh is not None and any(each.type == "beam" for each in problem.mesh.elements)
+    return beams and 2 * problem.structure.n <= _LARGEST
+
+
 def halved(problem: Problem) -> Problem:
     """The deck with every beam in two halves, and their masses spread along them."""
     edit = Edit(problem)
@@ -62,9 +67,7 @@ def halved(problem: Problem) -> Problem:
 
 def _logarithms(problem: Problem, theta: np.ndarray, count: int) -> np.ndarray:
     """ln f of the lowest modes, -inf for rigid ones."""
-    from scipy.linalg import eigh
-
     K, M = (dense(matrix) for matrix in assembly(problem).matrices(theta))
-    eigenvalues = eigh(K, M, eigvals_only=True, subset_by_index=[0, min(count, len(K)) - 1])
+    eigenvalues = dense_solution(K, M).eigenvalues[:count]
     with np.errstate(divide="ignore", invalid="ignore"):
         return 0.5 * np.log(np.where(eigenvalues > 1e-9 * abs(eigenvalues[-1]), eigenvalues, 0.0))
