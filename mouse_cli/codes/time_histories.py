@@ -10,10 +10,10 @@ CODES = {
     ),
     "MD642": Code(
         "modes without the local laws of the deck",
-        "The deck has `laws`, forces that are not linear. Modes, and an update by modes or by frequency response functions, are those "
-        "of the linear structure without them.",
-        "Nothing, where that is meant: clearances open, small motion. `mouse run` and `mouse diagnose` take laws into account where "
-        "the test holds recordings alone.",
+        "The deck has `laws`, forces that are not linear. Modes, and an update by modes or by frequency response functions, are "
+        "those of the linear structure without them.",
+        "Nothing, where that is meant: clearances open, small motion. `mouse run` and `mouse diagnose` take laws into account "
+        "where the test holds recordings alone.",
     ),
     "MD540": Code(
         "simulation that does not stay finite",

@@ -147,7 +147,8 @@ def _undamped(result: Result) -> Iterator[Diagnostic]:
         yield _remark(
             "MD518",
             "the model has no damping: its frequency response functions are infinite at its resonances",
-            help="give elements loss_factor, stiffness_damping or mass_damping, or dashpots, and make the amount a parameter; or modal_damping",
+            help="give elements loss_factor, stiffness_damping or mass_damping, or dashpots, and make the amount a parameter; "
+            "or modal_damping",
         )
 
 

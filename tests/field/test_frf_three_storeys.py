@@ -89,13 +89,16 @@ def test_the_answer_is_not_called_exact(result):
     assert result.exit_code == 1
 
 
-DRAWN = DECK[: DECK.index("parameters:")] + """parameters:
+DRAWN = (
+    DECK[: DECK.index("parameters:")]
+    + """parameters:
   - {name: legs, elements: 1-3, property: TX, factor: true, sd: 10 %, transform: log}
   - {name: storey, elements: 1-3, property: TX, factor: true, each: 1, sd: 3 %, transform: log}
   - {name: m, elements: 11-13, property: mass, each: 1, sd: 5 %, transform: log}
 test:
   frf:
 """
+)
 
 
 @pytest.mark.parametrize("legs", [True, False], ids=["legs alike", "nothing in common"])

@@ -1,6 +1,8 @@
 """`mouse run` on recordings alone: parameters of the deck and of its laws against truths that scipy integrated."""
 
 import json
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -30,6 +32,14 @@ def test_linear_parameters_are_those_of_the_truth(tmp_path):
         assert one["posterior_sd"] < 0.1 * one["prior_sd"]
     (held,) = found["held_out"]["records"]
     assert max(held["error"]["with the cause"]) < 0.2 * max(held["error"]["as it is"])
+
+
+def test_json_is_documented(tmp_path):
+    """Every key is in the table of runs of recordings, or named before it as that of any run."""
+    page = (Path(__file__).parents[2] / "docs" / "reference" / "json.md").read_text("utf-8")
+    section = page.partition("## mouse.result/1, of recordings\n")[2].partition("\n## ")[0]
+    named = {key.partition("[")[0].partition(".")[0] for key in re.findall(r"`([a-z_.\[\]]+)`", section)}
+    assert set(run(record(tmp_path, linear), 0)) <= named
 
 
 def test_the_size_of_a_law_is_revised_and_the_answer_is_a_prior(tmp_path):
