@@ -39,7 +39,7 @@ def with_entries(problem: Problem, parameter: Parameter, K: Entries = _NONE, M: 
     A = _spread(deck.A, old, len(order), np.array([place[key] for key in keys], int), value)
     structure = problem.structure
     nominal = parameter.nominal
-    changed = {name: _plus(getattr(structure, name), part, nominal) for name, part in (("K", K), ("M", M))}
+    changed = {name: plus(getattr(structure, name), part, nominal) for name, part in (("K", K), ("M", M))}
     elements = ListedElements(*(np.array([key[k] for key in order]) for k in range(3)))
     return replace(deck, structure=replace(structure, **changed), elements=elements, A=A)
 
@@ -59,7 +59,8 @@ def _spread(A: Matrix, old: np.ndarray, e: int, at: np.ndarray, value: np.ndarra
     return coo_array((np.concatenate([stored.data, value]), (rows, cols)), shape=(e, A.shape[1])).tocsr()
 
 
-def _plus(matrix: Matrix, entries: Entries, factor: float) -> Matrix:
+def plus(matrix: Matrix, entries: Entries, factor: float) -> Matrix:
+    """A symmetric matrix, dense or sparse, and `factor` times `entries` of its upper triangle in both."""
     row, col, value = entries
     off = row != col
     at = np.concatenate([row, col[off]]), np.concatenate([col, row[off]])
@@ -82,7 +83,7 @@ def with_degree_of_freedom(problem: Problem, label: str) -> Problem:
     for name in ("K", "M", "C", "D"):
         matrix = getattr(structure, name)
         if matrix is not None:
-            changed[name] = _bordered(matrix)
+            changed[name] = bordered(matrix)
     geometry = structure.geometry
     if geometry is not None:
         node, direction = (np.append(part, -1) for part in (geometry.node, geometry.direction))
@@ -98,7 +99,8 @@ def with_degree_of_freedom(problem: Problem, label: str) -> Problem:
     return edit.done()
 
 
-def _bordered(matrix: Matrix) -> Matrix:
+def bordered(matrix: Matrix) -> Matrix:
+    """A matrix with one more row and column of zeros."""
     if not is_sparse(matrix):
         return np.pad(matrix, (0, 1))
     from scipy.sparse import block_diag, csr_array
