@@ -35,7 +35,7 @@ def _of(item: Node, name: Node, elements: str) -> Node:
     replaced = {"name": f"{name.value} {elements}", "elements": elements}
     pairs = [
         (key, yaml.ScalarNode(QUOTED, replaced[key.value], value.start_mark, value.end_mark))
-        if key.value in replaced
+        if yaml_values.is_scalar(key) and key.value in replaced
         else (key, value)
         for key, value in item.value
         if key.value != "each"

@@ -63,9 +63,11 @@ class Section:
             return {}
         found: dict[str, Section] = {}
         for name, value in node.value:
+            if yaml_values.text(self.document, name, f"a name in {what}") is None:
+                continue
             if name.value in found:
                 self.document.error("MD207", name, f"{what} names '{name.value}' twice", "delete one of the two")
-            elif yaml_values.text(self.document, name, f"a name in {what}") is not None:
+            else:
                 found[name.value] = Section(self.document, value, kind, f"{what}.{name.value}")
         return found
 
