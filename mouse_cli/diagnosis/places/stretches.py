@@ -34,7 +34,7 @@ def _recipe(model: Reduced, candidate: Candidate, line: Line, share: float, stif
         return Change(softening=Softening(touched, more * bent(line, touched, a, b)))
 
     def site(values: np.ndarray) -> Site:
-        here = line.site(values[2])
+        here = line.site(sum(stretch(line, values)) / 2)  # the middle of what is covered: less than the width at an end
         return Site(here.kind, here.ids, here.position, f"{values[1]:.2g} of the length, about {here.text}")
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
