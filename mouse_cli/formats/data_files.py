@@ -52,6 +52,19 @@ def reader(package: str, path: str, what: str) -> Any:
     return (told or [each for each in own if each.claims is None] or own)[0]
 
 
+def opened(form: Any, path: str) -> Any:
+    """What `form.read(path)` gives. Raises DeckError: MD250 where the system refuses the file, MD252 where it is damaged."""
+    try:
+        return form.read(path)
+    except DeckError:
+        raise
+    except OSError as error:
+        reject("MD250", path, f"the file cannot be read: {error}", "check the file and its permissions")
+    except Exception as error:  # readers of damaged files, NumPy's and SciPy's too, raise whatever their parts do
+        what = str(error).split("\n")[0][:200] or type(error).__name__
+        reject("MD252", path, f"damaged, or not of the format '{form.key}': {what}", "write the file anew")
+
+
 def rows_of(package: str, path: str, what: str, nothing: str, help: str) -> Any:
     """What the format of `package` reads of the file `path`. Raises DeckError (MD250 to MD262), also where that is nothing."""
     form = reader(package, path, what)

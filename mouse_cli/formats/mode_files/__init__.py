@@ -5,9 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli._errors import DeckError
 from mouse_cli.formats import data_files
-from mouse_cli.formats.data_files import reject
 
 
 @dataclass(frozen=True)
@@ -39,9 +37,4 @@ class ModeFormat:
 def read_modes(path: str) -> ModeTable:
     """The mode shapes in the file `path`. Raises DeckError (MD250 to MD262)."""
     form = data_files.reader(__name__, path, "a file of mode shapes")
-    try:
-        return form.read(path)
-    except DeckError:
-        raise
-    except OSError as error:
-        reject("MD250", path, f"the file cannot be read: {error}", "check the file and its permissions")
+    return data_files.opened(form, path)

@@ -71,25 +71,13 @@ def read_contents(path: str) -> Contents:
     """What the file `path` holds. Raises RecordError (MD250 to MD261, MD601) for one that cannot be read or holds nothing."""
     try:
         form = data_files.reader(__name__, path, "a recording")
-        contents = _read(form, path)
+        contents = data_files.opened(form, path)
     except DeckError as error:
         raise RecordError(error.diagnostics) from error
     if not contents.columns and not contents.functions:
         because = f": {'; '.join(contents.remarks[:3])}" if contents.remarks else ""
         _refuse("MD601", path, f"the file holds no channel of numbers{because}", "give a file with measured data")
     return contents
-
-
-def _read(form: RecordingFormat, path: str) -> Contents:
-    try:
-        return form.read(path)
-    except DeckError:
-        raise
-    except OSError as error:
-        reject("MD250", path, f"the file cannot be read: {error}", "check the file and its permissions")
-    except Exception as error:  # readers of damaged files, NumPy's and SciPy's too, raise whatever their parts do
-        what = str(error).split("\n")[0][:200] or type(error).__name__
-        reject("MD252", path, f"damaged, or not of the format '{form.key}': {what}", "write the file anew")
 
 
 def _refuse(code: str, path: str, message: str, help: str) -> None:
