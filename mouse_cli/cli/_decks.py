@@ -11,7 +11,9 @@ from mouse_cli._errors import WARNING, Diagnostic
 from mouse_cli.formats import file_bytes, is_yaml, read_draft
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.formats.draft import Draft
-from mouse_cli.model.problem import Problem
+from mouse_cli.model.problem import Problem, RunOptions
+
+_OF_MODES = {"pairing", "scale"}  # options that concern measured modes
 
 
 def deck_bytes(path: str) -> bytes:
@@ -40,11 +42,29 @@ def read_problem(
         raise click.UsageError("--set and --strip-73-80 are for card decks; a YAML deck has keys and options for that")
     draft = read_draft(data, shown(path), **reading)
     problem = assemble(changed(draft, changes or {}))
+    if changes is not None:
+        problem = replace(problem, warnings=problem.warnings + _idle_options(problem, changes))
     if prior is None:
         return problem
     from mouse_cli.updating.earlier import after
 
     return after(problem, prior, loosened or {})
+
+
+def _idle_options(problem: Problem, changes: dict[str, object]) -> tuple[Diagnostic, ...]:
+    """The warning (MD643) that options of the command line, or of the deck's `run:`, do nothing for its test."""
+    usual = vars(RunOptions())
+    given = {name for name, value in vars(problem.run).items() if value != usual[name]} - {"legacy", "total_mass_dofs"}
+    given |= {name for name, value in changes.items() if value is not None}
+    if not problem.by_recordings:
+        given &= _OF_MODES if problem.test is None and problem.frf else set()
+    if not given:
+        return ()
+    what = "recordings alone" if problem.by_recordings else "functions alone"
+    message = f"{', '.join(sorted(given))}: without meaning for a run on {what}"
+    return (
+        Diagnostic("MD643", WARNING, message, problem.place("run"), help="leave it out; see `mouse explain MD643`"),
+    )
 
 
 def without_laws(problem: Problem, modes: bool = False) -> tuple[Diagnostic, ...]:

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 import click
 
-from mouse_cli._errors import ERROR, Diagnostic, frame
+from mouse_cli._errors import ERROR, WARNING, Diagnostic, frame
 from mouse_cli.model.result import Cycle
 
 _COLOURS = {ERROR: "red", "warning": "yellow"}
@@ -50,6 +50,15 @@ def deliver(text: str, output: str | None, deck: str) -> None:
     from mouse_cli._atomic import write_text_atomically
 
     write_text_atomically(output, text)
+
+
+def drawn(found: object, path: str) -> None:
+    """Write the figures of an answer, or say (MD532) that there is nothing to draw. Raises WrittenError."""
+    from mouse_cli.plots import draw
+
+    if not draw(found, path):
+        told = f"nothing was written to {path}: there is nothing to draw of this answer"
+        show_diagnostics([Diagnostic("MD532", WARNING, told, help="see `mouse explain MD532`")])
 
 
 @contextmanager

@@ -13,4 +13,9 @@ CODES = {
         "The figures could not be written: the kind of file is not known, the folder is missing, or the disk is full.",
         "Name a folder, or a file that ends in .pdf, .png or .svg, in a folder that exists.",
     ),
+    "MD532": Code(
+        "nothing to draw",
+        "`--plot` was given, and no figure has anything to show: `mouse run` draws fitted functions and recordings, not modes.",
+        "`mouse diagnose deck.yaml --plot figures` draws frequencies before and after too.",
+    ),
 }

@@ -15,6 +15,12 @@ CODES = {
         "Nothing, where that is meant: clearances open, small motion. `mouse run` and `mouse diagnose` take laws into account "
         "where the test holds recordings alone.",
     ),
+    "MD643": Code(
+        "option without meaning for this test",
+        "An option of `mouse run`, or a key of `run:`, does nothing here: `pairing` and `scale` are of modes, and a run on "
+        "recordings alone is a fit of simulations that has none of the options of the runs of 1972 and after.",
+        "Leave it out. Estimator, limits and convergence of such a fit are fixed: the posterior mode, its steps taken to the end.",
+    ),
     "MD540": Code(
         "simulation that does not stay finite",
         "The deck as it is, simulated under the measured force of its recordings, grows beyond all bounds.",

@@ -105,6 +105,11 @@ class Problem:
         """Where `key` (`order`, `estimator`, `mode 3`) stands in the deck; its first line when that is not known."""
         return self.places.get(key) or Span(self.source.path, 1)
 
+    @property
+    def by_recordings(self) -> bool:
+        """Whether recordings are all that the model can be revised by."""
+        return bool(self.recordings) and self.test is None and not self.frf
+
     def __post_init__(self) -> None:
         e, p = len(self.elements), len(self.parameters)
         object.__setattr__(self, "A", frozen(self.A, (e, p), "A"))

@@ -1,6 +1,7 @@
 """What a diagnosis by recordings found, beside what every diagnosis finds."""
 
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
 
@@ -49,10 +50,11 @@ class RecordScore:
 
 @dataclass(frozen=True)
 class Trace:
-    """A stretch of an output that no fit has seen, for a figure: time in s from its beginning, measured and simulated."""
+    """A stretch of an output that no fit has seen, for figures: time in s, measured and simulated; sd of its noise."""
 
     title: str
     unit: str
+    sd: float
     time_s: np.ndarray
     measured: np.ndarray
     simulated: dict[str, np.ndarray]
@@ -60,8 +62,9 @@ class Trace:
 
 @dataclass(frozen=True)
 class Surface:
-    """The force (t,) that the record asks for at the place of the cause, its motion x and velocity v, and the fitted law there."""
+    """The force (t,) that the record asks for at the place of a law, its motion x and velocity v, and the fitted law there."""
 
+    title: str
     site: str
     x: np.ndarray
     v: np.ndarray
@@ -103,6 +106,7 @@ class RecordDiagnosis(Diagnosis):
     noise: Noise | None = None
     trace: Trace | None = None
     surface: Surface | None = None
+    after: ClassVar[str] = WITH_CAUSE
 
     @property
     def exit_code(self) -> int:

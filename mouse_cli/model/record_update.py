@@ -1,12 +1,13 @@
 """What an update by recordings found."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
 from mouse_cli.model.diagnosis import Cause
 from mouse_cli.model.problem import Problem
-from mouse_cli.model.record_diagnosis import Noise, RecordScore
+from mouse_cli.model.record_diagnosis import Noise, RecordScore, Surface, Trace
 from mouse_cli.model.result import ChiSquareTest
 
 
@@ -16,8 +17,8 @@ class RecordUpdate:
 
     theta (p,), covariance (p, p): posterior, the covariance times noise_scale, by which the stated variances were multiplied so
     that they explain what is left. laws: with revised sizes. residual: what is left of the records at the posterior; explained:
-    whether it may be noise; noise: see Noise. scores: of held-out records, by the prior model and by the revised one. channels,
-    units, sd (s,): outputs and the accuracy taken for them; inputs, fitted: names.
+    whether it may be noise; noise: see Noise. scores, trace: of held-out records, by the prior model and by the revised one;
+    surface: of the last law. channels, units, sd (s,): outputs and the accuracy taken for them; inputs, fitted: names.
     """
 
     problem: Problem
@@ -35,6 +36,9 @@ class RecordUpdate:
     inputs: tuple[str, ...]
     fitted: tuple[str, ...]
     remarks: tuple[str, ...]
+    trace: Trace | None = None
+    surface: Surface | None = None
+    after: ClassVar[str] = "revised"
 
     @property
     def sd_theta(self) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Figures of a diagnosis or an identification: one module = one figure, found by `registry`; matplotlib is optional."""
+"""Figures of an answer: one module = one figure, found by `registry`; matplotlib is optional."""
 
 import os
 from collections.abc import Callable
@@ -64,7 +64,7 @@ def require(path: str = "") -> None:
 
 
 def draw(found: Any, path: str) -> list[str]:
-    """Write every figure that has something to show; returns the names of the files.
+    """Write every figure that has something to show; returns the names of the files, none where there is nothing to draw.
 
     A path that ends in .pdf has one page a figure, another file suffix all figures below each other; else it is a folder, made
     where there is none, of PNG files. Raises WrittenError (MD531).
@@ -75,6 +75,8 @@ def draw(found: Any, path: str) -> list[str]:
     kind = _kind(path)
     with matplotlib.rc_context(STYLE):
         drawn = _figures(found)
+        if not drawn:
+            return []
         try:
             if kind == ".pdf":
                 return _pages(drawn, path)

@@ -1,12 +1,12 @@
-"""The restoring-force surface at the place of the cause: the force that the record asks for, over motion and velocity."""
+"""The restoring-force surface at the place of a law: the force that the record asks for, over motion and velocity."""
 
 import re
 from typing import Any
 
 import numpy as np
 
-from mouse_cli.model.diagnosis import Diagnosis
 from mouse_cli.model.record_diagnosis import RecordDiagnosis
+from mouse_cli.model.record_update import RecordUpdate
 from mouse_cli.model.units import Units
 from mouse_cli.plots import AFTER, BEFORE, Plot
 
@@ -14,17 +14,17 @@ _POINTS = 4000
 _TURNS = re.compile(r"\dR[XYZ]\b")
 
 
-def draw(found: Diagnosis, axes: Any) -> bool:
+def draw(found: RecordDiagnosis | RecordUpdate, axes: Any) -> bool:
     """Force over the motion, or over the velocity where that tells more of it; the fitted law on top (Masri and Caughey)."""
-    if not isinstance(found, RecordDiagnosis) or found.surface is None:
-        return False
     shown = found.surface
+    if shown is None:
+        return False
     own = slice(None, None, max(1, len(shown.x) // _POINTS))
     along, name = (
         (shown.v, "velocity") if _explains(shown.v, shown.law) > _explains(shown.x, shown.law) else (shown.x, "motion")
     )
     axes.plot(along[own], shown.force[own], ".", color=BEFORE, markersize=1.5, label="asked for by the record")
-    axes.plot(along[own], shown.law[own], ".", color=AFTER, markersize=1.5, label=f"{found.best.physics}, fitted")
+    axes.plot(along[own], shown.law[own], ".", color=AFTER, markersize=1.5, label=f"{shown.title}, fitted")
     turns, units = _TURNS.search(shown.site), found.problem.units
     rate = "/s" if name == "velocity" else ""
     axes.set_xlabel(f"{name} {shown.site}{_in(units, f'rad{rate}' if turns else f'm{rate}')}")
@@ -46,4 +46,4 @@ def _explains(along: np.ndarray, force: np.ndarray, bins: int = 40) -> float:
     return 1 - float(((force - mean[at]) ** 2).mean() / max(force.var(), 1e-300))
 
 
-PLOT = Plot("restoring-force", 35, "Restoring force at the place of the cause", draw)
+PLOT = Plot("restoring-force", 35, "Restoring force at the place of the law", draw, (RecordDiagnosis, RecordUpdate))

@@ -10,6 +10,7 @@ from click.testing import CliRunner
 from two_masses import linear, record
 
 from mouse_cli.cli.main import cli
+from mouse_cli.plots.record_residual import lines
 
 LAW = "laws:\n  - {law: cubic, variant: hardening, at: [1, 2], values: {cubic_stiffness: 1.2e8}}\n"
 
@@ -52,6 +53,33 @@ def test_the_size_of_a_law_is_revised_and_the_answer_is_a_prior(tmp_path):
     (tmp_path / "result.json").write_text(json.dumps(found))
     again = run(deck, 0, "--prior", str(tmp_path / "result.json"))
     assert again["parameters"][0]["prior"] == pytest.approx(found["parameters"][0]["posterior"])
+
+
+def test_figures_show_records_and_the_law(tmp_path):
+    pytest.importorskip("matplotlib")
+    deck, figures = record(tmp_path, hardening), tmp_path / "figures"
+    with open(deck, "a", encoding="utf-8") as file:
+        file.write(LAW)
+    run(deck, 0, "--plot", str(figures))
+    assert {path.stem for path in figures.iterdir()} == {"record-held-out", "record-residual", "restoring-force"}
+
+
+def test_lines_of_a_spectrum_are_worth_what_they_say():
+    """A sine of amplitude 3 has the mean square 4.5; white noise of sd 2 has 2 sqrt(2/t) in each line."""
+    rng, t = np.random.default_rng(1), 4096
+    sine = 3 * np.sin(2 * np.pi * 200 * np.arange(t) / t)
+    assert np.sum(lines(sine) ** 2) == pytest.approx(4.5, rel=1e-6) and np.argmax(lines(sine)) == 199
+    assert np.mean(lines(2 * rng.standard_normal(t)) ** 2) == pytest.approx(4 * 2 / t, rel=0.05)
+
+
+def test_options_without_meaning_are_told(tmp_path):
+    deck = record(tmp_path, linear)
+    with open(deck, "a", encoding="utf-8") as file:
+        file.write("run: {partials: 7}\n")
+    found = run(deck, 0, "--pairing", "number", "--scale", "none")
+    (told,) = [text for text in found["warnings"] if "MD643" in text]
+    assert "pairing, partials, scale" in told
+    assert not any("MD643" in text for text in run(record(tmp_path, linear), 0)["warnings"])
 
 
 def test_a_record_that_the_model_cannot_explain_is_said(tmp_path):

@@ -42,22 +42,22 @@ def command(
     forces, or with --output-only, the outputs alone are used. Exit 0: modes found. 1: none, or none to be trusted. 4: rejected.
     """
     from mouse_cli.cli._identify import identified, write
-    from mouse_cli.cli._terminal import progress, show_diagnostics
+    from mouse_cli.cli._terminal import drawn, progress, show_diagnostics
 
     if band and not band[0] < band[1]:
         raise click.BadParameter(f"{band[0]:g} is not below {band[1]:g}", param_hint="--band")
     if output and any(os.path.exists(s) and os.path.exists(output) and os.path.samefile(s, output) for s in sources):
         raise click.UsageError(f"-o {output} would overwrite {output}")
     if plot:
-        from mouse_cli.plots import draw, require
+        from mouse_cli.plots import require
 
-        require()
+        require(plot)
     with progress() as (_, say):
         found, warnings = identified(sources, band, orders, output_only, given, say)
     if not quiet:
         show_diagnostics((*warnings, *found.doubts, *found.remarks))
     if plot:
-        draw(found, plot)
+        drawn(found, plot)
     files = write(found, output)
     _answer(found, form, numbers, output, files)
     return found.exit_code

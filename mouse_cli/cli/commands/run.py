@@ -12,7 +12,9 @@ from mouse_cli.cli._options import PRIOR, QUIET, READING, RUN, answer, earlier, 
 @options(answer("mouse.result/1"))
 @click.option("--stacked", is_flag=True, help="The file holds several card decks, one after another.")
 @click.option(
-    "--plot", metavar="PATH", help="Write figures of fitted FRFs: to a folder, or to one file (.pdf, .png, .svg)."
+    "--plot",
+    metavar="PATH",
+    help="Write figures of fitted FRFs or recordings: to a folder, or to one file (.pdf, .png, .svg).",
 )
 @options(PRIOR, QUIET)
 @options(RUN, READING)
@@ -34,14 +36,14 @@ def command(
     Exit 0: converged, and the model explains the data. 1: do not trust the answer. 4: deck rejected. 5: no answer.
     """
     from mouse_cli.cli._decks import without_laws
-    from mouse_cli.cli._terminal import deliver, progress, show_diagnostics
-    from mouse_cli.diagnosis.time.update import by_recordings, update_records
+    from mouse_cli.cli._terminal import deliver, drawn, progress, show_diagnostics
+    from mouse_cli.diagnosis.time.update import update_records
     from mouse_cli.updating import run
 
     if plot:
         from mouse_cli.plots import require
 
-        require()
+        require(plot)
     begun, how = earlier(given.pop("prior"), given.pop("loosen")), reading(legacy, strip_73_80, overrides)
     problems = _problems(deck, stacked, run_changes(given), begun, how)
     results = []
@@ -49,11 +51,9 @@ def command(
         if not quiet:
             show_diagnostics((*problem.warnings, *without_laws(problem)))
         with progress() as (show, say):
-            results.append(update_records(problem, say) if by_recordings(problem) else run(problem, show, say))
+            results.append(update_records(problem, say) if problem.by_recordings else run(problem, show, say))
     if plot:
-        from mouse_cli.plots import draw
-
-        draw(results[-1], plot)
+        drawn(results[-1], plot)
     deliver(_text(results, form, numbers, stacked), output, deck)
     return max((result.exit_code for result in results), default=0)
 

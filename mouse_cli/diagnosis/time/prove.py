@@ -14,6 +14,7 @@ from mouse_cli.diagnosis.time.records import reduced
 from mouse_cli.diagnosis.time.regression import Regression, stepped
 from mouse_cli.diagnosis.time.series import REACH, Series
 from mouse_cli.diagnosis.time.study import Study, begin
+from mouse_cli.diagnosis.time.verdict import titled
 from mouse_cli.dynamics.response import simulate
 from mouse_cli.model.record_diagnosis import (
     AS_IT_IS,
@@ -111,13 +112,16 @@ def trace(study: Study, baseline: Fit, best: Fit | None) -> Trace | None:
             simulated[name] = part.filtered[REACH:-REACH, 0] - part.sd[0] * found.residual[0, :, 0]
     channel = study.records.outputs[0]
     time = (first + REACH + np.arange(study.length)) * one.dt
-    return Trace(
-        f"{one.title}, {channel.sensor or channel.name}", channel.unit, time, part.filtered[REACH:-REACH, 0], simulated
-    )
+    title, measured = f"{one.title}, {channel.sensor or channel.name}", part.filtered[REACH:-REACH, 0]
+    return Trace(title, channel.unit, float(part.sd[0]), time, measured, simulated)
 
 
 def surface(study: Study, best: Fit) -> Surface | None:
-    """The force that the record asks for where the law acts, line by line, and the law at the same motion."""
+    """The force that the record asks for where the last law acts, line by line, and the law at the same motion; None for a linear
+    law, or without any.
+    """
+    if not best.hypothesis.parts:
+        return None
     part, p = best.hypothesis.sizes(best.x[None])[-1]
     law, words, p = part.law, part.words, p[:, 0]
     if law.linear:
@@ -126,4 +130,4 @@ def surface(study: Study, best: Fit) -> Surface | None:
     force = look.free(best.x)
     x, v, own = look.local.x, look.local.v, look.kept
     told = stepped(law, x, v, p[:, None], words)[:, 0] if law.states else law.force(x, v, None, p, **words)[0]
-    return Surface(part.place.site.text, x[own], v[own], force[own], told[own])
+    return Surface(titled(part), part.place.site.text, x[own], v[own], force[own], told[own])

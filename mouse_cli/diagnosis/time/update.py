@@ -7,7 +7,7 @@ import numpy as np
 from mouse_cli.diagnosis.time.hypothesis import Hypothesis, Part, Place
 from mouse_cli.diagnosis.time.noise import noise
 from mouse_cli.diagnosis.time.polish import Fit, Polish, followed
-from mouse_cli.diagnosis.time.prove import scores
+from mouse_cli.diagnosis.time.prove import scores, surface, trace
 from mouse_cli.diagnosis.time.records import Records, records
 from mouse_cli.diagnosis.time.search import Notice, missing
 from mouse_cli.diagnosis.time.study import Study, begin, study
@@ -24,11 +24,6 @@ from mouse_cli.updating.refusals import not_simulated
 
 _RANGE = 30.0  # factor within which a parameter of a law may be revised
 _STEP = 1e-4  # of finite differences, in prior sd
-
-
-def by_recordings(problem: Problem) -> bool:
-    """Whether recordings are all that a deck can be revised by."""
-    return bool(problem.recordings) and problem.test is None and not problem.frf
 
 
 def update_records(problem: Problem, notice: Notice) -> RecordUpdate:
@@ -56,6 +51,8 @@ def update_records(problem: Problem, notice: Notice) -> RecordUpdate:
         explained=not missing(fit) or left is not None,
         noise=left,
         scores=scores(own, prior, fit),
+        trace=trace(own, prior, fit),
+        surface=surface(own, fit),
         remarks=found.remarks + own.model.remarks,
         **_told(found),
     )

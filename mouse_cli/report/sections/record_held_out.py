@@ -13,15 +13,14 @@ def held_out(found: RecordDiagnosis | RecordUpdate, options: Options) -> Iterato
     """One line a record and output."""
     if not found.scores:
         return
-    after = "with the cause" if isinstance(found, RecordDiagnosis) else "revised"
     columns = (
         Column("record", align=LEFT),
         Column("output", align=LEFT),
         Column("rms measured"),
         Column("short horizon, as it is"),
-        Column(after),
+        Column(found.after),
         Column("whole record, as it is"),
-        Column(after),
+        Column(found.after),
     )
     rows = [
         (one.title, channel, f"{one.signal[i]:.4g}", *_row(one, i))
