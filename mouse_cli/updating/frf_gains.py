@@ -15,6 +15,7 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.observables.frf import names
 from mouse_cli.terms.further import with_parameters
 
+Chains = dict[tuple[str, ...], tuple[str, float]]  # responses by their name, forces by that of their measurement too
 _NONE = -1  # a chain whose gain is known
 
 
@@ -40,28 +41,33 @@ class Gains:
 def with_gains(problem: Problem) -> Problem:
     """The problem with a parameter for each gain that its measurements leave uncertain; itself where they leave none."""
     return with_parameters(
-        problem, [Parameter(name, sd, 1.0, transform="log") for name, sd in _chains(problem).values()]
+        problem, [Parameter(name, sd, 1.0, transform="log") for name, sd in chains(problem.frf).values()]
     )
 
 
 def gains(problem: Problem, tests: tuple[FrfTest, ...]) -> Gains:
     """Which of the parameters of `problem`, as `with_gains` made it, are gains of `tests`."""
-    chains = list(_chains(problem))
-    first = len(problem.parameters) - len(chains)
-    at = {key: first + i for i, key in enumerate(chains)}
+    known = chains(problem.frf)
+    return numbered(tests, known, len(problem.parameters) - len(known))
+
+
+def numbered(tests: tuple[FrfTest, ...], known: Chains, first: int = 0) -> Gains:
+    """Gains of `tests`, those of `known` being parameters from number `first` on."""
+    at = {key: first + i for i, key in enumerate(known)}
     outputs = (np.array([at.get(key, _NONE) for key in _responses(test)], int) for test in tests)
     inputs = (np.array([at.get(key, _NONE) for key in _forces(test)], int) for test in tests)
     return Gains(tuple(outputs), tuple(inputs))
 
 
-def _chains(problem: Problem) -> dict[tuple[str, ...], tuple[str, float]]:
-    """Name and sd of the gain of each chain: that of the first measurement that has it."""
-    found: dict[tuple[str, ...], tuple[str, float]] = {}
-    for test in problem.frf:
-        for keys, kind in ((_responses(test), "response"), (_forces(test), "force")) if test.gain_sd else ():
+def chains(tests: tuple[FrfTest, ...], unstated: float = 0.0) -> Chains:
+    """Name and sd of the gain of each chain, as the first measurement says that has it; unstated: sd where one says none."""
+    found: Chains = {}
+    for test in tests:
+        sd = test.gain_sd or unstated
+        for keys, kind in ((_responses(test), "response"), (_forces(test), "force")) if sd else ():
             for name, key in zip(names(test)[kind == "force"], keys, strict=True):
-                title = f" of {test.title}" if kind == "force" and len(problem.frf) > 1 else ""
-                found.setdefault(key, (f"gain of {kind} {name}{title}", test.gain_sd))
+                title = f" of {test.title}" if kind == "force" and len(tests) > 1 else ""
+                found.setdefault(key, (f"gain of {kind} {name}{title}", sd))
     return found
 
 

@@ -108,7 +108,7 @@ def test_jacobian_is_the_slope_of_the_functions(control, name):
 
 def test_a_gain_multiplies_its_row(control):
     model, x = model_of(control, None)
-    chain = model.gains.outputs[0][2]
+    chain = model.gains.chains.outputs[0][2]
     there = x.copy()
     there[model.lossy + chain] = 1.5
     ratio = model.point(there).parts[0].H / model.point(x).parts[0].H

@@ -143,7 +143,7 @@ def _carried(one: Fit, heard: Tests, model: FrfModel, tests: Tests) -> tuple[np.
 def _chains(model: FrfModel, tests: Tests) -> dict[tuple[str, ...], int]:
     """Which gain belongs to each response by its name, and to each force by its name and measurement."""
     found: dict[tuple[str, ...], int] = {}
-    for test, outputs, inputs in zip(tests, model.gains.outputs, model.gains.inputs, strict=True):
+    for test, outputs, inputs in zip(tests, model.gains.chains.outputs, model.gains.chains.inputs, strict=True):
         found |= {(name,): int(k) for name, k in zip(names(test)[0], outputs, strict=True)}
         found |= {(test.title, name): int(k) for name, k in zip(names(test)[1], inputs, strict=True)}
     return found

@@ -1,6 +1,6 @@
 """`test: frf:` of a YAML deck."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,39 +17,21 @@ from mouse_cli.formats.yaml_deck.channel_maps import Known, pairs, placed
 from mouse_cli.formats.yaml_deck.frf_parts import Parts, gain_sd, listed, parts
 from mouse_cli.formats.yaml_deck.kinds import KINDS
 from mouse_cli.formats.yaml_deck.nodes import Node
-from mouse_cli.formats.yaml_deck.recordings import Files, contents, title
+from mouse_cli.formats.yaml_deck.recordings import Files, contents, entries, title
 from mouse_cli.formats.yaml_deck.sections import Section
 from mouse_cli.model.frf_test import FORMS, MOST_LINES
 from mouse_cli.model.units import Units
 
 FREQUENCY_NAMES = ("f", "freq", "freqs", "frequency", "frequencies", "freq_hz", "f_hz", "frequency_hz", "hz")
 
-
-@dataclass
-class Line:
-    """One function on its way: where it acts, what it is."""
-
-    output: SensorDraft
-    input: SensorDraft
-    frequency_hz: np.ndarray
-    values: np.ndarray
-    kind: str = ""
-    unit: str = ""
-    variance: np.ndarray | None = None
-    coherence: np.ndarray | None = None
-    decay_rate: float = 0.0
+Placed = tuple[SensorDraft, SensorDraft, Function]  # a function, with the sensors of its response and of its force
 
 
 def functions(test: Section | None, named: list[SensorDraft], files: Files, units: Units) -> list[FrfDraft]:
     """The measurements that could be read; entries of one title are one, and each file is read once."""
-    if test is None or "frf" not in test:
-        return []
-    what, document = test.what("frf"), test.document
-    items = yaml_values.items(document, test.nodes["frf"], what, "a list, one item for each file") or []
     known = {sensor.name: sensor for sensor in named}
-    sections = [Section(document, item, "frf", f"{what}[{i}]") for i, item in enumerate(items, 1)]
-    found = [_entry(section, known, files, units) for section in sections]
-    return merged([one for one in found if one is not None], document)
+    found = [_entry(section, known, files, units) for section in entries(test, "frf", "frf", "one item for each file")]
+    return merged([one for one in found if one is not None], test.document) if found else []
 
 
 def _entry(section: Section, known: Known, files: Files, units: Units) -> FrfDraft | None:
@@ -65,7 +47,7 @@ def _entry(section: Section, known: Known, files: Files, units: Units) -> FrfDra
     return None if whole is None else replace(whole, form=form, lines=most, gain_sd=gain_sd(section) or 0.0)
 
 
-def _own(section: Section, held: Contents, known: Known) -> list[Line]:
+def _own(section: Section, held: Contents, known: Known) -> list[Placed]:
     """Functions of a file that names response and force of each; `inputs` and `outputs` choose and rename."""
     chosen = {
         key: _renamed(section, key, known, {getattr(f, key[:-1]) for f in held.functions})
@@ -78,18 +60,12 @@ def _own(section: Section, held: Contents, known: Known) -> list[Line]:
             for key, name in (("outputs", each.output), ("inputs", each.input))
         )
         if output is not None and force is not None:
-            found.append(_line(output, force, each))
+            found.append((output, force, each))
     if not found and not section.document.incomplete:
         section.document.error(
             "MD600", section.node, f"{section.called} chooses no function of the file", "correct inputs and outputs"
         )
     return found
-
-
-def _line(output: SensorDraft, force: SensorDraft, each: Function) -> Line:
-    return Line(
-        output, force, each.frequency_hz, each.values, each.kind, each.unit, each.variance, each.coherence, each.decay_rate
-    )  # fmt: skip
 
 
 def _renamed(section: Section, key: str, known: Known, names: set[str]) -> dict[str, SensorDraft] | None:
@@ -122,7 +98,7 @@ def _sensor(
     )
 
 
-def _columns(section: Section, held: Contents, known: Known) -> list[Line]:
+def _columns(section: Section, held: Contents, known: Known) -> list[Placed]:
     """Functions in channels of a file, or given in the deck."""
     document = section.document
     for key in ("inputs", "kind")[:1]:
@@ -149,7 +125,7 @@ def _columns(section: Section, held: Contents, known: Known) -> list[Line]:
     if force is None or hz is None or any(each is None for _, each in found):
         return []
     return [
-        Line(output, force, hz, each.values, coherence=each.coherence)
+        (output, force, Function(output.name, force.name, hz, each.values, coherence=each.coherence))
         for output, each in found
         if _fits(section, output, each, hz)
     ]
@@ -172,13 +148,13 @@ def _fits(section: Section, output: SensorDraft, each: Parts, hz: np.ndarray) ->
     return False
 
 
-def _draft(section: Section, lines: list[Line], units: Units) -> FrfDraft | None:
+def _draft(section: Section, lines: list[Placed], units: Units) -> FrfDraft | None:
     """One measurement of all lines of an entry, in the units of the deck."""
     document, where = section.document, section.document.span(section.nodes.get("file", section.node))
     kind, spelled, averages = section.value("kind", ""), section.value("unit", ""), section.value("averages")
     relative, absolute = _accuracy(section)
     found = []
-    for line in lines:
+    for output, force, line in lines:
         scale = scaled(kind, spelled, line.unit, line.kind, units, document, where)
         if scale is None:
             return None
@@ -190,7 +166,7 @@ def _draft(section: Section, lines: list[Line], units: Units) -> FrfDraft | None
         shape = (len(H), 1, 1)
         found.append(FrfDraft(
             title(section), section.nodes["file"].value if "file" in section else "", scale[0], line.frequency_hz, H.reshape(shape),
-            each.reshape(shape), (line.output,), (line.input,), coherence, where,
+            each.reshape(shape), (output,), (force,), coherence, where,
             decay_rate=section.value("decay_rate", line.decay_rate),
         ))  # fmt: skip
     whole = merged(found, document)

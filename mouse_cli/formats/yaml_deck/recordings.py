@@ -19,14 +19,19 @@ Files = dict[str, Contents | None]
 
 def recordings(test: Section | None, named: list[SensorDraft], files: Files, units: Units) -> list[RecordingDraft]:
     """Those that could be read; each file is read once."""
-    if test is None or "recordings" not in test:
-        return []
-    what, document = test.what("recordings"), test.document
-    items = yaml_values.items(document, test.nodes["recordings"], what, "a list, one item for each recording") or []
     known = {sensor.name: sensor for sensor in named}
-    sections = [Section(document, item, "recording", f"{what}[{i}]") for i, item in enumerate(items, 1)]
+    sections = entries(test, "recordings", "recording", "one item for each recording")
     found = [_recording(section, known, files, units) for section in sections]
     return [one for one in found if one is not None]
+
+
+def entries(test: Section | None, key: str, kind: str, words: str) -> list[Section]:
+    """The items of the list `key` of the test as sections of the `kind`; none where it is not given."""
+    if test is None or key not in test:
+        return []
+    what = test.what(key)
+    items = yaml_values.items(test.document, test.nodes[key], what, f"a list, {words}") or []
+    return [Section(test.document, item, kind, f"{what}[{i}]") for i, item in enumerate(items, 1)]
 
 
 def contents(section: Section, files: Files) -> Contents | None:
