@@ -17,6 +17,7 @@ RANKS = {
     "plots": 6,
     "diagnosis": 5,
     "updating": 4,
+    "coupling": 4,
     "estimators": 3,
     "observables": 3,
     "terms": 2,

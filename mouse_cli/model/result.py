@@ -147,7 +147,8 @@ class Forecast:
     """Answer of `modes`: natural frequencies and shapes of the prior model with the uncertainty the prior gives them.
 
     frequencies_hz, sd_hz (k,); shapes, shape_sd (n, k), mass-normalised, largest component positive. damped: of a model that has
-    damping.
+    damping. root_hz (k, r): derivatives of the frequencies by what the prior leaves uncertain, in its units, so that their
+    covariance is root root'.
     """
 
     problem: Problem
@@ -157,6 +158,7 @@ class Forecast:
     shape_sd: np.ndarray
     rigid_modes: int
     damped: "DampedModes | None" = None
+    root_hz: np.ndarray | None = None
 
 
 @dataclass(frozen=True)

@@ -3,15 +3,17 @@
 from typing import Any
 
 from mouse_cli.model.correlation import Correlation
+from mouse_cli.model.coupled import Coupled
 from mouse_cli.model.diagnosis import Diagnosis
 from mouse_cli.model.identification import Identification
+from mouse_cli.model.modified import Modified
 from mouse_cli.model.record_diagnosis import RecordDiagnosis
 from mouse_cli.model.record_update import RecordUpdate
 from mouse_cli.model.result import Forecast, Result
 from mouse_cli.model.spectra import SpectraResult
 from mouse_cli.report.section import Options
 
-Subject = Result | Forecast | Correlation | Diagnosis | RecordUpdate | SpectraResult | Identification
+Subject = Result | Forecast | Correlation | Diagnosis | RecordUpdate | SpectraResult | Identification | Coupled | Modified
 
 __all__ = ["Options", "document", "markdown", "printout", "written"]
 
@@ -43,9 +45,11 @@ def document(subject: Subject) -> dict[str, Any]:
     """The report of `subject` as JSON can hold it: no NaN, no infinity, plain Python values."""
     from mouse_cli.report import (
         correlation_document,
+        coupling_document,
         diagnosis_document,
         identification_document,
         modes_document,
+        modification_document,
         record_document,
         record_update_document,
         result_document,
@@ -60,5 +64,7 @@ def document(subject: Subject) -> dict[str, Any]:
         RecordUpdate: record_update_document,
         Identification: identification_document,
         SpectraResult: spectra_document,
+        Coupled: coupling_document,
+        Modified: modification_document,
     }
     return documents.get(type(subject), result_document).document(subject)

@@ -40,23 +40,25 @@ def forecast(problem: Problem, count: int | None = None, notice: Notice = lambda
     sign = np.sign(solution.shapes[np.abs(solution.shapes).argmax(axis=0), np.arange(len(solution.eigenvalues))])
     prior = coordinates(problem, assembly)
     pattern = forces(assembly.n, assembly.p, assembly.slopes(problem.prior.mean))
-    sd_lambda, sd_shape = np.zeros(k), np.zeros((len(dofs), k))
+    sd_shape = np.zeros((len(dofs), k))
     if len(dofs) > _MOST:
         at = np.zeros(0, int) if problem.test is None else np.unique(problem.test.dofs)
         partials = modal_partials(solution, K, M, modes, at, pattern)
-        sd_lambda, sd_shape[:] = _sd(partials.d_lambda, prior), np.nan
+        root, sd_shape[:] = _root(partials.d_lambda, prior), np.nan
         sd_shape[at] = np.reshape([_sd(each, prior) for each in partials.d_shape], (k, len(at))).T
     else:
+        root = _root(np.zeros((k, assembly.p)), prior)
         for i in modes:  # mode by mode: the partials of all shapes at once would be n times larger than the model
             partials = modal_partials(solution, K, M, modes[i : i + 1], dofs, pattern)
-            sd_lambda[i] = _sd(partials.d_lambda, prior)[0]
+            root[i] = _root(partials.d_lambda, prior)[0]
             sd_shape[:, i] = _sd(partials.d_shape[0], prior)
     hz = solution.frequencies_hz[:k]
-    sd_hz = np.where(hz > 0, sd_frequency_hz(hz, sd_lambda), 0.0)
     rigid = solution.rigid(reference_eigenvalue(problem, solution.eigenvalues))
-    sd_hz[: min(rigid, k)] = 0.0
+    elastic = (hz > 0) & (modes >= rigid)
+    root_hz = np.where(elastic[:, None], sd_frequency_hz(hz[:, None], root), 0.0)
+    sd_hz = np.linalg.norm(root_hz, axis=1)
     damped = _damped(problem, assembly, Dynamics(K, M, *assembly.damping(problem.prior.mean)), solution, k - rigid)
-    return Forecast(problem, hz, sd_hz, (solution.shapes * sign)[:, :k], sd_shape, rigid, damped)
+    return Forecast(problem, hz, sd_hz, (solution.shapes * sign)[:, :k], sd_shape, rigid, damped, root_hz)
 
 
 def _damped(
@@ -78,7 +80,11 @@ def _damped(
     )
 
 
+def _root(T: np.ndarray, prior: Coordinates) -> np.ndarray:
+    """Root B (q, r) of the covariance B B' of data whose derivatives by the values of the parameters are T (q, p)."""
+    return in_prior_units(T * prior.slope(prior.mean), prior.L)
+
+
 def _sd(T: np.ndarray, prior: Coordinates) -> np.ndarray:
     """Standard deviations (q,) of data whose derivatives by the values of the parameters are T (q, p)."""
-    B = in_prior_units(T * prior.slope(prior.mean), prior.L)
-    return np.sqrt(np.einsum("ij,ij->i", B, B))
+    return np.linalg.norm(_root(T, prior), axis=1)

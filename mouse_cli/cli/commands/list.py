@@ -57,6 +57,13 @@ def _expansions() -> Iterator[tuple[str, str]]:
         yield key, f"{expansion.title}: {expansion.equation}"
 
 
+def _reductions() -> Iterator[tuple[str, str]]:
+    from mouse_cli.coupling.reductions import registry
+
+    for key, reduction in registry().items():
+        yield key, f"{reduction.title}: {reduction.equation}"
+
+
 def _elements() -> Iterator[tuple[str, str]]:
     from mouse_cli.terms.elements import registry
 
@@ -95,6 +102,7 @@ KINDS: dict[str, Callable[[], Iterator[tuple[str, str]]]] = {
     "groups": _groups,
     "plots": _plots,
     "recursions": _recursions,
+    "reductions": _reductions,
     "sections": _sections,
     "statuses": _statuses,
 }

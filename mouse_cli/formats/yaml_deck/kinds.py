@@ -45,6 +45,7 @@ _IDS = {"anyOf": [_RANGE, _list(_RANGE, minItems=1)]}
 _DIRECTIONS = _list({"enum": list(DIRECTIONS)}, minItems=1)
 _VECTOR = _list(_NUMBER, minItems=2, maxItems=3)
 _INLINE_NODES = {"type": "object", "minProperties": 1, "additionalProperties": _VECTOR}
+_POINTS = {"type": "object", "additionalProperties": {"anyOf": [_NAME, _list(_NAME, minItems=1)]}, "minProperties": 1}
 _POSITIONS = {"anyOf": [_INLINE_NODES, {"$ref": "#/$defs/node_block"}]}
 KINDS = {
     "text": Kind("text", _NAME),
@@ -122,6 +123,12 @@ KINDS = {
     "renames": Kind(
         "{sensor: name in the file, ...}", {"type": "object", "additionalProperties": _NAME, "minProperties": 1}
     ),
+    "point": Kind(
+        "a degree of freedom, or {substructure: degree of freedom}",
+        {"anyOf": [_NAME, {"type": "object", "additionalProperties": _NAME, "minProperties": 1, "maxProperties": 1}]},
+    ),
+    "points": Kind("{substructure: degrees of freedom, ...}", _POINTS),
+    "joined": Kind("a list of {substructure: degrees of freedom, substructure: degrees of freedom}", _list(_POINTS)),
     "value or values": Kind(
         "a number, or a list of one number for each element", {"anyOf": [_NUMBER, _list(_NUMBER, minItems=1)]}
     ),

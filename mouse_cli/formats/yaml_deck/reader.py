@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from mouse_cli._errors import DeckError
 from mouse_cli.formats.draft import Draft
 from mouse_cli.formats.mesh_draft import MeshDraft
 from mouse_cli.formats.rules import review
@@ -30,6 +31,7 @@ def read(text: str | bytes, path: str) -> Draft:
     document, root = compose(text, path)
     deck = Section(document, root, "deck")
     deck.value("mouse")
+    _for_others(deck)
     draft = _draft(deck)
     draft.laws = laws(deck)
     draft.modal_damping = modal_damping(deck)
@@ -37,6 +39,15 @@ def read(text: str | bytes, path: str) -> Draft:
     if document.incomplete:
         raise review(draft)
     return draft
+
+
+def _for_others(deck: Section) -> None:
+    """Raise DeckError (MD700) for a deck that holds no model, but what other commands read."""
+    for key in ("couple", "modify"):
+        if key in deck:
+            message = f"the deck holds {key} in place of a model"
+            deck.document.error("MD700", deck.nodes[key], message, f"ask `mouse {key}` for its answer")
+            raise DeckError(deck.document.diagnostics)
 
 
 def _draft(deck: Section) -> Draft:

@@ -11,7 +11,9 @@ SECTIONS = {
             "title": Key("text", "heading of the printout", "empty"),
             "source": Key("text", "where the deck or its numbers come from", "empty"),
             "units": Key("choice", "units of length, mass and force; time is in s", "not told", choices=tuple(SYSTEMS)),
-            "model": Key("section model", "the matrices before the test", required=True),
+            "model": Key("section model", "the matrices before the test"),
+            "couple": Key("section couple", "in place of a model: substructures, for `mouse couple`"),
+            "modify": Key("section modify", "in place of a model: changes of another deck's, for `mouse modify`"),
             "modal_damping": Key(
                 "section modal_damping", "damping by ratios of modes", "that of elements and matrices alone"
             ),
@@ -22,5 +24,6 @@ SECTIONS = {
             "test": Key("section test", "what was measured", "none: the deck asks only for modes"),
             "run": Key("section run", "how to run", "the defaults below"),
         },
+        needs=(("model",), ("couple",), ("modify",)),
     ),
 }

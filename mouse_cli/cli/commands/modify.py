@@ -1,0 +1,86 @@
+"""mouse modify: masses, springs, dashpots and absorbers added to a model, and which of them move a mode where it should be."""
+
+import re
+from dataclasses import replace
+
+import click
+
+from mouse_cli.cli._changes import CHANGES, changes_text
+from mouse_cli.cli._options import PRIOR, QUIET, READING, answer, earlier, options, reading
+
+_MODIFY = re.compile(r"^modify\s*:", re.MULTILINE)
+
+
+@click.command()
+@click.argument("deck")
+@options(CHANGES)
+@click.option("-n", "--count", type=click.IntRange(min=1), help="How many modes, from the lowest.")
+@click.option("--plot", metavar="PATH", help="Write figures: to a folder, or to one file (.pdf, .png, .svg).")
+@options(answer("mouse.modification/1"))
+@options(PRIOR, QUIET)
+@options(READING)
+def command(
+    deck: str, count: int | None, plot: str | None, prior: str | None, loosen: tuple[str, ...], quiet: bool, legacy: bool,
+    strip_73_80: bool, overrides: tuple[str, ...], output: str | None, form: str | None, numbers: str | None, **given: object,
+) -> int:  # fmt: skip
+    """Predict what changes do to the model of DECK, with the uncertainty of its properties.
+
+    DECK is a model with changes as options, or a YAML deck that holds `modify:`.
+
+    Exit 1: a target cannot be met.
+    """
+    from mouse_cli.cli._terminal import deliver, json_text, progress, show_diagnostics
+    from mouse_cli.coupling import modify
+    from mouse_cli.report import document, written
+
+    if plot:
+        from mouse_cli.plots import require
+
+        require(plot)
+    modification = _read(deck, given, count, earlier(prior, loosen), reading(legacy, strip_73_80, overrides))
+    with progress() as (_, say):
+        found = modify(modification, say)
+    if not quiet:
+        show_diagnostics(found.warnings)
+    if plot:
+        from mouse_cli.plots import draw
+
+        draw(found, plot)
+    deliver(
+        json_text(document(found)) if form == "json" else written(found, form or "printout", numbers or "modern"),
+        output,
+        deck,
+    )
+    return int(_missed(found))
+
+
+def _read(deck: str, given: dict[str, object], count: int | None, begun: dict, how: dict):
+    """The changes of a deck that holds `modify:`, or those of the options."""
+    from mouse_cli.cli._decks import deck_bytes, read_problem, shown
+    from mouse_cli.formats import is_yaml
+    from mouse_cli.formats.yaml_deck import modified
+    from mouse_cli.updating.earlier import after
+
+    data = b"" if deck == "-" else deck_bytes(deck)
+    if not (is_yaml(data, deck) and _MODIFY.search(data.decode("utf-8", "replace"))):
+        problem = read_problem(deck, **begun, **how)
+        return replace(modified.read(changes_text(given, count), "<options>", problem), path=shown(deck))
+    if any(value for value in given.values()):
+        raise click.UsageError(
+            "changes as options are for a deck with a model; this one holds modify: write them there"
+        )
+    found = modified.read(data, shown(deck))
+    if count:
+        found = replace(found, count=count)
+    if not begun["prior"]:
+        return found
+    problem = after(found.problem, begun["prior"], begun["loosened"])
+    return replace(found, part=replace(found.part, problem=problem), warnings=(*found.warnings, *problem.warnings))
+
+
+def _missed(found) -> bool:
+    """Whether no place meets some target."""
+    met: dict = {}
+    for need in found.needs:
+        met[need.target] = met.get(need.target, False) or need.value == need.value
+    return not all(met.values())

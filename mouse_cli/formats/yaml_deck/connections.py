@@ -1,0 +1,90 @@
+"""Masses, springs, dashpots and absorbers of a deck of coupled or modified structures."""
+
+import numpy as np
+
+from mouse_cli.formats.yaml_deck import values as yaml_values
+from mouse_cli.formats.yaml_deck.coupled_places import Places
+from mouse_cli.formats.yaml_deck.sections import Section
+from mouse_cli.model.coupling import Connection
+
+
+def connections(section: Section, key: str, places: Places) -> list[Connection]:
+    """The connections that could be read."""
+    if key not in section:
+        return []
+    what, document = section.what(key), section.document
+    items = yaml_values.items(document, section.nodes[key], what, "a list, one item for each") or []
+    read = [
+        _connection(Section(document, item, "connection", f"{what}[{i}]"), places) for i, item in enumerate(items, 1)
+    ]
+    return [one for one in read if one is not None]
+
+
+def _connection(section: Section, places: Places) -> Connection | None:
+    document = section.document
+    at, to = (places.point(section.nodes[key], section.what(key)) if key in section else None for key in ("at", "to"))
+    if at is None or ("to" in section and to is None) or not _sound(section):
+        return None
+    values = _absorber(section) if "absorber" in section else _direct(section)
+    if values is None:
+        return None
+    if to == at:
+        return document.error(
+            "MD708", section.nodes["to"], f"{section.called} joins a place to itself", "leave to out, for the ground"
+        )
+    name = section.value("name") or next(k for k in ("absorber", "spring", "dashpot", "mass") if k in section)
+    return Connection(name, at, to, where=document.span(section.node), **values)
+
+
+def _sound(section: Section) -> bool:
+    """Whether the keys go together and the numbers are ones."""
+    document, before = section.document, len(section.document.diagnostics)
+    alone = "absorber" if "absorber" in section else "mass" if "mass" in section else ""
+    for key in ("mass", "spring", "dashpot", "loss_factor", "to", "absorber"):
+        if alone and key in section and key != alone:
+            help = "give each its own item of the list"
+            document.error("MD708", section.nodes[key], f"{section.called} holds {alone} and {key}", help)
+    if "loss_factor" in section and "spring" not in section and not alone:
+        document.error(
+            "MD708", section.nodes["loss_factor"], f"{section.called} has a loss factor and no spring", "give spring"
+        )
+    for key in ("mass", "spring", "dashpot", "loss_factor"):
+        value = section.value(key, 1.0) if key in section else 1.0
+        if not np.isfinite(value) or (value == 0 and key in ("mass", "spring")):
+            document.error(
+                "MD215", section.nodes[key], f"{section.what(key)} is {value:g}", "give a finite number other than 0"
+            )
+    return len(document.diagnostics) == before
+
+
+def _direct(section: Section) -> dict[str, float]:
+    return {
+        "mass": section.value("mass", 0.0),
+        "stiffness": section.value("spring", 0.0),
+        "loss_factor": section.value("loss_factor", 0.0),
+        "damping": section.value("dashpot", 0.0),
+    }
+
+
+def _absorber(section: Section) -> dict[str, object] | None:
+    below = section.section("absorber")
+    mass, hz, mode = below.value("mass"), below.value("frequency"), below.value("tuned_to")
+    if mass is None or (hz is None) == (mode is None):
+        if mass is not None:
+            below.document.error(
+                "MD708", below.node, f"{below.called} gives frequency and tuned_to", "give one of them"
+            )
+        return None
+    if not (np.isfinite(mass) and mass > 0) or (hz is not None and not (np.isfinite(hz) and hz > 0)):
+        return below.document.error(
+            "MD215", below.node, f"{below.called} has no mass or no frequency", "give positive numbers"
+        )
+    return absorber(mass, hz, below.value("damping_ratio"), mode)
+
+
+def absorber(mass: float, hz: float | None, ratio: float | None, mode: int | None = None) -> dict[str, object]:
+    """Stiffness m (2 pi f)^2 and damping 2 zeta m 2 pi f of an absorber; one that is to be tuned keeps `mode` for later."""
+    if hz is None:
+        return {"mass": mass, "hung": True, "tuned_to": mode, "ratio": ratio}
+    omega = 2 * np.pi * hz
+    return {"mass": mass, "stiffness": mass * omega**2, "damping": 2 * (ratio or 0.0) * mass * omega, "hung": True}

@@ -1,0 +1,37 @@
+"""Peaks of the functions of coupled structures."""
+
+from collections.abc import Iterator
+
+from mouse_cli.formats.frf_values import response_unit
+from mouse_cli.model.coupled import Coupled, Peak
+from mouse_cli.report.blocks import Block, Column, Table, Text
+from mouse_cli.report.section import Options, Section
+from mouse_cli.report.sections._wording import LEFT
+
+
+def functions(found: Coupled, options: Options) -> Iterator[Block]:
+    """One line a peak, with its standard deviation where the parts' accuracy is known."""
+    frf = found.functions
+    if frf is None:
+        return
+    yield Text(
+        f"{frf.kind.capitalize()} at {len(frf.frequency_hz)} lines from {{}} to {{}} Hz; `--json` and `--functions` give them all.",
+        (float(frf.frequency_hz[0]), float(frf.frequency_hz[-1])),
+    )
+    units = found.coupling.units
+    yield peak_table(found.peaks, response_unit(frf.kind, units) if units.declared else "")
+    if found.interface is not None and (found.interface.noise > 0).any():
+        yield Text("Standard deviations are those that the measured functions carry to the whole, to first order.")
+
+
+def peak_table(peaks: tuple[Peak, ...], unit: str) -> Table:
+    """Response, force, frequency, height with its sd, phase."""
+    columns = (
+        Column("response", align=LEFT, literal=True), Column("force", align=LEFT, literal=True), Column("peak at", "Hz"),
+        Column("magnitude", unit), Column("standard deviation", unit), Column("phase", "degrees"),
+    )  # fmt: skip
+    rows = tuple((p.response, p.force, p.hz, p.magnitude, p.sd if p.sd > 0 else None, p.phase) for p in peaks)
+    return Table(columns, rows, 2).without_empty_columns()
+
+
+SECTION = Section("coupling-functions", 30, "Frequency response functions of the whole", functions, (Coupled,))
