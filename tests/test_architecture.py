@@ -18,6 +18,7 @@ RANKS = {
     "diagnosis": 5,
     "updating": 4,
     "coupling": 4,
+    "methods": 4,
     "estimators": 3,
     "observables": 3,
     "terms": 2,

@@ -47,12 +47,27 @@ class RigidLink:
 
 
 @dataclass(frozen=True)
+class GenericGroup:
+    """Like elements (numbers, as the deck names them) whose stiffness U0 k U0' a method may revise as one.
+
+    couplings: which of k12, k13, k23 may differ from zero; a symmetric element has neither k12 nor k13.
+    """
+
+    name: str
+    elements: np.ndarray
+    couplings: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "elements", frozen(self.elements, (len(self.elements),), "elements", int))
+
+
+@dataclass(frozen=True)
 class Mesh:
     """k nodes and what is between them.
 
     node_ids (k,); coordinates (k, 3) in m. supports (c, 2): (node index, direction) that cannot move. directions: the ones kept
     at every node (all six, or those of a plane). gravity (3,): acceleration in m/s^2 whose axial forces stiffen or soften
-    (P-delta); None: not considered.
+    (P-delta); None: not considered. generic: groups of like elements for methods that revise their stiffness as a whole.
     """
 
     node_ids: np.ndarray
@@ -62,6 +77,7 @@ class Mesh:
     links: tuple[RigidLink, ...] = ()
     directions: tuple[int, ...] = tuple(range(len(DIRECTIONS)))
     gravity: np.ndarray | None = None
+    generic: tuple[GenericGroup, ...] = ()
 
     def __post_init__(self) -> None:
         k = len(self.node_ids)

@@ -59,7 +59,7 @@ def run(
     """
     estimator = _estimator(problem)
     try:
-        setting, start = _begin(problem, notice, solver)
+        setting, start = begin(problem, notice, solver)
         trace = Trace(
             setting,
             ExceedanceTest(problem.run.confidence, problem.run.convergence),
@@ -107,7 +107,7 @@ def examine(problem: Problem) -> None:
         if problem.test is None:
             solve(problem, *assemble(problem).matrices(problem.prior.mean))
         else:
-            _begin(problem)
+            begin(problem)
     except (IndefiniteError, np.linalg.LinAlgError) as reason:
         raise refusals.unphysical(problem, str(reason)) from None
 
@@ -188,7 +188,7 @@ def _root(L: np.ndarray) -> np.ndarray:
     return np.diag(L) if L.ndim == 1 else L
 
 
-def _begin(
+def begin(
     problem: Problem, notice: Notice = lambda text: None, solver: EigenSolver | None = None
 ) -> tuple[Setting, State]:
     """O-1 for the prior model, and the test brought to its scale."""

@@ -8,6 +8,7 @@ import numpy as np
 from mouse_cli._span import Span
 from mouse_cli.formats.mesh_draft import MeshDraft
 from mouse_cli.formats.yaml_deck import values as yaml_values
+from mouse_cli.formats.yaml_deck.generic import generic
 from mouse_cli.formats.yaml_deck.ids import ids as read_ids
 from mouse_cli.formats.yaml_deck.keys.structure import PLANES
 from mouse_cli.formats.yaml_deck.kinds import KINDS
@@ -44,6 +45,7 @@ def structure(section: Section, labels: tuple[str, ...]) -> MeshDraft | None:
         tuple(links),
         (0,) if on_matrices else _directions(section),
         _gravity(section),
+        generic(section, made),
     )
     return MeshDraft(
         mesh,

@@ -28,7 +28,8 @@ def structure(mesh: Mesh, stem: str, tables: Tables, labels: tuple[str, ...] = (
     lines.append("    elements:")
     for i, members in enumerate(mesh.elements, 1):
         lines += _elements(mesh, members, named, f"{stem}_elements{i}.csv", tables, labels)
-    return lines + _supports(mesh) + _links(mesh) + ([] if labels else _directions(mesh)) + _gravity(mesh)
+    rest = _supports(mesh) + _links(mesh) + ([] if labels else _directions(mesh)) + _gravity(mesh)
+    return lines + rest + _generic(mesh)
 
 
 def _mapping(values: dict[str, float]) -> str:
@@ -172,6 +173,14 @@ def _directions(mesh: Mesh) -> list[str]:
 
 def _gravity(mesh: Mesh) -> list[str]:
     return [] if mesh.gravity is None else [f"    gravity: {_vector(mesh.gravity)}"]
+
+
+def _generic(mesh: Mesh) -> list[str]:
+    lines = []
+    for group in mesh.generic:
+        couplings = f", couplings: {flow(group.couplings)}" if group.couplings else ""
+        lines.append(f"      - {{name: {word(group.name)}, elements: {ranges(group.elements)}{couplings}}}")
+    return ["    generic:", *lines] if lines else []
 
 
 def _supports(mesh: Mesh) -> list[str]:

@@ -15,7 +15,7 @@ def matrices(layout: Layout, properties: Properties) -> Matrices:
     Bending in a plane, as the sum of its symmetric and antisymmetric natural modes v_s = [0, -1, 0, 1], v_a = [1, l/2, -1, l/2]:
     K = E I (s/l v_s v_s' + 12 a/l^3 v_a v_a' + c sqrt(12)/l^2 (v_s v_a' + v_a v_s')), with s = a = 1, c = 0 after
     Euler-Bernoulli, a = 1/(1 + phi) after Timoshenko, and any s, a, c with s a > c^2 for the generic element of Gladwell and
-    Ahmadian (1995): k_ww = 12 a, k_thth = s + 3 a in their terms.
+    Ahmadian (1995): k_ww = 12 a, k_thth = s + 3 a in their terms. Torsion couples to both in generic elements, see `_coupled`.
     """
     p, length = properties, beam.span(layout).length
     kind = np.result_type(*p.values())
@@ -31,10 +31,39 @@ def matrices(layout: Layout, properties: Properties) -> Matrices:
         beam.in_plane(
             M, _inertia(layout, p, p["rotary_factor"] * p["density"] * p[f"I{axis}"], w, rotation, length), plane
         )
+        if layout.options.get("theory") == "generic":
+            _coupled(p, axis, EI, length, K, plane)
         if (tension != 0).any():
             beam.in_plane(Kg, beam.integral(slope, tension * length), plane)
     local = {"K": K, "M": M, GEOMETRIC: Kg}
     return beam.to_nodes(layout, local if (tension != 0).any() else {"K": K, "M": M})
+
+
+def _coupled(p: Properties, axis: str, EI: np.ndarray, length: np.ndarray, K: np.ndarray, plane: int) -> None:
+    """Adds what couples torsion to the bending in a plane: k13 (u_1 u_3' + u_3 u_1') + k23 (u_2 u_3' + u_3 u_2').
+
+    u_1, u_2, u_3: symmetric and antisymmetric bending and twist, scaled so that K = u_1 u_1' + u_2 u_2' + u_3 u_3' after Euler and
+    Bernoulli; k13, k23 are those of the frame element of lecture 21-1 in these units.
+    """
+    (dofs, sense), GJ = beam.PLANES[plane], p["G"] * p["J"]
+    for name, shape in (("symmetric", _symmetric(length)), ("antisymmetric", np.sqrt(12) * _antisymmetric(length))):
+        strength = p[f"{name}_twist_{axis}"] * np.sqrt(EI) * np.sqrt(GJ) / length
+        column = strength[:, None] * shape * sense
+        for twist, sign in ((3, -1.0), (9, 1.0)):
+            K[:, dofs, twist] += sign * column
+            K[:, twist, dofs] += sign * column
+
+
+def _symmetric(length: np.ndarray) -> np.ndarray:
+    """v_s (e, 4)."""
+    return np.tile([0.0, -1.0, 0.0, 1.0], (len(length), 1))
+
+
+def _antisymmetric(length: np.ndarray) -> np.ndarray:
+    """v_a / l (e, 4)."""
+    found = np.tile([0.0, 0.5, 0.0, 0.5], (len(length), 1))
+    found[:, 0], found[:, 2] = 1 / length, -1 / length
+    return found
 
 
 def _bar(layout: Layout, p: Properties, length: np.ndarray, K: np.ndarray, M: np.ndarray) -> None:
@@ -60,9 +89,7 @@ def _bending(
         symmetric, antisymmetric, coupling = (
             p[f"{name}_{axis}"] for name in ("symmetric", "antisymmetric", "coupling")
         )
-    s, a = np.zeros((len(layout), 4)), np.ones((len(layout), 4))
-    s[:, 1], s[:, 3], a[:, 2] = -1.0, 1.0, -1.0
-    a[:, 1] = a[:, 3] = length / 2
+    s, a = _symmetric(length), length[:, None] * _antisymmetric(length)
     ss, aa, sa = (u[:, :, None] * v[:, None, :] for u, v in ((s, s), (a, a), (s, a)))
     factors = symmetric / length, 12 * antisymmetric / length**3, np.sqrt(12) * coupling / length**2
     blocks = ss, aa, sa + sa.transpose(0, 2, 1)
@@ -111,6 +138,11 @@ def tension(layout: Layout, properties: Properties, u: np.ndarray) -> np.ndarray
     return properties["E"] * properties["A"] / at.length * (ends[:, 1] - ends[:, 0])
 
 
+def _of(name: str, axis: str) -> str:
+    """What the stiffness `name` of a generic element is measured by."""
+    return f"the root of E I{axis} G J" if "twist" in name else f"E I{axis}"
+
+
 PROPERTIES = {
     "E": Property("Young's modulus", "Pa", positive=True),
     "nu": Property("Poisson's ratio", "1", 0.3),
@@ -120,8 +152,8 @@ PROPERTIES = {
     "Iy": Property("second moment of area for bending in the local x-z plane", "m4", 0.0),
     "Iz": Property("second moment of area for bending in the local x-y plane", "m4", 0.0),
     "J": Property("torsion constant", "m4", 0.0),
-    "kappa_y": Property("shear coefficient for the local x-y plane", "1", 5 / 6, True, _TIMOSHENKO),
-    "kappa_z": Property("shear coefficient for the local x-z plane", "1", 5 / 6, True, _TIMOSHENKO),
+    "kappa_y": Property("shear coefficient for the local x-y plane", "1", 5 / 6, True, only=_TIMOSHENKO),
+    "kappa_z": Property("shear coefficient for the local x-z plane", "1", 5 / 6, True, only=_TIMOSHENKO),
     "nonstructural_mass": Property("further mass per length", "kg/m", 0.0),
     "preload": Property("axial force, tension positive; it stiffens bending", "N", 0.0),
     "rotary_factor": Property(
@@ -131,16 +163,18 @@ PROPERTIES = {
         only=(_INCLUDED, *_TIMOSHENKO),
     ),
     **{
-        f"{name}_{axis}": Property(f"{meaning}, in units of E I{axis}", "1", default, positive, _GENERIC)
+        f"{name}_{axis}": Property(f"{meaning}, in units of {_of(name, axis)}", "1", default, positive, only=_GENERIC)
         for axis in "yz"
         for name, meaning, default, positive in (
             ("symmetric", f"stiffness of symmetric bending about {axis}", 1.0, True),
             ("antisymmetric", f"stiffness of antisymmetric bending about {axis}", 1.0, True),
             ("coupling", f"coupling of both about {axis}, less than the root of their product", 0.0, False),
+            ("symmetric_twist", f"coupling of torsion to symmetric bending about {axis}", 0.0, False),
+            ("antisymmetric_twist", f"coupling of torsion to antisymmetric bending about {axis}", 0.0, False),
         )
     },
     **{
-        name: Property(f"coefficient {name} of the mass matrix, times density A l", "1", value, False, _GENERIC)
+        name: Property(f"coefficient {name} of the mass matrix, times density A l", "1", value, only=_GENERIC)
         for name, value in (("m11", 13 / 35), ("m12", 11 / 210), ("m14", -13 / 420), ("m22", 1 / 105))
     },
 }

@@ -62,6 +62,23 @@ SECTIONS = {
             "plane": Key("choice", "keep the directions of this plane only", "all six", choices=tuple(PLANES)),
             "directions": Key("direction", "keep these directions only", "all six"),
             "gravity": Key("vector", "acceleration whose axial forces stiffen or soften (P-delta)", "none", "m/s2"),
+            "generic": Key(
+                "list generic_group",
+                "like beams whose stiffness --method generic revises",
+                "a group for each section and length",
+            ),
+        },
+    ),
+    "generic_group": Section(
+        "Beams after Euler and Bernoulli, or generic ones, that have one stiffness U0 k U0' (lecture 21-1).",
+        {
+            "name": Key("text", "what the report calls them", required=True),
+            "elements": Key("ids", "their numbers", required=True),
+            "couplings": Key(
+                "texts",
+                "which of k12, k13, k23 may differ from zero; k12 and k13 for elements that are not symmetric",
+                "none",
+            ),
         },
     ),
     "node_block": Section(

@@ -1,0 +1,21 @@
+"""What a method hands back, before anybody has judged it."""
+
+from dataclasses import dataclass
+
+from mouse_cli.model.arrays import Matrix
+from mouse_cli.model.conditioning import Conditioning
+from mouse_cli.model.updated import Moved
+
+
+@dataclass(frozen=True)
+class Found:
+    """K, M (n, n) and how they were reached; see Updated. names: of the parameters that `conditioning` speaks of."""
+
+    K: Matrix
+    M: Matrix
+    iterations: int = 1
+    change: float = 0.0
+    converged: bool = True
+    moved: tuple[Moved, ...] = ()
+    conditioning: Conditioning | None = None
+    names: tuple[str, ...] = ()
