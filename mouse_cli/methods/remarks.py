@@ -17,7 +17,9 @@ def remarks(found: Updated) -> Iterator[Diagnostic]:
         text = f"'{about.key}' reproduces the data without a physical model"
         yield _warning("MD562", text, "trust it for the fitted modes alone; `mouse compare` shows what it foresees")
     if checked.negative:
-        text = f"the updated stiffness has {checked.negative} negative eigenvalue(s), down to {-checked.lowest_hz:.5g}i Hz"
+        text = (
+            f"the updated stiffness has {checked.negative} negative eigenvalue(s), down to {-checked.lowest_hz:.5g}i Hz"
+        )
         yield _warning("MD563", text, "no structure has such a stiffness: take another method")
     if checked.rigid < checked.rigid_before:
         text = f"of {checked.rigid_before} rigid-body modes {checked.rigid} are left after the update"

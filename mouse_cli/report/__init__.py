@@ -11,9 +11,22 @@ from mouse_cli.model.record_diagnosis import RecordDiagnosis
 from mouse_cli.model.record_update import RecordUpdate
 from mouse_cli.model.result import Forecast, Result
 from mouse_cli.model.spectra import SpectraResult
+from mouse_cli.model.updated import Compared, Updated
 from mouse_cli.report.section import Options
 
-Subject = Result | Forecast | Correlation | Diagnosis | RecordUpdate | SpectraResult | Identification | Coupled | Modified
+Subject = (
+    Result
+    | Forecast
+    | Correlation
+    | Diagnosis
+    | RecordUpdate
+    | SpectraResult
+    | Identification
+    | Coupled
+    | Modified
+    | Updated
+    | Compared
+)
 
 __all__ = ["Options", "document", "markdown", "printout", "written"]
 
@@ -54,6 +67,7 @@ def document(subject: Subject) -> dict[str, Any]:
         record_update_document,
         result_document,
         spectra_document,
+        update_document,
     )
 
     documents = {
@@ -64,6 +78,8 @@ def document(subject: Subject) -> dict[str, Any]:
         RecordUpdate: record_update_document,
         Identification: identification_document,
         SpectraResult: spectra_document,
+        Updated: update_document,
+        Compared: update_document,
         Coupled: coupling_document,
         Modified: modification_document,
     }

@@ -51,11 +51,18 @@ def _elements() -> str:
     return element_manual.manual()
 
 
+def _methods() -> str:
+    from mouse_cli.methods import manual as method_manual
+
+    return method_manual.manual()
+
+
 TOPICS: dict[str, Callable[[], str]] = {
     "candidates": _candidates,
     "cards": _cards,
     "elements": _elements,
     "exit": _exit,
+    "methods": _methods,
     "schema": _schema,
     "yaml": _yaml,
 }
@@ -64,8 +71,8 @@ TOPICS: dict[str, Callable[[], str]] = {
 @click.command()
 @click.argument("topic")
 def command(topic: str) -> int:
-    """Explain a code (MD104), an estimator, recursion, status, element or candidate, or: cards, candidates, elements, yaml,
-    schema, exit."""
+    """Explain a code (MD104), an estimator, recursion, status, element or candidate, or: cards, candidates, elements, methods,
+    yaml, schema, exit."""
     if topic in TOPICS:
         click.echo(TOPICS[topic]())
         return 0
@@ -86,6 +93,8 @@ def _entries() -> Iterator[tuple[str, str]]:
     from mouse_cli._registry import discover
     from mouse_cli.codes import catalogue
     from mouse_cli.diagnosis import candidate_manual
+    from mouse_cli.methods import manual as method_manual
+    from mouse_cli.methods import registry as methods
     from mouse_cli.terms.element_manual import about
     from mouse_cli.terms.elements import registry
     from mouse_cli.updating.loop import RECURSIONS
@@ -99,6 +108,8 @@ def _entries() -> Iterator[tuple[str, str]]:
         yield code, f"{code}: {entry.title}\n\n{entry.meaning}\n\n{entry.remedy}"
     for key, estimator in discover("mouse_cli.estimators", "ESTIMATOR").items():
         yield key, f"{estimator.title}\n\n{estimator.equation}"
+    for key, method in methods().items():
+        yield key, method_manual.about(method)
     for key, recursion in RECURSIONS.items():
         yield key, f"{key}: {recursion.MEANING}"
     for key, kind in registry().items():

@@ -12,6 +12,13 @@ def _estimators() -> Iterator[tuple[str, str]]:
         yield key, estimator.equation
 
 
+def _methods() -> Iterator[tuple[str, str]]:
+    from mouse_cli.methods import registry
+
+    for key, method in registry().items():
+        yield key, f"{method.title}: {method.equation}"
+
+
 def _recursions() -> Iterator[tuple[str, str]]:
     from mouse_cli.updating.loop import RECURSIONS
 
@@ -100,6 +107,7 @@ KINDS: dict[str, Callable[[], Iterator[tuple[str, str]]]] = {
     "estimators": _estimators,
     "expansions": _expansions,
     "groups": _groups,
+    "methods": _methods,
     "plots": _plots,
     "recursions": _recursions,
     "reductions": _reductions,

@@ -4,6 +4,7 @@ from collections.abc import Iterable
 
 import click
 
+from mouse_cli.cli._methods import METHOD, by_method, chosen
 from mouse_cli.cli._options import PRIOR, QUIET, READING, RUN, answer, earlier, options, reading, run_changes
 
 
@@ -16,7 +17,7 @@ from mouse_cli.cli._options import PRIOR, QUIET, READING, RUN, answer, earlier, 
     metavar="PATH",
     help="Write figures of fitted FRFs or recordings: to a folder, or to one file (.pdf, .png, .svg).",
 )
-@options(PRIOR, QUIET)
+@options(METHOD, PRIOR, QUIET)
 @options(RUN, READING)
 def command(
     deck: str,
@@ -35,27 +36,36 @@ def command(
 
     Exit 0: converged, and the model explains the data. 1: do not trust the answer. 4: deck rejected. 5: no answer.
     """
-    from mouse_cli.cli._decks import without_laws
-    from mouse_cli.cli._terminal import deliver, drawn, progress, show_diagnostics
-    from mouse_cli.diagnosis.time.update import update_records
-    from mouse_cli.updating import run
+    from mouse_cli.cli._terminal import deliver, drawn
 
+    method, expansion = chosen(given.pop("method"), given.pop("expand"), plot)
     if plot:
         from mouse_cli.plots import require
 
         require(plot)
     begun, how = earlier(given.pop("prior"), given.pop("loosen")), reading(legacy, strip_73_80, overrides)
     problems = _problems(deck, stacked, run_changes(given), begun, how)
+    results = by_method(problems, method, expansion, quiet) if method else _run(problems, quiet)
+    if plot:
+        drawn(results[-1], plot)
+    deliver(_text(results, form, numbers, stacked), output, deck)
+    return max((result.exit_code for result in results), default=0)
+
+
+def _run(problems: Iterable, quiet: bool) -> list:
+    """The results of the loop, or for decks of recordings of their update."""
+    from mouse_cli.cli._decks import without_laws
+    from mouse_cli.cli._terminal import progress, show_diagnostics
+    from mouse_cli.diagnosis.time.update import update_records
+    from mouse_cli.updating import run
+
     results = []
     for problem in problems:
         if not quiet:
             show_diagnostics((*problem.warnings, *without_laws(problem)))
         with progress() as (show, say):
             results.append(update_records(problem, say) if problem.by_recordings else run(problem, show, say))
-    if plot:
-        drawn(results[-1], plot)
-    deliver(_text(results, form, numbers, stacked), output, deck)
-    return max((result.exit_code for result in results), default=0)
+    return results
 
 
 def _problems(deck: str, stacked: bool, changes: dict, begun: dict, how: dict) -> Iterable:

@@ -1,0 +1,61 @@
+"""What a method of updating found, and what several did, as JSON documents, schemas mouse.update/1 and mouse.comparison/1."""
+
+from typing import Any
+
+from mouse_cli import __version__
+from mouse_cli.model.arrays import dense
+from mouse_cli.model.conditioning import Conditioning
+from mouse_cli.model.updated import Compared, Foreseen, Updated
+from mouse_cli.report.json_values import dof_name, plain
+
+SCHEMA, COMPARISON = "mouse.update/1", "mouse.comparison/1"
+LARGEST_MATRIX = 140  # degrees of freedom up to which K is written out
+
+
+def document(found: Updated | Compared) -> dict[str, Any]:
+    """`found` in plain Python values."""
+    problem = found.problem
+    head = {"version": __version__, "title": problem.title.strip(), "source": problem.source.path}
+    if isinstance(found, Updated):
+        return plain({"schema": SCHEMA, **head, **_update(found), **_matrix(found)})
+    refused = {key: [f"{d.code}: {d.message}" for d in why] for key, why in found.refused.items()}
+    each = [_update(one) for one in found.updates]
+    return plain({"schema": COMPARISON, **head, "methods": each, "refused": refused})
+
+
+def _update(found: Updated) -> dict[str, Any]:
+    about, checked = found.about, found.checked
+    return {
+        "method": about.key,
+        "equation": about.equation,
+        "guarantees": {g.aspect.replace(" ", "_").replace("-", "_"): g.given for g in about.guarantees},
+        "physical": about.physical,
+        "expansion": found.expansion or None,
+        "iterations": found.iterations,
+        "change": found.change,
+        "converged": found.converged,
+        "exit_code": found.exit_code,
+        "properties": [{"name": m.name, "unit": m.unit, "before": m.before, "after": m.after} for m in found.moved],
+        "configurations": [_configuration(one) for one in found.configurations],
+        "checked": vars(checked),
+        "conditioning": None if found.conditioning is None else _bounds(found.conditioning),
+        "warnings": [f"{d.code}: {d.message}" for d in found.warnings],
+    }
+
+
+def _configuration(one: Foreseen) -> dict[str, Any]:
+    rows = zip(one.number, one.test_hz, one.test_sd_hz, one.prior_hz, one.revised_hz, one.mac, strict=True)
+    keys = ("mode", "test_hz", "test_sd_hz", "prior_hz", "revised_hz", "mac")
+    modes = [dict(zip(keys, row, strict=True)) for row in rows]
+    return {"title": one.title, "fitted": one.fitted, "rms_percent": one.rms_percent, "modes": modes}
+
+
+def _bounds(found: Conditioning) -> dict[str, Any]:
+    return {"condition": found.condition, "data": found.data, "sensitivities": found.sensitivities}
+
+
+def _matrix(found: Updated) -> dict[str, Any]:
+    """K where it is small, with the degrees of freedom of its rows."""
+    if found.K.shape[0] > LARGEST_MATRIX:
+        return {"dofs": None, "stiffness": None}
+    return {"dofs": [dof_name(label) for label in found.problem.structure.labels], "stiffness": dense(found.K)}
