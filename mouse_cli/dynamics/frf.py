@@ -16,7 +16,7 @@ import numpy as np
 
 from mouse_cli.dynamics.frf_uncoupled import Uncoupled, uncoupled
 from mouse_cli.dynamics.sensing import unit_loads
-from mouse_cli.model.arrays import Matrix
+from mouse_cli.model.arrays import Matrix, dense
 
 _ROOM = 4_000_000  # complex numbers of the dynamic stiffness of as many lines as are solved at once
 
@@ -34,6 +34,10 @@ class Dynamics:
     def n(self) -> int:
         """Degrees of freedom."""
         return self.K.shape[0]
+
+    def dense(self) -> "Dynamics":
+        """The same as dense matrices."""
+        return Dynamics(*(None if m is None else dense(m) for m in (self.K, self.M, self.C, self.D)))
 
     def at(self, s: complex) -> Matrix:
         """Z(s) (n, n)."""

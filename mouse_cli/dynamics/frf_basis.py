@@ -13,6 +13,7 @@ import numpy as np
 
 from mouse_cli.dynamics.eigen import EigenSolution
 from mouse_cli.dynamics.frf import Dynamics, FrfModel, Loads, product
+from mouse_cli.dynamics.frf_basis_error import errors
 from mouse_cli.dynamics.krylov import BLOCK, Krylov
 from mouse_cli.model.arrays import Matrix, dense, is_sparse
 
@@ -20,12 +21,7 @@ WHOLE = 60  # degrees of freedom up to which a model is solved as it is
 BEYOND = 1.5  # modes are taken up to so many times the highest frequency
 FINAL, ITERATING = 1e-6, 1e-4  # relative errors of FRFs that are reported, and of those on the way
 _FIRST, _MOST = 2, 8  # levels of Krylov vectors at first, and at the end
-_REFINEMENTS = 60  # steps towards a full solution
-_ASTRAY = 1e3  # a step so large, relative, that no solution is in reach
 _ROUNDING = 1e-11  # what damping may differ from a combination of K and M, relative, to be taken for one
-_CHECKED = 2  # loads for which they are found
-_SOLVED, _ROUNDED = 3e-8, 1e-6  # the last step of it, relative; the same where rounding keeps it from getting smaller
-_SHARE = 0.05  # of all steps together, the last one: what is off is then known to that share
 
 
 def frf_model(
@@ -44,14 +40,13 @@ def frf_model(
     """
     loads = Loads(sensings)
     if dynamics.n <= WHOLE or (not is_sparse(dynamics.K) and solution is None) or _bare(solution):
-        return FrfModel(_dense(dynamics), loads.full(dynamics.n), loads.columns)
+        return FrfModel(dynamics.dense(), loads.full(dynamics.n), loads.columns)
     basis = _Basis(dynamics, loads, solution, float(np.abs(checked).max()))
     while True:
         while basis.levels < levels:
             basis.extend()
         model, levels = basis.model(), basis.levels + 1
-        errors = [_error(basis, model, complex(s)) for s in checked]
-        error, motion_error = (max(column) for column in zip(*errors, strict=True))
+        error, motion_error = errors(basis, model, np.asarray(checked, complex))
         if error <= tolerance or basis.complete or levels > _MOST:
             return FrfModel(model.matrices, model.loads, model.columns, model.V, basis.levels, error, motion_error)
 
@@ -64,7 +59,7 @@ def galerkin(
     That is the relative error (k,) of poles s, of second order in what the basis lacks: r'A^-1 r / 2|s|^2 with r = Z psi.
     """
     if dynamics.n <= WHOLE or _bare(solution) or (solution.space is None and not solution.complete):
-        return None, _dense(dynamics), lambda s, shapes: np.zeros(len(s))
+        return None, dynamics.dense(), lambda s, shapes: np.zeros(len(s))
     top = float(np.sqrt(np.abs(solution.eigenvalues[-1])))
     basis = _Basis(dynamics, Loads((np.zeros(0, int),)), solution, top)
     for _ in range(levels):
@@ -84,10 +79,6 @@ def galerkin(
 def _bare(solution: EigenSolution | None) -> bool:
     """Whether a sparse model came without the space that its basis grows from."""
     return solution is not None and not solution.complete and (solution.space is None or not solution.space.alive)
-
-
-def _dense(dynamics: Dynamics) -> Dynamics:
-    return Dynamics(*(None if m is None else dense(m) for m in (dynamics.K, dynamics.M, dynamics.C, dynamics.D)))
 
 
 @dataclass(frozen=True)
@@ -125,8 +116,10 @@ class _Basis:
             self.sigma, self.operator = solution.shift, space.operator
         band = solution.eigenvalues <= (BEYOND * top) ** 2
         X = solution.shapes.T[band]
-        self.krylov = self._found(X, solution.eigenvalues[band]) if space is None else space.copy(self._room)
+        self.krylov = self._found(X, solution.eigenvalues[band]) if space is None else space.grown(self._room)
         first = self.krylov.d if space is None else space.reached  # its last block is still to be expanded
+        self._VMV = np.zeros((0, 0)) if space is None else space.T
+        self._MV = np.zeros((0, dynamics.n))
         self._damped(X)
         self._append(np.ascontiguousarray(self.full.T))
         self._newest = slice(first, self.krylov.d)  # where damping acts, it drives like a force
@@ -145,11 +138,20 @@ class _Basis:
         return krylov
 
     def _damped(self, X: np.ndarray) -> None:
-        """What coupling of the modes X (m, n) by damping does to them: A^-1 C X, A^-1 D X outside of their span."""
+        """What coupling of the modes X (m, n) by damping does to them: A^-1 C X, A^-1 D X outside of their span.
+
+        Damping of a few degrees of freedom does no more than forces at these do.
+        """
         for name, followed in self.followed.items():
             if followed is None and len(X):
                 damping = getattr(self.dynamics, name)
-                self._append(np.ascontiguousarray((damping @ np.ascontiguousarray(X.T)).T))
+                at = _moved(damping)
+                if len(at) < len(X):
+                    right = np.zeros((len(at), self.dynamics.n))
+                    right[np.arange(len(at)), at] = 1.0
+                else:
+                    right = np.ascontiguousarray((damping @ np.ascontiguousarray(X.T)).T)
+                self._append(right)
 
     def _append(self, right: np.ndarray) -> None:
         """Add A^-1 times the rows `right`; they are the newest."""
@@ -168,16 +170,26 @@ class _Basis:
         """One level more: A^-1 M of the newest vectors."""
         self.levels += 1
         if not self.complete:
-            self._append(self.operator.mass(self.krylov.V[self._newest].copy()))
+            self._weigh()
+            newest, self._MV = self._MV[self._newest.start - self.krylov.d :], self._MV[:0]
+            self._append(newest)
+
+    def _weigh(self) -> None:
+        """V M V' of the vectors that are new, each multiplied by M once; the products with the newest are kept for a level more."""
+        V, known = self.krylov.V, len(self._VMV)
+        if known < len(V):
+            self._MV = self.operator.mass(V[known:])
+            new = V @ self._MV.T
+            self._VMV = np.block([[self._VMV, new[:known]], [new[:known].T, (new[known:] + new[known:].T) / 2]])
 
     def model(self) -> FrfModel:
         """Galerkin's matrices."""
-        V = self.krylov.V
-        M = V @ self.operator.mass(V).T
-        M = (M + M.T) / 2
+        self._weigh()
+        V, M = self.krylov.V, self._VMV
         K = np.eye(len(V)) + self.sigma * M
         C, D = (self._projected(name, K, M) for name in ("C", "D"))
-        return FrfModel(Dynamics(K, M, C, D), V @ self.full, self.loads.columns, V, self.levels)
+        loads = V[:, self.loads.at] @ self.loads.values
+        return FrfModel(Dynamics(K, M, C, D), loads, self.loads.columns, V, self.levels)
 
     def _projected(self, name: str, K: np.ndarray, M: np.ndarray) -> np.ndarray | None:
         damping, followed = getattr(self.dynamics, name), self.followed[name]
@@ -185,18 +197,27 @@ class _Basis:
             return None
         if followed is not None:
             return followed[0] * K + followed[1] * M
-        out = self.krylov.V @ (damping @ np.ascontiguousarray(self.krylov.V.T))
+        V = self.krylov.V
+        at = _moved(damping)
+        part = damping if len(at) == len(V[0]) else (damping.tocsr() if is_sparse(damping) else damping)[at][:, at]
+        few = np.ascontiguousarray(V.T if len(at) == len(V[0]) else V[:, at].T)
+        out = few.T @ (part @ few)
         return (out + out.T) / 2
 
-    def times(self, s: complex, x: np.ndarray) -> np.ndarray:
-        """Z(s) x for x (n, c); damping that follows K and M costs no product of its own."""
-        of_K, of_M, out = 1.0 + 0j, s**2, 0.0
+    def times(self, s: np.ndarray | complex, x: np.ndarray) -> np.ndarray:
+        """Z(s) x for x (n, c), s one or (c,); damping that follows K and M costs no product of its own."""
+        of_K, of_M, out = 1.0 + 0j, s**2, 0.0  # of each column
         for name, weight in (("C", s), ("D", 1j)):
             if self.followed[name] is not None:
                 of_K, of_M = (total + weight * a for total, a in zip((of_K, of_M), self.followed[name], strict=True))
             else:
                 out = out + weight * product(getattr(self.dynamics, name), x)
         return out + of_K * product(self.dynamics.K, x) + of_M * product(self.operator.M, x)
+
+
+def _moved(damping: Matrix) -> np.ndarray:
+    """Degrees of freedom that a symmetric matrix concerns."""
+    return np.flatnonzero(np.diff(damping.tocsr().indptr) if is_sparse(damping) else damping.any(axis=1))
 
 
 def _follows(damping: Matrix | None, dynamics: Dynamics) -> tuple[float, float] | None:
@@ -217,41 +238,3 @@ def _follows(damping: Matrix | None, dynamics: Dynamics) -> tuple[float, float] 
         a, b = (np.linalg.lstsq(parts / size, damping.data, rcond=None)[0] / size).tolist()
     rest = damping.data - a * K.data - (b * M.data if same else 0.0)
     return (a, b) if np.abs(rest).max() <= _ROUNDING * np.abs(damping.data).max() else None
-
-
-def _error(basis: _Basis, model: FrfModel, s: complex) -> tuple[float, float]:
-    """Relative errors of the FRFs and of the motions at one line, against a full solution; inf where that was not found."""
-    few = np.unique(np.linspace(0, basis.loads.count - 1, _CHECKED).astype(int))
-    x = product(model.V.T, model.at(np.array([s])).Y[0][:, few])
-    exact = _full(basis, model, s, x, basis.full[:, few])
-    if exact is None:
-        return np.inf, np.inf
-    at = basis.loads.at
-    alpha, reduced = basis.loads.values.T @ exact[at], basis.loads.values.T @ x[at]
-    size, far = np.abs(alpha).max(), np.linalg.norm(exact - x, axis=0) / np.linalg.norm(exact, axis=0)
-    return float(np.abs(alpha - reduced).max() / size), float(far.max())
-
-
-def _full(basis: _Basis, model: FrfModel, s: complex, x: np.ndarray, loads: np.ndarray) -> np.ndarray | None:
-    """Z(s)^-1 loads (n, c) from x (n, c) on: a correction by A^-1 outside of the basis, one within it, and so on.
-
-    As its last correction lies in the basis, what remains is orthogonal to it, and counts in FRFs by its square, as in x.
-    """
-    if isinstance(basis.operator, _Whole):
-        return np.linalg.solve(_dense(basis.dynamics).at(s), loads)
-    Z, before, start = model.matrices.at(s), np.inf, x
-    for _ in range(_REFINEMENTS):
-        rest = loads - basis.times(s, x)
-        c = rest.shape[1]
-        moved = basis.operator.columns(np.asfortranarray(np.concatenate([rest.real, rest.imag], axis=1)))
-        better = x + moved[:, :c] + 1j * moved[:, c:]
-        rest = loads - basis.times(s, better)
-        better = better + product(model.V.T, np.linalg.solve(Z, product(model.V, rest)))
-        change = float((np.linalg.norm(better - x, axis=0) / np.linalg.norm(better, axis=0)).max())
-        whole = float((np.linalg.norm(better - start, axis=0) / np.linalg.norm(better, axis=0)).max())
-        if change <= max(_SOLVED, _SHARE * whole) or (change > 0.5 * before and change <= _ROUNDED):
-            return better
-        if not change < _ASTRAY:
-            return None
-        x, before = better, change
-    return None

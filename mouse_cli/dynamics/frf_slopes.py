@@ -18,7 +18,7 @@ from mouse_cli.model.term import CONSTANT, MATRICES, Slopes
 _SPAN = 1e-6  # directions in which no motion has more than this share of its length are left out
 _SMALL = 60  # degrees of freedom up to which derivatives are formed as dense matrices
 _ROWS = 100_000  # of derivatives, worked on at once
-_AT_ONCE = 3_000_000  # complex numbers worked on at once
+_AT_ONCE = 1_000_000  # complex numbers worked on at once: fresh pages for more cost more than what is computed in them
 
 
 class Change:
@@ -100,10 +100,13 @@ def _spanned(fields: Fields, left: int, right: int) -> tuple[np.ndarray, np.ndar
     V, d = fields.model.V, fields.model.d
     if V is None:
         return *parts, np.eye(d)
-    columns = np.concatenate([np.moveaxis(Y, 1, 0).reshape(d, -1) for Y in parts], axis=1)
-    size = np.linalg.norm(columns, axis=0)
-    columns = columns / np.where(size > 0, size, 1.0)
-    real = np.concatenate([columns.real, columns.imag], axis=1)
-    w, U = np.linalg.eigh(real @ real.T)
+    gram, lines = np.zeros((d, d)), max(1, _AT_ONCE // (4 * d * fields.Y.shape[2]))
+    for first in range(0, len(fields.s), lines):
+        for Y in parts:
+            columns = np.moveaxis(Y[first : first + lines], 1, 0).reshape(d, -1)
+            size = np.linalg.norm(columns, axis=0)
+            columns = columns / np.where(size > 0, size, 1.0)
+            gram += columns.real @ columns.real.T + columns.imag @ columns.imag.T
+    w, U = np.linalg.eigh(gram)
     U = U[:, w > _SPAN**2 * w[-1]]
     return *(np.matmul(U.T, Y) for Y in parts), U.T @ V

@@ -66,11 +66,17 @@ class Krylov:
     `reached`: vectors before the last block; A^-1 M of them lies within V.
     """
 
-    def __init__(self, operator: Operator, room: int, workspace: Workspace | None = None):
+    def __init__(
+        self, operator: Operator, room: int, workspace: Workspace | None = None, before: np.ndarray | None = None
+    ):
         self.operator, self.n = operator, operator.M.shape[0]
         self.workspace = Workspace() if workspace is None else workspace
         self.d = self.reached = self._expanded = 0
-        self._V, self._AV = (self.workspace.array(name, (room, self.n)) for name in ("V", "AV"))
+        self._before = (
+            np.zeros((0, self.n)) if before is None else before
+        )  # A V of the first vectors, held by another one
+        own = room - len(self._before)
+        self._V, self._AV = (self.workspace.array(name, (k, self.n)) for name, k in (("V", room), ("AV", own)))
         self._T = np.zeros((room, room))
         self.known = None  # what it converged to, where rounding needs it
 
@@ -137,10 +143,20 @@ class Krylov:
     def copy(self, more: int = 0) -> "Krylov":
         """Another one with the same vectors, which may grow by itself; with room for so many `more`."""
         other = Krylov(self.operator, min(self.d + more, max(self.n, self.d)))
+        self._into(other)
+        other._AV[: self.d] = self._AV[: self.d]
+        return other
+
+    def grown(self, more: int) -> "Krylov":
+        """A copy that is to grow at once, as long as this one lives: products A V of vectors that both have are not copied."""
+        other = Krylov(self.operator, min(self.d + more, max(self.n, self.d)), before=self._AV[: self.d])
+        self._into(other)
+        return other
+
+    def _into(self, other: "Krylov") -> None:
         other.d, other.reached, other._expanded = self.d, self.reached, self._expanded
         other._T[: self.d, : self.d], other.known = self._T[: self.d, : self.d], self.known
-        other._V[: self.d], other._AV[: self.d] = self.V, self._AV[: self.d]
-        return other
+        other._V[: self.d] = self.V
 
     def append(self, W: np.ndarray, R: np.ndarray, recent: int = 0) -> tuple[np.ndarray, np.ndarray]:
         """Add what is new in W (c, n), with R = A W: (h, C) so that W = h'V + C'V_new.
@@ -161,7 +177,8 @@ class Krylov:
             h += more @ C
         W, R, again, _ = _orthonormal(W, R, np.ones(len(W)), self.n - d)
         self._reserve(d + len(W))
-        self._V[d : d + len(W)], self._AV[d : d + len(W)] = W, R
+        own = d - len(self._before)
+        self._V[d : d + len(W)], self._AV[own : own + len(W)] = W, R
         self.d += len(W)
         return h, again @ C
 
@@ -170,7 +187,10 @@ class Krylov:
         near = slice(first, self.d)
         part = self._V[near] @ R.T
         W -= part.T @ self._V[near]
-        R -= part.T @ self._AV[near]
+        old = max(len(self._before) - first, 0)
+        if old:
+            R -= part[:old].T @ self._before[first:]
+        R -= part[old:].T @ self._AV[max(first - len(self._before), 0) : self.d - len(self._before)]
         h[near] += part
 
     def _reserve(self, count: int) -> None:
