@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from mouse_cli.model.arrangements import ArrangementsDiagnosis
 from mouse_cli.model.correlation import Correlation
 from mouse_cli.model.coupled import Coupled
 from mouse_cli.model.diagnosis import Diagnosis
@@ -19,6 +20,7 @@ Subject = (
     | Forecast
     | Correlation
     | Diagnosis
+    | ArrangementsDiagnosis
     | RecordUpdate
     | SpectraResult
     | Identification
@@ -57,6 +59,7 @@ def markdown(subject: Subject, numbers: str = "modern", options: Options | None 
 def document(subject: Subject) -> dict[str, Any]:
     """The report of `subject` as JSON can hold it: no NaN, no infinity, plain Python values."""
     from mouse_cli.report import (
+        arrangements_document,
         correlation_document,
         coupling_document,
         diagnosis_document,
@@ -72,6 +75,7 @@ def document(subject: Subject) -> dict[str, Any]:
 
     documents = {
         Forecast: modes_document,
+        ArrangementsDiagnosis: arrangements_document,
         Correlation: correlation_document,
         Diagnosis: diagnosis_document,
         RecordDiagnosis: record_document,

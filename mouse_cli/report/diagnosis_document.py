@@ -40,7 +40,7 @@ def document(found: Diagnosis) -> dict[str, Any]:
             "source": problem.source.path,
             "exit_code": found.exit_code,
             "verdict": _verdict(found),
-            "candidates": [_candidate(found, one) for one in found.explanations],
+            "candidates": [candidate(found.baseline, one) for one in found.explanations],
             "groups": [{"group": name, "probability": p} for name, p in found.groups],
             "noise_scale": found.noise_scale,
             "innovation": of_result.tested(found.innovation),
@@ -105,9 +105,9 @@ def _asked(found: Diagnosis) -> dict[str, Any]:
     }
 
 
-def _candidate(found: Diagnosis, one: Explanation) -> dict[str, Any]:
+def candidate(baseline: Explanation | None, one: Explanation) -> dict[str, Any]:
+    """One explanation, beside that without a cause."""
     sites = [cause.site for cause in one.causes] or [_NOWHERE]
-    baseline = found.baseline
     return {
         "physics": one.physics,
         "group": one.group,
@@ -184,20 +184,21 @@ def _held_out(held: HeldOut) -> dict[str, Any]:
         "kind": held.kind,
         "labels": list(held.labels),
         "measured_hz": held.measured_hz,
-        "baseline": _score(held.baseline),
-        "revised": None if held.revised is None else _score(held.revised),
+        "baseline": score(held.baseline),
+        "revised": None if held.revised is None else score(held.revised),
     }
 
 
-def _score(score: Score) -> dict[str, Any]:
+def score(found: Score) -> dict[str, Any]:
+    """How well data that no fit has seen were predicted."""
     return {
-        "rms_frequency_error": score.rms_frequency_error,
-        "log_predictive_density": score.log_predictive_density,
-        "covered": score.covered,
-        "hz": score.frequencies_hz,
-        "sd_hz": score.sd_hz,
-        "mac": score.mac,
-        "rms_shape_error": score.rms_shape_error,
+        "rms_frequency_error": found.rms_frequency_error,
+        "log_predictive_density": found.log_predictive_density,
+        "covered": found.covered,
+        "hz": found.frequencies_hz,
+        "sd_hz": found.sd_hz,
+        "mac": found.mac,
+        "rms_shape_error": found.rms_shape_error,
     }
 
 

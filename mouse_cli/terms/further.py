@@ -1,5 +1,6 @@
 """Parameters that are added to a problem behind its own."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -8,7 +9,7 @@ from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.problem import Problem
 
 
-def with_parameters(problem: Problem, new: list[Parameter]) -> Problem:
+def with_parameters(problem: Problem, new: Sequence[Parameter]) -> Problem:
     """The deck with further parameters behind its own, which no listed element follows and the prior holds independent."""
     A, prior = problem.A, problem.prior
     if not new:

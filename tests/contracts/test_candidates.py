@@ -27,6 +27,12 @@ MODELS = {
         CANTILEVER + "    supports: {1: all}\n    plane: XY\n",
         [(9, "TY"), (17, "TY"), (24, "TY"), (31, "TY")],
     ),
+    "laden": (
+        CANTILEVER
+        + "      - {id: 41-42, type: mass, nodes: [12, 21], mass: 0}\n      - {id: 43, type: mass, nodes: [31], mass: 1.5, Jz: 2.0e-3}\n"
+        "    supports: {1: all}\n    plane: XY\n",
+        [(9, "TY"), (17, "TY"), (24, "TY"), (31, "TY")],
+    ),
     "free": (CANTILEVER + "    plane: XY\n", [(1, "TY"), (11, "TY"), (18, "TY"), (31, "TY")]),
     "portal": (
         f"""
@@ -121,6 +127,7 @@ def deck(name: str, folder) -> "Problem":  # noqa: F821
 
 _E = "parameters:\n  - {name: E, material: steel, property: E, sd: 3 %}\n"
 _PARAMETERS = dict.fromkeys(("cantilever", "free", "portal", "space"), _E)
+_PARAMETERS["laden"] = _E + "  - {name: tip, elements: 43, property: mass, sd: 30 %}\n"
 _PARAMETERS["storeys"] = "parameters:\n  - {name: storey, elements: 1-5, property: TX, factor: true, sd: 10 %}\n"
 _PARAMETERS["masses"] = "parameters:\n  - {name: k, elements: 11-13, property: TX, sd: 10 %}\n"
 CASES = [(name, key) for name in MODELS for key in registry()]
@@ -210,6 +217,34 @@ def test_the_deck_with_the_cause_is_the_reduced_model_with_it(models, name, key,
 def test_every_candidate_acts_somewhere(models):
     acting = {key for model in models.values() for key, c in registry().items() if c.recipes(model, c)}
     assert acting == set(registry())
+
+
+@pytest.mark.parametrize(
+    "keys", [("support-rotation",), ("support-translation",), ("support-rotation", "support-translation")]
+)
+def test_supports_give_way_at_other_parameters_as_they_do_in_the_deck(models, keys):
+    """Beside all coordinates of a model the mass of a support is a small difference: parameters of mass must move it too."""
+    model = models["laden"]
+    recipes = tuple(registry()[key].recipes(model, registry()[key])[-1] for key in keys)
+    values = [next(sizes(recipe)) for recipe in recipes]
+    c = [recipe.coordinates(found) for recipe, found in zip(recipes, values, strict=True)]
+    z = np.array([-1.5, 1.2])
+    altered, x = Model(model, recipes), np.concatenate([z, *c])
+    at, deck = altered.point(x), model.problem
+    for recipe, found in zip(recipes, values, strict=True):
+        deck = recipe.extend(deck, found)
+    theta = np.concatenate([model.parameters(z), deck.prior.mean[2:]])
+    expected = eigh(*(dense(part) for part in assembly(deck).matrices(theta)), eigvals_only=True)
+    assert at.eigenvalues[:20] == pytest.approx(expected[:20], rel=1e-5)
+    step = 3e-3
+    for j in range(len(x)):
+        sides = [altered.point(x + sign * step * np.eye(len(x))[j]) for sign in (1, -1)]
+        by_differences = (sides[1].residual - sides[0].residual)[:3] / (
+            2 * step
+        )  # lengths of shapes follow, after Kaufman
+        assert altered.jacobian(at)[:3, j] == pytest.approx(
+            by_differences, rel=1e-4, abs=1e-4 * np.abs(by_differences).max()
+        )
 
 
 PAIRS = [

@@ -5,6 +5,7 @@ from textwrap import fill
 
 import click
 
+from mouse_cli.cli._arrangements import ARRANGEMENTS, Named, diagnosed, several, told, written
 from mouse_cli.cli._options import QUIET, READING, answer_form, options, reading
 
 _WIDTH = 132  # columns of the printout
@@ -19,8 +20,13 @@ _CONSIDERED = (
 
 
 @click.command()
-@click.argument("deck")
-@click.option("-o", "--output", metavar="FILE", help="Write the model with the cause in it as a YAML deck.")
+@click.argument("decks", nargs=-1, required=True)
+@click.option(
+    "-o",
+    "--output",
+    metavar="FILE",
+    help="Write the model with the cause in it as a YAML deck; of several arrangements, to a folder.",
+)
 @options(answer_form("mouse.diagnosis/1"))
 @click.option(
     "--report",
@@ -32,10 +38,10 @@ _CONSIDERED = (
 @click.option(
     "--plot", metavar="PATH", help="Write figures: to a folder, or to one file (.pdf, .png, .svg). Needs matplotlib."
 )
-@options(_CONSIDERED, QUIET)
+@options(_CONSIDERED, ARRANGEMENTS, QUIET)
 @options(READING)
 def command(
-    deck: str,
+    decks: tuple[str, ...],
     output: str | None,
     form: str | None,
     numbers: str | None,
@@ -44,10 +50,15 @@ def command(
     candidates: str | None,
     without: str | None,
     causes: int,
+    held_out: tuple[str, ...],
+    changed: tuple[str, ...],
+    common_sd: float,
     quiet: bool,
     **how: object,
 ) -> int:
-    """Say what the model of DECK lacks, judged by its test.
+    """Say what the model of DECKS lacks, judged by its test.
+
+    Several DECKS are arrangements of one structure, such as masses at other places: their causes are told one after another.
 
     Where, what, how much, and whether it is true. Exit 0: nothing is missing. 1: something is. 4: deck rejected. 5: no answer.
     """
@@ -55,18 +66,26 @@ def command(
     from mouse_cli.cli._terminal import deliver, progress, show_diagnostics
     from mouse_cli.diagnosis.diagnose import diagnose
 
-    _check_places(deck, output, plot, reports)
+    named = Named.of(decks, held_out, changed)
+    arranged = several(named, output, plot)
+    for deck in (*named.fitted, *held_out):
+        _check_places(deck, output, plot, reports)
     choices = _choices(candidates, without, causes)
-    problem = read_problem(deck, **reading(**how))
+    problems = tuple(read_problem(deck, **reading(**how)) for deck in named.fitted)
+    unseen = tuple(read_problem(deck, **reading(**how)) for deck in held_out)
     if not quiet:
-        show_diagnostics(problem.warnings)
+        show_diagnostics(tuple(each for problem in (*problems, *unseen) for each in problem.warnings))
     with progress() as (_, say):
-        found = diagnose(problem, say, choices)
+        found = (
+            diagnosed(named, problems, unseen, common_sd, say, choices)
+            if arranged
+            else diagnose(problems[0], say, choices)
+        )
     files = _revised(found, output)
     for path in reports:
         shape = _FORMS.get(os.path.splitext(path)[1].lower(), "printout")
-        deliver(_text(found, shape, numbers, output, files), path, deck)
-    deliver(_text(found, form or "printout", numbers, output, files), None, deck)
+        deliver(_text(found, shape, numbers, output, files), path, decks[0])
+    deliver(_text(found, form or "printout", numbers, output, files), None, decks[0])
     if plot:
         from mouse_cli.plots import draw
 
@@ -102,25 +121,34 @@ def _check_places(deck: str, output: str | None, plot: str | None, reports: tupl
 
 
 def _revised(found, output: str | None) -> list[str]:
-    """Names of the files of the extended deck; none where there is none."""
+    """Names of the files of the extended decks; none where there is none."""
     from mouse_cli.formats import write_deck
 
-    if output is None or found.extended is None:
+    if output is None or not found.extended:
         return []
-    return write_deck(found.extended, output)
+    return written(found, output) if _arranged(found) else write_deck(found.extended, output)
+
+
+def _arranged(found) -> bool:
+    from mouse_cli.model.arrangements import ArrangementsDiagnosis
+
+    return isinstance(found, ArrangementsDiagnosis)
 
 
 def _text(found, form: str, numbers: str | None, output: str | None, files: list[str]) -> str:
     """The answer in the form asked for, and what became of `-o`."""
     from mouse_cli.cli._terminal import json_text
-    from mouse_cli.report import document, written
+    from mouse_cli.report import document
+    from mouse_cli.report import written as report
 
     if form == "json":
-        return json_text(document(found) | {"revised_deck": files[-1] if files else None})
-    text = written(found, form, numbers or "modern")
-    return (
-        text if output is None else f"{text}\n{fill(_written(found, output, files), _WIDTH, break_long_words=False)}\n"
-    )
+        decks = {"revised_decks": files} if _arranged(found) else {"revised_deck": files[-1] if files else None}
+        return json_text(document(found) | decks)
+    text = report(found, form, numbers or "modern")
+    if output is None:
+        return text
+    sentence = told(files, output) if _arranged(found) else _written(found, output, files)
+    return f"{text}\n{fill(sentence, _WIDTH, break_long_words=False)}\n"
 
 
 def _written(found, output: str, files: list[str]) -> str:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -38,6 +39,10 @@ class Model:
         changes = self.changes(x[self.k :])
         K, M, S = self.summed(list(enumerate(changes)))
         self._crossed(K, M)
+        if self.following is not None:
+            step = self.base.step(x[: self.k])
+            for into, slopes in zip((K, M), self.following, strict=True):
+                into += np.tensordot(step, slopes, 1)
         bars, core = self.softer(changes)
         if len(bars):
             K[: self.base.r, : self.base.r] += self.base.bars.strained(bars, core * self.follow(bars, x[: self.k]))
@@ -83,6 +88,32 @@ class Model:
             K[at] += one.whole.T @ other.K
             M[at] += one.whole.T @ other.M
 
+    @cached_property
+    def following(self) -> tuple[np.ndarray, np.ndarray] | None:
+        """What the deck's parameters, along each of d directions, add to K and M (d, size, size) of the causes; None: nothing."""
+        own = [(i, recipe.carried) for i, recipe in enumerate(self.recipes) if recipe.carried and recipe.carried.slopes]
+        if not own:
+            return None
+        K, M = np.zeros((2, self.base.directions.shape[1], self.size, self.size))
+        for i, carried in own:
+            at = self.places[i]
+            of_K, of_M, *of_cause = carried.slopes
+            for into, slopes in zip((K, M), of_cause, strict=True):
+                into[:, at[:, None], at] += slopes
+            for j, other in own:
+                if i != j:
+                    across = (slice(None), *np.ix_(self.places[j][self.base.r :], at[self.base.r :]))
+                    K[across] += other.whole.T @ of_K
+                    M[across] += other.whole.T @ of_M
+        return K, M
+
+    def followed(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+        """Its derivatives by z (k, size, size)."""
+        if self.following is None:
+            return None
+        rates = self.base.rates(z)
+        return tuple(np.tensordot(rates, slopes, 1) for slopes in self.following)
+
     def _carried(self, i: int) -> np.ndarray | None:
         """Coordinates of cause i from those of all (., size), where other causes carry the model along."""
         r, at = self.base.r, self.places[i]
@@ -121,6 +152,10 @@ class Model:
         forces = dK @ X[:r, m] - inertia * at.eigenvalues[m] + self._following(at)
         G = [np.swapaxes(forces, 1, 2) @ X[:r]]  # (k, m, modes)
         own = [np.einsum("prm,rm->pm", inertia, X[:r, m])]
+        if (followed := self.followed(at.x[: self.k])) is not None:
+            carried = followed[1] @ X[:, m]
+            G[0] += np.swapaxes(followed[0] @ X[:, m] - carried * at.eigenvalues[m], 1, 2) @ X
+            own[0] += np.einsum("prm,rm->pm", carried, X[:, m])
         sensed = np.zeros((self.k, at.seen.shape[0], len(m)))
         for i, change in self.derivatives(at.x):
             K, M, S = self.summed([(i, change)])
@@ -145,6 +180,21 @@ class Model:
         b, follows = len(bars), self.base.stiffening[bars].T
         loads = follows[:, :, None, None] * loads  # (k, b, 3, m)
         return rows.reshape(3 * b, -1).T @ loads.reshape(len(follows), 3 * b, loads.shape[-1])
+
+    def parts(self, at: "Point") -> list[tuple["Model", "Point"]]:
+        """The model and its point by themselves: there is one arrangement."""
+        return [(self, at)]
+
+    def loosened(self, at: "Point", share: float) -> "Model | None":
+        """The same, its data allowed that share of what the causes do at a point; None where there is no model without them."""
+        bare = Model(self.base).point(at.x[: self.k])
+        if bare is None:
+            return None
+        data = self.base.data
+        off = share * 0.5 * np.log(at.eigenvalues[at.modes] / bare.eigenvalues[bare.modes])
+        _, a = data.residual(bare.eigenvalues[bare.modes], bare.seen[:, bare.modes])
+        moved = share * (at.a * at.seen[:, at.modes] - a * bare.seen[:, bare.modes])
+        return Model(self.base.judged_by(data.loosened(off, moved)), self.recipes)
 
     def derivatives(self, x: np.ndarray) -> Iterator[tuple[int, Change]]:
         """Recipe and d(change)/dc, by central differences of the matrices, for each coordinate of the causes."""

@@ -5,6 +5,7 @@ exact; of a large one V holds the lowest, the static responses to unit loads at 
 derivatives of the measured modes by the parameters.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -69,13 +70,22 @@ class Reduced:
         """K and M (r, r) at z (k,)."""
         key = z.tobytes()
         if key not in self._at:
-            step = self._along @ (self.parameters(z) - (self.theta if self.origin is None else self.origin))
+            step = self.step(z)
             K, M = (step @ d.reshape(len(step), self.r**2) for d in (self.dK, self.dM))
             K[:: self.r + 1] += self.eigenvalues
             M[:: self.r + 1] += 1.0
             self._at.clear()
             self._at[key] = K.reshape(self.r, self.r), M.reshape(self.r, self.r)
         return self._at[key]
+
+    def step(self, z: np.ndarray) -> np.ndarray:
+        """How far (d,) the parameters at z are along each direction from where V was taken."""
+        return self._along @ (self.parameters(z) - (self.theta if self.origin is None else self.origin))
+
+    def rates(self, z: np.ndarray) -> np.ndarray:
+        """Its derivatives (k, d)."""
+        by = self.coordinates.slope(self.coordinates.mean + self.L @ z)[:, None] * self.L
+        return (self._along @ by).T
 
     @cached_property
     def _at(self) -> dict[bytes, tuple[np.ndarray, np.ndarray]]:
@@ -84,8 +94,7 @@ class Reduced:
 
     def slopes(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """dK/dz and dM/dz (k, r, r)."""
-        by = self.coordinates.slope(self.coordinates.mean + self.L @ z)[:, None] * self.L
-        by = (self._along @ by).T
+        by = self.rates(z)
         shape = len(by), self.r, self.r
         return tuple((by @ d.reshape(len(d), self.r**2)).reshape(shape) for d in (self.dK, self.dM))
 
@@ -154,6 +163,18 @@ class Reduced:
             dM=Q.T @ self.dM @ Q,
             sensing=self.sensing @ Q,
         )
+
+    def recipes(self, candidate) -> list:
+        """What `candidate` can do to this model, and where."""
+        return candidate.recipes(self, candidate)
+
+    def each(self, do: Callable[["Reduced"], "Reduced"]) -> "Reduced":
+        """What `do` makes of it: there is one arrangement."""
+        return do(self)
+
+    def judged_by(self, data: Data) -> "Reduced":
+        """The same model for the same test at other accuracies."""
+        return replace(self, data=data)
 
     def at(self, theta: np.ndarray) -> "Reduced":
         """The same model at other values theta (p,) of its parameters; a large one in the same coordinates and places."""

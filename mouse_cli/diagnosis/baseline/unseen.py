@@ -14,9 +14,13 @@ def unseen(one: Fit) -> float:
     Of a mode below the highest measured one whose largest component is r times that of those measured (unit modal masses), a test
     misses 1 in 1 + (r / 0.03)^2: what responds at resonance goes with r^2. Where the test counts that mode, nothing.
     """
-    at, base = one.point, one.model.base
-    bare = Model(base).point(at.x[: one.model.k])
-    if bare is None or not at.modes.size or at.modes.max() + 1 <= base.data.test.number.max():
+    return sum(_in_one(model, at) for model, at in one.model.parts(one.point))
+
+
+def _in_one(model: Model, at: Point) -> float:
+    """The same of one arrangement."""
+    bare = Model(model.base).point(at.x[: model.k])
+    if bare is None or not at.modes.size or at.modes.max() + 1 <= model.base.data.test.number.max():
         return 0.0
     return max(0.0, _missed(at) - _missed(bare))
 

@@ -19,7 +19,7 @@ def extended(problem: Problem, one: Fit) -> Problem | None:
         if recipe.extend is None:
             return None
         deck = recipe.extend(deck, recipe.values(one.c[own]))
-    deck = _in_its_units(deck, len(problem.parameters))
+    deck = in_its_units(deck, len(problem.parameters))
     place = {label: i for i, label in enumerate(deck.structure.labels)}
     to = np.array([place[label] for label in problem.structure.labels], int)
     if problem.held_records is not None:
@@ -48,8 +48,8 @@ def _corrected(held: HoldOut, whole: Problem, fitted: ModalTest) -> ModalTest:
     return replace(test, dofs=dofs, sensing=csr_array(rows), sensors=names)
 
 
-def _in_its_units(deck: Problem, own: int) -> Problem:
-    """The units of the new parameters, which candidates give in SI, as the deck declares them."""
+def in_its_units(deck: Problem, own: int) -> Problem:
+    """The units of parameters after the first `own`, which candidates give in SI, as the deck declares them."""
     new = tuple(replace(each, unit=deck.units.of(each.unit)) for each in deck.parameters[own:])
     return replace(deck, parameters=deck.parameters[:own] + new)
 

@@ -164,6 +164,9 @@ class FrfModel:
         count, size = self.of_deck + self.t, self.elastic.size
         K, M, S = (np.zeros((count, rows, size)) for rows in (size, size, len(self.base.sensing)))
         K[: self.of_deck, :r, :r], M[: self.of_deck, :r, :r] = self.base.slopes(z)
+        if (followed := self.elastic.followed(z)) is not None:
+            for into, slopes in zip((K, M), followed, strict=True):
+                into[: self.of_deck] += slopes
         bars, core = self.elastic.softer(self.elastic.changes(c))
         if len(bars):
             follow = self.base.stiffening[bars].T[:, :, None, None] * self.elastic.follow(bars, z)

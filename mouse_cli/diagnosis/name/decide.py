@@ -25,8 +25,8 @@ from mouse_cli.model.groups import leading
 from mouse_cli.model.units import Units
 from mouse_cli.updating.chi_square import upper_tail
 
-_SURE = 0.9  # probability of a group from which on it is named
-_ODDS = 3.0  # nats over no cause at all that a name needs
+SURE = 0.9  # probability of a group from which on it is named
+ODDS = 3.0  # nats over no cause at all that a name needs
 _BELIEVED = 0.5  # share of the stated accuracies in the leading explanation below which the test itself is the finding
 _STANDS = 1e-6  # probability of no cause below which some cause acts, whatever errors the test has
 
@@ -57,16 +57,16 @@ def judge(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
     demanded = doubtful(baseline, rejected) or (baseline.telling and dict(ranking.groups).get("none", 0.0) < GATE)
     certain = best is not None and sure(ranking)
     proof = held_out(model, baseline, best if demanded or certain else None)
-    if not demanded and not (certain and _gain(proof) > _ODDS):
+    if not demanded and not (certain and _gain(proof) > ODDS):
         return Verdict(NOTHING, None, None if proof is None else replace(proof, revised=None))
     kind = decide(ranking)
-    if kind == UNKNOWN or best is None or not _gain(proof) < -_ODDS:
+    if kind == UNKNOWN or best is None or not _gain(proof) < -ODDS:
         return Verdict(kind, best, proof)
     struck = [group(best)]
     for name in (name for name, p in ranking.groups if p > RIVAL and name not in ("none", *struck)):
         other = next(one for one in ranking.fits if group(one) == name)
         again = held_out(model, baseline, other)
-        if not _gain(again) < -_ODDS:
+        if not _gain(again) < -ODDS:
             return Verdict(ONE_OF, other, again, tuple(struck))
         struck.append(name)
     return Verdict(UNKNOWN, best, proof, tuple(struck))
@@ -80,7 +80,7 @@ def leader(ranking: Ranking) -> Fit | None:
 
 def sure(ranking: Ranking) -> bool:
     """Whether some cause acts, whichever it is, and the test may be as accurate as it is said to be."""
-    return dict(ranking.groups).get("none", 0.0) <= 1 - _SURE and ranking.stated[0] >= _BELIEVED
+    return dict(ranking.groups).get("none", 0.0) <= 1 - SURE and ranking.stated[0] >= _BELIEVED
 
 
 def decide(ranking: Ranking) -> str:
@@ -95,12 +95,12 @@ def decide(ranking: Ranking) -> str:
         return UNKNOWN  # the test is not as accurate as it is said to be, and what is missing besides cannot be told
     if not first.model.base.data.by_shape and any(recipe.own for recipe in first.recipes):
         return ONE_OF  # paired by number, a list of frequencies cannot prove that it holds one mode more
-    if probability < _SURE:
+    if probability < SURE:
         return ONE_OF
     if name == "none":
         return UNKNOWN
     odds = (first.log_evidence - ranking.baseline.log_evidence) / ranking.noise_scale
-    return NAMED if odds > _ODDS else ONE_OF
+    return NAMED if odds > ODDS else ONE_OF
 
 
 def _gain(proof: HeldOut | None) -> float:

@@ -62,13 +62,14 @@ def rank(
     known: dict[str, Candidate] | None = None,
     causes: int = 2,
     hear: Callable[[Ranking], Ranking] = lambda found: found,
+    kind: type[Model] = Model,
 ) -> Ranking:
     """All that the candidates (`known`; None: all) make of the data, at most `causes` (1, 2) of them together.
 
-    hear: what further data make of a ranking, before a second cause is sought and after.
+    hear: what further data make of a ranking, before a second cause is sought and after. kind: see `Study`.
     """
-    study = Study(model, known)
-    baseline = settled(fit(Model(model), np.zeros(0)), study)
+    study = Study(model, known, kind)
+    baseline = settled(fit(kind(model), np.zeros(0)), study)
     singles: list[Fit] = []
     for name in study.promising():
         one = best(study, name, _reach([baseline, *singles]))

@@ -30,11 +30,11 @@ _COARSE = 24  # coordinates at least for a first look
 class Study:
     """A reduced model, what each candidate can do to it, and the same at other parameters, where causes weigh otherwise.
 
-    known: candidates by key; None: all.
+    known: candidates by key; None: all. kind: of what a model with causes is made, of one structure or of its arrangements.
     """
 
-    def __init__(self, model: Reduced, known: dict[str, Candidate] | None = None):
-        self.model, self.k = model, model.L.shape[1]
+    def __init__(self, model: Reduced, known: dict[str, Candidate] | None = None, kind: type[Model] = Model):
+        self.model, self.k, self.kind = model, model.L.shape[1], kind
         self.known = registry() if known is None else known
         self._made: dict[str, list[Recipe]] = {}
         self._looked: dict[str, list[tuple[float, int, np.ndarray]]] = {}
@@ -43,7 +43,7 @@ class Study:
         """What candidate `name` can do, and where; made when first asked for."""
         if name not in self._made:
             candidate = self.known[name]
-            made = candidate.recipes(self.model, candidate)
+            made = self.model.recipes(candidate)
             self._made[name] = [replace(recipe, number=i) for i, recipe in enumerate(made)]
         return self._made[name]
 
@@ -53,15 +53,8 @@ class Study:
 
         Those are the lowest, and how the rest bends when one end of a line gives way, which they alone do not.
         """
-        model = self.model
-        least = max(_COARSE, 4 * model.data.m + 8, int(model.data.test.number.max()) + 12)
-        if least >= model.r:
-            return self
-        bent = ends(model)[:, least:] / (model.eigenvalues[least:] + lowest(model))
-        bent = bent[: model.r - least]
-        Q = np.eye(model.r)[:, : least + len(bent)]
-        Q[least:, least:] = np.linalg.qr(bent.T)[0]
-        return Study(model.within(Q), self.known)
+        model = self.model.each(_lowest)
+        return self if model is self.model else Study(model, self.known, self.kind)
 
     def promising(self) -> list[str]:
         """All candidates, those first that a first look at them alone finds most promising."""
@@ -79,7 +72,7 @@ class Study:
             return self._looked[name]
         others, found = self.own(beside), []
         for recipe in self.recipes(name):
-            trial = Model(self.model, (*others, recipe))
+            trial = self.kind(self.model, (*others, recipe))
             for values in recipe.grid:
                 at = trial.point(np.concatenate([before, recipe.coordinates(values)]))
                 if at is not None:
@@ -113,7 +106,7 @@ class Study:
     @cached_property
     def _adapted(self) -> tuple[np.ndarray, np.ndarray]:
         """T (q, k), and (T'T + I)^-1 [T', -I] (k, q + k): how far the deck's parameters follow a residual."""
-        plain = Model(self.model)
+        plain = self.kind(self.model)
         T = plain.jacobian(plain.point(np.zeros(self.k)))
         return T, np.linalg.solve(T.T @ T + np.eye(self.k), np.hstack([T.T, -np.eye(self.k)]))
 
@@ -135,12 +128,24 @@ class Study:
 
     def with_cause(self, others: tuple[Recipe, ...], name: str, number: int) -> Model:
         """The model with the causes `others`, from any study, and recipe `number` of candidate `name`."""
-        return Model(self.model, (*self.own(others), self.recipes(name)[number]))
+        return self.kind(self.model, (*self.own(others), self.recipes(name)[number]))
 
     def at(self, one: Fit) -> "Study":
         """The same at the parameters that a fit found."""
         theta = one.model.base.parameters(one.point.x[: self.k])
-        return Study(self.model.at(theta), self.known)
+        return Study(self.model.at(theta), self.known, self.kind)
+
+
+def _lowest(model: Reduced) -> Reduced:
+    """A model in its lowest coordinates, and those by which ends of lines give way; itself where there are no more."""
+    least = max(_COARSE, 4 * model.data.m + 8, int(model.data.test.number.max()) + 12)
+    if least >= model.r:
+        return model
+    bent = ends(model)[:, least:] / (model.eigenvalues[least:] + lowest(model))
+    bent = bent[: model.r - least]
+    Q = np.eye(model.r)[:, : least + len(bent)]
+    Q[least:, least:] = np.linalg.qr(bent.T)[0]
+    return model.within(Q)
 
 
 def _spread(starts: list[tuple[int, np.ndarray]], trials: dict[int, Model], most: int) -> list[tuple[int, np.ndarray]]:
@@ -188,15 +193,8 @@ def shifted(one: Fit) -> Fit:
 
 def idealised(one: Fit) -> Fit:
     """The fit when the theory of its causes is right to some share of what they do."""
-    base, at = one.model.base, one.point
-    bare = Model(base).point(at.x[: one.model.k])
-    if bare is None:
-        return one
-    off = _THEORY * 0.5 * np.log(at.eigenvalues[at.modes] / bare.eigenvalues[bare.modes])
-    _, a = base.data.residual(bare.eigenvalues[bare.modes], bare.seen[:, bare.modes])
-    moved = _THEORY * (at.a * at.seen[:, at.modes] - a * bare.seen[:, bare.modes])
-    loose = Model(replace(base, data=base.data.loosened(off, moved)), one.recipes)
-    return fit(loose, one.c, at.x[: one.model.k]) or one
+    loose = one.model.loosened(one.point, _THEORY)
+    return one if loose is None else fit(loose, one.c, one.point.x[: one.model.k]) or one
 
 
 def settled(one: Fit, study: Study) -> Fit:
@@ -207,8 +205,8 @@ def settled(one: Fit, study: Study) -> Fit:
         if not one.recipes or np.all(np.abs(theta - before) <= _MOVED * np.abs(before)):
             break
         there = study.at(one)
-        base = replace(there.model, data=one.model.base.data)
-        again = fit(Model(base, there.own(one.recipes)), one.c, one.point.x[: one.model.k])
+        base = there.model.judged_by(one.model.base.data)
+        again = fit(study.kind(base, there.own(one.recipes)), one.c, one.point.x[: one.model.k])
         if again is None:
             break
         one = again

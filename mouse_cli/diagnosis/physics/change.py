@@ -48,12 +48,17 @@ class Change:
 
 @dataclass(frozen=True)
 class Carried:
-    """Motion (r, a) of the model with a degrees of freedom of a cause's own; of all n free then (n, a), and K, M times it."""
+    """Motion (r, a) of the model with a degrees of freedom of a cause's own; of all n free then (n, a), and K, M times it.
+
+    slopes: of the deck's parameters, d directions, what they add to K and M times that motion (d, n, a), and to K and M of the
+    cause (d, r + a, r + a); None where the model has so few coordinates that what they were where it is weighed is near enough.
+    """
 
     model: np.ndarray
     whole: np.ndarray
     K: np.ndarray
     M: np.ndarray
+    slopes: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray] | None = None
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.bound_properties import BoundProperties, nominal_properties
-from mouse_cli.terms.elements import Layout, registry
+from mouse_cli.terms.elements import Layout, Matrices, registry
 
 _MOST = 60  # places that are looked at: those that hold most energy in the lowest modes
 _STIFF = {"rod": ("E",), "spring": DIRECTIONS, "storey": DIRECTIONS, "joint": DIRECTIONS}
@@ -44,7 +44,17 @@ def _stiffness(model: Reduced, s: int) -> list[tuple[int, np.ndarray]]:
     elements = mesh.elements[s]
     if elements.type not in _STIFF:
         return []
-    kind = registry()[elements.type]
+    matrices = matrices_of(model, s)["K"]
+    rows = {int(n): _node(model, int(n)) for n in np.unique(elements.nodes)}
+    chosen = [i for i in range(len(elements)) if keep is None or keep[elements.nodes[i]].any()]
+    moved = ((i, np.concatenate([rows[int(n)] for n in elements.nodes[i]])) for i in chosen)
+    return [(i, u.T @ matrices[i] @ u) for i, u in moved]
+
+
+def matrices_of(model: Reduced, s: int) -> Matrices:
+    """Matrices of the elements of set s, at the parameters where causes are weighed."""
+    mesh = model.problem.mesh
+    elements, kind = mesh.elements[s], registry()[mesh.elements[s].type]
     options = {k: o.default for k, o in kind.options.items()} | elements.options
     layout = Layout(mesh.coordinates[elements.nodes], options)
     properties = {k: np.array(v, float) for k, v in nominal_properties(kind, elements, layout).items()}
@@ -53,11 +63,7 @@ def _stiffness(model: Reduced, s: int) -> list[tuple[int, np.ndarray]]:
         bound = BoundProperties(kind, elements, layout, own)
         for name, value in bound.at(model.theta)[0].items():
             properties[name][bound.members] = value
-    matrices = kind.matrices(layout, properties)["K"]
-    rows = {int(n): _node(model, int(n)) for n in np.unique(elements.nodes)}
-    chosen = [i for i in range(len(elements)) if keep is None or keep[elements.nodes[i]].any()]
-    moved = ((i, np.concatenate([rows[int(n)] for n in elements.nodes[i]])) for i in chosen)
-    return [(i, u.T @ matrices[i] @ u) for i, u in moved]
+    return kind.matrices(layout, properties)
 
 
 def _node(model: Reduced, n: int) -> np.ndarray:

@@ -4,16 +4,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.diagnosis.baseline.reduced import Reduced
+from mouse_cli.diagnosis.baseline.directions import projected
+from mouse_cli.diagnosis.baseline.reduced import WHOLE, Reduced
 from mouse_cli.diagnosis.baseline.scales import lowest
 from mouse_cli.diagnosis.candidates import Candidate
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.physics.change import Carried, Change, Recipe, Unknown, steps
+from mouse_cli.dynamics.contraction import Stack
 from mouse_cli.model.arrays import is_sparse
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
-from mouse_cli.terms.assembly import assembly
+from mouse_cli.terms.assembly import Assembly, assembly
 
 _LOADED = 0.02  # share of the largest reaction of its kind below which a support is not loaded
 _SHIFT = 1e-3  # of the lowest measured eigenvalue, so that motions that nothing resists need no support
@@ -77,8 +79,23 @@ def released(model: Reduced, kinds: range) -> Released | None:
     blocks = [whole.T @ (matrix @ whole) for matrix in (K, M)]
     for block in blocks:
         block[: model.r, : model.r] = 0.0
-    carried = Carried(model.V.T @ (M[f][:, f] @ motion[f]), motion, K @ motion, M @ motion)
+    slopes = _slopes(model, assembly(free), whole) if free.structure.n <= WHOLE + len(s) else None
+    carried = Carried(model.V.T @ (M[f][:, f] @ motion[f]), motion, K @ motion, M @ motion, slopes)
     return Released(tuple(held), *blocks, free.test.read(motion), np.asarray(K.diagonal())[s], carried)
+
+
+def _slopes(model: Reduced, free: Assembly, whole: np.ndarray) -> tuple[np.ndarray, ...]:
+    """See `Carried`. With all coordinates kept, what is left to the mass of a support beside theirs is a small difference:
+
+    M of the cause must follow the parameters as that of the model does.
+    """
+    r = model.r
+    stack = Stack(free.n, free.p, free.slopes(model.theta))
+    matrices = projected(stack, model.directions, np.eye(free.n))
+    of_cause = [whole.T @ each @ whole for each in matrices]
+    for each in of_cause:
+        each[:, :r, :r] = 0.0
+    return (*(each @ whole[:, r:] for each in matrices), *of_cause)
 
 
 def _candidates(model: Reduced, kinds: range) -> list[tuple[int, int]]:
@@ -159,8 +176,18 @@ def _recipe(
         own=len(which),
         log_prior=-float(np.log(count)),
         extend=extend,
-        carried=Carried(*(getattr(found.carried, name)[:, which] for name in ("model", "whole", "K", "M"))),
+        carried=_part(found.carried, which, model.r),
     )
+
+
+def _part(carried: Carried, which: list[int], r: int) -> Carried:
+    """What a part of the supports carries along."""
+    own = [getattr(carried, name)[:, which] for name in ("model", "whole", "K", "M")]
+    if carried.slopes is None:
+        return Carried(*own)
+    at = np.concatenate([np.arange(r), r + np.array(which)])
+    dK, dM, *of_cause = carried.slopes
+    return Carried(*own, (dK[..., which], dM[..., which], *(each[:, at[:, None], at] for each in of_cause)))
 
 
 def _range(model: Reduced, resistance: float, turning: bool) -> tuple[float, float]:

@@ -37,6 +37,8 @@ def _values(draft: Draft, given: MeshDraft, s: int, members: ElementSet) -> None
         wrong = ~np.isfinite(values)
         if about[name].positive:
             needed, wrong = "positive", wrong | ~(values > 0)
+        if about[name].or_zero:
+            needed, wrong = "positive or zero", wrong | ~(values >= 0)
         source = members.origin.get(name)
         for i in np.flatnonzero(wrong)[: 1 if source else MOST]:
             held = f" (from {source})" if source else ""

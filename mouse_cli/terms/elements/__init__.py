@@ -45,7 +45,7 @@ GEOMETRIC = "Kg"  # a further key of Matrices: stiffness due to axial force, par
 
 @dataclass(frozen=True)
 class Property:
-    """A number that elements of a type have: meaning, unit, default, and whether it must be positive.
+    """A number that elements of a type have: meaning, unit, default, and whether it must be positive, or may be zero besides.
 
     default None: it must be given; a function of (layout, properties): it follows from those that stand before it, as the
     meaning says. only: words of options with which it acts (none: always).
@@ -55,6 +55,7 @@ class Property:
     unit: str
     default: float | Callable[[Layout, Properties], np.ndarray] | None = None
     positive: bool = False
+    or_zero: bool = False
     only: tuple[str, ...] = ()
 
 

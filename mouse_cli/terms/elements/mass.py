@@ -20,7 +20,7 @@ ELEMENT = ElementType(
     "point mass with rotary inertia",
     (1,),
     {
-        "mass": Property("mass", "kg", positive=True),
+        "mass": Property("mass", "kg", or_zero=True),
         **{name: Property(f"moment of inertia about global {name[1].upper()}", "kg m2", 0.0) for name in _INERTIA},
     },
     matrices,

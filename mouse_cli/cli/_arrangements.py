@@ -1,0 +1,108 @@
+"""Several decks as arrangements of one structure: what the command line may ask of them, and where their decks are written."""
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import click
+
+from mouse_cli.model.arrangements import ArrangementsDiagnosis
+from mouse_cli.model.diagnosis import Choices
+from mouse_cli.model.problem import Problem
+
+ARRANGEMENTS = (
+    click.option(
+        "--held-out",
+        metavar="DECK",
+        multiple=True,
+        help="Of several arrangements: one that is kept from every fit, for the proof. Repeat it for more.",
+    ),
+    click.option(
+        "--changed",
+        metavar="DECK",
+        multiple=True,
+        help="Of several arrangements: one that was measured after something changed. What changed is sought in these alone, the "
+        "others say how the structure was. Repeat it for more; one that is held out too is named by both.",
+    ),
+    click.option(
+        "--common-sd",
+        metavar="PERCENT",
+        type=click.FloatRange(0, 50, min_open=True),
+        default=1.0,
+        show_default=True,
+        help="Of several arrangements: what theory errs in each frequency of all of them alike.",
+    ),
+)
+
+
+@dataclass(frozen=True)
+class Named:
+    """Names of decks: those fitted, those held out, and which of either were measured after something changed."""
+
+    fitted: tuple[str, ...]
+    unseen: tuple[str, ...]
+    changed: tuple[str, ...]
+
+    @classmethod
+    def of(cls, decks: tuple[str, ...], held_out: tuple[str, ...], changed: tuple[str, ...]) -> "Named":
+        """From the command line."""
+        return cls((*decks, *(deck for deck in changed if deck not in held_out)), held_out, changed)
+
+    def having(self, decks: tuple[str, ...]) -> tuple[bool, ...]:
+        """Which of `decks` have the causes that are sought: those that changed, or all."""
+        return tuple(not self.changed or deck in self.changed for deck in decks)
+
+
+def several(named: Named, output: str | None, plot: str | None) -> bool:
+    """Whether decks are arrangements. Raises click.UsageError for what has no meaning, or where names would collide."""
+    decks = named.fitted
+    if len(decks) == 1 and not named.unseen and not named.changed:
+        return False
+    if not any(named.having(decks)):
+        raise click.UsageError("every deck of --changed is held out: leave some to the fit")
+    if plot:
+        raise click.UsageError("--plot draws one deck, not several arrangements")
+    names = [os.path.basename(deck) for deck in decks]
+    if output and len(set(names)) < len(names):
+        raise click.UsageError("decks of one name in different folders cannot be written to one folder")
+    if output and os.path.exists(output) and not os.path.isdir(output):
+        raise click.UsageError(f"{output} is a file; the decks of arrangements are written to a folder")
+    return True
+
+
+def diagnosed(
+    named: Named,
+    problems: tuple[Problem, ...],
+    unseen: tuple[Problem, ...],
+    common_sd: float,
+    say: Callable[[str], None],
+    choices: Choices,
+) -> ArrangementsDiagnosis:
+    """What arrangements lack; common_sd in per cent."""
+    from mouse_cli.diagnosis.arranged.diagnose import Decks, diagnose_arrangements
+
+    fitted, held = Decks(problems, named.having(named.fitted)), Decks(unseen, named.having(named.unseen))
+    return diagnose_arrangements(fitted, held, common_sd / 100, say, choices)
+
+
+def written(found: ArrangementsDiagnosis, folder: str) -> list[str]:
+    """Names of the extended decks, one for each arrangement, in `folder`; none where nothing is missing."""
+    from mouse_cli.formats import write_deck
+
+    files: list[str] = []
+    if found.extended:
+        os.makedirs(folder, exist_ok=True)
+    having = found.changed or (True,) * len(found.problems)
+    for given, deck, has in zip(found.problems, found.extended, having, strict=False):
+        if not has:
+            continue  # its parameters of the cause would be bound to nothing
+        name = os.path.splitext(os.path.basename(given.source.path))[0] + ".yaml"
+        files.append(write_deck(deck, os.path.join(folder, name))[-1])
+    return files
+
+
+def told(files: list[str], folder: str) -> str:
+    """What became of `-o`."""
+    if not files:
+        return f"Nothing was written to {folder}: nothing is missing, or nothing could be told."
+    return f"The arrangements with every cause that was told are in {folder}, {len(files)} decks."

@@ -1,0 +1,104 @@
+"""What a diagnosis of one structure in several arrangements found: causes that all share, one after another."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Choices, Explanation, HeldOut, Score
+from mouse_cli.model.groups import leading
+from mouse_cli.model.problem import Problem
+
+
+@dataclass(frozen=True)
+class Turn:
+    """What was found missing beside all causes before. kind: NAMED, ONE_OF, or UNKNOWN where none is better than none.
+
+    explanations: all that were tried, most probable first; groups with their probabilities; noise_scale as in `Diagnosis`. before:
+    what the model without a further cause leaves; held: how the model with the leading cause predicts arrangements held out.
+    """
+
+    kind: str
+    explanations: tuple[Explanation, ...]
+    groups: tuple[tuple[str, float], ...]
+    noise_scale: float
+    before: Explanation
+    held: Score | None = None
+
+    @property
+    def best(self) -> Explanation:
+        """The leading explanation of the leading group, one with a cause where there is any."""
+        return self.explanations[leading(self.groups, [one.group for one in self.explanations])]
+
+    @property
+    def probability(self) -> float:
+        """Of the group of `best`."""
+        return dict(self.groups)[self.best.group]
+
+    @property
+    def gain(self) -> float:
+        """Nats over no further cause, at the noise scale."""
+        return (self.best.log_evidence - self.before.log_evidence) / self.noise_scale
+
+    @property
+    def rivals(self) -> tuple[Explanation, ...]:
+        """The first of each group that holds more than 5 % of the probability, none among them."""
+        likely = [name for name, p in self.groups if p > RIVAL]
+        return tuple(next(one for one in self.explanations if one.group == name) for name in likely)
+
+
+@dataclass(frozen=True)
+class SharedError:
+    """What theory errs in ln f of a mode in every arrangement alike: value and sd."""
+
+    mode: int
+    value: float
+    sd: float
+
+
+@dataclass(frozen=True)
+class ArrangementsDiagnosis:
+    """The answer for several arrangements of one structure.
+
+    problems: their decks, as they are; changed: which of them have the causes that were sought, None for all; extended: with every
+    cause that was told. common_sd: of ln f, of theory, the same in all arrangements. turns: causes in the order in which they were
+    told. chi2 on dof with probability p: what is left with all of them. values, sd (q,): of the parameters of the extended decks.
+    rest: what was tried beside all of them and is not demanded, that without a further cause first. held_out: arrangements that no
+    fit has seen, before the first cause and after the last.
+    """
+
+    problems: tuple[Problem, ...]
+    changed: tuple[bool, ...] | None
+    extended: tuple[Problem, ...]
+    common_sd: float
+    turns: tuple[Turn, ...]
+    chi2: float
+    dof: int
+    p: float
+    adequate: bool
+    values: np.ndarray
+    sd: np.ndarray
+    shared: tuple[SharedError, ...]
+    rest: tuple[Explanation, ...]
+    held_out: HeldOut | None = None
+    refuted: str = ""
+    choices: Choices = Choices()
+    remarks: tuple[str, ...] = field(default=())
+
+    @property
+    def problem(self) -> Problem:
+        """The deck of the first arrangement."""
+        return self.problems[0]
+
+    @property
+    def kind(self) -> str:
+        """NOTHING is missing; NAMED, every cause; ONE_OF, some cause is not settled; UNKNOWN, more is left than noise."""
+        if not self.adequate:
+            return UNKNOWN
+        if not self.turns:
+            return NOTHING
+        return NAMED if all(turn.kind == NAMED for turn in self.turns) else ONE_OF
+
+    @property
+    def exit_code(self) -> int:
+        """0: nothing is missing; 1: something is."""
+        return 0 if self.kind == NOTHING else 1

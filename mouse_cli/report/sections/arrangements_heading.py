@@ -1,0 +1,30 @@
+"""What was diagnosed: the decks of all arrangements, and how well theory is held to know them."""
+
+from collections.abc import Iterator
+
+from mouse_cli.model.arrangements import ArrangementsDiagnosis
+from mouse_cli.report.blocks import Block, Text
+from mouse_cli.report.section import Options, Section
+from mouse_cli.report.sections._wording import counted, deck_table
+
+
+def heading(found: ArrangementsDiagnosis, options: Options) -> Iterator[Block]:
+    """Decks, data, what they share."""
+    first = found.problem
+    yield deck_table(first)
+    data = sum(each.test.m for each in found.problems)
+    unseen = 0 if found.held_out is None else len(found.held_out.labels)
+    yield Text(
+        f"{counted(len(found.problems), 'arrangement')} of one structure, {counted(data, 'measured mode')} in all, fitted "
+        f"together; {counted(unseen, 'frequency', 'frequencies')} of other arrangements held out. They share "
+        f"{counted(len(first.parameters), 'parameter')} and every cause. What theory errs in a frequency is taken as the same in "
+        f"all arrangements, with a standard deviation of {100 * found.common_sd:.3g} %; what the decks state comes beside it, "
+        "anew in each."
+    )
+    yield Text(f"Fitted: {', '.join(each.source.path for each in found.problems)}.")
+    if found.changed is not None:
+        own = [each.source.path for each, has in zip(found.problems, found.changed, strict=True) if has]
+        yield Text(f"Causes are sought in what changed alone: {', '.join(own)}.")
+
+
+SECTION = Section("arrangements-heading", 20, "Decks", heading, (ArrangementsDiagnosis,))

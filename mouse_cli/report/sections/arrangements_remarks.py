@@ -1,0 +1,20 @@
+"""What a careful reader of a diagnosis of arrangements should know."""
+
+from collections.abc import Iterator
+
+from mouse_cli.model.arrangements import ArrangementsDiagnosis
+from mouse_cli.report.blocks import Block, Text
+from mouse_cli.report.section import Options, Section
+
+
+def remarks(found: ArrangementsDiagnosis, options: Options) -> Iterator[Block]:
+    """One paragraph each."""
+    for text in found.remarks:
+        yield Text(f"{text[:1].upper()}{text[1:]}.")
+    for each in found.problems:
+        for remark in each.warnings:
+            place = f" ({remark.span})" if remark.span else ""
+            yield Text(f"{remark.code}{place}: {remark.message}.")
+
+
+SECTION = Section("arrangements-remarks", 90, "Remarks", remarks, (ArrangementsDiagnosis,))
