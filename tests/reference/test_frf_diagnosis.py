@@ -13,15 +13,18 @@ from benchmarks.blind_frf.decks import write
 from benchmarks.blind_frf.exact import Joint, receptance
 from mouse_cli.diagnosis.baseline.reduced import reduced
 from mouse_cli.diagnosis.candidates import registry
+from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.frf.correlated import correlated
 from mouse_cli.diagnosis.frf.damping import damping
 from mouse_cli.diagnosis.frf.dashpots import dashpots
 from mouse_cli.diagnosis.frf.data import FrfData, lines
+from mouse_cli.diagnosis.frf.extend import with_loss
 from mouse_cli.diagnosis.frf.identified import with_modes
 from mouse_cli.diagnosis.frf.lossy import STRUCTURAL, VISCOUS, lossy
 from mouse_cli.diagnosis.frf.model import FrfModel
 from mouse_cli.dynamics.solver import EigenSolver
 from mouse_cli.formats import read_deck
+from mouse_cli.terms.assembly import assembly
 
 K, C, LOSS = 2.0e3, 2.0, 0.3  # N/m, N s/m
 X = 0.31  # of the span, not at a node: there a hinge may belong to either element, and matrices jump
@@ -131,3 +134,37 @@ def test_neighbours_that_err_alike_count_once(control, rho):
     one = type("One", (), {"model": model, "point": replace(point, residual=np.concatenate([flat.real, flat.imag]))})
     expected = (1 + rho) / (1 - rho)
     assert correlated(one) == pytest.approx(expected, rel=0.25)
+
+
+SOFTENED = """mouse: 1
+title: cantilever, softened from 1 to 2 m
+model:
+  structure:
+    nodes: {line: {from: 0, to: 4, start: [0, 0, 0], end: [4.0, 0, 0]}}
+    elements:
+      - {id: 1-4, type: beam, nodes: 0-4, E: 1.0e6, nu: 0.3, density: 1.0, A: 1.0e-2, Iz: 1.0e-4, Iy: 1.0e-4, J: 1.0e-4}
+    supports: {0: all}
+    plane: XY
+parameters:
+  - {name: E, elements: 1-4, property: E, nominal: 1.0e6, sd: 5 %, transform: log}
+"""
+
+
+@pytest.mark.parametrize(("name", "omega"), [("loss_factor", 1.0), ("stiffness_damping", 3.0)])
+def test_the_loss_of_a_softer_stretch_is_in_the_deck(name, omega, tmp_path):
+    """Compliance of the tip as of springs in series: integral of x^2 / EI, and f / (1 + i eta) of it over the stretch."""
+    (tmp_path / "deck.yaml").write_text(SOFTENED)
+    before, f, eta, EI = read_deck(tmp_path / "deck.yaml"), 0.25, 0.02, 1.0e2
+    edit = Edit(before)
+    edit.bind("stiffness left", [edit.element(2)], ("Iz",), factor=1 / (1 + f))
+    deck = with_loss(edit.done(), before, name, eta / omega)
+    assert [p.name for p in deck.parameters[2:]] == [f"{name.replace('_', ' ')} of the part that loses energy"]
+    whole = assembly(deck)
+    (K, _), (C, D) = whole.matrices(deck.prior.mean), whole.damping(deck.prior.mean)
+    tip = deck.structure.labels.index("4TY")
+    loss = 1j * (0 if D is None else D) + 1j * omega * (0 if C is None else C)
+    found = np.linalg.inv(np.asarray((K + loss).todense() if hasattr(K + loss, "todense") else K + loss))[tip, tip]
+    whole_beam, stretch = 4**3 / 3, (3**3 - 2**3) / 3  # integrals of x^2, x from the tip
+    exact = (whole_beam + stretch * f / (1 + 1j * eta)) / EI
+    assert found.real == pytest.approx(exact.real, rel=1e-3)
+    assert found.imag == pytest.approx(exact.imag, rel=2e-2)

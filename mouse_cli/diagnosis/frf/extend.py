@@ -23,16 +23,25 @@ _SPRINGS = ("spring", "joint")
 def with_loss(deck: Problem, before: Problem, name: str, value: float) -> Problem:
     """`deck` with a loss in the springs that `before` has not. name: `loss_factor` or `stiffness_damping`, the property that it is.
 
-    A stretch of bar that is softer has none of its own: the deck is then as it was.
+    Elements that are softer by the share 1 - q are their own springs and further ones in series: the loss of these is that of
+    the whole times 1 - q, as far as losses are small (energies in series, each with its loss).
     """
     if of_matrices(before):
         return _with_matrix(deck, _MATRIX[name], value * _less(deck.structure.K, before.structure.K))
     edit, known = Edit(deck), max(int(members.ids.max()) for members in before.mesh.elements)
-    for s, members in enumerate(edit.sets):
-        new = np.flatnonzero(members.ids > known).tolist()
-        if members.type in _SPRINGS and new:
-            edit.put([(s, i) for i in new], name, np.full(len(new), value))
-    return edit.done()
+    new = [
+        (s, int(i))
+        for s, members in enumerate(edit.sets)
+        for i in np.flatnonzero(members.ids > known)
+        if members.type in _SPRINGS
+    ]
+    if new:
+        edit.put(new, name, np.full(len(new), value))
+        return edit.done()
+    softer = [b for b in deck.bindings if b.parameter >= len(before.parameters) and b.factor]
+    lost = 1 - min((float(deck.prior.mean[b.parameter]) for b in softer), default=1.0)
+    elements = sorted({(b.set, int(i)) for b in softer for i in b.members})
+    return with_lossy_elements(deck, name, lost * value, lambda _: elements) if lost > 0 else deck
 
 
 def with_loss_of_the_rest(
@@ -41,9 +50,7 @@ def with_loss_of_the_rest(
     """A loss in what is left of a part that lost stiffness since `before`: `left` times what went; ids: of its elements."""
     if of_matrices(before):
         return _with_matrix(deck, _MATRIX[name], -left * value * _less(deck.structure.K, before.structure.K))
-    edit = Edit(deck)
-    edit.put([edit.element(number) for number in ids], name, np.full(len(ids), value))
-    return edit.done()
+    return with_lossy_elements(deck, name, value, lambda edit: [edit.element(number) for number in ids])
 
 
 def with_lossy_elements(problem: Problem, name: str, value: float, chosen: Callable[[Edit], Elements]) -> Problem:
