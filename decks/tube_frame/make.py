@@ -1,10 +1,10 @@
-"""Writes `modes.csv` and `altered.csv`: the stand-in for the test of the tube frame of lecture 21-1, computed with OpenSees.
+"""Writes `modes.csv`, `altered.csv` and `rigid.csv`: the stand-in for the test of the tube frame, computed with OpenSees.
 
 The lecture prints measured frequencies, 226.8 275.2 537.4 861.5 974.8 Hz, but neither shapes nor drawing. This makes a frame that
 has those frequencies to 0.3 per cent: the tubes of the deck (elasticBeamColumn, 16 a segment, lumped masses) whose ends give way
 at the welds: at the corners in bending and torsion alike, at the ends of the crossbar in bending and in torsion, and everywhere
 across the frame. The four sizes are fitted to the five frequencies; the deck's model, whose joints are rigid, has no parameter for
-any of them.
+any of them. `rigid.csv` holds the frequencies with joints that do not give way, a check of the deck's model.
 
     python decks/tube_frame/make.py        (needs openseespy and numpy)
 """
@@ -123,7 +123,9 @@ def main() -> None:
     np.savetxt(HERE / "modes.csv", np.vstack([hz, shapes]), fmt="%.5f", delimiter=",")
     changed, _ = modes(frame(FITTED, **ADDED), 6)
     np.savetxt(HERE / "altered.csv", changed[None], fmt="%.4f", delimiter=",")
-    print(hz, changed)
+    stiff, _ = modes(frame(dict.fromkeys(FITTED, RIGID)))
+    np.savetxt(HERE / "rigid.csv", stiff[None], fmt="%.4f", delimiter=",")
+    print(hz, changed, stiff)
 
 
 if __name__ == "__main__":
