@@ -57,11 +57,15 @@ class Given:
     def expanded(self, K: Matrix) -> np.ndarray:
         """Measured shapes (n, m) on all degrees of freedom of a model with stiffness K, at unit modal mass.
 
+        K and the eigenvalues are shifted together, by the lowest of these: forces (K - lambda M) x stay, and the energy that they
+        put into the structure, by which some expansions measure them, is finite though it may move as a rigid body.
         Raises NumericalError where they are not determined.
         """
         test, elastic = self.test, slice(self.r, self.r + max(self.test.s - self.r, self.test.m))
         basis = self.solution.eigenvalues[elastic], self.solution.shapes[:, elastic]
-        measured = Measured(K, self.M, test.measured_at, test.shapes, test.shape_sd, self.eigenvalues, *basis)
+        shift = self.eigenvalues.min()
+        shifted = K + shift * self.M, self.M
+        measured = Measured(*shifted, test.measured_at, test.shapes, test.shape_sd, self.eigenvalues + shift, *basis)
         try:
             X = expansion(self.how).expand(measured)
         except (LooseError, np.linalg.LinAlgError) as reason:
