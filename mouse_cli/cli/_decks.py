@@ -8,9 +8,10 @@ from dataclasses import replace
 import click
 
 from mouse_cli._errors import WARNING, Diagnostic
-from mouse_cli.formats import file_bytes, is_yaml, read_draft
+from mouse_cli.formats import file_bytes, holds, is_yaml, read_draft
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.formats.draft import Draft
+from mouse_cli.model.coupling import Coupling, Modification
 from mouse_cli.model.problem import Problem, RunOptions
 
 _OF_MODES = {"pairing", "scale"}  # options that concern measured modes
@@ -82,6 +83,17 @@ def read_cases(path: str, changes: dict[str, object], **reading: object) -> Iter
     """The problems of a file of stacked card decks, one after another."""
     for draft in read_drafts(path, stacked=True, **reading):
         yield assemble(changed(draft, changes))
+
+
+def read_other(path: str) -> Coupling | Modification | None:
+    """What a file holds that is no model with its test: coupled structures, or changes; None for all others. Raises DeckError."""
+    data = b"" if path == "-" else file_bytes(path)
+    found = holds(data, path)
+    if found == "model":
+        return None
+    from mouse_cli.formats.yaml_deck import coupled, modified
+
+    return {"couple": coupled, "modify": modified}[found].read(data, path)
 
 
 def read_drafts(path: str, stacked: bool, **reading: object) -> Iterator[Draft]:

@@ -13,11 +13,13 @@ from mouse_cli.coupling.connections import dynamic_stiffness
 from mouse_cli.coupling.interface import Solved, solve
 from mouse_cli.coupling.lines import Common
 from mouse_cli.coupling.parts import Measured, Modelled, Receptances
+from mouse_cli.coupling.picks import Pick, add, diagonal
 from mouse_cli.dynamics.solver import Notice
 from mouse_cli.model.coupled import InterfaceState
 from mouse_cli.model.coupling import Coupling, Point
 from mouse_cli.model.frf_test import KINDS, FrfTest
 
+_SINGULAR = 1e14  # condition number beyond which nothing is left of the digits
 _ROOM = 6_000_000  # complex numbers held at once
 
 
@@ -28,10 +30,10 @@ class _Sides:
 
     left: np.ndarray
     right: np.ndarray
-    B_left: np.ndarray
-    B_right: np.ndarray
-    out: np.ndarray
-    into: np.ndarray
+    B_left: Pick
+    B_right: Pick
+    out: Pick
+    into: Pick
 
 
 class Whole:
@@ -74,36 +76,31 @@ class Whole:
     def _chunk(self, at: slice) -> tuple[np.ndarray, np.ndarray, tuple]:
         s = self.common.s[at]
         known = [part.at(s, at, side.left, side.right) for part, side in zip(self.parts, self.sides, strict=True)]
-        signs = [-1.0 if part.removed else 1.0 for part in self.coupling.substructures]
-        Y = self._sum(signs, known, "out", "into")
+        Y = self._sum(known, "out", "into")
         if not self.rows:
-            return Y, self._variance(known, None, None), (np.ones(len(s)), np.zeros(len(s), int), np.zeros(len(s)))
-        G, right = self._sum(signs, known, "B_left", "B_right"), self._sum(signs, known, "B_left", "into")
-        left = self._sum(signs, known, "out", "B_right")
-        uncertain = any(each.variance is not None for each in known)
+            nothing = np.zeros(len(s))
+            return Y, self._variance(known, None, None), (np.ones(len(s)), np.zeros(len(s), int), nothing)
+        G, right = self._sum(known, "B_left", "B_right"), self._sum(known, "B_left", "into")
+        left = self._sum(known, "out", "B_right")
+        sizes = sum(diagonal(side.B_left, each.Y, side.B_right) for side, each in zip(self.sides, known, strict=True))
+        carried = left if any(each.variance is not None for each in known) else None
         try:
-            found = solve(
-                G, self._sizes(known), self._stiffness(s), right, left if uncertain else None, self.coupling.truncate
-            )
+            found = solve(G, sizes, self._stiffness(s), right, carried, self.coupling.truncate)
         except np.linalg.LinAlgError:
-            raise _singular(self.coupling) from None
+            raise _singular(self.coupling, s) from None
+        if not self.coupling.truncate and (found.condition > _SINGULAR).any():
+            raise _singular(self.coupling, s[found.condition > _SINGULAR])
         Y -= np.matmul(left, found.forces)
-        return (
-            Y,
-            self._variance(known, found.adjoint, found.forces),
-            (found.condition, found.kept, self._noise(known, found)),
-        )
+        variance = self._variance(known, found.adjoint, found.forces)
+        return Y, variance, (found.condition, found.kept, self._noise(known, found))
 
-    def _sum(self, signs: list[float], known: list[Receptances], left: str, right: str) -> np.ndarray:
-        """Sum over the parts of L Y R, with L and R of each as `left` and `right` name them."""
-        return sum(
-            sign * _between(_rows(side, left), each.Y, _columns(side, right))
-            for sign, side, each in zip(signs, self.sides, known, strict=True)
-        )
-
-    def _sizes(self, known: list[Receptances]) -> np.ndarray:
-        """Sum of the magnitudes (f, c) of the receptances that meet in each condition."""
-        return sum(_diagonal(side, np.abs(each.Y)) for side, each in zip(self.sides, known, strict=True))
+    def _sum(self, known: list[Receptances], left: str, right: str) -> np.ndarray:
+        """Sum (f, a, b) over the parts of L Y R', with L and R of each as `left` and `right` name them; less those taken away."""
+        shape = [len(getattr(self.sides[0], name).matrix) for name in (left, right)]
+        total = np.zeros((len(known[0].Y), *shape), complex)
+        for part, side, each in zip(self.coupling.substructures, self.sides, known, strict=True):
+            add(total, getattr(side, left), each.Y, getattr(side, right), -1.0 if part.removed else 1.0)
+        return total
 
     def _stiffness(self, s: np.ndarray) -> np.ndarray:
         """z (f, c): inf for interfaces."""
@@ -115,25 +112,27 @@ class Whole:
 
     def _variance(self, known: list[Receptances], adjoint: np.ndarray | None, forces: np.ndarray | None) -> np.ndarray:
         """E|dY_C|^2 (f, o, i): independent errors of the functions of all parts, carried by (I - Q) and (I - P)."""
-        total = 0.0
-        for side, each in zip(self.sides, known, strict=True):
-            if each.variance is None:
-                continue
-            L = np.broadcast_to(side.out, (len(each.Y), *side.out.shape))
-            R = np.broadcast_to(side.into, (len(each.Y), *side.into.shape))
-            if adjoint is not None:
-                L, R = L - np.matmul(adjoint, side.B_left), R - np.matmul(side.B_right.T, forces)
-            total = total + _carried(L, each, R)
         shape = (len(known[0].Y), len(self.coupling.responses), len(self.coupling.forces))
-        return np.broadcast_to(np.asarray(total, float), shape)
+        if any(each.unknown for each in known):
+            return np.broadcast_to(np.nan, shape)
+        total = np.zeros(shape)
+        for side, each in zip(self.sides, known, strict=True):
+            if each.variance is not None:
+                L, R = np.broadcast_to(side.out.matrix, (shape[0], *side.out.matrix.shape)), side.into.matrix.T
+                if adjoint is not None:
+                    L, R = L - np.matmul(adjoint, side.B_left.matrix), R - np.matmul(side.B_right.matrix.T, forces)
+                total += _carried(L, each, np.broadcast_to(R, (shape[0], *R.shape[-2:])))
+        return total
 
     def _noise(self, known: list[Receptances], found: Solved) -> np.ndarray:
         """Standard deviation of the scaled flexibility by its size (f,); 0 for models, NaN where it is not known."""
         total = np.zeros(len(found.size))
         for side, each in zip(self.sides, known, strict=True):
+            if each.unknown:
+                return np.full(len(total), np.nan)
             if each.variance is not None:
-                spread = _between(side.B_left**2, each.variance, (side.B_right**2).T)
-                total += np.einsum("fa,fab,fb->f", found.scale**2, spread, found.scale**2)
+                left, right = (np.matmul(found.scale**2, pick.matrix**2) for pick in (side.B_left, side.B_right))
+                total += np.einsum("fl,flr,fr->f", left, each.variance, right)
         return np.sqrt(total) / found.size
 
 
@@ -143,51 +142,11 @@ def _carried(L: np.ndarray, each: Receptances, R: np.ndarray) -> np.ndarray:
     if each.tied is None:
         return np.matmul(np.matmul(np.abs(L) ** 2, V), np.abs(R) ** 2)
     total = np.zeros((len(L), L.shape[1], R.shape[2]))
-    for number in np.unique(each.tied):
-        share = sum(L[:, :, [a]] * R[:, [b], :] for a, b in np.argwhere(each.tied == number))
-        a, b = np.argwhere(each.tied == number)[0]
-        total += np.abs(share) ** 2 * V[:, a, b, None, None]
+    for number in np.unique(np.abs(each.tied)):
+        places = np.argwhere(np.abs(each.tied) == number)
+        share = sum(np.sign(each.tied[a, b]) * L[:, :, [a]] * R[:, [b], :] for a, b in places)
+        total += np.abs(share) ** 2 * V[:, places[0, 0], places[0, 1], None, None]
     return total
-
-
-def _diagonal(side: _Sides, size: np.ndarray) -> np.ndarray:
-    """Diagonal (f, c) of |B| size |B|', size (f, l, r)."""
-    if not size.shape[1]:
-        return np.zeros((len(size), len(side.B_left)))
-    single = [(np.count_nonzero(B, axis=1) <= 1).all() for B in (side.B_left, side.B_right)]
-    if all(single):
-        here = size[:, np.abs(side.B_left).argmax(axis=1), np.abs(side.B_right).argmax(axis=1)]
-        return here * np.abs(side.B_left.sum(axis=1) * side.B_right.sum(axis=1))
-    return np.einsum("cl,flr,cr->fc", np.abs(side.B_left), size, np.abs(side.B_right), optimize=True)
-
-
-def _between(left: np.ndarray, Y: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """left Y right (f, ., .) for left (., l) and right (r, .), by picking rows and columns where that is all there is to do."""
-    return _picked(_picked(Y, left, 1), right.T, 2)
-
-
-def _picked(Y: np.ndarray, matrix: np.ndarray, axis: int) -> np.ndarray:
-    """`matrix` (a, l) times axis 1 or 2 of Y."""
-    filled = matrix != 0
-    if not filled.shape[1]:
-        shape = list(Y.shape)
-        shape[axis] = len(matrix)
-        return np.zeros(shape, Y.dtype)
-    if (filled.sum(axis=1) <= 1).all():
-        found = np.take(Y, filled.argmax(axis=1), axis=axis)
-        weight = matrix.sum(axis=1)
-        if (weight == 1).all():
-            return found
-        return found * (weight[:, None] if axis == 1 else weight)
-    return np.matmul(matrix, Y) if axis == 1 else np.matmul(Y, matrix.T)
-
-
-def _rows(side: _Sides, name: str) -> np.ndarray:
-    return getattr(side, name)
-
-
-def _columns(side: _Sides, name: str) -> np.ndarray:
-    return side.into if name == "into" else getattr(side, name).T
 
 
 def _conditions(coupling: Coupling) -> list[list[tuple[Point, float]]]:
@@ -208,8 +167,8 @@ def _sides(coupling: Coupling, rows: list, k: int) -> _Sides:
     left, right = (np.unique([place for _, place, _ in joined + each]).astype(int) for each in asked)
     o, i = len(coupling.responses), len(coupling.forces)
     return _Sides(
-        left, right, _table(joined, len(rows), left), _table(joined, len(rows), right),
-        _table(asked[0], o, left), _table(asked[1], i, right).T,
+        left, right, Pick(_table(joined, len(rows), left)), Pick(_table(joined, len(rows), right)),
+        Pick(_table(asked[0], o, left)), Pick(_table(asked[1], i, right)),
     )  # fmt: skip
 
 
@@ -220,8 +179,9 @@ def _table(entries: list[tuple[int, int, float]], rows: int, places: np.ndarray)
     return found
 
 
-def _singular(coupling: Coupling) -> NumericalError:
-    message = "the flexibility of the interface is singular"
+def _singular(coupling: Coupling, s: np.ndarray) -> NumericalError:
+    """The error for an interface that has no answer at lines s."""
+    message = f"the flexibility of the interface is singular at {s[0].imag / (2 * np.pi):.6g} Hz"
     note = "two conditions say the same, or a part does not move where it is joined"
     return NumericalError(
         Diagnostic("MD714", ERROR, f"{message} in '{coupling.title.strip()}'", note=note, help="give truncate: 1e-9")

@@ -44,8 +44,8 @@ def solve(
     Raises numpy.linalg.LinAlgError where the matrix is singular.
     """
     scale = _scale(size, stiffness)
-    G *= scale[:, :, None]
-    G *= scale[:, None, :]
+    for each, by in zip(G, scale, strict=True):
+        each *= np.outer(by, by)
     np.einsum("fcc->fc", G)[:] += _own(scale, stiffness)
     right = right * scale[:, :, None]
     left = None if left is None else left * scale[:, None, :]
@@ -71,8 +71,8 @@ def _own(scale: np.ndarray, z: np.ndarray) -> np.ndarray:
 
 
 def _norm(G: np.ndarray) -> np.ndarray:
-    """1-norms (f,)."""
-    return np.abs(G).sum(axis=1).max(axis=1)
+    """1-norms (f,); line by line, and without the care for overflow that the absolute value takes: G is scaled."""
+    return np.array([np.sqrt(each.real**2 + each.imag**2).sum(axis=0).max(initial=0.0) for each in G])
 
 
 def _inverted(G: np.ndarray, right: np.ndarray, left: np.ndarray | None, truncate: float) -> tuple:
@@ -96,7 +96,7 @@ def _factorised(G: np.ndarray, right: np.ndarray, left: np.ndarray | None, trunc
         if singular > 0:
             raise np.linalg.LinAlgError("singular interface")
         condition[i] = 1 / max(lapack.zgecon(lu, np.abs(norm[i]), norm="I")[0], np.finfo(float).tiny)
-        forces[i] = lapack.zgetrs(lu, pivots, right[i], trans=1)[0]
+        forces[i] = lapack.zgetrs(lu, pivots, np.asfortranarray(right[i]), trans=1)[0]
         if adjoint is not None:
             adjoint[i] = lapack.zgetrs(lu, pivots, left[i].T, trans=0)[0].T
     return forces, adjoint, condition, np.full(f, c), norm

@@ -64,9 +64,11 @@ def _usable(measured: dict[int, Substructure], rows: dict[int, np.ndarray], hz: 
     measured."""
     keep = np.ones(len(hz), bool)
     for k, part in measured.items():
-        used = part.frf.H[rows[k]]
-        taken = np.isfinite(used).any(axis=0)
-        keep &= np.isfinite(used[:, taken]).all(axis=1)
+        H = part.frf.H
+        if not np.isfinite(H.sum(axis=(1, 2))[rows[k]]).all():
+            used = H[rows[k]]
+            taken = np.isfinite(used).any(axis=0)
+            keep &= np.isfinite(used[:, taken]).all(axis=1)
         if KINDS[part.frf.kind] and part.frf.decay_rate == 0:
             keep &= hz > 0
     return keep

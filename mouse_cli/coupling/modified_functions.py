@@ -59,11 +59,11 @@ def _solved(model: FrfModel, s: np.ndarray, change: Change, prior) -> tuple[np.n
     for first in range(0, len(s), each):
         fields = model.at(s[first : first + each])
         H = fields.receptance()
-        J = np.zeros((*H.shape, change.p), complex)
+        J = np.zeros((*H.shape, max(change.p, 1)), complex)
         if change.p:
             for part, values in fields.slopes(change):
                 J[..., part] = values
-        J = in_prior_units((J * slope).reshape(-1, change.p), prior.L).reshape(*H.shape, -1)
+            J = in_prior_units((J * slope).reshape(-1, change.p), prior.L).reshape(*H.shape, -1)
         with np.errstate(divide="ignore", invalid="ignore"):
             relative = (J / H[..., None]).real
         parts.append((H, (np.abs(J) ** 2).sum(axis=-1), np.sqrt((relative**2).sum(axis=-1))))

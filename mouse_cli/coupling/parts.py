@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli._errors import ERROR, Diagnostic, NumericalError
+from mouse_cli.coupling.picks import block, span
 from mouse_cli.dynamics.eigen import IndefiniteError
 from mouse_cli.dynamics.frf import Dynamics, FrfModel, Loads
 from mouse_cli.dynamics.frf_basis import BEYOND, WHOLE, frf_model
@@ -17,7 +18,7 @@ from mouse_cli.terms.assembly import assembly as assemble
 from mouse_cli.terms.modal_damping import with_modal_damping
 from mouse_cli.updating import refusals
 
-EXACT = 1e-10  # relative error of functions in a basis: an interface amplifies it by its condition number
+EXACT = 1e-7  # relative error of functions in a basis; solutions that it is found by are no better than that
 _DIRECT = 2e10  # lines times (degrees of freedom)^3 up to which a model is solved line by line as it is
 _MODES = 20  # that the search for those of a band begins with
 
@@ -25,11 +26,13 @@ _MODES = 20  # that the search for those of a band begins with
 @dataclass(frozen=True)
 class Receptances:
     """Y (f, l, r) between places left and right; variance (f, l, r), E|Y - mean|^2, NaN where unknown; None where exact. tied
-    (l, r): the number of the function that each was taken from by reciprocity, itself in most cases; None where there are none."""
+    (l, r): the number, from 1, of the function that each is, negative where it is read backwards; None where each stands once.
+    unknown: nothing is known of the variance."""
 
     Y: np.ndarray
     variance: np.ndarray | None = None
     tied: np.ndarray | None = None
+    unknown: bool = False
 
 
 class Modelled:
@@ -60,27 +63,46 @@ class Measured:
     d, error = 1, 0.0
 
     def __init__(self, part: Substructure, s: np.ndarray, rows: np.ndarray):
-        self.part, frf = part, part.frf
-        factor = s ** KINDS[frf.kind]
-        self.H = frf.H[rows] / factor[:, None, None]
-        self.variance = frf.variance[rows] / np.abs(factor[:, None, None]) ** 2
+        self.part, self.rows, frf = part, rows, part.frf
+        self.power = KINDS[frf.kind]
+        whole = np.isfinite(frf.H.sum(axis=0))  # NaN wherever one is in the sum: the way of nearly all
+        self.have = whole if whole.all() else np.isfinite(frf.H).any(axis=0)
+        self.unknown = not np.isfinite(frf.variance.sum(axis=0)).any()
 
     def at(self, s: np.ndarray, lines: slice, left: np.ndarray, right: np.ndarray) -> Receptances:
         """Receptances at `lines`; raises NumericalError (MD710) where a function is missing."""
         o, i = self.part.responses[left], self.part.forces[right]
-        signs = self.part.signs[left][:, None] * self.part.signs[right][None, :]
         known = (o >= 0)[:, None] & (i >= 0)[None, :]
-        row, col = np.broadcast_to(o[:, None], signs.shape), np.broadcast_to(i[None, :], signs.shape)
-        known = known & np.isfinite(self.H).any(axis=0)[np.maximum(row, 0), np.maximum(col, 0)]
-        if self.part.reciprocal:
-            back_row, back_col = self.part.responses[right][None, :], self.part.forces[left][:, None]
-            row, col = np.where(known, row, back_row), np.where(known, col, back_col)
-            known = known | ((row >= 0) & (col >= 0))
+        known &= self.have[np.maximum(o, 0)][:, np.maximum(i, 0)]
+        row, col = (np.broadcast_to(each, known.shape) for each in (o[:, None], i[None, :]))
         if not known.all():
-            self._missing(*np.argwhere(~known)[0], left, right)
-        Y, variance = self.H[lines][:, row, col] * signs, self.variance[lines][:, row, col]
-        number = row * self.H.shape[2] + col
-        return Receptances(Y, variance, number if len(np.unique(number)) < number.size else None)
+            row, col = self._exchanged(known, row, col, left, right)
+        own = span(self.rows[lines])
+        Y, variance = (
+            block(each[own], span(o), span(i)) if known.all() else each[own][:, row, col]
+            for each in (self.part.frf.H, self.part.frf.variance)
+        )
+        signs = self.part.signs[left][:, None] * self.part.signs[right][None, :]
+        factor = (s**self.power)[:, None, None] * signs
+        if self.power or (signs != 1).any():
+            Y, variance = Y / factor, variance if self.unknown else variance / np.abs(factor) ** 2
+        if self.unknown:
+            return Receptances(Y, unknown=True)
+        number = (row * len(self.part.frf.input_names) + col + 1) * signs.astype(int)
+        return Receptances(
+            Y, variance, None if known.all() and len(set(o)) == len(o) and len(set(i)) == len(i) else number
+        )
+
+    def _exchanged(
+        self, known: np.ndarray, row: np.ndarray, col: np.ndarray, left: np.ndarray, right: np.ndarray
+    ) -> tuple:
+        """Numbers of the functions with those that are missing in place of their twins, response and force exchanged."""
+        back = self.part.responses[right][None, :], self.part.forces[left][:, None]
+        there = (back[0] >= 0) & (back[1] >= 0) & self.part.reciprocal
+        there = there & self.have[np.maximum(back[0], 0), np.maximum(back[1], 0)]
+        if not (known | there).all():
+            self._missing(*np.argwhere(~(known | there))[0], left, right)
+        return np.where(known, row, back[0]), np.where(known, col, back[1])
 
     def _missing(self, a: int, b: int, left: np.ndarray, right: np.ndarray) -> None:
         names = self.part.places

@@ -10,6 +10,7 @@ from mouse_cli.model.problem import Problem
 
 _YAML_SUFFIXES = (".yaml", ".yml")
 _VERSION_KEY = re.compile(r"""^["']?mouse["']?\s*:""")
+_OTHERS = re.compile(rb"^(couple|modify)[ \t]*:", re.MULTILINE)
 _LEADING_LINES = 50  # a deck in YAML says `mouse: 1` at its head, below comments at most
 
 
@@ -71,6 +72,16 @@ def is_yaml(data: str | bytes, path: str = "") -> bool:
         if line.strip() and not line.startswith(("#", "%", "---"))
     ]
     return any(_VERSION_KEY.match(line) for line in lines[:_LEADING_LINES])
+
+
+def holds(data: str | bytes, path: str = "") -> str:
+    """What a deck holds in place of a model: `couple` or `modify`; `model` for all others."""
+    found = (
+        _OTHERS.search(data.encode("utf-8", "replace") if isinstance(data, str) else data)
+        if is_yaml(data, path)
+        else None
+    )
+    return found[1].decode() if found else "model"
 
 
 def file_bytes(path: str) -> bytes:

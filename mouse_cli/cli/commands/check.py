@@ -46,12 +46,15 @@ def command(
 def _findings(path: str, how: dict[str, object], stacked: bool) -> tuple:
     """Everything found in one file."""
     from mouse_cli._errors import MouseError
-    from mouse_cli.cli._decks import read_drafts
+    from mouse_cli.cli._decks import read_drafts, read_other
     from mouse_cli.formats.assemble import assemble
     from mouse_cli.updating.loop import examine
 
     found: tuple = ()
     try:
+        other = read_other(path)
+        if other is not None:
+            return other.warnings
         for draft in read_drafts(path, stacked, **how):
             problem = assemble(draft)
             found += problem.warnings

@@ -1,14 +1,11 @@
 """mouse modify: masses, springs, dashpots and absorbers added to a model, and which of them move a mode where it should be."""
 
-import re
 from dataclasses import replace
 
 import click
 
 from mouse_cli.cli._changes import CHANGES, changes_text
 from mouse_cli.cli._options import PRIOR, QUIET, READING, answer, earlier, options, reading
-
-_MODIFY = re.compile(r"^modify\s*:", re.MULTILINE)
 
 
 @click.command()
@@ -57,12 +54,12 @@ def command(
 def _read(deck: str, given: dict[str, object], count: int | None, begun: dict, how: dict):
     """The changes of a deck that holds `modify:`, or those of the options."""
     from mouse_cli.cli._decks import deck_bytes, read_problem, shown
-    from mouse_cli.formats import is_yaml
+    from mouse_cli.formats import holds
     from mouse_cli.formats.yaml_deck import modified
     from mouse_cli.updating.earlier import after
 
     data = b"" if deck == "-" else deck_bytes(deck)
-    if not (is_yaml(data, deck) and _MODIFY.search(data.decode("utf-8", "replace"))):
+    if holds(data, deck) == "model":
         problem = read_problem(deck, **begun, **how)
         return replace(modified.read(changes_text(given, count), "<options>", problem), path=shown(deck))
     if any(value for value in given.values()):

@@ -99,8 +99,8 @@ class Part:
         return bordered(self.K, rigid)(loads, np.zeros((R.shape[1], loads.shape[1])))[0]
 
     def residual_modes(self, keep: int) -> np.ndarray:
-        """What the kept modes leave of the attachment modes, (n, r): Psi = (K^+ - Phi Lambda^-1 Phi') f, dependent ones
-        combined."""
+        """What the kept modes leave of the attachment modes, (n, r): Psi = (K^+ - Phi Lambda^-1 Phi') f, with forces f for
+        which the boundary moves by orthonormal vectors; where the modes leave nothing there is none."""
         lam, X = self.free_modes(keep)
         elastic = X[:, self.rigid.shape[1] :]
         loads = self.S.T.toarray()
@@ -108,7 +108,8 @@ class Part:
         F = self.S @ left
         full = np.diag(self.S @ self.attachment_modes)
         w, U = np.linalg.eigh((F + F.T) / 2)
-        return left @ U[:, w > _NOTHING * np.abs(full).max(initial=0.0)]
+        kept = w > _NOTHING * np.abs(full).max(initial=0.0)
+        return left @ (U[:, kept] / w[kept])
 
     def projected(self, T: np.ndarray) -> Reduced:
         """Ritz's matrices on the columns of T (n, q)."""

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from mouse_cli.formats.frf_values import response_unit
 from mouse_cli.model.modified import Modified
-from mouse_cli.report.blocks import Block, Heading
+from mouse_cli.report.blocks import Block, Heading, Text
 from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections.coupling_functions import peak_table
 
@@ -18,6 +18,11 @@ def functions(found: Modified, options: Options) -> Iterator[Block]:
     for word, peaks in (("before", found.functions.peaks_before), ("after", found.functions.peaks)):
         yield Heading(word, 2)
         yield peak_table(peaks, unit)
+    if any(p.sd > p.magnitude for p in (*found.functions.peaks_before, *found.functions.peaks)):
+        yield Text(
+            "A standard deviation above the magnitude says that the frequency of the peak is uncertain by more than its width; there "
+            "the first order tells no more."
+        )
 
 
 SECTION = Section("modified-functions", 50, "Peaks of functions", functions, (Modified,))
