@@ -18,8 +18,21 @@ def by_loop(given: Given) -> Found:
     theta = result.revised.theta
     settled = result.status.answered and result.status.exit_code == 0
     moved = movements(given.problem, theta)
-    bounds, names = result.conditioning, tuple(p.name for p in given.problem.parameters)
-    return Found(result.revised.K, result.revised.M, len(result.cycles) - 1, change, settled, moved, bounds, names)
+    names = tuple(p.name for p in given.problem.parameters)
+    against = (
+        "the data contradict the form of the model, whatever the values of its properties" if result.rejected else ""
+    )
+    return Found(
+        K=result.revised.K,
+        M=result.revised.M,
+        iterations=len(result.cycles) - 1,
+        change=change,
+        converged=settled,
+        moved=moved,
+        conditioning=result.conditioning,
+        names=names,
+        against=against,
+    )
 
 
 def movements(problem: Problem, theta: np.ndarray) -> tuple[Moved, ...]:

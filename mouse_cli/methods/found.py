@@ -9,7 +9,10 @@ from mouse_cli.model.updated import Moved
 
 @dataclass(frozen=True)
 class Found:
-    """K, M (n, n) and how they were reached; see Updated. names: of the parameters that `conditioning` speaks of."""
+    """K, M (n, n) and how they were reached; see Updated. names: of the parameters that `conditioning` speaks of.
+
+    against: what the method's own tests say against the answer, as a sentence without its full stop.
+    """
 
     K: Matrix
     M: Matrix
@@ -19,3 +22,4 @@ class Found:
     moved: tuple[Moved, ...] = ()
     conditioning: Conditioning | None = None
     names: tuple[str, ...] = ()
+    against: str = ""

@@ -29,6 +29,8 @@ def remarks(found: Updated) -> Iterator[Diagnostic]:
     if not found.converged:
         text = f"the update still changes by {found.change:.2g} after {found.iterations} iterations"
         yield _warning("MD565", text, "tie like elements together, or give better shapes")
+    if found.against:
+        yield _warning("MD568", found.against, "`mouse diagnose` looks for what the model lacks")
     for one in found.configurations:
         yield from _missed(one)
 

@@ -113,6 +113,7 @@ def _judged(given: Given, chosen: Method, found: Found) -> Updated:
         checked=_checked(given, chosen, found, prior, revised),
         conditioning=found.conditioning,
         names=found.names,
+        against=found.against,
     )
     return replace(answer, warnings=tuple(remarks(answer)))
 

@@ -94,6 +94,7 @@ class Updated:
     """The answer of one method. configurations: what was fitted first, then what was held out.
 
     solutions: eigensolutions or iterations that it took; change: relative, in the last one. conditioning: for least squares.
+    against: what the method's own tests say against the answer.
     """
 
     problem: Problem
@@ -109,6 +110,7 @@ class Updated:
     checked: Checked
     conditioning: Conditioning | None = None
     names: tuple[str, ...] = ()
+    against: str = ""
     warnings: tuple[Diagnostic, ...] = ()
 
     @property

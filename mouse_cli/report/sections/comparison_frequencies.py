@@ -7,6 +7,7 @@ import numpy as np
 from mouse_cli.model.updated import Compared
 from mouse_cli.report.blocks import Block, Column, Heading, Table, Text
 from mouse_cli.report.section import Options, Section
+from mouse_cli.report.sections.update_frequencies import cleared
 
 
 def frequencies(found: Compared, options: Options) -> Iterator[Block]:
@@ -28,7 +29,9 @@ def frequencies(found: Compared, options: Options) -> Iterator[Block]:
             for k, number in enumerate(first.number)
         ]
         before = float(100 * np.sqrt(np.mean((first.prior_hz / first.test_hz - 1) ** 2)))
-        rows.append(("off, %", None, *(float(f"{off:.3g}") for off in (before, *(one.rms_percent for one in each)))))
+        rows.append(
+            ("off, %", None, *(float(f"{cleared(off):.3g}") for off in (before, *(one.rms_percent for one in each))))
+        )
         yield Table(columns, tuple(rows), keys=3)
     yield Text(
         "Off: root mean square difference from the test. A blank is a mode that the model does not have. Modes are paired by shape "

@@ -6,6 +6,7 @@ from mouse_cli.model.updated import Foreseen, Updated
 from mouse_cli.report.blocks import Block, Column, Heading, Table, Text
 from mouse_cli.report.section import Options, Section
 
+_ROUNDING = 1e-6  # per cent
 _COLUMNS = (
     Column("mode"),
     Column("test frequency", "Hz"),
@@ -26,13 +27,18 @@ def frequencies(found: Updated, options: Options) -> Iterator[Block]:
         rows = tuple(_row(one, i) for i in range(len(one.number)))
         yield Table(_COLUMNS, rows).without_empty_columns()
         if one.rms_percent == one.rms_percent:
-            yield Text("Root mean square difference of the updated model: {} per cent.", (one.rms_percent,))
+            yield Text("Root mean square difference of the updated model: {} per cent.", (cleared(one.rms_percent),))
 
 
 def _row(one: Foreseen, i: int) -> tuple:
     test, prior, revised = (float(values[i]) for values in (one.test_hz, one.prior_hz, one.revised_hz))
-    off = [100 * (hz / test - 1) for hz in (prior, revised)]
+    off = [cleared(100 * (hz / test - 1)) for hz in (prior, revised)]
     return int(one.number[i]), test, prior, off[0], revised, off[1], float(one.mac[i])
+
+
+def cleared(percent: float) -> float:
+    """A difference in per cent, 0 where it is rounding."""
+    return 0.0 if abs(percent) < _ROUNDING else percent
 
 
 SECTION = Section("update-frequencies", 30, "Test against model, before and after", frequencies, (Updated,))

@@ -13,9 +13,16 @@ def remarks(found: Updated, options: Options) -> Iterator[Block]:
         advice = f" {remark.help[0].upper()}{remark.help[1:]}." if remark.help else ""
         yield Text(f"{remark.code}: {remark.message}.{advice}")
     if not found.warnings:
-        yield Text(
+        yield Text(_sound(found))
+
+
+def _sound(found: Updated) -> str:
+    """What an answer without remarks is worth."""
+    if any(not one.fitted for one in found.configurations):
+        return (
             "Nothing speaks against this model: it is physical, reproduces what was fitted, and foresees what was not."
         )
+    return "Nothing speaks against this model, which is physical and reproduces what was fitted; nothing was held out to prove it by."
 
 
 SECTION = Section("update-remarks", 60, "Remarks", remarks, (Updated,))
