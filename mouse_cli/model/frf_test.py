@@ -22,7 +22,8 @@ class FrfTest:
     coherence (f, o): multiple coherence, None where it was not recorded. title: of the measurement; path: its file.
     form: one of FORMS; lines: at most so many are fitted. decay_rate: a of an exponential window e^{-a t}, 1/s; H is then that of
     the structure at s = a + i omega, see `laplace`. gain_sd: standard deviation of the gain of each response and of each force; 0:
-    they are known.
+    they are known. lag_window (b,): autocorrelation of the window of blocks of b samples by which the structure's impulse response
+    is multiplied in H, see `records.leakage`; None: unknown, or none.
     """
 
     frequency_hz: np.ndarray
@@ -40,6 +41,7 @@ class FrfTest:
     lines: int = MOST_LINES
     decay_rate: float = 0.0
     gain_sd: float = 0.0
+    lag_window: np.ndarray | None = None
 
     def __post_init__(self) -> None:
         shape = (len(self.frequency_hz), self.outputs.shape[0], self.inputs.shape[0])

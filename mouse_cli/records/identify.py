@@ -10,7 +10,7 @@ from mouse_cli.model.identification import Diagram, FrfFit, Identification, Mode
 from mouse_cli.model.recording import Recording
 from mouse_cli.records import identify_output_only as outputs_only
 from mouse_cli.records.identify_combine import combined
-from mouse_cli.records.identify_frf import LEAST_LINES, Found, banded, identify_lines, lines_of
+from mouse_cli.records.identify_frf import LEAST_LINES, Found, banded, identify_leaking, lines_of
 from mouse_cli.records.identify_modes import Drive, from_fit, from_subspace
 from mouse_cli.records.identify_review import drive_points, reviewed, reviewed_outputs
 from mouse_cli.records.lscf import OrderPoles
@@ -39,7 +39,9 @@ def identify_frf(
         doubt = Diagnostic("MD651", ERROR, few, help="take finer lines, or a wider band")
         return _nothing(title, sources, method, test.output_names, edges, noise, doubt)
     lines, stated = lines_of(test, use)
-    found = identify_lines(lines, stated, most, say)
+    leaks = [each.lag_window for each in tests]
+    alike = all(each is not None and np.array_equal(each, leaks[0]) for each in leaks)
+    found = identify_leaking(lines, stated, most, say, leaks[0] if alike else None)
     drives = drive_points(test)
     judged = reviewed(found, drives)
     modes = judged.modes
@@ -52,7 +54,7 @@ def identify_frf(
         (*judged.rejected, *_rejected(found.dropped, found.search.passing)), judged.doubts, judged.remarks, fit,
         details={
             "lines": len(hz), "orders": found.search.orders, "forces": test.H.shape[2], "lines raised": found.raised,
-            "correlated lines": len(found.errors.rho) - 1,
+            "correlated lines": len(found.errors.rho) - 1, "leakage over sd": found.leaked,
             "sd raised": float(np.sqrt(found.covariance.excess.max(initial=1.0))),
         },
     )  # fmt: skip

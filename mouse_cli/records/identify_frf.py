@@ -7,6 +7,7 @@ import numpy as np
 
 from mouse_cli.model.frf_test import KINDS, FrfTest
 from mouse_cli.records import identify_noise
+from mouse_cli.records.leakage import leakage
 from mouse_cli.records.local_fit import approached
 from mouse_cli.records.maximum_likelihood import ROUGH, Fit, fitted
 from mouse_cli.records.modal_covariance import Correlation, ModalCovariance, correlation, covariance
@@ -17,6 +18,8 @@ from mouse_cli.records.stabilisation import Track
 
 LEAST_LINES = 16
 _REFITS = 2
+_UNLEAKED = 6  # times at most
+_UNSEEN = 0.1  # change, root mean square over sd, that is not worth another
 _TOO_SHARP = "decays more slowly than the exponential window lets anything"
 
 
@@ -25,7 +28,7 @@ class Found:
     """What identification of one set of functions gives, before it is judged.
 
     lines: with the sd that the fit used; stated: whether they were measured; misfit: of the fit with stated sd; raised: share of
-    lines whose sd were raised since the fit errs more.
+    lines whose sd were raised since the fit errs more. leaked: what was taken out as made by a window, over sd.
     """
 
     lines: Lines
@@ -37,6 +40,7 @@ class Found:
     stated: bool
     misfit: float
     raised: float
+    leaked: float = 0.0
 
 
 def banded(test: FrfTest, band: tuple[float, float] | None) -> np.ndarray:
@@ -65,6 +69,28 @@ def identify_lines(lines: Lines, stated: bool, most: int | None, say: Callable[[
     errors = correlation(lines, fit.model)
     found = covariance(lines, fit.model, errors)
     return Found(lines, fit, found, errors, seen, dropped, stated, misfit, raised)
+
+
+def identify_leaking(
+    lines: Lines, stated: bool, most: int | None, say: Callable[[str], None], r: np.ndarray | None
+) -> Found:
+    """Modes of lines that a window has broadened, r its lag window: what it makes of the modes found is taken out, and so on.
+
+    As long as the fit gets better by it: of a force that is not white around a resonance the leakage is another.
+    """
+    found, out = identify_lines(lines, stated, most, say), np.zeros(lines.H.shape, complex)
+    for _ in range(_UNLEAKED if r is not None else 0):
+        before, out = out, leakage(lines, found.fit.model, r)
+        known = np.isfinite(lines.sd)
+        change, whole = (np.sqrt(np.mean(np.abs(x[known] / found.lines.sd[known]) ** 2)) for x in (out - before, out))
+        if not change > _UNSEEN:
+            break
+        say("leakage")
+        after = identify_lines(replace(lines, H=lines.H - out), stated, most, say)
+        if after.misfit > found.misfit:
+            break
+        found = replace(after, leaked=float(whole))
+    return found
 
 
 def _fitted(lines: Lines, stated: bool, candidates: list[Track]) -> tuple[Fit, Lines, float, float, list[Dropped]]:
