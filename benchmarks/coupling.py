@@ -17,9 +17,9 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from mouse_cli.coupling import couple  # noqa: E402
-from mouse_cli.model.coupling import Coupling, Lines, Point, Substructure  # noqa: E402
-from mouse_cli.model.frf_test import FrfTest  # noqa: E402
+from mouse_cli.coupling import couple
+from mouse_cli.model.coupling import Coupling, Lines, Point, Substructure
+from mouse_cli.model.frf_test import FrfTest
 
 _INNER = 10  # places of each part that are not joined
 

@@ -36,13 +36,13 @@ def unbroken(hz: np.ndarray) -> np.ndarray:
 def overlay(fit: FrfFit, o: int, i: int, units: Units, axes: Any) -> None:
     """Magnitudes in dB over frequency; bands of 95 % of the models, and of what was measured."""
     hz = unbroken(fit.test.frequency_hz)
-    measured = _db(fit.test.H[:, o, i])
+    measured = decibels(fit.test.H[:, o, i])
     with np.errstate(divide="ignore", invalid="ignore"):
-        _band(axes, hz, measured, fit.sd[:, o, i] / np.abs(fit.test.H[:, o, i]), "black", 0.15)
+        ribbon(axes, hz, measured, fit.sd[:, o, i] / np.abs(fit.test.H[:, o, i]), "black", 0.15)
     axes.plot(hz, measured, color="black", lw=1.6, alpha=0.55, label="measured")
     for model, colour, style in zip(fit.models, colours(fit), ("--", "-"), strict=False):
-        level = _db(model.H[:, o, i])
-        _band(axes, hz, level, model.sd[:, o, i], colour, 0.25)
+        level = decibels(model.H[:, o, i])
+        ribbon(axes, hz, level, model.sd[:, o, i], colour, 0.25)
         axes.plot(hz, level, style if len(fit.models) > 1 else "-", color=colour, lw=1.0, label=model.name)
     _labelled(fit, o, i, units, axes)
     _coherence(fit, o, axes)
@@ -53,7 +53,7 @@ def overlay(fit: FrfFit, o: int, i: int, units: Units, axes: Any) -> None:
 
 def fitted_height(fit: FrfFit, o: int, i: int, shown: np.ndarray, axes: Any) -> None:
     """Limits that hold what was measured at the lines `shown` (f,), with room below for the coherence."""
-    known = _db(fit.test.H[shown, o, i])
+    known = decibels(fit.test.H[shown, o, i])
     known = known[np.isfinite(known)]
     if len(known):
         low, high = known.min() - _MARGIN, known.max() + _MARGIN
@@ -91,12 +91,14 @@ def worst(fits: tuple[FrfFit, ...], which: int) -> tuple[FrfFit, int, int]:
     return max(found, key=lambda each: each[0])[1:]
 
 
-def _band(axes: Any, hz: np.ndarray, level: np.ndarray, sd: np.ndarray, colour: str, alpha: float) -> None:
+def ribbon(axes: Any, hz: np.ndarray, level: np.ndarray, sd: np.ndarray, colour: str, alpha: float) -> None:
+    """95 per cent about a level in dB, for sd of ln|H|; nothing where they are not known."""
     half = _Z * _DB * np.minimum(sd, _WIDEST)
     if np.isfinite(half).any():
         axes.fill_between(hz, level - half, level + half, color=colour, alpha=alpha, lw=0)
 
 
-def _db(H: np.ndarray) -> np.ndarray:
+def decibels(H: np.ndarray) -> np.ndarray:
+    """20 log10 |H|."""
     with np.errstate(divide="ignore"):
         return 20 * np.log10(np.abs(H))

@@ -20,7 +20,8 @@ def functions(found: Modified, options: Options) -> Iterator[Block]:
         yield peak_table(peaks, unit)
     if any(p.sd > p.magnitude for p in (*found.functions.peaks_before, *found.functions.peaks)):
         yield Text(
-            "A standard deviation above the magnitude says that the frequency of the peak is uncertain by more than its width; there "
+            "A standard deviation above the magnitude says that the frequency of the peak is uncertain by more than its "
+            "width; there "
             "the first order tells no more."
         )
 
