@@ -255,6 +255,19 @@ def test_options_and_a_deck_of_changes_are_not_mixed(folder, capsys):
     assert status == 2 and "write them there" in err
 
 
+def test_the_result_of_a_run_is_what_is_modified(capsys, tmp_path):
+    """The posterior of the very deck: values and sd of its properties, as `mouse run` prints the revised frequencies."""
+    deck, result = str(DECKS / "cantilever.yaml"), str(tmp_path / "result.json")
+    assert said(capsys, "run", deck, "--json", "-o", result, "-q")[0] == 0
+    status, out, _ = said(capsys, "modify", deck, "--prior", result, "--mass", "7TY=0.2", "-n", "3", "--json", "-q")
+    before = json.loads(out)["before"]
+    run = json.loads(Path(result).read_text())["modes"]
+    assert status == 0
+    for mode, revised in zip(before, run, strict=False):
+        assert mode["hz"] == pytest.approx(revised["revised_hz"], rel=1e-9)
+        assert mode["sd_hz"] == pytest.approx(revised["sd_hz"], rel=1e-6)
+
+
 def test_modify_takes_card_decks(capsys):
     status, out, _ = said(capsys, "modify", str(DECKS / "table_5_2.dat"), "--mass", "2=0.1", "--json", "-q")
     assert status == 0 and json.loads(out)["changes"][0]["at"] == "2"

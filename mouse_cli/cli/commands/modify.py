@@ -56,23 +56,28 @@ def _read(deck: str, given: dict[str, object], count: int | None, begun: dict, h
     from mouse_cli.cli._decks import deck_bytes, read_problem, shown
     from mouse_cli.formats import holds
     from mouse_cli.formats.yaml_deck import modified
-    from mouse_cli.updating.earlier import after
 
     data = b"" if deck == "-" else deck_bytes(deck)
     if holds(data, deck) == "model":
-        problem = read_problem(deck, **begun, **how)
+        problem = _after(read_problem(deck, **how), **begun)
         return replace(modified.read(changes_text(given, count), "<options>", problem), path=shown(deck))
     if any(value for value in given.values()):
         raise click.UsageError(
             "changes as options are for a deck with a model; this one holds modify: write them there"
         )
     found = modified.read(data, shown(deck))
-    if count:
-        found = replace(found, count=count)
-    if not begun["prior"]:
-        return found
-    problem = after(found.problem, begun["prior"], begun["loosened"])
-    return replace(found, part=replace(found.part, problem=problem), warnings=(*found.warnings, *problem.warnings))
+    problem = _after(found.problem, **begun)
+    told = tuple(dict.fromkeys((*found.warnings, *problem.warnings)))
+    return replace(found, part=replace(found.part, problem=problem), warnings=told, count=count or found.count)
+
+
+def _after(problem, prior: str | None, loosened: dict[str, float]):
+    """With the posterior of an earlier result as its prior; of the same test too, since nothing is fitted to that here."""
+    if prior is None:
+        return problem
+    from mouse_cli.updating.earlier import after
+
+    return replace(after(replace(problem, test=None), prior, loosened), test=problem.test)
 
 
 def _missed(found) -> bool:

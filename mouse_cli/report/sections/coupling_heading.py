@@ -7,7 +7,7 @@ from mouse_cli.model.coupled import Coupled
 from mouse_cli.model.coupling import Connection, Coupling
 from mouse_cli.report.blocks import Block, Column, Table, Text
 from mouse_cli.report.section import Options, Section
-from mouse_cli.report.sections._wording import LEFT, counted
+from mouse_cli.report.sections._wording import LEFT
 
 
 def heading(found: Coupled, options: Options) -> Iterator[Block]:
@@ -16,19 +16,22 @@ def heading(found: Coupled, options: Options) -> Iterator[Block]:
     rows = ("program", f"mouse {__version__}"), ("title", coupling.title.strip()), ("source", coupling.path)
     yield Table((Column("", align=LEFT), Column("", align=LEFT)), rows)
     yield _parts(coupling)
-    joined = counted(len(coupling.interfaces), "pair")
     yield Text(
-        f"{joined[0].upper()}{joined[1:]} of places {'moves' if len(coupling.interfaces) == 1 else 'move'} together. "
-        f"Receptances Y of "
-        "the parts become those of the whole by Y - Y B' (B Y B' + 1/z)^-1 B Y, with B the conditions between places and z "
-        "the dynamic "
-        "stiffnesses of connections."
+        f"{_joined(len(coupling.interfaces))}Receptances Y of the parts become those of the whole by Y - Y B' (B Y B' + "
+        f"1/z)^-1 B Y, with "
+        "B the conditions between places and z the dynamic stiffnesses of connections."
     )
     if coupling.connections:
         names = [(coupling.name(one.at), coupling.name(one.to) if one.to else "") for one in coupling.connections]
         yield connections(coupling.connections, names)
     if coupling.truncate:
         yield Text("Singular values of the interface below {} of the largest are left out.", (coupling.truncate,))
+
+
+def _joined(pairs: int) -> str:
+    if not pairs:
+        return ""
+    return "One pair of places moves together. " if pairs == 1 else f"{pairs} pairs of places move together. "
 
 
 def _parts(coupling: Coupling) -> Table:
