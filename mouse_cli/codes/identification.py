@@ -62,6 +62,14 @@ CODES = {
         "The source holds neither recordings nor frequency response functions, or nothing that can be used as such.",
         "Give a file of functions or of time histories, or a deck with `test: {frf: ...}` or `test: {recordings: ...}`.",
     ),
+    "MD681": Code(
+        "two modes in one bandwidth, perhaps",
+        "Near a mode the fit leaves errors that have its resonance, but are no multiple of its shape: a second mode much less "
+        "than a bandwidth away, which one force could not tell from it. A structure that is not linear, or changed during the "
+        "test, leaves such errors too.",
+        "Measure with a force at another place as well: two columns tell modes a tenth of a bandwidth apart. Compare two "
+        "levels of force.",
+    ),
     "MD680": Code(
         "functions without modes",
         "A diagnosis by frequency response functions first seeks causes by the modes that they show; they show none.",

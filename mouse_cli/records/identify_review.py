@@ -7,6 +7,7 @@ import numpy as np
 from mouse_cli._errors import ERROR, WARNING, Diagnostic
 from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.model.identification import Modes, Rejected
+from mouse_cli.records.close_modes import beside
 from mouse_cli.records.identify_frf import Found
 from mouse_cli.records.identify_modes import Drive, from_fit, from_subspace
 from mouse_cli.records.identify_output_only import FoundOutputs
@@ -66,12 +67,22 @@ def reviewed(found: Found, drives: list[Drive]) -> Review:
     doubts += [] if doubts else _flanks(found)
     modes, angles = from_fit(found, np.array(kept, int), drives, stable)
     more, remarks = _of_modes(modes, angles)
+    more += _close(found, kept)
     spikes = [track.centre()[0] for track in found.search.spikes]
     rejected += [Rejected(abs(p) / 2 / np.pi, -p.real / abs(p), f"is narrower than {NARROWEST} lines") for p in spikes]
     if not modes.m:
         more += [_none(len(rejected) + len(found.dropped)), *_narrow(spikes)]
     remarks += _misfit(found) + _kind(found.fit.model, kept)
     return Review(modes, tuple(rejected), (*doubts, *more), tuple(remarks))
+
+
+def _close(found: Found, kept: list[int]) -> list[Diagnostic]:
+    """Doubts where what the fit leaves is that of two modes in one bandwidth."""
+    said = "what the fit leaves near the mode at {:.6g} Hz has its resonance and another shape: two modes in one bandwidth?"
+    help = "measure with a force at another place too, or with finer lines; compare two levels of force"
+    another = beside(found)
+    poles = [found.fit.model.poles[r] for r in kept if another[r]]
+    return [Diagnostic("MD681", ERROR, said.format(abs(pole) / 2 / np.pi), help=help) for pole in poles]
 
 
 def _none(others: int) -> Diagnostic:
