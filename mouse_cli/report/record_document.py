@@ -21,7 +21,7 @@ def document(found: RecordDiagnosis) -> dict[str, Any]:
             "source": problem.source.path,
             "exit_code": found.exit_code,
             "verdict": of_diagnosis._verdict(found),
-            "candidates": [of_diagnosis._candidate(found, one) for one in found.explanations],
+            "candidates": [of_diagnosis.candidate(found.baseline, one) for one in found.explanations],
             "groups": [{"group": name, "probability": p} for name, p in found.groups],
             "noise_scale": found.noise_scale,
             "residual": of_result.tested(found.innovation),
