@@ -28,8 +28,8 @@ MODELS = {
         [(9, "TY"), (17, "TY"), (24, "TY"), (31, "TY")],
     ),
     "laden": (
-        CANTILEVER
-        + "      - {id: 41-42, type: mass, nodes: [12, 21], mass: 0}\n      - {id: 43, type: mass, nodes: [31], mass: 1.5, Jz: 2.0e-3}\n"
+        CANTILEVER + "      - {id: 41-42, type: mass, nodes: [12, 21], mass: 0}\n"
+        "      - {id: 43, type: mass, nodes: [31], mass: 1.5, Jz: 2.0e-3}\n"
         "    supports: {1: all}\n    plane: XY\n",
         [(9, "TY"), (17, "TY"), (24, "TY"), (31, "TY")],
     ),

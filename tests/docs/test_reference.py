@@ -148,6 +148,30 @@ def test_json_of_correlate(tmp_path):
     assert emitted == _documented("mouse.correlation/1")
 
 
+def test_json_of_methods():
+    """An update, and a comparison in which a method is refused; bounds and K where there are any."""
+    decks = [("table_5_2.yaml", "equation-error"), ("table_5_2.yaml", "baruch"), ("tube_frame.yaml", "baruch")]
+    emitted: set[str] = set()
+    for deck, key in decks:
+        emitted.update(_paths(json.loads(_told("run", TOP / "decks" / deck, "--method", key, "-q", "--json"))))
+    assert emitted == _documented("mouse.update/1")
+    told = json.loads(_told("compare", TOP / "decks" / "table_5_2.yaml", "-q", "--json"))
+    own = {path for path in _paths(told) if not path.startswith(("methods[].", "refused."))}
+    assert own == _documented("mouse.comparison/1")
+    assert {path.removeprefix("methods[].") for path in _paths(told) if path.startswith("methods[].")} <= emitted
+
+
+def test_methods():
+    """Every method has its section in the reference, its line in the list and its place in the explanation."""
+    page, listed, told = _page("methods.md"), _told("list", "methods"), _told("explain", "methods")
+    text = (DOCS / "explanation" / "updating-methods.md").read_text("utf-8")
+    for key, method in discover("mouse_cli.methods", "METHOD").items():
+        assert f"\n## {key}\n" in page and f"\n## {key}\n" in told
+        assert method.equation in page
+        assert re.search(rf"^{key} ", listed, re.MULTILINE)
+        assert f"methods/{key.replace('-', '_')}.py" in text or f"--method {key}" in text
+
+
 def test_json_of_diagnose():
     """Examples of every kind have all keys between them; the command adds what became of `-o`."""
     emitted = {path for make in DIAGNOSES.values() for path in _paths(document(make()))}
@@ -155,6 +179,22 @@ def test_json_of_diagnose():
     assert emitted | {"revised_deck"} == _documented("mouse.diagnosis/1")
     assert told <= emitted | {"revised_deck"}
     assert "revised_deck" in told
+
+
+def test_json_of_arrangements(tmp_path):
+    """Parts that are those of a diagnosis of one deck are documented there."""
+    decks = [TOP / "decks" / "arrangements" / f"layout{i}.yaml" for i in range(1, 7)]
+    told = json.loads(_told("diagnose", *decks[:5], "--held-out", decks[5], "--common-sd", "0.3", "-q", "--json"))
+    like = {"turns[].candidates[]": "candidates[]", "rest[]": "candidates[]", "verdict.causes[].site": "verdict.site"}
+    like |= dict.fromkeys(("turns[].held_out", "held_out.baseline", "held_out.revised"), "held_out.baseline")
+    emitted, known = set(), _documented("mouse.diagnosis/1")
+    for path in _paths(told):
+        root = next((root for root in like if path.startswith(f"{root}.")), None)
+        if root is None:
+            emitted.add(path)
+        else:
+            assert like[root] + path.removeprefix(root) in known
+    assert emitted == _documented("mouse.arrangements/1")
 
 
 def test_candidates():

@@ -21,6 +21,8 @@ from mouse_cli.diagnosis.physics.change import Change, Recipe
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.further import with_parameters
 
+_LOOKED, _BESIDE = 4, 2  # arrangements that a first look is made at: with what is sought, and without
+
 
 @dataclass(frozen=True)
 class SharedRecipe(Recipe):
@@ -104,15 +106,18 @@ class Arranged:
             return []
         return [_shared(tuple(each and each[i] for each in found)) for i in range(counts.pop())]
 
-    def each(self, do: Callable[[Reduced], Reduced]) -> "Arranged":
-        """What `do` makes of every arrangement; itself where that is nothing."""
-        parts = tuple(do(part) for part in self.parts)
-        unchanged = all(a is b for a, b in zip(parts, self.parts, strict=True))
-        return self if unchanged else replace(self, parts=parts)
+    def looked_at(self, do: Callable[[Reduced], Reduced]) -> "Arranged":
+        """What a first look is made with: what `do` makes of a few arrangements, the first that has what is sought among them."""
+        having = np.flatnonzero(self.having)
+        few = having[np.linspace(0, len(having) - 1, min(len(having), _LOOKED)).astype(int)]
+        chosen = sorted({*few.tolist(), *np.flatnonzero(~np.array(self.having))[:_BESIDE].tolist()})
+        parts = tuple(do(self.parts[i]) for i in chosen)
+        same = len(parts) == len(self.parts) and all(a is b for a, b in zip(parts, self.parts, strict=True))
+        return self if same else replace(self, parts=parts, having=tuple(self.having[i] for i in chosen))
 
     def at(self, theta: np.ndarray) -> "Arranged":
         """The same at other values theta (p,) of the parameters."""
-        return self.each(lambda part: part.at(theta))
+        return replace(self, parts=tuple(part.at(theta) for part in self.parts))
 
     @cached_property
     def common(self) -> np.ndarray:

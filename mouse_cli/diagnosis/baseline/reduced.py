@@ -168,8 +168,8 @@ class Reduced:
         """What `candidate` can do to this model, and where."""
         return candidate.recipes(self, candidate)
 
-    def each(self, do: Callable[["Reduced"], "Reduced"]) -> "Reduced":
-        """What `do` makes of it: there is one arrangement."""
+    def looked_at(self, do: Callable[["Reduced"], "Reduced"]) -> "Reduced":
+        """What a first look is made with: what `do` makes of it."""
         return do(self)
 
     def judged_by(self, data: Data) -> "Reduced":

@@ -33,7 +33,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
         return []
     sets = [[one for one in found if one[0] == s] for s in sorted({s for s, _, _ in found})]
     choices = [alike for alike in sets if len(alike) > 1] + [[one] for one in found]
-    return [_recipe(model, candidate, chosen, np.log(1 / len(choices))) for chosen in choices]
+    return [_recipe(model, candidate, chosen, -float(np.log(len(choices)))) for chosen in choices]
 
 
 def _recipe(model: Reduced, candidate: Candidate, chosen: list[tuple[int, int, int]], log_prior: float) -> Recipe:
@@ -42,25 +42,27 @@ def _recipe(model: Reduced, candidate: Candidate, chosen: list[tuple[int, int, i
     total, length = total_mass(model), span(model)
     m = Unknown("mass of each", "kg", 1e-3 * total, 0.5 * total)
     r = Unknown("radius of gyration", "m", 1e-3 * length, 0.1 * length)
+    extended = bool(turning.any())  # else nothing in the model turns
     ids = tuple(int(model.problem.mesh.elements[s].ids[i]) for s, i, _ in chosen)
     named = f"item{'s' if len(ids) > 1 else ''} {', '.join(map(str, ids))}"
 
     def change(values: np.ndarray) -> Change:
-        return Change(M=values[0] * (straight + values[1] ** 2 * turning))
+        return Change(M=values[0] * (straight + values[1] ** 2 * turning if extended else straight))
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         edit = Edit(problem)
         own = [edit.element(number) for number in ids]
         edit.put(own, "mass", np.full(len(own), values[0]))
-        for name in _INERTIA:
-            edit.put(own, name, np.full(len(own), values[0] * values[1] ** 2))
         edit.bind(f"mass of {named}", own, ("mass",), unit="kg")
-        edit.bind(f"inertia of {named}", own, _INERTIA, unit="kg m2")
+        if extended:
+            for name in _INERTIA:
+                edit.put(own, name, np.full(len(own), values[0] * values[1] ** 2))
+            edit.bind(f"inertia of {named}", own, _INERTIA, unit="kg m2")
         return edit.done()
 
     site = Site("element", ids, None, named)
-    grid = product(steps(m, 5), steps(r, 2))
-    return Recipe(candidate, (m, r), change, grid, lambda values: site, log_prior=float(log_prior), extend=extend)
+    unknowns, grid = ((m, r), product(steps(m, 5), steps(r, 2))) if extended else ((m,), steps(m, 5)[:, None])
+    return Recipe(candidate, unknowns, change, grid, lambda values: site, log_prior=log_prior, extend=extend)
 
 
 CANDIDATE = Candidate(

@@ -53,7 +53,7 @@ class Study:
 
         Those are the lowest, and how the rest bends when one end of a line gives way, which they alone do not.
         """
-        model = self.model.each(_lowest)
+        model = self.model.looked_at(_lowest)
         return self if model is self.model else Study(model, self.known, self.kind)
 
     def promising(self) -> list[str]:
