@@ -1,5 +1,5 @@
-"""Writes the generated pages: docs/reference/{cli,yaml,elements,candidates,codes,statuses,estimators}.md, the card part of the
-manual.
+"""Writes the generated pages: docs/reference/{cli,yaml,elements,methods,candidates,codes,statuses,estimators}.md, and the card part
+of the manual.
 
 Run it from anywhere after a change of an option, a deck key, a card, a diagnostic code or a status:
 
@@ -56,6 +56,7 @@ def pages() -> dict[Path, str]:
         DOCS / "reference" / "cli.md": "\n".join(_cli()),
         DOCS / "reference" / "yaml.md": f"{_NOTE}\n{told('explain', 'yaml')}",
         DOCS / "reference" / "elements.md": f"{_NOTE}\n{told('explain', 'elements')}",
+        DOCS / "reference" / "methods.md": f"{_NOTE}\n{told('explain', 'methods')}",
         DOCS / "reference" / "candidates.md": f"{_NOTE}\n{told('explain', 'candidates')}",
         DOCS / "reference" / "codes.md": "\n".join(_codes()),
         DOCS / "reference" / "statuses.md": "\n".join(_statuses()),

@@ -13,7 +13,7 @@ from mouse_cli.dynamics.frequency import eigenvalue
 from mouse_cli.dynamics.solver import Notice
 from mouse_cli.methods import refusals
 from mouse_cli.methods.acceleration import Accelerated
-from mouse_cli.model.arrays import Matrix
+from mouse_cli.model.arrays import Matrix, is_sparse
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import Assembly
@@ -71,6 +71,16 @@ class Given:
         except (LooseError, np.linalg.LinAlgError) as reason:
             raise refusals.not_expanded(self.problem, self.how, str(reason)) from None
         return X / np.sqrt(np.einsum("ij,ij->j", X, self.M @ X))
+
+    def energies(self) -> Callable[[np.ndarray], np.ndarray]:
+        """(K0 + s M)^-1 times columns, s the lowest measured eigenvalue: r'(K0 + s M)^-1 r is the energy of forces r."""
+        A = self.K + self.eigenvalues.min() * self.M
+        if not is_sparse(A):
+            return lambda columns: np.linalg.solve(A, columns)
+        from scipy.sparse import csc_array
+        from scipy.sparse.linalg import splu
+
+        return splu(csc_array(A), permc_spec="MMD_AT_PLUS_A").solve
 
     def orthonormal(self, X: np.ndarray) -> np.ndarray:
         """Shapes (n, m) nearest to X with X'MX = 1 and no rigid motion: X (X'MX)^-1/2 (Baruch and Bar-Itzhack 1978).

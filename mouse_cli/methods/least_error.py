@@ -13,13 +13,14 @@ from mouse_cli.estimators.conditioning import conditioning
 from mouse_cli.estimators.linear import LinearProblem
 from mouse_cli.methods.acceleration import Accelerated
 from mouse_cli.methods.given import MOST_ITERATIONS, SETTLED, Given
-from mouse_cli.model.arrays import Matrix, is_sparse
+from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.conditioning import Conditioning
 from mouse_cli.model.term import Slopes
 from mouse_cli.terms.assembly import Assembly
 
 _RANK = 1e-12  # of the largest eigenvalue of the normal equations
 _HALVINGS = 30
+_STILL = 1e-8  # change, in units of the parameters, with which it ends: the last steps are few
 
 
 class Undetermined(ArithmeticError):
@@ -59,7 +60,7 @@ def least_error(given: Given, unknowns: Unknowns) -> Fitted:
 
     A step that would leave what is admissible is halved until it does not. Raises Undetermined.
     """
-    theta, inverse, ahead, iteration = unknowns.theta.copy(), _inverse(given), Accelerated(), 0
+    theta, inverse, ahead, iteration = unknowns.theta.copy(), given.energies(), Accelerated(), 0
     while iteration < MOST_ITERATIONS:
         iteration += 1
         K, M = unknowns.assembly.matrices(theta)
@@ -67,7 +68,7 @@ def least_error(given: Given, unknowns: Unknowns) -> Fitted:
         step = np.linalg.lstsq(T, d, rcond=None)[0]
         change = float(np.abs(step).max())
         theta = _moved(unknowns, theta, step, ahead)
-        if change < SETTLED or not np.isfinite(change):
+        if change < _STILL or not np.isfinite(change):
             break
     K, M = unknowns.assembly.matrices(theta)
     z = (theta - unknowns.theta)[unknowns.free] / unknowns.units
@@ -87,17 +88,6 @@ def _moved(unknowns: Unknowns, theta: np.ndarray, step: np.ndarray, ahead: Accel
             return moved
         ahead.forget()
     return theta
-
-
-def _inverse(given: Given) -> Callable[[np.ndarray], np.ndarray]:
-    """(K0 + s M)^-1 times columns."""
-    A = given.K + given.eigenvalues.min() * given.M
-    if not is_sparse(A):
-        return lambda columns: np.linalg.solve(A, columns)
-    from scipy.sparse import csc_array
-    from scipy.sparse.linalg import splu
-
-    return splu(csc_array(A), permc_spec="MMD_AT_PLUS_A").solve
 
 
 def _equations(

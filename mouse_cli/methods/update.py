@@ -149,13 +149,15 @@ def _checked(given: Given, chosen: Method, found: Found, prior: Modes, revised: 
 
 
 def _misfit(given: Given, found: Found) -> float:
-    """Largest |(K - lambda M) x| / |lambda M x| of the measured modes, expanded by the updated model."""
+    """Largest |(K - lambda M) x| / |lambda M x| of the measured modes, expanded by the updated model, by energies."""
     try:
         X = given.orthonormal(given.expanded(found.K))
     except MouseError:
         return float("nan")
     inertia = (found.M @ X) * given.eigenvalues
-    return float((np.linalg.norm(found.K @ X - inertia, axis=0) / np.linalg.norm(inertia, axis=0)).max())
+    left, energy_of = found.K @ X - inertia, given.energies()
+    parts = [np.einsum("ij,ij->j", forces, energy_of(forces)) for forces in (left, inertia)]
+    return float(np.sqrt(np.maximum(parts[0], 0.0) / parts[1]).max())
 
 
 def _filled(given: Given, after: Matrix) -> tuple[int, int]:

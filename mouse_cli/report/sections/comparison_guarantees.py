@@ -25,7 +25,9 @@ def guarantees(found: Compared, options: Options) -> Iterator[Block]:
         for u in found.updates
     ]
     yield Table(counted, tuple(rows))
-    yield Text("Force left: the largest |(K - lambda M) x| of a fitted mode x over |lambda M x|.")
+    yield Text(
+        "Force left: the largest |(K - lambda M) x| of a fitted mode x over |lambda M x|, by the energy of such forces."
+    )
 
 
 SECTION = Section(

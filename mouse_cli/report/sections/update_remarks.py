@@ -22,7 +22,7 @@ def _sound(found: Updated) -> str:
         return (
             "Nothing speaks against this model: it is physical, reproduces what was fitted, and foresees what was not."
         )
-    return "Nothing speaks against this model, which is physical and reproduces what was fitted; nothing was held out to prove it by."
+    return "Nothing speaks against this model, which is physical and reproduces what was fitted; nothing was held out as a proof."
 
 
 SECTION = Section("update-remarks", 60, "Remarks", remarks, (Updated,))
