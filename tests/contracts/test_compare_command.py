@@ -163,6 +163,17 @@ def test_properties_that_are_not_determined(capsys, tmp_path):
     assert status == 5 and "MD567" in err and "k0" in err
 
 
+@pytest.mark.parametrize(
+    ("element", "name"),
+    [("type: cracked_beam, depth: 1.2,", "depth"), ("type: thin_layer, nu: 0.5, thickness: 1.0e-4,", "nu")],
+)
+def test_properties_beyond_what_can_be(capsys, tmp_path, element, name):
+    path = tmp_path / "deck.yaml"
+    path.write_text(BEAMS.replace("type: beam,", element).split("    generic:")[0])
+    status, _, err = code(capsys, "modes", str(path))
+    assert status == 4 and "error[MD425]" in err and f"{name} of element 1" in err and "must be below" in err
+
+
 def test_generic_groups_survive_writing():
     problem = assemble(yaml_deck.read(BEAMS.replace("elements: 1-2}", "elements: 1-2, couplings: [k12]}"), "deck.yaml"))
     again = assemble(yaml_deck.read(yaml_deck.write(problem)[0], "deck.yaml"))

@@ -33,17 +33,19 @@ def _values(draft: Draft, given: MeshDraft, s: int, members: ElementSet) -> None
     """Properties are finite, and positive where they must be."""
     about = registry()[members.type].properties
     for name, values in members.properties.items():
-        needed, unit = "finite", about[name].unit
+        needed, unit = "finite", "" if about[name].unit == "1" else f" {about[name].unit}"
         wrong = ~np.isfinite(values)
         if about[name].positive:
             needed, wrong = "positive", wrong | ~(values > 0)
         if about[name].or_zero:
             needed, wrong = "positive or zero", wrong | ~(values >= 0)
+        if (values >= about[name].below).any():
+            needed, wrong = f"below {about[name].below:g}", wrong | (values >= about[name].below)
         source = members.origin.get(name)
         for i in np.flatnonzero(wrong)[: 1 if source else MOST]:
             held = f" (from {source})" if source else ""
-            message = f"{name} of element {members.ids[i]} is {values[i]:.8g} {unit}{held}; it must be {needed}"
-            draft.error("MD425", message, given.element_place(s, int(i)), help=f"give a {needed} number")
+            message = f"{name} of element {members.ids[i]} is {values[i]:.8g}{unit}{held}; it must be {needed}"
+            draft.error("MD425", message, given.element_place(s, int(i)), help=f"give {name} that is {needed}")
 
 
 def _forgotten(draft: Draft, given: MeshDraft, s: int, members: ElementSet) -> None:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -48,7 +49,7 @@ class Property:
     """A number that elements of a type have: meaning, unit, default, and whether it must be positive, or may be zero besides.
 
     default None: it must be given; a function of (layout, properties): it follows from those that stand before it, as the
-    meaning says. only: words of options with which it acts (none: always).
+    meaning says. only: words of options with which it acts (none: always). below: what it must stay below.
     """
 
     meaning: str
@@ -57,6 +58,7 @@ class Property:
     positive: bool = False
     or_zero: bool = False
     only: tuple[str, ...] = ()
+    below: float = inf
 
 
 @dataclass(frozen=True)

@@ -44,7 +44,7 @@ ELEMENT = ElementType(
     (2,),
     {
         **{name: about for name, about in BEAM.items() if not name.startswith(_THEORY) and "damping" not in name},
-        "depth": Property("depth of the crack over the height of the section, below 1", "1", 0.1, True),
+        "depth": Property("depth of the crack over the height of the section, below 1", "1", 0.1, True, below=1.0),
         "height": Property(
             "height h of the section; not given: sqrt(12 Iz/A), that of a rectangle", "m", _height, True
         ),

@@ -35,7 +35,7 @@ ELEMENT = ElementType(
     (2,),
     {
         "E": Property("Young's modulus of the layer", "Pa", 1.0, True),
-        "nu": Property("Poisson's ratio", "1", 0.3),
+        "nu": Property("Poisson's ratio", "1", 0.3, below=0.5),
         "shear": Property("modulus G along the layer; not given: E / (2 (1 + nu))", "Pa", _shear, True),
         "normal": Property(
             "modulus lambda + 2 G across the layer, lambda = G (E - 2 G)/(3 G - E); not given: from E and shear",
