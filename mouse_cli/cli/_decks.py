@@ -96,6 +96,15 @@ def read_other(path: str) -> Coupling | Modification | None:
     return {"couple": coupled, "modify": modified}[found].read(data, path)
 
 
+def after_result(problem: Problem, prior: str | None, loosened: dict[str, float]) -> Problem:
+    """With the posterior of an earlier result as its prior; of the same test too, where nothing is fitted to that again."""
+    if prior is None:
+        return problem
+    from mouse_cli.updating.earlier import after
+
+    return replace(after(replace(problem, test=None), prior, loosened), test=problem.test)
+
+
 def read_drafts(path: str, stacked: bool, **reading: object) -> Iterator[Draft]:
     """The deck of a file, or all of them where card decks are stacked."""
     data = deck_bytes(path)

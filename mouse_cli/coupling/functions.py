@@ -52,6 +52,10 @@ class Whole:
         return Modelled(part, self.common.s, np.union1d(sides.left, sides.right).astype(int), notice)
 
     @property
+    def _uncertain(self) -> bool:
+        return any(part.uncertain > 0 for part in self.parts)
+
+    @property
     def error(self) -> float:
         """Relative error of the functions of models that are solved in bases."""
         return max((part.error for part in self.parts), default=0.0)
@@ -65,7 +69,7 @@ class Whole:
             len(side.left) * len(side.right) + part.d * len(side.left)
             for part, side in zip(self.parts, self.sides, strict=True)
         )
-        each = max(1, _ROOM // (c * (3 * c + o + i) + wide + o * i + 1))
+        each = max(1, _ROOM // (c * (3 * c + o + i) + wide + o * i * (1 + max(part.uncertain for part in self.parts))))
         Y, variance = np.empty((len(s), o, i), complex), np.empty((len(s), o, i))
         condition, kept, noise = np.empty(len(s)), np.empty(len(s), int), np.empty(len(s))
         for first in range(0, len(s), each):
@@ -83,7 +87,7 @@ class Whole:
         G, right = self._sum(known, "B_left", "B_right"), self._sum(known, "B_left", "into")
         left = self._sum(known, "out", "B_right")
         sizes = sum(diagonal(side.B_left, each.Y, side.B_right) for side, each in zip(self.sides, known, strict=True))
-        carried = left if any(each.variance is not None for each in known) else None
+        carried = left if self._uncertain or any(each.variance is not None for each in known) else None
         try:
             found = solve(G, sizes, self._stiffness(s), right, carried, self.coupling.truncate)
         except np.linalg.LinAlgError:
@@ -111,17 +115,20 @@ class Whole:
         return z
 
     def _variance(self, known: list[Receptances], adjoint: np.ndarray | None, forces: np.ndarray | None) -> np.ndarray:
-        """E|dY_C|^2 (f, o, i): independent errors of the functions of all parts, carried by (I - Q) and (I - P)."""
+        """E|dY_C|^2 (f, o, i): independent errors of the parts, of measured functions or of properties of models, carried by
+        (I - Q) and (I - P)."""
         shape = (len(known[0].Y), len(self.coupling.responses), len(self.coupling.forces))
         if any(each.unknown for each in known):
             return np.broadcast_to(np.nan, shape)
         total = np.zeros(shape)
-        for side, each in zip(self.sides, known, strict=True):
-            if each.variance is not None:
-                L, R = np.broadcast_to(side.out.matrix, (shape[0], *side.out.matrix.shape)), side.into.matrix.T
-                if adjoint is not None:
-                    L, R = L - np.matmul(adjoint, side.B_left.matrix), R - np.matmul(side.B_right.matrix.T, forces)
-                total += _carried(L, each, np.broadcast_to(R, (shape[0], *R.shape[-2:])))
+        for part, side, each in zip(self.parts, self.sides, known, strict=True):
+            if each.variance is None and not part.uncertain:
+                continue
+            L, R = np.broadcast_to(side.out.matrix, (shape[0], *side.out.matrix.shape)), side.into.matrix.T
+            if adjoint is not None:
+                L, R = L - np.matmul(adjoint, side.B_left.matrix), R - np.matmul(side.B_right.matrix.T, forces)
+            R = np.broadcast_to(R, (shape[0], *R.shape[-2:]))
+            total += _carried(L, each, R) if each.variance is not None else part.spread(L, side.left, R, side.right)
         return total
 
     def _noise(self, known: list[Receptances], found: Solved) -> np.ndarray:

@@ -7,9 +7,11 @@ import numpy as np
 from mouse_cli._errors import ERROR, Diagnostic, NumericalError
 from mouse_cli.coupling.picks import block, span
 from mouse_cli.dynamics.eigen import IndefiniteError
-from mouse_cli.dynamics.frf import Dynamics, FrfModel, Loads
+from mouse_cli.dynamics.frf import Dynamics, Fields, FrfModel, Loads
 from mouse_cli.dynamics.frf_basis import BEYOND, WHOLE, frf_model
+from mouse_cli.dynamics.frf_slopes import Change
 from mouse_cli.dynamics.solver import EigenSolver, Notice
+from mouse_cli.estimators.linear import in_prior_units
 from mouse_cli.model.arrays import dense, is_sparse
 from mouse_cli.model.coupling import Substructure
 from mouse_cli.model.frf_test import KINDS
@@ -17,6 +19,7 @@ from mouse_cli.terms.assembly import Assembly
 from mouse_cli.terms.assembly import assembly as assemble
 from mouse_cli.terms.modal_damping import with_modal_damping
 from mouse_cli.updating import refusals
+from mouse_cli.updating.coordinates import coordinates
 
 EXACT = 1e-7  # relative error of functions in a basis; solutions that it is found by are no better than that
 _DIRECT = 2e10  # lines times (degrees of freedom)^3 up to which a model is solved line by line as it is
@@ -36,31 +39,50 @@ class Receptances:
 
 
 class Modelled:
-    """A substructure by its model. error: relative, of functions in a basis; 0 where it is solved as it is."""
+    """A substructure by its model. uncertain: number of its properties. error: relative, of functions in a basis; 0 where it
+    is solved as it is."""
 
     def __init__(self, part: Substructure, s: np.ndarray, places: np.ndarray, notice: Notice = lambda text: None):
         problem = with_modal_damping(part.problem)
-        assembly = assemble(problem)
-        self.places = places
+        assembly, theta = assemble(problem), problem.prior.mean
+        self.places, self.uncertain = places, assembly.p
+        self._change, self._prior = (
+            Change(assembly.n, assembly.p, assembly.slopes(theta)),
+            coordinates(problem, assembly),
+        )
         try:
-            self.model = model_of(
-                Dynamics(*_matrices(assembly, problem.prior.mean)), (part.weights[places],), s, notice
-            )
+            self.model = model_of(Dynamics(*_matrices(assembly, theta)), (part.weights[places],), s, notice)
         except (IndefiniteError, np.linalg.LinAlgError) as reason:
             raise refusals.unphysical(part.problem, str(reason)) from None
         self.d, self.error = self.model.d, self.model.error
 
     def at(self, s: np.ndarray, lines: slice, left: np.ndarray, right: np.ndarray) -> Receptances:
         """Receptances at s (f,) from places `right` to places `left`; `lines` are their numbers, which do not matter here."""
-        alpha = self.model.at(s).receptance(0, 0)
+        self._fields = self.model.at(s)
         rows, columns = np.searchsorted(self.places, left), np.searchsorted(self.places, right)
-        return Receptances(alpha[:, rows][:, :, columns])
+        return Receptances(self._fields.receptance(0, 0)[:, rows][:, :, columns])
+
+    def spread(self, L: np.ndarray, left: np.ndarray, R: np.ndarray, right: np.ndarray) -> np.ndarray:
+        """E|L dY R|^2 (f, o, i) of the lines asked for last, by the uncertainty of the properties: dY = -Y (dZ/dtheta) Y,
+        carried by the motions Y L' and Y R of the part within the whole. L (f, o, l), R (f, r, i) for places left (l,) and
+        right (r,)."""
+        Y, model = self._fields.Y, self.model
+        rows, columns = np.searchsorted(self.places, left), np.searchsorted(self.places, right)
+        motions = [np.matmul(Y[:, :, rows], np.swapaxes(L, 1, 2)), np.matmul(Y[:, :, columns], R)]
+        o, i = L.shape[1], R.shape[2]
+        within = FrfModel(model.matrices, np.zeros((model.d, o + i)), [slice(0, o), slice(o, o + i)], model.V)
+        J = np.empty((len(Y), o, i, self._change.p), complex)
+        for part, values in Fields(within, self._fields.s, np.concatenate(motions, axis=2)).slopes(self._change):
+            J[..., part] = values
+        slope = self._prior.slope(self._prior.mean)
+        found = in_prior_units((J * slope).reshape(-1, self._change.p), self._prior.L)
+        return (np.abs(found) ** 2).sum(axis=1).reshape(len(Y), o, i)
 
 
 class Measured:
     """A substructure by measured functions at the lines (f,) of `s`; rows: numbers of these lines among those measured."""
 
-    d, error = 1, 0.0
+    d, error, uncertain = 1, 0.0, 0
 
     def __init__(self, part: Substructure, s: np.ndarray, rows: np.ndarray):
         self.part, self.rows, frf = part, rows, part.frf

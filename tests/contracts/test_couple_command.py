@@ -268,6 +268,19 @@ def test_the_result_of_a_run_is_what_is_modified(capsys, tmp_path):
         assert mode["sd_hz"] == pytest.approx(revised["sd_hz"], rel=1e-6)
 
 
+def test_the_posterior_of_a_part_narrows_the_whole(folder, capsys):
+    """A result of another test with a tenth of the uncertainty, and a part that is no model."""
+    _, out, _ = said(capsys, "couple", "deck.yaml", "--json", "-q")
+    before = json.loads(out)["functions"]["each"][0]["variance"]
+    test = "test: {modes: {number: [1], frequency: [3.745], frequency_sd: 0.01 %}}\n"
+    (folder / "tested.yaml").write_text((folder / "portal_right.yaml").read_text() + test)
+    assert said(capsys, "run", "tested.yaml", "--json", "-o", "right.json", "-q")[0] in (0, 1)
+    status, out, _ = said(capsys, "couple", "deck.yaml", "--prior", "right=right.json", "--json", "-q")
+    after = json.loads(out)["functions"]["each"][0]["variance"]
+    assert status == 0 and all(0 < a < b for a, b in zip(after, before, strict=True))
+    assert said(capsys, "couple", "deck.yaml", "--prior", "middle=right.json")[0] == 2
+
+
 def test_modify_takes_card_decks(capsys):
     status, out, _ = said(capsys, "modify", str(DECKS / "table_5_2.dat"), "--mass", "2=0.1", "--json", "-q")
     assert status == 0 and json.loads(out)["changes"][0]["at"] == "2"

@@ -351,3 +351,46 @@ def test_a_large_sparse_half_by_its_basis_is_the_whole_solved_directly(tmp_path)
         load[dofs[0]] = 1.0
         exact = splu(csc_array(K * (1 + 0.005j) - s2 * M)).solve(load)[dofs]
         np.testing.assert_allclose(found.functions.H[line, :, 0], exact, rtol=1e-5)
+
+
+UNCERTAIN = """mouse: 1
+title: Chain {name}
+model:
+  stiffness: {{dense: [[{k11}, -1000.0], [-1000.0, 1000.0]]}}
+  mass: {{diagonal: [2.0, 1.0]}}
+  damping: {{dense: [[3.0, 0.0], [0.0, 1.0]]}}
+parameters:
+  - {{name: k1, nominal: {k1}, sd: 4.0, stiffness: [[1, 1, 1]]}}
+  - {{name: k2, nominal: 1000.0, sd: 3.0, stiffness: [[1, 1, 1], [1, 2, -1], [2, 2, 1]]}}
+prior: {{correlations: [[k1, k2, 0.6]]}}
+"""
+
+
+def test_uncertain_properties_of_models_are_carried_to_the_whole(tmp_path):
+    """Two chains with correlated springs joined, one taken through a spring to a third place: against 4000 drawn wholes, by
+    numpy."""
+    (tmp_path / "a.yaml").write_text(UNCERTAIN.format(name="a", k11=3000.0, k1=2000.0))
+    (tmp_path / "b.yaml").write_text(UNCERTAIN.format(name="b", k11=1700.0, k1=700.0))
+    text = """mouse: 1
+couple:
+  substructures: {a: {deck: a.yaml}, b: {deck: b.yaml}}
+  interfaces: [{a: 2, b: 1}]
+  connections: [{spring: 300.0, at: {a: 1}, to: {b: 2}}]
+  responses: {a: [1], b: [2]}
+  forces: {a: [2]}
+  lines: {band: [1, 9], step: 1.6}
+"""
+    found = couple(read(tmp_path, text)).functions
+    s = 2j * np.pi * found.frequency_hz[:, None, None]
+    cov = np.array([[16.0, 7.2], [7.2, 9.0]])
+    rng = np.random.default_rng(8)
+    draws = [rng.multivariate_normal([k1, 1000.0], cov, 4000) for k1 in (2000.0, 700.0)]
+    L = np.array([[1.0, 0, 0], [0, 1, 0], [0, 1, 0], [0, 0, 1]])
+    drawn = []
+    for (a1, a2), (b1, b2) in zip(*draws, strict=True):
+        K = np.zeros((4, 4))
+        K[:2, :2], K[2:, 2:] = [[a1 + a2, -a2], [-a2, a2]], [[b1 + b2, -b2], [-b2, b2]]
+        K += 300.0 * np.outer([1, 0, 0, -1], [1, 0, 0, -1])
+        Z = K + s * np.diag([3.0, 1, 3, 1]) + s**2 * np.diag([2.0, 1, 2, 1])
+        drawn.append(np.linalg.inv(L.T @ Z @ L)[:, [0, 2]][:, :, [1]])
+    np.testing.assert_allclose(found.variance, np.var(drawn, axis=0), rtol=0.1)

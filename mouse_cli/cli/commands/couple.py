@@ -5,6 +5,7 @@ from dataclasses import replace
 import click
 
 from mouse_cli.cli._options import QUIET, answer, options
+from mouse_cli.model.coupling import Coupling
 
 
 @click.command()
@@ -17,12 +18,20 @@ from mouse_cli.cli._options import QUIET, answer, options
     type=click.FloatRange(min=0, max=1),
     help="Leave out singular values of the interface below this share of the largest.",
 )
+@click.option(
+    "--prior",
+    "priors",
+    multiple=True,
+    metavar="PART=RESULT",
+    help="What `mouse run --json` found of the model of a part.",
+)
 @click.option("--plot", metavar="PATH", help="Write figures: to a folder, or to one file (.pdf, .png, .svg).")
 @options(answer("mouse.coupling/1"))
 @options(QUIET)
 def command(
-    deck: str, written_to: str | None, truncate: float | None, plot: str | None, quiet: bool, **how: str | None
-) -> int:
+    deck: str, written_to: str | None, truncate: float | None, priors: tuple[str, ...], plot: str | None, quiet: bool,
+    **how: str | None,
+) -> int:  # fmt: skip
     """Couple the substructures of DECK, a YAML deck that holds `couple:`.
 
     Functions of the whole from models and measured functions, rigid or elastic connections; natural frequencies by modal coupling.
@@ -37,7 +46,7 @@ def command(
     from mouse_cli.report import document, written
 
     _require_plots(plot)
-    coupling = coupled.read(deck_bytes(deck), shown(deck))
+    coupling = _with_results(coupled.read(deck_bytes(deck), shown(deck)), priors)
     if truncate is not None:
         coupling = replace(coupling, truncate=truncate)
     if written_to and not coupling.responses:
@@ -45,13 +54,39 @@ def command(
     with progress() as (_, say):
         found = couple(coupling, say)
     if not quiet:
-        show_diagnostics(found.warnings)
+        show_diagnostics((*found.warnings, *_laws(coupling)))
     if written_to:
         write_frf(found.functions, written_to, coupling.units)
     _draw(found, plot)
     form, numbers = how["form"] or "printout", how["numbers"] or "modern"
     deliver(json_text(document(found)) if form == "json" else written(found, form, numbers), how["output"], deck)
     return int(any(d.code == "MD713" for d in found.warnings))
+
+
+def _with_results(coupling: Coupling, priors: tuple[str, ...]) -> Coupling:
+    """The parts with what earlier runs left of their properties. Raises click.BadParameter."""
+    from mouse_cli.cli._decks import after_result
+
+    parts = {part.name: part for part in coupling.substructures}
+    for text in priors:
+        name, equals, path = text.partition("=")
+        if not equals or name not in parts or parts[name].measured:
+            known = ", ".join(name for name, part in parts.items() if not part.measured)
+            raise click.BadParameter(
+                f"'{text}' is not PART=RESULT for a model among the parts: {known}", param_hint="--prior"
+            )
+        parts[name] = replace(parts[name], problem=after_result(parts[name].problem, path, {}))
+    told = (w for part in parts.values() if part.problem is not None for w in part.problem.warnings)
+    warnings = tuple(dict.fromkeys((*coupling.warnings, *told)))
+    return replace(coupling, substructures=tuple(parts.values()), warnings=warnings)
+
+
+def _laws(coupling: Coupling) -> tuple:
+    """That local laws of models are left out."""
+    from mouse_cli.cli._decks import without_laws
+
+    models = [part.problem for part in coupling.substructures if not part.measured]
+    return tuple(told for problem in models for told in without_laws(problem, modes=True))
 
 
 def _require_plots(plot: str | None) -> None:

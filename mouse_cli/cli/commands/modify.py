@@ -26,6 +26,7 @@ def command(
 
     Exit 1: a target cannot be met.
     """
+    from mouse_cli.cli._decks import without_laws
     from mouse_cli.cli._terminal import deliver, json_text, progress, show_diagnostics
     from mouse_cli.coupling import modify
     from mouse_cli.report import document, written
@@ -38,7 +39,7 @@ def command(
     with progress() as (_, say):
         found = modify(modification, say)
     if not quiet:
-        show_diagnostics(found.warnings)
+        show_diagnostics((*found.warnings, *without_laws(modification.problem, modes=True)))
     if plot:
         from mouse_cli.plots import draw
 
@@ -53,31 +54,22 @@ def command(
 
 def _read(deck: str, given: dict[str, object], count: int | None, begun: dict, how: dict):
     """The changes of a deck that holds `modify:`, or those of the options."""
-    from mouse_cli.cli._decks import deck_bytes, read_problem, shown
+    from mouse_cli.cli._decks import after_result, deck_bytes, read_problem, shown
     from mouse_cli.formats import holds
     from mouse_cli.formats.yaml_deck import modified
 
     data = b"" if deck == "-" else deck_bytes(deck)
     if holds(data, deck) == "model":
-        problem = _after(read_problem(deck, **how), **begun)
+        problem = after_result(read_problem(deck, **how), **begun)
         return replace(modified.read(changes_text(given, count), "<options>", problem), path=shown(deck))
     if any(value for value in given.values()):
         raise click.UsageError(
             "changes as options are for a deck with a model; this one holds modify: write them there"
         )
     found = modified.read(data, shown(deck))
-    problem = _after(found.problem, **begun)
+    problem = after_result(found.problem, **begun)
     told = tuple(dict.fromkeys((*found.warnings, *problem.warnings)))
     return replace(found, part=replace(found.part, problem=problem), warnings=told, count=count or found.count)
-
-
-def _after(problem, prior: str | None, loosened: dict[str, float]):
-    """With the posterior of an earlier result as its prior; of the same test too, since nothing is fitted to that here."""
-    if prior is None:
-        return problem
-    from mouse_cli.updating.earlier import after
-
-    return replace(after(replace(problem, test=None), prior, loosened), test=problem.test)
 
 
 def _missed(found) -> bool:

@@ -7,6 +7,8 @@ from mouse_cli.formats.yaml_deck.coupled_places import Places
 from mouse_cli.formats.yaml_deck.sections import Section
 from mouse_cli.model.coupling import Connection
 
+_KINDS = ("absorber", "spring", "dashpot", "mass")  # the first of them that is there names a connection
+
 
 def connections(section: Section, key: str, places: Places) -> list[Connection]:
     """The connections that could be read."""
@@ -32,7 +34,7 @@ def _connection(section: Section, places: Places) -> Connection | None:
         return document.error(
             "MD708", section.nodes["to"], f"{section.called} joins a place to itself", "leave to out, for the ground"
         )
-    name = section.value("name") or next(k for k in ("absorber", "spring", "dashpot", "mass") if k in section)
+    name = section.value("name") or next(kind for kind in _KINDS if kind in section)
     return Connection(name, at, to, where=document.span(section.node), **values)
 
 
@@ -54,7 +56,7 @@ def _sound(section: Section) -> bool:
             document.error(
                 "MD215", section.nodes[key], f"{section.what(key)} is {value:g}", "give a finite number other than 0"
             )
-    return len(document.diagnostics) == before
+    return len(document.diagnostics) == before and any(kind in section for kind in _KINDS)
 
 
 def _direct(section: Section) -> dict[str, float]:
@@ -67,19 +69,18 @@ def _direct(section: Section) -> dict[str, float]:
 
 
 def _absorber(section: Section) -> dict[str, object] | None:
-    below = section.section("absorber")
+    document, below = section.document, section.section("absorber")
     mass, hz, mode = below.value("mass"), below.value("frequency"), below.value("tuned_to")
     if mass is None or (hz is None) == (mode is None):
-        if mass is not None:
-            below.document.error(
-                "MD708", below.node, f"{below.called} gives frequency and tuned_to", "give one of them"
-            )
+        if hz is not None and mode is not None:
+            document.error("MD708", below.node, f"{below.called} gives frequency and tuned_to", "give one of them")
         return None
-    if not (np.isfinite(mass) and mass > 0) or (hz is not None and not (np.isfinite(hz) and hz > 0)):
-        return below.document.error(
-            "MD215", below.node, f"{below.called} has no mass or no frequency", "give positive numbers"
-        )
-    return absorber(mass, hz, below.value("damping_ratio"), mode)
+    ratio = below.value("damping_ratio")
+    sound = [0 < value < np.inf for value in (mass, hz) if value is not None] + [ratio is None or np.isfinite(ratio)]
+    if not all(sound):
+        message = f"{below.called} holds a number that is not positive and finite"
+        return document.error("MD215", below.node, message, "give a mass, a frequency and a damping ratio that are")
+    return absorber(mass, hz, ratio, mode)
 
 
 def absorber(mass: float, hz: float | None, ratio: float | None, mode: int | None = None) -> dict[str, object]:

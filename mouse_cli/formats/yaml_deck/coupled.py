@@ -163,7 +163,7 @@ def lines(section: Section) -> Lines:
         return Lines(hz, band)
     if band is None or step is None:
         return Lines(None, band)
-    if not step > 0 or not np.isfinite(band).all() or (band[1] - band[0]) / step > MOST_LINES:
+    if not 0 < step < np.inf or not np.isfinite(band).all() or (band[1] - band[0]) / step > MOST_LINES:
         message = f"{below.called} asks for lines from {band[0]:g} to {band[1]:g} Hz, {step:g} Hz apart"
         below.document.error(
             "MD614", below.node, message, f"give a positive step that makes at most {MOST_LINES} lines"

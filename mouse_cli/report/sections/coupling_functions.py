@@ -8,6 +8,12 @@ from mouse_cli.report.blocks import Block, Column, Table, Text
 from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._wording import LEFT
 
+SHARP = (
+    "A standard deviation above the magnitude says that the frequency of the peak is uncertain by more than its width; there "
+    "the first "
+    "order tells no more."
+)
+
 
 def functions(found: Coupled, options: Options) -> Iterator[Block]:
     """One line a peak, with its standard deviation where the parts' accuracy is known."""
@@ -20,8 +26,14 @@ def functions(found: Coupled, options: Options) -> Iterator[Block]:
     )
     units = found.coupling.units
     yield peak_table(found.peaks, response_unit(frf.kind, units) if units.declared else "")
-    if found.interface is not None and (found.interface.noise > 0).any():
-        yield Text("Standard deviations are those that the measured functions carry to the whole, to first order.")
+    if any(peak.sd > 0 for peak in found.peaks):
+        yield Text(
+            "Standard deviations are those that measured functions and the properties of models carry to the whole, to first "
+            "order; parts "
+            "err independently."
+        )
+    if any(peak.sd > peak.magnitude for peak in found.peaks):
+        yield Text(SHARP)
 
 
 def peak_table(peaks: tuple[Peak, ...], unit: str) -> Table:

@@ -6,7 +6,7 @@ from mouse_cli.formats.frf_values import response_unit
 from mouse_cli.model.modified import Modified
 from mouse_cli.report.blocks import Block, Heading, Text
 from mouse_cli.report.section import Options, Section
-from mouse_cli.report.sections.coupling_functions import peak_table
+from mouse_cli.report.sections.coupling_functions import SHARP, peak_table
 
 
 def functions(found: Modified, options: Options) -> Iterator[Block]:
@@ -19,11 +19,7 @@ def functions(found: Modified, options: Options) -> Iterator[Block]:
         yield Heading(word, 2)
         yield peak_table(peaks, unit)
     if any(p.sd > p.magnitude for p in (*found.functions.peaks_before, *found.functions.peaks)):
-        yield Text(
-            "A standard deviation above the magnitude says that the frequency of the peak is uncertain by more than its "
-            "width; there "
-            "the first order tells no more."
-        )
+        yield Text(SHARP)
 
 
 SECTION = Section("modified-functions", 50, "Peaks of functions", functions, (Modified,))
