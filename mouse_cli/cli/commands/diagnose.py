@@ -62,25 +62,14 @@ def command(
 
     Where, what, how much, and whether it is true. Exit 0: nothing is missing. 1: something is. 4: deck rejected. 5: no answer.
     """
-    from mouse_cli.cli._decks import read_problem
-    from mouse_cli.cli._terminal import deliver, progress, show_diagnostics
-    from mouse_cli.diagnosis.diagnose import diagnose
+    from mouse_cli.cli._terminal import deliver
 
     named = Named.of(decks, held_out, changed)
     arranged = several(named, output, plot)
     for deck in (*named.fitted, *held_out):
         _check_places(deck, output, plot, reports)
     choices = _choices(candidates, without, causes)
-    problems = tuple(read_problem(deck, **reading(**how)) for deck in named.fitted)
-    unseen = tuple(read_problem(deck, **reading(**how)) for deck in held_out)
-    if not quiet:
-        show_diagnostics(tuple(each for problem in (*problems, *unseen) for each in problem.warnings))
-    with progress() as (_, say):
-        found = (
-            diagnosed(named, problems, unseen, common_sd, say, choices)
-            if arranged
-            else diagnose(problems[0], say, choices)
-        )
+    found = _answer(named, common_sd if arranged else None, choices, quiet, reading(**how))
     files = _revised(found, output)
     for path in reports:
         shape = _FORMS.get(os.path.splitext(path)[1].lower(), "printout")
@@ -91,6 +80,22 @@ def command(
 
         draw(found, plot)
     return found.exit_code
+
+
+def _answer(named: Named, common_sd: float | None, choices, quiet: bool, how: dict[str, object]):
+    """The diagnosis of one deck, or, with a common_sd, of arrangements."""
+    from mouse_cli.cli._decks import read_problem
+    from mouse_cli.cli._terminal import progress, show_diagnostics
+    from mouse_cli.diagnosis.diagnose import diagnose
+
+    problems = tuple(read_problem(deck, **how) for deck in named.fitted)
+    unseen = tuple(read_problem(deck, **how) for deck in named.unseen)
+    if not quiet:
+        show_diagnostics(tuple(each for problem in (*problems, *unseen) for each in problem.warnings))
+    with progress() as (_, say):
+        if common_sd is None:
+            return diagnose(problems[0], say, choices)
+        return diagnosed(named, problems, unseen, common_sd, say, choices)
 
 
 def _choices(candidates: str | None, without: str | None, causes: int):
@@ -156,13 +161,8 @@ def _written(found, output: str, files: list[str]) -> str:
 
     if files and found.kind == ONE_OF:
         lead = f"The model with {found.best.title}, which leads and is not proved,"
-        return f"{lead} is in {files[-1]}; `mouse {_next(found)}` accepts it."
+        return f"{lead} is in {files[-1]}; `mouse run` accepts it."
     if files:
-        return f"The extended model is in {files[-1]}; `mouse {_next(found)}` accepts it."
+        return f"The extended model is in {files[-1]}; `mouse run` accepts it."
     why = "its cause cannot be put into a deck" if found.kind in (NAMED, ONE_OF) else "no cause is named"
     return f"Nothing was written to {output}: {why}."
-
-
-def _next(found) -> str:
-    """The command for the extended deck: recordings by themselves are diagnosed, not run."""
-    return "run" if found.problem.test or found.problem.frf else "diagnose"

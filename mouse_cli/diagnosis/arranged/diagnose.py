@@ -9,7 +9,7 @@ from mouse_cli._errors import ERROR, DeckError, Diagnostic
 from mouse_cli.diagnosis.arranged.model import Arranged, Together
 from mouse_cli.diagnosis.arranged.predict import predicted, shared_errors
 from mouse_cli.diagnosis.baseline.reduced import reduced
-from mouse_cli.diagnosis.candidates import registry
+from mouse_cli.diagnosis.candidates import Candidate, registry
 from mouse_cli.diagnosis.extend.deck import in_its_units
 from mouse_cli.diagnosis.name.decide import ODDS, SURE, doubtful, explanation, explanations, leader, sure
 from mouse_cli.diagnosis.name.fit import Fit
@@ -57,32 +57,35 @@ def diagnose_arrangements(
     """
     _check((*fitted.problems, *unseen.problems))
     known = None if choices.candidates is None else {key: registry()[key] for key in choices.candidates}
-
-    def state(fitted: Decks, unseen: Decks) -> State:
-        ranking = rank(fitted.arranged(common_sd), known, 1, kind=Together)
-        return State(fitted, unseen, ranking, _predicted(ranking.baseline, unseen))
-
-    at = first = state(fitted, unseen)
+    first = at = _state(fitted, unseen, common_sd, known)
     turns: list[Turn] = []
     refuted = ""
-    while len(turns) < _MOST:
+    while len(turns) < _MOST and not refuted:
         turn, best = _turn(at)
         if turn is None:
             break
         if _refuted(at, turn):
             refuted = turn.best.title
-            break
+            continue
         turns.append(turn)
         notice(f"{len(turns)}: {turn.best.title}")
-        at = state(*_extended(at, best))
+        at = _state(*_extended(at, best), common_sd, known)
+    held = _held_out(unseen.problems, first.before, at.before if turns else None)
+    return _told(fitted, at, tuple(turns), held, refuted, choices)
+
+
+def _told(
+    fitted: Decks, at: State, turns: tuple[Turn, ...], held: HeldOut | None, refuted: str, choices: Choices
+) -> ArrangementsDiagnosis:
+    """The answer, from the decks `fitted` as they were and the state `at` in which the search ended."""
     last, tried = at.ranking.baseline, explanations(at.ranking)
     told = next(one for one in tried if not one.causes)
     return ArrangementsDiagnosis(
         problems=fitted.problems,
         changed=None if all(fitted.having) else fitted.having,
         extended=at.fitted.problems if turns else (),
-        common_sd=common_sd,
-        turns=tuple(turns),
+        common_sd=last.model.base.common_sd,
+        turns=turns,
         chi2=last.misfit,
         dof=last.dof,
         p=told.p,
@@ -91,10 +94,16 @@ def diagnose_arrangements(
         sd=_sd(last),
         shared=shared_errors(last),
         rest=(told, *(one for one in tried if one.causes)),
-        held_out=_held_out(unseen.problems, first.before, at.before if turns else None),
+        held_out=held,
         refuted=refuted,
         choices=choices,
     )
+
+
+def _state(fitted: Decks, unseen: Decks, common_sd: float, known: dict[str, Candidate] | None) -> State:
+    """What candidates make of decks as they are."""
+    ranking = rank(fitted.arranged(common_sd), known, 1, kind=Together)
+    return State(fitted, unseen, ranking, _predicted(ranking.baseline, unseen))
 
 
 def _predicted(one: Fit, unseen: Decks) -> Score | None:
