@@ -7,7 +7,6 @@ import numpy as np
 from mouse_cli.dynamics.correlation import mac, pair
 from mouse_cli.dynamics.eigen import RIGID, EigenSolution, dense_solution
 from mouse_cli.dynamics.frequency import frequency_hz
-from mouse_cli.methods.refusals import MOST_DENSE
 from mouse_cli.model.arrays import Matrix, dense, is_sparse
 from mouse_cli.model.hold_out import Altered
 from mouse_cli.model.modal_test import ModalTest
@@ -15,6 +14,7 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.model.updated import Foreseen
 from mouse_cli.updating.state import reference_eigenvalue, solve
 
+_LARGE = 300  # degrees of freedom
 _MORE = 6  # modes beyond the highest that is asked for
 
 
@@ -47,12 +47,23 @@ def modes(problem: Problem, K: Matrix, M: Matrix, highest: int) -> Modes:
 
     Raises IndefiniteError for a sparse K that is not.
     """
-    if is_sparse(K) and K.shape[0] > MOST_DENSE:
+    if is_sparse(K):
         found: EigenSolution = solve(problem, K, M, min(highest + _MORE, K.shape[0]))
     else:
-        K = dense(K)
-        found = dense_solution((K + K.T) / 2, dense(M))
+        found = _whole((K + K.T) / 2, dense(M))
     return Modes(found.eigenvalues, found.shapes, RIGID * reference_eigenvalue(problem, found.eigenvalues))
+
+
+def _whole(K: np.ndarray, M: np.ndarray) -> EigenSolution:
+    """All modes of dense matrices; of larger ones without the extended precision that low modes of slender structures want."""
+    if len(K) > _LARGE:
+        from scipy.linalg import LinAlgError, eigh
+
+        try:
+            return EigenSolution(*eigh(K, M))
+        except LinAlgError:  # masses that are zero
+            pass
+    return dense_solution(K, M)
 
 
 def foreseen(problem: Problem, title: str, fitted: bool, test: ModalTest, prior: Modes, revised: Modes) -> Foreseen:

@@ -21,6 +21,7 @@ from mouse_cli.terms.assembly import Assembly
 _RANK = 1e-12  # of the largest eigenvalue of the normal equations
 _HALVINGS = 30
 _STILL = 1e-8  # change, in units of the parameters, with which it ends: the last steps are few
+_PATIENCE = 8  # iterations without progress after which rounding has the last word
 
 
 class Undetermined(ArithmeticError):
@@ -61,14 +62,16 @@ def least_error(given: Given, unknowns: Unknowns) -> Fitted:
     A step that would leave what is admissible is halved until it does not. Raises Undetermined.
     """
     theta, inverse, ahead, iteration = unknowns.theta.copy(), given.energies(), Accelerated(), 0
+    best, since = np.inf, 0
     while iteration < MOST_ITERATIONS:
         iteration += 1
         K, M = unknowns.assembly.matrices(theta)
         T, d = _equations(given, unknowns, theta, K, M, inverse)
         step = np.linalg.lstsq(T, d, rcond=None)[0]
         change = float(np.abs(step).max())
+        best, since = (change, 0) if change < best / 2 else (best, since + 1)
         theta = _moved(unknowns, theta, step, ahead)
-        if change < _STILL or not np.isfinite(change):
+        if change < _STILL or (change < SETTLED and since > _PATIENCE) or not np.isfinite(change):
             break
     K, M = unknowns.assembly.matrices(theta)
     z = (theta - unknowns.theta)[unknowns.free] / unknowns.units
