@@ -1,13 +1,18 @@
 """What methods of updating guarantee, on models drawn by lot; the minima by linear systems written out in numpy."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.linalg import eigh
 
 from mouse_cli.dynamics.frequency import frequency_hz
 from mouse_cli.estimators.conditioning import conditioning
 from mouse_cli.estimators.linear import LinearProblem
+from mouse_cli.formats import yaml_deck
+from mouse_cli.formats.assemble import assemble
 from mouse_cli.methods.baruch import nearest
 from mouse_cli.methods.berman import incomplete
 from mouse_cli.methods.gravitz import flexibility
@@ -16,6 +21,7 @@ from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.problem import Problem, RunOptions
 from mouse_cli.model.structure import ListedElements, Structure
+from mouse_cli.terms.assembly import assembly
 
 SEEDS = st.integers(0, 10**6)
 
@@ -202,3 +208,36 @@ def test_bounds_of_equation_error_hold(seed):
     assert 0 < worst[1] <= found.conditioning.data * 1.001
     direct = conditioning(LinearProblem(A, b, np.ones(len(b)), np.ones(len(z))), z, False, False)
     assert direct.sensitivities == pytest.approx(found.conditioning.sensitivities, rel=2e-2)
+
+
+SPACE = """\
+mouse: 1
+model:
+  structure:
+    nodes: {1: [0, 0, 0], 2: [0.3, 0, 0], 3: [0.6, 0, 0], 4: [0.6, 0.25, 0.1], 5: [0.6, 0.5, 0.2]}
+    elements:
+      - {id: 1-4, type: beam, nodes: 1-5, E: 2.0e+11, G: 8.0e+10, A: 2.0e-4, Iy: 2.0e-9, Iz: 3.0e-9, J: TORSION, density: 7800MORE}
+    supports: {1: all}
+    generic: [{name: one, elements: 1-2}, {name: two, elements: 3-4}]
+"""
+
+
+def test_generic_elements_in_space_find_what_made_the_data():
+    """A bent bar that bends in two planes and twists: each entry of k comes back from five perfect modes."""
+    more = ", theory: generic, symmetric_y: 0.8, antisymmetric_y: 0.6, symmetric_z: 0.9, antisymmetric_z: 0.7"
+    texts = (
+        SPACE.replace("TORSION", "4.0e-9").replace("MORE", ""),
+        SPACE.replace("TORSION", "3.0e-9").replace("MORE", more),
+    )
+    believed, true = (assemble(yaml_deck.read(text, "bar.yaml")) for text in texts)
+    K, M = assembly(true).matrices(true.prior.mean)
+    values, X = eigh(K, M)
+    hz = frequency_hz(values[:5])
+    every = np.arange(len(K))
+    test = ModalTest(np.arange(1, 6), hz, 1e-3 * hz, every, X[:, :5], np.full((len(K), 5), 1e-7), "fitted")
+    found = update(replace(believed, test=test), "generic")
+    after = {moved.name.partition(": ")[2]: moved.after for moved in found.moved}
+    assert after == pytest.approx(
+        {"k11 about y": 0.8, "k22 about y": 0.6, "k11 about z": 0.9, "k22 about z": 0.7, "k33": 0.75}, abs=1e-3
+    )
+    assert np.abs(found.K - K).max() < 1e-3 * np.abs(K).max()
