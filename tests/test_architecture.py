@@ -12,7 +12,8 @@ FILES = sorted(PACKAGE.rglob("*.py"))
 
 # From the top down: a folder imports its own rank and those below.
 RANKS = {
-    "cli": 7,
+    "cli": 8,
+    "batch": 7,
     "report": 6,
     "plots": 6,
     "diagnosis": 5,

@@ -46,12 +46,16 @@ def command(
 def _findings(path: str, how: dict[str, object], stacked: bool) -> tuple:
     """Everything found in one file."""
     from mouse_cli._errors import MouseError
+    from mouse_cli.batch.decks import is_manifest, manifest_jobs
     from mouse_cli.cli._decks import read_drafts, read_other
     from mouse_cli.formats.assemble import assemble
     from mouse_cli.updating.loop import examine
 
     found: tuple = ()
     try:
+        if is_manifest(path):
+            manifest_jobs(path)
+            return found
         other = read_other(path)
         if other is not None:
             return other.warnings

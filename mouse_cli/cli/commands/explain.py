@@ -12,6 +12,7 @@ _EXIT = """\
 0    answer found and trusted: converged, and the model explains the data
 1    finished, but do not trust it: not converged, or the data show physics that the model lacks
 2    wrong command line
+3    batch: a job missed what its manifest expects
 4    a deck was rejected (diagnostics printed, nothing written)
 5    no answer: numerical failure, or the answer could not be written
 130  interrupted; nothing half-written"""

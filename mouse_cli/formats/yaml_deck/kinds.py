@@ -129,6 +129,10 @@ KINDS = {
     ),
     "points": Kind("{substructure: degrees of freedom, ...}", _POINTS),
     "joined": Kind("a list of {substructure: degrees of freedom, substructure: degrees of freedom}", _list(_POINTS)),
+    "expectations": Kind(
+        "{what: value, ...}, such as {status: converged, posterior k1: 83699 +- 20}",
+        {"type": "object", "additionalProperties": {"anyOf": [_NAME, _list(_NAME, minItems=1)]}},
+    ),
     "value or values": Kind(
         "a number, or a list of one number for each element", {"anyOf": [_NUMBER, _list(_NUMBER, minItems=1)]}
     ),

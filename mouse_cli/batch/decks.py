@@ -1,0 +1,50 @@
+"""Decks behind a name: a file, a folder, or a pattern."""
+
+import os
+from collections.abc import Iterator
+from glob import glob, has_magic
+
+from mouse_cli._errors import DeckError
+from mouse_cli.formats import file_bytes, holds, is_yaml
+
+_SUFFIXES = (".dat", ".yaml", ".yml")
+
+
+def found(name: str) -> list[str]:
+    """The decks that `name` stands for: itself, every model below a folder, or what a pattern (`**` too) matches; sorted."""
+    if os.path.isdir(name):
+        return [path for path in _below(name) if _is_model(path)]
+    if has_magic(name) and not os.path.exists(name):
+        return sorted(path for path in glob(name, recursive=True) if os.path.isfile(path))
+    return [name]
+
+
+def is_manifest(path: str) -> bool:
+    """Whether a file is a manifest of jobs and no deck; a file that cannot be read is none."""
+    import re
+
+    try:
+        data = file_bytes(path)
+    except DeckError:
+        return False
+    return is_yaml(data, path) and re.search(rb"^batch[ \t]*:", data, re.MULTILINE) is not None
+
+
+def manifest_jobs(path: str) -> list:
+    """The jobs of the manifest `path`. Raises DeckError with all that is wrong with it."""
+    from mouse_cli.batch import manifest
+
+    return manifest.read(path)
+
+
+def _below(folder: str) -> Iterator[str]:
+    for place, _, names in sorted(os.walk(folder)):
+        yield from (os.path.join(place, name) for name in sorted(names) if name.endswith(_SUFFIXES))
+
+
+def _is_model(path: str) -> bool:
+    """Coupled structures, changes and manifests stand in the same folders; what cannot be read is told of by its job."""
+    try:
+        return holds(file_bytes(path), path) == "model" and not is_manifest(path)
+    except DeckError:
+        return True

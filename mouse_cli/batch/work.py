@@ -1,0 +1,115 @@
+"""What a worker does with one job: nothing where the answer is there, else run it and keep the answer."""
+
+import time
+from typing import Any
+
+from mouse_cli._errors import ERROR, DeckError, Diagnostic, MouseError
+from mouse_cli.batch import record
+from mouse_cli.batch.job import CHECK, DIAGNOSE, Job
+from mouse_cli.batch.outcome import Outcome, outcome, unwritten
+from mouse_cli.batch.record import Answer
+from mouse_cli.formats import file_bytes, read_draft
+from mouse_cli.model.problem import Problem
+
+_CHOICES = ("candidates", "causes")  # options of a diagnosis
+_OWN = (*_CHOICES, "legacy", "scale")
+
+
+def perform(job: Job, folder: str) -> Outcome:
+    """The outcome of `job`, whose answer is in its file below `folder` afterwards. Raises nothing but what ends a process."""
+    path = job.result(folder)
+    try:
+        data = file_bytes(job.deck)
+        identity = job.identity(data)
+    except DeckError as error:
+        return keep(job, Answer("", error.exit_code, error.diagnostics, None), path)
+    except OSError as error:
+        return keep(job, Answer("", 4, (_unreadable(job, error),), None), path)
+    known = record.read(path, identity)
+    if known is not None:
+        return outcome(job, known, path, resumed=True)
+    return keep(job, _timed(job, data, identity), path)
+
+
+def keep(job: Job, answer: Answer, path: str) -> Outcome:
+    """The outcome of an answer after writing it to `path`."""
+    try:
+        record.write(path, job, answer)
+    except MouseError as error:  # the disk is full: the other jobs may still find room
+        return unwritten(outcome(job, answer, path), error.diagnostics)
+    return outcome(job, answer, path)
+
+
+def died(job: Job, folder: str) -> Outcome:
+    """The outcome of a job that ended its worker."""
+    help = "run the deck by itself; where memory is short, give fewer --jobs"
+    found = Diagnostic("MD902", ERROR, f"{job.deck}: the process that ran it died", help=help)
+    return keep(job, Answer("", 5, (found,), None), job.result(folder))
+
+
+def _timed(job: Job, data: bytes, identity: str) -> Answer:
+    begun = time.perf_counter()
+    try:
+        exit_code, diagnostics, document = _answer(job, data)
+    except MouseError as error:
+        exit_code, diagnostics, document = error.exit_code, error.diagnostics, None
+    except Exception as error:  # whatever fails, it must not stop the other jobs; it is sought again by the next batch
+        exit_code, diagnostics, document, identity = 5, (_unforeseen(job, error),), None, ""
+    return Answer(identity, exit_code, diagnostics, document, time.perf_counter() - begun)
+
+
+def _answer(job: Job, data: bytes) -> tuple[int, tuple[Diagnostic, ...], dict[str, Any] | None]:
+    """Exit code, findings and document of the command."""
+    problem = _problem(job, data)
+    if job.command == CHECK:
+        from mouse_cli.updating.loop import examine
+
+        examine(problem)
+        return 0, problem.warnings, None
+    from mouse_cli.report import document
+
+    found = _diagnosed(problem, job.options) if job.command == DIAGNOSE else _run(problem)
+    return found.exit_code, problem.warnings, document(found)
+
+
+def _problem(job: Job, data: bytes) -> Problem:
+    """The problem of the deck, options of the job in place of its own."""
+    from dataclasses import replace
+
+    from mouse_cli.formats.assemble import assemble
+
+    draft = read_draft(data, job.deck, legacy=bool(job.options.get("legacy")))
+    if job.options.get("scale") and draft.test:
+        draft = replace(draft, test=replace(draft.test, scale=job.options["scale"]))
+    changes = {name: value for name, value in job.options.items() if name not in _OWN}
+    return assemble(draft.with_run(**changes) if changes else draft)
+
+
+def _run(problem: Problem):
+    if problem.by_recordings:
+        from mouse_cli.diagnosis.time.update import update_records
+
+        return update_records(problem, lambda text: None)
+    from mouse_cli.updating import run
+
+    return run(problem)
+
+
+def _diagnosed(problem: Problem, options: dict[str, Any]):
+    from mouse_cli.diagnosis.diagnose import diagnose
+    from mouse_cli.model.diagnosis import Choices
+
+    only = options.get("candidates")
+    return diagnose(problem, choices=Choices(tuple(only) if only else None, options.get("causes", 2)))
+
+
+def _unreadable(job: Job, error: OSError) -> Diagnostic:
+    message = f"{job.deck}: a file that the deck names cannot be read: {error}"
+    return Diagnostic("MD250", ERROR, message, help="check the file and its permissions")
+
+
+def _unforeseen(job: Job, error: Exception) -> Diagnostic:
+    if isinstance(error, MemoryError):
+        return Diagnostic("MD512", ERROR, f"{job.deck}: not enough memory for a model of this size")
+    told = f"{type(error).__name__}: {error}".split("\n")[0][:200]
+    return Diagnostic("MD903", ERROR, f"{job.deck}: {told}", help="this is a fault of mouse: report it with the deck")

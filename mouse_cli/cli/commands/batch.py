@@ -1,0 +1,99 @@
+"""mouse batch: many decks at once, resumed where it was broken off."""
+
+import click
+
+from mouse_cli.cli._options import QUIET, RUN, options, run_changes
+
+_REPORTS = (
+    click.option("--csv", "csv_file", metavar="FILE", help="Write the table for spreadsheets."),
+    click.option("--junit", "junit_file", metavar="FILE", help="Write JUnit XML for CI servers."),
+    click.option("--github", is_flag=True, help="Print annotations that GitHub shows beside the lines."),
+)
+
+
+@click.command()
+@click.argument("decks", nargs=-1, required=True)
+@click.option(
+    "-o", "--output", metavar="FOLDER", default="mouse-results", show_default=True, help="Answers, one file a job."
+)
+@click.option("-j", "--jobs", type=click.IntRange(1, 1024), help="Processes at once.  [default: one for each core]")
+@click.option(
+    "--command", "asked", type=click.Choice(("run", "check", "diagnose")), default="run", show_default=True,
+    help="What is asked of decks that no manifest names.",
+)  # fmt: skip
+@options(_REPORTS, QUIET, RUN)
+def command(
+    decks: tuple[str, ...],
+    output: str,
+    jobs: int | None,
+    asked: str,
+    csv_file: str | None,
+    junit_file: str | None,
+    github: bool,
+    quiet: bool,
+    **given: object,
+) -> int:
+    """Run, check or diagnose DECKS: files, folders, patterns, manifests.
+
+    Answers that are there already, of decks and files that have not changed, are not sought again.
+
+    Exit 3: a job missed what its manifest expects. Else the highest of the jobs' own: 5, 4, 1, 0.
+    """
+    from mouse_cli.batch.folder import held
+    from mouse_cli.batch.outcome import exit_code
+    from mouse_cli.batch.summary import annotations, csv_text, junit_text, table
+    from mouse_cli.cli._terminal import deliver
+
+    changes = {name: value for name, value in run_changes(given).items() if value is not None}
+    listed = _listed(decks, asked, changes)
+    with held(output):
+        found = _done(listed, output, jobs)
+    if csv_file:
+        deliver(csv_text(found), csv_file, "")
+    if junit_file:
+        deliver(junit_text(found), junit_file, "")
+    if github:
+        click.echo(annotations(found), nl=False)
+    click.echo(table(found, quiet), nl=False)
+    return exit_code(found)
+
+
+def _listed(decks: tuple[str, ...], asked: str, changes: dict) -> list:
+    """The jobs of names and manifests, each once. Raises DeckError for all that is wrong with them."""
+    from dataclasses import replace
+
+    from mouse_cli._errors import ERROR, DeckError, Diagnostic, MouseError
+    from mouse_cli.batch.decks import found, is_manifest, manifest_jobs
+    from mouse_cli.batch.job import Job, once
+
+    jobs, wrong = [], []
+    for name in decks:
+        some = found(name)
+        if not some:
+            wrong.append(Diagnostic("MD900", ERROR, f"'{name}' stands for no deck", help="check the name"))
+        for path in some:
+            if not is_manifest(path):
+                jobs.append(Job(path, asked, changes))
+                continue
+            try:
+                jobs += [replace(job, options=job.options | changes) for job in manifest_jobs(path)]
+            except MouseError as error:
+                wrong += error.diagnostics
+    if wrong:
+        raise DeckError(wrong)
+    return once(jobs)
+
+
+def _done(jobs: list, folder: str, processes: int | None) -> list:
+    """The outcomes, in the order of the jobs."""
+    import os
+
+    from mouse_cli.batch.processes import outcomes
+    from mouse_cli.cli._batch_progress import progress
+
+    found: list = [None] * len(jobs)
+    with progress(len(jobs)) as show:
+        for number, outcome in outcomes(jobs, folder, processes or len(os.sched_getaffinity(0))):
+            found[number] = outcome
+            show(outcome)
+    return found

@@ -1,0 +1,45 @@
+"""Codes of batches of decks (MD900-MD919)."""
+
+from mouse_cli.codes import Code
+
+CODES = {
+    "MD900": Code(
+        "name without a deck",
+        "A name or a pattern of a manifest, or of the command line, stands for no deck at all. A batch that passed because it "
+        "looked at nothing would deceive.",
+        "Correct the name. Names in a manifest are from its own folder; a pattern is matched by names of files, `**` by folders.",
+    ),
+    "MD901": Code(
+        "expectation that cannot be read",
+        "A line below `expect` names nothing that an answer holds, or gives a number without a tolerance: numbers that are equal "
+        "to the last digit on every machine are not to be had.",
+        "Write `posterior k1: 83699 +- 20`, `frequency 2: 14.3 +- 1 %`, `probability: > 0.9`, or a word: `status: converged`.",
+    ),
+    "MD902": Code(
+        "a process died",
+        "The process that ran the deck ended without an answer: the system stopped it for lack of memory, somebody ended it, or a "
+        "library failed. It was tried again by itself and died again, or was alone from the first. Other jobs are not touched, and "
+        "the next batch tries it again.",
+        "Run the deck by itself; where memory is short, give fewer `--jobs`.",
+    ),
+    "MD903": Code(
+        "fault of mouse",
+        "Something failed that no check foresees. Other jobs are not touched, and the next batch tries the deck again.",
+        "Report it with the deck.",
+    ),
+    "MD904": Code(
+        "folder in use",
+        "Another batch writes its answers to this folder. Two at once would do work twice.",
+        "Wait for it to end, or give another folder with `-o`.",
+    ),
+    "MD906": Code(
+        "expectation missed",
+        "The answer of a job is not what its manifest expects; the batch ends with exit 3.",
+        "See the answer of the job: its file is named in the CSV table. Correct the deck, or what is expected of it.",
+    ),
+    "MD907": Code(
+        "unknown candidate",
+        "`candidates` of a job names omitted physics that mouse does not know.",
+        "Take names from `mouse list candidates`.",
+    ),
+}
