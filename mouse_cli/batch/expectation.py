@@ -18,13 +18,17 @@ VERDICT, EXIT = "verdict", "exit"
 Document = dict[str, Any]
 
 
+def _model(document: Document) -> Document:
+    """What is said of the model: by a run all of it; by a diagnosis that of the extended model, or of the model as it is."""
+    return document if "verdict" not in document else document.get("extended") or document.get("baseline") or {}
+
+
 def _entry(key: str, value: str) -> Callable[[Document, str], Any]:
-    """Reads `value` of the parameter or mode called so, from a document of a run or from the model that a diagnosis ends with."""
+    """Reads `value` of the parameter or mode called so."""
 
     def read(document: Document, name: str) -> Any:
-        whole = document if "verdict" not in document else document.get("extended") or document.get("baseline") or {}
         label = "name" if key == "parameters" else "mode"
-        return next((each.get(value) for each in whole.get(key) or [] if str(each.get(label)) == name), None)
+        return next((each.get(value) for each in _model(document).get(key) or [] if str(each.get(label)) == name), None)
 
     return read
 
@@ -41,10 +45,10 @@ _SINGLE: dict[str, Callable[[Document], Any]] = {  # numbers without a name
     "residual p": lambda document: (document.get("residual") or {}).get("p"),
 }
 _WORDS: dict[str, Callable[[Document], Any]] = {
-    "status": lambda document: document.get("status"),
+    "status": lambda document: _model(document).get("status"),
     VERDICT: lambda document: (document.get("verdict") or {}).get("kind"),
     "physics": lambda document: (document.get("verdict") or {}).get("physics"),
-    "model form": lambda document: document.get("model_form"),
+    "model form": lambda document: _model(document).get("model_form"),
 }
 KEYS = (EXIT, *_WORDS, *_SINGLE, *(f"{key} NAME" for key in _NUMBERS))
 

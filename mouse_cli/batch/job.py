@@ -30,7 +30,7 @@ class Job:
     def result(self, folder: str) -> str:
         """Path of the file below `folder` that holds the answer: one for each deck, command and set of options."""
         place = os.path.relpath(os.path.realpath(self.deck), os.path.realpath(folder))
-        asked = hashlib.sha256(f"{place}\0{self._asked()}".encode()).hexdigest()
+        asked = hashlib.sha256(os.fsencode(f"{place}\0{self._asked()}")).hexdigest()
         stem = os.path.splitext(os.path.basename(self.deck))[0][:_STEM]
         return os.path.join(folder, f"{stem}-{asked[:_DIGITS]}.json")
 
@@ -39,7 +39,7 @@ class Job:
         whole = hashlib.sha256(f"{__version__}\0{self._asked()}\0".encode())
         whole.update(hashlib.sha256(data).digest())
         for path in named_files(data, self.deck):
-            whole.update(f"\0{os.path.basename(path)}\0".encode())
+            whole.update(os.fsencode(f"\0{os.path.basename(path)}\0"))
             with open(path, "rb") as stream:
                 whole.update(hashlib.file_digest(stream, "sha256").digest())
         return whole.hexdigest()

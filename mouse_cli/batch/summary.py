@@ -85,7 +85,9 @@ def junit_text(outcomes: list[Outcome], name: str = "mouse batch") -> str:
         case = ElementTree.SubElement(suite, "testcase", {**named, "time": f"{each.seconds:.3f}"})
         if _kind(each):
             told = [found.headline for found in (*each.missed, *each.errors)] or [each.ended]
-            below = ElementTree.SubElement(case, _kind(each), {"message": _xml(told[0]), "type": each.ended.split()[0]})
+            below = ElementTree.SubElement(
+                case, _kind(each), {"message": _xml(told[0]), "type": _xml(each.ended.split()[0])}
+            )
             below.text = _xml("\n".join(told))
     ElementTree.indent(root)
     return ElementTree.tostring(root, encoding="unicode", xml_declaration=False) + "\n"

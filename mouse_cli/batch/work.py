@@ -21,14 +21,14 @@ def perform(job: Job, folder: str) -> Outcome:
     try:
         data = file_bytes(job.deck)
         identity = job.identity(data)
+        known = record.read(path, identity)
+        return outcome(job, known, path, resumed=True) if known else keep(job, _timed(job, data, identity), path)
     except DeckError as error:
         return keep(job, Answer("", error.exit_code, error.diagnostics, None), path)
     except OSError as error:
         return keep(job, Answer("", 4, (_unreadable(job, error),), None), path)
-    known = record.read(path, identity)
-    if known is not None:
-        return outcome(job, known, path, resumed=True)
-    return keep(job, _timed(job, data, identity), path)
+    except Exception as error:  # of what keeps answers, not of what finds them
+        return outcome(job, Answer("", 5, (_unforeseen(job, error),), None), path)
 
 
 def keep(job: Job, answer: Answer, path: str) -> Outcome:
