@@ -34,7 +34,7 @@ _RANGES = {
     "MD5": "What the numbers say",
     "MD6": "Recordings",
     "MD7": "Coupled and modified structures",
-    "MD9": "Batches",
+    "MD9": "Batches and pages",
 }
 _BLANKS = {  # the words in braces of a status sentence, as the page shows them
     "cycles": "c", "exceedances": "e", "data": "q", "allowed": "a", "cycle": "c", "reason": "reason", "names": "names",

@@ -14,6 +14,7 @@ FILES = sorted(PACKAGE.rglob("*.py"))
 RANKS = {
     "cli": 8,
     "batch": 7,
+    "page": 7,
     "report": 6,
     "plots": 6,
     "diagnosis": 5,

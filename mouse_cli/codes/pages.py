@@ -1,0 +1,22 @@
+"""MD920 to MD922: documents that pages are made of."""
+
+from mouse_cli.codes import Code
+
+CODES = {
+    "MD920": Code(
+        "no document of mouse",
+        "`mouse report` reads the JSON that `mouse run --json` and `mouse diagnose --json` write. The file is no JSON, or says no "
+        "`schema` of mouse.",
+        "Write the answer with --json and give that file; a deck is not an answer.",
+    ),
+    "MD921": Code(
+        "a document that no page is made of",
+        "The document is of mouse, but of another kind, or of another version of its schema.",
+        "Give a document mouse.result/1 or mouse.diagnosis/1; one of another version needs the mouse that wrote it.",
+    ),
+    "MD922": Code(
+        "a document that is not what its schema says",
+        "A value of the document is of another type than its schema says: the file was changed, or made by something else.",
+        "Write the document again; its keys are listed in docs/reference/json.md.",
+    ),
+}

@@ -1,0 +1,105 @@
+"""The documents that a page is made of: read as data, each value checked for its type where it is used."""
+
+import json
+from dataclasses import dataclass
+from math import isfinite
+from typing import Any
+
+from mouse_cli._errors import ERROR, DeckError, Diagnostic
+
+SCHEMAS = ("mouse.result/1", "mouse.diagnosis/1")
+_KINDS = {dict: "an object", list: "a list", str: "a text", bool: "true or false", int: "a number", float: "a number"}
+
+
+@dataclass(frozen=True)
+class Part:
+    """One object of a document; `place` is where it stands, such as `verdict.site`, and `file` what it was read from.
+
+    Values that are absent or null are empty: "", None, [] or a Part without values. Raises DeckError (MD922) where a
+    value is of another type than the document's schema says.
+    """
+
+    values: dict[str, Any]
+    file: str
+    place: str = ""
+
+    def __bool__(self) -> bool:
+        return bool(self.values)
+
+    def text(self, key: str) -> str:
+        """A text."""
+        return self._of(key, (str,), "a text") or ""
+
+    def label(self, key: str) -> str:
+        """A text, or a number that stands for a name."""
+        value = self._of(key, (str, int, float), "a text or a number")
+        return "" if value is None else str(value)
+
+    def labels(self, key: str) -> list[str]:
+        """Names, texts or numbers."""
+        return [Part({"": value}, self.file, f"{self._at(key)}[]").label("") for value in self._list(key)]
+
+    def texts(self, key: str) -> list[str]:
+        """Sentences."""
+        return [Part({"": value}, self.file, f"{self._at(key)}[]").text("") for value in self._list(key)]
+
+    def flag(self, key: str) -> bool:
+        """Whether; False where it is not said."""
+        return bool(self._of(key, (bool,), "true or false"))
+
+    def number(self, key: str) -> float | None:
+        """A number; None where it is unknown or beyond all numbers."""
+        value = self._of(key, (int, float), "a number")
+        if value is None or (isinstance(value, int) and abs(value) > 10**300):
+            return None
+        return float(value) if isfinite(value) else None
+
+    def numbers(self, key: str) -> list[float | None]:
+        """Numbers, None where one is unknown."""
+        return [Part({"": value}, self.file, f"{self._at(key)}[]").number("") for value in self._list(key)]
+
+    def part(self, key: str) -> "Part":
+        """The object below `key`."""
+        return Part(self._of(key, (dict,), "an object") or {}, self.file, self._at(key))
+
+    def parts(self, key: str) -> list["Part"]:
+        """The objects of the list below `key`."""
+        return [Part({"": value}, self.file, f"{self._at(key)}[]").part("") for value in self._list(key)]
+
+    def _list(self, key: str) -> list[Any]:
+        return self._of(key, (list,), "a list") or []
+
+    def _of(self, key: str, types: tuple[type, ...], expected: str) -> Any:
+        value = self.values.get(key)
+        if value is None or (isinstance(value, types) and (not isinstance(value, bool) or bool in types)):
+            return value
+        got = _KINDS.get(type(value), "something else")
+        raise rejected("MD922", f"{self.file}: {self._at(key)} is {got}; expected {expected}")
+
+    def _at(self, key: str) -> str:
+        return ".".join(filter(None, (self.place, key)))
+
+
+def read(data: bytes, file: str) -> Part:
+    """The document in `data`, which came from `file`. Raises DeckError (MD920, MD921)."""
+    try:
+        found = json.loads(data.decode("utf-8-sig"), parse_constant=_no_number)
+    except (ValueError, RecursionError) as reason:
+        raise rejected("MD920", f"{file} is no JSON document: {reason}") from None
+    schema = found.get("schema") if isinstance(found, dict) else None
+    if not isinstance(schema, str) or not schema.startswith("mouse."):
+        raise rejected("MD920", f"{file} is JSON, but no document of mouse: it has no `schema` that begins with mouse.")
+    if schema not in SCHEMAS:
+        raise rejected("MD921", f"{file} is {schema[:60]}; a page is made of {' or '.join(SCHEMAS)}")
+    return Part(found, file)
+
+
+def rejected(code: str, message: str) -> DeckError:
+    """The error for a file that no page can be made of."""
+    return DeckError(
+        Diagnostic(code, ERROR, message, help="write it with `mouse run --json` or `mouse diagnose --json`")
+    )
+
+
+def _no_number(name: str) -> None:
+    raise ValueError(f"{name} is no number in JSON")

@@ -1,0 +1,63 @@
+"""The whole page: one file that needs nothing else, and that the browser forbids to fetch anything."""
+
+from base64 import b64encode
+from hashlib import sha256
+from importlib.resources import files
+
+from mouse_cli.page.document import Part
+from mouse_cli.page.html import Markup, join, tag
+from mouse_cli.page.section import sections
+
+
+def page(document: Part) -> str:
+    """`document` as HTML: verdict first, then figures and tables, its style and script inline.
+
+    The page's Content-Security-Policy allows this style and this script, by their SHA-256, and nothing else: no request, no
+    image, no frame, no form. Raises DeckError (MD922) where the document is not what its schema says.
+    """
+    style, script = (files(__package__).joinpath(name).read_text("utf-8") for name in ("page.css", "page.js"))
+    title = document.text("title") or document.text("source") or document.file
+    head = tag(
+        "head",
+        tag("meta", charset="utf-8"),
+        tag("meta", http_equiv="Content-Security-Policy", content=_policy(style, script)),
+        tag("meta", name_="viewport", content="width=device-width, initial-scale=1"),
+        tag("title", f"{title} – mouse"),
+        tag("style", Markup(style)),
+    )
+    found = list(sections(document))
+    body = tag(
+        "body",
+        tag("a", "Skip to the verdict", href="#verdict", class_="skip"),
+        tag("header", tag("h1", title), tag("p", _origin(document), class_="source"), _contents(found)),
+        tag("main", *(body for _, body in found)),
+        tag("footer", tag("p", f"Made by mouse from {document.text('schema')}, version {document.text('version')}.")),
+        tag("p", id="spoken", role="status", class_="skip"),
+        tag("script", Markup(script)),
+    )
+    return join([Markup("<!DOCTYPE html>\n"), tag("html", head, body, lang="en"), "\n"])
+
+
+def _origin(document: Part) -> str:
+    """Where the answer is from and how it was found."""
+    asked = document.part("asked") or document
+    named = (
+        ("deck", document.text("source")),
+        ("estimator", asked.text("estimator")),
+        ("recursion", asked.text("recursion")),
+    )
+    return "; ".join(f"{name} {value}" for name, value in named if value)
+
+
+def _contents(found: list) -> Markup:
+    entries = [tag("li", tag("a", section.title, href=f"#{section.key}")) for section, _ in found]
+    return tag("nav", tag("ul", *entries), aria_label="Contents")
+
+
+def _policy(style: str, script: str) -> str:
+    inline = f"style-src '{_hashed(style)}'; script-src '{_hashed(script)}'"
+    return f"default-src 'none'; {inline}; base-uri 'none'; form-action 'none'"
+
+
+def _hashed(text: str) -> str:
+    return f"sha256-{b64encode(sha256(text.encode()).digest()).decode()}"

@@ -1,0 +1,28 @@
+"""A section of the page: one file of `sections`, found by itself, that turns a document into markup."""
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+
+from mouse_cli import _registry
+from mouse_cli.page.document import Part
+from mouse_cli.page.html import Markup, tag
+
+
+@dataclass(frozen=True)
+class PageSection:
+    """`build(document)` yields what the section shows, nothing when the document has nothing of it; order: its place."""
+
+    key: str
+    order: int
+    title: str
+    build: Callable[[Part], Iterable[Markup]]
+
+
+def sections(document: Part) -> Iterator[tuple[PageSection, Markup]]:
+    """The sections that have something to show, in the order of the page."""
+    found = _registry.discover("mouse_cli.page.sections", "SECTION").values()
+    for section in sorted(found, key=lambda s: (s.order, s.key)):
+        body = [piece for piece in section.build(document) if piece]
+        if body:
+            head = tag("h2", section.title, id=f"{section.key}-title")
+            yield section, tag("section", head, *body, id=section.key, aria_labelledby=f"{section.key}-title")

@@ -1,0 +1,62 @@
+"""Words and charts that sections share."""
+
+from mouse_cli.page.charts import Bar, bars
+from mouse_cli.page.document import Part
+from mouse_cli.page.html import Markup, tag
+from mouse_cli.page.numbers import apart, signed_per_cent
+
+_MOST_BARS = 40  # lines of a figure; its table has all
+
+
+def paragraphs(*texts: str) -> Markup:
+    """Each text as a paragraph, empty ones left out."""
+    return Markup("".join(tag("p", text) for text in texts if text))
+
+
+def listed(texts: list[str]) -> Markup:
+    """Texts as a list; empty without any."""
+    return tag("ul", *(tag("li", text) for text in texts)) if texts else Markup("")
+
+
+def place(site: Part) -> str:
+    """A place in words, with its coordinates where it is a point."""
+    words = site.text("text") or f"{site.text('kind')} {', '.join(site.labels('ids'))}".strip()
+    position = [x for x in site.numbers("position") if x is not None]
+    return f"{words} at ({', '.join(f'{x + 0.0:.4g}' for x in position)})" if position else words
+
+
+def places(one: Part) -> str:
+    """The places of an explanation or a verdict."""
+    return " and ".join(filter(None, map(place, one.parts("sites")))) or "–"
+
+
+def differences(key: str, title: str, rows: list[tuple[str, float | None, float | None, float | None]]) -> Markup:
+    """Bars of what two models miss of measured frequencies: (label, measured, before, after) each."""
+    drawn = []
+    for label, measured, before, after in rows[:_MOST_BARS]:
+        lengths = apart(before, measured), apart(after, measured)
+        told = f"{signed_per_cent(lengths[0])}, then {signed_per_cent(lengths[1])}"
+        drawn.append(Bar(label, told, lengths))
+    told = f"Model minus test in per cent of the test, before and after. {cut(rows)}"
+    spoken = "; ".join(f"{bar.label}: {bar.words}" for bar in drawn)
+    return bars(key, title, f"{told}{spoken}.", drawn, ("before", "after"))
+
+
+def cut(rows: list) -> str:
+    """A sentence where a figure shows fewer lines than there are."""
+    return f"The first {_MOST_BARS} of {len(rows)}. " if len(rows) > _MOST_BARS else ""
+
+
+def shares(key: str, title: str, told: str, rows: list[tuple[str, str, float | None]]) -> Markup:
+    """Bars of shares or probabilities: (label, words, length) each."""
+    drawn = [Bar(label, words, (length,)) for label, words, length in rows[:_MOST_BARS]]
+    spoken = "; ".join(f"{bar.label}: {bar.words}" for bar in drawn)
+    return bars(key, title, f"{told} {cut(rows)}{spoken}.", drawn, (title,))
+
+
+def updates(document: Part) -> list[tuple[str, str, Part]]:
+    """Updates in the document: a key for ids, the name of the model, and what was found of it."""
+    if document.text("schema") == "mouse.result/1":
+        return [("model", "the model", document)]
+    both = (("baseline", "the model as it is"), ("extended", "the extended model"))
+    return [(key, name, document.part(key)) for key, name in both if document.part(key)]

@@ -1,0 +1,56 @@
+"""Groups of causes and single candidates, with their probabilities."""
+
+from collections.abc import Iterator
+
+from mouse_cli.page.document import Part
+from mouse_cli.page.html import Markup
+from mouse_cli.page.numbers import probable, shown
+from mouse_cli.page.section import PageSection
+from mouse_cli.page.sections._words import places, shares
+from mouse_cli.page.tables import Cell, table
+
+_HEADS = (
+    "candidate",
+    "group",
+    "place",
+    "size",
+    "probability",
+    "ln evidence over none",
+    "chi-square",
+    "degrees of freedom",
+    "P of more by chance",
+)
+
+
+def causes(document: Part) -> Iterator[Markup]:
+    """Probabilities of the groups as bars, then every candidate."""
+    groups = document.parts("groups")
+    rows = [(g.text("group"), probable(g.number("probability")), g.number("probability")) for g in groups]
+    yield shares(
+        "groups", "Probability of each group of causes", "Given that the cause is a candidate or nothing.", rows
+    )
+    yield table("candidates", "Candidates, the most probable first", _HEADS, map(_row, document.parts("candidates")))
+
+
+def _row(one: Part) -> tuple[object, ...]:
+    probability, p = one.number("probability"), one.number("p")
+    sizes = ", ".join(map(_size, one.parts("parameters"))) or "–"
+    return (
+        one.text("title") or one.text("physics"),
+        one.text("group"),
+        places(one),
+        sizes,
+        Cell(probability, probable(probability)),
+        one.number("log_evidence_over_none"),
+        one.number("chi2"),
+        one.number("dof"),
+        Cell(p, probable(p)),
+    )
+
+
+def _size(size: Part) -> str:
+    unit = "" if size.text("unit") in ("", "1") else f" {size.text('unit')}"
+    return f"{size.text('name')} {shown(size.number('value'), 4)}{unit} (sd {shown(size.number('sd'), 2)})"
+
+
+SECTION = PageSection("causes", 20, "Causes", causes)

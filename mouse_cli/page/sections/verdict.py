@@ -1,0 +1,91 @@
+"""Verdict: what was found and whether to trust it, in plain words, before anything else."""
+
+from collections.abc import Iterator
+
+from mouse_cli.page.document import Part
+from mouse_cli.page.html import Markup, tag
+from mouse_cli.page.numbers import probable
+from mouse_cli.page.section import PageSection
+from mouse_cli.page.sections._words import listed, paragraphs, places
+from mouse_cli.page.tables import Cell, table
+
+_FORM = {
+    "accepted": "The data do not contradict the form of the model.",
+    "rejected": "The form of the model is rejected: the data show what the model lacks, lie farther from the prior than it "
+    "allows, or are less accurate than they are said to be. Do not trust the revised values.",
+    "untested": "Nothing is said of the form of the model: the data leave nothing to test it by, or there is no answer.",
+}
+_GOOD, _BAD = ("good", "✓ Answer found and trusted"), ("bad", "✗ No answer")
+_DOUBTED = {
+    True: ("doubt", "! Do not trust the model as it is"),
+    False: ("doubt", "! Finished, but do not trust the answer"),
+}
+_TESTS = (
+    ("innovation", "prior model against the data"),
+    ("residual", "what no values explain"),
+    ("prior_shift", "values against the prior"),
+)
+
+
+def verdict(document: Part) -> Iterator[Markup]:
+    """Mark, sentence, cautions, tests of the model's form."""
+    found = document.part("verdict")
+    looks, mark = {0: _GOOD, 1: _DOUBTED[bool(found)]}.get(document.number("exit_code"), _BAD)
+    yield tag("p", mark, class_=f"mark {looks}")
+    yield tag("p", _told(document, found) if found else _run(document), class_="verdict")
+    if not found:
+        yield paragraphs(document.text("advice"), _FORM.get(document.text("model_form"), ""))
+    yield listed(document.texts("cautions"))
+    if document.labels("refuted"):
+        yield paragraphs(f"Data that were held out speak against: {', '.join(document.labels('refuted'))}.")
+    yield table(
+        "tests",
+        "Tests of the model's form",
+        ("test", "chi-square", "degrees of freedom", "P of more by chance"),
+        _tests(document),
+    )
+
+
+def _run(document: Part) -> str:
+    return document.text("message") or f"The run ended: {document.text('status')}."
+
+
+def _told(document: Part, found: Part) -> str:
+    kind, titles = found.text("kind"), _titles(document, found)
+    if kind == "nothing-missing":
+        return "Nothing is missing that this test could show."
+    if kind == "named":
+        sensor = all(site.text("kind") == "sensor" for site in found.parts("sites"))
+        begin = "The test is at fault, not the model:" if sensor else "The model lacks"
+        p = f" (probability {probable(found.number('probability'))})"
+        return f"{begin} {titles[0]}: {places(found)}{p}."
+    if kind == "one-of":
+        return f"Something is missing, and the test does not settle what: {'; or '.join(titles)}."
+    return "Something is missing that no candidate explains. Do not name a cause."
+
+
+def _titles(document: Part, found: Part) -> list[str]:
+    """The named cause, or the leading one of each rival group, in words."""
+    candidates = document.parts("candidates")
+    if found.text("kind") == "named":
+        wanted = [one for one in candidates if one.text("physics") == found.text("physics")][:1]
+        return [one.text("title") for one in wanted] or [found.text("physics")]
+    rivals = found.labels("rivals")
+    leading = {group: next((o for o in candidates if o.text("group") == group), None) for group in rivals}
+    return [group if one is None else one.text("title") for group, one in leading.items()]
+
+
+def _tests(document: Part) -> Iterator[tuple[object, ...]]:
+    for key, name in _TESTS:
+        test = document.part(key)
+        if test.number("dof"):
+            p = test.number("p")
+            yield (
+                f"{key.replace('_', ' ')}: {name}",
+                test.number("chi2"),
+                test.number("dof"),
+                Cell(p, probable(p)),
+            )
+
+
+SECTION = PageSection("verdict", 10, "Verdict", verdict)
