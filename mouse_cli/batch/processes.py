@@ -8,6 +8,7 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass
 from multiprocessing import connection
 
 from mouse_cli.batch.job import Job
@@ -15,14 +16,15 @@ from mouse_cli.batch.outcome import Outcome
 from mouse_cli.batch.work import died, perform
 
 _THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
-_AHEAD = 4  # jobs that wait for each process: enough that none is idle, few enough that memory stays flat
+_AHEAD = 2  # portions for each process, one in hand and one that waits: none is idle, and memory stays flat
+_PORTION_S = 0.1  # seconds of work handed over at once: handing over costs about a millisecond
+_MOST = 64  # jobs of one portion
 
 Numbered = tuple[int, Job]
+Work = Callable[[Job, str], Outcome]
 
 
-def outcomes(
-    jobs: list[Job], folder: str, processes: int, work: Callable[[Job, str], Outcome] = perform
-) -> Iterator[tuple[int, Outcome]]:
+def outcomes(jobs: list[Job], folder: str, processes: int, work: Work = perform) -> Iterator[tuple[int, Outcome]]:
     """(number of the job, its outcome) as each is done, in any order; answers go to files below `folder`.
 
     Where a process dies, all that were in hand are tried again, each alone: that which kills its process once more is
@@ -32,11 +34,11 @@ def outcomes(
     suspects: deque[Numbered] = deque()
     while waiting or suspects:
         with _pool(min(processes, len(waiting) + len(suspects))) as pool:
-            flying: dict[Future[Outcome], Numbered] = {}
+            flying: dict[Future[list[Outcome]], list[Numbered]] = {}
             try:
-                yield from _drained(pool, flying, waiting, suspects, folder, processes * _AHEAD, work)
+                yield from _drained(pool, flying, waiting, suspects, _Task(work, folder), processes)
             except BrokenProcessPool:
-                left = list(flying.values())
+                left = [each for portion in flying.values() for each in portion]
                 if len(left) == 1:
                     yield left[0][0], died(left[0][1], folder)
                 else:
@@ -46,32 +48,57 @@ def outcomes(
                 raise
 
 
+@dataclass(frozen=True)
+class _Task:
+    """What a process does with a portion of jobs."""
+
+    work: Work
+    folder: str
+
+    def __call__(self, portion: list[Numbered]) -> list[Outcome]:
+        return [self.work(job, self.folder) for _, job in portion]
+
+
 def _drained(
     pool: ProcessPoolExecutor,
-    flying: dict[Future, Numbered],
+    flying: dict[Future, list[Numbered]],
     waiting: deque[Numbered],
     suspects: deque[Numbered],
-    folder: str,
-    ahead: int,
-    work: Callable[[Job, str], Outcome],
+    task: _Task,
+    processes: int,
 ) -> Iterator[tuple[int, Outcome]]:
     """Outcomes until nothing is left. Raises BrokenProcessPool with those in hand left in `flying`."""
+    size = 1
     while waiting or suspects or flying:
         alone = bool(suspects) and not flying
-        source, room = (suspects, 1) if alone else (waiting, 0 if suspects else ahead - len(flying))
-        for _ in range(min(room, len(source))):
-            number, job = source.popleft()
-            try:
-                flying[pool.submit(work, job, folder)] = number, job
-            except BrokenProcessPool:
-                source.appendleft((number, job))
-                raise
-        if alone:
-            wait(flying)
+        source, room = (suspects, 1) if alone else (waiting, 0 if suspects else _AHEAD * processes - len(flying))
+        for _ in range(room):
+            _hand_over(pool, flying, source, task, 1 if alone else min(size, -(-len(source) // (2 * processes))))
         done, _ = wait(flying, return_when=FIRST_COMPLETED)
         for future in done:
             found = future.result()
-            yield flying.pop(future)[0], found
+            yield from zip((number for number, _ in flying.pop(future)), found, strict=True)
+            size = _size(found)
+
+
+def _hand_over(
+    pool: ProcessPoolExecutor, flying: dict[Future, list[Numbered]], source: deque[Numbered], task: _Task, size: int
+) -> None:
+    """The next `size` jobs of `source`, if there are any."""
+    portion = [source.popleft() for _ in range(min(size, len(source)))]
+    if not portion:
+        return
+    try:
+        flying[pool.submit(task, portion)] = portion
+    except BrokenProcessPool:
+        source.extendleft(reversed(portion))
+        raise
+
+
+def _size(found: list[Outcome]) -> int:
+    """Jobs of the next portion, by how long the last ones took."""
+    seconds = sum(0.0 if each.resumed else each.seconds for each in found) / len(found)
+    return _MOST if seconds * _MOST <= _PORTION_S else max(1, int(_PORTION_S / seconds))
 
 
 def _pool(processes: int) -> ProcessPoolExecutor:
