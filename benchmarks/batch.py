@@ -3,7 +3,7 @@
     python benchmarks/batch.py [DECKS] [--jobs N]
 
 The engine's own: reading, running and the JSON document of every deck in one process that has all modules loaded. Of the batch:
-processor seconds of all its processes, start-up included and left out; other work on the machine matters less to these than to time.
+processor seconds of all its processes, start-up included and left out; other work on the machine matters less to these.
 """
 
 import os

@@ -39,7 +39,7 @@ def written(folder: Path) -> dict[str, tuple[int, int]]:
 def killed(command: list[str], folder: Path, more: int, delay: float) -> bool:
     """Whether a batch was killed, `delay` seconds after it had written `more` answers, before it came to its end."""
     aim = len(written(folder)) + more
-    going = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+    going = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     while len(written(folder)) < aim and going.poll() is None:
         time.sleep(0.003)
     time.sleep(delay)

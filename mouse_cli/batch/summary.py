@@ -24,13 +24,20 @@ def table(outcomes: list[Outcome], only_bad: bool = False) -> str:
 
 def _lines(found: Outcome, width: int) -> Iterator[str]:
     ending = f"expected {found.expected - len(found.missed)}/{found.expected}" if found.expected else ""
-    yield f"{_deck(found):<{width}}  {found.command:<8}  {found.exit_code}  {found.ended:<40}  {ending}".rstrip()
-    yield from (f"    {each.headline}" for each in found.missed)
-    yield from (f"    {each.headline}" for each in found.errors[:1])
+    yield f"{_deck(found):<{width}}  {found.command:<8}  {found.exit_code}  {_plain(found.ended):<40}  {ending}".rstrip()
+    yield from (f"    {_plain(each.headline)}" for each in (*found.missed, *found.errors[:1]))
 
 
 def _deck(found: Outcome) -> str:
-    return found.deck if len(found.deck) <= _WIDEST else f"...{found.deck[3 - _WIDEST :]}"
+    """The name, or its end; never what a CI server takes for a command, which begins with two colons."""
+    name = _plain(found.deck)
+    name = name if len(name) <= _WIDEST else f"...{name[3 - _WIDEST :]}"
+    return f"./{name}" if name.startswith("::") else name
+
+
+def _plain(text: str) -> str:
+    """The text on one line."""
+    return "".join(c if c.isprintable() else "?" for c in text)
 
 
 def count(outcomes: list[Outcome]) -> str:
