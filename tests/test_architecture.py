@@ -30,7 +30,7 @@ RANKS = {
     "codes": 1,
     "model": 1,
 }
-OPTIONAL = {"matplotlib", "h5py", "pyuff", "pyyeti", "nptdms", "soundfile", "sdypy", "pyoma2"}
+OPTIONAL = {"matplotlib", "h5py", "pyuff", "pyyeti", "nptdms", "soundfile", "sdypy", "pyoma2", "dask", "distributed"}
 HEAVY = {"scipy", "yaml"}  # never at the head of a module: a small card deck needs neither
 
 

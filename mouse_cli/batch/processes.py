@@ -5,23 +5,18 @@ import os
 import signal
 import threading
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from dataclasses import dataclass
 from multiprocessing import connection
 
 from mouse_cli.batch.job import Job
 from mouse_cli.batch.outcome import Outcome
+from mouse_cli.batch.portions import Numbered, Task, Work, next_size
 from mouse_cli.batch.work import died, perform
 
 _THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
 _AHEAD = 2  # portions for each process, one in hand and one that waits: none is idle, and memory stays flat
-_PORTION_S = 0.1  # seconds of work handed over at once: handing over costs about a millisecond
-_MOST = 64  # jobs of one portion
-
-Numbered = tuple[int, Job]
-Work = Callable[[Job, str], Outcome]
 
 
 def outcomes(jobs: list[Job], folder: str, processes: int, work: Work = perform) -> Iterator[tuple[int, Outcome]]:
@@ -36,7 +31,7 @@ def outcomes(jobs: list[Job], folder: str, processes: int, work: Work = perform)
         with _pool(min(processes, len(waiting) + len(suspects))) as pool:
             flying: dict[Future[list[Outcome]], list[Numbered]] = {}
             try:
-                yield from _drained(pool, flying, waiting, suspects, _Task(work, folder), processes)
+                yield from _drained(pool, flying, waiting, suspects, Task(folder, work), processes)
             except BrokenProcessPool:
                 left = [each for portion in flying.values() for each in portion]
                 if len(left) == 1:
@@ -48,23 +43,12 @@ def outcomes(jobs: list[Job], folder: str, processes: int, work: Work = perform)
                 raise
 
 
-@dataclass(frozen=True)
-class _Task:
-    """What a process does with a portion of jobs."""
-
-    work: Work
-    folder: str
-
-    def __call__(self, portion: list[Numbered]) -> list[Outcome]:
-        return [self.work(job, self.folder) for _, job in portion]
-
-
 def _drained(
     pool: ProcessPoolExecutor,
     flying: dict[Future, list[Numbered]],
     waiting: deque[Numbered],
     suspects: deque[Numbered],
-    task: _Task,
+    task: Task,
     processes: int,
 ) -> Iterator[tuple[int, Outcome]]:
     """Outcomes until nothing is left. Raises BrokenProcessPool with those in hand left in `flying`."""
@@ -78,11 +62,11 @@ def _drained(
         for future in done:
             found = future.result()
             yield from zip((number for number, _ in flying.pop(future)), found, strict=True)
-            size = _size(found)
+            size = next_size(found)
 
 
 def _hand_over(
-    pool: ProcessPoolExecutor, flying: dict[Future, list[Numbered]], source: deque[Numbered], task: _Task, size: int
+    pool: ProcessPoolExecutor, flying: dict[Future, list[Numbered]], source: deque[Numbered], task: Task, size: int
 ) -> None:
     """The next `size` jobs of `source`, if there are any."""
     portion = [source.popleft() for _ in range(min(size, len(source)))]
@@ -95,10 +79,9 @@ def _hand_over(
         raise
 
 
-def _size(found: list[Outcome]) -> int:
-    """Jobs of the next portion, by how long the last ones took."""
-    seconds = sum(0.0 if each.resumed else each.seconds for each in found) / len(found)
-    return _MOST if seconds * _MOST <= _PORTION_S else max(1, int(_PORTION_S / seconds))
+def cores() -> int:
+    """Cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _pool(processes: int) -> ProcessPoolExecutor:

@@ -32,6 +32,11 @@ CODES = {
         "Another batch writes its answers to this folder. Two at once would do work twice.",
         "Wait for it to end, or give another folder with `-o`.",
     ),
+    "MD905": Code(
+        "no package for clusters",
+        "`--scheduler` and `--cluster` hand jobs to dask.distributed, which a plain installation does not bring.",
+        "`pip install 'mouse-cli[cluster]'`, or leave these options out: processes of one machine need nothing.",
+    ),
     "MD906": Code(
         "expectation missed",
         "The answer of a job is not what its manifest expects; the batch ends with exit 3.",
@@ -41,5 +46,10 @@ CODES = {
         "unknown candidate",
         "`candidates` of a job names omitted physics that mouse does not know.",
         "Take names from `mouse list candidates`.",
+    ),
+    "MD908": Code(
+        "no scheduler",
+        "No scheduler of dask.distributed answers at the address of `--scheduler`, or it is of a version that does not fit.",
+        "See that it runs (`dask scheduler`) and that its address, such as tcp://10.0.0.1:8786, can be reached.",
     ),
 }

@@ -183,6 +183,35 @@ def test_a_process_that_dies_takes_no_other_job_with_it(tmp_path):
     assert {one.exit_code for one in retried.values()} == {0}
 
 
+def test_workers_of_a_cluster_give_the_same_and_one_that_dies_stops_nothing(tmp_path, monkeypatch):
+    pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
+    from mouse_cli.batch import cluster
+
+    monkeypatch.chdir(tmp_path)
+    springs(Path("decks"), 6)
+    jobs = [Job(str(path)) for path in sorted(Path("decks").glob("*.yaml"))]
+    with held("one"):
+        dict(outcomes(jobs, "one", 1))
+    Path("decks/deadly.yaml").write_text(SPRING.format(k=100, hz=1.6))
+    with held("two"), cluster.client(None, 2) as client:
+        with cluster.client(client.scheduler.address, 0) as other:  # as --scheduler does
+            first = dict(cluster.outcomes(jobs, "two", other))
+        found = dict(cluster.outcomes([*jobs, Job("decks/deadly.yaml")], "two", client, deadly))
+    assert answers(Path("one")) == {name: one for name, one in answers(Path("two")).items() if "deadly" not in name}
+    assert sorted(first) == list(range(6)) and not any(one.resumed for one in first.values())
+    assert [found[i].resumed for i in range(7)] == [True] * 6 + [False]
+    assert (found[6].exit_code, found[6].diagnostics[0].code) == (5, "MD902")
+
+
+def test_clusters_are_told_of_where_they_are_not_to_be_had(tmp_path, capsys, monkeypatch):
+    springs(tmp_path / "decks", 1)
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    assert _run(["batch", str(tmp_path / "decks"), "--cluster", "2", "-o", str(tmp_path / "out")]) == 5
+    assert "error[MD905]" in capsys.readouterr().err
+    assert _run(["batch", str(tmp_path / "decks"), "--cluster", "2", "-j", "2"]) == 2
+    assert "exclude each other" in capsys.readouterr().err
+
+
 def test_bad_decks_are_told_of_and_stop_nothing(tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     springs(tmp_path / "decks", 2)

@@ -1,5 +1,8 @@
 """mouse batch: many decks at once, resumed where it was broken off."""
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
 import click
 
 from mouse_cli.cli._options import QUIET, RUN, options, run_changes
@@ -8,6 +11,11 @@ _REPORTS = (
     click.option("--csv", "csv_file", metavar="FILE", help="Write the table for spreadsheets."),
     click.option("--junit", "junit_file", metavar="FILE", help="Write JUnit XML for CI servers."),
     click.option("--github", is_flag=True, help="Print annotations that GitHub shows beside the lines."),
+)
+
+_CLUSTER = (
+    click.option("--scheduler", metavar="ADDRESS", help="Workers of this dask scheduler, which see the same folders."),
+    click.option("--cluster", metavar="N", type=click.IntRange(1, 1024), help="N dask workers on this machine."),
 )
 
 
@@ -21,11 +29,13 @@ _REPORTS = (
     "--command", "asked", type=click.Choice(("run", "check", "diagnose")), default="run", show_default=True,
     help="What is asked of decks that no manifest names.",
 )  # fmt: skip
-@options(_REPORTS, QUIET, RUN)
+@options(_CLUSTER, _REPORTS, QUIET, RUN)
 def command(
     decks: tuple[str, ...],
     output: str,
     jobs: int | None,
+    scheduler: str | None,
+    cluster: int | None,
     asked: str,
     csv_file: str | None,
     junit_file: str | None,
@@ -44,10 +54,12 @@ def command(
     from mouse_cli.batch.summary import annotations, csv_text, junit_text, table
     from mouse_cli.cli._terminal import deliver
 
+    if sum(each is not None for each in (jobs, scheduler, cluster)) > 1:
+        raise click.UsageError("--jobs, --scheduler and --cluster exclude each other")
     changes = {name: value for name, value in run_changes(given).items() if value is not None}
     listed = _listed(decks, asked, changes)
-    with held(output):
-        found = _done(listed, output, jobs)
+    with held(output), _workers(jobs, scheduler, cluster) as outcomes:
+        found = _done(listed, output, outcomes)
     if csv_file:
         deliver(csv_text(found), csv_file, "")
     if junit_file:
@@ -84,16 +96,27 @@ def _listed(decks: tuple[str, ...], asked: str, changes: dict) -> list:
     return once(jobs)
 
 
-def _done(jobs: list, folder: str, processes: int | None) -> list:
-    """The outcomes, in the order of the jobs."""
-    import os
+@contextmanager
+def _workers(processes: int | None, scheduler: str | None, cluster: int | None) -> Iterator[Callable]:
+    """What gives the outcomes of jobs and a folder: processes, or workers of dask."""
+    if scheduler is None and cluster is None:
+        from mouse_cli.batch.processes import cores, outcomes
 
-    from mouse_cli.batch.processes import outcomes
+        yield lambda jobs, folder: outcomes(jobs, folder, processes or cores())
+        return
+    from mouse_cli.batch import cluster as dask
+
+    with dask.client(scheduler, cluster or 1) as client:
+        yield lambda jobs, folder: dask.outcomes(jobs, folder, client)
+
+
+def _done(jobs: list, folder: str, outcomes: Callable) -> list:
+    """The outcomes, in the order of the jobs."""
     from mouse_cli.cli._batch_progress import progress
 
     found: list = [None] * len(jobs)
     with progress(len(jobs)) as show:
-        for number, outcome in outcomes(jobs, folder, processes or len(os.sched_getaffinity(0))):
+        for number, outcome in outcomes(jobs, folder):
             found[number] = outcome
             show(outcome)
     return found
