@@ -12,7 +12,8 @@ CODES = {
     "MD921": Code(
         "a document that no page is made of",
         "The document is of mouse, but of another kind, or of another version of its schema.",
-        "Give a document mouse.result/1 or mouse.diagnosis/1; one of another version needs the mouse that wrote it.",
+        "Give a document mouse.result/1, mouse.diagnosis/1 or mouse.arrangements/1; "
+        "one of another version needs the mouse that wrote it.",
     ),
     "MD922": Code(
         "a document that is not what its schema says",

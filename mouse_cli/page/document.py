@@ -7,7 +7,7 @@ from typing import Any
 
 from mouse_cli._errors import ERROR, DeckError, Diagnostic
 
-SCHEMAS = ("mouse.result/1", "mouse.diagnosis/1")
+SCHEMAS = ("mouse.result/1", "mouse.diagnosis/1", "mouse.arrangements/1")
 _KINDS = {dict: "an object", list: "a list", str: "a text", bool: "true or false", int: "a number", float: "a number"}
 
 
@@ -90,7 +90,7 @@ def read(data: bytes, file: str) -> Part:
     if not isinstance(schema, str) or not schema.startswith("mouse."):
         raise rejected("MD920", f"{file} is JSON, but no document of mouse: it has no `schema` that begins with mouse.")
     if schema not in SCHEMAS:
-        raise rejected("MD921", f"{file} is {schema[:60]}; a page is made of {' or '.join(SCHEMAS)}")
+        raise rejected("MD921", f"{file} is {schema[:60]}; a page is made of {', '.join(SCHEMAS)}")
     return Part(found, file)
 
 

@@ -41,8 +41,9 @@ def page(document: Part) -> str:
 def _origin(document: Part) -> str:
     """Where the answer is from and how it was found."""
     asked = document.part("asked") or document
+    deck = document.text("source") or ", ".join(document.labels("sources"))
     named = (
-        ("deck", document.text("source")),
+        ("deck", deck),
         ("estimator", asked.text("estimator")),
         ("recursion", asked.text("recursion")),
     )

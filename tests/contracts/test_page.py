@@ -59,16 +59,17 @@ def documents(tmp_path_factory):
         path = folder / f"{name}.json"
         _run(["run", str(DECKS / f"{deck}.yaml"), "--json", "-q", "-o", str(path)])
         found[name] = path
-    for name, deck in (("named", "ground_spring"), ("nothing", "table_5_3"), ("one-of", "three_storey_building")):
-        path = folder / f"{name}.json"
+    layouts = [str(path) for path in sorted((DECKS / "arrangements").glob("layout*.yaml"))]
+    one = {"named": "ground_spring", "nothing": "table_5_3", "one-of": "three_storey_building"}
+    for name, decks in {**{k: [str(DECKS / f"{v}.yaml")] for k, v in one.items()}, "arrangements": layouts}.items():
         with contextlib.redirect_stdout(io.StringIO()) as told:
-            _run(["diagnose", str(DECKS / f"{deck}.yaml"), "--json", "-q"])
-        path.write_text(told.getvalue())
-        found[name] = path
+            _run(["diagnose", *decks, "--json", "-q"])
+        found[name] = folder / f"{name}.json"
+        found[name].write_text(told.getvalue())
     return found
 
 
-NAMES = ("shapes", "frequencies", "functions", "named", "nothing", "one-of")
+NAMES = ("shapes", "frequencies", "functions", "named", "nothing", "one-of", "arrangements")
 
 
 def made(path: Path) -> str:
@@ -136,6 +137,8 @@ def test_verdicts_in_words(documents):
     told = {name: Reader(made(documents[name])).named("section")[0]["text"] for name in NAMES}
     assert "The model lacks a spring to the ground: degree of freedom 2 (probability > 0.999)." in told["named"]
     assert "Nothing is missing that this test could show." in told["nothing"]
+    assert "the mass of items that the deck has as massless: items 21, 22 (probability > 0.999)" in told["arrangements"]
+    assert "a spring to the ground: 6TX" in told["arrangements"]
     assert "does not settle what: a lumped mass; or a local loss of stiffness" in told["one-of"]
     assert "Not converged" in told["shapes"] and "do not trust the answer" in told["shapes"]
     assert "Answer found and trusted" in told["frequencies"]

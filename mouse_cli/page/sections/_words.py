@@ -58,5 +58,7 @@ def updates(document: Part) -> list[tuple[str, str, Part]]:
     """Updates in the document: a key for ids, the name of the model, and what was found of it."""
     if document.text("schema") == "mouse.result/1":
         return [("model", "the model", document)]
+    if document.text("schema") == "mouse.arrangements/1":
+        return [("all", "the model with all causes", document)]
     both = (("baseline", "the model as it is"), ("extended", "the extended model"))
     return [(key, name, document.part(key)) for key, name in both if document.part(key)]

@@ -24,12 +24,19 @@ _HEADS = (
 
 def causes(document: Part) -> Iterator[Markup]:
     """Probabilities of the groups as bars, then every candidate."""
+    yield from _judged("", "", document)
+    for number, turn in enumerate(document.parts("turns"), 1):  # of several arrangements: causes told one after another
+        yield from _judged(f"-{number}", f" (turn {number})", turn)
+    yield table("rest", "What else was tried, and is not demanded", _HEADS, map(_row, document.parts("rest")))
+
+
+def _judged(key: str, which: str, document: Part) -> Iterator[Markup]:
     groups = document.parts("groups")
     rows = [(g.text("group"), probable(g.number("probability")), g.number("probability")) for g in groups]
-    yield shares(
-        "groups", "Probability of each group of causes", "Given that the cause is a candidate or nothing.", rows
-    )
-    yield table("candidates", "Candidates, the most probable first", _HEADS, map(_row, document.parts("candidates")))
+    title, told = f"Probability of each group of causes{which}", "Given that the cause is a candidate or nothing."
+    yield shares(f"groups{key}", title, told, rows)
+    caption = f"Candidates, the most probable first{which}"
+    yield table(f"candidates{key}", caption, _HEADS, map(_row, document.parts("candidates")))
 
 
 def _row(one: Part) -> tuple[object, ...]:

@@ -19,7 +19,10 @@ def held_out(document: Part) -> Iterator[Markup]:
     labels, measured = held.labels("labels"), held.numbers("measured_hz")
     if not labels or len(labels) != len(measured):
         return
-    yield paragraphs(f"Held out: {held.text('kind')}.", *(_score(name, held.part(key)) for key, name in _MODELS))
+    yield paragraphs(
+        f"Held out: {held.text('kind') or 'whole arrangements'}.",
+        *(_score(name, held.part(key)) for key, name in _MODELS),
+    )
     columns = [_padded(held.part(key).numbers(what), len(labels)) for key, _ in _MODELS for what in ("hz", "sd_hz")]
     if held.part("revised"):
         rows = list(zip(labels, measured, columns[0], columns[2], strict=True))

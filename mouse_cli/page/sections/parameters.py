@@ -31,10 +31,16 @@ def _interval(parameter: Part) -> Interval:
     name = parameter.text("name")
     if value is None or prior is None or not sd:
         return Interval(name, "no posterior" if value is None else "no prior sd", None, None)
-    half = parameter.number("posterior_sd")
+    half = _sd(parameter)
     centre = (value - prior) / sd
     width = " at its limit" if half is None else f" ± {half / sd:.2g}"
-    return Interval(name, f"{centre + 0.0:+.2f}{width} prior sd", centre, None if half is None else half / sd)
+    shift = f"{'−' if centre < 0 else '+'}{abs(centre):.2f}"
+    return Interval(name, f"{shift}{width} prior sd", centre, None if half is None else half / sd)
+
+
+def _sd(parameter: Part) -> float | None:
+    """Standard deviation of the posterior; documents of arrangements call it `sd`."""
+    return parameter.number("posterior_sd" if "posterior_sd" in parameter.values else "sd")
 
 
 def _row(parameter: Part) -> tuple[object, ...]:
@@ -46,7 +52,7 @@ def _row(parameter: Part) -> tuple[object, ...]:
         prior,
         Cell(parameter.number("prior_sd"), shown(parameter.number("prior_sd"), 3)),
         value,
-        Cell(parameter.number("posterior_sd"), shown(parameter.number("posterior_sd"), 3)),
+        Cell(_sd(parameter), shown(_sd(parameter), 3)),
         Cell(change, signed_per_cent(change)),
         "at its limit" if parameter.flag("at_limit") else "",
     )

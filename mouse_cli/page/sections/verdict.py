@@ -6,7 +6,7 @@ from mouse_cli.page.document import Part
 from mouse_cli.page.html import Markup, tag
 from mouse_cli.page.numbers import probable
 from mouse_cli.page.section import PageSection
-from mouse_cli.page.sections._words import listed, paragraphs, places
+from mouse_cli.page.sections._words import listed, paragraphs, place, places
 from mouse_cli.page.tables import Cell, table
 
 _FORM = {
@@ -14,6 +14,12 @@ _FORM = {
     "rejected": "The form of the model is rejected: the data show what the model lacks, lie farther from the prior than it "
     "allows, or are less accurate than they are said to be. Do not trust the revised values.",
     "untested": "Nothing is said of the form of the model: the data leave nothing to test it by, or there is no answer.",
+}
+_UNKNOWN = "Something is missing that no candidate explains. Do not name a cause."
+_SEVERAL = {
+    "named": "The model lacks this:",
+    "one-of": "Something is missing, and the test does not settle all of it:",
+    "unknown": "More is missing than these, and no candidate explains the rest. Do not trust them:",
 }
 _GOOD, _BAD = ("good", "✓ Answer found and trusted"), ("bad", "✗ No answer")
 _DOUBTED = {
@@ -35,9 +41,8 @@ def verdict(document: Part) -> Iterator[Markup]:
     yield tag("p", _told(document, found) if found else _run(document), class_="verdict")
     if not found:
         yield paragraphs(document.text("advice"), _FORM.get(document.text("model_form"), ""))
-    yield listed(document.texts("cautions"))
-    if document.labels("refuted"):
-        yield paragraphs(f"Data that were held out speak against: {', '.join(document.labels('refuted'))}.")
+    yield listed([*map(_cause, found.parts("causes"), document.parts("turns")), *document.texts("cautions")])
+    yield paragraphs(_refuted(document), _misstated(document))
     yield table(
         "tests",
         "Tests of the model's form",
@@ -50,10 +55,32 @@ def _run(document: Part) -> str:
     return document.text("message") or f"The run ended: {document.text('status')}."
 
 
+def _refuted(document: Part) -> str:
+    """Documents of arrangements name one cause, those of a diagnosis a list of groups."""
+    one = isinstance(document.values.get("refuted"), str)
+    against = document.text("refuted") if one else ", ".join(document.labels("refuted"))
+    return f"Data that were held out speak against: {against}." if against else ""
+
+
+def _misstated(document: Part) -> str:
+    what = document.text("misstated")
+    return f"The deck seems to be wrong about its test: {what}." if what else ""
+
+
+def _cause(cause: Part, turn: Part) -> str:
+    """One of several causes of arrangements: what, where, how probable, and what else it may be."""
+    physics, p = cause.text("physics"), probable(cause.number("probability"))
+    title = next((o.text("title") for o in turn.parts("candidates") if o.text("physics") == physics), physics)
+    rivals = f"; or {', or '.join(cause.labels('rivals'))}" if cause.labels("rivals") else ""
+    return f"{title}: {place(cause.part('site'))} (probability {p}){rivals}"
+
+
 def _told(document: Part, found: Part) -> str:
     kind, titles = found.text("kind"), _titles(document, found)
     if kind == "nothing-missing":
         return "Nothing is missing that this test could show."
+    if found.parts("causes"):
+        return _SEVERAL.get(kind, _UNKNOWN)
     if kind == "named":
         sensor = all(site.text("kind") == "sensor" for site in found.parts("sites"))
         begin = "The test is at fault, not the model:" if sensor else "The model lacks"
@@ -61,7 +88,7 @@ def _told(document: Part, found: Part) -> str:
         return f"{begin} {titles[0]}: {places(found)}{p}."
     if kind == "one-of":
         return f"Something is missing, and the test does not settle what: {'; or '.join(titles)}."
-    return "Something is missing that no candidate explains. Do not name a cause."
+    return _UNKNOWN
 
 
 def _titles(document: Part, found: Part) -> list[str]:
