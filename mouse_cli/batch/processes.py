@@ -10,6 +10,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wai
 from concurrent.futures.process import BrokenProcessPool
 from multiprocessing import connection
 
+from mouse_cli._errors import ERROR, Diagnostic, MouseError
 from mouse_cli.batch.job import Job
 from mouse_cli.batch.outcome import Outcome
 from mouse_cli.batch.portions import Numbered, Task, Work, next_size
@@ -23,7 +24,7 @@ def outcomes(jobs: list[Job], folder: str, processes: int, work: Work = perform)
     """(number of the job, its outcome) as each is done, in any order; answers go to files below `folder`.
 
     Where a process dies, all that were in hand are tried again, each alone: that which kills its process once more is
-    at fault. `work` is what is done with each, a function that can be pickled.
+    at fault. `work` is what is done with each, a function that can be pickled. Raises MouseError (MD909) where no process lives.
     """
     waiting: deque[Numbered] = deque(enumerate(jobs))
     suspects: deque[Numbered] = deque()
@@ -35,12 +36,23 @@ def outcomes(jobs: list[Job], folder: str, processes: int, work: Work = perform)
             except BrokenProcessPool:
                 left = [each for portion in flying.values() for each in portion]
                 if len(left) == 1:
+                    _probe(Task(folder, work))
                     yield left[0][0], died(left[0][1], folder)
                 else:
                     suspects.extendleft(reversed(left))
             except BaseException:  # Ctrl-C, or the reader of the outcomes has had enough: what waits must not begin
                 pool.shutdown(wait=False, cancel_futures=True)
                 raise
+
+
+def _probe(task: Task) -> None:
+    """Raise MouseError (MD909) where even a process without a job dies: it is no deck's fault then."""
+    with _pool(1) as pool:
+        try:
+            pool.submit(task, []).result()
+        except BrokenProcessPool as error:
+            help = "see what the system says of memory and of limits on processes; begin again with the same command"
+            raise MouseError(Diagnostic("MD909", ERROR, "processes for jobs cannot be started", help=help)) from error
 
 
 def _drained(

@@ -47,6 +47,12 @@ CODES = {
         "`candidates` of a job names omitted physics that mouse does not know.",
         "Take names from `mouse list candidates`.",
     ),
+    "MD909": Code(
+        "no process can be started",
+        "A process died that had no job yet: memory or the number of processes is at its limit, or mouse was changed while the "
+        "batch ran. What is finished is kept.",
+        "Mend the cause, and begin again with the same command.",
+    ),
     "MD908": Code(
         "no scheduler",
         "No scheduler of dask.distributed answers at the address of `--scheduler`, or it is of a version that does not fit.",

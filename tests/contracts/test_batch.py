@@ -16,6 +16,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from mouse_cli._errors import MouseError
 from mouse_cli.batch.expectation import Unreadable, expectation
 from mouse_cli.batch.folder import held
 from mouse_cli.batch.job import Job
@@ -181,6 +182,25 @@ def test_a_process_that_dies_takes_no_other_job_with_it(tmp_path):
     retried = dict(outcomes(jobs, str(tmp_path / "out"), 1))
     assert [retried[i].resumed for i in range(8)] == [True, True, True, False, True, True, True, False]
     assert {one.exit_code for one in retried.values()} == {0}
+
+
+class Unstarted:
+    """Work that no process can take over."""
+
+    def __reduce__(self):
+        return os.kill, (NOBODY, signal.SIGKILL)
+
+
+NOBODY = 2**22 + 1  # above the largest process id: os.kill raises where the work is unpacked
+
+
+def test_processes_that_cannot_work_end_the_batch_with_one_sentence(tmp_path):
+    springs(tmp_path, 4)
+    jobs = [Job(str(path)) for path in sorted(tmp_path.glob("*.yaml"))]
+    with pytest.raises(MouseError) as told:
+        list(outcomes(jobs, str(tmp_path), 2, Unstarted()))
+    assert told.value.diagnostics[0].code == "MD909"
+    assert not list(tmp_path.glob("*.json"))
 
 
 def test_workers_of_a_cluster_give_the_same_and_one_that_dies_stops_nothing(tmp_path, monkeypatch):
