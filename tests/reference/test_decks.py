@@ -42,6 +42,7 @@ def test_every_deck_names_its_source_and_ends_as_the_readme_says(path):
         "garteur_bare_tips",
         "eighteen_like_storeys",
         "chain_functions",
+        "tube_frame",  # rigid joints, where those of the test give way
     }
     result = run(read_deck(path))
     assert result.exit_code == (1 if path.stem in rejected | {"table_5_3", "beam_58"} else 0)
