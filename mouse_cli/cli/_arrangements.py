@@ -81,8 +81,9 @@ def diagnosed(
     """What arrangements lack; common_sd in per cent."""
     from mouse_cli.diagnosis.arranged.diagnose import Decks, diagnose_arrangements
 
-    fitted, held = Decks(problems, named.having(named.fitted)), Decks(unseen, named.having(named.unseen))
-    return diagnose_arrangements(fitted, held, common_sd / 100, say, choices)
+    fitted = Decks(problems, named.having(named.fitted), common_sd / 100)
+    held = Decks(unseen, named.having(named.unseen), common_sd / 100)
+    return diagnose_arrangements(fitted, held, say, choices)
 
 
 def written(found: ArrangementsDiagnosis, folder: str) -> list[str]:

@@ -1,4 +1,4 @@
-"""MD690 to MD692: several arrangements of one structure."""
+"""MD690 to MD691: several arrangements of one structure."""
 
 from mouse_cli.codes import Code
 

@@ -111,6 +111,17 @@ def test_what_changed_is_sought_in_what_changed(tmp_path):
     assert found["changed"] == [False] * 5 + [True] * 5
 
 
+def test_what_did_not_change_may_be_held_out_too(tmp_path):
+    """Of what is held out nothing has the cause: that it is elsewhere takes nothing from its prediction."""
+    before = [deck(tmp_path, f"b{i}", p, frequencies(p, ITEM), i, ITEM) for i, p in enumerate(PLACES[:6])]
+    later = [deck(tmp_path, f"d{i}", p, frequencies(p, ITEM, lost=0.2), 20 + i, ITEM) for i, p in enumerate(PLACES[:4])]
+    changed = [part for each in later for part in ("--changed", each)]
+    code, found = asked(tmp_path, *given(before, 4), *changed)
+    (cause,) = found["verdict"]["causes"]
+    assert (code, cause["physics"], cause["site"]["text"]) == (1, "stiffness-loss", "spring 4")
+    assert found["held_out"]["revised"]["rms_frequency_error"] < 0.001
+
+
 @pytest.fixture
 def arranged(tmp_path):
     problems = [read_deck(deck(tmp_path, f"e{i}", p, frequencies(p), i)) for i, p in enumerate(PLACES[:4])]

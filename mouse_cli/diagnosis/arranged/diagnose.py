@@ -2,11 +2,12 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from mouse_cli._errors import ERROR, DeckError, Diagnostic
-from mouse_cli.diagnosis.arranged.model import Arranged, Together
+from mouse_cli.diagnosis.arranged.model import Arranged, SharedRecipe, Together
 from mouse_cli.diagnosis.arranged.predict import predicted, shared_errors
 from mouse_cli.diagnosis.baseline.reduced import reduced
 from mouse_cli.diagnosis.candidates import Candidate, registry
@@ -24,14 +25,28 @@ _ALL = Choices()
 
 @dataclass(frozen=True)
 class Decks:
-    """Decks (a,) of arrangements, and which of them have the causes that are sought."""
+    """Decks (a,) of arrangements, and which of them have the causes that are sought.
+
+    common_sd: of ln f, of what theory errs in all of them alike.
+    """
 
     problems: tuple[Problem, ...]
     having: tuple[bool, ...]
+    common_sd: float
 
-    def arranged(self, common_sd: float) -> Arranged:
+    @cached_property
+    def arranged(self) -> Arranged:
         """As one model."""
-        return Arranged(tuple(reduced(each, each.prior.mean) for each in self.problems), common_sd, self.having)
+        parts = tuple(reduced(each, each.prior.mean) for each in self.problems)
+        return Arranged(parts, self.common_sd, self.having)
+
+    def extended(self, recipe: SharedRecipe, coordinates: np.ndarray) -> "Decks":
+        """The same with a cause in them."""
+        if not self.problems:
+            return self
+        own = len(self.problems[0].parameters)
+        found = self.arranged.like(recipe).extended(self.problems, coordinates)
+        return replace(self, problems=tuple(in_its_units(each, own) for each in found))
 
 
 @dataclass(frozen=True)
@@ -47,29 +62,29 @@ class State:
 def diagnose_arrangements(
     fitted: Decks,
     unseen: Decks,
-    common_sd: float,
     notice: Callable[[str], None] = lambda text: None,
     choices: Choices = _ALL,
 ) -> ArrangementsDiagnosis:
-    """Causes that `fitted` share, proved on `unseen`; common_sd: of ln f, of what theory errs in all of them alike.
+    """Causes that `fitted` share, proved on `unseen`.
 
     Raises DeckError when decks are no arrangements of one structure (MD690, MD691).
     """
     _check((*fitted.problems, *unseen.problems))
     known = None if choices.candidates is None else {key: registry()[key] for key in choices.candidates}
-    first = at = _state(fitted, unseen, common_sd, known)
+    first = at = _state(fitted, unseen, known)
     turns: list[Turn] = []
     refuted = ""
     while len(turns) < _MOST and not refuted:
         turn, best = _turn(at)
         if turn is None:
             break
-        if _refuted(at, turn):
+        if _better(at, turn.held) < -ODDS:
             refuted = turn.best.title
             continue
         turns.append(turn)
         notice(f"{len(turns)}: {turn.best.title}")
-        at = _state(*_extended(at, best), common_sd, known)
+        recipe = best.recipes[0]
+        at = _state(at.fitted.extended(recipe, best.c), at.unseen.extended(recipe, best.c), known)
     held = _held_out(unseen.problems, first.before, at.before if turns else None)
     return _told(fitted, at, tuple(turns), held, refuted, choices)
 
@@ -84,7 +99,7 @@ def _told(
         problems=fitted.problems,
         changed=None if all(fitted.having) else fitted.having,
         extended=at.fitted.problems if turns else (),
-        common_sd=last.model.base.common_sd,
+        common_sd=fitted.common_sd,
         turns=turns,
         chi2=last.misfit,
         dof=last.dof,
@@ -100,14 +115,14 @@ def _told(
     )
 
 
-def _state(fitted: Decks, unseen: Decks, common_sd: float, known: dict[str, Candidate] | None) -> State:
+def _state(fitted: Decks, unseen: Decks, known: dict[str, Candidate] | None) -> State:
     """What candidates make of decks as they are."""
-    ranking = rank(fitted.arranged(common_sd), known, 1, kind=Together)
+    ranking = rank(fitted.arranged, known, 1, kind=Together)
     return State(fitted, unseen, ranking, _predicted(ranking.baseline, unseen))
 
 
 def _predicted(one: Fit, unseen: Decks) -> Score | None:
-    return predicted(one, unseen.arranged(one.model.base.common_sd)) if unseen.problems else None
+    return predicted(one, unseen.arranged) if unseen.problems else None
 
 
 def _turn(at: State) -> tuple[Turn | None, Fit | None]:
@@ -118,32 +133,18 @@ def _turn(at: State) -> tuple[Turn | None, Fit | None]:
         return None, None
     gain = (best.log_evidence - ranking.baseline.log_evidence) / ranking.noise_scale
     held = _predicted(best, at.unseen)
-    confirmed = held is not None and held.log_predictive_density - at.before.log_predictive_density > ODDS
-    if gain < ODDS or not (demanded or confirmed):
+    if at.unseen.problems and held is None:
+        return None, None  # what is kept to prove it cannot
+    if gain < ODDS or not (demanded or _better(at, held) > ODDS):
         return None, None
     before = explanation(ranking.baseline)
     turn = Turn(ONE_OF, explanations(ranking), ranking.groups, ranking.noise_scale, before, held)
     return replace(turn, kind=NAMED if turn.probability > SURE else ONE_OF), best
 
 
-def _refuted(at: State, turn: Turn) -> bool:
-    """Whether arrangements held out are predicted worse with the cause than without."""
-    return turn.held is not None and turn.held.log_predictive_density - at.before.log_predictive_density < -ODDS
-
-
-def _extended(at: State, best: Fit) -> tuple[Decks, Decks]:
-    """All decks with the cause in them."""
-    recipe, common_sd = best.recipes[0], best.model.base.common_sd
-    fitted = recipe.extended(at.fitted.problems, best.c)
-    unseen = ()
-    if at.unseen.problems:
-        there = at.unseen.arranged(common_sd).recipes(recipe.candidate)[recipe.number].like(recipe)
-        unseen = there.extended(at.unseen.problems, best.c)
-    own = len(at.fitted.problems[0].parameters)
-    return tuple(
-        replace(decks, problems=tuple(in_its_units(each, own) for each in found))
-        for decks, found in ((at.fitted, fitted), (at.unseen, unseen))
-    )
+def _better(at: State, held: Score | None) -> float:
+    """Nats by which arrangements held out are predicted better with a cause than without; 0 where nothing tells."""
+    return 0.0 if held is None or at.before is None else held.log_predictive_density - at.before.log_predictive_density
 
 
 def _sd(one: Fit) -> np.ndarray:

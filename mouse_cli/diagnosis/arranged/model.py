@@ -37,13 +37,10 @@ class SharedRecipe(Recipe):
 
     def extended(self, problems: tuple[Problem, ...], coordinates: np.ndarray) -> tuple[Problem, ...]:
         """The deck of every arrangement with the cause in it; without it, its parameters are there and do nothing."""
+        values, own = self.values(coordinates), len(problems[0].parameters)
+        like = self.extend(problems[0], values).parameters  # each deck would name them by places of its own
         pairs = zip(self.each, problems, strict=True)
-        found = [one and one.extend(problem, self.values(coordinates)) for one, problem in pairs]
-        like = next(deck.parameters for deck in found if deck)  # each deck would name them by places of its own
-        decks = [
-            deck or with_parameters(problem, like[len(problem.parameters) :])
-            for deck, problem in zip(found, problems, strict=True)
-        ]
+        decks = [one.extend(deck, values) if one else with_parameters(deck, like[own:]) for one, deck in pairs]
         return tuple(replace(deck, parameters=like) for deck in decks)
 
 
@@ -102,9 +99,16 @@ class Arranged:
         pairs = zip(self.parts, self.having, strict=True)
         found = [candidate.recipes(part, candidate) if has else None for part, has in pairs]
         counts = {len(each) for each in found if each is not None}
-        if len(counts) > 1:
+        if len(counts) != 1:
             return []
         return [_shared(tuple(each and each[i] for each in found)) for i in range(counts.pop())]
+
+    def like(self, recipe: SharedRecipe) -> SharedRecipe | None:
+        """The cause of other arrangements in these; None where it has no place in them."""
+        if not any(self.having):
+            return replace(recipe, each=(None,) * len(self.parts))
+        found = self.recipes(recipe.candidate)
+        return found[recipe.number].like(recipe) if recipe.number < len(found) else None
 
     def looked_at(self, do: Callable[[Reduced], Reduced]) -> "Arranged":
         """What a first look is made with: what `do` makes of a few arrangements, the first that has what is sought among them."""

@@ -51,9 +51,11 @@ def shared_errors(one: Fit) -> tuple[SharedError, ...]:
 
 
 def predicted(one: Fit, held: Arranged) -> Score | None:
-    """How a fit predicts the arrangements `held`; None where its model is not physical there."""
-    model = Together(held.at(one.model.base.theta), ()) if not one.recipes else _same(one, held)
-    at = model.point(one.point.x)
+    """How a fit predicts the arrangements `held`; None where its causes have no place, or are not physical there."""
+    there = held.at(one.model.base.theta)
+    recipes = tuple(there.like(recipe) for recipe in one.recipes)
+    model = None if None in recipes else Together(there, recipes)
+    at = model and model.point(one.point.x)
     if at is None:
         return None
     tests = [part.data.test for part in held.parts]
@@ -77,14 +79,6 @@ def predicted(one: Fit, held: Arranged) -> Score | None:
         sd_hz=hz * stated * sd,
         mac=np.full(len(hz), np.nan),
     )
-
-
-def _same(one: Fit, held: Arranged) -> Together:
-    """The arrangements `held` with the causes of a fit, by their numbers."""
-    there, recipes = held.at(one.model.base.theta), []
-    for recipe in one.recipes:
-        recipes.append(there.recipes(recipe.candidate)[recipe.number].like(recipe))
-    return Together(there, tuple(recipes))
 
 
 def _of_frequencies(part) -> np.ndarray:
