@@ -4,9 +4,9 @@ from base64 import b64encode
 from hashlib import sha256
 from importlib.resources import files
 
-from mouse_cli.page.document import Part
 from mouse_cli.page.html import Markup, join, tag
 from mouse_cli.page.section import sections
+from mouse_cli.report.reading import Part
 
 
 def page(document: Part) -> str:

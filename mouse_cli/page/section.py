@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 from mouse_cli import _registry
-from mouse_cli.page.document import Part
 from mouse_cli.page.html import Markup, tag
+from mouse_cli.report.reading import Part
 
 
 @dataclass(frozen=True)

@@ -1,9 +1,9 @@
 """Words and charts that sections share."""
 
 from mouse_cli.page.charts import Bar, bars
-from mouse_cli.page.document import Part
 from mouse_cli.page.html import Markup, tag
 from mouse_cli.page.numbers import apart, signed_per_cent
+from mouse_cli.report.reading import Part
 
 _MOST_BARS = 40  # lines of a figure; its table has all
 

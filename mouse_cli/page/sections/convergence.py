@@ -3,11 +3,11 @@
 from collections.abc import Iterator
 
 from mouse_cli.page.charts import curve
-from mouse_cli.page.document import Part
 from mouse_cli.page.html import Markup
 from mouse_cli.page.numbers import shown
 from mouse_cli.page.section import PageSection
 from mouse_cli.page.tables import Cell, table
+from mouse_cli.report.reading import Part
 
 _HEADS = ("cycle", "chi-square", "data outside their limits", "allowed", "cost", "damping of the step")
 

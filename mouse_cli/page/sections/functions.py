@@ -2,12 +2,12 @@
 
 from collections.abc import Iterator
 
-from mouse_cli.page.document import Part
 from mouse_cli.page.html import Markup
 from mouse_cli.page.numbers import shown
 from mouse_cli.page.section import PageSection
 from mouse_cli.page.sections._words import shares
 from mouse_cli.page.tables import Cell, table
+from mouse_cli.report.reading import Part
 
 _HEADS = ("function", "lines", "before, dB", "after, dB", "FRAC before", "FRAC after")
 

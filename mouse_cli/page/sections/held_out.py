@@ -2,12 +2,12 @@
 
 from collections.abc import Iterator
 
-from mouse_cli.page.document import Part
 from mouse_cli.page.html import Markup
 from mouse_cli.page.numbers import apart, shown, signed_per_cent
 from mouse_cli.page.section import PageSection
 from mouse_cli.page.sections._words import differences, paragraphs
 from mouse_cli.page.tables import Cell, table
+from mouse_cli.report.reading import Part
 
 _HEADS = ("frequency", "measured, Hz", "as it is, Hz", "sd", "off", "with the cause, Hz", "sd", "off")
 _MODELS = (("baseline", "the model as it is"), ("revised", "the model with the cause"))

@@ -2,10 +2,10 @@
 
 from collections.abc import Iterator
 
-from mouse_cli.page.document import Part
 from mouse_cli.page.html import Markup
 from mouse_cli.page.section import PageSection
 from mouse_cli.page.tables import table
+from mouse_cli.report.reading import Part
 
 _HEADS = ("measure", "between", "predicted separation, nats", "outlook")
 

@@ -2,10 +2,10 @@
 
 from collections.abc import Iterator
 
-from mouse_cli.page.document import Part
 from mouse_cli.page.html import Markup
 from mouse_cli.page.section import PageSection
 from mouse_cli.page.sections._words import listed
+from mouse_cli.report.reading import Part
 
 
 def remarks(document: Part) -> Iterator[Markup]:

@@ -5,11 +5,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from mouse_cli.dynamics.correlation import mac
-from mouse_cli.page.document import Part
 from mouse_cli.page.html import Markup
 from mouse_cli.page.section import PageSection
 from mouse_cli.page.sections._words import paragraphs
 from mouse_cli.page.tables import Cell, table
+from mouse_cli.report.reading import Part
 
 _MOST = 60  # modes of a matrix that is still read
 _SHADES = (0.2, 0.4, 0.6, 0.8, 0.9)

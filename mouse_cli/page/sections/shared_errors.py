@@ -2,11 +2,11 @@
 
 from collections.abc import Iterator
 
-from mouse_cli.page.document import Part
 from mouse_cli.page.html import Markup
 from mouse_cli.page.numbers import shown, signed_per_cent
 from mouse_cli.page.section import PageSection
 from mouse_cli.page.tables import Cell, table
+from mouse_cli.report.reading import Part
 
 
 def shared_errors(document: Part) -> Iterator[Markup]:

@@ -2,12 +2,12 @@
 
 from collections.abc import Iterator
 
-from mouse_cli.page.document import Part
 from mouse_cli.page.html import Markup, tag
 from mouse_cli.page.numbers import probable
 from mouse_cli.page.section import PageSection
 from mouse_cli.page.sections._words import listed, paragraphs, place, places
 from mouse_cli.page.tables import Cell, table
+from mouse_cli.report.reading import Part
 
 _FORM = {
     "accepted": "The data do not contradict the form of the model.",

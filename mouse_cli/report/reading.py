@@ -1,4 +1,4 @@
-"""The documents that a page is made of: read as data, each value checked for its type where it is used."""
+"""Documents read again, for pages and figures: data, each value checked for its type where it is used."""
 
 import json
 from dataclasses import dataclass
@@ -7,7 +7,7 @@ from typing import Any
 
 from mouse_cli._errors import ERROR, DeckError, Diagnostic
 
-SCHEMAS = ("mouse.result/1", "mouse.diagnosis/1", "mouse.arrangements/1")
+ANSWERS = ("mouse.result/1", "mouse.diagnosis/1", "mouse.arrangements/1")  # of `mouse run` and `mouse diagnose`
 _KINDS = {dict: "an object", list: "a list", str: "a text", bool: "true or false", int: "a number", float: "a number"}
 
 
@@ -80,8 +80,8 @@ class Part:
         return ".".join(filter(None, (self.place, key)))
 
 
-def read(data: bytes, file: str) -> Part:
-    """The document in `data`, which came from `file`. Raises DeckError (MD920, MD921)."""
+def read(data: bytes, file: str, schemas: tuple[str, ...] = ANSWERS) -> Part:
+    """The document in `data`, which came from `file`, of one of `schemas`. Raises DeckError (MD920, MD921)."""
     try:
         found = json.loads(data.decode("utf-8-sig"), parse_constant=_no_number)
     except (ValueError, RecursionError) as reason:
@@ -89,13 +89,13 @@ def read(data: bytes, file: str) -> Part:
     schema = found.get("schema") if isinstance(found, dict) else None
     if not isinstance(schema, str) or not schema.startswith("mouse."):
         raise rejected("MD920", f"{file} is JSON, but no document of mouse: it has no `schema` that begins with mouse.")
-    if schema not in SCHEMAS:
-        raise rejected("MD921", f"{file} is {schema[:60]}; a page is made of {', '.join(SCHEMAS)}")
+    if schema not in schemas:
+        raise rejected("MD921", f"{file} is {schema[:60]}; expected {', '.join(schemas)}")
     return Part(found, file)
 
 
 def rejected(code: str, message: str) -> DeckError:
-    """The error for a file that no page can be made of."""
+    """The error for a file that is not what was asked for."""
     return DeckError(
         Diagnostic(code, ERROR, message, help="write it with `mouse run --json` or `mouse diagnose --json`")
     )
