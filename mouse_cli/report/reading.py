@@ -8,6 +8,7 @@ from typing import Any
 from mouse_cli._errors import ERROR, DeckError, Diagnostic
 
 ANSWERS = ("mouse.result/1", "mouse.diagnosis/1", "mouse.arrangements/1")  # of `mouse run` and `mouse diagnose`
+_JOB = "mouse.job/1"  # of `mouse batch`; the answer stands in it
 _KINDS = {dict: "an object", list: "a list", str: "a text", bool: "true or false", int: "a number", float: "a number"}
 
 
@@ -81,11 +82,18 @@ class Part:
 
 
 def read(data: bytes, file: str, schemas: tuple[str, ...] = ANSWERS) -> Part:
-    """The document in `data`, which came from `file`, of one of `schemas`. Raises DeckError (MD920, MD921)."""
+    """The document in `data`, which came from `file`, of one of `schemas`; that of a job of a batch is its answer.
+
+    Raises DeckError (MD920, MD921).
+    """
     try:
         found = json.loads(data.decode("utf-8-sig"), parse_constant=_no_number)
     except (ValueError, RecursionError) as reason:
         raise rejected("MD920", f"{file} is no JSON document: {reason}") from None
+    if isinstance(found, dict) and found.get("schema") == _JOB:
+        found = found.get("document")
+        if not isinstance(found, dict):
+            raise rejected("MD920", f"{file} is a job without an answer: its deck was rejected, only checked, or broke off")
     schema = found.get("schema") if isinstance(found, dict) else None
     if not isinstance(schema, str) or not schema.startswith("mouse."):
         raise rejected("MD920", f"{file} is JSON, but no document of mouse: it has no `schema` that begins with mouse.")
