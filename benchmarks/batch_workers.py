@@ -45,9 +45,7 @@ def main() -> None:
                 for workers in (1, 2):
                     for size in ("one", "many"):
                         out = top / f"out{option}{workers}{size}{i}"
-                        spent.setdefault((option, workers, size), []).append(
-                            wall(top / size, out, option, workers)
-                        )
+                        spent.setdefault((option, workers, size), []).append(wall(top / size, out, option, workers))
     print(f"{given.decks} decks, median of {given.repeats}; load {os.getloadavg()[0]:.1f}, {os.cpu_count()} cores")
     for option in ("--cluster", "--jobs"):
         start, whole = ([median(spent[option, n, size]) for n in (1, 2)] for size in ("one", "many"))

@@ -13,6 +13,7 @@ from mouse_cli.batch.portions import Numbered, Task, Work, next_size
 from mouse_cli.batch.work import died, perform
 
 _AHEAD = 3  # portions for each worker
+_PORTION_S = 0.5  # seconds of work in one: workers may be far, and the scheduler takes some milliseconds for each
 _WAIT_S = 20  # for a scheduler to answer
 
 
@@ -76,4 +77,4 @@ def outcomes(jobs: list[Job], folder: str, client: Any, work: Work = perform) ->
                 hand_over([each])
             continue
         yield from zip((number for number, _ in portion), found, strict=True)
-        size = next_size(found)
+        size = next_size(found, _PORTION_S)

@@ -9,7 +9,7 @@ from mouse_cli.batch.outcome import Outcome
 from mouse_cli.batch.work import perform
 
 _PORTION_S = 0.1  # seconds of work in one portion
-_MOST = 64  # jobs of one portion
+_MOST = 256  # jobs of one portion
 
 Numbered = tuple[int, Job]
 Work = Callable[[Job, str], Outcome]
@@ -30,7 +30,7 @@ class Task:
         return [self.work(job, self.folder) for _, job in portion]
 
 
-def next_size(found: list[Outcome]) -> int:
-    """Jobs of the next portion, by how long the last ones took."""
+def next_size(found: list[Outcome], portion_s: float = _PORTION_S) -> int:
+    """Jobs of the next portion of `portion_s` seconds, by how long the last ones took."""
     seconds = sum(0.0 if each.resumed else each.seconds for each in found) / len(found)
-    return _MOST if seconds * _MOST <= _PORTION_S else max(1, int(_PORTION_S / seconds))
+    return _MOST if seconds * _MOST <= portion_s else max(1, int(portion_s / seconds))

@@ -6,6 +6,7 @@ from typing import Any
 from mouse_cli._errors import ERROR, DeckError, Diagnostic, MouseError
 from mouse_cli.batch import record
 from mouse_cli.batch.job import CHECK, DIAGNOSE, Job
+from mouse_cli.batch.limit import OutOfTime, at_most
 from mouse_cli.batch.outcome import Outcome, outcome, unwritten
 from mouse_cli.batch.record import Answer
 from mouse_cli.formats import file_bytes, read_draft
@@ -15,14 +16,19 @@ _CHOICES = ("candidates", "causes")  # options of a diagnosis
 _OWN = (*_CHOICES, "legacy", "scale")
 
 
-def perform(job: Job, folder: str) -> Outcome:
-    """The outcome of `job`, whose answer is in its file below `folder` afterwards. Raises nothing but what ends a process."""
+def perform(job: Job, folder: str, limit_s: float | None = None) -> Outcome:
+    """The outcome of `job`, whose answer is in its file below `folder` afterwards. Raises nothing but what ends a process.
+
+    limit_s: seconds after which it is broken off (MD910).
+    """
     path = job.result(folder)
     try:
         data = file_bytes(job.deck)
         identity = job.identity(data)
         known = record.read(path, identity)
-        return outcome(job, known, path, resumed=True) if known else keep(job, _timed(job, data, identity), path)
+        return (
+            outcome(job, known, path, resumed=True) if known else keep(job, _timed(job, data, identity, limit_s), path)
+        )
     except DeckError as error:
         return keep(job, Answer("", error.exit_code, error.diagnostics, None), path)
     except OSError as error:
@@ -47,13 +53,14 @@ def died(job: Job, folder: str) -> Outcome:
     return keep(job, Answer("", 5, (found,), None), job.result(folder))
 
 
-def _timed(job: Job, data: bytes, identity: str) -> Answer:
+def _timed(job: Job, data: bytes, identity: str, limit_s: float | None) -> Answer:
     begun = time.perf_counter()
     try:
-        exit_code, diagnostics, document = _answer(job, data)
+        with at_most(limit_s):
+            exit_code, diagnostics, document = _answer(job, data)
     except MouseError as error:
         exit_code, diagnostics, document = error.exit_code, error.diagnostics, None
-    except Exception as error:  # whatever fails, it must not stop the other jobs; it is sought again by the next batch
+    except (Exception, OutOfTime) as error:  # it must not stop the other jobs; it is sought again by the next batch
         exit_code, diagnostics, document, identity = 5, (_unforeseen(job, error),), None, ""
     return Answer(identity, exit_code, diagnostics, document, time.perf_counter() - begun)
 
@@ -108,7 +115,10 @@ def _unreadable(job: Job, error: OSError) -> Diagnostic:
     return Diagnostic("MD250", ERROR, message, help="check the file and its permissions")
 
 
-def _unforeseen(job: Job, error: Exception) -> Diagnostic:
+def _unforeseen(job: Job, error: BaseException) -> Diagnostic:
+    if isinstance(error, OutOfTime):
+        help = "give a longer --time-limit, or run the deck by itself"
+        return Diagnostic("MD910", ERROR, f"{job.deck}: broken off at its limit of time", help=help)
     if isinstance(error, MemoryError):
         return Diagnostic("MD512", ERROR, f"{job.deck}: not enough memory for a model of this size")
     told = f"{type(error).__name__}: {error}".split("\n")[0][:200]

@@ -47,6 +47,12 @@ CODES = {
         "`candidates` of a job names omitted physics that mouse does not know.",
         "Take names from `mouse list candidates`.",
     ),
+    "MD910": Code(
+        "limit of time",
+        "The job was not done within the seconds of `--time-limit` and was broken off. Other jobs are not touched, and the next "
+        "batch tries it again. A single long call of a library ends before it is broken off.",
+        "Give a longer `--time-limit`, or run the deck by itself to see what takes so long.",
+    ),
     "MD909": Code(
         "no process can be started",
         "A process died that had no job yet: memory or the number of processes is at its limit, or mouse was changed while the "

@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -88,11 +89,11 @@ def test_posteriors_of_a_spring_are_those_of_the_closed_form(tmp_path, capsys, m
 
 @pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="no SIGKILL on this system")
 def test_a_batch_that_is_killed_goes_on_where_it_was(tmp_path):
-    springs(tmp_path / "decks", 40)
+    springs(tmp_path / "decks", 160)
     command = [sys.executable, "-m", "mouse_cli", "batch", "decks", "-j", "2", "-q", "-o"]
     whole = subprocess.run([*command, "whole"], cwd=tmp_path, capture_output=True, text=True, timeout=120)
     lot, broken, kept = random.Random(1), tmp_path / "broken", {}
-    for target in (0, 5, 13, 22, 31):
+    for target in (0, 5, 30, 60, 90):
         going = subprocess.Popen([*command, "broken"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         _wait_until(lambda n=target, p=going: len(list(broken.glob("*.json"))) >= n or p.poll() is not None)
         time.sleep(lot.uniform(0, 0.03))
@@ -107,7 +108,7 @@ def test_a_batch_that_is_killed_goes_on_where_it_was(tmp_path):
     assert kept.items() <= written(broken).items()
     assert last.returncode == whole.returncode and last.stderr == whole.stderr == ""
     assert last.stdout.split(", ")[0] == whole.stdout.split(", ")[0].strip()
-    assert answers(broken) == answers(tmp_path / "whole") and len(kept) < 40 == len(answers(broken))
+    assert answers(broken) == answers(tmp_path / "whole") and len(kept) < 160 == len(answers(broken))
     assert [path.name for path in broken.iterdir() if path.suffix != ".json"] == [".mouse-batch"]
 
 
@@ -361,3 +362,50 @@ def test_any_expectation_is_read_or_refused(key, value):
         assert str(error) and error.help
     else:
         assert isinstance(found.missed({}, 0), str)
+
+
+def test_a_job_that_takes_too_long_is_broken_off_and_the_others_are_not(tmp_path, monkeypatch):
+    """The deck that waits is broken off in the thread that does it, be it the main one or not; the next job is not touched."""
+    from mouse_cli.batch import work
+
+    real = work._answer
+
+    def slow(job: Job, data: bytes):
+        until = time.monotonic() + 30
+        while "001" in job.deck and time.monotonic() < until:
+            time.sleep(0.01)
+        return real(job, data)
+
+    monkeypatch.setattr(work, "_answer", slow)
+    springs(tmp_path / "decks", 3)
+    jobs = [Job(str(path)) for path in sorted((tmp_path / "decks").iterdir())]
+    (tmp_path / "out").mkdir()
+    begun = time.monotonic()
+    with ThreadPoolExecutor(1) as thread:
+        for do in (
+            lambda job: perform(job, str(tmp_path / "out"), 0.5),
+            lambda job: thread.submit(perform, job, str(tmp_path / "out"), 0.5).result(),
+        ):
+            found = [do(job) for job in jobs]
+            assert [each.exit_code for each in found] == [0, 5, 0]
+            assert found[1].diagnostics[0].code == "MD910"
+    assert time.monotonic() - begun < 20
+    monkeypatch.setattr(work, "_answer", real)
+    again = [perform(job, str(tmp_path / "out"), 0.5) for job in jobs]
+    assert [(each.exit_code, each.resumed) for each in again] == [(0, True), (0, False), (0, True)]
+
+
+def test_markdown_shows_what_is_wrong_first_and_holds_no_markup_of_decks(tmp_path, capsys, monkeypatch):
+    """A name may look like anything: it stands as code, in which servers find neither mentions nor pictures."""
+    monkeypatch.chdir(tmp_path)
+    springs(tmp_path, 1)
+    name = "@all ![x](y)|`<b>.yaml"
+    Path(name).write_text("mouse: 1\nmodel: {}\n")
+    status, _, _ = batch(capsys, ".", "--markdown", "summary.md")
+    text = Path("summary.md").read_text()
+    assert status == 4
+    assert text.index("@all") < text.index("<details>") < text.index("spring000.yaml")
+    assert r"| ❌ `./@all ![x](y)\|'<b>.yaml` | run | 4 |" in text
+    for line in text.splitlines():
+        outside = "".join(line.split("`")[::2])
+        assert "@all" not in outside and "![" not in outside and "<b>" not in outside

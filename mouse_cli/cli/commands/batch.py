@@ -10,6 +10,9 @@ from mouse_cli.cli._options import QUIET, RUN, options, run_changes
 _REPORTS = (
     click.option("--csv", "csv_file", metavar="FILE", help="Write the table for spreadsheets."),
     click.option("--junit", "junit_file", metavar="FILE", help="Write JUnit XML for CI servers."),
+    click.option(
+        "--markdown", "markdown_file", metavar="FILE", help="Write the table in Markdown, for merge requests."
+    ),
     click.option("--github", is_flag=True, help="Print annotations that GitHub shows beside the lines."),
 )
 
@@ -26,6 +29,13 @@ _CLUSTER = (
 )
 @click.option("-j", "--jobs", type=click.IntRange(1, 1024), help="Processes at once.  [default: one for each core]")
 @click.option(
+    "--time-limit",
+    "limit_s",
+    metavar="SECONDS",
+    type=click.FloatRange(0, min_open=True),
+    help="Break off jobs that take longer.",
+)
+@click.option(
     "--command", "asked", type=click.Choice(("run", "check", "diagnose")), default="run", show_default=True,
     help="What is asked of decks that no manifest names.",
 )  # fmt: skip
@@ -36,9 +46,11 @@ def command(
     jobs: int | None,
     scheduler: str | None,
     cluster: int | None,
+    limit_s: float | None,
     asked: str,
     csv_file: str | None,
     junit_file: str | None,
+    markdown_file: str | None,
     github: bool,
     quiet: bool,
     **given: object,
@@ -50,6 +62,7 @@ def command(
     Exit 3: a job missed what its manifest expects. Else the highest of the jobs' own: 5, 4, 1, 0.
     """
     from mouse_cli.batch.folder import held
+    from mouse_cli.batch.markdown import markdown_text
     from mouse_cli.batch.outcome import exit_code
     from mouse_cli.batch.summary import annotations, csv_text, junit_text, table
     from mouse_cli.cli._terminal import deliver
@@ -58,12 +71,11 @@ def command(
         raise click.UsageError("--jobs, --scheduler and --cluster exclude each other")
     changes = {name: value for name, value in run_changes(given).items() if value is not None}
     listed = _listed(decks, asked, changes)
-    with held(output), _workers(jobs, scheduler, cluster) as outcomes:
+    with held(output), _workers(jobs, scheduler, cluster, limit_s) as outcomes:
         found = _done(listed, output, outcomes)
-    if csv_file:
-        deliver(csv_text(found), csv_file, "")
-    if junit_file:
-        deliver(junit_text(found), junit_file, "")
+    for text, file in ((csv_text, csv_file), (junit_text, junit_file), (markdown_text, markdown_file)):
+        if file:
+            deliver(text(found), file, "")
     if github:
         click.echo(annotations(found), nl=False)
     click.echo(table(found, quiet), nl=False)
@@ -97,17 +109,24 @@ def _listed(decks: tuple[str, ...], asked: str, changes: dict) -> list:
 
 
 @contextmanager
-def _workers(processes: int | None, scheduler: str | None, cluster: int | None) -> Iterator[Callable]:
+def _workers(
+    processes: int | None, scheduler: str | None, cluster: int | None, limit_s: float | None
+) -> Iterator[Callable]:
     """What gives the outcomes of jobs and a folder: processes, or workers of dask."""
+    from functools import partial
+
+    from mouse_cli.batch.work import perform
+
+    work = partial(perform, limit_s=limit_s)
     if scheduler is None and cluster is None:
         from mouse_cli.batch.processes import cores, outcomes
 
-        yield lambda jobs, folder: outcomes(jobs, folder, processes or cores())
+        yield lambda jobs, folder: outcomes(jobs, folder, processes or cores(), work)
         return
     from mouse_cli.batch import cluster as dask
 
     with dask.client(scheduler, cluster or 1) as client:
-        yield lambda jobs, folder: dask.outcomes(jobs, folder, client)
+        yield lambda jobs, folder: dask.outcomes(jobs, folder, client, work)
 
 
 def _done(jobs: list, folder: str, outcomes: Callable) -> list:

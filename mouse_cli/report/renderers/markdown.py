@@ -15,6 +15,16 @@ def render(blocks: Iterable[Block], numbers: Numbers) -> str:
     return "\n\n".join("\n".join(_RENDER[type(b)](b, numbers)) for b in blocks) + "\n"
 
 
+def verbatim(text: str) -> str:
+    """`text` as code on one line, also in a cell of a table: no markup, and no mention or link, which servers find in plain text.
+
+    >>> verbatim("k1 | `@all`")
+    "`k1 \\\\| '@all'`"
+    """
+    shown = "".join(c if c.isprintable() else "?" for c in text).replace("`", "'").replace("|", "\\|")
+    return f"`{shown}`" if shown.strip() else ""
+
+
 def _heading(block: Heading, numbers: Numbers) -> list[str]:
     return [f"{'#' * (block.level + 1)} {_escaped(block.text)}"]
 
