@@ -102,6 +102,16 @@ def read(data: bytes, file: str, schemas: tuple[str, ...] = ANSWERS) -> Part:
     return Part(found, file)
 
 
+def updates(document: Part) -> list[tuple[str, str, Part]]:
+    """Updates in the document: a key for ids, the name of the model, and what was found of it."""
+    if document.text("schema") == "mouse.result/1":
+        return [("model", "the model", document)]
+    if document.text("schema") == "mouse.arrangements/1":
+        return [("all", "the model with all causes", document)]
+    both = (("baseline", "the model as it is"), ("extended", "the extended model"))
+    return [(key, name, document.part(key)) for key, name in both if document.part(key)]
+
+
 def rejected(code: str, message: str) -> DeckError:
     """The error for a file that is not what was asked for."""
     return DeckError(

@@ -52,13 +52,3 @@ def shares(key: str, title: str, told: str, rows: list[tuple[str, str, float | N
     drawn = [Bar(label, words, (length,)) for label, words, length in rows[:_MOST_BARS]]
     spoken = "; ".join(f"{bar.label}: {bar.words}" for bar in drawn)
     return bars(key, title, f"{told} {cut(rows)}{spoken}.", drawn, (title,))
-
-
-def updates(document: Part) -> list[tuple[str, str, Part]]:
-    """Updates in the document: a key for ids, the name of the model, and what was found of it."""
-    if document.text("schema") == "mouse.result/1":
-        return [("model", "the model", document)]
-    if document.text("schema") == "mouse.arrangements/1":
-        return [("all", "the model with all causes", document)]
-    both = (("baseline", "the model as it is"), ("extended", "the extended model"))
-    return [(key, name, document.part(key)) for key, name in both if document.part(key)]

@@ -5,9 +5,9 @@ from collections.abc import Iterator
 from mouse_cli.page.html import Markup
 from mouse_cli.page.numbers import apart, shown, signed_per_cent
 from mouse_cli.page.section import PageSection
-from mouse_cli.page.sections._words import differences, updates
+from mouse_cli.page.sections._words import differences
 from mouse_cli.page.tables import Cell, table
-from mouse_cli.report.reading import Part
+from mouse_cli.report.reading import Part, updates
 
 _HEADS = (
     "mode",

@@ -6,9 +6,9 @@ from mouse_cli.page.charts import Interval, intervals
 from mouse_cli.page.html import Markup
 from mouse_cli.page.numbers import apart, shown, signed_per_cent
 from mouse_cli.page.section import PageSection
-from mouse_cli.page.sections._words import cut, updates
+from mouse_cli.page.sections._words import cut
 from mouse_cli.page.tables import Cell, table
-from mouse_cli.report.reading import Part
+from mouse_cli.report.reading import Part, updates
 
 _HEADS = ("parameter", "unit", "prior", "prior sd", "posterior", "posterior sd", "change", "note")
 _MOST = 40  # lines of the figure
