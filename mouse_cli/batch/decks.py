@@ -4,19 +4,37 @@ import os
 from collections.abc import Iterator
 from glob import glob, has_magic
 
-from mouse_cli._errors import DeckError
-from mouse_cli.formats import file_bytes, holds, is_yaml
+from mouse_cli._errors import ERROR, DeckError, Diagnostic
+from mouse_cli._span import Span
+from mouse_cli.formats import below, file_bytes, holds, is_yaml
 
 _SUFFIXES = (".dat", ".yaml", ".yml")
 
 
-def found(name: str) -> list[str]:
-    """The decks that `name` stands for: itself, every model below a folder, or what a pattern (`**` too) matches; sorted."""
+def found(name: str, outside: bool = False) -> list[str]:
+    """The decks that `name` stands for: itself, every model below a folder, or what a pattern (`**` too) matches; sorted.
+
+    Raises DeckError (MD231, MD250) where a link in a folder leads out of it, unless `outside` is allowed, or to a pipe or device.
+    """
     if os.path.isdir(name):
-        return [path for path in _below(name) if _is_model(path)]
+        paths = list(_below(name))
+        wrong = [each for path in paths for each in refused(name, path, outside)]
+        if wrong:
+            raise DeckError(wrong)
+        return [path for path in paths if _is_model(path)]
     if has_magic(name) and not os.path.exists(name):
         return sorted(path for path in glob(name, recursive=True) if os.path.isfile(path))
     return [name]
+
+
+def refused(folder: str, path: str, outside: bool) -> list[Diagnostic]:
+    """The finding that `path`, which a search of `folder` came upon, must not be read."""
+    try:
+        below.found(folder, path, outside, "that folder")
+    except below.Refused as error:
+        message = f"'{os.path.basename(path)}' was found in {folder}, {error}"
+        return [Diagnostic(error.code, ERROR, message, Span(path, 1), help=error.help)]
+    return []
 
 
 def is_manifest(path: str) -> bool:
@@ -30,11 +48,11 @@ def is_manifest(path: str) -> bool:
     return is_yaml(data, path) and re.search(rb"^batch[ \t]*:", data, re.MULTILINE) is not None
 
 
-def manifest_jobs(path: str) -> list:
-    """The jobs of the manifest `path`. Raises DeckError with all that is wrong with it."""
+def manifest_jobs(path: str, outside: bool = False) -> list:
+    """The jobs of the manifest `path`, as `manifest.read` gives them. Raises DeckError with all that is wrong with it."""
     from mouse_cli.batch import manifest
 
-    return manifest.read(path)
+    return manifest.read(path, outside)
 
 
 def _below(folder: str) -> Iterator[str]:

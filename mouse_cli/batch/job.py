@@ -4,13 +4,14 @@ import hashlib
 import json
 import os
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 from mouse_cli import __version__
 from mouse_cli._errors import DeckError
 from mouse_cli.batch.expectation import Expectation
-from mouse_cli.formats import is_yaml
+from mouse_cli.formats import below, is_yaml
 
 RUN, CHECK, DIAGNOSE = "run", "check", "diagnose"
 COMMANDS = (RUN, CHECK, DIAGNOSE)
@@ -20,12 +21,16 @@ _STEM = 60  # characters of the deck's name in it
 
 @dataclass(frozen=True)
 class Job:
-    """`command` on the deck at the path `deck`, with `options` that replace those of its `run:`; expectations of the answer."""
+    """`command` on the deck at the path `deck`, with `options` that replace those of its `run:`; expectations of the answer.
+
+    outside: the deck may name files outside of its own folder.
+    """
 
     deck: str
     command: str = RUN
     options: dict[str, Any] = field(default_factory=dict)
     expected: tuple[Expectation, ...] = ()
+    outside: bool = False
 
     def result(self, folder: str) -> str:
         """Path of the file below `folder` that holds the answer: one for each deck, command and set of options."""
@@ -36,9 +41,10 @@ class Job:
 
     def identity(self, data: bytes) -> str:
         """Hash of all that the answer depends on: the deck's content `data`, files that it names, what is asked, the version."""
-        whole = hashlib.sha256(f"{__version__}\0{self._asked()}\0".encode())
+        allowed = "outside\0" if self.outside else ""
+        whole = hashlib.sha256(f"{__version__}\0{self._asked()}\0{allowed}".encode())
         whole.update(hashlib.sha256(data).digest())
-        for path in named_files(data, self.deck):
+        for path in named_files(data, self.deck, self.outside):
             whole.update(os.fsencode(f"\0{os.path.basename(path)}\0"))
             with open(path, "rb") as stream:
                 whole.update(hashlib.file_digest(stream, "sha256").digest())
@@ -48,8 +54,8 @@ class Job:
         return json.dumps([self.command, self.options], sort_keys=True)
 
 
-def named_files(data: bytes, path: str) -> list[str]:
-    """Files below the folder of the deck `path` that its content `data` names, sorted."""
+def named_files(data: bytes, path: str, outside: bool = False) -> list[str]:
+    """Files that the deck `path` of the content `data` may name and does, sorted."""
     if not is_yaml(data, path) or b"file" not in data:  # every key of a deck that names a file is called so
         return []
     from mouse_cli.formats.yaml_deck.nodes import compose
@@ -58,9 +64,11 @@ def named_files(data: bytes, path: str) -> list[str]:
         _, root = compose(data, path)
     except DeckError:  # the job will tell of it
         return []
-    folder = os.path.realpath(os.path.dirname(path))
-    places = {os.path.realpath(os.path.join(folder, name)) for name in _names(root)}
-    return sorted(place for place in places if place.startswith(os.path.join(folder, "")) and os.path.isfile(place))
+    places = set()
+    for name in _names(root):
+        with suppress(below.Refused):
+            places.add(below.named(os.path.dirname(path), name, outside))
+    return sorted(place for place in places if os.path.isfile(place))
 
 
 def _names(root: object) -> Iterator[str]:

@@ -8,17 +8,22 @@ from mouse_cli._errors import DeckError
 from mouse_cli.batch.decks import found
 from mouse_cli.batch.expectation import Expectation, Unreadable, expectation
 from mouse_cli.batch.job import RUN, Job
-from mouse_cli.formats import file_bytes
+from mouse_cli.formats import below, file_bytes
 from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.kinds import KINDS
 from mouse_cli.formats.yaml_deck.nodes import Document, Node, compose
 from mouse_cli.formats.yaml_deck.run import run_options
 from mouse_cli.formats.yaml_deck.sections import Section
 
+_OWN = "the folder of the manifest"
 
-def read(path: str) -> list[Job]:
-    """The jobs of the manifest `path`, in its order. Raises DeckError with all that is wrong with it."""
-    document, root = compose(file_bytes(path), path)
+
+def read(path: str, outside: bool = False) -> list[Job]:
+    """The jobs of the manifest `path`, in its order; `outside`: files may lie outside of the folders of those who name them.
+
+    Raises DeckError with all that is wrong with it.
+    """
+    document, root = compose(file_bytes(path), path, outside)
     whole = Section(document, root, "manifest")
     whole.value("mouse")
     whole.value("title")
@@ -38,7 +43,7 @@ def read(path: str) -> list[Job]:
 def _jobs(section: Section, command: str, options: dict[str, Any]) -> list[Job]:
     own = options | _options(section) | _considered(section)
     command, expected = section.value("command", command), _expected(section)
-    return [Job(deck, command, own, expected) for deck in _decks(section)]
+    return [Job(deck, command, own, expected, section.document.outside) for deck in _decks(section)]
 
 
 def _options(section: Section) -> dict[str, Any]:
@@ -79,15 +84,27 @@ def _decks(section: Section) -> list[str]:
         name = yaml_values.text(document, each, section.what("decks"), KINDS["word or words"].words)
         if name is None:
             continue
-        if not name or "\0" in name:
-            document.error("MD231", each, f"{section.what('decks')} is no name of a file", "give the name of a deck")
+        try:
+            some = _found(document, name)
+        except below.Refused as error:
+            document.error(error.code, each, f"{section.what('decks')} is '{name[:80]}', {error}", error.help)
             continue
-        some = found(os.path.normpath(os.path.join(os.path.dirname(document.path), name)))
         if not some or not all(os.path.exists(path) for path in some):
             message = f"'{name[:80]}' stands for no deck"
             document.error("MD900", each, message, "names are from the folder of the manifest; check the spelling")
         paths += some
     return paths
+
+
+def _found(document: Document, name: str) -> list[str]:
+    """The decks that `name` stands for. Raises Refused for one that the manifest may not name, before folders are searched."""
+    own = os.path.dirname(document.path)
+    if not name or "\0" in name or os.path.isabs(name) or os.path.normpath(name).startswith(".."):
+        below.named(own, name, document.outside, _OWN)
+    some = found(os.path.normpath(os.path.join(own, name)), document.outside)
+    for path in some:
+        below.found(own, path, document.outside, _OWN)
+    return some
 
 
 def _expected(section: Section) -> tuple[Expectation, ...]:

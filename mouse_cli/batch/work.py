@@ -85,7 +85,7 @@ def _problem(job: Job, data: bytes) -> Problem:
 
     from mouse_cli.formats.assemble import assemble
 
-    draft = read_draft(data, job.deck, legacy=bool(job.options.get("legacy")))
+    draft = read_draft(data, job.deck, outside=job.outside, legacy=bool(job.options.get("legacy")))
     if job.options.get("scale") and draft.test:
         draft = replace(draft, test=replace(draft.test, scale=job.options["scale"]))
     changes = {name: value for name, value in job.options.items() if name not in _OWN}

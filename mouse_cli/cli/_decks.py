@@ -8,7 +8,8 @@ from dataclasses import replace
 import click
 
 from mouse_cli._errors import WARNING, Diagnostic
-from mouse_cli.formats import file_bytes, holds, is_yaml, read_draft
+from mouse_cli.cli._options import outside
+from mouse_cli.formats import bounded, file_bytes, holds, is_yaml, read_draft
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.formats.draft import Draft
 from mouse_cli.model.coupling import Coupling, Modification
@@ -19,7 +20,7 @@ _OF_MODES = {"pairing", "scale"}  # options that concern measured modes
 
 def deck_bytes(path: str) -> bytes:
     """Content of the file `path`, or of standard input for '-'. Raises DeckError."""
-    return sys.stdin.buffer.read() if path == "-" else file_bytes(path)
+    return bounded(sys.stdin.buffer, shown(path)) if path == "-" else file_bytes(path)
 
 
 def shown(path: str) -> str:
@@ -41,7 +42,7 @@ def read_problem(
     data = deck_bytes(path)
     if is_yaml(data, path) and (reading.get("overrides") or reading.get("strip_73_80")):
         raise click.UsageError("--set and --strip-73-80 are for card decks; a YAML deck has keys and options for that")
-    draft = read_draft(data, shown(path), **reading)
+    draft = read_draft(data, shown(path), outside=outside(), **reading)
     problem = assemble(changed(draft, changes or {}))
     if changes is not None:
         problem = replace(problem, warnings=problem.warnings + _idle_options(problem, changes))
@@ -93,7 +94,7 @@ def read_other(path: str) -> Coupling | Modification | None:
         return None
     from mouse_cli.formats.yaml_deck import coupled, modified
 
-    return {"couple": coupled, "modify": modified}[found].read(data, path)
+    return {"couple": coupled, "modify": modified}[found].read(data, path, outside=outside())
 
 
 def after_result(problem: Problem, prior: str | None, loosened: dict[str, float]) -> Problem:
@@ -109,7 +110,7 @@ def read_drafts(path: str, stacked: bool, **reading: object) -> Iterator[Draft]:
     """The deck of a file, or all of them where card decks are stacked."""
     data = deck_bytes(path)
     if not stacked or is_yaml(data, path):
-        yield read_draft(data, shown(path), **reading)
+        yield read_draft(data, shown(path), outside=outside(), **reading)
         return
     from mouse_cli.formats import cards
 
@@ -125,11 +126,12 @@ def changed(draft: Draft, changes: dict[str, object]) -> Draft:
     return draft.with_run(**given)
 
 
-def expanded(paths: tuple[str, ...]) -> Iterator[str]:
-    """Files as named; for a folder every deck in it, sorted."""
+def expanded(paths: tuple[str, ...]) -> Iterator[tuple[str, str]]:
+    """Files as named; for a folder every deck in it, sorted, and that folder."""
     for path in paths:
         if os.path.isdir(path):
             for folder, _, names in sorted(os.walk(path)):
-                yield from (os.path.join(folder, n) for n in sorted(names) if n.endswith((".dat", ".yaml", ".yml")))
+                found = (n for n in sorted(names) if n.endswith((".dat", ".yaml", ".yml")))
+                yield from ((os.path.join(folder, n), path) for n in found)
         else:
-            yield path
+            yield path, ""

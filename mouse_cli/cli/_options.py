@@ -64,7 +64,29 @@ RUN = (
     ),
 )
 
+_OUTSIDE = "mouse_cli.outside"  # among the `meta` of click's context
+
+
+def _allow(context: click.Context, _: click.Parameter, value: bool) -> None:
+    context.meta[_OUTSIDE] = value
+
+
+OUTSIDE = (
+    click.option(
+        "--allow-outside", is_flag=True, expose_value=False, callback=_allow,
+        help="Read files outside of the folders of the decks that name them.",
+    ),
+)  # fmt: skip
+
+
+def outside() -> bool:
+    """Whether this command was allowed to read files outside of the folders of the decks that name them."""
+    context = click.get_current_context(silent=True)
+    return context is not None and bool(context.meta.get(_OUTSIDE))
+
+
 READING = (
+    *OUTSIDE,
     click.option("--legacy", is_flag=True, help="Enforce the limits of 1972 (140 DOF, 10 modes, ...)."),
     click.option("--strip-73-80", is_flag=True, help="Blank columns 73-80, where a deck has sequence numbers."),
     click.option(

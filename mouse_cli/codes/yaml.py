@@ -143,10 +143,11 @@ CODES = {
     ),
     "MD231": Code(
         "file outside the folder of the deck",
-        "A deck may name only files in its own folder or below, so that a deck from elsewhere reads "
-        "nothing else. "
-        "Absolute paths, '..' and links that lead out are refused.",
-        "Put the file beside the deck and give its name alone.",
+        "A deck, or a manifest, may name only files in its own folder or below, so that one from elsewhere reads nothing else. "
+        "Absolute paths, '..' and links that lead out are refused; so are links that lead out of a folder in which decks were "
+        "searched.",
+        "Put the file beside the deck and give its name alone; or, where you know what the deck reads, allow it: "
+        "`--allow-outside`.",
     ),
     "MD250": Code(
         "matrix file missing",

@@ -2,12 +2,14 @@
 
 import os
 import re
+from typing import BinaryIO
 
 from mouse_cli._errors import ERROR, DeckError, Diagnostic
 from mouse_cli._span import Span
 from mouse_cli.formats.draft import Draft
 from mouse_cli.model.problem import Problem
 
+MAX_BYTES = 500_000_000  # of a deck of cards or of YAML, and of a document of results
 _YAML_SUFFIXES = (".yaml", ".yml")
 _VERSION_KEY = re.compile(r"""^["']?mouse["']?\s*:""")
 _OTHERS = re.compile(rb"^(couple|modify)[ \t]*:", re.MULTILINE)
@@ -24,15 +26,19 @@ def read_deck(path: str | os.PathLike[str], *, legacy: bool = False, **options: 
     return assemble(read_draft(file_bytes(os.fspath(path)), os.fspath(path), legacy=legacy, **options))
 
 
-def read_draft(data: str | bytes, path: str, *, legacy: bool = False, **options: object) -> Draft:
+def read_draft(
+    data: str | bytes, path: str, *, legacy: bool = False, outside: bool = False, **options: object
+) -> Draft:
     """A deck as written. `options` (strip_73_80, overrides) concern card decks alone.
+
+    outside: a YAML deck may name files outside of its own folder.
 
     Raises DeckError when the text cannot be read as a deck.
     """
     if is_yaml(data, path):
         from mouse_cli.formats import yaml_deck
 
-        draft = yaml_deck.read(data, path)
+        draft = yaml_deck.read(data, path, outside)
         return draft.with_run(legacy=True) if legacy else draft
     from mouse_cli.formats import cards
 
@@ -85,12 +91,22 @@ def holds(data: str | bytes, path: str = "") -> str:
 
 
 def file_bytes(path: str) -> bytes:
-    """Content of the file `path`. Raises DeckError when it cannot be read."""
+    """Content of the file `path`, a pipe too. Raises DeckError when it cannot be read, or does not end."""
     try:
         with open(path, "rb") as stream:
-            return stream.read()
+            return bounded(stream, path)
     except OSError as error:
         message = f"the deck cannot be read: {error.strerror or error}"
         raise DeckError(
             Diagnostic("MD250", ERROR, message, Span(path, 1), help="check the name of the file")
         ) from error
+
+
+def bounded(stream: BinaryIO, path: str) -> bytes:
+    """What `stream` holds; of an endless one no more than any deck has. Raises DeckError (MD202)."""
+    data = stream.read(MAX_BYTES + 1)
+    if len(data) > MAX_BYTES:
+        message = f"the file has more than {MAX_BYTES} bytes; no more are read of a deck or a result"
+        help = "put large matrices in files: {file: k.mtx}"
+        raise DeckError(Diagnostic("MD202", ERROR, message, Span(path, 1), help=help))
+    return data

@@ -5,7 +5,7 @@ from contextlib import contextmanager
 
 import click
 
-from mouse_cli.cli._options import QUIET, RUN, options, run_changes
+from mouse_cli.cli._options import OUTSIDE, QUIET, RUN, options, outside, run_changes
 
 _REPORTS = (
     click.option("--csv", "csv_file", metavar="FILE", help="Write the table for spreadsheets."),
@@ -39,7 +39,7 @@ _CLUSTER = (
     "--command", "asked", type=click.Choice(("run", "check", "diagnose")), default="run", show_default=True,
     help="What is asked of decks that no manifest names.",
 )  # fmt: skip
-@options(_CLUSTER, _REPORTS, QUIET, RUN)
+@options(_CLUSTER, _REPORTS, OUTSIDE, QUIET, RUN)
 def command(
     decks: tuple[str, ...],
     output: str,
@@ -92,15 +92,15 @@ def _listed(decks: tuple[str, ...], asked: str, changes: dict) -> list:
 
     jobs, wrong = [], []
     for name in decks:
-        some = found(name)
+        some = found(name, outside())
         if not some:
             wrong.append(Diagnostic("MD900", ERROR, f"'{name}' stands for no deck", help="check the name"))
         for path in some:
             if not is_manifest(path):
-                jobs.append(Job(path, asked, changes))
+                jobs.append(Job(path, asked, changes, outside=outside()))
                 continue
             try:
-                jobs += [replace(job, options=job.options | changes) for job in manifest_jobs(path)]
+                jobs += [replace(job, options=job.options | changes) for job in manifest_jobs(path, outside())]
             except MouseError as error:
                 wrong += error.diagnostics
     if wrong:

@@ -2,7 +2,7 @@
 
 import click
 
-from mouse_cli.cli._options import READING, options, reading
+from mouse_cli.cli._options import READING, options, outside, reading
 
 
 @click.command()
@@ -33,14 +33,21 @@ def command(
 
     how = reading(legacy, strip_73_80, overrides)
     checked = rejected = warned = 0
-    for path in expanded(decks):
-        findings = _findings(path, how, stacked)
+    for path, folder in expanded(decks):
+        findings = _unread(path, folder) or _findings(path, how, stacked)
         errors = any(d.severity == "error" for d in findings) or (strict and bool(findings))
         checked, rejected, warned = checked + 1, rejected + errors, warned + (bool(findings) and not errors)
         show_diagnostics((d for d in findings if d.severity == "error" or not quiet), brief)
     decks_checked = f"{checked} deck{'s' if checked != 1 else ''} checked"
     click.echo(f"{decks_checked}: {checked - rejected} sound, {rejected} rejected, {warned} with warnings")
     return 4 if rejected else 0
+
+
+def _unread(path: str, folder: str) -> tuple:
+    """Why a file that was found in a folder is not read; empty for all others."""
+    from mouse_cli.batch.decks import refused
+
+    return tuple(refused(folder, path, outside())) if folder else ()
 
 
 def _findings(path: str, how: dict[str, object], stacked: bool) -> tuple:
@@ -54,7 +61,7 @@ def _findings(path: str, how: dict[str, object], stacked: bool) -> tuple:
     found: tuple = ()
     try:
         if is_manifest(path):
-            manifest_jobs(path)
+            manifest_jobs(path, outside())
             return found
         other = read_other(path)
         if other is not None:

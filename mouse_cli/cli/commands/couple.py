@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import click
 
-from mouse_cli.cli._options import QUIET, answer, options
+from mouse_cli.cli._options import OUTSIDE, QUIET, answer, options, outside
 from mouse_cli.model.coupling import Coupling
 
 
@@ -27,7 +27,7 @@ from mouse_cli.model.coupling import Coupling
 )
 @click.option("--plot", metavar="PATH", help="Write figures: to a folder, or to one file (.pdf, .png, .svg).")
 @options(answer("mouse.coupling/1"))
-@options(QUIET)
+@options(OUTSIDE, QUIET)
 def command(
     deck: str, written_to: str | None, truncate: float | None, priors: tuple[str, ...], plot: str | None, quiet: bool,
     **how: str | None,
@@ -46,7 +46,7 @@ def command(
     from mouse_cli.report import document, written
 
     _require_plots(plot)
-    coupling = _with_results(coupled.read(deck_bytes(deck), shown(deck)), priors)
+    coupling = _with_results(coupled.read(deck_bytes(deck), shown(deck), outside()), priors)
     if truncate is not None:
         coupling = replace(coupling, truncate=truncate)
     if written_to and not coupling.responses:

@@ -5,7 +5,7 @@ from dataclasses import replace
 import click
 
 from mouse_cli.cli._changes import CHANGES, changes_text
-from mouse_cli.cli._options import PRIOR, QUIET, READING, answer, earlier, options, reading
+from mouse_cli.cli._options import PRIOR, QUIET, READING, answer, earlier, options, outside, reading
 
 
 @click.command()
@@ -66,7 +66,7 @@ def _read(deck: str, given: dict[str, object], count: int | None, begun: dict, h
         raise click.UsageError(
             "changes as options are for a deck with a model; this one holds modify: write them there"
         )
-    found = modified.read(data, shown(deck))
+    found = modified.read(data, shown(deck), outside=outside())
     problem = after_result(found.problem, **begun)
     told = tuple(dict.fromkeys((*found.warnings, *problem.warnings)))
     return replace(found, part=replace(found.part, problem=problem), warnings=told, count=count or found.count)

@@ -2,7 +2,7 @@
 
 import click
 
-from mouse_cli.cli._options import READING, options, reading
+from mouse_cli.cli._options import READING, options, outside, reading
 
 
 @click.command()
@@ -25,7 +25,7 @@ def command(deck: str, legacy: bool, strip_73_80: bool, overrides: tuple[str, ..
 
         click.echo(card_show.describe(data, **how))
     try:
-        problem = assemble(read_draft(data, shown(deck), **how))
+        problem = assemble(read_draft(data, shown(deck), outside=outside(), **how))
     except MouseError as error:
         show_diagnostics(error.diagnostics)
         return error.exit_code

@@ -24,9 +24,12 @@ COUNT, MOST_LINES = 10, 20_000
 _REMOVED = 1e-9  # truncation where a part is taken away: what is left of its inside is rounding
 
 
-def read(text: str | bytes, path: str) -> Coupling:
-    """The coupled structures that a deck states. Raises DeckError with all that is wrong."""
-    section = opened(text, path, "couple")
+def read(text: str | bytes, path: str, outside: bool = False) -> Coupling:
+    """The coupled structures that a deck states; `outside`: files may lie outside of the folders of decks that name them.
+
+    Raises DeckError with all that is wrong.
+    """
+    section = opened(text, path, "couple", outside)
     document, below = section.document, section.section("couple")
     if below is None:
         raise DeckError(document.diagnostics)
@@ -50,9 +53,9 @@ def read(text: str | bytes, path: str) -> Coupling:
     return replace(coupling, warnings=(*document.diagnostics, *own))
 
 
-def opened(text: str | bytes, path: str, key: str) -> Section:
+def opened(text: str | bytes, path: str, key: str, outside: bool = False) -> Section:
     """The top of a deck that holds `key` in place of a model. Raises DeckError."""
-    document, root = compose(text, path)
+    document, root = compose(text, path, outside)
     section = Section(document, root, "deck")
     section.value("mouse")
     if key not in section:
@@ -91,7 +94,9 @@ def _part(section: Section, name: str) -> Substructure | None:
     if "functions" in section:
         frf = _functions(section)
         return None if frf is None else Substructure(name, None, _named(frf, None), **how)
-    problem = read_below(document, section.nodes["deck"], section.called, read_deck) if "deck" in section else None
+    problem = None
+    if "deck" in section:
+        problem = read_below(document, section.nodes["deck"], section.called, read_deck, outside=document.outside)
     if problem is None:
         return None
     if not section.value("measured", False):

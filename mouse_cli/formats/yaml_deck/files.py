@@ -1,9 +1,10 @@
-"""Files that a deck names: below the folder of the deck, and read at once."""
+"""Files that a deck names: where it may name them, and read at once."""
 
 import os
 from collections.abc import Callable
 
 from mouse_cli._errors import DeckError, Diagnostic
+from mouse_cli.formats import below
 from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.nodes import Document, Node
 from mouse_cli.formats.yaml_deck.sections import Section
@@ -41,15 +42,12 @@ def named(document: Document, node: Node, what: str) -> Node | None:
 
 
 def _path(document: Document, node: Node, what: str) -> str | None:
-    """A deck from elsewhere must not read beyond its own folder: no absolute path, `..` or link leads out."""
+    """Path of the file, where the deck may name it."""
     name = yaml_values.text(document, node, f"{what}.file", "the name of a file")
     if name is None:
         return None
-    if "\0" in name:
-        return document.error("MD231", node, f"{what}.file holds a null character", "give the name of a file")
-    folder = os.path.realpath(document.folder)
-    path = os.path.realpath(os.path.join(folder, name))
-    if os.path.isabs(name) or not path.startswith(os.path.join(folder, "")):
-        message = f"{what}.file is '{name}', which is not below the folder of the deck"
-        return document.error("MD231", node, message, "put the file beside the deck and give its name alone")
+    try:
+        path = below.named(document.folder, name, document.outside)
+    except below.Refused as error:
+        return document.error(error.code, node, f"{what}.file is '{name[:200]}', {error}", error.help)
     return os.path.relpath(path) if path.startswith(os.path.join(os.getcwd(), "")) else path

@@ -12,13 +12,16 @@ from mouse_cli.model.coupling import ABOVE, BELOW, EXACTLY, MASS, Modification, 
 from mouse_cli.model.problem import Problem
 
 
-def read(text: str | bytes, path: str, problem: Problem | None = None) -> Modification:
-    """The changes that a deck states, and the model they are of, which may be given. Raises DeckError with all that is wrong."""
-    section = opened(text, path, "modify")
+def read(text: str | bytes, path: str, problem: Problem | None = None, outside: bool = False) -> Modification:
+    """The changes that a deck states, and the model they are of, which may be given.
+
+    outside: files may lie outside of the folders of decks that name them. Raises DeckError with all that is wrong.
+    """
+    section = opened(text, path, "modify", outside)
     document, below = section.document, section.section("modify")
     node = None if below is None else below.nodes.get("deck")
     if problem is None and node is not None:
-        problem = read_below(document, node, "modify.deck", read_deck)
+        problem = read_below(document, node, "modify.deck", read_deck, outside=outside)
     if problem is None:
         raise DeckError(document.diagnostics)
     places = Places(document, [Substructure("", problem)])

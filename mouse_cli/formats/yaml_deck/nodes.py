@@ -26,11 +26,12 @@ _NULLS = frozenset(("", "~", "null", "Null", "NULL"))
 class Document:
     """A deck being read: where its values stand, and what was found wrong.
 
-    `incomplete` is set by errors that leave a gap, so that no Draft can be made.
+    `incomplete` is set by errors that leave a gap, so that no Draft can be made. `outside`: whether files that it names may lie
+    outside of its folder.
     """
 
-    def __init__(self, text: str, path: str):
-        self.text, self.path = text, path
+    def __init__(self, text: str, path: str, outside: bool = False):
+        self.text, self.path, self.outside = text, path, outside
         self.diagnostics: list[Diagnostic] = []
         self.incomplete = False
 
@@ -95,12 +96,12 @@ def is_null(node: Node) -> bool:
     return node.tag == PLAIN and node.value in _NULLS
 
 
-def compose(data: str | bytes, path: str) -> tuple[Document, Node]:
+def compose(data: str | bytes, path: str, outside: bool = False) -> tuple[Document, Node]:
     """The root node of a deck, and the document that knows its places.
 
     Raises DeckError for text that is not YAML, goes beyond the limits, or holds no mapping.
     """
-    document = Document(_decoded(data, path), path)
+    document = Document(_decoded(data, path), path, outside)
     _check_text(document)
     root = _parsed(document)
     if not isinstance(root, yaml.MappingNode):

@@ -23,12 +23,12 @@ from mouse_cli.model.problem import Source
 from mouse_cli.model.units import SYSTEMS, UNDECLARED, Units
 
 
-def read(text: str | bytes, path: str) -> Draft:
-    """A deck as written; findings that leave no gap stand in `diagnostics` of the Draft.
+def read(text: str | bytes, path: str, outside: bool = False) -> Draft:
+    """A deck as written; `outside`: it may name files outside of its folder. Findings that leave no gap stand in `diagnostics`.
 
     Raises DeckError with all findings when text or values are missing or not what they should be.
     """
-    document, root = compose(text, path)
+    document, root = compose(text, path, outside)
     deck = Section(document, root, "deck")
     deck.value("mouse")
     _for_others(deck)
