@@ -52,11 +52,11 @@ def deliver(text: str, output: str | None, deck: str) -> None:
     write_text_atomically(output, text)
 
 
-def drawn(found: object, path: str) -> None:
+def drawn(found: object, path: str, only: tuple[str, ...] = ()) -> None:
     """Write the figures of an answer, or say (MD532) that there is nothing to draw. Raises WrittenError."""
     from mouse_cli.plots import draw
 
-    if not draw(found, path):
+    if not draw(found, path, only):
         told = f"nothing was written to {path}: there is nothing to draw of this answer"
         show_diagnostics([Diagnostic("MD532", WARNING, told, help="see `mouse explain MD532`")])
 

@@ -16,6 +16,6 @@ CODES = {
     "MD532": Code(
         "nothing to draw",
         "`--plot` was given, and no figure has anything to show: `mouse run` draws fitted functions and recordings, not modes.",
-        "`mouse diagnose deck.yaml --plot figures` draws frequencies before and after too.",
+        "`mouse plot` draws frequencies, parameters and shapes of an answer in JSON; `--figure` asks for one that it has values for.",
     ),
 }

@@ -63,18 +63,18 @@ def require(path: str = "") -> None:
         )
 
 
-def draw(found: Any, path: str) -> list[str]:
+def draw(found: Any, path: str, only: tuple[str, ...] = ()) -> list[str]:
     """Write every figure that has something to show; returns the names of the files, none where there is nothing to draw.
 
-    A path that ends in .pdf has one page a figure, another file suffix all figures below each other; else it is a folder, made
-    where there is none, of PNG files. Raises WrittenError (MD531).
+    only: keys of the figures that are wanted; empty for all. A path that ends in .pdf has one page a figure, another file suffix
+    all figures below each other; else it is a folder, made where there is none, of PNG files. Raises WrittenError (MD531).
     """
     require(path)
     import matplotlib
 
     kind = _kind(path)
     with matplotlib.rc_context(STYLE):
-        drawn = _figures(found)
+        drawn = _figures(found, only)
         if not drawn:
             return []
         try:
@@ -91,12 +91,20 @@ def _kind(path: str) -> str:
     return "" if os.path.isdir(path) else os.path.splitext(path)[1].lower()
 
 
-def _figures(found: Any) -> list[tuple[Plot, Any]]:
+def figures_of(kind: type) -> dict[str, Plot]:
+    """Figures that can be drawn of such an answer, by key, in their order."""
+    plots = sorted(registry().values(), key=lambda plot: plot.order)
+    return {plot.key: plot for plot in plots if issubclass(kind, plot.subjects)}
+
+
+def _figures(found: Any, only: tuple[str, ...]) -> list[tuple[Plot, Any]]:
     """Each figure that has something to show, drawn."""
     from matplotlib.figure import Figure
 
     drawn = []
-    for plot in sorted((p for p in registry().values() if isinstance(found, p.subjects)), key=lambda plot: plot.order):
+    for plot in figures_of(type(found)).values():
+        if only and plot.key not in only:
+            continue
         figure = Figure(figsize=(WIDTH, HEIGHT), layout="constrained")
         axes = figure.add_subplot()
         if plot.draw(found, axes):

@@ -59,6 +59,19 @@ class Part:
         """Numbers, None where one is unknown."""
         return [Part({"": value}, self.file, f"{self._at(key)}[]").number("") for value in self._list(key)]
 
+    def rows(self, key: str) -> list[list[float | None]]:
+        """Lists of numbers, such as coordinates."""
+        return [Part({"": value}, self.file, f"{self._at(key)}[]").numbers("") for value in self._list(key)]
+
+    def rows(self, key: str, width: int | None = None) -> list[list[float]]:
+        """Lists of numbers, `width` in each, none of them unknown."""
+        found = self._list(key)
+        for row in found:
+            if not isinstance(row, list) or width not in (None, len(row)) or not all(map(_finite, row)):
+                each = "numbers" if width is None else f"{width} numbers"
+                raise rejected("MD922", f"{self.file}: {self._at(key)}[] is something else; expected lists of {each}")
+        return found
+
     def part(self, key: str) -> "Part":
         """The object below `key`."""
         return Part(self._of(key, (dict,), "an object") or {}, self.file, self._at(key))
@@ -93,7 +106,9 @@ def read(data: bytes, file: str, schemas: tuple[str, ...] = ANSWERS) -> Part:
     if isinstance(found, dict) and found.get("schema") == _JOB:
         found = found.get("document")
         if not isinstance(found, dict):
-            raise rejected("MD920", f"{file} is a job without an answer: its deck was rejected, only checked, or broke off")
+            raise rejected(
+                "MD920", f"{file} is a job without an answer: its deck was rejected, only checked, or broke off"
+            )
     schema = found.get("schema") if isinstance(found, dict) else None
     if not isinstance(schema, str) or not schema.startswith("mouse."):
         raise rejected("MD920", f"{file} is JSON, but no document of mouse: it has no `schema` that begins with mouse.")
@@ -117,6 +132,10 @@ def rejected(code: str, message: str) -> DeckError:
     return DeckError(
         Diagnostic(code, ERROR, message, help="write it with `mouse run --json` or `mouse diagnose --json`")
     )
+
+
+def _finite(value: Any) -> bool:
+    return type(value) in (int, float) and abs(value) < 1e100  # NaN is not
 
 
 def _no_number(name: str) -> None:
