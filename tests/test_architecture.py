@@ -14,6 +14,7 @@ FILES = sorted(PACKAGE.rglob("*.py"))
 RANKS = {
     "cli": 8,
     "batch": 7,
+    "campaigns": 7,
     "page": 7,
     "report": 6,
     "plots": 6,
@@ -30,7 +31,7 @@ RANKS = {
     "codes": 1,
     "model": 1,
 }
-OPTIONAL = {"matplotlib", "h5py", "pyuff", "pyyeti", "nptdms", "soundfile", "sdypy", "pyoma2", "dask", "distributed"}
+OPTIONAL = {"matplotlib", "h5py", "pyuff", "pyyeti", "nptdms", "soundfile", "sdypy", "pyoma2", "dask", "distributed", "emcee"}
 HEAVY = {"scipy", "yaml"}  # never at the head of a module: a small card deck needs neither
 
 

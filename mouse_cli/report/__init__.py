@@ -11,6 +11,7 @@ from mouse_cli.model.modified import Modified
 from mouse_cli.model.record_diagnosis import RecordDiagnosis
 from mouse_cli.model.record_update import RecordUpdate
 from mouse_cli.model.result import Forecast, Result
+from mouse_cli.model.sampled import Sampled
 from mouse_cli.model.spectra import SpectraResult
 from mouse_cli.model.updated import Compared, Updated
 from mouse_cli.report.section import Options
@@ -28,6 +29,7 @@ Subject = (
     | Modified
     | Updated
     | Compared
+    | Sampled
 )
 
 __all__ = ["Options", "document", "markdown", "printout", "written"]
@@ -69,6 +71,7 @@ def document(subject: Subject) -> dict[str, Any]:
         record_document,
         record_update_document,
         result_document,
+        sample_document,
         spectra_document,
         update_document,
     )
@@ -86,5 +89,6 @@ def document(subject: Subject) -> dict[str, Any]:
         Compared: update_document,
         Coupled: coupling_document,
         Modified: modification_document,
+        Sampled: sample_document,
     }
     return documents.get(type(subject), result_document).document(subject)

@@ -51,8 +51,7 @@ class _Descent:
 
     def __init__(self, trace: Trace, estimator: Estimator):
         self.trace, self.estimator, self.setting = trace, estimator, trace.setting
-        L = self.setting.coordinates.L
-        self.z = np.zeros(L.shape[-1])
+        self.z = self._in_prior_units(trace.state.u - self.setting.coordinates.mean)
         self.alpha = 1.0 if estimator.uses_prior else 0.0
         self.noise = self.setting.sd if estimator.weighted else np.ones_like(self.setting.sd)
         self.damping, self.arrived = 0.0, False
@@ -64,9 +63,9 @@ class _Descent:
     def jump(self, theta: np.ndarray) -> None:
         """Go on from the values theta (p,), if J is lower there."""
         coordinates = self.setting.coordinates
-        u = np.where(coordinates.logarithmic, np.log(np.maximum(theta, 1e-300)), theta) - coordinates.mean
-        L = coordinates.L
-        z = u / L if L.ndim == 1 else np.linalg.lstsq(L, u, rcond=None)[0]
+        z = self._in_prior_units(
+            np.where(coordinates.logarithmic, np.log(np.maximum(theta, 1e-300)), theta) - coordinates.mean
+        )
         at = coordinates.mean + self._expand(z)
         if coordinates.lower is not None and not np.all((at >= coordinates.lower) & (at <= coordinates.upper)):
             return
@@ -133,12 +132,12 @@ class _Descent:
 
     def _curved(self, state: State, change: np.ndarray) -> np.ndarray:
         """Second-order correction of `change`, in z."""
-        coordinates, L = self.setting.coordinates, self.setting.coordinates.L
+        coordinates = self.setting.coordinates
         x = acceleration(self.setting, state, self._expand(change), self.estimator)
         there = coordinates.mean + self._expand(self.z + change) + x
         if coordinates.lower is not None and not np.all((there >= coordinates.lower) & (there <= coordinates.upper)):
             return np.zeros_like(change)
-        return x / L if L.ndim == 1 else np.linalg.lstsq(L, x, rcond=None)[0]
+        return self._in_prior_units(x)
 
     def _length(self, state: State, change: np.ndarray) -> float:
         """Length of `change` in revised standard deviations: sqrt(dz' (B'B + alpha) dz)."""
@@ -157,3 +156,7 @@ class _Descent:
     def _expand(self, z: np.ndarray) -> np.ndarray:
         """u - u_p (p,) = L z."""
         return expand(self.setting.coordinates.L, z)
+
+    def _in_prior_units(self, x: np.ndarray) -> np.ndarray:
+        """z (k,) of x = L z (p,)."""
+        return self.setting.coordinates.in_prior_units(x)

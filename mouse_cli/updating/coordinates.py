@@ -33,6 +33,14 @@ class Coordinates:
         """d(value)/du (p,)."""
         return np.where(self.logarithmic, self.value(u), 1.0)
 
+    def in_prior_units(self, x: np.ndarray) -> np.ndarray:
+        """z (k,) with x = L z, for a change x (p,) of u."""
+        return x / self.L if self.L.ndim == 1 else np.linalg.lstsq(self.L, x, rcond=None)[0]
+
+    def within(self, u: np.ndarray) -> bool:
+        """Whether u (p,) lies within all limits."""
+        return self.lower is None or bool(np.all((u >= self.lower) & (u <= self.upper)))
+
 
 def coordinates(problem: Problem, assembly: Assembly) -> Coordinates:
     """The coordinates of `problem`, its prior in square-root form, its limits, and what it holds fixed."""

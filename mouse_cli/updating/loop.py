@@ -26,7 +26,7 @@ from mouse_cli.model.result import ChiSquareTest, Result, Snapshot, Status
 from mouse_cli.observables.modal import UnrelatedShapes, observe
 from mouse_cli.terms.assembly import assembly as assemble
 from mouse_cli.terms.modal_damping import with_modal_damping
-from mouse_cli.updating import anchored, model_form, refusals, replaced
+from mouse_cli.updating import anchored, model_form, normality, refusals, replaced
 from mouse_cli.updating.convergence import ExceedanceTest
 from mouse_cli.updating.coordinates import coordinates
 from mouse_cli.updating.frf_fit import fits
@@ -127,7 +127,8 @@ def _run(trace: Trace, estimator: Estimator) -> Result:
         trace.guess = frf_start(setting, trace.guess)
     status = RECURSIONS[setting.problem.run.recursion].recur(trace, estimator)
     result = _result(trace, start, status, estimator, innovation)
-    return replace(result, warnings=tuple(remarks(result)))
+    doubt = normality.remark(result, setting, trace.state, estimator)
+    return replace(result, warnings=(*remarks(result), *doubt))
 
 
 def _result(trace: Trace, start: State, status: Status, estimator: Estimator, innovation: ChiSquareTest) -> Result:

@@ -1,9 +1,12 @@
 """Words that several sections share."""
 
+from collections.abc import Iterable, Iterator
+
 from mouse_cli import __version__
+from mouse_cli._errors import Diagnostic
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import ChiSquareTest
-from mouse_cli.report.blocks import Column, Table
+from mouse_cli.report.blocks import Column, Table, Text
 
 LEFT = "left"  # side at which a column of words starts
 
@@ -52,3 +55,10 @@ def test_table(tests: tuple[ChiSquareTest, ...]) -> Table:
         Column("probability of a larger value"),
     )
     return Table(columns, tuple((t.name, t.chi2, t.dof, t.p if t.dof else None) for t in tests))
+
+
+def remarks(found: Iterable[Diagnostic]) -> Iterator[Text]:
+    """One paragraph a remark, with its advice."""
+    for remark in found:
+        advice = f" {remark.help[0].upper()}{remark.help[1:]}." if remark.help else ""
+        yield Text(f"{remark.code}: {remark.message}.{advice}")

@@ -5,13 +5,12 @@ from collections.abc import Iterator
 from mouse_cli.model.updated import Updated
 from mouse_cli.report.blocks import Block, Text
 from mouse_cli.report.section import Options, Section
+from mouse_cli.report.sections._wording import remarks as worded
 
 
 def remarks(found: Updated, options: Options) -> Iterator[Block]:
     """One paragraph a remark."""
-    for remark in (*found.problem.warnings, *found.warnings):
-        advice = f" {remark.help[0].upper()}{remark.help[1:]}." if remark.help else ""
-        yield Text(f"{remark.code}: {remark.message}.{advice}")
+    yield from worded((*found.problem.warnings, *found.warnings))
     if not found.warnings:
         yield Text(_sound(found))
 

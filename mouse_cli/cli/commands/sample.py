@@ -1,0 +1,67 @@
+"""mouse sample: the posterior of a deck by samples, where the normal density of a run is doubtful."""
+
+import click
+
+from mouse_cli.cli._options import PRIOR, QUIET, READING, answer, earlier, options, reading
+
+
+@click.command()
+@click.argument("deck")
+@click.option(
+    "--steps",
+    type=click.IntRange(100, 10_000_000),
+    default=20_000,
+    show_default=True,
+    help="Most steps of each walker.",
+)
+@click.option(
+    "--walkers", type=click.IntRange(4, 100_000), help="Walkers.  [default: four for each property, sixteen at least]"
+)
+@click.option("--seed", type=click.IntRange(0), default=1, show_default=True, help="Of the random numbers.")
+@click.option(
+    "-j", "--jobs", type=click.IntRange(1, 1024), default=1, show_default=True, help="Processes, for large models."
+)
+@click.option("--chain", metavar="FILE", help="Write the samples to FILE.npz.")
+@options(answer("mouse.sample/1"))
+@options(PRIOR, QUIET)
+@options(READING)
+def command(
+    deck: str,
+    steps: int,
+    walkers: int | None,
+    seed: int,
+    jobs: int,
+    chain: str | None,
+    output: str | None,
+    form: str | None,
+    numbers: str | None,
+    prior: str | None,
+    loosen: tuple[str, ...],
+    quiet: bool,
+    legacy: bool,
+    strip_73_80: bool,
+    overrides: tuple[str, ...],
+) -> int:
+    """Sample the posterior of DECK: its prior and the likelihood of its test, as `mouse run` has them.
+
+    Says whether the standard deviations of `mouse run` may stand for the posterior. Needs the extra `sampling`.
+
+    Exit 0: the chain is long enough, and the model explains the data. 1: do not trust it. 4: deck rejected. 5: no answer.
+    """
+    from mouse_cli.campaigns.sampling.sample import sample
+    from mouse_cli.cli._decks import read_problem, without_laws
+    from mouse_cli.cli._terminal import deliver, json_text, progress, show_diagnostics
+    from mouse_cli.model.sampled import Sampling
+    from mouse_cli.report import document, written
+
+    problem = read_problem(deck, **earlier(prior, loosen), **reading(legacy, strip_73_80, overrides))
+    if not quiet:
+        show_diagnostics((*problem.warnings, *without_laws(problem)))
+    with progress() as (_, say):
+        found = sample(problem, Sampling(steps, walkers or 0, seed, jobs), say)
+    if chain:
+        from mouse_cli.campaigns.sampling.chain_file import write
+
+        write(chain, found)
+    deliver(json_text(document(found)) if form == "json" else written(found, form or "printout", numbers), output, deck)
+    return found.exit_code

@@ -1,0 +1,28 @@
+"""Heading of samples of a posterior: program, deck, how long the chain is, what the normal density is worth."""
+
+from collections.abc import Iterator
+
+from mouse_cli.model.sampled import Sampled
+from mouse_cli.report.blocks import Block, Text
+from mouse_cli.report.section import Options, Section
+from mouse_cli.report.sections._wording import counted, deck_table
+
+
+def heading(found: Sampled, options: Options) -> Iterator[Block]:
+    """What was sampled and how well."""
+    yield deck_table(found.problem)
+    kept, walkers = found.chain.log_posterior.shape
+    yield Text(
+        f"An ensemble of {counted(walkers, 'walker')} took {counted(found.steps, 'step')} each from the result of the run, of "
+        f"which the first {found.burn} are left out; {{}} of 100 proposals were taken. The autocorrelation time is {{}} steps, so "
+        f"that each walker went on for {{}} of them; seed {found.seed}, {counted(found.evaluations, 'model')} solved.",
+        (round(100 * found.acceptance), round(found.tau, 1), round(kept / found.tau)),
+    )
+    trusted = "may stand" if not found.doubtful else "must not stand"
+    yield Text(
+        f"Pareto k-hat of {found.draws} draws from the normal density of the run: {{}}. That density {trusted} for the posterior.",
+        (round(found.k_hat, 2),),
+    )
+
+
+SECTION = Section("sample-heading", 10, "Posterior by samples", heading, (Sampled,))
