@@ -11,8 +11,8 @@ CODES = {
     ),
     "MD691": Code(
         "an arrangement without measured modes",
-        "Several arrangements are diagnosed by their measured modes: one of the decks has no `test.modes`, or holds some of its own "
-        "test out, which is left to whole arrangements (`--held-out`).",
+        "Several arrangements are diagnosed by their measured modes: one of the decks has no `test.modes`, or holds some of its "
+        "own test out, which is left to whole arrangements (`--held-out`).",
         "Give measured frequencies in every deck; `mouse identify` makes them of recordings and functions.",
     ),
 }

@@ -81,7 +81,7 @@ class ArrangementsDiagnosis:
     rest: tuple[Explanation, ...]
     held_out: HeldOut | None = None
     refuted: str = ""
-    choices: Choices = Choices()
+    choices: Choices = field(default_factory=Choices)
     remarks: tuple[str, ...] = field(default=())
 
     @property

@@ -75,9 +75,9 @@ class Foreseen:
 class Checked:
     """What became of the guarantees in this answer.
 
-    misfit: largest |(K - lambda M) x| / |lambda M x| of the measured modes, expanded, by their energies; NaN where none was. lowest_hz: of the lowest
-    eigenvalue, negative where that is (an imaginary frequency). negative: eigenvalues below zero. rigid, rigid_before: those that
-    are zero. filled: elements of K outside of the pattern that the model had, of `stored` within it.
+    misfit: largest |(K - lambda M) x| / |lambda M x| of the measured modes, expanded, by their energies; NaN where none was.
+    lowest_hz: of the lowest eigenvalue, negative where that is (an imaginary frequency). negative: eigenvalues below zero. rigid,
+    rigid_before: those that are zero. filled: elements of K outside of the pattern that the model had, of `stored` within it.
     """
 
     misfit: float
