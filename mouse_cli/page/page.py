@@ -15,7 +15,7 @@ def page(document: Part) -> str:
     The page's Content-Security-Policy allows this style and this script, by their SHA-256, and nothing else: no request, no
     image, no frame, no form. Raises DeckError (MD922) where the document is not what its schema says.
     """
-    style, script = (files(__package__).joinpath(name).read_text("utf-8") for name in ("page.css", "page.js"))
+    style, script = (_joined(end) for end in ("css", "js"))
     title = document.text("title") or document.text("source") or document.file
     head = tag(
         "head",
@@ -36,6 +36,11 @@ def page(document: Part) -> str:
         tag("script", Markup(script)),
     )
     return join([Markup("<!DOCTYPE html>\n"), tag("html", head, body, lang="en"), "\n"])
+
+
+def _joined(end: str) -> str:
+    """The style or the script of the page and of its drawings."""
+    return "".join(files(__package__).joinpath(f"{name}.{end}").read_text("utf-8") for name in ("page", "stage"))
 
 
 def _origin(document: Part) -> str:

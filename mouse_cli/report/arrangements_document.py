@@ -7,6 +7,7 @@ from mouse_cli.model.arrangements import ArrangementsDiagnosis, Turn
 from mouse_cli.model.diagnosis import ONE_OF
 from mouse_cli.model.units import system
 from mouse_cli.report.diagnosis_document import candidate, score, site
+from mouse_cli.report.geometry_document import geometry
 from mouse_cli.report.json_values import plain
 
 SCHEMA = "mouse.arrangements/1"
@@ -42,6 +43,7 @@ def document(found: ArrangementsDiagnosis) -> dict[str, Any]:
                 "revised": None if held.revised is None else score(held.revised),
             },
             "refuted": found.refuted or None,
+            "geometry": geometry((found.extended or found.problems)[0]),
             "units": system(found.problem.units) or None,
             "remarks": list(found.remarks),
             "warnings": [f"{d.code}: {d.message}" for each in found.problems for d in each.warnings],

@@ -59,6 +59,7 @@ def document(found: Diagnosis) -> dict[str, Any]:
             "misstated": found.misstated,
             "asked": _asked(found),
             "units": system(problem.units) or None,
+            **of_result.drawn(found.extended_result or result),
             "baseline": _update(result),
             "extended": None if found.extended_result is None else _update(found.extended_result),
             "remarks": list(found.remarks),
@@ -211,4 +212,5 @@ def _update(result: Result) -> dict[str, Any]:
         "exit_code": result.exit_code,
         "parameters": of_result.parameters(result),
         "modes": of_result.modes(result),
+        "shapes": of_result.shapes(result),
     }

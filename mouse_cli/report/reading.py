@@ -63,7 +63,7 @@ class Part:
         """Lists of numbers, such as coordinates."""
         return [Part({"": value}, self.file, f"{self._at(key)}[]").numbers("") for value in self._list(key)]
 
-    def rows(self, key: str, width: int | None = None) -> list[list[float]]:
+    def vectors(self, key: str, width: int | None = None) -> list[list[float]]:
         """Lists of numbers, `width` in each, none of them unknown."""
         found = self._list(key)
         for row in found:

@@ -7,6 +7,7 @@ from mouse_cli.model.record_diagnosis import RecordDiagnosis, RecordScore
 from mouse_cli.model.units import system
 from mouse_cli.report import diagnosis_document as of_diagnosis
 from mouse_cli.report import result_document as of_result
+from mouse_cli.report.geometry_document import geometry
 from mouse_cli.report.json_values import plain
 
 
@@ -36,6 +37,7 @@ def document(found: RecordDiagnosis) -> dict[str, Any]:
                 "sd": found.sd,
             },
             "next_measurement": [],
+            "geometry": geometry(problem),
             "units": system(problem.units) or None,
             "remarks": list(found.remarks),
             "warnings": [f"{d.code}: {d.message}" for d in problem.warnings],

@@ -9,6 +9,7 @@ from mouse_cli.model.units import system
 from mouse_cli.report import diagnosis_document as of_diagnosis
 from mouse_cli.report import record_document as of_records
 from mouse_cli.report import result_document as of_result
+from mouse_cli.report.geometry_document import geometry
 from mouse_cli.report.json_values import plain
 
 
@@ -40,6 +41,7 @@ def document(found: RecordUpdate) -> dict[str, Any]:
             "noise_scale": found.noise_scale,
             "noise": None if found.noise is None else vars(found.noise),
             "held_out": {"records": [of_records.score(one) for one in found.scores]},
+            "geometry": geometry(problem),
             "units": system(problem.units) or None,
             "remarks": list(found.remarks),
             "warnings": [f"{d.code}: {d.message}" for d in problem.warnings],

@@ -12,6 +12,7 @@ from mouse_cli.model.arrays import dense, is_sparse
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import ChiSquareTest, Result
 from mouse_cli.report.frf_document import conditioned, frf, held_frf
+from mouse_cli.report.geometry_document import geometry, moved, shapes_by_dof
 from mouse_cli.report.json_values import dof_name, plain
 from mouse_cli.report.measured import NOT_MEASURED, eigenvalue_index, positions, shape_index
 
@@ -44,13 +45,11 @@ def document(result: Result) -> dict[str, Any]:
             "rigid_modes": result.rigid_modes,
             "eigenvalues": result.revised.eigenvalues,
             "modes": modes(result),
-            "shapes": _shapes(result),
+            "shapes": shapes(result),
+            **drawn(result),
             "exceedances": [name for name, out in zip(result.labels, result.exceeding, strict=True) if out],
             "allowed": result.allowed,
-            "innovation": tested(result.innovation),
-            "residual": tested(result.residual),
-            "prior_shift": tested(result.prior_shift),
-            "model_form": result.model_form,
+            **_judged(result),
             "sensitivities": {"method": _method(result), "error": result.partials_error},
             **_partials(result),
             **({"frf": frf(result.frf)} if result.frf else {}),
@@ -142,7 +141,19 @@ def modes(result: Result) -> list[dict[str, Any]]:
     return found
 
 
-def _shapes(result: Result) -> list[dict[str, Any]]:
+def _judged(result: Result) -> dict[str, Any]:
+    """The tests of the model's form."""
+    tests = {key: tested(getattr(result, key)) for key in ("innovation", "residual", "prior_shift")}
+    return {**tests, "model_form": result.model_form}
+
+
+def drawn(result: Result) -> dict[str, Any]:
+    """What drawings of the revised model need."""
+    modes = moved(result)
+    return {"geometry": geometry(result.problem, modes), "shapes_by_dof": shapes_by_dof(result.problem, modes)}
+
+
+def shapes(result: Result) -> list[dict[str, Any]]:
     """One entry a measured component, at the scale of the theory. test_sd: of the test; sd: of the revised prediction."""
     test, places = result.problem.test, positions(result)
     index, have = shape_index(result), result.status.answered

@@ -126,6 +126,12 @@ def test_json_of_run():
     assert emitted == _documented("mouse.result/1")
 
 
+def test_json_of_geometry():
+    """A plane frame with sensors of modes has every key; those of other documents are among them."""
+    told = json.loads(_told("run", TOP / "decks" / "cantilever.yaml", "--json"))
+    assert set(_paths(told["geometry"])) == _documented("geometry")
+
+
 def test_json_of_modes():
     emitted = set(_paths(json.loads(_told("modes", TOP / "decks" / "table_5_1.yaml", "--json"))))
     assert emitted == _documented("mouse.modes/1")
@@ -188,7 +194,8 @@ def test_json_of_arrangements(tmp_path):
     like = {"turns[].candidates[]": "candidates[]", "rest[]": "candidates[]", "verdict.causes[].site": "verdict.site"}
     like |= dict.fromkeys(("turns[].held_out", "held_out.baseline", "held_out.revised"), "held_out.baseline")
     emitted, known = set(), _documented("mouse.diagnosis/1")
-    for path in _paths(told):
+    assert set(_paths(told.pop("geometry"))) <= _documented("geometry")
+    for path in _paths(told | {"geometry": None}):
         root = next((root for root in like if path.startswith(f"{root}.")), None)
         if root is None:
             emitted.add(path)

@@ -47,4 +47,4 @@ def _shaded(value: float) -> Cell:
     return Cell(value, f"{value:.3f}", f"shade{sum(value >= edge for edge in _SHADES)}")
 
 
-SECTION = PageSection("shapes", 60, "Mode shapes", shapes)
+SECTION = PageSection("shapes", 60, "Likeness of mode shapes", shapes)
