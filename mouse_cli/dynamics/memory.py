@@ -15,8 +15,8 @@ _FRONTS, _LEAVES = (
 
 
 def available() -> int:
-    """Bytes of this machine, or of the control group that the process is confined to."""
-    bounds = [os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")]
+    """Bytes of this machine, or of the control group or the `ulimit -v` that the process is confined to."""
+    bounds = [os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"), *_ulimit()]
     for path in _LIMITS:
         try:
             with open(path) as file:
@@ -24,6 +24,15 @@ def available() -> int:
         except (OSError, ValueError):  # no such group, or `max`
             continue
     return min(bounds)
+
+
+def _ulimit() -> list[int]:
+    try:
+        import resource
+    except ImportError:  # pragma: no cover - Windows
+        return []
+    soft, _ = resource.getrlimit(resource.RLIMIT_AS)
+    return [] if soft == resource.RLIM_INFINITY else [soft]
 
 
 def needed(n: int, entries: int, factor: int, vectors: int) -> int:

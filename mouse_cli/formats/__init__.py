@@ -20,6 +20,11 @@ def read_deck(path: str | os.PathLike[str], *, legacy: bool = False, **options: 
     """The problem that a deck in either format states; `options` are those of `read_draft`.
 
     Raises DeckError with everything that is wrong with the deck.
+
+    >>> import mouse_cli
+    >>> problem = mouse_cli.read_deck("decks/sound_chain.yaml")
+    >>> [parameter.name for parameter in problem.parameters], float(problem.test.frequency_hz[0])
+    (['k1', 'k2', 'k3', 'k4'], 1.77159)
     """
     from mouse_cli.formats.assemble import assemble
 
@@ -49,6 +54,12 @@ def write_deck(problem: Problem, path: str | os.PathLike[str]) -> list[str]:
     """Write the problem as YAML, large matrices and tables beside it; returns the names of all files, the deck last.
 
     Raises WrittenError.
+
+    >>> import mouse_cli, tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     files = mouse_cli.write_deck(mouse_cli.read_deck("decks/table_5_2.dat"), f"{folder}/chain.yaml")
+    ...     print(len(files), len(mouse_cli.read_deck(files[-1]).parameters))
+    1 2
     """
     from mouse_cli._atomic import write_text_atomically
     from mouse_cli.formats import yaml_deck

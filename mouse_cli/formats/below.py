@@ -24,8 +24,8 @@ def named(folder: str, name: str, outside: bool = False, whose: str = "the folde
     """Real path of the file that a deck in `folder` calls `name`; of a file that is not there too.
 
     A deck from elsewhere must not read beyond its own folder: no absolute path, `..` or link leads out, unless `outside` is
-    allowed. A pipe or a device is never read. whose: `folder` in words. Raises Refused (MD231, MD250). What changes the folder while it is read is not
-    guarded against.
+    allowed. A pipe or a device is never read. whose: `folder` in words. Raises Refused (MD231, MD250). What changes the folder
+    while it is read is not guarded against.
     """
     if "\0" in name or not name:
         raise Refused("MD231", "which is no name of a file", "give the name of a file")

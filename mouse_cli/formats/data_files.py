@@ -1,13 +1,18 @@
 """Files beside a deck, of whatever format: found, told from what they are not, and matched to a reader."""
 
 import os
+import warnings
 from typing import Any, NoReturn
+
+import numpy as np
 
 from mouse_cli import _registry
 from mouse_cli._errors import ERROR, DeckError, Diagnostic
 from mouse_cli._span import Span
+from mouse_cli.dynamics import memory
 
-MAX_BYTES = 2_000_000_000  # of a file, and of what is packed in it
+_SHARE = 2  # one file may take one in so many parts of the memory
+_LINES = 12  # times the size of a text file that its lines and numbers take at most while they are read
 _WIDEST = 200  # characters of a line that a diagnostic shows
 _DISGUISES = (  # how files begin that are not what their name says
     (b"<!doctype html", "an HTML page, such as a server sends in place of a file", "fetch the file itself"),
@@ -25,6 +30,27 @@ _DISGUISES = (  # how files begin that are not what their name says
 def reject(code: str, path: str, message: str, help: str = "", span: Span | None = None) -> NoReturn:
     """Raise the DeckError of one finding."""
     raise DeckError(Diagnostic(code, ERROR, message, span or Span(path, 1), help=help))
+
+
+def room(
+    path: str, needed: int, what: str = "the file", help: str = "divide the file, or take a machine with more"
+) -> None:
+    """Refuse (MD258) what would take more than half of the memory that there is, before any of it is taken.
+
+    A file that is not packed cannot promise more than its own size; one that is packed may unpack to anything.
+    """
+    most = memory.available() // _SHARE
+    if needed > most:
+        message = f"{what} takes {memory.shown(needed)} of memory; at most {memory.shown(most)}, half of what there is, are given"
+        reject("MD258", path, message, help)
+
+
+def kept(path: str, promised: int, what: str) -> None:
+    """Refuse (MD252) a head that promises more bytes than the whole file has."""
+    held = os.path.getsize(path)
+    if promised > held:
+        message = f"{what} takes {promised} bytes, and the whole file has {held}"
+        reject("MD252", path, message, "the file is cut short, or its head is wrong: write it anew")
 
 
 def line_span(path: str, number: int, line: str, part: str = "") -> Span:
@@ -52,34 +78,49 @@ def reader(package: str, path: str, what: str) -> Any:
     return (told or [each for each in own if each.claims is None] or own)[0]
 
 
-def opened(form: Any, path: str) -> Any:
-    """What `form.read(path)` gives. Raises DeckError: MD250 where the system refuses the file, MD252 where it is damaged."""
+def opened(form: Any, path: str, *arguments: object) -> Any:
+    """What `form.read(path, *arguments)` gives.
+
+    Raises DeckError: MD250 where the system refuses the file, MD252 where it is damaged, MD258 where memory does not suffice.
+    """
     try:
-        return form.read(path)
+        with (
+            np.errstate(all="ignore"),
+            warnings.catch_warnings(),
+        ):  # what numbers are no numbers is told by those who use them
+            warnings.simplefilter("ignore")
+            return form.read(path, *arguments)
     except DeckError:
         raise
+    except MemoryError:
+        reject(
+            "MD258", path, "the file takes more memory than there is", "divide the file, or take a machine with more"
+        )
     except OSError as error:
+        if error.errno is None:  # of h5py, on damage
+            _damaged(form, path, error)
         reject("MD250", path, f"the file cannot be read: {error}", "check the file and its permissions")
     except Exception as error:  # readers of damaged files, NumPy's and SciPy's too, raise whatever their parts do
-        what = str(error).split("\n")[0][:200] or type(error).__name__
-        reject("MD252", path, f"damaged, or not of the format '{form.key}': {what}", "write the file anew")
+        _damaged(form, path, error)
+
+
+def _damaged(form: Any, path: str, error: Exception) -> NoReturn:
+    what = str(error).split("\n")[0][:200] or type(error).__name__
+    reject("MD252", path, f"damaged, or not of the format '{form.key}': {what}", "write the file anew")
 
 
 def rows_of(package: str, path: str, what: str, nothing: str, help: str) -> Any:
     """What the format of `package` reads of the file `path`. Raises DeckError (MD250 to MD262), also where that is nothing."""
-    form = reader(package, path, what)
-    try:
-        rows = form.read(path)
-    except OSError as error:
-        reject("MD250", path, f"the file cannot be read: {error}", "check the file and its permissions")
+    rows = opened(reader(package, path, what), path)
     if not rows:
         reject("MD252", path, nothing, help)
     return rows
 
 
-def text_lines(path: str) -> list[str]:
+def text_lines(path: str, encoding: str = "latin-1", errors: str = "strict") -> list[str]:
     """Lines of a text file, without their ends; bytes beyond ASCII stand for themselves, for the reader to refuse."""
-    with open(path, encoding="latin-1", newline=None) as stream:
+    room(path, _LINES * os.path.getsize(path))
+    with open(path, encoding=encoding, errors=errors, newline=None) as stream:
         return stream.read().split("\n")
 
 
@@ -88,9 +129,7 @@ def _check(path: str) -> None:
         reject("MD250", path, "there is no such file", "check the name; paths are relative to the deck")
     if not os.path.isfile(path):
         reject("MD250", path, "this is not a file", "give the name of a file")
-    size = os.path.getsize(path)
-    if size > MAX_BYTES:
-        reject("MD258", path, f"the file has {size} bytes; at most {MAX_BYTES} are read", "condense the model")
+    room(path, os.path.getsize(path))
 
 
 def _head(path: str) -> bytes:

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli._errors import ERROR, WARNING, DeckError, Diagnostic
+from mouse_cli.formats import bounded
 from mouse_cli.model.arrays import Matrix, is_sparse
 from mouse_cli.model.parameter import Gaussian
 from mouse_cli.model.problem import Problem
@@ -32,22 +33,49 @@ def after(problem: Problem, path: str, loosened: dict[str, float]) -> Problem:
     mean, cov = problem.prior.mean.copy(), problem.prior.dense().copy()
     mean[ours] = [found["parameters"][i]["posterior"] for i in theirs]
     cov[ours, :] = cov[:, ours] = 0.0
-    cov[np.ix_(ours, ours)] = np.array(found["covariance"], float)[np.ix_(theirs, theirs)]
+    cov[np.ix_(ours, ours)] = found["covariance"][np.ix_(theirs, theirs)]
     for i, parameter in enumerate(problem.parameters):
         cov[i, i] += loosened.get(parameter.name, 0.0) ** 2
-    return _moved(problem, mean, cov, _doubts(found, path))
+    return moved(problem, mean, cov, _doubts(found, path))
 
 
 def _read(path: str) -> dict:
+    """The document, its covariance as an array (p, p); what is used of it has the types that its schema says."""
     try:
-        with open(path, encoding="utf-8") as file:
-            found = json.load(file)
-    except (OSError, ValueError) as error:
-        raise _rejected("MD440", f"{path} is no result of a run: {error}") from None
+        with open(path, "rb") as file:
+            found = json.loads(bounded(file, path).decode("utf-8-sig"), parse_constant=_no_number)
+    except (OSError, ValueError, RecursionError) as error:
+        raise _rejected("MD440", f"{path} is no result of a run: {str(error)[:200]}") from None
     schema = found.get("schema") if isinstance(found, dict) else None
     if schema != _SCHEMA:
-        raise _rejected("MD440", f"{path} is no {_SCHEMA} document, but {schema or 'another one'}")
-    return found
+        raise _rejected("MD440", f"{path} is no {_SCHEMA} document, but {str(schema or 'another one')[:60]}")
+    try:
+        return found | _values(found)
+    except (KeyError, TypeError, ValueError, OverflowError) as error:
+        raise _rejected("MD440", f"{path} is damaged: {type(error).__name__} {str(error)[:100]}") from None
+
+
+def _values(found: dict) -> dict:
+    """Parameters, modes and covariance of a result. Raises KeyError, TypeError or ValueError where they are not as documented."""
+    keys = ("name", "posterior", "at_limit")
+    parameters = [{key: each[key] for key in keys} for each in found["parameters"]]
+    if not all(isinstance(each["name"], str) for each in parameters):
+        raise ValueError("a parameter without name")
+    modes = [
+        {"test_hz": None if each["test_hz"] is None else float(each["test_hz"])} for each in found.get("modes") or ()
+    ]
+    if found.get("covariance") is None:
+        return {"parameters": parameters, "modes": modes}
+    if not all(np.isfinite(float(each["posterior"])) for each in parameters):
+        raise ValueError("a parameter without value")
+    cov = np.array(found["covariance"], float)
+    if cov.shape != 2 * (len(parameters),) or not np.isfinite(cov).all() or (np.diag(cov) < 0).any():
+        raise ValueError("no covariance of its parameters")
+    return {"parameters": parameters, "modes": modes, "covariance": cov}
+
+
+def _no_number(name: str) -> None:
+    raise ValueError(f"{name} is no number in JSON")
 
 
 def _require(problem: Problem, path: str, ours: list[int], loosened: dict[str, float]) -> None:
@@ -81,11 +109,11 @@ def _new_data(problem: Problem, found: dict, path: str) -> None:
 def _doubts(found: dict, path: str) -> tuple[Diagnostic, ...]:
     if not found.get("exit_code"):
         return ()
-    message = f"the prior is that of {path}, of which the run says: {found['message']}"
+    message = f"the prior is that of {path}, of which the run says: {str(found.get('message'))[:300]}"
     return (Diagnostic("MD443", WARNING, message, help="state in --loosen how far its values may be wrong"),)
 
 
-def _moved(problem: Problem, mean: np.ndarray, cov: np.ndarray, warnings: tuple[Diagnostic, ...]) -> Problem:
+def moved(problem: Problem, mean: np.ndarray, cov: np.ndarray, warnings: tuple[Diagnostic, ...] = ()) -> Problem:
     """`problem` about another prior mean: K and M of listed elements are those at the nominal values, which move with it."""
     changed = {}
     if len(problem.elements):

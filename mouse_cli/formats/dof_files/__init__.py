@@ -39,7 +39,7 @@ def read_dofs(path: str) -> DofMap:
     for number, line, node, direction in rows:
         span = data_files.line_span(path, number, line)
         if (
-            not (node.isascii() and node.isdigit() and 0 < int(node[:12]) <= _LARGEST)
+            not (node.isascii() and node.isdigit() and len(node) < 13 and 0 < int(node) <= _LARGEST)
             or direction.upper() not in _NAMES
         ):
             message = f"node '{node[:16]}', direction '{direction[:16]}': expected a node number and one of TX ... RZ or 1 to 6"

@@ -10,7 +10,9 @@ def _read(path: str) -> list[tuple[int, str, str, str]]:
         words = line.split()
         if not words or (not found and not words[0].isdigit()):
             continue
-        equation = int(words[0]) if len(words) == 3 and words[0].isascii() and words[0].isdigit() else 0
+        equation = (
+            int(words[0]) if len(words) == 3 and words[0].isascii() and words[0].isdigit() and len(words[0]) < 13 else 0
+        )
         if equation < 1 or equation in found:
             message = "expected an equation number that stands once, a node and a direction"
             reject("MD252", path, message, "write the file anew", line_span(path, number, line))

@@ -7,11 +7,21 @@ import numpy as np
 
 from mouse_cli._span import Span
 from mouse_cli.formats import data_files
-from mouse_cli.formats.data_files import MAX_BYTES, reject
+from mouse_cli.formats.data_files import kept, reject, room
 from mouse_cli.model.arrays import Matrix, dense, is_sparse, upper_triangle
 from mouse_cli.model.dof_map import DofMap
 
-__all__ = ["MAX_BYTES", "MAX_ORDER", "Contents", "MatrixFormat", "read_contents", "read_matrix", "read_table", "reject"]
+__all__ = [
+    "MAX_ORDER",
+    "Contents",
+    "MatrixFormat",
+    "kept",
+    "read_contents",
+    "read_matrix",
+    "read_table",
+    "reject",
+    "room",
+]
 MAX_ORDER = 1_000_000  # fits a workstation only when sparse; beyond it an order is a slip
 LARGEST_DENSE = 500  # smaller matrices are kept dense: sparse bookkeeping would cost more than the zeros
 # Mirror images may differ by so much of the geometric mean of their diagonals: printed digits, no slip.
@@ -123,10 +133,7 @@ def _read(path: str, variable: str | None) -> Contents:
     if variable is not None and not found.named:
         message = f"a file of the format '{found.key}' holds one matrix; variable '{variable[:40]}' cannot be looked up"
         reject("MD260", path, message, "delete variable")
-    try:
-        contents = found.read(path, variable)
-    except (OSError, MemoryError) as error:
-        reject("MD250", path, f"the file cannot be read: {error}", "check the file and its permissions")
+    contents = data_files.opened(found, path, variable)
     return contents if isinstance(contents, Contents) else Contents(contents)
 
 
@@ -141,6 +148,8 @@ def _csr(matrix: Matrix) -> Matrix:
 
 def _finite(path: str, matrix: Matrix) -> Matrix:
     """The matrix as float64, none of its values NaN or infinite."""
+    with np.errstate(over="ignore"):  # of numbers wider than float64, which are infinite then
+        matrix = matrix.astype(float)
     if is_sparse(matrix):
         stored = matrix.tocoo()
         bad = np.flatnonzero(~np.isfinite(stored.data))
@@ -151,7 +160,7 @@ def _finite(path: str, matrix: Matrix) -> Matrix:
     for i, j in at:
         message = f"{len(bad)} values are not finite, first the one at ({i + 1},{j + 1})"
         reject("MD256", path, message, "give finite numbers")
-    return matrix.astype(float)
+    return matrix
 
 
 def _symmetric(path: str, matrix: Matrix) -> Matrix:

@@ -97,12 +97,12 @@ def _numbers(path: str, lines: list[str], start: int, number: int, count: int, l
     words: list[float] = []
     for at, line in enumerate(rows, start):
         take = min(perline, count - len(words))
-        fields = (
-            line.split()
-        )  # as many as there should be: SciPy's writer keeps blanks between them, but not to the width
+        fields = line.split()  # of SciPy's writer, which keeps blanks between numbers, but not to the width
         if len(fields) != take:
-            fields = [line[i : i + width] for i in range(0, take * width, width)]
+            fields = [line[i : i + width] for i in range(0, min(take * width, len(line)), width)]
         try:
+            if len(fields) != take:
+                raise ValueError
             words += [float(field.upper().replace("D", "E")) for field in fields]
         except ValueError:
             message = f"{take} numbers of {width} characters are expected"

@@ -9,12 +9,15 @@ from typing import Any
 import numpy as np
 
 from mouse_cli._errors import DeckError
-from mouse_cli.formats.matrix_files import MAX_BYTES, MAX_ORDER, MatrixFormat, choose, real, reject, whole
+from mouse_cli.formats.matrix_files import MAX_ORDER, MatrixFormat, choose, real, reject, room, whole
 from mouse_cli.model.arrays import Matrix
 
 _SIGNATURE = b"\x89HDF\r\n\x1a\n"
 _INSTALL = "pip install 'mouse-cli[hdf5]'"
 _SHAPES = ("shape", "h5sparse_shape")  # names of attributes or data sets
+_KEYS = ("data", "ir", "jc", "indptr", "indices", "row", "col", "shape")
+_OCTAVE = {"jc": "cidx", "ir": "ridx", "nr": "nr"}
+_FILTERS = (1, 2, 3, 4, 5, 6, 32000)  # deflate, shuffle, checksum, szip, n-bit, scale-offset; LZF, which h5py brings
 _LAYOUTS = ("encoding-type", "format", "h5sparse_format")
 
 
@@ -50,46 +53,63 @@ def _matrix(path: str, h5py: Any, file: Any, variable: str | None) -> Matrix:
         if part is None:
             names = [name for name in names if not name.startswith("#")]  # MATLAB's own
         name = choose(path, part, names)
-        if isinstance(item.get(name, getlink=True), h5py.ExternalLink):
-            reject("MD252", path, f"'{name}' lies in another file", "copy it into this one")
-        item = item[name]
+        item = own(path, h5py, item, name)
     if isinstance(item, h5py.Group) and {"type", "value"} == set(item):
-        item = item["value"]  # as Octave wraps its variables
+        item = own(path, h5py, item, "value")  # as Octave wraps its variables
     if isinstance(item, h5py.Dataset):
         turned = "MATLAB_class" in item.attrs  # MATLAB writes column by column
-        found = _array(path, item)
+        found = array(path, item)
         return found.T if turned else found
-    return _sparse(path, item)
+    return _sparse(path, h5py, item)
 
 
-def _array(path: str, dataset: Any) -> np.ndarray:
-    """A data set in memory, when it lies in this file and fits."""
+def own(path: str, h5py: Any, group: Any, name: str, links: int = 16) -> Any:
+    """The member `name` of a group, by way of links too as long as they stay in this file: MD252 else."""
+    link = group.get(name, getlink=True)
+    if isinstance(link, h5py.ExternalLink) or not links:
+        reject("MD252", path, f"'{name}' lies in another file", "copy it into this one")
+    if not isinstance(link, h5py.SoftLink):
+        return group[name]
+    item = group.file if link.path.startswith("/") else group
+    for part in link.path.split("/"):
+        item = own(path, h5py, item, part, links - 1) if part not in ("", ".") else item
+    return item
+
+
+def array(path: str, dataset: Any) -> np.ndarray:
+    """A data set in memory, when it lies in this file, fits, and needs no code from elsewhere to be unpacked."""
     if dataset.external or dataset.is_virtual:
         reject("MD252", path, f"'{dataset.name}' lies in another file", "copy it into this one")
-    if 8 * dataset.size > MAX_BYTES:
-        reject("MD258", path, f"'{dataset.name}' has shape {dataset.shape}", "save it as a sparse matrix")
-    return real(path, dataset, dataset.name)[()]
+    kind = real(path, dataset, dataset.name).dtype if dataset.dtype.kind != "V" else dataset.dtype
+    chunk = np.prod(dataset.chunks, dtype=float) if dataset.chunks else 0
+    room(path, int(kind.itemsize * max(dataset.size, chunk)), f"'{dataset.name}' of shape {dataset.shape}")
+    plan = dataset.id.get_create_plist()
+    strange = [code for code in (plan.get_filter(i)[0] for i in range(plan.get_nfilters())) if code not in _FILTERS]
+    if strange:
+        message = (
+            f"'{dataset.name}' is packed by filter {strange[0]}, which only a plugin undoes; plugins are not loaded"
+        )
+        reject("MD252", path, message, "write it with gzip")
+    return dataset[()]
 
 
-def _sparse(path: str, group: Any) -> Matrix:
+def _sparse(path: str, h5py: Any, group: Any) -> Matrix:
     from scipy.sparse import coo_array, csc_array, csr_array
 
-    array = {name: _array(path, group[name]) for name in _keys(group)}
-    if {"cidx", "ridx", "nr"} <= set(group):
-        array |= {
-            "jc": np.ravel(_array(path, group["cidx"])),
-            "ir": np.ravel(_array(path, group["ridx"])),
-            "data": np.ravel(array["data"]),
-        }
-    shape = _shape(path, group, array)
-    if "jc" in array:
-        found = csc_array((array["data"], array["ir"], array["jc"]), shape=shape)
-    elif "indptr" in array:
+    names = set(group)
+    parts = {name: array(path, own(path, h5py, group, name)) for name in _KEYS if name in names}
+    if {"cidx", "ridx", "nr"} <= names:
+        other = {new: np.ravel(array(path, own(path, h5py, group, old))) for new, old in _OCTAVE.items()}
+        parts |= other | {"data": np.ravel(parts["data"])}
+    shape = _shape(path, group, parts)
+    if "jc" in parts:
+        found = csc_array((parts["data"], parts["ir"], parts["jc"]), shape=shape)
+    elif "indptr" in parts:
         layout = " ".join(_text(group.attrs.get(name, "")) for name in _LAYOUTS)
         kind = csc_array if "csc" in layout else csr_array
-        found = kind((array["data"], array["indices"], array["indptr"]), shape=shape)
-    elif {"row", "col", "data"} <= array.keys():
-        return coo_array((array["data"], (array["row"], array["col"])), shape=shape)
+        found = kind((parts["data"], parts["indices"], parts["indptr"]), shape=shape)
+    elif {"row", "col", "data"} <= parts.keys():
+        return coo_array((parts["data"], (parts["row"], parts["col"])), shape=shape)
     else:
         held = ", ".join(list(group)[:12]) or "nothing"
         message = (
@@ -100,19 +120,14 @@ def _sparse(path: str, group: Any) -> Matrix:
     return found
 
 
-def _keys(group: Any) -> list[str]:
-    known = ("data", "ir", "jc", "indptr", "indices", "row", "col", "shape")
-    return [name for name in known if name in group and hasattr(group[name], "shape")]
-
-
-def _shape(path: str, group: Any, array: dict[str, np.ndarray]) -> tuple[int, int]:
-    if "jc" in array:
-        columns = len(array["jc"]) - 1
-        rows = int(group["nr"][()]) if "nr" in group else int(group.attrs.get("MATLAB_sparse", columns))
+def _shape(path: str, group: Any, parts: dict[str, np.ndarray]) -> tuple[int, int]:
+    if "jc" in parts:
+        columns = len(parts["jc"]) - 1
+        rows = int(parts["nr"].item() if "nr" in parts else group.attrs.get("MATLAB_sparse", columns))
     else:
-        given = next((np.ravel(group.attrs[name]) for name in _SHAPES if name in group.attrs), array.get("shape"))
+        given = next((np.ravel(group.attrs[name]) for name in _SHAPES if name in group.attrs), parts.get("shape"))
         if given is None:
-            given = [len(array.get("indptr", [0])) - 1] * 2
+            given = [len(parts.get("indptr", [0])) - 1] * 2
         rows, columns = (int(x) for x in np.ravel(given))
     if not 0 <= max(rows, columns) <= MAX_ORDER:
         reject("MD258", path, f"'{group.name}' is {rows} x {columns}; at most {MAX_ORDER} is read", "condense it")

@@ -6,7 +6,7 @@ from io import BytesIO
 import numpy as np
 
 from mouse_cli._span import Span
-from mouse_cli.formats.matrix_files import MAX_BYTES, MAX_ORDER, MatrixFormat, reject
+from mouse_cli.formats.matrix_files import MAX_ORDER, MatrixFormat, reject, room
 from mouse_cli.model.arrays import Matrix, upper_triangle
 
 _HELP = "begin with '%%MatrixMarket matrix coordinate real symmetric' and a line of rows, columns, entries"
@@ -62,6 +62,7 @@ def _check_header(path: str) -> None:
             span,
         )
     least = _least_bytes(words, sizes)
+    room(path, 16 * min(least // _SHORTEST_VALUE, rest))
     if least > rest + 1:
         message = f"the size line '{line[:60]}' promises at least {least} bytes, but {rest} follow"
         reject("MD252", path, message, "the file is truncated, or its size line wrong: write it anew", span)
@@ -94,7 +95,7 @@ def _least_bytes(words: list[str], sizes: list[int]) -> int:
         return sizes[2] * _SHORTEST_ENTRY
     rows, columns = sizes
     count = rows * (rows + 1) // 2 if words[4] == "symmetric" else rows * columns
-    return max(count * _SHORTEST_VALUE, 8 * count if 8 * count > MAX_BYTES else 0)
+    return count * _SHORTEST_VALUE
 
 
 def text(matrix: Matrix, comment: str = "") -> str:

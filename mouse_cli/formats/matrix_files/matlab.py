@@ -4,7 +4,7 @@ from math import prod
 
 import numpy as np
 
-from mouse_cli.formats.matrix_files import MAX_BYTES, MatrixFormat, choose, hdf5, matlab_elements, real, reject, whole
+from mouse_cli.formats.matrix_files import MatrixFormat, choose, hdf5, matlab_elements, real, reject, room, whole
 from mouse_cli.model.arrays import Matrix, is_sparse
 
 _NUMBERS = ("double", "single", "sparse", "logical", *(f"{u}int{bits}" for u in ("", "u") for bits in (8, 16, 32, 64)))
@@ -28,11 +28,9 @@ def _read(path: str, variable: str | None) -> Matrix:
 
 def _version_5(path: str, variable: str | None) -> Matrix:
     from scipy.io import loadmat, whosmat
-    from scipy.io.matlab import matfile_version
 
-    if matfile_version(path)[0] == 1:
-        matlab_elements.check(path)
-    found = {name: (shape, kind) for name, shape, kind in whosmat(path)}
+    source = matlab_elements.checked(path)
+    found = {name: (shape, kind) for name, shape, kind in whosmat(source)}
     head, _, rest = (variable or "").partition(".")
     if rest and variable not in found:
         name = choose(path, head, list(found))
@@ -42,9 +40,9 @@ def _version_5(path: str, variable: str | None) -> Matrix:
             choose(path, variable, [n for n in found if found[n][1] in _NUMBERS] if variable is None else list(found)),
         )
     shape, kind = found[name]
-    if kind != "sparse" and 8 * prod(shape) > MAX_BYTES:
-        reject("MD258", path, f"'{name}' has shape {shape}; at most {MAX_BYTES} bytes are read", "save it as sparse")
-    value = loadmat(path, variable_names=[name], spmatrix=False)[name]
+    if kind != "sparse":
+        room(path, 8 * prod(shape), f"'{name}' of shape {shape}", "save it as sparse")
+    value = loadmat(source, variable_names=[name], spmatrix=False)[name]
     for field in rest.split(".") if rest else []:
         value = value[choose(path, field, list(value.dtype.names or []))].item(0)
     if not (isinstance(value, np.ndarray) or is_sparse(value)):

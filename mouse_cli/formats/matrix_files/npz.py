@@ -2,10 +2,12 @@
 
 import zipfile
 import zlib
+from math import prod
+from typing import BinaryIO
 
 import numpy as np
 
-from mouse_cli.formats.matrix_files import MAX_BYTES, MatrixFormat, choose, real, reject, whole
+from mouse_cli.formats.matrix_files import MatrixFormat, choose, kept, real, reject, room, whole
 from mouse_cli.model.arrays import Matrix
 
 _HELP = "write it with scipy.sparse.save_npz, or with numpy.savez"
@@ -24,7 +26,7 @@ _DAMAGE = (
 
 def _read(path: str, variable: str | None) -> Matrix:
     try:
-        _check_size(path)
+        check(path)
         with np.load(path, allow_pickle=False) as archive:
             names = archive.files
             if "format" not in names or variable is not None:
@@ -35,17 +37,37 @@ def _read(path: str, variable: str | None) -> Matrix:
         reject("MD252", path, f"not a NumPy archive: {error}", _HELP)
 
 
-def _check_size(path: str) -> None:
-    """A small archive may unpack to more than memory holds."""
+def check(path: str) -> None:
+    """Refuse an archive that unpacks to more than memory holds (MD258), or whose arrays promise more than is packed (MD252).
+
+    NumPy makes room for the shape that an array states before it reads its values. Raises ValueError for damage.
+    """
     with zipfile.ZipFile(path) as archive:
-        size = sum(item.file_size for item in archive.infolist())
-    if size > MAX_BYTES:
-        reject(
-            "MD258",
-            path,
-            f"the archive unpacks to {size} bytes; at most {MAX_BYTES} are read",
-            "condense the model",
-        )
+        room(path, sum(item.file_size for item in archive.infolist()), "the unpacked archive")
+        for item in archive.infolist():
+            with archive.open(item) as stream:
+                promised = stated(stream)
+            if promised > item.file_size:
+                message = f"'{item.filename[:60]}' states {promised} bytes of values and holds {item.file_size}"
+                reject("MD252", path, message, _HELP)
+
+
+def check_array(path: str) -> None:
+    """The same of an array alone (.npy)."""
+    with open(path, "rb") as stream:
+        kept(path, stated(stream), "the array")
+
+
+def stated(stream: BinaryIO) -> int:
+    """Bytes of values that the head of a NumPy array states; 0 of what is no array. Raises ValueError."""
+    head = np.lib.format
+    if stream.read(len(head.MAGIC_PREFIX)) != head.MAGIC_PREFIX:
+        return 0
+    version = tuple(stream.read(2))
+    if version not in ((1, 0), (2, 0)):
+        raise ValueError(f"version {version} of arrays is not read")
+    shape, _, kind = (head.read_array_header_1_0 if version == (1, 0) else head.read_array_header_2_0)(stream)
+    return prod(shape) * max(1, kind.itemsize)
 
 
 def _sparse(path: str) -> Matrix:

@@ -18,10 +18,11 @@ def _read(path: str, variable: str | None) -> Matrix:
     with open(path, "rb") as stream:
         data = stream.read()
     found: dict[str, tuple[Header, Strings]] = {}
+    given: dict[str, int] = {}
     try:
         is_text = b"\0" not in data[:8]  # a binary file begins with the length of a record, 24 or 48 in four bytes
         for header, strings in text_matrices(data) if is_text else binary_matrices(data):
-            name = _unique(header.name, found)
+            name = _unique(header.name, found, given)
             wanted = variable is None or name.lower() == variable.lower()
             found[name] = header, strings if wanted else []
     except Damaged as error:
@@ -34,10 +35,13 @@ def _read(path: str, variable: str | None) -> Matrix:
     return _matrix(path, header, strings)
 
 
-def _unique(name: str, found: dict) -> str:
-    """The name, or where a file of superelements has it already, KAA:2, KAA:3 ..."""
-    names = [name] + [f"{name}:{i}" for i in range(2, len(found) + 2)]
-    return next(each for each in names if each not in found)
+def _unique(name: str, found: dict, given: dict[str, int]) -> str:
+    """The name, or where a file of superelements has it already, KAA:2, KAA:3 ...; given: how often each was met."""
+    new = name
+    while new in found:
+        given[name] = given.get(name, 1) + 1
+        new = f"{name}:{given[name]}"
+    return new
 
 
 def _matrix(path: str, header: Header, strings: Strings) -> Matrix:

@@ -42,7 +42,7 @@ def read_nodes(path: str) -> tuple[np.ndarray, np.ndarray]:
 def _node(words: list[str]) -> tuple[int | None, list[float]]:
     try:
         place = [float(word.upper().replace("D", "E")) for word in words[1:]]
-        right = words[0].isascii() and words[0].isdigit() and 0 < int(words[0][:12]) <= _LARGEST
+        right = words[0].isascii() and words[0].isdigit() and len(words[0]) < 13 and 0 < int(words[0]) <= _LARGEST
     except (ValueError, IndexError):
         return None, []
     return (int(words[0]) if right and len(place) == 3 and np.isfinite(place).all() else None), place

@@ -7,9 +7,9 @@ import numpy as np
 
 from mouse_cli._errors import DeckError, RecordError
 from mouse_cli.formats import data_files
-from mouse_cli.formats.data_files import MAX_BYTES, reject
+from mouse_cli.formats.data_files import kept, reject, room
 
-__all__ = ["MAX_BYTES", "Column", "Contents", "Function", "RecordingFormat", "read_contents", "reject", "spread"]
+__all__ = ["Column", "Contents", "Function", "RecordingFormat", "kept", "read_contents", "reject", "room", "spread"]
 MOST_COLUMNS = 20_000  # of one file
 RATE_NAMES = ("fs", "sample_rate", "samplerate", "sampling_rate", "samplingrate", "sampling_frequency", "rate")
 STEP_NAMES = ("dt", "ts", "time_step", "sample_interval", "deltat", "delta_t")

@@ -10,7 +10,7 @@ from itertools import islice
 
 import numpy as np
 
-from mouse_cli.formats.data_files import line_span
+from mouse_cli.formats.data_files import line_span, text_lines
 from mouse_cli.formats.recording_files import MOST_COLUMNS, Column, Contents, RecordingFormat, reject
 from mouse_cli.model.channel_units import unit
 
@@ -62,7 +62,8 @@ def _columns(lines: list[str], separator: str | None) -> int:
 
 
 def _cells(line: str, separator: str | None) -> list[str]:
-    return [cell.strip().strip('"').strip() for cell in line.split(separator)]
+    """The cells of a line, the last of which holds the rest of one that has far too many."""
+    return [cell.strip().strip('"').strip() for cell in line.split(separator, MOST_COLUMNS + 1)]
 
 
 def _number(cell: str, comma: bool) -> complex | None:
@@ -97,8 +98,7 @@ def _has_decimal_commas(line: str, separator: str | None) -> bool:
 
 def _slowly(path: str, first: int, separator: str | None, width: int) -> np.ndarray:
     """The table cell by cell: NaN for a cell that is empty or says so, decimal commas, i for j; refuses what is no number."""
-    with open(path, encoding="utf-8-sig", errors="replace", newline=None) as stream:
-        lines = stream.read().split("\n")
+    lines = text_lines(path, "utf-8-sig", "replace")
     comma = _has_decimal_commas(lines[first], separator)
     rows = []
     last = max(i for i, line in enumerate(lines) if line.strip())
@@ -119,8 +119,8 @@ def _slowly(path: str, first: int, separator: str | None, width: int) -> np.ndar
             else:
                 message = f"'{wrong[:40]}' is no number"
                 reject("MD252", path, message, "give numbers", line_span(path, i + 1, line, wrong))
-        rows.append(row)
-    table = np.array(rows, complex)
+        rows.append(np.array(row, complex))
+    table = np.array(rows)
     return table if table.imag.any() else table.real
 
 

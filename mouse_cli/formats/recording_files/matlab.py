@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.formats.matrix_files import hdf5 as hdf5_matrices
 from mouse_cli.formats.matrix_files import matlab_elements
-from mouse_cli.formats.recording_files import MAX_BYTES, Contents, RecordingFormat, hdf5, reject, spread
+from mouse_cli.formats.recording_files import Contents, RecordingFormat, hdf5, room, spread
 
 _DEEPEST = 6  # structs in structs
 
@@ -14,19 +14,11 @@ _DEEPEST = 6  # structs in structs
 def _read(path: str) -> Contents:
     if hdf5_matrices.claims(path):
         return hdf5.read(path)
-    import warnings
-
     from scipy.io import loadmat, whosmat
-    from scipy.io.matlab import MatReadWarning, matfile_version
 
-    if matfile_version(path)[0] == 1:
-        matlab_elements.check(path)
-    size = sum(8 * prod(shape) for _, shape, _ in whosmat(path))
-    if size > MAX_BYTES:
-        reject("MD258", path, f"the file unpacks to {size} bytes; at most {MAX_BYTES} are read", "divide it")
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", MatReadWarning)
-        found = loadmat(path)
+    source = matlab_elements.checked(path)
+    room(path, sum(8 * prod(shape) for _, shape, _ in whosmat(source)), "the unpacked file")
+    found = loadmat(source)
     arrays: dict[str, np.ndarray] = {}
     for name, value in found.items():
         if not name.startswith("__"):

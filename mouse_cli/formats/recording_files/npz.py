@@ -4,20 +4,16 @@ An archive with frequency_hz (f,), H (f, o, i), output_names (o,) and input_name
 spectra` writes such ones, with kind, variance (f, o, i) and coherence (f, o).
 """
 
-import zipfile
-
 import numpy as np
 
-from mouse_cli.formats.recording_files import MAX_BYTES, Contents, Function, RecordingFormat, reject, spread
+from mouse_cli.formats.matrix_files import npz as npz_matrices
+from mouse_cli.formats.recording_files import Contents, Function, RecordingFormat, spread
 
 _OWN = ("frequency_hz", "H", "output_names", "input_names")
 
 
 def _read(path: str) -> Contents:
-    with zipfile.ZipFile(path) as archive:
-        size = sum(item.file_size for item in archive.infolist())
-    if size > MAX_BYTES:
-        reject("MD258", path, f"the archive unpacks to {size} bytes; at most {MAX_BYTES} are read", "divide it")
+    npz_matrices.check(path)
     with np.load(path, allow_pickle=False) as archive:
         arrays = {name: archive[name] for name in archive.files}
     if all(name in arrays for name in _OWN):
@@ -53,6 +49,7 @@ def functions(arrays: dict[str, np.ndarray]) -> tuple[Function, ...]:
 
 
 def _read_array(path: str) -> Contents:
+    npz_matrices.check_array(path)
     return spread(path, {"data": np.load(path, allow_pickle=False)})
 
 

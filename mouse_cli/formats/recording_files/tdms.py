@@ -2,9 +2,10 @@
 
 import numpy as np
 
-from mouse_cli.formats.recording_files import MAX_BYTES, MOST_COLUMNS, Column, Contents, RecordingFormat, reject
+from mouse_cli.formats.recording_files import MOST_COLUMNS, Column, Contents, RecordingFormat, kept, reject, room
 
 _UNITS = ("unit_string", "NI_UnitDescription", "Unit", "unit")
+_SCALES, _MOST_SCALES = "NI_Number_Of_Scales", 100
 _STEP = "wf_increment"
 
 
@@ -18,12 +19,23 @@ def _read(path: str) -> Contents:
             "reading TDMS needs the package nptdms, which is not installed",
             "pip install 'mouse-cli[tdms]'",
         )
-    with TdmsFile.open(path) as file:
+    with open(path, "rb") as stream, TdmsFile.open(stream) as file:  # by its name an index beside it would be read too
         channels = [channel for group in file.groups() for channel in group.channels()]
-        if len(channels) > MOST_COLUMNS or sum(8 * len(channel) for channel in channels) > MAX_BYTES:
-            reject("MD258", path, f"the file has {len(channels)} channels of more than {MAX_BYTES} bytes", "divide it")
+        if len(channels) > MOST_COLUMNS:
+            reject(
+                "MD258", path, f"the file has {len(channels)} channels; at most {MOST_COLUMNS} are read", "divide it"
+            )
+        kept(path, sum(len(channel) * _bytes(channel) for channel in channels), "what its channels promise")
+        room(path, sum(8 * len(channel) for channel in channels), "the file as numbers")
         columns = [_column(channel) for channel in channels]
     return Contents(tuple(column for column in columns if column is not None))
+
+
+def _bytes(channel) -> int:
+    """Bytes of one value in the file at least. Raises ValueError for scales that would be looked for without end."""
+    if channel.properties.get(_SCALES, 0) > _MOST_SCALES:
+        raise ValueError(f"channel '{channel.name[:40]}' has {channel.properties[_SCALES]} scales")
+    return getattr(channel.data_type, "size", None) or 1
 
 
 def _column(channel) -> Column | None:

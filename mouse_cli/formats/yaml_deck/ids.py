@@ -21,7 +21,12 @@ def ids(document: Document, node: Node, what: str, everything: np.ndarray | None
         parts = [ids(document, item, what, everything) for item in node.value]
         if not parts:
             return document.error("MD216", node, f"{what} is empty", "give a number or a range")
-        return None if any(part is None for part in parts) else np.concatenate(parts)
+        if any(part is None for part in parts):
+            return None
+        if sum(map(len, parts)) > MOST:
+            message = f"{what} stands for {sum(map(len, parts))} numbers"
+            return document.error("MD409", node, message, f"give at most {MOST} numbers")
+        return np.concatenate(parts)
     if yaml_values.is_scalar(node) and node.value.strip() == "all" and everything is not None:
         return everything
     return _range(document, node, what)
@@ -38,8 +43,10 @@ def _range(document: Document, node: Node, what: str) -> np.ndarray | None:
     if not all(found):
         return yaml_values.mistyped(document, node, what, KINDS["ids"].words)
     pairs = [(int(part[1]), int(part[2] or part[1])) for part in found]
+    total = 0
     for first, last in pairs:
-        if last < first or last > MAX_WHOLE or last - first >= MOST:
+        total += last - first + 1
+        if last < first or last > MAX_WHOLE or total > MOST:
             message = f"{what} has the range {first}-{last}"
             return document.error("MD409", node, message, f"give the lower number first, at most {MOST} numbers")
     return np.concatenate([np.arange(first, last + 1) for first, last in pairs])

@@ -12,7 +12,7 @@ from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.files import read_below
 from mouse_cli.formats.yaml_deck.ids import ids as read_ids
 from mouse_cli.formats.yaml_deck.keys.structure import ELEMENT
-from mouse_cli.formats.yaml_deck.kinds import KINDS
+from mouse_cli.formats.yaml_deck.kinds import KINDS, MAX_WHOLE
 from mouse_cli.formats.yaml_deck.mesh_options import option
 from mouse_cli.formats.yaml_deck.mesh_properties import Named
 from mouse_cli.formats.yaml_deck.nodes import Document, Node
@@ -186,7 +186,7 @@ def _file(section: Section, node: Node, kind: ElementType, context: Context) -> 
         more = f", and {', '.join(unknown)} is no property of it" if unknown else ""
         return _misfit(section, node, kind, f"{k} nodes in each line of its file{more}")
     whole = table.values[:, : 1 + k]
-    if (whole != np.floor(whole)).any():
+    if not ((whole == np.floor(whole)) & (np.abs(whole) <= MAX_WHOLE)).all():
         return section.document.error(
             "MD419", node, "the table has numbers that are not whole", "give id and nodes first"
         )

@@ -8,6 +8,7 @@ import numpy as np
 from mouse_cli._span import Span
 from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.files import read_below
+from mouse_cli.formats.yaml_deck.ids import MOST
 from mouse_cli.formats.yaml_deck.kinds import KINDS, MAX_WHOLE
 from mouse_cli.formats.yaml_deck.nodes import Document, Node
 from mouse_cli.formats.yaml_deck.sections import Section
@@ -99,9 +100,10 @@ def _line(section: Section) -> Nodes | None:
     ends = [vector(line.document, line.nodes[key], line.what(key)) for key in ("start", "end") if key in line]
     if first is None or last is None or len(ends) < 2 or any(end is None for end in ends):
         return None
-    if last < first:
+    if last < first or last - first >= MOST:
         message = f"{line.called} goes from {first} to {last}"
-        return line.document.error("MD409", line.node, message, "give the lower number as from")
+        help = f"give the lower number as from, and at most {MOST} nodes"
+        return line.document.error("MD409", line.node, message, help)
     share = np.linspace(0.0, 1.0, last - first + 1)[:, None]
     coordinates = ends[0] * (1 - share) + ends[1] * share
     return Nodes(np.arange(first, last + 1), coordinates, lambda _: line.document.span(line.node))

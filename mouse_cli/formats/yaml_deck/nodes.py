@@ -15,11 +15,13 @@ PLAIN, QUOTED, COLLECTION = "plain", "quoted", "collection"
 
 MAX_BYTES = 64_000_000  # composing takes about 0.1 s and 20 MB of memory for each MB of deck
 MAX_DEPTH = 20  # the deepest value of a deck, a component of shapes, is 5 deep
+MAX_DIGITS = 1000  # Python refuses to make whole numbers of more than 4300
 MAX_FINDINGS = 200
 MAX_VALUES = 2_000_000  # of a deck with aliases, each alias counted as often as it is used
 
 _BREAK = re.compile("\r\n|[\n\r\x85\u2028\u2029]")
 _NOT_TEXT = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_LONG_NUMBER = re.compile(f"[0-9]{{{MAX_DIGITS}}}")
 _NULLS = frozenset(("", "~", "null", "Null", "NULL"))
 
 
@@ -141,6 +143,11 @@ def _check_text(document: Document) -> None:
         before = _BREAK.split(document.text[: found.start()])
         span = document.at(len(before) - 1, len(before[-1]))
         _stop("MD200", span, f"character U+{ord(found[0]):04X} may not stand in a deck", "delete it")
+    long = _LONG_NUMBER.search(document.text)
+    if long:
+        before = _BREAK.split(document.text[: long.start()])
+        span = document.at(len(before) - 1, len(before[-1]))
+        _stop("MD202", span, f"a number of more than {MAX_DIGITS} digits stands here", "write numbers as 1.5e300")
 
 
 class _TooDeep(Exception):
@@ -194,6 +201,9 @@ else:  # pragma: no cover - PyYAML built without libyaml: the same nodes, about 
 def _parsed(document: Document) -> Node | None:
     try:
         return _Composer(document.text).get_single_node()
+    except MemoryError:
+        message = "the deck takes more memory than there is"
+        _stop("MD202", document.at(0, 0), message, "put large matrices in files: {file: k.mtx}")
     except _TooDeep as error:
         start = error.args[0].start_mark  # of a node that is not whole and has no end
         span = document.at(start.line, start.column)
@@ -242,16 +252,24 @@ def _check_aliases(document: Document, root: Node) -> None:
     """A few aliases of aliases can stand for more values than memory holds: count before any is used."""
     if "*" not in document.text or "&" not in document.text:
         return
-    if _size(root, {}) > MAX_VALUES:
+    size, depth = _size(root, {})
+    if size > MAX_VALUES:
         message = f"the aliases (*name) of the deck stand for more than {MAX_VALUES} values, or hold themselves"
         _stop("MD202", document.at(0, 0), message, "write the values out, or put them in a file")
+    if depth > MAX_DEPTH:
+        message = f"by the aliases (*name) of the deck, values are nested {depth} deep; at most {MAX_DEPTH} are read"
+        _stop("MD202", document.at(0, 0), message, "write the values out")
 
 
-def _size(node: Node, known: dict[int, float]) -> float:
-    """Number of values below a node; infinite when it holds itself."""
+def _size(node: Node, known: dict[int, tuple[float, int]]) -> tuple[float, int]:
+    """Number of values below a node, infinite when it holds itself, and how deep they are nested.
+
+    An alias stands behind its anchor, so that what it stands for is known by then: calls nest no deeper than the text does.
+    """
     if id(node) not in known:
-        known[id(node)] = float("inf")  # until all below is counted
-        known[id(node)] = 1 + sum(_size(below, known) for below in _below(node))
+        known[id(node)] = float("inf"), 0  # until all below is counted
+        below = [_size(each, known) for each in _below(node)]
+        known[id(node)] = 1 + sum(size for size, _ in below), 1 + max((depth for _, depth in below), default=0)
     return known[id(node)]
 
 
