@@ -43,7 +43,15 @@ class MouseError(Exception):
 
 
 class DeckError(MouseError):
-    """A deck was rejected; nothing was computed or written."""
+    """A deck was rejected; nothing was computed or written.
+
+    >>> import mouse_cli
+    >>> try:
+    ...     mouse_cli.read_deck("decks/no_such_deck.yaml")
+    ... except mouse_cli.DeckError as error:
+    ...     print([one.code for one in error.diagnostics], error.exit_code)
+    ['MD250'] 4
+    """
 
     exit_code = 4
 
@@ -53,7 +61,18 @@ class RecordError(DeckError):
 
 
 class NumericalError(MouseError):
-    """The numbers allow no answer: names the parameter, the cycle and the card or line that set it."""
+    """The numbers allow no answer: names the parameter, the cycle and the card or line that set it.
+
+    >>> from dataclasses import replace
+    >>> import mouse_cli
+    >>> problem = mouse_cli.read_deck("decks/sound_chain.yaml")
+    >>> structure = problem.structure
+    >>> try:
+    ...     mouse_cli.run(replace(problem, structure=replace(structure, M=-structure.M)))
+    ... except mouse_cli.NumericalError as error:
+    ...     print([one.code for one in error.diagnostics], error.exit_code)
+    ['MD501'] 5
+    """
 
 
 class PluginError(MouseError):

@@ -42,6 +42,11 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choi
     """What the model of `problem` lacks, judged by its test; choices: which candidates are considered.
 
     Raises DeckError and NumericalError as `run` does.
+
+    >>> import mouse_cli
+    >>> found = mouse_cli.diagnose(mouse_cli.read_deck("decks/ground_spring.yaml"))
+    >>> found.kind, found.best.title, found.best.causes[0].site.text
+    ('named', 'a spring to the ground', 'degree of freedom 2')
     """
     if problem.recordings and problem.test is None and not problem.frf:
         return diagnose_records(problem, notice, choices)

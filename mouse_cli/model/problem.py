@@ -77,6 +77,14 @@ class Problem:
     holds what is fitted, and hold_out what is kept from every fit. frf, recordings: frequency response functions and time histories
     of the test. units: of all numbers that are not in s or Hz. laws: local forces that are not linear, which modes do not have.
     modal_damping: beside that of structure and terms.
+
+    A problem is changed by `dataclasses.replace`, which makes another one.
+
+    >>> from dataclasses import replace
+    >>> import mouse_cli
+    >>> problem = mouse_cli.read_deck("decks/table_5_3.yaml")
+    >>> replace(problem, run=replace(problem.run, recursion="replaced")).run.recursion
+    'replaced'
     """
 
     title: str

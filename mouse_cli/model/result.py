@@ -92,6 +92,11 @@ class Result:
     prior_shift: after them. partials_error: estimated relative error of the final T; 0 where it is rounding alone. frf, held_frf:
     before and after, one for each measurement of frequency response functions that was fitted, or held out. conditioning: None for
     problems too large for it.
+
+    >>> import mouse_cli
+    >>> result = mouse_cli.run(mouse_cli.read_deck("decks/ground_spring.yaml"))
+    >>> result.status.key, result.model_form, result.exit_code
+    ('converged', 'rejected', 1)
     """
 
     problem: Problem

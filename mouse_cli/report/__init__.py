@@ -39,6 +39,11 @@ def written(subject: Subject, form: str, numbers: str | None = None, options: Op
     """The report of `subject` in a `form` of `report.renderers`, numbers in its own style or in another.
 
     Raises ValueError for a form or a style that does not exist.
+
+    >>> import mouse_cli
+    >>> text = mouse_cli.written(mouse_cli.run(mouse_cli.read_deck("decks/sound_chain.yaml")), "markdown")
+    >>> text.splitlines()[0]
+    '## Modal Optimization Using Statistical Evaluators'
     """
     from mouse_cli.report.numbers import Numbers
     from mouse_cli.report.renderers import renderer

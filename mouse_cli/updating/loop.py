@@ -56,6 +56,11 @@ def run(
     cost that a step must promise and gain, else the anchored recursion ends. solver: one that solved this model before. Raises
     DeckError for a deck whose test cannot belong to its model (a rigid-body mode named as measured, shapes that are
     unrelated), NumericalError where no eigensolution exists.
+
+    >>> import mouse_cli
+    >>> result = mouse_cli.run(mouse_cli.read_deck("decks/sound_chain.yaml"))
+    >>> result.status.key, result.revised.theta.round(), result.sd_theta.round(1)
+    ('converged', array([1105.,  951., 1055.,  900.]), array([8.6, 5.9, 6.6, 4.7]))
     """
     estimator = _estimator(problem)
     try:
