@@ -8,6 +8,8 @@ from mouse_cli.model.frf_fit import Damping, FrfFit
 from mouse_cli.model.result import Result
 from mouse_cli.observables.frf import names
 
+MOST_POINTS, MOST_CURVES = 600, 4  # points of a curve, and functions of a measurement that have curves
+
 
 def frf(fits: tuple[FrfFit, ...]) -> list[dict[str, Any]]:
     """One entry a measurement, `functions` in it one a function; errors in dB, under the key of each model."""
@@ -45,7 +47,39 @@ def _measurement(fit: FrfFit) -> dict[str, Any]:
             for o in range(len(outputs))
             if fit.have[:, o, i].any()
         ],
+        "curves": [_curves(fit, outputs[o], inputs[i], o, i) for o, i in _worst(fit)],
     }
+
+
+def _worst(fit: FrfFit) -> list[tuple[int, int]]:
+    """Response and force of the functions that the last model misses most, the worst first."""
+    off = np.abs(fit.off_db(fit.revised))
+    pairs = [(o, i) for i in range(off.shape[2]) for o in range(off.shape[1]) if fit.have[:, o, i].any()]
+    return sorted(pairs, key=lambda pair: -float(np.nanmedian(off[:, *pair])))[:MOST_CURVES]
+
+
+def _curves(fit: FrfFit, output: str, force: str, o: int, i: int) -> dict[str, Any]:
+    """[frequency in Hz, 20 log10 |H|] of test and models."""
+    hz, found = fit.test.frequency_hz, {"output": output, "input": force}
+    for key, H in (("measured", fit.test.H), *((model.key, model.H) for model in fit.models)):
+        with np.errstate(divide="ignore", invalid="ignore"):
+            found[key] = thinned(hz, 20 * np.log10(np.abs(H[:, o, i])))
+    return found
+
+
+def thinned(x: np.ndarray, y: np.ndarray, most: int = MOST_POINTS) -> np.ndarray:
+    """Points (r, 2), finite, at most about `most` of them: the lowest and the highest of each stretch, so that peaks stay.
+
+    >>> thinned(np.arange(6.0), np.array([0.0, 9.0, 1.0, -3.0, np.nan, 0.5]), 4).tolist()
+    [[0.0, 0.0], [1.0, 9.0], [3.0, -3.0], [5.0, 0.5]]
+    """
+    have = np.isfinite(y)
+    x, y = x[have], y[have]
+    if len(y) > most:
+        parts = np.array_split(np.arange(len(y)), most // 2)
+        kept = np.unique([part[pick(y[part])] for part in parts for pick in (np.argmin, np.argmax)])
+        x, y = x[kept], y[kept]
+    return np.column_stack([[float(f"{value:.6g}") for value in x], y.round(2)])
 
 
 def _function(fit: FrfFit, output: str, force: str, o: int, i: int) -> dict[str, Any]:
