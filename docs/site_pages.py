@@ -1,0 +1,24 @@
+"""A hook of mkdocs: the pages of the site are those of the index, docs/README.md, in its order and under its headings."""
+
+import re
+from pathlib import Path
+
+_HEADING = re.compile(r"^## (.+)$")
+_ROW = re.compile(r"^\| \[(.+?)\]\((.+?\.md)\) \|")
+
+
+def nav(index: str) -> list[dict]:
+    """The navigation of mkdocs for an index: the tutorial, then a menu for each heading with the pages of its table."""
+    menus: list[dict] = [{"Start": "README.md"}, {"Tutorial": "tutorial.md"}]
+    for line in index.splitlines():
+        if heading := _HEADING.match(line):
+            menus.append({heading[1]: []})
+        elif row := _ROW.match(line):
+            next(iter(menus[-1].values())).append({row[1]: row[2]})
+    return menus
+
+
+def on_config(config):
+    """Called by mkdocs once it has read mkdocs.yml."""
+    config.nav = nav((Path(config.docs_dir) / "README.md").read_text("utf-8"))
+    return config
