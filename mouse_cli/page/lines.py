@@ -6,22 +6,22 @@ from math import ceil, floor, log10
 
 from mouse_cli.page.html import Markup, tag
 
-_WIDTH, _HEIGHT, _LEFT, _RIGHT, _TOP, _BOTTOM = 640.0, 300.0, 54.0, 626.0, 34.0, 258.0
+_WIDTH, _HEIGHT, _LEFT, _RIGHT, _TOP, _BOTTOM = 640.0, 304.0, 54.0, 626.0, 44.0, 262.0
 _LEGEND = 130.0
-_DEEP = 120.0  # of what is drawn below the highest value, where more would flatten all else
 
 
 @dataclass(frozen=True)
 class Line:
-    """Points (x, y) with a name and a class for its looks."""
+    """Points (x, y) with a name and a class for its looks; joined, or each a dot."""
 
     name: str
     looks: str
     points: list[list[float]]
+    dots: bool = False
 
 
-def lines(key: str, title: str, told: str, x: str, y: str, drawn: Sequence[Line], deep: float = _DEEP) -> Markup:
-    """`drawn` over the axes called x and y; empty without a point."""
+def lines(key: str, title: str, told: str, x: str, y: str, drawn: Sequence[Line], deep: float = float("inf")) -> Markup:
+    """`drawn` over the axes called x and y, down to `deep` below the highest point; empty without a point."""
     every = [point for line in drawn for point in line.points]
     if not every:
         return Markup("")
@@ -30,14 +30,19 @@ def lines(key: str, title: str, told: str, x: str, y: str, drawn: Sequence[Line]
     across, upward = _scale(low[0], high[0], _LEFT, _RIGHT), _scale(low[1], high[1], _BOTTOM, _TOP)
     pieces = [*_grid(low[0], high[0], across, x, False), *_grid(low[1], high[1], upward, y, True)]
     for line in drawn:
-        points = " ".join(f"{_at(across(a))},{_at(upward(max(b, low[1])))}" for a, b in line.points)
-        pieces.append(tag("polyline", points=points, class_=f"line {line.looks}"))
+        pieces.append(_drawn(line, [(across(a), upward(max(b, low[1]))) for a, b in line.points]))
     named = [line for line in drawn if line.points]
     pieces += [piece for i, line in enumerate(named) for piece in _named(line, _LEFT + i * _LEGEND * 1.3)]
     head = [tag("title", title, id=f"{key}-title"), tag("desc", told, id=f"{key}-told")]
     size = {"viewBox": f"0 0 {_WIDTH:g} {_HEIGHT:g}"}
     svg = tag("svg", *head, *pieces, role="img", aria_labelledby=f"{key}-title {key}-told", **size)
     return tag("figure", tag("figcaption", title), svg, class_="functions")
+
+
+def _drawn(line: Line, at: list[tuple[float, float]]) -> Markup:
+    if line.dots:
+        return tag("path", d="".join(f"M{_at(x)} {_at(y)}h0" for x, y in at), class_=f"line dots {line.looks}")
+    return tag("polyline", points=" ".join(f"{_at(x)},{_at(y)}" for x, y in at), class_=f"line {line.looks}")
 
 
 def ticks(low: float, high: float, count: int = 6) -> list[float]:
@@ -76,8 +81,8 @@ def _grid(low: float, high: float, scale, name: str, upward: bool) -> list[Marku
 
 
 def _named(line: Line, x: float) -> list[Markup]:
-    points = f"{_at(x)},12 {_at(x + 26)},12"
-    return [tag("polyline", points=points, class_=f"line {line.looks}"), tag("text", line.name, x=_at(x + 32), y=16)]
+    at = [(x + 13, 12.0)] if line.dots else [(x, 12.0), (x + 26, 12.0)]
+    return [_drawn(line, at), tag("text", line.name, x=_at(x + 32), y=16)]
 
 
 def _at(value: float) -> str:

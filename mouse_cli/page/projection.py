@@ -38,7 +38,7 @@ class View:
 def turned(turn: float, tilt: float) -> np.ndarray:
     """(2, 3): the structure turned about z by `turn`, seen from `tilt` above the horizon, degrees.
 
-    >>> turned(0.0, 0.0).round(3).tolist()
+    >>> (turned(0.0, 0.0).round(3) + 0.0).tolist()
     [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
     """
     a, e = np.radians([turn, tilt])

@@ -67,8 +67,10 @@ def _curves(fit: FrfFit, output: str, force: str, o: int, i: int) -> dict[str, A
     return found
 
 
-def thinned(x: np.ndarray, y: np.ndarray, most: int = MOST_POINTS) -> np.ndarray:
-    """Points (r, 2), finite, at most about `most` of them: the lowest and the highest of each stretch, so that peaks stay.
+def thinned(x: np.ndarray, y: np.ndarray, most: int = MOST_POINTS, digits: int | None = 2) -> np.ndarray:
+    """Points (r, 2), finite, at most `most` of them: the lowest and the highest of each stretch, so that peaks stay.
+
+    x to six significant digits; y to so many decimals, None for five significant digits.
 
     >>> thinned(np.arange(6.0), np.array([0.0, 9.0, 1.0, -3.0, np.nan, 0.5]), 4).tolist()
     [[0.0, 0.0], [1.0, 9.0], [3.0, -3.0], [5.0, 0.5]]
@@ -79,7 +81,8 @@ def thinned(x: np.ndarray, y: np.ndarray, most: int = MOST_POINTS) -> np.ndarray
         parts = np.array_split(np.arange(len(y)), most // 2)
         kept = np.unique([part[pick(y[part])] for part in parts for pick in (np.argmin, np.argmax)])
         x, y = x[kept], y[kept]
-    return np.column_stack([[float(f"{value:.6g}") for value in x], y.round(2)])
+    short = y.round(digits) if digits is not None else [float(f"{value:.5g}") for value in y]
+    return np.column_stack([[float(f"{value:.6g}") for value in x], short])
 
 
 def _function(fit: FrfFit, output: str, force: str, o: int, i: int) -> dict[str, Any]:

@@ -2,13 +2,18 @@
 
 from typing import Any
 
+import numpy as np
+
 from mouse_cli import __version__
-from mouse_cli.model.record_diagnosis import RecordDiagnosis, RecordScore
+from mouse_cli.model.record_diagnosis import RecordDiagnosis, RecordScore, Surface, Trace
 from mouse_cli.model.units import system
 from mouse_cli.report import diagnosis_document as of_diagnosis
 from mouse_cli.report import result_document as of_result
+from mouse_cli.report.frf_document import thinned
 from mouse_cli.report.geometry_document import geometry
 from mouse_cli.report.json_values import plain
+
+_SAMPLES = 500  # of a restoring force
 
 
 def document(found: RecordDiagnosis) -> dict[str, Any]:
@@ -27,7 +32,8 @@ def document(found: RecordDiagnosis) -> dict[str, Any]:
             "noise_scale": found.noise_scale,
             "residual": of_result.tested(found.innovation),
             "noise": None if found.noise is None else vars(found.noise),
-            "held_out": {"records": [score(one) for one in found.scores]},
+            "held_out": {"records": [score(one) for one in found.scores], "trace": trace(found.trace)},
+            "restoring_force": restoring_force(found.surface),
             "linearity": vars(found.linearity) | {"levels": [vars(level) for level in found.linearity.levels]},
             "recordings": {
                 "fitted": list(found.fitted),
@@ -54,3 +60,22 @@ def score(one: RecordScore) -> dict[str, Any]:
         "error": dict(one.short),
         "error_of_whole_record": dict(one.free),
     }
+
+
+def trace(found: Trace | None) -> dict[str, Any] | None:
+    """A stretch of a held-out record as [s, value]: measured, and simulated by each model."""
+    if found is None:
+        return None
+    of = lambda values: thinned(found.time_s, np.asarray(values, float), digits=None)
+    simulated = {name: of(values) for name, values in found.simulated.items()}
+    return {"title": found.title, "unit": found.unit, "measured": of(found.measured), "simulated": simulated}
+
+
+def restoring_force(found: Surface | None) -> dict[str, Any] | None:
+    """Samples of the force at the place of a law, evenly over the record, and what the fitted law gives there."""
+    if found is None:
+        return None
+    own = slice(None, None, -(-len(found.x) // _SAMPLES))
+    values = {"motion": found.x, "velocity": found.v, "force": found.force, "law": found.law}
+    short = {key: [float(f"{x:.5g}") for x in value[own]] for key, value in values.items()}
+    return {"title": found.title, "place": found.site, **short}

@@ -40,7 +40,11 @@ def document(found: RecordUpdate) -> dict[str, Any]:
             "residual": of_result.tested(found.residual),
             "noise_scale": found.noise_scale,
             "noise": None if found.noise is None else vars(found.noise),
-            "held_out": {"records": [of_records.score(one) for one in found.scores]},
+            "held_out": {
+                "records": [of_records.score(one) for one in found.scores],
+                "trace": of_records.trace(found.trace),
+            },
+            "restoring_force": of_records.restoring_force(found.surface),
             "geometry": geometry(problem),
             "units": system(problem.units) or None,
             "remarks": list(found.remarks),

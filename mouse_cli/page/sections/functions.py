@@ -12,6 +12,8 @@ from mouse_cli.report.reading import Part
 
 _HEADS = ("function", "lines", "before, dB", "after, dB", "FRAC before", "FRAC after")
 
+_DEEP = 120.0  # dB below the highest value: more would flatten all else
+
 
 def functions(document: Part) -> Iterator[Markup]:
     """Curves of the functions that are missed most, then a table for each measurement."""
@@ -40,7 +42,7 @@ def _curves(slug: str, pair: Part, kind: str, which: str) -> Markup:
     ]
     title = f"{kind.capitalize()} {pair.label('output')} by {pair.label('input')}, {which}"
     told = f"Magnitudes of {' and '.join(line.name for line in drawn if line.points)} over frequency."
-    return lines(slug, title, told, "frequency, Hz", "dB", drawn)
+    return lines(slug, title, told, "frequency, Hz", "dB", drawn, _DEEP)
 
 
 def _row(function: Part) -> tuple[object, ...]:

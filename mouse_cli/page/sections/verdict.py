@@ -52,7 +52,12 @@ def verdict(document: Part) -> Iterator[Markup]:
 
 
 def _run(document: Part) -> str:
-    return document.text("message") or f"The run ended: {document.text('status')}."
+    message = document.text("message")
+    return (
+        f"{message[0].upper()}{message[1:].removesuffix('.')}."
+        if message
+        else f"The run ended: {document.text('status')}."
+    )
 
 
 def _refuted(document: Part) -> str:
