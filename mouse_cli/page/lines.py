@@ -31,7 +31,7 @@ def lines(key: str, title: str, told: str, x: str, y: str, drawn: Sequence[Line]
     pieces = [*_grid(low[0], high[0], across, x, False), *_grid(low[1], high[1], upward, y, True)]
     for line in drawn:
         pieces.append(_drawn(line, [(across(a), upward(max(b, low[1]))) for a, b in line.points]))
-    named = [line for line in drawn if line.points]
+    named = [line for line in drawn if line.name and line.points]
     pieces += [piece for i, line in enumerate(named) for piece in _named(line, _LEFT + i * _LEGEND * 1.3)]
     head = [tag("title", title, id=f"{key}-title"), tag("desc", told, id=f"{key}-told")]
     size = {"viewBox": f"0 0 {_WIDTH:g} {_HEIGHT:g}"}

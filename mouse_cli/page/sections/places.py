@@ -2,12 +2,17 @@
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from mouse_cli.page.html import Markup
+from mouse_cli.page.lines import Line, lines
 from mouse_cli.page.numbers import probable, shown
 from mouse_cli.page.section import PageSection
 from mouse_cli.page.sections._words import paragraphs, place, shares
 from mouse_cli.page.tables import Cell, table
 from mouse_cli.report.reading import Part
+
+_DEEP = 40.0  # nats below the best place: less probable ones lie at the edge
 
 
 def where(document: Part) -> Iterator[Markup]:
@@ -25,11 +30,44 @@ def _posterior(location: Part) -> Iterator[Markup]:
     region, tried = shown(location.number("region")), shown(location.number("tried"))
     yield paragraphs(f"{single} The 90 % region holds {region} of {tried} places.")
     found = location.parts("places")
+    yield _along(found)
     rows = [(place(p.part("site")), probable(p.number("probability")), p.number("probability")) for p in found]
     likely = [row for row in rows if (row[2] or 0.0) >= 1e-3] or rows[:5]
     yield shares("place-posterior", "Probability of each place", "If one force made the measured shapes.", likely)
     heads = ("place", "motion", "probability", "nats below the best")
     yield table("places", "Places, the most probable first", heads, map(_row, found))
+
+
+def _along(places: list[Part]) -> Markup:
+    """ln of the probability over position, where the places lie on one line; nothing where they do not."""
+    at = [_position(each.part("site")) for each in places]
+    known = [(p, -(each.number("deficit") or 0.0)) for p, each in zip(at, places, strict=True) if p]
+    points = np.array([p for p, _ in known], float)
+    if len(known) < max(3, 0.5 * len(places)):
+        return Markup("")
+    extent = np.ptp(points, axis=0)
+    axis = int(extent.argmax())
+    if (np.delete(extent, axis) > 1e-6 * extent[axis]).any() or extent[axis] == 0:
+        return Markup("")
+    best: dict[float, float] = {}
+    for p, score in known:
+        best[p[axis]] = max(score, best.get(p[axis], -np.inf))
+    line = [[x, best[x]] for x in sorted(best)]
+    top = max(line, key=lambda point: point[1])
+    name = f"{'xyz'[axis]}" if len(points[0]) == 3 else "degree of freedom"
+    title = "ln of the probability of each place, below the best"
+    told = f"Over {name}; the best is at {shown(top[0], 4)}."
+    drawn = [Line("", "revised", line), Line("", "revised", line, dots=True)]
+    return lines("place-along", title, told, name, "nats", drawn, _DEEP)
+
+
+def _position(site: Part) -> tuple[float, ...] | None:
+    """Coordinates of a place; of a model without positions the number of its degree of freedom."""
+    position = tuple(x for x in site.numbers("position") if x is not None)
+    ids = site.labels("ids")
+    if len(position) == 3:
+        return position
+    return (float(ids[0]),) if len(ids) == 1 and ids[0].isascii() and ids[0].isdecimal() else None
 
 
 def _row(each: Part) -> tuple[object, ...]:
