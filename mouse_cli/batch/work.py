@@ -5,6 +5,7 @@ from typing import Any
 
 from mouse_cli._errors import ERROR, DeckError, Diagnostic, MouseError
 from mouse_cli.batch import record
+from mouse_cli.batch.changes import CHANGES, changed, edited
 from mouse_cli.batch.job import CHECK, DIAGNOSE, Job
 from mouse_cli.batch.limit import OutOfTime, at_most
 from mouse_cli.batch.outcome import Outcome, outcome, unwritten
@@ -13,7 +14,7 @@ from mouse_cli.formats import file_bytes, read_draft
 from mouse_cli.model.problem import Problem
 
 _CHOICES = ("candidates", "causes")  # options of a diagnosis
-_OWN = (*_CHOICES, "legacy", "scale")
+_OWN = (*_CHOICES, *CHANGES, "legacy", "scale")
 
 
 def perform(job: Job, folder: str, limit_s: float | None = None) -> Outcome:
@@ -85,11 +86,12 @@ def _problem(job: Job, data: bytes) -> Problem:
 
     from mouse_cli.formats.assemble import assemble
 
+    data = edited(data, job.deck, job.options)
     draft = read_draft(data, job.deck, outside=job.outside, legacy=bool(job.options.get("legacy")))
     if job.options.get("scale") and draft.test:
         draft = replace(draft, test=replace(draft.test, scale=job.options["scale"]))
     changes = {name: value for name, value in job.options.items() if name not in _OWN}
-    return assemble(draft.with_run(**changes) if changes else draft)
+    return changed(assemble(draft.with_run(**changes) if changes else draft), job.options)
 
 
 def _run(problem: Problem):

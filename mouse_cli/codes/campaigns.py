@@ -6,11 +6,66 @@ CODES = {
     "MD550": Code(
         "posterior that is not normal",
         "A run reports the mode of the posterior and the standard deviations of the normal density that first-order partial "
-        "derivatives put there. Two standard deviations from the mode, along the axis that changes a property by the largest share "
-        "of its value, the posterior is narrower or wider than that density by a factor of 1.5 or more: so are its intervals. "
-        "It is looked at where that costs little: converged runs of the anchored recursion with a prior, whose model is not "
-        "rejected, with dense matrices of up to 40 degrees of freedom.",
+        "derivatives put there. Two standard deviations from the mode, along the axis that changes a property by the largest "
+        "share of its value, the posterior is narrower or wider than that density by a factor of 1.5 or more: so are its "
+        "intervals. It is looked at where that costs little: converged runs of the anchored recursion with a prior, whose model "
+        "is not rejected, with dense matrices of up to 40 degrees of freedom.",
         "`mouse sample` gives the posterior as it is. Where the data hardly determine a property, measure what it moves.",
+    ),
+    "MD930": Code(
+        "answer that depends on what was varied",
+        "Over the points of a sweep the revised value of the property moves by more than its posterior standard deviation: what "
+        "was varied, and nobody knows exactly, matters more than the errors of the test.",
+        "Find out what was varied, or state the answer with the spread of the sweep.",
+    ),
+    "MD931": Code(
+        "runs without an answer",
+        "Some runs of a sweep or a bootstrap ended without an answer: values beyond limits, models that are not physical, too "
+        "few data left. They are left out of what is said of all.",
+        "See their codes; vary over a narrower range, or draw fewer at a time.",
+    ),
+    "MD932": Code(
+        "nothing that can be varied",
+        "A name of `--vary` is no option of `mouse run`, no property of the deck (`k1`: its prior value, `k1.sd`: its prior "
+        "standard deviation), not `frequency_sd*` or `shape_sd*` (factors of all accuracies), and no place of a single value in "
+        "the YAML deck, such as `test.modes.shape_sd` or `model.nodes[3].x`.",
+        "Check the name; keys of the deck are joined by points, items of lists are called by their `name` or by number, from 1.",
+    ),
+    "MD933": Code(
+        "value that cannot be taken",
+        "A value of `--vary` cannot stand there: a standard deviation or a factor that is not above zero, a prior standard "
+        "deviation of a property that may not vary, a text that is no number or word.",
+        "Give values such as `0.5,1,2`, or a range `low:high:count`, `log:low:high:count`.",
+    ),
+    "MD934": Code(
+        "no modes or sensors to draw",
+        "A bootstrap draws measured modes and sensors: two of each kind at least. Tests of functions or recordings are not "
+        "drawn.",
+        "`mouse identify` makes modes of functions and recordings; with one sensor draw `--over modes`.",
+    ),
+    "MD935": Code(
+        "no answer to begin from",
+        "The run of the deck as it is has no answer, so that there is nothing whose spread could be told.",
+        "See what `mouse run` says of the deck.",
+    ),
+    "MD936": Code(
+        "data that disagree among themselves",
+        "Answers from modes or sensors drawn anew spread much more than the stated accuracies account for, more than by chance "
+        "once in 200 times with so few of them: the data disagree among themselves, the model errs, or the accuracies are "
+        "stated too small. Posterior standard deviations are then too small as well.",
+        "Look at what has the largest influence; state larger standard deviations; see whether the form of the model is "
+        "rejected.",
+    ),
+    "MD937": Code(
+        "accuracies stated too large",
+        "Answers from modes or sensors drawn anew spread much less than the stated accuracies account for, less than by chance "
+        "once in 200 times: the data agree better than they are said to.",
+        "State smaller standard deviations if the test justifies them; errors that all data share do not show in this.",
+    ),
+    "MD938": Code(
+        "answer that rests on one measurement",
+        "Without that mode or sensor a property moves by more than its posterior standard deviation.",
+        "Look at that measurement; measure again what it rests on.",
     ),
     "MD940": Code(
         "no package for samples",
@@ -24,8 +79,9 @@ CODES = {
     ),
     "MD942": Code(
         "normal density that cannot stand for the posterior",
-        "Draws from the normal density of the run were weighed by the true posterior. The tail of the weights is so heavy (Pareto "
-        "k-hat above 0.7) that no practicable number of draws would give its mean (Vehtari et al. 2024; Yao et al. 2018).",
+        "Draws from the normal density of the run were weighed by the true posterior. The tail of the weights is so heavy "
+        "(Pareto k-hat above 0.7) that no practicable number of draws would give its mean (Vehtari et al. 2024; Yao et al. "
+        "2018).",
         "Use the samples, and not the standard deviations of `mouse run`.",
     ),
     "MD943": Code(
@@ -36,8 +92,8 @@ CODES = {
     ),
     "MD944": Code(
         "chain too short",
-        "The walkers took fewer than 50 autocorrelation times, or do not agree (R-hat of 1.05 or more): quantiles of the samples "
-        "are not those of the posterior yet.",
+        "The walkers took fewer than 50 autocorrelation times, or do not agree (R-hat of 1.05 or more): quantiles of the "
+        "samples are not those of the posterior yet.",
         "Allow more `--steps`. Where that does not help, the posterior has places between which walkers seldom go.",
     ),
 }

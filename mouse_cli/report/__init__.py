@@ -3,6 +3,7 @@
 from typing import Any
 
 from mouse_cli.model.arrangements import ArrangementsDiagnosis
+from mouse_cli.model.campaign import Bootstrap, Sweep
 from mouse_cli.model.correlation import Correlation
 from mouse_cli.model.coupled import Coupled
 from mouse_cli.model.diagnosis import Diagnosis
@@ -30,6 +31,8 @@ Subject = (
     | Updated
     | Compared
     | Sampled
+    | Sweep
+    | Bootstrap
 )
 
 __all__ = ["Options", "document", "markdown", "printout", "written"]
@@ -67,6 +70,7 @@ def document(subject: Subject) -> dict[str, Any]:
     """The report of `subject` as JSON can hold it: no NaN, no infinity, plain Python values."""
     from mouse_cli.report import (
         arrangements_document,
+        campaign_document,
         correlation_document,
         coupling_document,
         diagnosis_document,
@@ -95,5 +99,7 @@ def document(subject: Subject) -> dict[str, Any]:
         Coupled: coupling_document,
         Modified: modification_document,
         Sampled: sample_document,
+        Sweep: campaign_document,
+        Bootstrap: campaign_document,
     }
     return documents.get(type(subject), result_document).document(subject)

@@ -120,14 +120,15 @@ def moved(problem: Problem, mean: np.ndarray, cov: np.ndarray, warnings: tuple[D
         listed = MatrixEntries(problem.elements, problem.A, problem.prior.mean)
         for name, values in listed.values(mean).items():
             changed[name] = _plus(getattr(problem.structure, name), listed.places[name], values)
+    prior = Gaussian(mean, cov)
     parameters = tuple(
-        replace(each, nominal=float(value), sd=float(np.sqrt(variance)))
-        for each, value, variance in zip(problem.parameters, mean, np.diag(cov), strict=True)
+        replace(each, nominal=float(value), sd=float(sd))
+        for each, value, sd in zip(problem.parameters, mean, prior.sd, strict=True)
     )
     return replace(
         problem,
         parameters=parameters,
-        prior=Gaussian(mean, cov),
+        prior=prior,
         structure=replace(problem.structure, **changed),
         warnings=(*problem.warnings, *warnings),
     )

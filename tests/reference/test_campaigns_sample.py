@@ -14,7 +14,7 @@ from mouse_cli.model.sampled import Sampling
 from mouse_cli.updating import run
 
 pytest.importorskip("emcee", reason="samples need emcee")
-from mouse_cli.campaigns.sampling.sample import sample  # noqa: E402
+from mouse_cli.campaigns.sampling.sample import sample
 
 DECKS = Path(__file__).resolve().parents[2] / "decks"
 SHARES = (0.025, 0.16, 0.5, 0.84, 0.975)

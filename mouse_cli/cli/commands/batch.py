@@ -1,10 +1,8 @@
 """mouse batch: many decks at once, resumed where it was broken off."""
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-
 import click
 
+from mouse_cli.cli._engine import CLUSTER, JOBS, done, folder
 from mouse_cli.cli._options import OUTSIDE, QUIET, RUN, options, outside, run_changes
 
 _REPORTS = (
@@ -16,30 +14,15 @@ _REPORTS = (
     click.option("--github", is_flag=True, help="Print annotations that GitHub shows beside the lines."),
 )
 
-_CLUSTER = (
-    click.option("--scheduler", metavar="ADDRESS", help="Workers of this dask scheduler, which see the same folders."),
-    click.option("--cluster", metavar="N", type=click.IntRange(1, 1024), help="N dask workers on this machine."),
-)
-
 
 @click.command()
 @click.argument("decks", nargs=-1, required=True)
-@click.option(
-    "-o", "--output", metavar="FOLDER", default="mouse-results", show_default=True, help="Answers, one file a job."
-)
-@click.option("-j", "--jobs", type=click.IntRange(1, 1024), help="Processes at once.  [default: one for each core]")
-@click.option(
-    "--time-limit",
-    "limit_s",
-    metavar="SECONDS",
-    type=click.FloatRange(0, min_open=True),
-    help="Break off jobs that take longer.",
-)
+@options(folder("mouse-results"), JOBS)
 @click.option(
     "--command", "asked", type=click.Choice(("run", "check", "diagnose")), default="run", show_default=True,
     help="What is asked of decks that no manifest names.",
 )  # fmt: skip
-@options(_CLUSTER, _REPORTS, OUTSIDE, QUIET, RUN)
+@options(CLUSTER, _REPORTS, OUTSIDE, QUIET, RUN)
 def command(
     decks: tuple[str, ...],
     output: str,
@@ -61,18 +44,13 @@ def command(
 
     Exit 3: a job missed what its manifest expects. Else the highest of the jobs' own: 5, 4, 1, 0.
     """
-    from mouse_cli.batch.folder import held
     from mouse_cli.batch.markdown import markdown_text
     from mouse_cli.batch.outcome import exit_code
     from mouse_cli.batch.summary import annotations, csv_text, junit_text, table
     from mouse_cli.cli._terminal import deliver
 
-    if sum(each is not None for each in (jobs, scheduler, cluster)) > 1:
-        raise click.UsageError("--jobs, --scheduler and --cluster exclude each other")
     changes = {name: value for name, value in run_changes(given).items() if value is not None}
-    listed = _listed(decks, asked, changes)
-    with held(output), _workers(jobs, scheduler, cluster, limit_s) as outcomes:
-        found = _done(listed, output, outcomes)
+    found = done(_listed(decks, asked, changes), output, jobs, scheduler, cluster, limit_s)
     for text, file in ((csv_text, csv_file), (junit_text, junit_file), (markdown_text, markdown_file)):
         if file:
             deliver(text(found), file, "")
@@ -106,36 +84,3 @@ def _listed(decks: tuple[str, ...], asked: str, changes: dict) -> list:
     if wrong:
         raise DeckError(wrong)
     return once(jobs)
-
-
-@contextmanager
-def _workers(
-    processes: int | None, scheduler: str | None, cluster: int | None, limit_s: float | None
-) -> Iterator[Callable]:
-    """What gives the outcomes of jobs and a folder: processes, or workers of dask."""
-    from functools import partial
-
-    from mouse_cli.batch.work import perform
-
-    work = partial(perform, limit_s=limit_s)
-    if scheduler is None and cluster is None:
-        from mouse_cli.batch.processes import cores, outcomes
-
-        yield lambda jobs, folder: outcomes(jobs, folder, processes or cores(), work)
-        return
-    from mouse_cli.batch import cluster as dask
-
-    with dask.client(scheduler, cluster or 1) as client:
-        yield lambda jobs, folder: dask.outcomes(jobs, folder, client, work)
-
-
-def _done(jobs: list, folder: str, outcomes: Callable) -> list:
-    """The outcomes, in the order of the jobs."""
-    from mouse_cli.cli._batch_progress import progress
-
-    found: list = [None] * len(jobs)
-    with progress(len(jobs)) as show:
-        for number, outcome in outcomes(jobs, folder):
-            found[number] = outcome
-            show(outcome)
-    return found

@@ -1,0 +1,132 @@
+"""What the runs of a bootstrap say together."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from mouse_cli._errors import ERROR, WARNING, Diagnostic, NumericalError
+from mouse_cli.batch.outcome import Outcome
+from mouse_cli.campaigns import answers, bootstrap, intervals
+from mouse_cli.campaigns.bootstrap import Plan
+from mouse_cli.campaigns.sweep import paired
+from mouse_cli.model.campaign import Bootstrap, Spread
+from mouse_cli.model.problem import Problem
+
+_LEVEL = 0.005  # chance by which a spread that the accuracies account for is called too large, or too small
+_LARGE = 1.0  # posterior standard deviations by which one mode or sensor may move an answer
+
+
+def summed(problem: Problem, plan: Plan, outcomes: list[Outcome], seed: int) -> Bootstrap:
+    """`outcomes` of `bootstrap.jobs`, in their order. Raises NumericalError (MD935) where the deck itself has no answer."""
+    names = [each.name for each in problem.parameters]
+    numbers, modes = paired(outcomes[0])
+    first, *rest = (answers.read(each, names, modes) for each in outcomes)
+    if not first.found:
+        message = f"the deck itself has no answer: {first.ended}"
+        raise NumericalError(Diagnostic("MD935", ERROR, message, help="see what `mouse run` says of it"))
+    left_out, drawn = rest[: plan.units], rest[plan.units :]
+    foreseen = bootstrap.foreseen(problem, first.theta, plan)
+    kept = [each for each in drawn if each.found]
+    parameters = tuple(
+        _spread(each.name, each.unit, (first.theta[i], first.sd[i], foreseen[0][i]), [a.theta[i] for a in kept],
+                [a.theta[i] for a in left_out], plan)
+        for i, each in enumerate(problem.parameters)
+    )  # fmt: skip
+    sd = _frequency_sd(outcomes[0])
+    frequencies = tuple(
+        _spread(
+            str(number),
+            "Hz",
+            (first.hz[i], sd[i], foreseen[1][i]),
+            [a.hz[i] for a in kept],
+            [a.hz[i] for a in left_out],
+            plan,
+        )
+        for i, number in enumerate(numbers)
+    )
+    found = Bootstrap(
+        problem, plan.over, seed, first, units(problem, plan), tuple(left_out), tuple(drawn), plan.counts, parameters,
+        frequencies, first.exit_code,
+    )  # fmt: skip
+    return replace(found, warnings=tuple(_remarks(found, plan)))
+
+
+def units(problem: Problem, plan: Plan) -> tuple[str, ...]:
+    """What is drawn or left out: `mode 3`, `sensor 12TY`."""
+    test = problem.test
+    modes = [f"mode {number}" for number in test.number[: plan.m]]
+    labels = test.sensors or tuple(problem.structure.labels[dof] for dof in test.dofs)
+    return (*modes, *(f"sensor {label}" for label in labels[: plan.s]))
+
+
+def _frequency_sd(outcome: Outcome) -> list[float]:
+    import json
+
+    with open(outcome.result, encoding="utf-8") as stream:
+        return [np.nan if each["sd_hz"] is None else each["sd_hz"] for each in json.load(stream)["document"]["modes"]]
+
+
+def _spread(
+    name: str, unit: str, run: tuple[float, float, float], drawn: list[float], left_out: list[float], plan: Plan
+) -> Spread:
+    """`run`: value, posterior sd and what was foreseen."""
+    value, sd, foreseen = (float(each) for each in run)
+    x, without = np.array(drawn, float), np.array(left_out, float)
+    x = x[np.isfinite(x)]
+    samples = [part[np.isfinite(part)] for part in (without[: plan.m], without[plan.m :]) if len(part)]
+    samples = [part for part in samples if len(part) > 1]
+    influence = (without - value) / sd if sd > 0 else np.full(len(without), np.nan)
+    jackknife = intervals.jackknife_sd(samples) if samples else np.nan
+    if len(x) < 2:
+        none = np.full(2, np.nan)
+        return Spread(name, unit, value, sd, foreseen, np.nan, np.nan, none, none, jackknife, influence)
+    return Spread(
+        name, unit, value, sd, foreseen, float(x.std(ddof=1)), float(x.mean() - value), intervals.percentile(x),
+        intervals.bca(x, value, samples), jackknife, influence,
+    )  # fmt: skip
+
+
+def strongest(spread: Spread) -> int | None:
+    """The unit without which the value moves most; None where none is known."""
+    size = np.nan_to_num(np.abs(spread.influence))
+    return int(size.argmax()) if len(size) and size.max() > 0 else None
+
+
+def limits(plan_units: int) -> tuple[float, float]:
+    """Between what sd / foreseen of n units lies 99 times in 100, as chi / sqrt(n - 1) does."""
+    from scipy.stats import chi2
+
+    dof = max(1, plan_units - 1)
+    low, high = chi2.ppf([_LEVEL, 1 - _LEVEL], dof) / dof
+    return float(np.sqrt(low)), float(np.sqrt(high))
+
+
+def _remarks(found: Bootstrap, plan: Plan) -> Iterator[Diagnostic]:
+    """What a careful reader of a bootstrap should know."""
+    low, high = limits(min(each for each in (plan.m, plan.s) if each))
+    ratios = [(s.sd / s.foreseen, s.name) for s in found.parameters if s.foreseen > 0 and np.isfinite(s.sd)]
+    if ratios and max(ratios)[0] > high:
+        ratio, name = max(ratios)
+        message = f"{name} spreads {ratio:.2g} times as far as the accuracies of the test account for"
+        help = "the data disagree among themselves, or their standard deviations are stated too small"
+        yield Diagnostic("MD936", WARNING, message, help=help)
+    if ratios and max(ratios)[0] < low:
+        message = (
+            f"no property spreads more than {max(ratios)[0]:.2g} times as far as the accuracies of the test account for"
+        )
+        yield Diagnostic("MD937", WARNING, message, help="the standard deviations of the data are stated too large")
+    yield from _influential(found)
+    for runs, what in ((found.replicates, "replicates"), (found.left_out, "runs that leave one out")):
+        silent = sum(not each.found for each in runs)
+        if silent:
+            message = f"{silent} of {len(runs)} {what} have no answer and are left out"
+            yield Diagnostic("MD931", WARNING, message, help="see their codes in the files of the answers")
+
+
+def _influential(found: Bootstrap) -> Iterator[Diagnostic]:
+    for each in found.parameters:
+        unit = strongest(each)
+        if unit is not None and abs(each.influence[unit]) > _LARGE:
+            message = f"without {found.units[unit]} {each.name} moves by {each.influence[unit]:+.2g} posterior standard deviations"
+            yield Diagnostic("MD938", WARNING, message, help="look at that measurement; the answer rests on it")

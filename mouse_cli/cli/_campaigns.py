@@ -1,0 +1,34 @@
+"""What sweeps and bootstraps ask of the command line: the deck, options of its runs, where the table goes."""
+
+import click
+
+from mouse_cli.cli._options import run_changes
+
+TABLE = (click.option("--csv", "csv_file", metavar="FILE", help="Write a long table, one line a run and quantity."),)
+
+
+def deck_of(deck: str, given: dict[str, object], quiet: bool) -> tuple:
+    """The problem of the deck, and the options of all jobs on it. Raises DeckError, click.UsageError."""
+    from mouse_cli.cli._decks import read_problem
+    from mouse_cli.cli._terminal import show_diagnostics
+
+    if deck == "-":
+        raise click.UsageError("the deck must be a file: processes read it again")
+    base = {name: value for name, value in run_changes(given).items() if value is not None}
+    problem = read_problem(deck, dict(base))
+    if problem.by_recordings or (problem.test is None and not problem.frf):
+        raise click.UsageError(f"{deck} holds no modes or functions that `mouse run` could revise it by")
+    if not quiet:
+        show_diagnostics(problem.warnings)
+    return problem, base
+
+
+def told(found: object, form: str | None, numbers: str | None, csv_file: str | None) -> None:
+    """Print the report or the document of a campaign, and write its table."""
+    from mouse_cli.campaigns import tables
+    from mouse_cli.cli._terminal import deliver, json_text
+    from mouse_cli.report import document, written
+
+    if csv_file:
+        deliver(tables.text(found), csv_file, "")
+    deliver(json_text(document(found)) if form == "json" else written(found, form or "printout", numbers), None, "")

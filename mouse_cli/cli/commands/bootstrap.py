@@ -1,0 +1,52 @@
+"""mouse bootstrap: how far an answer spreads when the test is drawn anew."""
+
+import click
+
+from mouse_cli.cli._campaigns import TABLE
+from mouse_cli.cli._engine import CLUSTER, JOBS, folder
+from mouse_cli.cli._options import OUTSIDE, QUIET, RUN, answer_form, options
+
+
+@click.command()
+@click.argument("deck")
+@click.option(
+    "--over", type=click.Choice(("modes", "sensors", "both")), default="modes", show_default=True, help="What is drawn."
+)
+@click.option("--replicates", type=click.IntRange(2, 100_000), default=200, show_default=True, help="Tests drawn.")
+@click.option("--jackknife", is_flag=True, help="Leave each out in turn, and draw none.")
+@click.option("--seed", type=click.IntRange(0), default=1, show_default=True, help="Of the random numbers.")
+@options(folder("mouse-bootstrap"), JOBS, CLUSTER, answer_form("mouse.campaign/1"), TABLE, OUTSIDE, QUIET, RUN)
+def command(
+    deck: str,
+    over: str,
+    replicates: int,
+    jackknife: bool,
+    seed: int,
+    output: str,
+    jobs: int | None,
+    limit_s: float | None,
+    scheduler: str | None,
+    cluster: int | None,
+    form: str | None,
+    numbers: str | None,
+    csv_file: str | None,
+    quiet: bool,
+    **given: object,
+) -> int:
+    """Draw the modes or sensors of the test of DECK anew, and say how far the answer spreads and what it rests on.
+
+    Each replicate is a job as of `mouse batch`: answers that are there already are not sought again.
+
+    Exit code: that of the run of DECK itself.
+    """
+    from mouse_cli.campaigns import bootstrap, resampled
+    from mouse_cli.cli._campaigns import deck_of, told
+    from mouse_cli.cli._engine import done
+    from mouse_cli.cli._options import outside
+
+    problem, base = deck_of(deck, given, quiet)
+    plan = bootstrap.plan(problem, over, 0 if jackknife else replicates, seed)
+    outcomes = done(bootstrap.jobs(deck, plan, base, outside()), output, jobs, scheduler, cluster, limit_s)
+    found = resampled.summed(problem, plan, outcomes, seed)
+    told(found, form, numbers, csv_file)
+    return found.exit_code
