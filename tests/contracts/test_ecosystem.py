@@ -1,0 +1,175 @@
+"""The action of GitHub, the hook of pre-commit and completion in shells, as those programs use them."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+import yaml
+
+TOP = Path(__file__).resolve().parents[2]
+EXAMPLE = TOP / "docs" / "example-repository"
+ACTION = yaml.safe_load((TOP / "action.yml").read_text("utf-8"))
+HOOKS = yaml.safe_load((TOP / ".pre-commit-hooks.yaml").read_text("utf-8"))
+BASH, ZSH, FISH, GIT = (shutil.which(name) for name in ("bash", "zsh", "fish", "git"))
+
+needs_bash = pytest.mark.skipif(not BASH, reason="no bash on this system")
+
+
+@pytest.fixture(scope="module")
+def programs(tmp_path_factory) -> Path:
+    """A folder with the installed `mouse`, and a `pip` that tells what it was to install."""
+    folder = tmp_path_factory.mktemp("bin")
+    scripts = {"mouse": f"exec '{sys.executable}' -m mouse_cli \"$@\"", "pip": 'printf "pip <%s>\\n" "$@"'}
+    for name, script in scripts.items():
+        (folder / name).write_text(f"#!/bin/sh\n{script}\n")
+        (folder / name).chmod(0o755)
+    return folder
+
+
+def environment(programs: Path, **more: str) -> dict[str, str]:
+    """Variables of a program that finds `mouse`."""
+    path = f"{programs}{os.pathsep}{os.environ['PATH']}"
+    return {**os.environ, "PATH": path, "PYTHONPATH": str(TOP), "OPENBLAS_NUM_THREADS": "1", **more}
+
+
+@pytest.fixture
+def repository(tmp_path) -> Path:
+    """A copy of the example repository."""
+    return Path(shutil.copytree(EXAMPLE, tmp_path / "example"))
+
+
+# The action
+
+
+def test_action_has_what_github_asks_for():
+    """https://docs.github.com/actions/reference/metadata-syntax-for-github-actions, composite actions."""
+    assert set(ACTION) == {"name", "description", "inputs", "outputs", "runs"}
+    assert all(set(each) == {"description", "default"} for each in ACTION["inputs"].values())
+    assert all(isinstance(each["default"], str) for each in ACTION["inputs"].values())
+    assert all(set(each) == {"description", "value"} for each in ACTION["outputs"].values())
+    assert set(ACTION["runs"]) == {"using", "steps"} and ACTION["runs"]["using"] == "composite"
+    for step in ACTION["runs"]["steps"]:
+        assert ("run" in step) != ("uses" in step)
+        assert set(step) <= ({"name", "id", "shell", "env", "run", "if"} if "run" in step else {"name", "uses", "with"})
+        assert "run" not in step or step["shell"] == "bash"
+    told = (TOP / "docs" / "how-to" / "ci.md").read_text("utf-8")
+    for name, each in ACTION["inputs"].items():
+        assert f"| `{name}` | {'`' + each['default'] + '` ' if each['default'] else ''}|" in told
+
+
+def test_no_input_becomes_a_part_of_a_script():
+    workflow = yaml.safe_load((EXAMPLE / ".github/workflows/mouse.yml").read_text("utf-8"))
+    steps = [*ACTION["runs"]["steps"], *workflow["jobs"]["decks"]["steps"]]
+    assert [each for each in steps if "run" in each]
+    assert not [each for each in steps if "${{" in each.get("run", "")]
+
+
+def act(folder: Path, programs: Path, **inputs: str) -> tuple[int, str, dict[str, str]]:
+    """Exit code, what is printed, and what the output files hold, of the steps of the action as GitHub's runner runs them."""
+    given = {name: each["default"] for name, each in ACTION["inputs"].items()} | inputs
+    values = {f"inputs.{name}": value for name, value in given.items()} | {"github.action_path": "/the action"}
+    files = {name: folder.parent / name for name in ("GITHUB_OUTPUT", "GITHUB_STEP_SUMMARY")}
+    printed, code = "", 0
+    for step in ACTION["runs"]["steps"]:
+        if "run" not in step or code:
+            continue
+        variables = {
+            name: re.sub(r"\$\{\{ (\S+) \}\}", lambda at: values[at[1]], text) for name, text in step["env"].items()
+        }
+        variables |= {name: str(path) for name, path in files.items()}
+        (folder.parent / "step.sh").write_text(step["run"])
+        done = subprocess.run(
+            [BASH, "--noprofile", "--norc", "-eo", "pipefail", str(folder.parent / "step.sh")], cwd=folder, text=True,
+            env=environment(programs, **variables), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=120,
+        )  # fmt: skip
+        printed, code = printed + done.stdout, done.returncode
+    return code, printed, {name: path.read_text("utf-8") for name, path in files.items() if path.exists()}
+
+
+@needs_bash
+def test_action_runs_a_manifest(repository, programs):
+    manifest = repository / "jobs.yaml"
+    manifest.write_text(manifest.read_text("utf-8").partition("  - decks: decks/cantilever")[0])
+    code, printed, told = act(repository, programs, decks="jobs.yaml\n", options="--jobs 1\n --confidence 95")
+    assert code == 0, printed
+    assert "pip <install>\npip </the action>\n" in printed
+    assert told["GITHUB_OUTPUT"] == "exit-code=0\n" and "0 of 2 missed" in told["GITHUB_STEP_SUMMARY"]
+    results = repository / "mouse-results"
+    assert ElementTree.parse(results / "junit.xml").getroot()[0].get("tests") == "2"
+    assert len(list((results / "pages").glob("*.html"))) == 2 and (results / "table.csv").exists()
+
+
+@needs_bash
+def test_action_fails_as_mouse_does_and_inputs_are_data(repository, programs):
+    hostile = "$(touch made); touch made\n--help"
+    code, printed, told = act(repository, programs, decks=hostile, results="$(touch made)", command="check")
+    assert code == 4 and told["GITHUB_OUTPUT"] == "exit-code=4\n"
+    assert sorted(path.name for path in repository.iterdir() if "made" in path.name) == ["$(touch made)"]
+    assert "MD250" in printed and "Usage" not in printed
+    hostile = "--brief;touch made"
+    code, printed, told = act(repository, programs, decks="decks/table_5_2.dat", options=hostile, command="check")
+    assert code in (2, 4) and not (repository / "made").exists()
+
+
+# The hook
+
+
+def test_hook_has_what_pre_commit_asks_for():
+    """https://pre-commit.com/#creating-new-hooks: id, name, entry and language are required."""
+    (hook,) = HOOKS
+    assert set(hook) == {"id", "name", "description", "entry", "args", "language", "files", "require_serial"}
+    matches = re.compile(hook["files"]).search
+    assert all(map(matches, ("decks/a.yaml", "decks/a.yml", "rigs/decks/old/b.dat")))
+    assert not any(
+        map(matches, ("jobs.yaml", ".github/workflows/mouse.yml", "mydecks/a.yaml", "decks/a.yaml.orig", "decks/m.mtx"))
+    )
+    config = yaml.safe_load((EXAMPLE / ".pre-commit-config.yaml").read_text("utf-8"))
+    assert config["repos"][0]["hooks"][0]["id"] == hook["id"]
+
+
+def git(folder: Path, *words: str) -> None:
+    author = ["-c", "user.name=a", "-c", "user.email=a@example.com", "-c", "commit.gpgsign=false"]
+    subprocess.run([GIT, *author, *words], cwd=folder, check=True, capture_output=True, timeout=60)
+
+
+@pytest.mark.skipif(not GIT, reason="no git on this system")
+def test_hook_run_by_pre_commit(repository, programs, tmp_path):
+    """Of a repository with the definition of the hook; `language: system`, for that of Python would install from a network."""
+    pytest.importorskip("pre_commit", reason="pre-commit is not installed")
+    pre_commit, home = (
+        [sys.executable, "-m", "pre_commit"],
+        environment(programs, PRE_COMMIT_HOME=str(tmp_path / "home")),
+    )
+
+    def ran(*words: str) -> subprocess.CompletedProcess:
+        done = subprocess.run(
+            [*pre_commit, *words], cwd=repository, env=home, capture_output=True, text=True, timeout=120
+        )
+        return done
+
+    assert ran("validate-manifest", str(TOP / ".pre-commit-hooks.yaml")).returncode == 0
+    assert ran("validate-config", str(EXAMPLE / ".pre-commit-config.yaml")).returncode == 0
+    tool = tmp_path / "mouse"
+    tool.mkdir()
+    definition = (TOP / ".pre-commit-hooks.yaml").read_text("utf-8")
+    (tool / ".pre-commit-hooks.yaml").write_text(definition.replace("language: python", "language: system"))
+    for folder in (tool, repository):
+        git(folder, "init", "-q")
+        git(folder, "add", "-A", "-f")
+        git(folder, "commit", "-q", "-m", "first")
+    git(tool, "tag", "v0.1.0")
+    config = repository / ".pre-commit-config.yaml"
+    config.write_text(config.read_text("utf-8").replace("https://git.example.com/tools/mouse", str(tool)))
+    well = ran("run", "--all-files")
+    assert well.returncode == 0 and "Passed" in well.stdout, well.stdout + well.stderr
+    deck = repository / "decks" / "cantilever.yaml"
+    deck.write_text(deck.read_text("utf-8").replace("units: SI", "unit: SI"))
+    git(repository, "add", "decks", ".pre-commit-config.yaml")
+    broken = ran("run")
+    assert broken.returncode == 1 and "decks/cantilever.yaml:6:1: error[MD210]" in broken.stdout
+    assert "1 deck checked" in broken.stdout
