@@ -7,6 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import hostile
 import numpy as np
 import pytest
 
@@ -19,8 +20,15 @@ model: {{stiffness: {{order: 1, entries: [[1, 1, 100]]}}, mass: {{file: {name}}}
 parameters: [{{name: k, sd: 10, stiffness: [[1, 1, 1]]}}]
 test: {{modes: {{frequency: [1.6], frequency_sd: 0.01}}}}
 """
-FUNCTIONS = "mouse: 1\nmodel: {{stiffness: {{diagonal: [1]}}, mass: {{identity: 1}}}}\ntest: {{recordings: [{{file: {name}, sample_rate: 10, outputs: {{1: 1}}}}]}}\n"
-COUPLED = "mouse: 1\ncouple: {{substructures: {{a: {{deck: {name}}}}}, connections: [{{mass: 1, at: {{a: 1}}}}], modes: {{count: 1}}}}\n"
+FUNCTIONS = """\
+mouse: 1
+model: {{stiffness: {{diagonal: [1]}}, mass: {{identity: 1}}}}
+test: {{recordings: [{{file: {name}, sample_rate: 10, outputs: {{1: 1}}}}]}}
+"""
+COUPLED = """\
+mouse: 1
+couple: {{substructures: {{a: {{deck: {name}}}}}, connections: [{{mass: 1, at: {{a: 1}}}}], modes: {{count: 1}}}}
+"""
 MODIFIED = "mouse: 1\nmodify: {{deck: {name}, changes: [{{mass: 1, at: 1}}]}}\n"
 MANIFEST = "mouse: 1\nbatch: [{{decks: {name}}}]\n"
 SOUND = DECK.format(name="m.mtx").replace("{file: m.mtx}", "{diagonal: [1]}")
@@ -175,3 +183,100 @@ def test_no_deck_names_what_is_written(place, capfd):
     mouse(capfd, "convert", "decks/deck.yaml", "-o", "out/new.yaml")
     assert {path for path in place.rglob("*") if "out" not in path.parts} == before
     assert len(list((place / "out").iterdir())) > 1
+
+
+MEMORY = 1_200_000_000  # bytes of address space: Python with NumPy, SciPy and h5py, and not much more
+# Reads the files it is told of under limits, each with its own time, and says what came of them.
+READER = """
+import json, resource, signal, sys
+resource.setrlimit(resource.RLIMIT_AS, ({memory}, {memory}))
+sys.path[:0] = {path}
+from mouse_cli._errors import MouseError
+from mouse_cli.batch.decks import is_manifest
+from mouse_cli.formats import read_deck
+from mouse_cli.formats.matrix_files import read_matrix
+from mouse_cli.formats.recording_files import read_contents
+from mouse_cli.formats.yaml_deck import coupled
+
+def late(*_):
+    raise SystemExit("no answer within 20 s of " + name)
+
+signal.signal(signal.SIGALRM, late)
+kind, *names = sys.argv[1:]
+read = {{"matrices": read_matrix, "recordings": read_contents, "decks": read_deck}}[kind]
+for name in names:
+    signal.alarm(20)
+    try:
+        read(name)
+        found = []
+    except MouseError as error:
+        found = [[d.code, str(d.span), d.message, d.help] for d in error.diagnostics]
+    signal.alarm(0)
+    print(json.dumps([name, found]))
+"""
+# Those that are sound in the end: a number beyond all numbers; a segment that a logger never ended.
+ANSWERED = {"cell.csv", "units.csv", "values.tdms"}
+
+
+@posix
+@pytest.mark.parametrize("kind", ["matrices", "recordings", "decks"])
+def test_promises_are_refused_before_they_are_believed(kind, tmp_path):
+    """In little time and memory: a diagnostic that names the file, and says what to do."""
+    pytest.importorskip("h5py")
+    pytest.importorskip("nptdms")
+    files = getattr(hostile, kind.upper())
+    for name, content in files.items():
+        hostile.write(tmp_path / name, content)
+    script = READER.format(memory=MEMORY, path=[path for path in sys.path if path])
+    paths = [str(tmp_path / name) for name in files]
+    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
+    done = subprocess.run(
+        [sys.executable, "-c", script, kind, *paths],
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,
+        env=environment,
+        timeout=300,
+    )
+    assert done.returncode == 0 and not done.stderr, done.stderr[-2000:]
+    answers = dict(map(json.loads, done.stdout.splitlines()))
+    assert set(answers) == set(paths)
+    for path, found in answers.items():
+        if os.path.basename(path) in ANSWERED:
+            continue
+        assert found and all(
+            code.startswith("MD") and message and span.startswith(path) for code, span, message, _ in found
+        ), path
+        assert any(help for *_, help in found), path
+    assert not (tmp_path / "pwned").exists()
+
+
+@pytest.mark.parametrize("how", ["link", "link by link", "virtual", "external"])
+def test_data_sets_lie_in_the_file_that_is_read(how, tmp_path, monkeypatch):
+    """An HDF5 file beside the deck must not read another file, by whatever HDF5 has for that."""
+    h5py = pytest.importorskip("h5py")
+    from mouse_cli._errors import DeckError
+    from mouse_cli.formats.matrix_files import read_matrix
+    from mouse_cli.formats.recording_files import read_contents
+
+    monkeypatch.chdir(tmp_path)
+    with h5py.File("secret.h5", "w") as file:
+        file["K"] = np.eye(2)
+    Path("secret.bin").write_bytes(np.eye(2).tobytes())
+    hostile.hdf5(tmp_path / "k.h5", how)
+    with h5py.File("k.h5") as file:
+        assert np.array_equal(file["K"][()], np.eye(2))  # h5py itself follows it
+    with pytest.raises(DeckError, match=r"MD252.*another file"):
+        read_matrix("k.h5", variable="K")
+    with pytest.raises(DeckError, match=r"MD252.*another file|MD601"):
+        read_contents("k.h5")
+
+
+def test_links_within_a_file_are_followed(tmp_path):
+    h5py = pytest.importorskip("h5py")
+    from mouse_cli.formats.matrix_files import read_matrix
+
+    with h5py.File(tmp_path / "k.h5", "w") as file:
+        file["model/K"] = np.eye(2)
+        file["near"], file["K"] = h5py.SoftLink("/model"), h5py.SoftLink("near/K")
+    assert np.array_equal(read_matrix(str(tmp_path / "k.h5"), variable="K"), np.eye(2))

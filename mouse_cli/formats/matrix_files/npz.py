@@ -55,7 +55,10 @@ def check(path: str) -> None:
 def check_array(path: str) -> None:
     """The same of an array alone (.npy)."""
     with open(path, "rb") as stream:
-        kept(path, stated(stream), "the array")
+        promised = stated(stream)
+        if not stream.tell() > len(np.lib.format.MAGIC_PREFIX):
+            raise ValueError("no array of NumPy")
+    kept(path, promised, "the array")
 
 
 def stated(stream: BinaryIO) -> int:

@@ -49,13 +49,14 @@ class _Mode:
 def _read(path: str) -> ModeTable:
     with open(path, "rb") as stream:
         data = stream.read()
-    mass, found = None, {55: [], 2414: []}
+    mass, found, first, counted = None, {55: [], 2414: []}, 1, 0
     for block in blocks(data):
+        first, counted = first + data.count(b"\n", counted, block.at), block.at
         lines = bytes(block.content).decode("latin-1").splitlines() if block.number in (55, 2414, 164) else []
         if block.number == 164 and lines:
             mass = _MASSES.get(int(lines[0][:10].strip() or 0))
         elif block.number in found:
-            found[block.number].append(_mode(path, data, block, lines))
+            found[block.number].append(_mode(path, first, block, lines))
     modes = [mode for mode in found[55] or found[2414] if mode is not None and mode.frequency_hz > 0]
     if not modes:
         reject(
@@ -89,9 +90,8 @@ def _real(shape: np.ndarray) -> np.ndarray:
     return (shape * np.exp(-0.5j * np.angle((known**2).sum()))).real
 
 
-def _mode(path: str, data: bytes, block: Block, lines: list[str]) -> _Mode | None:
-    """The mode of a data set; None of one that is of something else."""
-    first = data.count(b"\n", 0, block.at) + 1
+def _mode(path: str, first: int, block: Block, lines: list[str]) -> _Mode | None:
+    """The mode of a data set that begins on the line `first`; None of one that is of something else."""
     number, head = block.number, _HEAD[block.number]
     if len(lines) <= head:
         _damaged(path, first, lines, len(lines) - 1, f"data set {number} is cut short in its head")

@@ -17,7 +17,6 @@ from mouse_cli.model.channel_units import unit
 _MOST_HEAD = 200  # lines before the numbers
 _MISSING = ("", "nan", "na", "n/a", "null", "-", "--", "#n/a", "inf", "-inf", "+inf")
 _DECIMAL_COMMA = re.compile(r"[-+]?[0-9]*,[0-9]+([eE][-+]?[0-9]+)?")
-_UNIT = re.compile(r"^(.*?)\s*[\[(](.*)[\])]$")
 _COMMENTS = "#%!"
 
 
@@ -26,8 +25,6 @@ def _read(path: str) -> Contents:
         head = [line.rstrip("\n") for line in islice(stream, _MOST_HEAD)]
     first, separator = _first(path, head)
     width = _columns(head[first : first + 5], separator)
-    if width > MOST_COLUMNS:
-        reject("MD258", path, f"the table has {width} columns; at most {MOST_COLUMNS} are read", "divide it")
     values = _at_once(path, first, separator, head[first])
     if values is None or values.shape[1] != width:
         values = _slowly(path, first, separator, width)
@@ -42,6 +39,8 @@ def _first(path: str, lines: list[str]) -> tuple[int, str | None]:
             continue
         separator = next((mark for mark in (";", "\t", ",") if mark in line), None)
         cells = _cells(line, separator)
+        if len(cells) > MOST_COLUMNS:
+            reject("MD258", path, f"line {i + 1} has more than {MOST_COLUMNS} cells", "divide the table")
         comma = separator in (";", "\t")
         if any(_number(cell, comma) is not None for cell in cells) and all(
             _number(cell, comma) is not None or cell.lower() in _MISSING for cell in cells
@@ -133,10 +132,16 @@ def _head(lines: list[str], separator: str | None, width: int) -> tuple[list[str
         units, rows = [cell.strip("[]()") for cell in rows[-1]], rows[:-1]
     names = list(rows[-1]) if rows else [""] * width
     for j, name in enumerate(names):
-        found = _UNIT.match(name)
-        if found and found[1]:
-            names[j], units[j] = found[1], units[j] or found[2]
+        stem, said = _parted(name)
+        if stem and said is not None:
+            names[j], units[j] = stem, units[j] or said
     return [name or str(j + 1) for j, name in enumerate(names)], units
+
+
+def _parted(name: str) -> tuple[str, str | None]:
+    """`acc3` and `g` of `acc3 (g)` or `acc3 [g]`; None for a name without a unit."""
+    at = min((i for i in (name.find("("), name.find("[")) if i >= 0), default=-1)
+    return (name[:at].rstrip(), name[at + 1 : -1]) if at >= 0 and name.endswith((")", "]")) else (name, None)
 
 
 def _are_units(cells: list[str]) -> bool:

@@ -1,11 +1,20 @@
 """Files of LabVIEW (.tdms) by nptdms: channels are `group.channel`, with unit and time step of their properties."""
 
+import os
+from typing import Any, BinaryIO
+
 import numpy as np
 
 from mouse_cli.formats.recording_files import MOST_COLUMNS, Column, Contents, RecordingFormat, kept, reject, room
 
 _UNITS = ("unit_string", "NI_UnitDescription", "Unit", "unit")
 _SCALES, _MOST_SCALES = "NI_Number_Of_Scales", 100
+_LEAD, _LISTS, _BIG_ENDIAN = (
+    28,
+    2,
+    64,
+)  # bytes before a segment; flags: channels are listed, most significant byte first
+_MOST_LISTED = 10_000_000
 _STEP = "wf_increment"
 
 
@@ -19,7 +28,16 @@ def _read(path: str) -> Contents:
             "reading TDMS needs the package nptdms, which is not installed",
             "pip install 'mouse-cli[tdms]'",
         )
-    with open(path, "rb") as stream, TdmsFile.open(stream) as file:  # by its name an index beside it would be read too
+    from nptdms.log import log_manager
+
+    log_manager.set_level("CRITICAL")  # it would write of damage to standard error
+    with open(path, "rb") as stream:  # by its name an index beside it would be read too
+        _fragments(path, stream)
+        return _contents(path, TdmsFile.open(stream))
+
+
+def _contents(path: str, opened: Any) -> Contents:
+    with opened as file:
         channels = [channel for group in file.groups() for channel in group.channels()]
         if len(channels) > MOST_COLUMNS:
             reject(
@@ -29,6 +47,27 @@ def _read(path: str) -> Contents:
         room(path, sum(8 * len(channel) for channel in channels), "the file as numbers")
         columns = [_column(channel) for channel in channels]
     return Contents(tuple(column for column in columns if column is not None))
+
+
+def _fragments(path: str, stream: BinaryIO) -> None:
+    """Refuse (MD258) a file of so many segments with so many channels that to list them takes longer than to read them."""
+    at = segments = most = 0
+    while True:
+        stream.seek(at)
+        head = stream.read(_LEAD + 4)
+        if len(head) < _LEAD + 4 or head[:4] != b"TDSm":
+            break
+        contents = int.from_bytes(head[4:8], "little")
+        order = "big" if contents & _BIG_ENDIAN else "little"
+        segments += 1
+        most = max(
+            most, min(int.from_bytes(head[_LEAD:], order), os.path.getsize(path) // 8) if contents & _LISTS else 0
+        )
+        at += _LEAD + int.from_bytes(head[12:20], order)
+    stream.seek(0)
+    if segments * most > _MOST_LISTED:
+        message = f"the file has {segments} segments of up to {most} channels; at most {_MOST_LISTED} are listed in all"
+        reject("MD258", path, message, "defragment it, with TDMS Defragment of LabVIEW")
 
 
 def _bytes(channel) -> int:

@@ -1,6 +1,7 @@
 """Data sets of a universal file, ASCII and binary, told apart without trust in what instruments write between them."""
 
 import re
+from bisect import bisect_left
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -26,15 +27,19 @@ class Block:
 def blocks(data: bytes) -> Iterator[Block]:
     """Every data set that begins in `data`, binary ones by their length."""
     view, at = memoryview(data), 0
-    while (mark := _MARK.search(data, at)) is not None:
-        head = _HEAD.match(data, mark.end())
+    marks = [mark.span() for mark in _MARK.finditer(data)]
+    closing = [mark for mark in marks if _closes(data, mark[1])]
+    for begun, after in marks:
+        if begun < at:
+            continue
+        head = _HEAD.match(data, after)
         if head is None:
-            at = mark.end()
+            at = after
             continue
         begin, extra = head.end(), head[3].decode("latin-1")
         binary = bool(head[2]) or (head[1] == b"58" and extra.strip()[:1].lower() == "b")
         least = begin + (_binary_bytes(data, begin, extra) if binary else 0)
-        end = _end(data, least)
+        end = _end(data, least, closing)
         yield Block(int(head[1]), binary, extra, begin, view[begin : end[0]])
         at = end[1]
 
@@ -68,21 +73,20 @@ def _decoded(line: bytes) -> str:
         return line.decode("latin-1")
 
 
-def _end(data: bytes, at: int) -> tuple[int, int]:
-    """Where the content ends, and where the search for the next data set goes on: after the mark that ends it.
-
-    A mark inside is a number of the data set, -1 alone in its line: then neither the end of the file nor another mark follows.
-    """
-    begin = at
-    while (mark := _MARK.search(data, at)) is not None:
-        after = data[mark.end() : mark.end() + 400].lstrip()
-        if not after or after.startswith(b"-1") or not _number_first(after):
-            return mark.start(), mark.end()
-        at = mark.end()
+def _end(data: bytes, at: int, closing: list[tuple[int, int]]) -> tuple[int, int]:
+    """Where the content ends, and where the search for the next data set goes on: after the mark that ends it."""
+    place = bisect_left(closing, (at, at))
+    if place < len(closing):
+        return closing[place]
     # binary data may end without a line end before the mark
-    close = data.find(b"    -1", begin)
+    close = data.find(b"    -1", at)
     return (close, close + 6) if close >= 0 else (len(data), len(data))
 
 
-def _number_first(text: bytes) -> bool:
-    return text[:1] in b"0123456789+-."
+def _closes(data: bytes, after: int) -> bool:
+    """Whether a mark that ends at byte `after` may end a data set: the end of the file, another mark or no number follows.
+
+    A mark inside is a number of the data set, -1 alone in its line.
+    """
+    text = data[after : after + 400].lstrip()
+    return not text or text.startswith(b"-1") or text[:1] not in b"0123456789+-."

@@ -26,6 +26,8 @@ def expanded(document: Document, item: Node, called: str, mesh: MeshDraft | None
     numbers = ids(document, given["elements"], f"{called}.elements", everything)
     if numbers is None:
         return []
+    if not len(numbers):
+        return document.error("MD216", given["elements"], f"{called}.elements stands for none", "give elements") or []
     parts = np.split(numbers, np.arange(size, len(numbers), size))
     return [_of(item, given["name"], ranges(part).strip("[]")) for part in parts]
 
