@@ -110,7 +110,7 @@ def _with_values(problem: Problem, values: dict[str, float]) -> Problem:
             mean[places[name]] = value
         elif own in places and name.endswith(SD):
             sd = problem.prior.sd[places[own]]
-            if not sd > 0 or value < 0:
+            if not (sd > 0 and value > 0):
                 raise _refused(
                     "MD933",
                     f"{name} is {value:g}, in the deck {sd:g}; both must be above zero",
