@@ -1,5 +1,6 @@
-"""The action of GitHub, the hook of pre-commit and completion in shells, as those programs use them."""
+"""The action of GitHub, the hook of pre-commit, editors and completion in shells, as those programs use them."""
 
+import json
 import os
 import re
 import shutil
@@ -8,8 +9,13 @@ import sys
 from pathlib import Path
 from xml.etree import ElementTree
 
+import jsonschema
 import pytest
 import yaml
+from language_server import LanguageServer
+
+from mouse_cli.cli.main import _run
+from mouse_cli.formats.yaml_deck.reference import schema
 
 TOP = Path(__file__).resolve().parents[2]
 EXAMPLE = TOP / "docs" / "example-repository"
@@ -173,3 +179,68 @@ def test_hook_run_by_pre_commit(repository, programs, tmp_path):
     broken = ran("run")
     assert broken.returncode == 1 and "decks/cantilever.yaml:6:1: error[MD210]" in broken.stdout
     assert "1 deck checked" in broken.stdout
+
+
+# Editors
+
+SERVER = shutil.which("yaml-language-server")
+
+
+def test_schema_tells_what_every_key_means():
+    whole = schema()
+    assert whole["$id"] == "urn:mouse:deck:1" and whole["title"] and whole["description"]
+
+    def below(part: object) -> None:
+        if isinstance(part, dict):
+            for name, key in part.get("properties", {}).items():
+                assert set(key) == {"not"} or key["description"].strip(), f"nothing is said of {name}"
+        for each in part.values() if isinstance(part, dict) else part if isinstance(part, list) else ():
+            below(each)
+
+    below(whole)
+
+
+MANIFEST = (EXAMPLE / "jobs.yaml").read_text("utf-8")
+DAMAGES = [
+    ("batch:", "jobs:"),
+    ("  - decks: decks/table_5_2.dat", "  - deck: decks/table_5_2.dat"),
+    ("options: {cycles: 2}", "options: {cycle: 2}"),
+    ("options: {cycles: 2}", "options: [cycles]"),
+    ("command: diagnose", "command: guess"),
+    ("command: diagnose", "causes: 3"),
+    ("expect: {exit: 0}", "expect: converged"),
+]
+
+
+@pytest.mark.parametrize(("old", "new"), DAMAGES)
+def test_schema_and_reader_refuse_the_same_manifests(repository, capsys, old, new):
+    jsonschema.validate(yaml.safe_load(MANIFEST), schema())
+    assert _run(["check", str(repository / "jobs.yaml")]) == 0
+    damaged = MANIFEST.replace(old, new, 1)
+    assert damaged != MANIFEST and not jsonschema.Draft202012Validator(schema()).is_valid(yaml.safe_load(damaged))
+    (repository / "jobs.yaml").write_text(damaged, "utf-8")
+    assert _run(["check", str(repository / "jobs.yaml")]) == 4
+
+
+@pytest.mark.skipif(not SERVER, reason="yaml-language-server is not in the PATH")
+def test_editors_complete_explain_and_mark_keys(repository):
+    (repository / "deck.schema.json").write_text(json.dumps(schema()))
+    settings = {"schemas": {"./deck.schema.json": ["decks/**/*.yaml", "jobs.yaml"]}, "schemaStore": {"enable": False}}
+    settings |= {"validate": True, "completion": True, "hover": True}
+    deck = (repository / "decks" / "cantilever.yaml").read_text("utf-8")
+    with LanguageServer(SERVER, repository, settings) as server:
+        assert server.complaints(server.open("decks/good.yaml", deck)) == []
+        assert server.complaints(server.open("jobs.yaml", MANIFEST)) == []
+        (wrong,) = server.complaints(server.open("decks/bad.yaml", deck.replace("units: SI", "unit: SI")))
+        assert wrong["message"] == "Property unit is not allowed." and wrong["range"]["start"]["line"] == 5
+        begun = "mouse: 1\ntest:\n  modes:\n    frequency: [1]\n    \n"
+        uri = server.open("decks/begun.yaml", begun)
+        offered = {each["label"] for each in server.at("completion", uri, 4, 4)["items"]}
+        assert {"frequency_sd", "dofs", "shapes", "shape_sd"} <= offered and "parameters" not in offered
+        assert "natural frequencies" in str(server.at("hover", uri, 3, 6)) and "Hz" in str(
+            server.at("hover", uri, 3, 6)
+        )
+        line = "# yaml-language-server: $schema=../deck.schema.json\n"
+        uri = server.open("elsewhere/jobs.yaml", f"{line}mouse: 1\nbatch:\n  - decks: a.yaml\n    \n")
+        offered = {each["label"] for each in server.at("completion", uri, 4, 4)["items"]}
+        assert offered == {"command", "options", "candidates", "causes", "expect"}

@@ -7,12 +7,19 @@ from mouse_cli.formats.yaml_deck.schema import SECTIONS
 
 
 def schema() -> dict[str, Any]:
-    """The JSON Schema of a deck, shipped beside this file as deck.schema.json and printed by `mouse explain schema`."""
+    """The JSON Schema of decks and manifests, shipped beside this file as deck.schema.json and printed by `mouse explain schema`.
+
+    A file with the key `batch` is a manifest, any other a deck: one schema serves an editor for all files of mouse.
+    """
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "$id": f"urn:mouse:deck:{VERSION}",
         "title": f"mouse deck, version {VERSION}",
-        **_section(SECTIONS["deck"]),
-        "$defs": {name: _section(section) for name, section in SECTIONS.items() if name != "deck"},
+        "description": "A deck of mouse, or with the key `batch` a manifest of many.",
+        "if": {"required": ["batch"]},
+        "then": {"$ref": "#/$defs/manifest"},
+        "else": {"$ref": "#/$defs/deck"},
+        "$defs": {name: _section(section) for name, section in SECTIONS.items()},
     }
 
 
