@@ -11,6 +11,7 @@ from mouse_cli._errors import MouseError
 
 _COMMANDS = "mouse_cli.cli.commands"
 _THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
+COMPLETION = "_MOUSE_COMPLETE"  # set by a shell that asks what may follow
 INTERRUPTED = 130
 
 
@@ -23,7 +24,12 @@ class _Commands(click.Group):
     def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
         if name not in _registry.names(_COMMANDS):
             return None
-        return import_module(f"{_COMMANDS}.{name}").command
+        command = import_module(f"{_COMMANDS}.{name}").command
+        if COMPLETION not in os.environ:
+            return command
+        from mouse_cli.cli._completion import completing
+
+        return completing(command)
 
     def resolve_command(self, ctx: click.Context, args: list[str]):
         try:

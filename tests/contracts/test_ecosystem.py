@@ -244,3 +244,69 @@ def test_editors_complete_explain_and_mark_keys(repository):
         uri = server.open("elsewhere/jobs.yaml", f"{line}mouse: 1\nbatch:\n  - decks: a.yaml\n    \n")
         offered = {each["label"] for each in server.at("completion", uri, 4, 4)["items"]}
         assert offered == {"command", "options", "candidates", "causes", "expect"}
+
+
+# Shells
+
+LINES = {  # what is typed before Tab, and what then stands there
+    "mouse run decks/cant": "mouse run decks/cantilever.yaml",
+    "mouse diagnose --candidates gravity,ground-sp": "mouse diagnose --candidates gravity,ground-spring",
+    "mouse explain MD211": "mouse explain MD211",
+}
+MORE = {  # asked of bash alone
+    "mouse cor": "mouse correlate",
+    "mouse run --recursion anch": "mouse run --recursion anchored",
+    "mouse run --estimator max": "mouse run --estimator maximum-likelihood",
+    "mouse report res": "mouse report result.json",
+    "mouse run decks/cantilever.yaml --loosen cl": "mouse run decks/cantilever.yaml --loosen clamp=",
+}
+TO_START, TAB = "\x01", "\t"
+
+
+def typed(words: list[str], lines: list[str], folder: Path, variables: dict[str, str]) -> str:
+    """What a shell prints on a terminal on which these lines are typed."""
+    import pty
+
+    ours, theirs = pty.openpty()
+    process = subprocess.Popen(
+        words, cwd=folder, env=variables, stdin=theirs, stdout=theirs, stderr=theirs, start_new_session=True
+    )
+    os.close(theirs)
+    os.write(ours, "".join(f"{line}\n" for line in [*lines, "exit"]).encode())
+    told = b""
+    try:
+        while part := os.read(ours, 65536):
+            told += part
+    except OSError:  # the terminal is closed: the shell has ended
+        pass
+    finally:
+        os.close(ours)
+        process.wait(timeout=60)
+    return told.decode("utf-8", "replace").replace("\r", "")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="no terminals of POSIX")
+@pytest.mark.parametrize("shell", ["bash", "zsh"])
+def test_shells_complete_what_is_typed(shell, repository, programs, no_hang):
+    if not shutil.which(shell):
+        pytest.skip(f"no {shell} on this system")
+    (repository / "result.json").touch()
+    words = [shell, "--norc", "--noprofile", "-i"] if shell == "bash" else [shell, "-f", "-i"]
+    begin = [] if shell == "bash" else ["autoload -U compinit && compinit -u -D", "LISTMAX=0"]
+    wanted = LINES | (MORE if shell == "bash" else {})
+    lines = [f"{line}{TAB}{TO_START}echo told: " for line in wanted]
+    variables = environment(programs, TERM="dumb", PS1="", HOME=str(repository.parent), INPUTRC="/dev/null")
+    told = typed(words, [*begin, f"source <(mouse completion {shell})", *lines], repository, variables)
+    for line in wanted.values():
+        assert re.search(rf"^told: {re.escape(line)} ?$", told, re.MULTILINE), f"{line}\n{told}"
+
+
+@pytest.mark.skipif(not FISH, reason="no fish on this system")
+def test_fish_completes(repository, programs):
+    script = "mouse completion fish | source\n" + "\n".join(f"complete -C '{line}'" for line in LINES)
+    variables = environment(programs, HOME=str(repository.parent))
+    done = subprocess.run(
+        [FISH, "--no-config", "-c", script], cwd=repository, env=variables, capture_output=True, text=True, timeout=60
+    )
+    told = {line.partition("\t")[0] for line in done.stdout.splitlines()}
+    assert {line.split()[-1] for line in LINES.values()} == told

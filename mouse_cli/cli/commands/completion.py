@@ -2,6 +2,10 @@
 
 import click
 
+_WORD = "COMPREPLY+=($value)"  # of the script for bash
+_UNFINISHED = "            [[ $value == *= ]] && compopt -o nospace"  # a value follows
+_ALL_COMMAS = ('string split ","', 'string split -m 1 ","')  # of that for fish: names have commas between
+
 
 @click.command()
 @click.argument("shell", type=click.Choice(["bash", "zsh", "fish"]))
@@ -12,7 +16,8 @@ def command(shell: str) -> int:
     """
     from click.shell_completion import get_completion_class
 
-    from mouse_cli.cli.main import cli
+    from mouse_cli.cli.main import COMPLETION, cli
 
-    click.echo(get_completion_class(shell)(cli, {}, "mouse", "_MOUSE_COMPLETE").source())
+    source = get_completion_class(shell)(cli, {}, "mouse", COMPLETION).source()
+    click.echo(source.replace(_WORD, f"{_WORD}\n{_UNFINISHED}").replace(*_ALL_COMMAS))
     return 0
