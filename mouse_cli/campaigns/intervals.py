@@ -25,7 +25,8 @@ def bca(replicates: np.ndarray, value: float, left_out: list[np.ndarray]) -> np.
     squares = sum(float(np.sum(l**2)) / n**2 for l, n in parts)
     a = cubes / (6 * squares**1.5) if squares > 0 else 0.0
     z = z0 + ndtri(np.array([(1 - LEVEL) / 2, (1 + LEVEL) / 2]))
-    shares = ndtr(z0 + z / (1 - a * z))
+    with np.errstate(invalid="ignore"):
+        shares = ndtr(z0 + z / (1 - a * z))
     return np.quantile(replicates, shares) if np.isfinite(shares).all() else np.full(2, np.nan)
 
 

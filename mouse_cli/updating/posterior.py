@@ -64,4 +64,5 @@ def laplace(setting: Setting, state: State) -> Laplace:
     z = coordinates.in_prior_units(state.u - coordinates.mean)
     B = in_prior_units(state.T, coordinates.L) / setting.sd[:, None]
     precision, axes = np.linalg.eigh(np.eye(len(z)) + B.T @ B)
+    axes = axes * np.sign(axes[np.abs(axes).argmax(axis=0), np.arange(len(z))])
     return Laplace(setting, state, z, axes / np.sqrt(precision), state.chi2 + float(z @ z))

@@ -226,3 +226,20 @@ test:
     shapes: [[0.445, 0.01, 0.802], [-0.802, 0.0, -0.356], [1.0, 0.01, -0.643], [0.0, 0.445, 0], [0.01, 0.802, 0], [0, 1.0, 0]]
     shape_sd: 0.01
 """
+
+
+def test_json_of_campaigns(tmp_path, monkeypatch):
+    """What a deck, a mode or a point is called stands in no table: keys below these are names."""
+    monkeypatch.chdir(tmp_path)
+    named = r"\.(values|posterior|posterior_sd|hz|shares|influence)\..*"
+    deck, emitted = TOP / "decks" / "table_5_3.yaml", set()
+    for command in (("sweep", deck, "--vary", "k1.sd=4000,8000"), ("bootstrap", deck, "--replicates", "2")):
+        document = json.loads(_told(*command, "-j", "1", "-q", "--json"))
+        emitted |= {path for path in _paths(document) if not re.search(named, path)}
+    assert emitted == _documented("mouse.campaign/1")
+
+
+def test_json_of_samples():
+    pytest.importorskip("emcee", reason="samples need emcee")
+    emitted = _paths(json.loads(_told("sample", TOP / "decks" / "table_5_3.yaml", "--steps", "100", "-q", "--json")))
+    assert set(emitted) == _documented("mouse.sample/1")

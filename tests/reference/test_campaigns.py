@@ -152,15 +152,15 @@ def test_a_sweep_that_is_killed_goes_on_and_ends_like_an_unbroken_one(tmp_path):
         "sweep",
         str(CHAIN),
         "--vary",
-        "k1.sd=4000:16000:12",
+        "k1.sd=4000:16000:9",
         "--vary",
-        "shape_sd*=0.5:2:8",
+        "shape_sd*=0.5:2:6",
     ]
     command += ["-j", "1", "--json", "-q", "-o", "answers"]
     for place in ("whole", "broken"):
         (tmp_path / place).mkdir()
     whole = subprocess.run(command, cwd=tmp_path / "whole", capture_output=True, text=True, timeout=120)
-    for target in (1, 30):
+    for target in (1, 20):
         going = subprocess.Popen(command, cwd=tmp_path / "broken", stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         end = time.monotonic() + 60
         while (
@@ -172,7 +172,7 @@ def test_a_sweep_that_is_killed_goes_on_and_ends_like_an_unbroken_one(tmp_path):
         going.kill()
         going.communicate()
     kept = {path: path.stat().st_mtime_ns for path in tmp_path.glob("broken/answers/*.json")}
-    assert len(kept) >= 30
+    assert len(kept) >= 20
     time.sleep(0.3)  # what the killed one began may still be written
     last = subprocess.run(command, cwd=tmp_path / "broken", capture_output=True, text=True, timeout=120)
     assert all(path.stat().st_mtime_ns == when for path, when in kept.items())
