@@ -4,7 +4,7 @@ import re
 from html import escape
 
 _NOT_TEXT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff]")  # no page may hold them, no file either
-_EMPTY = frozenset({"meta", "br", "col"})  # elements without an end
+_EMPTY = frozenset({"meta", "br", "col", "input"})  # elements without an end
 
 
 class Markup(str):
