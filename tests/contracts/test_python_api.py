@@ -78,6 +78,16 @@ def test_frames_hold_all_numbers_of_the_document_and_no_others(name):
     assert of_frames(mouse_cli.frames(document)) == Counter(numbers(document))
 
 
+@pytest.mark.parametrize(
+    "command", [["correlate", "cantilever.yaml", "--expand", "serep"], ["compare", "table_5_2.yaml"]], ids=" ".join
+)
+def test_frames_of_other_documents(capsys, command):
+    pytest.importorskip("pandas", reason="the extra `frames` is not installed")
+    _run([command[0], str(DECKS / command[1]), *command[2:], "--json", "-q"])
+    document = json.loads(capsys.readouterr().out)
+    assert of_frames(mouse_cli.frames(document)) == Counter(numbers(document))
+
+
 def test_frames_of_a_result():
     pytest.importorskip("pandas", reason="the extra `frames` is not installed")
     result = run(chain())
