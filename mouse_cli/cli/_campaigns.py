@@ -11,13 +11,14 @@ def deck_of(deck: str, given: dict[str, object], quiet: bool) -> tuple:
     """The problem of the deck, and the options of all jobs on it. Raises DeckError, click.UsageError."""
     from mouse_cli.cli._decks import read_problem
     from mouse_cli.cli._terminal import show_diagnostics
+    from mouse_cli.updating import refusals
 
     if deck == "-":
         raise click.UsageError("the deck must be a file: processes read it again")
     base = {name: value for name, value in run_changes(given).items() if value is not None}
     problem = read_problem(deck, dict(base))
     if problem.by_recordings or (problem.test is None and not problem.frf):
-        raise click.UsageError(f"{deck} holds no modes or functions that `mouse run` could revise it by")
+        raise refusals.no_test(problem)
     if not quiet:
         show_diagnostics(problem.warnings)
     return problem, base

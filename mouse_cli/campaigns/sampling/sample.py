@@ -8,12 +8,13 @@ import numpy as np
 from mouse_cli._errors import ERROR, WARNING, Diagnostic, NumericalError
 from mouse_cli.campaigns.sampling import chains, ensemble, pareto, search
 from mouse_cli.campaigns.sampling.pool import pool_of
+from mouse_cli.estimators.linear import expand
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import Result
 from mouse_cli.model.sampled import Chain, PosteriorMode, Quantity, Sampled, Sampling
 from mouse_cli.updating.loop import begin, run
 from mouse_cli.updating.normality import falls, told
-from mouse_cli.updating.posterior import Laplace, cost, laplace, place
+from mouse_cli.updating.posterior import Laplace, laplace
 from mouse_cli.updating.state import Setting
 
 _DRAWS = 2000  # so many that a k-hat up to 0.7 is told from a larger one: 1 - 1/log10(s)
@@ -35,15 +36,16 @@ def sample(problem: Problem, choices: Sampling, say: Callable[[str], None] = lam
     normal = laplace(setting, setting.state(_found(setting, result)))
     say("seeking other modes of the posterior")
     modes = search.modes(setting, rng, normal)
-    k_hat, spent = _k_hat(normal, rng)
     density = ensemble.Density(setting, modes[0].z, modes[0].root)
     walkers = choices.walkers or max(16, 4 * len(normal.z))
     begun = search.start(modes, max(walkers + walkers % 2, 2 * len(normal.z)), rng)
     with pool_of(problem, density, choices.processes) as pool:
+        say(f"weighing {_DRAWS} draws from the normal density of the run")
+        k_hat = _k_hat(normal, density, pool.map if pool else map, rng)
         walked = ensemble.walk(density, begun, choices.steps, choices.seed, pool, say)
     found = _summed(problem, result, setting, modes, walked, rng)
-    evaluations = spent + walked.steps * len(begun)
-    found = replace(found, k_hat=k_hat, draws=spent, evaluations=evaluations, seed=choices.seed)
+    evaluations = _DRAWS + walked.steps * len(begun)
+    found = replace(found, k_hat=k_hat, draws=_DRAWS, evaluations=evaluations, seed=choices.seed)
     return replace(found, warnings=tuple(_remarks(found, normal)))
 
 
@@ -69,11 +71,11 @@ def _found(setting: Setting, result: Result) -> np.ndarray:
     return u if lower is None else np.clip(u, lower, upper)
 
 
-def _k_hat(normal: Laplace, rng: np.random.Generator) -> tuple[float, int]:
-    """Pareto k-hat of draws from the normal density: log weights -J/2 + |w|^2/2; and their number."""
+def _k_hat(normal: Laplace, density: ensemble.Density, each: Callable, rng: np.random.Generator) -> float:
+    """Pareto k-hat of draws from the normal density: log weights -J/2 + |w|^2/2."""
     w = rng.standard_normal((_DRAWS, len(normal.z)))
-    costs = np.array([cost(normal.setting, normal.z + normal.root @ each)[0] for each in w])
-    return pareto.k_hat(0.5 * (np.sum(w * w, axis=1) - (costs - normal.cost))), _DRAWS
+    logs = np.array([log_p for log_p, _ in each(density, density.w(normal.z + w @ normal.root.T))])
+    return pareto.k_hat(0.5 * (np.sum(w * w, axis=1) + normal.cost) + logs)
 
 
 def _summed(
@@ -86,14 +88,14 @@ def _summed(
 ) -> Sampled:
     """What the chain says of every parameter and frequency."""
     flat = walked.z.reshape(-1, walked.z.shape[2])
-    theta = setting.coordinates.value(np.array([place(setting, z) for z in flat]))
+    theta = setting.coordinates.value(setting.coordinates.mean + expand(setting.coordinates.L, flat.T).T)
     theta = theta.reshape(*walked.z.shape[:2], -1)
     shares = search.nearest(modes, flat)
     peaks = [
         PosteriorMode(each.state.theta, each.cost, float(share)) for each, share in zip(modes, shares, strict=True)
     ]
     return Sampled(
-        problem, result, tuple(_parameters(setting, result, theta)), tuple(_frequencies(problem, result, walked.hz, rng)),
+        problem, result, tuple(_parameters(setting, result, theta)), tuple(_frequencies(result, walked.hz, rng)),
         tuple(peaks), Chain(theta, walked.log_p, walked.hz), walked.steps, walked.burn, walked.tau, walked.acceptance,
         walked.long_enough, np.nan, 0, 0, 0,
     )  # fmt: skip
@@ -106,17 +108,18 @@ def _parameters(setting: Setting, result: Result, theta: np.ndarray):
         yield _quantity(parameter.name, parameter.unit, normal, theta[:, :, i])
 
 
-def _frequencies(problem: Problem, result: Result, hz: np.ndarray, rng: np.random.Generator):
+def _frequencies(result: Result, hz: np.ndarray, rng: np.random.Generator):
     from mouse_cli.report.result_document import modes
 
+    test = result.problem.test
     for i, mode in enumerate(modes(result)):
         chain = hz[:, :, i]
-        sd = problem.test.frequency_sd_hz[i]
+        sd = test.frequency_sd_hz[i]
         noise = rng.standard_normal(chain.shape) * (sd if np.isfinite(sd) else np.nan)
         foreseen = np.quantile(chain + noise, (0.025, 0.975)) if np.isfinite(sd) else None
         spread = mode["sd_hz"] if mode["sd_hz"] is not None else np.nan
         found = _quantity(str(mode["mode"]), "Hz", (mode["revised_hz"], spread), chain)
-        yield replace(found, measured=float(problem.test.frequency_hz[i]), foreseen=foreseen)
+        yield replace(found, measured=float(test.frequency_hz[i]), foreseen=foreseen)
 
 
 def _quantity(name: str, unit: str, normal: tuple[float, float], chain: np.ndarray) -> Quantity:
