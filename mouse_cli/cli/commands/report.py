@@ -5,16 +5,18 @@ import click
 
 @click.command()
 @click.argument("result")
+@click.option("--markdown", is_flag=True, help="In short, in GitHub's Markdown: for a merge request.")
 @click.option("-o", "--output", metavar="FILE", help="Write the page to FILE instead of standard output.")
-def command(result: str, output: str | None) -> int:
-    """Make an HTML page of RESULT, which `mouse run --json` or `mouse diagnose --json` wrote.
+def command(result: str, markdown: bool, output: str | None) -> int:
+    """Make an HTML page of RESULT, which `mouse run --json`, `mouse diagnose --json` or `mouse batch` wrote.
 
-    One file that needs no network: verdict, frequencies, parameters, shapes, causes, places, convergence. Exit 0 whatever the
-    verdict is.
+    One file that needs no network: verdict, mode shapes drawn on the structure, frequencies, parameters, functions, causes,
+    places, convergence. Exit 0 whatever the verdict is.
     """
     from mouse_cli.cli._decks import deck_bytes, shown
     from mouse_cli.cli._terminal import deliver
-    from mouse_cli.page import page, read
+    from mouse_cli.page import page, read, summary
 
-    deliver(page(read(deck_bytes(result), shown(result))), output, result)
+    document = read(deck_bytes(result), shown(result))
+    deliver(summary(document) if markdown else page(document), output, result)
     return 0

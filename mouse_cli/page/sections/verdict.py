@@ -36,12 +36,12 @@ _TESTS = (
 def verdict(document: Part) -> Iterator[Markup]:
     """Mark, sentence, cautions, tests of the model's form."""
     found = document.part("verdict")
-    looks, mark = {0: _GOOD, 1: _DOUBTED[bool(found)]}.get(document.number("exit_code"), _BAD)
-    yield tag("p", mark, class_=f"mark {looks}")
-    yield tag("p", _told(document, found) if found else _run(document), class_="verdict")
+    looks, words = mark(document)
+    yield tag("p", words, class_=f"mark {looks}")
+    yield tag("p", sentence(document), class_="verdict")
     if not found:
-        yield paragraphs(document.text("advice"), _FORM.get(document.text("model_form"), ""))
-    yield listed([*map(_cause, found.parts("causes"), document.parts("turns")), *document.texts("cautions")])
+        yield paragraphs(document.text("advice"), form(document))
+    yield listed([*causes(document), *document.texts("cautions")])
     yield paragraphs(_refuted(document), _misstated(document))
     yield table(
         "tests",
@@ -49,6 +49,27 @@ def verdict(document: Part) -> Iterator[Markup]:
         ("test", "chi-square", "degrees of freedom", "P of more by chance"),
         _tests(document),
     )
+
+
+def mark(document: Part) -> tuple[str, str]:
+    """Class and words of the mark that stands before all."""
+    return {0: _GOOD, 1: _DOUBTED[bool(document.part("verdict"))]}.get(document.number("exit_code"), _BAD)
+
+
+def sentence(document: Part) -> str:
+    """What was found."""
+    found = document.part("verdict")
+    return _told(document, found) if found else _run(document)
+
+
+def form(document: Part) -> str:
+    """What the data say of the form of the model, of a run."""
+    return _FORM.get(document.text("model_form"), "")
+
+
+def causes(document: Part) -> list[str]:
+    """Causes of several arrangements, one sentence each."""
+    return [*map(_cause, document.part("verdict").parts("causes"), document.parts("turns"))]
 
 
 def _run(document: Part) -> str:
