@@ -96,4 +96,10 @@ CODES = {
         "samples are not those of the posterior yet.",
         "Allow more `--steps`. Where that does not help, the posterior has places between which walkers seldom go.",
     ),
+    "MD945": Code(
+        "mean or spread of samples other than those of the run",
+        "The mean of the samples of a property lies more than half a standard deviation from the value of the run, or their "
+        "standard deviation is larger or smaller by a quarter.",
+        "Use the samples, and not the standard deviations of `mouse run`.",
+    ),
 }

@@ -8,6 +8,8 @@ from mouse_cli._errors import Diagnostic
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import Result
 
+_DOUBTS = ("MD550", "MD942", "MD943", "MD945")
+
 
 @dataclass(frozen=True)
 class Sampling:
@@ -86,8 +88,8 @@ class Sampled:
 
     @property
     def doubtful(self) -> bool:
-        """Whether the normal density is no substitute for the posterior."""
-        return not self.k_hat <= 0.7 or len(self.modes) > 1
+        """Whether the normal density is no substitute for the posterior, for any of the reasons among the warnings."""
+        return any(each.code in _DOUBTS for each in self.warnings)
 
     @property
     def exit_code(self) -> int:

@@ -13,7 +13,7 @@ from mouse_cli._errors import WARNING, Diagnostic
 from mouse_cli.estimators.linear import Estimator, expand
 from mouse_cli.model.arrays import is_sparse
 from mouse_cli.model.result import Result
-from mouse_cli.updating.posterior import Laplace, cost, laplace
+from mouse_cli.updating.posterior import Laplace, cost, laplace, leading
 from mouse_cli.updating.state import Setting, State
 
 FACTOR = 1.5  # narrower or wider by this: quantiles of the normal density are wrong by a third or more
@@ -93,9 +93,9 @@ def remark(result: Result, setting: Setting, state: State, estimator: Estimator)
 
 def told(parameters: tuple, sd: np.ndarray, found: list[Fall]) -> Diagnostic:
     """The worst of the doubtful falls, as a warning; sd (p,): of the parameters."""
-    worst = max(found, key=lambda each: abs(np.log(max(each.ratio, 1e-3))))
+    worst = max(found, key=lambda each: round(abs(np.log(np.clip(each.ratio, 1e-3, 1e3))), 4))
     share = np.divide(np.abs(worst.axis), sd, out=np.zeros_like(worst.axis), where=sd > 0)
-    most = int(share.argmax())
+    most = int(leading(share))
     side = "above" if worst.axis[most] * worst.steps > 0 else "below"
     if not np.isfinite(worst.ratio):
         how = "ends there"

@@ -11,6 +11,8 @@ import numpy as np
 from mouse_cli.estimators.linear import expand, in_prior_units
 from mouse_cli.updating.state import Setting, State, attempt
 
+_ROUNDING = 1e-6  # share by which equal sizes may differ
+
 
 def place(setting: Setting, z: np.ndarray) -> np.ndarray:
     """Coordinates u (p,) at z (k,)."""
@@ -58,11 +60,16 @@ class Laplace:
         return float(np.linalg.norm(np.linalg.solve(self.root, z - self.z)))
 
 
+def leading(size: np.ndarray) -> np.ndarray:
+    """Row of the largest value of each column; the first of those that differ by rounding alone."""
+    return (size >= (1 - _ROUNDING) * size.max(axis=0)).argmax(axis=0)
+
+
 def laplace(setting: Setting, state: State) -> Laplace:
     """The normal density at `state`, with the covariance (I + B'B)^-1 in z, B = R^-1/2 T L."""
     coordinates = setting.coordinates
     z = coordinates.in_prior_units(state.u - coordinates.mean)
     B = in_prior_units(state.T, coordinates.L) / setting.sd[:, None]
     precision, axes = np.linalg.eigh(np.eye(len(z)) + B.T @ B)
-    axes = axes * np.sign(axes[np.abs(axes).argmax(axis=0), np.arange(len(z))])
+    axes = axes * np.sign(axes[leading(np.abs(axes)), np.arange(len(z))])
     return Laplace(setting, state, z, axes / np.sqrt(precision), state.chi2 + float(z @ z))

@@ -18,6 +18,7 @@ from mouse_cli.updating.posterior import Laplace, laplace
 from mouse_cli.updating.state import Setting
 
 _DRAWS = 2000  # so many that a k-hat up to 0.7 is told from a larger one: 1 - 1/log10(s)
+_SHIFTED, _WIDER = 0.5, 1.25  # standard deviations, and factor, by which samples may differ from the run unremarked
 _QUANTILES = (0.025, 0.16, 0.5, 0.84, 0.975)
 
 
@@ -149,6 +150,16 @@ def _remarks(found: Sampled, normal: Laplace):
         yield Diagnostic(
             "MD943", WARNING, message, help="measure what tells them apart, or say in the prior what is known"
         )
+    for each in found.parameters:
+        shift, ratio = (each.mean - each.normal_mean) / each.normal_sd, each.sd / each.normal_sd
+        if each.normal_sd > 0 and (abs(shift) > _SHIFTED or not 1 / _WIDER < ratio < _WIDER):
+            message = (
+                f"{each.name}: the mean of the samples lies {shift:+.2g} standard deviations of the run from its value, and their "
+                f"standard deviation is {ratio:.2g} times as large"
+            )
+            yield Diagnostic(
+                "MD945", WARNING, message, help="use the samples, and not the standard deviations of `mouse run`"
+            )
     if not found.long_enough:
         length = (found.steps - found.burn) / found.tau
         worst = max(each.r_hat for each in found.parameters)

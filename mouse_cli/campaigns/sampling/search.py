@@ -26,7 +26,7 @@ def modes(setting: Setting, rng: np.random.Generator, first: Laplace) -> list[La
             continue
         if _is_mode(there):
             found.append(there)
-    found.sort(key=lambda each: each.cost)
+    found.sort(key=lambda each: (round(each.cost, 4), *each.z))  # equal ones always in the same order
     return [each for each in found if each.cost < found[0].cost + _NEGLIGIBLE] or [first]
 
 
