@@ -4,7 +4,6 @@ import ast
 import contextlib
 import io
 import json
-import warnings
 from base64 import b64encode
 
 import pytest
@@ -51,16 +50,14 @@ def test_notebook_runs_as_written(monkeypatch, request):
     notebook = json.loads(NOTEBOOK.read_text("utf-8"))
     cells = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
     names: dict[str, object] = {"__name__": "__main__"}
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", DeprecationWarning)
-        for count, cell in enumerate(cells, 1):
-            printed, value = ran("".join(cell["source"]), names)
-            if request.config.getoption("--update-golden"):
-                cell |= {"execution_count": count, "outputs": outputs(printed, value, count)}
-                continue
-            assert cell["execution_count"] == count
-            assert "".join(line for each in cell["outputs"] for line in each.get("text", [])) == printed
-            assert ("image/png" in str(cell["outputs"])) == (value is not None)
+    for count, cell in enumerate(cells, 1):
+        printed, value = ran("".join(cell["source"]), names)
+        if request.config.getoption("--update-golden"):
+            cell |= {"execution_count": count, "outputs": outputs(printed, value, count)}
+            continue
+        assert cell["execution_count"] == count
+        assert "".join(line for each in cell["outputs"] for line in each.get("text", [])) == printed
+        assert ("image/png" in str(cell["outputs"])) == (value is not None)
     if request.config.getoption("--update-golden"):
         NOTEBOOK.write_text(json.dumps(notebook, indent=1, ensure_ascii=False) + "\n", "utf-8")
     drawn = [bar.get_height() for bars in names["axes"].containers for bar in bars]
