@@ -9,7 +9,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from mouse_cli.cli.main import _run
-from mouse_cli.page import page, read
+from mouse_cli.page import DOCUMENTS, page, read
 
 DECKS = Path(__file__).resolve().parents[1] / "decks"
 RUNS = {"shapes": "table_5_3", "frequencies": "garteur_smag19", "functions": "chain_functions", "beam": "cantilever"}
@@ -19,8 +19,17 @@ DIAGNOSES = {
     "one-of": "three_storey_building",
     "drawn": "chain_functions",
 }
-NAMES = (*RUNS, *DIAGNOSES, "arrangements")
-STRUCTURES = ("frequencies", "functions", "beam", "one-of", "drawn", "arrangements")  # of nodes with positions
+OTHERS = {"compared": ("compare", "tube_frame"), "foreseen": ("modes", "three_storey_building")}
+NAMES = (*RUNS, *DIAGNOSES, "arrangements", *OTHERS)
+STRUCTURES = (
+    "frequencies",
+    "functions",
+    "beam",
+    "one-of",
+    "drawn",
+    "arrangements",
+    "foreseen",
+)  # of nodes with positions
 VOID = {"meta", "input"}
 
 
@@ -33,9 +42,12 @@ def answer(name: str) -> bytes:
             _run(["run", str(DECKS / f"{RUNS[name]}.yaml"), "--json", "-q", "-o", str(path)])
             return path.read_bytes()
     layouts = [str(path) for path in sorted((DECKS / "arrangements").glob("layout*.yaml"))]
-    decks = layouts if name == "arrangements" else [str(DECKS / f"{DIAGNOSES[name]}.yaml")]
+    decks = layouts if name == "arrangements" else [str(DECKS / f"{DIAGNOSES.get(name)}.yaml")]
     with contextlib.redirect_stdout(io.StringIO()) as told:
-        _run(["diagnose", *decks, "--json", "-q"])
+        if name in OTHERS:
+            _run([OTHERS[name][0], str(DECKS / f"{OTHERS[name][1]}.yaml"), "--json", "-q"])
+        else:
+            _run(["diagnose", *decks, "--json", "-q"])
     return told.getvalue().encode()
 
 
@@ -46,7 +58,7 @@ def document(name: str) -> dict:
 @cache
 def made(name: str) -> str:
     """The page of the answer so called."""
-    return page(read(answer(name), f"{name}.json"))
+    return page(read(answer(name), f"{name}.json", DOCUMENTS))
 
 
 class Reader(HTMLParser):

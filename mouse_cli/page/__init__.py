@@ -1,7 +1,7 @@
 """Documents of answers as pages to look at: reads JSON documents only, never models."""
 
 from mouse_cli.page.markdown import summary
-from mouse_cli.page.page import page
+from mouse_cli.page.page import DOCUMENTS, page
 from mouse_cli.report.reading import Part, read
 
-__all__ = ["Part", "page", "read", "summary"]
+__all__ = ["DOCUMENTS", "Part", "page", "read", "summary"]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from mouse_cli.page.html import Markup, tag
 from mouse_cli.page.marks import named
 from mouse_cli.page.numbers import shown
-from mouse_cli.page.sections._words import listed, paragraphs
+from mouse_cli.page.sections._words import drawn_model, listed, paragraphs
 from mouse_cli.report.reading import Part
 
 _WIDTH, _HEIGHT, _LEFT, _TOP = 300.0, 150.0, 16.0, 12.0
@@ -32,20 +32,21 @@ def lollipops(document: Part) -> Iterator[Markup]:
     drawn = [_figure(one, places, number) for number, one in enumerate(found[:_MOST], 1)]
     if drawn:
         ring = " The ring is the place that was located." if places & set(found[0].dofs) else ""
-        yield paragraphs(
-            f"Components over the degrees of freedom: dots of the revised model, squares of the test.{ring}"
-        )
+        test = ", squares of the test" if any(x is not None for one in found for x in one.test) else ""
+        yield paragraphs(f"Components over the degrees of freedom: dots of {drawn_model(document)}{test}.{ring}")
         yield listed([one.words for one in named(document) if one.strong])
         yield tag("div", *drawn, class_="gallery")
 
 
 def _whole(document: Part) -> list[Stems]:
     """The full shapes of a small model."""
-    part = document.part("shapes_by_dof")
-    dofs = part.labels("dofs")[:_MOST_DOFS]
+    part = document if document.text("schema") == "mouse.modes/1" else document.part("shapes_by_dof")
+    dofs = part.labels("dofs")
+    if len(dofs) > _MOST_DOFS:
+        return []
     return [
         Stems(_title(m), dofs, _padded(m.numbers("shape"), len(dofs)), _padded(m.numbers("test"), len(dofs)))
-        for m in part.parts("modes")
+        for m in part.parts("modes")[:_MOST]
     ]
 
 

@@ -26,7 +26,8 @@ def summary(document: Part) -> str:
     if not document.part("verdict"):
         blocks.append(escaped(verdict.form(document)))
     blocks.append(_listed([*verdict.causes(document), *document.texts("cautions")]))
-    blocks += [*_causes(document), *_frequencies(document), *_parameters(document), *_records(document)]
+    blocks += [*_causes(document), *_frequencies(document), *_parameters(document)]
+    blocks += [*_records(document), *_methods(document), *_foreseen(document)]
     remarks = [*document.texts("remarks"), *document.texts("warnings")]
     if remarks:
         blocks += _folds(_counted(remarks, "remark"), _listed(remarks[:_MOST]))
@@ -112,6 +113,24 @@ def _records(document: Part) -> Iterator[str]:
             errors = [shown(x[i], 4) if i < len(x) else "–" for x in (before, after)]
             rows.append((verbatim(each.text("title")), str(i + 1), shown(rms, 4), *errors))
     yield _table(("record held out", "output", "rms", "missed before", "missed after"), rows[:_MOST])
+
+
+def _methods(document: Part) -> Iterator[str]:
+    """What each method misses of what it was given, and of each configuration that it was not."""
+    found = document.parts("methods")
+    titles = list(dict.fromkeys(c.text("title") for one in found for c in one.parts("configurations")))
+    rows = []
+    for one in found:
+        missed = {c.text("title"): shown(c.number("rms_percent"), 3) for c in one.parts("configurations")}
+        rows.append((verbatim(one.text("method")), *(missed.get(title, "–") for title in titles)))
+    yield _table(("missed, % rms", *map(escaped, titles)), rows)
+
+
+def _foreseen(document: Part) -> Iterator[str]:
+    """Natural frequencies of `mouse modes`."""
+    modes = document.parts("modes") if document.text("schema") == "mouse.modes/1" else []
+    rows = [(escaped(m.label("mode")), shown(m.number("hz")), shown(m.number("sd_hz"), 3)) for m in modes]
+    yield from _told("Natural frequencies", ("mode", "Hz", "sd, Hz"), rows, "mode", _LONG)
 
 
 def _told(title: str, heads: Sequence[str], rows: list[tuple[str, ...]], unit: str, longest: int) -> list[str]:

@@ -2,9 +2,12 @@
 
 from typing import Any
 
+import numpy as np
+
 from mouse_cli import __version__
 from mouse_cli.dynamics.frequency import eigenvalue
 from mouse_cli.model.result import DampedModes, Forecast
+from mouse_cli.report.geometry_document import MOST_MODES, Moved, geometry
 from mouse_cli.report.json_values import dof_name, plain
 
 SCHEMA = "mouse.modes/1"
@@ -33,10 +36,18 @@ def document(forecast: Forecast) -> dict[str, Any]:
                 }
                 for i, (hz, sd, shape, shape_sd) in enumerate(modes, 1)
             ],
+            "geometry": geometry(problem, _moved(forecast)),
             **({} if forecast.damped is None else {"damped": _damped(forecast.damped)}),
             "warnings": [f"{d.code}: {d.message}" for d in problem.warnings],
         }
     )
+
+
+def _moved(forecast: Forecast) -> list[Moved]:
+    """The lowest elastic modes, for drawings."""
+    none, first = np.zeros(0), forecast.rigid_modes
+    chosen = range(first, min(first + MOST_MODES, len(forecast.frequencies_hz)))
+    return [Moved(k + 1, float(forecast.frequencies_hz[k]), forecast.shapes[:, k], none, none) for k in chosen]
 
 
 def _damped(found: DampedModes) -> list[dict[str, Any]]:

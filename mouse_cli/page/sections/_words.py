@@ -42,6 +42,13 @@ def differences(key: str, title: str, rows: list[tuple[str, float | None, float 
     return bars(key, title, f"{told}{spoken}.", drawn, ("before", "after"))
 
 
+def drawn_model(document: Part) -> str:
+    """Which model drawings are of."""
+    if document.text("schema") == "mouse.modes/1":
+        return "the model"
+    return "the model with the cause" if document.part("extended") else "the revised model"
+
+
 def cut(rows: list) -> str:
     """A sentence where a figure shows fewer lines than there are."""
     return f"The first {_MOST_BARS} of {len(rows)}. " if len(rows) > _MOST_BARS else ""

@@ -10,7 +10,7 @@ from mouse_cli.page.numbers import shown
 from mouse_cli.page.projection import TILT, View
 from mouse_cli.page.scene import Scene, Shape, scene
 from mouse_cli.page.section import PageSection
-from mouse_cli.page.sections._words import listed, paragraphs
+from mouse_cli.page.sections._words import drawn_model, listed, paragraphs
 from mouse_cli.report.reading import Part
 
 _MOST_SMALL, _MOST_LINES = 12, 20_000  # drawings in the row of all modes, and lines in all of them
@@ -27,7 +27,14 @@ def drawing(document: Part) -> Iterator[Markup]:
     seen = large(found)
     drawn = stage(found, marked, seen, title, _told(found, marked))
     caption = tag("figcaption", title, class_="now", aria_live="off")
-    yield tag("figure", caption, drawn, _controls(found, seen), _legend(found, marked), class_="structure")
+    yield tag(
+        "figure",
+        caption,
+        drawn,
+        _controls(found, seen),
+        _legend(found, marked, drawn_model(document)),
+        class_="structure",
+    )
     yield from _places(marked)
     yield paragraphs(_remark(found))
     each = _MOST_LINES // max(len(found.lines), len(found.positions), 1)
@@ -83,12 +90,12 @@ def _slider(words: str, name: str, low: int, high: int, value: float) -> Markup:
     return tag("label", f"{words} ", tag("input", type="range", class_=name, **bounds))
 
 
-def _legend(found: Scene, marked: Sequence[Mark]) -> Markup:
+def _legend(found: Scene, marked: Sequence[Mark], name: str) -> Markup:
     """What the lines are."""
     tested = any(shape.tested for shape in found.shapes)
     rows = [
         ("still", "at rest", True),
-        ("moved", "the revised model", bool(found.shapes)),
+        ("moved", name, bool(found.shapes)),
         ("test", "the test, at its sensors", tested),
         ("ring", "the place that was located", any(mark.strong for mark in marked)),
         ("ring rival", "other places, fainter the less probable", any(not mark.strong for mark in marked)),
