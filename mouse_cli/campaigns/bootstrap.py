@@ -11,6 +11,7 @@ import numpy as np
 
 from mouse_cli._errors import ERROR, DeckError, Diagnostic
 from mouse_cli.batch.job import Job
+from mouse_cli.estimators import estimator
 from mouse_cli.estimators.linear import expand, in_prior_units
 from mouse_cli.model.problem import Problem
 from mouse_cli.updating.loop import begin
@@ -44,6 +45,10 @@ def plan(problem: Problem, over: str, replicates: int, seed: int) -> Plan:
     """Multinomial counts of modes and of sensors, drawn with replacement, as many as there are. Raises DeckError (MD934)."""
     if problem.test is None or problem.frf or problem.recordings:
         raise DeckError(_refused("the deck has no modal test, or fits functions too"))
+    if not estimator(problem.run.estimator).weighted:
+        raise DeckError(
+            _refused(f"the estimator {problem.run.estimator} does not weigh data, so that none counts twice")
+        )
     test, rng = problem.test, np.random.default_rng(seed)
     m = test.m if over != "sensors" else 0
     s = test.s if over != "modes" else 0
@@ -75,7 +80,8 @@ def foreseen(problem: Problem, theta: np.ndarray, plan: Plan) -> tuple[np.ndarra
     u = np.where(logarithmic, np.log(np.where(logarithmic, theta, 1.0)), theta)
     normal = laplace(setting, setting.state(u))
     B = in_prior_units(normal.state.T, setting.coordinates.L) / setting.sd[:, None]
-    gain = normal.root @ normal.root.T @ (B * np.sqrt(_variances(setting, plan))[:, None]).T
+    spread = normal.root @ normal.root.T if _keeps_prior(problem) else np.linalg.pinv(B.T @ B)
+    gain = spread @ (B * np.sqrt(_variances(setting, plan))[:, None]).T
     values = expand(setting.coordinates.L, gain) * setting.coordinates.slope(normal.state.u)[:, None]
     have = setting.observable.has_frequency
     modal = in_prior_units(normal.state.T, setting.coordinates.L)[: have.sum()] @ gain
@@ -83,6 +89,11 @@ def foreseen(problem: Problem, theta: np.ndarray, plan: Plan) -> tuple[np.ndarra
     sd = np.full(len(hz), np.nan)
     sd[have] = sd_frequency_hz(hz[have], np.linalg.norm(modal, axis=1))
     return np.linalg.norm(values, axis=1), sd
+
+
+def _keeps_prior(problem: Problem) -> bool:
+    """Whether the answer is drawn to the prior; else, as where the replaced recursion ends, C is (B'B)^-1."""
+    return problem.run.recursion == "anchored" and estimator(problem.run.estimator).uses_prior
 
 
 def _variances(setting: Setting, plan: Plan) -> np.ndarray:

@@ -40,7 +40,7 @@ CODES = {
     "MD934": Code(
         "no modes or sensors to draw",
         "A bootstrap draws measured modes and sensors: two of each kind at least. Tests of functions or recordings are not "
-        "drawn.",
+        "drawn, nor is one for an estimator that does not weigh its data, where nothing can count twice.",
         "`mouse identify` makes modes of functions and recordings; with one sensor draw `--over modes`.",
     ),
     "MD935": Code(

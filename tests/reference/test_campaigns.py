@@ -16,7 +16,9 @@ from scipy.stats import bootstrap as scipy_bootstrap
 
 from mouse_cli._errors import DeckError
 from mouse_cli.batch.changes import changed, edited, weighed
-from mouse_cli.campaigns import design, intervals, shares
+from mouse_cli.batch.work import perform
+from mouse_cli.campaigns import answers, design, intervals, shares, sweep
+from mouse_cli.cli._vary import varied
 from mouse_cli.cli.main import _run
 from mouse_cli.formats import read_deck
 from mouse_cli.updating import run
@@ -50,7 +52,7 @@ EDITS = {  # a change of the sweep, and of the deck's text by hand
 
 
 @pytest.mark.parametrize("vary", EDITS)
-def test_a_point_is_the_run_of_the_deck_edited_by_hand(vary, tmp_path, capsys, monkeypatch):
+def test_a_point_is_the_run_of_the_deck_edited_by_hand(vary, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     text = CHAIN.read_text()
     for old, new in EDITS[vary]:
@@ -58,12 +60,13 @@ def test_a_point_is_the_run_of_the_deck_edited_by_hand(vary, tmp_path, capsys, m
         text = text.replace(old, new)
     Path("by_hand.yaml").write_text(text)
     result = run(read_deck("by_hand.yaml"))
-    status, found = told(capsys, "sweep", CHAIN, "--vary", vary)
-    point = found["points"][0]
-    assert status == point["exit_code"] == result.exit_code
-    assert list(point["posterior"].values()) == pytest.approx(result.revised.theta, rel=1e-9)
-    assert list(point["posterior_sd"].values()) == pytest.approx(result.sd_theta, rel=1e-7)
-    assert point["chi2"] == pytest.approx(result.residual.chi2, rel=1e-7)
+    quantity = varied(vary, read_deck(CHAIN), by_points=False)
+    (job,) = sweep.jobs(str(CHAIN), (quantity,), design.grid((quantity,)), {}, outside=False)
+    point = answers.read(perform(job, str(tmp_path)), ["k1", "k2"], [])
+    assert point.exit_code == result.exit_code
+    assert point.theta == pytest.approx(result.revised.theta, rel=1e-9)
+    assert point.sd == pytest.approx(result.sd_theta, rel=1e-7)
+    assert point.chi2 == pytest.approx(result.residual.chi2, rel=1e-7)
 
 
 def test_a_grid_of_a_sweep_and_its_table(tmp_path, capsys, monkeypatch):
@@ -90,9 +93,9 @@ def test_a_grid_of_a_sweep_and_its_table(tmp_path, capsys, monkeypatch):
 
 def test_shares_of_a_sum_whose_shares_are_known():
     """y = 3 a + b, both uniform: nine tenths of its variance are due to a (Sobol). Noise alone explains nothing."""
-    varied = tuple(design.Varied(name, "values", low=0.0, high=1.0) for name in "ab")
+    ab = tuple(design.Varied(name, "values", low=0.0, high=1.0) for name in "ab")
     for kind, error in (("sobol", 0.04), ("latin-hypercube", 0.09)):
-        points = design.drawn(varied, 256, kind, seed=2)
+        points = design.drawn(ab, 256, kind, seed=2)
         y = np.array([3 * a + b for a, b in points])
         a, b = (shares.share(y, each, True) for each in shares.grouped(points, 2))
         assert a == pytest.approx(0.9, abs=error) and b == pytest.approx(0.1, abs=error)
@@ -102,17 +105,17 @@ def test_shares_of_a_sum_whose_shares_are_known():
 
 def test_points_fill_their_ranges():
     """A Latin hypercube of n points has one in each n-th of every range; by logarithms where asked for; words share it out."""
-    varied = (
+    abc = (
         design.Varied("a", "values", low=2.0, high=4.0),
         design.Varied("b", "values", low=0.01, high=100.0, log=True),
         design.Varied("c", "run", values=("x", "y")),
     )
-    a, b, c = zip(*design.drawn(varied, 40, "latin-hypercube", 4), strict=True)
+    a, b, c = zip(*design.drawn(abc, 40, "latin-hypercube", 4), strict=True)
     assert sorted(int((x - 2.0) * 20) for x in a) == list(range(40))
     assert sorted(int((np.log10(x) + 2) * 10) for x in b) == list(range(40))
     assert c.count("x") == c.count("y") == 20
     assert design.spaced(1.0, 16.0, 5, log=True) == pytest.approx((1, 2, 4, 8, 16))
-    assert design.drawn(varied, 8, "sobol", 4) == design.drawn(varied, 8, "sobol", 4)
+    assert design.drawn(abc, 8, "sobol", 4) == design.drawn(abc, 8, "sobol", 4)
 
 
 @pytest.mark.parametrize(
@@ -240,7 +243,7 @@ def test_bootstrap_and_jackknife_of_a_linear_problem_are_the_closed_form(tmp_pat
 def test_data_that_disagree_and_data_better_than_stated_are_told(scale, code, tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     path = separate(tmp_path, scale * np.array([0.8, -1.1, 0.3, 1.4, -0.6, -0.9]))
-    _, found = told(capsys, "bootstrap", path, "--replicates", 60)
+    _, found = told(capsys, "bootstrap", path, "--replicates", 40)
     codes = {each[:5] for each in found["warnings"]}
     assert codes & {"MD936", "MD937"} == ({code} if code else set())
 
@@ -289,6 +292,26 @@ def test_weights_of_both_kinds_multiply():
     assert found.shape_sd[0, 1] == pytest.approx(0.05 / 2.0)
     assert found.frequency_sd_hz[1] == pytest.approx(0.546256567 / 2**0.5)
     assert run(replace(problem, test=found)).y.shape == (3 + 9,)
+
+
+def test_replicates_without_prior_spread_as_weighted_least_squares(tmp_path, capsys, monkeypatch):
+    """k* = sum w c lambda / sum w c^2 in any replicate; to first order its sd is root of (1 - 1/6) / sum c^2 / s^2."""
+    monkeypatch.chdir(tmp_path)
+    path = separate(tmp_path, np.array([0.8, -1.1, 0.3, 1.4, -0.6, -0.9]))
+    _, found = told(capsys, "bootstrap", path, "--replicates", 20, "--estimator", "weighted-least-squares")
+    test = read_deck(path).test
+    sd, value = 8 * pi**2 * test.frequency_hz * test.frequency_sd_hz, (2 * pi * test.frequency_hz) ** 2
+    counts = np.array([each["counts"] for each in found["replicates"]])
+    expected = (counts * SIZES * value / sd**2).sum(axis=1) / (counts * (SIZES / sd) ** 2).sum(axis=1)
+    assert [each["posterior"]["k"] for each in found["replicates"]] == pytest.approx(expected, rel=1e-9)
+    k = found["parameters"][0]
+    assert k["foreseen_sd"] == pytest.approx((5 / 6 / np.sum((SIZES / sd) ** 2)) ** 0.5, rel=1e-6)
+
+
+def test_an_estimator_that_does_not_weigh_cannot_count_twice(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert _run(["bootstrap", str(CHAIN), "--estimator", "least-squares"]) == 4
+    assert "MD934" in capsys.readouterr().err
 
 
 def test_tests_without_modes_to_draw_are_refused(tmp_path, capsys, monkeypatch):

@@ -13,9 +13,10 @@ def heading(found: Sampled, options: Options) -> Iterator[Block]:
     yield deck_table(found.problem)
     kept, walkers = found.chain.log_posterior.shape
     yield Text(
-        f"An ensemble of {counted(walkers, 'walker')} took {counted(found.steps, 'step')} each from the result of the run, of "
-        f"which the first {found.burn} are left out; {{}} of 100 proposals were taken. The autocorrelation time is {{}} steps, so "
-        f"that each walker went on for {{}} of them; seed {found.seed}, {counted(found.evaluations, 'model')} solved.",
+        f"An ensemble of {counted(walkers, 'walker')} took {counted(found.steps, 'step')} each from the result of the run "
+        f"(estimator bayes, recursion anchored), of which the first {found.burn} are left out; {{}} of 100 proposals were taken. "
+        f"The autocorrelation time is {{}} steps, so that each walker went on for {{}} of them; seed {found.seed}, "
+        f"{counted(found.evaluations, 'model')} solved.",
         (round(100 * found.acceptance), round(found.tau, 1), round(kept / found.tau)),
     )
     trusted = "may stand" if not found.doubtful else "must not stand"
