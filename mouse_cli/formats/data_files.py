@@ -1,5 +1,6 @@
 """Files beside a deck, of whatever format: found, told from what they are not, and matched to a reader."""
 
+import errno
 import os
 import warnings
 from typing import Any, NoReturn
@@ -97,7 +98,7 @@ def opened(form: Any, path: str, *arguments: object) -> Any:
             "MD258", path, "the file takes more memory than there is", "divide the file, or take a machine with more"
         )
     except OSError as error:
-        if error.errno is None:  # of h5py, on damage
+        if error.errno in (None, errno.EINVAL):  # of h5py on damage, of places in a file that cannot be
             _damaged(form, path, error)
         reject("MD250", path, f"the file cannot be read: {error}", "check the file and its permissions")
     except Exception as error:  # readers of damaged files, NumPy's and SciPy's too, raise whatever their parts do

@@ -42,8 +42,9 @@ def _draft(each: Function, kind: str, path: str, title: str, say: Findings, wher
     scale = scaled(kind, "", each.unit, each.kind, UNDECLARED, say, where)
     if scale is None:
         return None
-    H = each.values * scale[1]
-    spread = variance(H, each.coherence, None) if each.variance is None else each.variance * scale[1] ** 2
+    with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is told of by those who use it
+        H = each.values * scale[1]
+        spread = variance(H, each.coherence, None) if each.variance is None else each.variance * scale[1] ** 2
     shape = (len(H), 1, 1)
     return FrfDraft(
         title, path, scale[0], each.frequency_hz, H.reshape(shape), spread.reshape(shape), (SensorDraft(each.output, where),),

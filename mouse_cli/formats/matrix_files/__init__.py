@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from math import prod
 
 import numpy as np
 
@@ -88,6 +89,7 @@ def read_contents(path: str, order: int | None = None, variable: str | None = No
 def read_table(path: str, variable: str | None = None) -> np.ndarray:
     """A dense table of any shape, NaN where a value is missing, e.g. mode shapes."""
     table = _read(path, variable).matrix
+    room(path, 8 * prod(table.shape), f"the table of shape {tuple(table.shape)}", "give a smaller table")
     table = np.asarray(dense(table), dtype=float)
     if table.ndim != 2:
         message = f"the array has shape {table.shape}; a table has rows and columns"
@@ -97,7 +99,7 @@ def read_table(path: str, variable: str | None = None) -> np.ndarray:
 
 def choose(path: str, variable: str | None, names: list[str]) -> str:
     """Which of the matrices `names` of a file is meant: the one called `variable`, or the only one."""
-    known = ", ".join(names[:12]) + (", ..." if len(names) > 12 else "")
+    known = ", ".join(name[:40] for name in names[:12]) + (", ..." if len(names) > 12 else "")
     if variable is None and len(names) == 1:
         return names[0]
     if not names:

@@ -4,6 +4,7 @@ A sparse group has, in this order of search: ir, jc, data (MATLAB 7.3); indptr, 
 attribute (SciPy, AnnData, h5sparse); cidx, ridx, data (Octave); or row, col, data from 0.
 """
 
+from mmap import ACCESS_READ, mmap
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ from mouse_cli.formats.matrix_files import MAX_ORDER, MatrixFormat, choose, real
 from mouse_cli.model.arrays import Matrix
 
 _SIGNATURE = b"\x89HDF\r\n\x1a\n"
+_HEAP = b"GCOL\x01\0\0\0"
 _INSTALL = "pip install 'mouse-cli[hdf5]'"
 _SHAPES = ("shape", "h5sparse_shape")  # names of attributes or data sets
 _KEYS = ("data", "ir", "jc", "indptr", "indices", "row", "col", "shape")
@@ -28,10 +30,29 @@ def claims(path: str) -> bool:
     return head.startswith(_SIGNATURE) or head[512:] == _SIGNATURE
 
 
+def check_heaps(path: str) -> None:
+    """Raise ValueError where a global heap, which holds texts, has an object without length: the library would not end on it.
+
+    HDF5 File Format Specification 3.0, III.E: a head of 16 bytes, then objects of a head of 16 bytes and data, to 8 bytes.
+    """
+    with open(path, "rb") as stream, mmap(stream.fileno(), 0, access=ACCESS_READ) as data:
+        at = data.find(_HEAP)
+        while at >= 0:
+            size, place = int.from_bytes(data[at + 8 : at + 16], "little"), at + 16
+            while place + 16 <= min(at + size, len(data)):
+                length = int.from_bytes(data[place + 8 : place + 16], "little")
+                length = 16 + length + -length % 8 if data[place : place + 2] != b"\0\0" else length
+                if length < 16 or place + length > at + size:
+                    raise ValueError(f"the heap at byte {at} is damaged")
+                place += length
+            at = data.find(_HEAP, at + 1)
+
+
 def read(path: str, variable: str | None) -> Matrix:
     """The matrix at `variable`, a path such as `model/K`, or the only one at the root."""
     if not claims(path):
         reject("MD252", path, "not an HDF5 file", "write it with h5py, or in MATLAB with save -v7.3")
+    check_heaps(path)
     try:
         import h5py
     except ImportError:
@@ -42,7 +63,7 @@ def read(path: str, variable: str | None) -> Matrix:
     except DeckError:
         raise
     except Exception as error:  # h5py reports damage as whatever its parts raise
-        reject("MD252", path, f"not a readable HDF5 file: {error}", "write it anew")
+        reject("MD252", path, f"not a readable HDF5 file: {str(error)[:200]}", "write it anew")
 
 
 def _matrix(path: str, h5py: Any, file: Any, variable: str | None) -> Matrix:

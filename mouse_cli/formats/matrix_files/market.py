@@ -21,7 +21,7 @@ def _read(path: str, _: str | None) -> Matrix:
     try:
         return mmread(_ended(path))
     except (ValueError, OverflowError, TypeError, IndexError) as error:
-        reject("MD252", path, f"not a Matrix Market file: {error}", _HELP)
+        reject("MD252", path, f"not a Matrix Market file: {str(error)[:200]}", _HELP)
 
 
 def _ended(path: str) -> str | BytesIO:

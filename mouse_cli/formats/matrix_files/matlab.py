@@ -22,7 +22,7 @@ def _read(path: str, variable: str | None) -> Matrix:
 
         if isinstance(error, DeckError):
             raise
-        message = f"cut short, or not a MATLAB file: {error}"
+        message = f"cut short, or not a MATLAB file: {str(error)[:200]}"
         reject("MD252", path, message, "write it anew: save('model.mat', 'K', 'M')")
 
 

@@ -10,7 +10,29 @@ from mouse_cli.formats.data_files import room
 
 _MATRIX, _COMPRESSED = 14, 15
 _TYPES = frozenset((1, 2, 3, 4, 5, 6, 7, 9, 12, 13, _MATRIX, _COMPRESSED, 16, 17, 18))  # MAT-File Format, Table 1-1
-_SPARSE, _NUMERIC = 5, range(6, 16)  # classes of arrays, Table 1-3
+_CELL, _STRUCT, _OBJECT, _TEXT, _SPARSE, _FUNCTION, _OPAQUE = (
+    1,
+    2,
+    3,
+    4,
+    5,
+    16,
+    17,
+)  # classes of arrays, Table 1-3
+_NUMERIC, _HOLDERS = range(6, 16), (_CELL, _STRUCT, _OBJECT)
+_NUMBERS, _LETTERS = (1, 2, 3, 4, 5, 6, 7, 9, 12, 13), (1, 2, 3, 4, 16, 17, 18)  # types of their parts
+_HEAD = ((6,), (5, 6), (1, 2, 16))  # flags, dimensions, name
+_PARTS = {  # types of the parts of each class, in their order
+    _CELL: _HEAD,
+    _STRUCT: (*_HEAD, (5,), (1,)),
+    _OBJECT: (*_HEAD, (1,), (5,), (1,)),
+    _TEXT: (*_HEAD, _LETTERS),
+    _SPARSE: (*_HEAD, (5,), (5,), _NUMBERS),
+    **dict.fromkeys(_NUMERIC, (*_HEAD, _NUMBERS)),
+    _FUNCTION: (*_HEAD, (_MATRIX,)),
+    _OPAQUE: ((6,), (1,), (1,), (1,), (_MATRIX,)),
+}
+Element = tuple[int, int, int]  # type, byte at which its data begin, their size
 _HEADER = 128  # bytes before the first element
 _DEEPEST = 50  # arrays in cells and structs
 _FREE = 1_000_000  # elements of a cell, a struct or a text that may be promised whatever the bytes are
@@ -72,52 +94,61 @@ def _inflated(path: str, data: bytes, order: str) -> bytes:
     return tag + rest
 
 
-def _elements(stream: BinaryIO, at: int, end: int, order: str, depth: int) -> int:
-    """Look over the elements from byte `at` to `end`, and count them."""
+def _elements(stream: BinaryIO, at: int, end: int, order: str, depth: int) -> list[Element]:
+    """The elements from byte `at` to `end`, each array among them looked over."""
     if not depth:
         raise ValueError(f"arrays are nested deeper than {_DEEPEST}")
-    count = 0
+    found: list[Element] = []
     while at + 8 <= end:
         stream.seek(at)
         type = int.from_bytes(stream.read(4), order)
         size, begin = int.from_bytes(stream.read(4), order), at + 8
         if type >> 16:  # a small element: type and size in four bytes, four of data
             type, size, begin = type & 0xFFFF, type >> 16, at + 4
-        if type not in _TYPES or type == _COMPRESSED or begin + size > end:
+        if type not in _TYPES or type == _COMPRESSED or begin + size > end or (begin == at + 4 and size > 4):
             raise ValueError(f"no data element at byte {at}")
-        if type == _MATRIX:
-            parts = _elements(stream, begin, begin + size, order, depth - 1)
-            if size and parts < _parts(stream, begin + 8, order):
-                raise ValueError(f"the array at byte {at} lacks a part")
-            _dimensions(stream, begin, size, order)
+        if type == _MATRIX and size:
+            _check(stream, begin, _elements(stream, begin, begin + size, order, depth - 1), order)
+        found.append((type, begin, size))
         at = begin + size
         at += -at % 8
-        count += 1
-    return count
+    return found
 
 
-def _parts(stream: BinaryIO, at: int, order: str) -> int:
-    """Elements of the array whose flags are at byte `at`: flags, dimensions, name, and its numbers where it has them."""
-    kind, is_complex = _flags(stream, at, order)
-    if kind == _SPARSE:
-        return 6 + is_complex
-    return 4 + is_complex if kind in _NUMERIC else 3
+def _check(stream: BinaryIO, at: int, parts: list[Element], order: str) -> None:
+    """Raise ValueError where the array at byte `at` has other parts than its class demands: SciPy reads them without a look."""
+    kind, is_complex = _flags(stream, at + 8, order)
+    if kind not in _PARTS:
+        raise ValueError(f"the array at byte {at} is of no class, {kind}")
+    wanted = _PARTS[kind] + (_NUMBERS,) * (is_complex and kind in (_SPARSE, *_NUMERIC))
+    if len(parts) < len(wanted) or any(part[0] not in types for part, types in zip(parts, wanted, strict=False)):
+        raise ValueError(f"the array at byte {at} lacks a part of its class, {kind}")
+    if kind in _HOLDERS or kind == _TEXT:
+        _full(stream, at, kind, parts, len(wanted), order)
+
+
+def _full(stream: BinaryIO, at: int, kind: int, parts: list[Element], head: int, order: str) -> None:
+    """Raise ValueError where a cell, a struct or a text has fewer parts than its dimensions demand, for which SciPy makes room."""
+    count = prod(_wholes(stream, parts[1], order))
+    if kind == _TEXT:
+        enough = count <= max(parts[3][2], _FREE)
+    else:
+        names = 1 if kind == _CELL else parts[head - 1][2] // max(1, *_wholes(stream, parts[head - 2], order))
+        enough = count <= _FREE and len(parts) - head >= count * names
+    if not enough or not all(type == _MATRIX for type, *_ in parts[head:]):
+        raise ValueError(f"the array at byte {at} promises {count} elements and has {len(parts) - head}")
 
 
 def _flags(stream: BinaryIO, at: int, order: str) -> tuple[int, bool]:
-    """Class of an array, and whether it is complex."""
+    """Class of the array whose flags are at byte `at`, and whether it is complex."""
     stream.seek(at)
     flags = int.from_bytes(stream.read(4), order)
     return flags & 0xFF, bool(flags & 0x800)
 
 
-def _dimensions(stream: BinaryIO, begin: int, size: int, order: str) -> None:
-    """A cell, a struct or a text has no more elements than bytes: SciPy makes room for its dimensions before it reads them."""
-    if size < 24 or _flags(stream, begin + 8, order)[0] in (_SPARSE, *_NUMERIC):
-        return
-    stream.seek(begin + 20)
-    length = min(int.from_bytes(stream.read(4), order), size)
-    data = stream.read(length)
-    count = prod(int.from_bytes(data[i : i + 4], order) for i in range(0, len(data), 4))
-    if count > max(size, _FREE):
-        raise ValueError(f"the array at byte {begin} promises {count} elements and has {size} bytes")
+def _wholes(stream: BinaryIO, part: Element, order: str) -> list[int]:
+    """Whole numbers of four bytes, of which dimensions are at most 32."""
+    _, begin, size = part
+    stream.seek(begin)
+    data = stream.read(min(size, 128))
+    return [int.from_bytes(data[i : i + 4], order) for i in range(0, len(data), 4)]

@@ -34,7 +34,7 @@ def _read(path: str, variable: str | None) -> Matrix:
                 return real(path, archive[name], name)
         return real(path, _sparse(path))
     except _DAMAGE as error:
-        reject("MD252", path, f"not a NumPy archive: {error}", _HELP)
+        reject("MD252", path, f"not a NumPy archive: {str(error)[:200]}", _HELP)
 
 
 def check(path: str) -> None:

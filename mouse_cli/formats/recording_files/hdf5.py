@@ -30,6 +30,7 @@ def read(path: str) -> Contents:
     """Every data set of numbers in the file."""
     if not hdf5_matrices.claims(path):
         raise ValueError("no HDF5 signature")
+    hdf5_matrices.check_heaps(path)
     try:
         import h5py
     except ImportError:

@@ -4,6 +4,8 @@ An archive with frequency_hz (f,), H (f, o, i), output_names (o,) and input_name
 spectra` writes such ones, with kind, variance (f, o, i) and coherence (f, o).
 """
 
+import sys
+
 import numpy as np
 
 from mouse_cli.formats.matrix_files import npz as npz_matrices
@@ -24,7 +26,7 @@ def _read(path: str) -> Contents:
 def functions(arrays: dict[str, np.ndarray]) -> tuple[Function, ...]:
     """The functions of an archive that names responses and forces. Raises ValueError where its shapes do not fit."""
     hz, H = np.asarray(arrays["frequency_hz"], float), np.asarray(arrays["H"], complex)
-    outputs, inputs = ([str(name) for name in np.ravel(arrays[key])] for key in ("output_names", "input_names"))
+    outputs, inputs = (_texts(arrays[key]) for key in ("output_names", "input_names"))
     shape = (len(hz), len(outputs), len(inputs))
     variance, coherence = (
         np.asarray(arrays[key], float) if key in arrays else None for key in ("variance", "coherence")
@@ -34,8 +36,7 @@ def functions(arrays: dict[str, np.ndarray]) -> tuple[Function, ...]:
         raise ValueError(
             f"H, variance and coherence do not fit {shape[0]} lines, {shape[1]} responses and {shape[2]} forces"
         )
-    kind = str(arrays["kind"]) if "kind" in arrays else ""
-    unit = str(arrays["unit"]) if "unit" in arrays else ""
+    kind, unit = ("".join(_texts(arrays.get(key, ""))) for key in ("kind", "unit"))
     rate = float(arrays["decay_rate"]) if "decay_rate" in arrays else 0.0
     return tuple(
         Function(
@@ -46,6 +47,16 @@ def functions(arrays: dict[str, np.ndarray]) -> tuple[Function, ...]:
         for i, force in enumerate(inputs)
         for o, output in enumerate(outputs)
     )  # fmt: skip
+
+
+def _texts(array: object) -> list[str]:
+    """The texts of an array. Raises ValueError for what is no character, of which Python makes a text nevertheless."""
+    words = np.ravel(array)
+    if words.dtype.kind == "U" and words.size and words.dtype.itemsize:
+        letters = np.frombuffer(words.tobytes(), words.dtype.byteorder.replace("|", "=") + "u4")
+        if letters.max() > sys.maxunicode:
+            raise ValueError("a text of the archive holds what is no character")
+    return [str(word) for word in words]
 
 
 def _read_array(path: str) -> Contents:

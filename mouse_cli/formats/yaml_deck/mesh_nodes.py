@@ -105,7 +105,8 @@ def _line(section: Section) -> Nodes | None:
         help = f"give the lower number as from, and at most {MOST} nodes"
         return line.document.error("MD409", line.node, message, help)
     share = np.linspace(0.0, 1.0, last - first + 1)[:, None]
-    coordinates = ends[0] * (1 - share) + ends[1] * share
+    with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is told of later
+        coordinates = ends[0] * (1 - share) + ends[1] * share
     return Nodes(np.arange(first, last + 1), coordinates, lambda _: line.document.span(line.node))
 
 

@@ -23,7 +23,10 @@ def correlated(section: Section | None, form: str | None, names: list[str], sd: 
     if section is None or form not in _CORRELATIONS:
         return None
     found = _CORRELATIONS[form](section, section.nodes[form], names)
-    return None if found is None else found * np.outer(sd, sd)
+    with np.errstate(
+        over="ignore", invalid="ignore"
+    ):  # standard deviations must be finite, and are told of where they stand
+        return None if found is None else found * np.outer(sd, sd)
 
 
 def _whole(section: Section, node: Node, names: list[str]) -> np.ndarray | None:
