@@ -87,6 +87,8 @@ def main() -> None:
             doubted += found.doubtful
             wrong[int(found.doubtful)] += np.sum(~inside)
             short += not found.long_enough
+            print(f"\r{i + 1} of {given.tests}", end="", file=sys.stderr, flush=True)
+    print(file=sys.stderr)
     low, high = binom.ppf([0.025, 0.975], given.tests, LEVEL) / given.tests
     print(f"{given.tests} tests; an honest interval of {LEVEL:.0%} holds the truth in {low:.1%} to {high:.1%} of them")
     for name, a, b in zip(("k1", "k2", "m3"), sampled / given.tests, normal / given.tests, strict=True):

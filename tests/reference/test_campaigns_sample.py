@@ -64,6 +64,25 @@ def test_a_linear_problem_has_the_normal_posterior_of_the_closed_form(tmp_path):
     agrees(found.parameters[0], (x, exact.cdf(x)))
 
 
+def test_a_correlated_prior_carries_what_is_measured_over(tmp_path):
+    """One of two separate springs is measured; of the other the conditional normal distribution tells: both closed forms."""
+    path = tmp_path / "two.yaml"
+    path.write_text(
+        "mouse: 1\nmodel: {stiffness: {order: 2, entries: [[1, 1, 1000.0], [2, 2, 5000.0]]}, mass: {identity: 2}}\n"
+        "parameters: [{name: a, nominal: 1000.0, sd: 100.0, stiffness: [[1, 1, 1]]},"
+        " {name: b, nominal: 5000.0, sd: 300.0, stiffness: [[2, 2, 1]]}]\nprior: {correlations: [[a, b, 0.8]]}\n"
+        "test: {modes: {number: [1], frequency: [5.3], frequency_sd: 0.1}}\n"
+    )
+    measured, sd = (2 * pi * 5.3) ** 2, 8 * pi**2 * 5.3 * 0.1
+    gain = np.array([100.0**2, 0.8 * 100.0 * 300.0]) / (100.0**2 + sd**2)
+    mean = np.array([1000.0, 5000.0]) + gain * (measured - 1000.0)
+    spread = np.sqrt(np.array([100.0**2, 300.0**2]) - gain**2 * (100.0**2 + sd**2))
+    found = sample(read_deck(path), Sampling())
+    for each, m, s in zip(found.parameters, mean, spread, strict=True):
+        x = np.linspace(m - 6 * s, m + 6 * s, 2001)
+        agrees(each, (x, norm(m, s).cdf(x)))
+
+
 def test_a_limit_cuts_the_posterior_off(tmp_path):
     problem, measured, sd = one_mass(
         tmp_path, "nominal: 1000.0, sd: 100.0, lower: 980.0, stiffness: [[1, 1, 1]]", 5.0, 0.2
