@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from mouse_cli._span import Span
+from mouse_cli._texts import line
 
 ERROR, WARNING = "error", "warning"
 _WIDEST = 160  # columns of a line that are shown
@@ -87,14 +88,16 @@ def frame(diagnostic: Diagnostic) -> str:
     """Headline, the offending line (a card under its column ruler) with a caret under the whole field, note and help."""
     span = diagnostic.span
     gutter = " " * (len(str(span.line)) if span else 1)
-    lines = [diagnostic.headline]
+    lines = [line(diagnostic.headline)]
     if span and span.text:
         lines += [f"{gutter} |  {row}" for row in RULER if span.card]
         caret = "^" * max(1, min(span.width, len(span.text) + 1 - span.column))
         lines.append(f"{span.line} |  {_printable(span.text)}"[:_WIDEST].rstrip())
         lines.append(f"{gutter} |  {' ' * (span.column - 1)}{caret}"[:_WIDEST])
     lines += [
-        f"{gutter} = {name}: {text}" for name, text in (("note", diagnostic.note), ("help", diagnostic.help)) if text
+        f"{gutter} = {name}: {line(text)}"
+        for name, text in (("note", diagnostic.note), ("help", diagnostic.help))
+        if text
     ]
     return "\n".join(lines)
 

@@ -31,7 +31,19 @@ RANKS = {
     "codes": 1,
     "model": 1,
 }
-OPTIONAL = {"matplotlib", "h5py", "pyuff", "pyyeti", "nptdms", "soundfile", "sdypy", "pyoma2", "dask", "distributed", "emcee"}
+OPTIONAL = {
+    "matplotlib",
+    "h5py",
+    "pyuff",
+    "pyyeti",
+    "nptdms",
+    "soundfile",
+    "sdypy",
+    "pyoma2",
+    "dask",
+    "distributed",
+    "emcee",
+}
 HEAVY = {"scipy", "yaml"}  # never at the head of a module: a small card deck needs neither
 
 
@@ -97,6 +109,32 @@ def test_files_fit_a_mind_and_functions_a_screen(path):
     functions = [n for n in ast.walk(ast.parse(text)) if isinstance(n, ast.FunctionDef)]
     long = {f.name: f.end_lineno - f.lineno + 1 for f in functions if f.end_lineno - f.lineno + 1 > 40}
     assert not long
+
+
+UNSAFE = {  # what makes code of data, or a shell of a name
+    "eval", "exec", "compile", "__import__", "os.system", "os.popen", "yaml.load", "yaml.load_all", "yaml.unsafe_load",
+    "yaml.full_load", "pickle.load", "pickle.loads", "marshal.loads", "shelve.open", "joblib.load", "pandas.read_pickle",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("path", FILES, ids=identity)
+def test_data_are_never_code(path):
+    """Decks, recordings and answers are read as data: no pickles, no YAML objects, no programs started."""
+    tree = ast.parse(path.read_text())
+    calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call)]
+    assert not {ast.unparse(call.func) for call in calls} & UNSAFE
+    assert not {name.split(".")[0] for name in imported(path)} & {
+        "pickle",
+        "marshal",
+        "shelve",
+        "dill",
+        "joblib",
+        "subprocess",
+    }
+    loads = [call for call in calls if ast.unparse(call.func) in ("np.load", "numpy.load")]
+    said = [{word.arg: ast.unparse(word.value) for word in call.keywords} for call in loads]
+    assert all(words.get("allow_pickle") == "False" for words in said)
+    assert not any("shell" in {word.arg for word in call.keywords} for call in calls)
 
 
 def loaded(statement: str) -> set[str]:

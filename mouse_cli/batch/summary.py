@@ -1,16 +1,14 @@
 """The outcomes of a batch as people and programs read them: table, CSV, JUnit XML, annotations of GitHub."""
 
-import csv
-import io
 import re
 from collections.abc import Iterable, Iterator
 
+from mouse_cli import _texts
 from mouse_cli._errors import ERROR, Diagnostic
 from mouse_cli.batch.outcome import Outcome
 
 _WIDEST = 60  # characters of the name of a deck in the table
 _HEADINGS = ("deck", "command", "exit", "ended", "residual_p", "expected", "missed", "findings", "message", "result")
-_FORMULA = ("=", "+", "-", "@", "\t", "\r")
 _NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
@@ -55,11 +53,7 @@ def count(outcomes: list[Outcome]) -> str:
 
 def csv_text(outcomes: Iterable[Outcome]) -> str:
     """A table for spreadsheets; no cell is a formula, whatever decks and parameters are called."""
-    stream = io.StringIO()
-    rows = csv.writer(stream, lineterminator="\n")
-    rows.writerow(_HEADINGS)
-    rows.writerows([_cell(value) for value in _row(each)] for each in outcomes)
-    return stream.getvalue()
+    return _texts.csv_text((_HEADINGS, *map(_row, outcomes)))
 
 
 def _row(found: Outcome) -> tuple[object, ...]:
@@ -69,12 +63,6 @@ def _row(found: Outcome) -> tuple[object, ...]:
     return (
         found.deck, found.command, found.exit_code, found.ended, p, found.expected, len(found.missed), codes, message, found.result,
     )  # fmt: skip
-
-
-def _cell(value: object) -> str:
-    """Spreadsheets compute cells that begin like formulas, quoted or not: an apostrophe makes them text."""
-    text = "" if value is None else str(value)
-    return f"'{text}" if text.startswith(_FORMULA) else text
 
 
 def junit_text(outcomes: list[Outcome], name: str = "mouse batch") -> str:

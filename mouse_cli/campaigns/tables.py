@@ -1,22 +1,14 @@
 """Campaigns as long tables for spreadsheets and data frames: one line for each run and each quantity; no cell is a formula."""
 
-import csv
-import io
 from collections.abc import Iterable, Iterator
 
+from mouse_cli._texts import csv_text
 from mouse_cli.model.campaign import Answered, Bootstrap, Spread, Sweep
-
-_FORMULA = ("=", "+", "-", "@")
 
 
 def text(found: Sweep | Bootstrap) -> str:
     """The table of `found` in CSV."""
-    stream = io.StringIO()
-    rows = csv.writer(stream, lineterminator="\n")
-    rows.writerows(
-        [_cell(value) for value in row] for row in (_swept(found) if isinstance(found, Sweep) else _drawn(found))
-    )
-    return stream.getvalue()
+    return csv_text(_swept(found) if isinstance(found, Sweep) else _drawn(found))
 
 
 _ENDED = ("exit", "ended", "model_form", "chi2", "p")
@@ -53,13 +45,3 @@ def _quantities(answer: Answered, parameters: Iterable, frequencies: Iterable[Sp
         yield "parameter", each.name, each.unit, value, sd
     for each, value in zip(frequencies, answer.hz, strict=True):
         yield "frequency", each.name, "Hz", value, None
-
-
-def _cell(value: object) -> str:
-    """Numbers to all digits, NaN as nothing; texts on one line, with an apostrophe where they begin like a formula."""
-    if isinstance(value, bool) or value is None:
-        return "" if value is None else str(value).lower()
-    if isinstance(value, int | float):
-        return "" if value != value else repr(float(value)) if isinstance(value, float) else str(value)
-    told = "".join(c if c.isprintable() else "?" for c in str(value))
-    return f"'{told}" if told.startswith(_FORMULA) else told

@@ -8,6 +8,8 @@ from contextlib import contextmanager
 import click
 
 from mouse_cli._errors import ERROR, WARNING, Diagnostic, frame
+from mouse_cli._texts import line as on_line
+from mouse_cli._texts import shown
 from mouse_cli.model.result import Cycle
 
 _COLOURS = {ERROR: "red", "warning": "yellow"}
@@ -16,7 +18,7 @@ _COLOURS = {ERROR: "red", "warning": "yellow"}
 def show_diagnostics(diagnostics: Iterable[Diagnostic], brief: bool = False) -> None:
     """Print diagnostics to standard error, each with the line it is about; `brief`: the headline alone."""
     for diagnostic in diagnostics:
-        text = diagnostic.headline if brief else frame(diagnostic)
+        text = on_line(diagnostic.headline) if brief else frame(diagnostic)
         mark = f"{diagnostic.severity}[{diagnostic.code}]"
         if _coloured(sys.stderr):
             text = text.replace(mark, click.style(mark, fg=_COLOURS[diagnostic.severity], bold=True), 1)
@@ -35,6 +37,11 @@ def json_text(document: dict[str, object]) -> str:
     return json.dumps(document, indent=1, allow_nan=False)
 
 
+def say(text: str, end: str = "\n") -> None:
+    """Print `text`, whatever names of decks and recordings stand in it."""
+    click.echo(shown(text) + end, nl=False)
+
+
 def deliver(text: str, output: str | None, deck: str) -> None:
     """Print `text`, or write it to the file `output`, whole or not at all; never over the deck it came from.
 
@@ -42,6 +49,7 @@ def deliver(text: str, output: str | None, deck: str) -> None:
     """
     if not text.endswith("\n"):
         text += "\n"
+    text = shown(text)
     if output in (None, "-"):
         click.echo(text, nl=False)
         return
@@ -69,10 +77,10 @@ def progress() -> Iterator[tuple[Callable[[Cycle], None], Callable[[str], None]]
         return
     line = "\r\033[K"  # back to its beginning, and cleared
 
-    def say(text: str) -> None:
-        click.echo(f"{line}{text}", err=True, nl=False)
+    def tell(text: str) -> None:
+        click.echo(f"{line}{on_line(text)}", err=True, nl=False)
 
     try:
-        yield lambda cycle: say(f"cycle {cycle.index}: chi2 {cycle.chi2:.6g}"), say
+        yield lambda cycle: tell(f"cycle {cycle.index}: chi2 {cycle.chi2:.6g}"), tell
     finally:
         click.echo(line, err=True, nl=False)

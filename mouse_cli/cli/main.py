@@ -8,6 +8,7 @@ import click
 
 from mouse_cli import __version__, _registry
 from mouse_cli._errors import MouseError
+from mouse_cli._texts import line
 
 _COMMANDS = "mouse_cli.cli.commands"
 _THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
@@ -71,6 +72,7 @@ def _run(arguments: list[str] | None) -> int:
         show_diagnostics(error.diagnostics)
         return error.exit_code
     except click.ClickException as error:
+        error.message = line(error.message)
         error.show()
         return error.exit_code
     except (KeyboardInterrupt, click.Abort):

@@ -280,3 +280,75 @@ def test_links_within_a_file_are_followed(tmp_path):
         file["model/K"] = np.eye(2)
         file["near"], file["K"] = h5py.SoftLink("/model"), h5py.SoftLink("near/K")
     assert np.array_equal(read_matrix(str(tmp_path / "k.h5"), variable="K"), np.eye(2))
+
+
+HOSTILE = "\x1b]0;owned\x07\x1b[2J\u202egnp\u2066"
+NAMED = """\
+mouse: 1
+title: "T\\e[2J\\u202e"
+model: {stiffness: {order: 1, entries: [[1, 1, 100]]}, mass: {diagonal: [1]}, labels: ["L\\e[31m\\u202e"]}
+parameters: [{name: "k\\e]0;owned\\a\\u2066", sd: 10, stiffness: [[1, 1, 1]]}]
+test: {modes: {frequency: [1.6], frequency_sd: 0.01}}
+"""
+
+
+@pytest.mark.parametrize("command", ["run", "run --markdown", "run --json", "show", "modes", "diagnose", "check"])
+def test_names_do_not_command_the_terminal(command, tmp_path, capfd):
+    """Escape sequences and marks that turn the writing round stand in names; they are shown, not obeyed."""
+    (tmp_path / "deck.yaml").write_text(NAMED)
+    name, *options = command.split()
+    status, out = mouse(capfd, name, tmp_path / "deck.yaml", *options)
+    assert status in (0, 1) and out
+    assert not set(out) & {"\x1b", "\x07", "\u202e", "\u2066"}
+
+
+def test_findings_do_not_command_the_terminal(tmp_path, capfd):
+    """Excerpts of lines, names of files and of channels, words that were read."""
+    (tmp_path / "deck.yaml").write_text(f"mouse: 1\ntitle: {HOSTILE[14:]}\nmodel: x\n", "utf-8")
+    (tmp_path / "cards.dat").write_text(f"TITLE\n{HOSTILE}\n")
+    (tmp_path / "r.csv").write_text(f"t,{HOSTILE}\n1,2\n2,x{HOSTILE}\n")
+    (tmp_path / "g.csv").write_text(f"t,{HOSTILE},b\n1,2,3\n2,3,1\n3,5,4\n4,5,2\n")
+    (tmp_path / "names.yaml").write_text('mouse: 1\n"a\\e[2J\\nb": 1\nmodel: {stiffness: {order: "\\e[2J\\u202e"}}\n')
+    for arguments in (
+        ["check", tmp_path / "deck.yaml"],
+        ["check", "--brief", tmp_path / "names.yaml"],
+        ["show", tmp_path / "cards.dat"],
+        ["spectra", tmp_path / "r.csv", "--force", "1"],
+        ["spectra", tmp_path / "g.csv", "--force", "2", "--sample-rate", "1", "--lines", "2"],
+        ["spectra", tmp_path / f"no{HOSTILE[1:]}.csv"],
+        ["run", tmp_path / f"no{HOSTILE}.yaml"],
+    ):
+        _, out = mouse(capfd, *arguments)
+        assert out and not set(out) & {"\x1b", "\x07", "\u202e", "\u2066"}, arguments
+
+
+@posix
+def test_progress_does_not_command_the_terminal(monkeypatch, capfd):
+    from mouse_cli.cli._terminal import progress
+
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
+    with progress() as (_, say):
+        say(f"mode of {HOSTILE}")
+    told = capfd.readouterr().err.replace("\r\x1b[K", "")
+    assert "mode of" in told and not set(told) & {"\x1b", "\u202e"}
+
+
+def test_every_table_of_csv_goes_through_one_cell():
+    """No module but that one writes CSV: a name that begins with = would be computed by a spreadsheet."""
+    package = Path(__file__).resolve().parents[2] / "mouse_cli"
+    writers = {str(path.relative_to(package)) for path in package.rglob("*.py") if "csv.writer" in path.read_text()}
+    assert writers == {"_texts.py"}
+
+
+def test_every_command_that_reads_decks_may_be_allowed_outside():
+    """What takes a deck, a source or a manifest by name has the one option; results and topics name no files."""
+    from mouse_cli import _registry
+    from mouse_cli.cli.main import cli
+
+    for name in _registry.names("mouse_cli.cli.commands"):
+        command = cli.get_command(None, name)
+        reads = any(
+            each.param_type_name == "argument" and each.name in ("deck", "decks", "source", "sources")
+            for each in command.params
+        )
+        assert reads == any("--allow-outside" in each.opts for each in command.params), name

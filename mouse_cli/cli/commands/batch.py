@@ -47,7 +47,7 @@ def command(
     from mouse_cli.batch.markdown import markdown_text
     from mouse_cli.batch.outcome import exit_code
     from mouse_cli.batch.summary import annotations, csv_text, junit_text, table
-    from mouse_cli.cli._terminal import deliver
+    from mouse_cli.cli._terminal import deliver, say
 
     changes = {name: value for name, value in run_changes(given).items() if value is not None}
     found = done(_listed(decks, asked, changes), output, jobs, scheduler, cluster, limit_s)
@@ -55,8 +55,8 @@ def command(
         if file:
             deliver(text(found), file, "")
     if github:
-        click.echo(annotations(found), nl=False)
-    click.echo(table(found, quiet), nl=False)
+        say(annotations(found), end="")
+    say(table(found, quiet), end="")
     return exit_code(found)
 
 

@@ -65,11 +65,11 @@ def command(
 
 def _answer(found, form: str | None, numbers: str | None, output: str | None, files: list[str]) -> None:
     """Print the answer, and what became of `-o`."""
-    from mouse_cli.cli._terminal import json_text
+    from mouse_cli.cli._terminal import json_text, say
     from mouse_cli.report import document, written
 
     if form == "json":
-        click.echo(json_text(document(found) | {"deck": files[-1] if files else None}))
+        say(json_text(document(found) | {"deck": files[-1] if files else None}))
         return
     text = written(found, form or "printout", numbers or "modern")
     if output:
@@ -78,4 +78,4 @@ def _answer(found, form: str | None, numbers: str | None, output: str | None, fi
             if files
             else f"\nNothing was written to {output}: there are no modes.\n"
         )
-    click.echo(text, nl=False)
+    say(text, end="")

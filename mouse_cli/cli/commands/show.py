@@ -15,7 +15,7 @@ def command(deck: str, legacy: bool, strip_73_80: bool, overrides: tuple[str, ..
     """
     from mouse_cli._errors import MouseError
     from mouse_cli.cli._decks import deck_bytes, shown
-    from mouse_cli.cli._terminal import show_diagnostics
+    from mouse_cli.cli._terminal import say, show_diagnostics
     from mouse_cli.formats import is_yaml, read_draft
     from mouse_cli.formats.assemble import assemble
 
@@ -23,7 +23,7 @@ def command(deck: str, legacy: bool, strip_73_80: bool, overrides: tuple[str, ..
     if not is_yaml(data, deck):
         from mouse_cli.formats.cards import show as card_show
 
-        click.echo(card_show.describe(data, **how))
+        say(card_show.describe(data, **how))
     try:
         problem = assemble(read_draft(data, shown(deck), outside=outside(), **how))
     except MouseError as error:
@@ -33,5 +33,5 @@ def command(deck: str, legacy: bool, strip_73_80: bool, overrides: tuple[str, ..
     if problem.source.format == "yaml":
         from mouse_cli.formats import yaml_deck
 
-        click.echo(yaml_deck.write(problem)[0], nl=False)
+        say(yaml_deck.write(problem)[0], end="")
     return 0

@@ -31,7 +31,7 @@ def command(
     averages it has, its median coherence, and its noise.
     """
     from mouse_cli.cli._spectra import measured_data, spectra_options
-    from mouse_cli.cli._terminal import json_text, show_diagnostics
+    from mouse_cli.cli._terminal import json_text, say, show_diagnostics
     from mouse_cli.formats.frf_files import write_frf
     from mouse_cli.records.measurements import measure
     from mouse_cli.report import document, written
@@ -48,8 +48,8 @@ def command(
                 f"the recordings make {len(found.measured)} sets of functions ({names}); choose one with --recording"
             )
         write_frf(found.measured[0].frf, output, data.units)
-    click.echo(
-        json_text(document(found)) if form == "json" else written(found, form or "printout", numbers or "modern"),
-        nl=form == "json",
-    )
+    if form == "json":
+        say(json_text(document(found)))
+    else:
+        say(written(found, form or "printout", numbers or "modern"), end="")
     return 0
