@@ -9,7 +9,7 @@ CODES = {
         "derivatives put there. Two standard deviations from the mode, along the axis that changes a property by the largest "
         "share of its value, the posterior is narrower or wider than that density by a factor of 1.5 or more: so are its "
         "intervals. It is looked at where that costs little: converged runs of the anchored recursion with a prior, whose model "
-        "is not rejected, with dense matrices of up to 40 degrees of freedom.",
+        "is not rejected, with dense matrices of up to 30 degrees of freedom.",
         "`mouse sample` gives the posterior as it is. Where the data hardly determine a property, measure what it moves.",
     ),
     "MD930": Code(

@@ -19,7 +19,7 @@ from mouse_cli.updating.state import Setting, State
 FACTOR = 1.5  # narrower or wider by this: quantiles of the normal density are wrong by a third or more
 STEPS = (-2.0, -1.0, 1.0, 2.0)  # standard deviations
 _FLAT = 0.1
-_DOFS = 40  # degrees of freedom up to which two more solutions cost less than a seventh of a run
+_DOFS = 30  # degrees of freedom up to which two more solutions cost less than a seventh of a run
 
 
 @dataclass(frozen=True)
