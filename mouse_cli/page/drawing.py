@@ -17,7 +17,7 @@ WIDTH, HIGHEST, MARGIN = 640.0, 440.0, 34.0
 _SMALL, _LOW, _EDGE = 260.0, 200.0, 16.0  # of a drawing in the row of all modes
 _FINE = 10000  # positions in the data count in this share of the size of the structure, displacements in thousandths
 _DOTTED = 120  # nodes up to which each is a dot
-_LONGEST = 34  # characters of a name in the drawing
+_LONGEST, _LETTER = 28, 7.6  # characters of a name in the drawing, and how wide each is, about
 _RING = 11.0
 
 
@@ -49,7 +49,9 @@ def _pieces(scene: Scene, shapes: Sequence[Shape], marks: Sequence[Mark], seen: 
     held = _held(scene, marks)
     pieces = [tag("path", d=_lines(rest, scene.lines), class_="still")]
     if held:
-        pieces.append(tag("path", d=_lines(rest, np.array(held)), class_="stretch"))
+        u = shapes[0].u if shapes else 0.0
+        at = seen.at(scene.positions + scene.amplitude * u)
+        pieces.append(tag("path", d=_lines(at, np.array(held)), class_="stretch"))
     if not len(scene.lines) or not shapes:
         pieces.append(tag("path", d=_dots(rest), class_="still dots"))
     for shape in shapes:
@@ -114,9 +116,9 @@ def _names(scene: Scene, marks: Sequence[Mark], seen: View) -> Markup:
     for i, (mark, (x, y)) in enumerate(zip(marks, _centres(scene, scene.shapes[:1], marks, seen), strict=True)):
         if mark.name:
             short = mark.name if len(mark.name) <= _LONGEST else f"{mark.name[: _LONGEST - 1]}…"
-            right = x > seen.width / 2
-            place = {"x": _at(x + (-16 if right else 16)), "y": _at(y - 14)}
-            named.append(tag("text", short, text_anchor="end" if right else "start", data_mark=i, **place))
+            leftward = x + 16 + _LETTER * len(short) > seen.width
+            place = {"x": _at(x + (-16 if leftward else 16)), "y": _at(y - 14)}
+            named.append(tag("text", short, text_anchor="end" if leftward else "start", data_mark=i, **place))
     return tag("g", *named, class_="names")
 
 

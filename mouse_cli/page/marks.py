@@ -79,7 +79,8 @@ def _here(one: Part) -> float | None:
 def _rivals(document: Part, verdict: Part) -> list[Named]:
     """Other places of candidates; where no candidate explains the data, places by the shapes alone."""
     if verdict.text("kind") == "unknown":
-        places = document.part("location").parts("places")
+        location = document.part("location")
+        places = location.parts("places") if location.flag("single") else []
         return [
             Named(p.part("site"), p.text("channel"), p.number("probability"), False)
             for p in places

@@ -92,7 +92,6 @@ class Stage {
     const at = this.places(0);
     put(this.parts.still, this.lines(at, this.scene.l));
     put(this.parts.stillDots, this.dots(at));
-    put(this.parts.stretch, this.lines(at, this.scene.s));
     this.triad();
     this.draw();
   }
@@ -151,6 +150,7 @@ class Stage {
     const share = Math.sin(FULL_TURN * this.phase), at = this.places(share), { parts, scene } = this;
     parts.moved?.setAttribute("d", this.lines(at, scene.l));
     parts.stems?.setAttribute("d", this.stems(at));
+    parts.stretch?.setAttribute("d", this.lines(at, scene.s));
     if (scene.d) parts.movedDots?.setAttribute("d", this.dots(at));
     parts.test?.setAttribute("d", this.squares(share));
     this.mark(share);

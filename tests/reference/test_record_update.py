@@ -10,6 +10,7 @@ from click.testing import CliRunner
 from two_masses import linear, record
 
 from mouse_cli.cli.main import cli
+from mouse_cli.page import Part, page
 from mouse_cli.plots.record_residual import lines
 
 LAW = "laws:\n  - {law: cubic, variant: hardening, at: [1, 2], values: {cubic_stiffness: 1.2e8}}\n"
@@ -50,9 +51,26 @@ def test_the_size_of_a_law_is_revised_and_the_answer_is_a_prior(tmp_path):
     found = run(deck, 0)
     (size,) = found["laws"][0]["parameters"]
     assert abs(size["value"] - 2e8) < 4 * size["sd"] + 0.01 * 2e8
+    on_the_page(found)
     (tmp_path / "result.json").write_text(json.dumps(found))
     again = run(deck, 0, "--prior", str(tmp_path / "result.json"))
     assert again["parameters"][0]["prior"] == pytest.approx(found["parameters"][0]["posterior"])
+
+
+def on_the_page(found: dict) -> None:
+    """Errors of the held-out record, a stretch of it, the force that the record asks for and the revised law."""
+    text = page(Part(found, "result.json"))
+    (held,) = found["held_out"]["records"]
+    for values in (held["rms"], *held["error"].values(), *held["error_of_whole_record"].values()):
+        assert all(f'data-value="{value:.12g}"' in text for value in values)
+    (size,) = found["laws"][0]["parameters"]
+    assert f'data-value="{size["value"]:.12g}"' in text
+    assert "A stretch of a record held out" in text and "Restoring force over motion" in text
+    force = found["restoring_force"]
+    x, f, law = (np.array(force[key]) for key in ("motion", "force", "law"))
+    assert len(x) <= 500 and np.corrcoef(f, x**3)[0, 1] > 0.9
+    assert np.abs(law - 2e8 * x**3).max() < 0.02 * np.abs(law).max()
+    assert all(len(curve) <= 600 for curve in found["held_out"]["trace"]["simulated"].values())
 
 
 def test_figures_show_records_and_the_law(tmp_path):

@@ -15,6 +15,8 @@ from mouse_cli.report.reading import Part
 
 _MOST_SMALL, _MOST_LINES = 12, 20_000  # drawings in the row of all modes, and lines in all of them
 
+_LOCATED = {"one-of": "the place that leads, which the test does not settle"}
+
 
 def drawing(document: Part) -> Iterator[Markup]:
     """The large drawing with its controls, then every mode in a small one."""
@@ -32,7 +34,7 @@ def drawing(document: Part) -> Iterator[Markup]:
         caption,
         drawn,
         _controls(found, seen),
-        _legend(found, marked, drawn_model(document)),
+        _legend(found, marked, document),
         class_="structure",
     )
     yield from _places(marked)
@@ -90,14 +92,15 @@ def _slider(words: str, name: str, low: int, high: int, value: float) -> Markup:
     return tag("label", f"{words} ", tag("input", type="range", class_=name, **bounds))
 
 
-def _legend(found: Scene, marked: Sequence[Mark], name: str) -> Markup:
+def _legend(found: Scene, marked: Sequence[Mark], document: Part) -> Markup:
     """What the lines are."""
+    name, kind = drawn_model(document), document.part("verdict").text("kind")
     tested = any(shape.tested for shape in found.shapes)
     rows = [
         ("still", "at rest", True),
         ("moved", name, bool(found.shapes)),
         ("test", "the test, at its sensors", tested),
-        ("ring", "the place that was located", any(mark.strong for mark in marked)),
+        ("ring", _LOCATED.get(kind, "the place that was located"), any(mark.strong for mark in marked)),
         ("ring rival", "other places, fainter the less probable", any(not mark.strong for mark in marked)),
     ]
     items = [
