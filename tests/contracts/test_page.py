@@ -1,5 +1,6 @@
 """`mouse report`: pages that are well formed, need no network, and hold whatever names a deck has."""
 
+import json
 import re
 from base64 import b64encode
 from hashlib import sha256
@@ -9,7 +10,7 @@ from page_answers import NAMES, Reader, answer, document, made
 
 from mouse_cli._errors import DeckError
 from mouse_cli.cli.main import _run
-from mouse_cli.page import Part, page
+from mouse_cli.page import Part, page, read
 
 HOSTILE = "</script></title><img src=x onerror=alert(1)>\"'&\u202e\x00\ud800=cmd()"
 LARGEST = 3_000_000  # bytes of a page
@@ -153,6 +154,11 @@ def test_large_documents_stay_small():
     whole["baseline"]["parameters"] = whole["baseline"]["parameters"] * 500
     whole["baseline"]["modes"] = whole["baseline"]["modes"] * 50
     assert len(page(Part(whole, "large.json")).encode()) < LARGEST
+
+
+def test_the_answer_of_a_job_has_the_page_of_the_answer():
+    job = json.dumps({"schema": "mouse.job/1", "deck": "d.yaml", "exit_code": 1, "document": document("named")}).encode()
+    assert page(read(job, "job.json")) == made("named")
 
 
 def test_the_answer_is_not_overwritten(tmp_path):

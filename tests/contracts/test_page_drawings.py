@@ -168,6 +168,35 @@ def test_damaged_geometry_is_told(change):
     assert [d.code for d in error.value.diagnostics] == ["MD922"]
 
 
+def test_elements_that_a_cause_takes_up_are_held_out_in_colour():
+    """A stretch of bars: its lines are drawn once more, and the ring is at its middle element."""
+    whole = document("beam")
+    site = {"kind": "element", "ids": [3, 4, 5], "position": None, "text": "elements 3 to 5"}
+    verdict = {"kind": "named", "physics": "tension", "probability": 0.9, "sites": [site]}
+    found = Reader(page(Part({**whole, "schema": "mouse.diagnosis/1", "verdict": verdict}, "stretch.json")))
+    (scene,) = [json.loads(e["attrs"]["data-scene"]) for e in found.named("svg") if "data-scene" in e["attrs"]]
+    assert scene["s"] == [2, 3, 3, 4, 4, 5]
+    points = np.array(scene["p"]).reshape(-1, 3)
+    assert scene["m"][0][:3] == pytest.approx((points[3] + points[4]) / 2, abs=1)
+
+
+def test_marks_of_sensors_and_items():
+    """A sensor by its name, masses without lines one by one; what is nowhere has no mark."""
+    whole = document("beam")
+    for kind, ids, nodes in (
+        ("sensor", ["7TY"], [6]),
+        ("element", [20, 21], [0, 12]),
+        ("structure", [], []),
+        ("node", [99], []),
+    ):
+        site = {"kind": kind, "ids": ids, "position": None, "text": "there"}
+        verdict = {"kind": "named", "physics": "x", "probability": 0.9, "sites": [site]}
+        found = Reader(page(Part({**whole, "schema": "mouse.diagnosis/1", "verdict": verdict}, "marks.json")))
+        (scene,) = [json.loads(e["attrs"]["data-scene"]) for e in found.named("svg") if "data-scene" in e["attrs"]]
+        points = np.array(scene["p"]).reshape(-1, 3)
+        assert np.array([mark[:3] for mark in scene["m"]]).reshape(-1, 3) == pytest.approx(points[nodes], abs=1)
+
+
 def test_no_shape_and_one_node_are_drawn():
     whole = document("beam")
     one = {"positions": [[1, 2, 3]], "nodes": [5], "lines": [], "elements": [], "sensors": [], "shapes": []}
