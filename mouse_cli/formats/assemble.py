@@ -2,6 +2,8 @@
 
 from dataclasses import replace
 
+import numpy as np
+
 from mouse_cli._errors import WARNING
 from mouse_cli._span import Span
 from mouse_cli.formats.draft import Draft
@@ -21,6 +23,7 @@ from mouse_cli.model.geometry import Geometry
 from mouse_cli.model.problem import Problem
 
 
+@np.errstate(all="ignore")  # what numbers of a deck make that are not finite is found by the rules
 def assemble(draft: Draft) -> Problem:
     """Apply the rules to `draft` and build the Problem.
 

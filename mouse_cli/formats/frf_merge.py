@@ -52,7 +52,8 @@ def _fit(group: list[FrfDraft], say: Findings) -> bool:
 
 def _ascending(each: FrfDraft, say: Findings) -> bool:
     hz = each.frequency_hz
-    bad = np.flatnonzero(~(np.diff(hz, prepend=-np.inf) > 0) | ~np.isfinite(hz) | (hz < 0))
+    with np.errstate(invalid="ignore"):  # of infinite ones
+        bad = np.flatnonzero(~(np.diff(hz, prepend=-np.inf) > 0) | ~np.isfinite(hz) | (hz < 0))
     if not len(hz) or len(bad):
         i = int(bad[0]) if len(bad) else 0
         what = f"frequency {i + 1} of '{each.title}' is {hz[i]:.8g} Hz" if len(bad) else f"'{each.title}' has no lines"

@@ -4,6 +4,7 @@ A sparse group has, in this order of search: ir, jc, data (MATLAB 7.3); indptr, 
 attribute (SciPy, AnnData, h5sparse); cidx, ridx, data (Octave); or row, col, data from 0.
 """
 
+import os
 from mmap import ACCESS_READ, mmap
 from typing import Any
 
@@ -111,7 +112,22 @@ def array(path: str, dataset: Any) -> np.ndarray:
             f"'{dataset.name}' is packed by filter {strange[0]}, which only a plugin undoes; plugins are not loaded"
         )
         reject("MD252", path, message, "write it with gzip")
+    if dataset.chunks:
+        _check_chunks(path, dataset, plan.get_nfilters(), int(chunk) * dataset.dtype.itemsize)
     return dataset[()]
+
+
+def _check_chunks(path: str, dataset: Any, filters: int, full: int) -> None:
+    """Raise ValueError where a chunk lies outside of the file, is empty, or is not of `full` size though nothing unpacks it."""
+    held = os.path.getsize(path)
+
+    def look(chunk: Any) -> None:
+        unpacked = chunk.filter_mask == 2**filters - 1
+        sound = 0 < chunk.size <= held and chunk.byte_offset is not None and chunk.byte_offset + chunk.size <= held
+        if not sound or chunk.filter_mask >= 2**filters or (unpacked and chunk.size != full):
+            raise ValueError(f"the chunk of '{dataset.name}' at byte {chunk.byte_offset} is damaged")
+
+    dataset.id.chunk_iter(look)
 
 
 def _sparse(path: str, h5py: Any, group: Any) -> Matrix:
