@@ -14,6 +14,7 @@ from mouse_cli.dynamics import memory
 
 _SHARE = 2  # one file may take one in so many parts of the memory
 _LINES = 12  # times the size of a text file that its lines and numbers take at most while they are read
+_LONGEST = 600  # characters of a message
 _WIDEST = 200  # characters of a line that a diagnostic shows
 _DISGUISES = (  # how files begin that are not what their name says
     (b"<!doctype html", "an HTML page, such as a server sends in place of a file", "fetch the file itself"),
@@ -29,7 +30,8 @@ _DISGUISES = (  # how files begin that are not what their name says
 
 
 def reject(code: str, path: str, message: str, help: str = "", span: Span | None = None) -> NoReturn:
-    """Raise the DeckError of one finding."""
+    """Raise the DeckError of one finding; names and shapes that damage has made endless are cut."""
+    message = message if len(message) <= _LONGEST else f"{message[:_LONGEST]}..."
     raise DeckError(Diagnostic(code, ERROR, message, span or Span(path, 1), help=help))
 
 

@@ -92,11 +92,17 @@ def ways_out(place: Path, file: str, content: str) -> dict[str, str]:
     }
 
 
+def ways(reader: str, *given: object) -> list[str]:
+    """All of them; of batches, which start processes each time, a name that leads up and a link."""
+    found = ways_out(*given)
+    return [found["up"], found["link"]] if reader == "batch" else list(found.values())
+
+
 @posix
 @pytest.mark.parametrize("reader", READERS)
 def test_no_name_leads_out_of_the_folder(reader, place, capfd):
     _, file, content = READERS[reader]
-    for name in ways_out(place, file, content).values():
+    for name in ways(reader, place, file, content):
         status, out = mouse(capfd, *asked(reader, place, name))
         assert status == 4 and "MD231" in out, (name, out)
         assert reader == "batch" or "--allow-outside" in out
@@ -106,7 +112,7 @@ def test_no_name_leads_out_of_the_folder(reader, place, capfd):
 @pytest.mark.parametrize("reader", READERS)
 def test_unless_it_is_allowed(reader, place, capfd):
     _, file, content = READERS[reader]
-    for name in ways_out(place, file, content).values():
+    for name in ways(reader, place, file, content):
         status, out = mouse(capfd, *asked(reader, place, name), "--allow-outside")
         assert status in (0, 1, 5) or reader in ("spectra", "identify"), (name, out)
         assert "MD231" not in out and "MD250" not in out, (name, out)
