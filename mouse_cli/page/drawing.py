@@ -53,16 +53,21 @@ def _pieces(scene: Scene, shapes: Sequence[Shape], marks: Sequence[Mark], seen: 
         at = seen.at(scene.positions + scene.amplitude * u)
         pieces.append(tag("path", d=_lines(at, np.array(held)), class_="stretch"))
     if not len(scene.lines) or not shapes:
-        pieces.append(tag("path", d=_dots(rest), class_="still dots"))
+        pieces.append(tag("path", d=_dots(rest[: scene.nodes]), class_="still dots"))
     for shape in shapes:
         at = seen.at(scene.positions + scene.amplitude * shape.u)
         if not len(scene.lines):
             pieces.append(tag("path", d=_stems(rest, at), class_="stems"))
         pieces.append(tag("path", d=_lines(at, scene.lines), class_="moved"))
-        dots = at if len(at) <= _DOTTED or not len(scene.lines) else at[:0]
+        dots = at[: scene.nodes if _dotted(scene) else 0]
         pieces.append(tag("path", d=_dots(dots), class_="moved dots"))
         pieces.append(tag("path", d=_squares(seen.at(_tested(scene, shape))), class_="test"))
     return [*pieces, *_rings(scene, shapes, marks, seen)]
+
+
+def _dotted(scene: Scene) -> bool:
+    """Whether each node is a dot."""
+    return scene.nodes <= _DOTTED or not len(scene.lines)
 
 
 def _held(scene: Scene, marks: Sequence[Mark]) -> list[tuple[int, int]]:
@@ -148,7 +153,7 @@ def _data(scene: Scene, marks: Sequence[Mark], seen: View) -> str:
         "v": None if seen.turn is None else [seen.turn, TILT],
         "f": seen.matrix.round(6).tolist(),
         "s": [x for pair in _held(scene, marks) for x in pair],
-        "d": int(len(scene.positions) <= _DOTTED or not len(scene.lines)),
+        "d": scene.nodes if _dotted(scene) else 0,
         "h": MARGIN,
     }
     return json.dumps(found, separators=(",", ":"))

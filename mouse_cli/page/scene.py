@@ -24,8 +24,9 @@ class Shape:
 
 @dataclass(frozen=True)
 class Scene:
-    """positions (k, 3); lines (l, 2); elements: nodes of each by its id; names: node by its name; sensors: node by its dof.
+    """positions (k, 3), those of `nodes` nodes, then points between; lines (l, 2); elements: points of each by its id.
 
+    names: node by its name; sensors: node by its dof; of: nodes that the model has.
     across: motion along a line of nodes is drawn across it, else nobody would see it.
     """
 
@@ -37,6 +38,7 @@ class Scene:
     shapes: tuple[Shape, ...]
     unit: str
     of: int
+    nodes: int
     across: bool = False
 
     @property
@@ -79,7 +81,9 @@ def scene(document: Part) -> Scene | None:
     sensors = part.parts("sensors")
     at = {each.label("dof"): _index(each, "node", k) for each in sensors}
     shapes = tuple(_shape(each, sensors, k) for each in part.parts("shapes"))
-    found = Scene(positions, lines, elements, names, at, shapes, part.text("unit"), int(part.number("of") or k))
+    found = Scene(
+        positions, lines, elements, names, at, shapes, part.text("unit"), int(part.number("of") or k), len(names) or k
+    )
     return _across(found)
 
 

@@ -91,7 +91,7 @@ class Stage {
     const put = (part, d) => part?.setAttribute("d", d);
     const at = this.places(0);
     put(this.parts.still, this.lines(at, this.scene.l));
-    put(this.parts.stillDots, this.dots(at));
+    put(this.parts.stillDots, this.dots(at.slice(0, 2 * (this.scene.d || at.length))));
     this.triad();
     this.draw();
   }
@@ -151,7 +151,7 @@ class Stage {
     parts.moved?.setAttribute("d", this.lines(at, scene.l));
     parts.stems?.setAttribute("d", this.stems(at));
     parts.stretch?.setAttribute("d", this.lines(at, scene.s));
-    if (scene.d) parts.movedDots?.setAttribute("d", this.dots(at));
+    if (scene.d) parts.movedDots?.setAttribute("d", this.dots(at.slice(0, 2 * scene.d)));
     parts.test?.setAttribute("d", this.squares(share));
     this.mark(share);
   }

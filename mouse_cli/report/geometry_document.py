@@ -12,6 +12,7 @@ from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import Result
 from mouse_cli.observables.frf import names
+from mouse_cli.report.bending import bent
 from mouse_cli.report.coarsened import coarsened
 from mouse_cli.report.json_values import dof_name
 from mouse_cli.terms.constraints import links
@@ -47,21 +48,27 @@ def geometry(problem: Problem, modes: Sequence[Moved] = ()) -> dict[str, Any] | 
     moves = [_nodes_of(problem, of, one.q) for one in modes]
     sensors = _sensors(problem, of)
     size = float(np.ptp(of.coordinates, axis=0).max(initial=0.0)) or 1.0
-    kept = coarsened(len(of.node_ids), of.lines, MOST_NODES, [s["node"] for s in sensors])
+    k = len(of.node_ids)
+    kept = coarsened(k, of.lines, MOST_NODES, [s["node"] for s in sensors])
+    bows = None if kept.fewer else bent(problem.mesh)
+    positions, elements = of.coordinates[kept.nodes], [] if kept.fewer else _elements(problem)
+    shapes = [u[kept.nodes, :3] for u in moves]
+    if bows:
+        positions = np.vstack([positions, bows.at(positions)])
+        shapes = [np.vstack([shape, bows.moved(u)]) for shape, u in zip(shapes, moves, strict=True)]
+        through = bows.through(k)
+        elements = [[i, *through.get(i, nodes)] for i, *nodes in elements]
     digits = max(0, _DIGITS + 1 - int(np.floor(np.log10(size))))
+    readings = [s["reading"] for s in sensors]
     return {
         "unit": problem.units.length if problem.units.declared else "",
         "nodes": of.node_ids[kept.nodes],
-        "positions": of.coordinates[kept.nodes].round(digits) + 0.0,
-        "lines": kept.lines,
-        "elements": [] if kept.fewer else _elements(problem),
-        "of": len(of.node_ids),
+        "positions": positions.round(digits) + 0.0,
+        "lines": bows.lines(kept.lines, k) if bows else kept.lines,
+        "elements": elements,
+        "of": k,
         "sensors": [{**_told(s), "node": kept.index[s["node"]]} for s in sensors],
-        "shapes": [
-            _shape(one, u[kept.nodes], [s["reading"] for s in sensors])
-            for one, u in zip(modes, moves, strict=True)
-            if np.abs(u).max() > 0
-        ],
+        "shapes": [_shape(m, u, readings) for m, u in zip(modes, shapes, strict=True) if np.abs(u).max() > 0],
     }
 
 
@@ -110,17 +117,17 @@ def _turned(q: np.ndarray) -> np.ndarray:
 
 
 def _nodes_of(problem: Problem, of: Geometry, q: np.ndarray) -> np.ndarray:
-    """Displacements (k, 3) of the nodes, those that follow rigid links among them."""
+    """Displacements and rotations (k, 6) of the nodes, those that follow rigid links among them."""
     k = len(of.node_ids)
     if problem.mesh is None:
         u = np.zeros((k, 6))
         here = of.node >= 0
         u[of.node[here], of.direction[here]] = q[here]
-        return u[:, :3]
+        return u
     place, alone = 6 * of.node + of.direction, of.node < 0
     place[alone] = 6 * k + np.arange(int(alone.sum()))
     motion = links(problem.mesh, int(alone.sum())).motion(place)
-    return motion.apply(q)[: 6 * k].reshape(k, 6)[:, :3]
+    return motion.apply(q)[: 6 * k].reshape(k, 6)
 
 
 def _sensors(problem: Problem, of: Geometry) -> list[dict[str, Any]]:

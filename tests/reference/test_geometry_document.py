@@ -81,3 +81,20 @@ def test_few_nodes_stay_as_they_are():
     found = coarsened(4, np.array([[1, 0], [0, 1], [2, 3], [3, 3]]), 10)
     assert found.nodes.tolist() == [0, 1, 2, 3] and not found.fewer
     assert found.lines.tolist() == [[0, 1], [2, 3]]
+
+
+def test_beams_of_few_nodes_bend(tmp_path):
+    """Two beams of a cantilever: points along them on the closed form, which straight lines between three nodes are far from."""
+    path = tmp_path / "deck.yaml"
+    path.write_text(CANTILEVER.replace("to: 20,", "to: 2,").replace("1-20", "1-2").replace("0-20", "0-2")
+                    .replace("independent: 20", "independent: 2").replace("10TZ, 20TZ", "1TZ, 2TZ"))  # fmt: skip
+    found = document(run(read_deck(str(path))))["geometry"]
+    assert len(found["positions"]) == 4 + 2 * 5 and len(found["lines"]) == 1 + 2 * 6
+    assert found["elements"][1] == [2, 1, 9, 10, 11, 12, 13, 2]
+    x, u = np.array(found["positions"]), np.array(found["shapes"][0]["displacements"])
+    on = np.abs(x[:, 2]) < 1e-9
+    b, sigma = 1.87510407, 0.734095514
+    exact = lambda s: np.cosh(b * s) - np.cos(b * s) - sigma * (np.sinh(b * s) - np.sin(b * s))
+    tip = u[found["nodes"].index(2), 2]
+    assert u[on, 2] / tip == pytest.approx(exact(x[on, 0]) / exact(1.0), abs=5e-3)
+    assert abs(exact(0.25) - exact(0.5) / 2) / exact(1.0) > 0.05

@@ -72,7 +72,7 @@ def _told(found: Scene, marked: Sequence[Mark]) -> str:
 
 def _remark(found: Scene) -> str:
     along = "The structure moves along its own line; the motion is drawn across it." if found.across else ""
-    fewer = f"Drawn with {len(found.positions)} of {found.of} nodes." if len(found.positions) < found.of else ""
+    fewer = f"Drawn with {found.nodes} of {found.of} nodes." if found.nodes < found.of else ""
     return " ".join(filter(None, (along, fewer)))
 
 
