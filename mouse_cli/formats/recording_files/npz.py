@@ -11,6 +11,7 @@ import numpy as np
 from mouse_cli.formats.matrix_files import npz as npz_matrices
 from mouse_cli.formats.recording_files import Contents, Function, RecordingFormat, spread
 
+_LONGEST = 200  # characters of a name or a unit
 _OWN = ("frequency_hz", "H", "output_names", "input_names")
 
 
@@ -56,7 +57,7 @@ def _texts(array: object) -> list[str]:
         letters = np.frombuffer(words.tobytes(), words.dtype.byteorder.replace("|", "=") + "u4")
         if letters.max() > sys.maxunicode:
             raise ValueError("a text of the archive holds what is no character")
-    return [str(word) for word in words]
+    return [str(word)[:_LONGEST] for word in words]
 
 
 def _read_array(path: str) -> Contents:
