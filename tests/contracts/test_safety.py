@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+import warnings
 from pathlib import Path
 
 import hostile
@@ -255,6 +256,28 @@ def test_promises_are_refused_before_they_are_believed(kind, tmp_path):
         ), path
         assert any(help for *_, help in found), path
     assert not (tmp_path / "pwned").exists()
+
+
+def test_what_matlab_writes_is_let_through():
+    """Files by MATLAB 5 to 7.4 itself, which SciPy is tested with: whatever it reads is not refused before."""
+    import scipy.io.matlab
+
+    from mouse_cli.formats.matrix_files.matlab_elements import checked
+
+    files = sorted((Path(scipy.io.matlab.__file__).parent / "tests" / "data").glob("*.mat"))
+    if not files:
+        pytest.skip("this SciPy brings no files of its tests")
+    read = 0
+    for path in files:
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                scipy.io.loadmat(path)
+        except Exception:  # damaged on purpose, or of version 7.3
+            continue
+        checked(str(path))
+        read += 1
+    assert read > 80
 
 
 @pytest.mark.parametrize("how", ["link", "link by link", "virtual", "external"])
