@@ -59,8 +59,8 @@ def run(
 
     >>> import mouse_cli
     >>> result = mouse_cli.run(mouse_cli.read_deck("decks/sound_chain.yaml"))
-    >>> result.status.key, result.revised.theta.round(), result.sd_theta.round(1)
-    ('converged', array([1105.,  951., 1055.,  900.]), array([8.6, 5.9, 6.6, 4.7]))
+    >>> result.status.key, result.revised.theta.round().tolist(), result.sd_theta.round(1).tolist()
+    ('converged', [1105.0, 951.0, 1055.0, 900.0], [8.6, 5.9, 6.6, 4.7])
     """
     estimator = _estimator(problem)
     try:
