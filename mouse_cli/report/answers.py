@@ -6,6 +6,7 @@ from typing import Any
 
 from mouse_cli import _registry, report
 from mouse_cli.formats import file_bytes
+from mouse_cli.report.kinds import KINDS
 from mouse_cli.report.reading import read
 
 _CONSTANTS = ("SCHEMA", "COMPARISON")
@@ -27,7 +28,7 @@ def document(answer: Any) -> dict[str, Any]:
         return read(file_bytes(path), path, schemas()).values
     if isinstance(answer, dict):
         return answer
-    if not isinstance(answer, report.Subject):
+    if type(answer).__name__ not in KINDS:
         raise TypeError(f"{type(answer).__name__} is no answer of mouse, and no name of a file that holds one")
     return report.document(answer)
 

@@ -1,4 +1,4 @@
-"""A section of the report: one file of `sections`, found by itself, that turns a result into blocks."""
+"""A section of the report: one file of a folder of `sections`, found by itself, that turns a result into blocks."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
@@ -7,6 +7,9 @@ from functools import cache
 from mouse_cli import _registry
 from mouse_cli.model.result import Forecast, Result
 from mouse_cli.report.blocks import Block, Heading
+from mouse_cli.report.kinds import KINDS, kind
+
+_FOLDERS = "mouse_cli.report.sections"
 
 
 @dataclass(frozen=True)
@@ -41,10 +44,19 @@ class Section:
     subjects: tuple[type, ...] = (Result,)
 
 
+def registry() -> dict[str, Section]:
+    """All sections of all kinds of answers, by key, and those of third parties."""
+    found = _registry.discover(_FOLDERS, "SECTION")
+    for folder in sorted({each.folder for each in KINDS.values()}):
+        found = found | _registry.discover(f"{_FOLDERS}.{folder}", "SECTION")
+    return found
+
+
 @cache
 def sections(subject: type) -> tuple[Section, ...]:
-    """The sections that speak of `subject`, in the order of the report."""
-    found = _registry.discover("mouse_cli.report.sections", "SECTION").values()
+    """The sections that speak of `subject`, in the order of the report. Other kinds of answers are not loaded."""
+    own = _registry.discover(f"{_FOLDERS}.{kind(subject).folder}", "SECTION")
+    found = (_registry.discover(_FOLDERS, "SECTION") | own).values()
     return tuple(sorted((s for s in found if subject in s.subjects), key=lambda s: (s.order, s.key)))
 
 

@@ -6,7 +6,6 @@ from pathlib import Path
 import pytest
 
 from mouse_cli import report
-from mouse_cli._registry import discover
 from mouse_cli.cli.main import _run
 from mouse_cli.formats import read_deck, yaml_deck
 from mouse_cli.formats.assemble import assemble
@@ -15,6 +14,7 @@ from mouse_cli.methods.update import compare, update
 from mouse_cli.model.updated import ASPECTS, KEPT, LOST, PARTLY, Compared, Updated
 from mouse_cli.report.renderers.printout import WIDTH
 from mouse_cli.report.section import Options, sections
+from mouse_cli.report.section import registry as every_section
 
 DECKS = Path(__file__).resolve().parents[2] / "decks"
 FRAME, CHAIN, FUNCTIONS = (str(DECKS / f"{name}.yaml") for name in ("tube_frame", "table_5_2", "chain_functions"))
@@ -87,7 +87,7 @@ def test_reports_in_every_form(subject):
     problem = read_deck(DECKS / "table_5_2.yaml")
     found = update(problem, "kabe") if subject is Updated else compare(problem)
     assert isinstance(found, subject)
-    every = discover("mouse_cli.report.sections", "SECTION").values()
+    every = every_section().values()
     assert {s.key for s in sections(subject)} == {s.key for s in every if subject in s.subjects}
     for numbers in ("legacy", "modern"):
         lines = report.printout(found, numbers).split("\n")

@@ -8,15 +8,16 @@ import pytest
 from diagnosis_examples import DIAGNOSES, named
 from test_sections import plain_python, valid
 
-from mouse_cli import _registry, report
+from mouse_cli import report
 from mouse_cli._errors import MouseError, WrittenError
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, UNKNOWN, Choices, Diagnosis, Site
 from mouse_cli.plots import draw, registry, require
 from mouse_cli.report.renderers.printout import WIDTH
 from mouse_cli.report.section import Options, sections
+from mouse_cli.report.section import registry as every_section
 from mouse_cli.updating.statuses import STATUSES
 
-SECTIONS = _registry.discover("mouse_cli.report.sections", "SECTION")
+SECTIONS = every_section()
 
 
 def _words(name: str) -> str:

@@ -14,10 +14,10 @@ from mouse_cli.report.blocks import Heading, Lines, Matrix, Table, Text
 from mouse_cli.report.numbers import Numbers
 from mouse_cli.report.renderers import renderer
 from mouse_cli.report.renderers.printout import WIDTH
-from mouse_cli.report.section import Options, sections
+from mouse_cli.report.section import Options, registry, sections
 from mouse_cli.updating.correlate import correlate
 
-SECTIONS = _registry.discover("mouse_cli.report.sections", "SECTION")
+SECTIONS = registry()
 FORMS = tuple(_registry.discover("mouse_cli.report.renderers", "RENDERER"))
 CELL = int | float | str | None | np.integer
 

@@ -51,9 +51,9 @@ def _statuses() -> Iterator[tuple[str, str]]:
 
 
 def _sections() -> Iterator[tuple[str, str]]:
-    from mouse_cli._registry import discover
+    from mouse_cli.report.section import registry
 
-    for section in sorted(discover("mouse_cli.report.sections", "SECTION").values(), key=lambda s: s.order):
+    for section in sorted(registry().values(), key=lambda s: s.order):
         yield section.key, section.title
 
 

@@ -1,6 +1,6 @@
 """mouse run: revise the model of a deck by its test."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 import click
 
@@ -56,7 +56,6 @@ def _run(problems: Iterable, quiet: bool) -> list:
     """The results of the loop, or for decks of recordings of their update."""
     from mouse_cli.cli._decks import without_laws
     from mouse_cli.cli._terminal import progress, show_diagnostics
-    from mouse_cli.diagnosis.time.update import update_records
     from mouse_cli.updating import run
 
     results = []
@@ -64,8 +63,15 @@ def _run(problems: Iterable, quiet: bool) -> list:
         if not quiet:
             show_diagnostics((*problem.warnings, *without_laws(problem)))
         with progress() as (show, say):
-            results.append(update_records(problem, say) if problem.by_recordings else run(problem, show, say))
+            results.append(_by_recordings(problem, say) if problem.by_recordings else run(problem, show, say))
     return results
+
+
+def _by_recordings(problem, say: Callable[[str], None]):
+    """The update by recordings, loaded where a deck has some: a small card deck must not wait for it."""
+    from mouse_cli.diagnosis.time.update import update_records
+
+    return update_records(problem, say)
 
 
 def _problems(deck: str, stacked: bool, changes: dict, begun: dict, how: dict) -> Iterable:

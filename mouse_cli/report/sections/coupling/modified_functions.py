@@ -6,7 +6,7 @@ from mouse_cli.formats.frf_values import response_unit
 from mouse_cli.model.modified import Modified
 from mouse_cli.report.blocks import Block, Heading, Text
 from mouse_cli.report.section import Options, Section
-from mouse_cli.report.sections.coupling_functions import SHARP, peak_table
+from mouse_cli.report.sections.coupling.coupling_functions import SHARP, peak_table
 
 
 def functions(found: Modified, options: Options) -> Iterator[Block]:

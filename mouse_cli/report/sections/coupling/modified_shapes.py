@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from mouse_cli.model.modified import Modified
 from mouse_cli.report.blocks import Block
 from mouse_cli.report.section import Options, Section
-from mouse_cli.report.sections.forecast_shapes import shapes
+from mouse_cli.report.sections.run.forecast_shapes import shapes
 
 
 def modified(found: Modified, options: Options) -> Iterator[Block]:

@@ -7,7 +7,7 @@ from mouse_cli.model.modified import Modified
 from mouse_cli.report.blocks import Block, Column, Table, Text
 from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._wording import LEFT, counted
-from mouse_cli.report.sections.coupling_heading import connections
+from mouse_cli.report.sections.coupling.coupling_heading import connections
 
 
 def heading(found: Modified, options: Options) -> Iterator[Block]:

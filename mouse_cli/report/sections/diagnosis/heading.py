@@ -7,7 +7,7 @@ from mouse_cli.model.units import system
 from mouse_cli.report.blocks import Block, Text
 from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._wording import counted, deck_table
-from mouse_cli.report.sections.held_out import told
+from mouse_cli.report.sections.run.held_out import told
 
 
 def heading(found: Diagnosis, options: Options) -> Iterator[Block]:

@@ -7,7 +7,7 @@ import numpy as np
 from mouse_cli.model.updated import Compared
 from mouse_cli.report.blocks import Block, Column, Heading, Table, Text
 from mouse_cli.report.section import Options, Section
-from mouse_cli.report.sections.update_frequencies import cleared
+from mouse_cli.report.sections.update.frequencies import cleared
 
 
 def frequencies(found: Compared, options: Options) -> Iterator[Block]:

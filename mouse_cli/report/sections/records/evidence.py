@@ -2,6 +2,6 @@
 
 from mouse_cli.model.record_diagnosis import RecordDiagnosis
 from mouse_cli.report.section import Section
-from mouse_cli.report.sections.diagnosis_evidence import evidence
+from mouse_cli.report.sections.diagnosis.evidence import evidence
 
 SECTION = Section("record-evidence", 40, "Evidence", evidence, (RecordDiagnosis,))

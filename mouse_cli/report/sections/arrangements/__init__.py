@@ -1,0 +1,1 @@
+"""Sections that tell of an answer of several arrangements."""

@@ -1,0 +1,1 @@
+"""Sections that tell of methods side by side."""

@@ -1,0 +1,1 @@
+"""Sections that tell of a comparison of test and model."""

@@ -1,0 +1,1 @@
+"""Sections that tell of coupled and modified structures."""

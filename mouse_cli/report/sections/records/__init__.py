@@ -1,0 +1,1 @@
+"""Sections that tell of diagnoses and updates by recordings."""

@@ -1,0 +1,1 @@
+"""Sections that tell of an update by a method."""
