@@ -4,6 +4,7 @@ import os
 import sys
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import click
 
@@ -12,8 +13,10 @@ from mouse_cli.cli._options import outside
 from mouse_cli.formats import bounded, file_bytes, holds, is_yaml, read_draft
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.formats.draft import Draft
-from mouse_cli.model.coupling import Coupling, Modification
 from mouse_cli.model.problem import Problem, RunOptions
+
+if TYPE_CHECKING:  # a deck of a model does not load what couples models
+    from mouse_cli.model.coupling import Coupling, Modification
 
 _OF_MODES = {"pairing", "scale"}  # options that concern measured modes
 
@@ -86,7 +89,7 @@ def read_cases(path: str, changes: dict[str, object], **reading: object) -> Iter
         yield assemble(changed(draft, changes))
 
 
-def read_other(path: str) -> Coupling | Modification | None:
+def read_other(path: str) -> "Coupling | Modification | None":
     """What a file holds that is no model with its test: coupled structures, or changes; None for all others. Raises DeckError."""
     data = b"" if path == "-" else file_bytes(path)
     found = holds(data, path)
