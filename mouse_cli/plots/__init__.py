@@ -52,7 +52,7 @@ def require(path: str = "") -> None:
         import matplotlib  # noqa: F401
     except ImportError:
         problem = Diagnostic(
-            "MD530", ERROR, "--plot needs the package matplotlib, which is not installed", help=_INSTALL
+            "MD530", ERROR, "figures need the package matplotlib, which is not installed", help=_INSTALL
         )
         raise MouseError(problem) from None
     kind = _kind(path)
