@@ -7,7 +7,7 @@ import numpy as np
 from mouse_cli.dynamics.correlation import mac
 from mouse_cli.plots import Plot
 from mouse_cli.plots._answers import MOST, update
-from mouse_cli.report.reading import Part
+from mouse_cli.report.reading import Part, columns
 
 _WRITTEN = 12  # modes up to which each square holds its number
 _DARK = 0.55  # above which letters are white
@@ -18,9 +18,10 @@ def draw(document: Part, axes: Any) -> bool:
     found = update(document)
     components = found.parts("shapes") if found else []
     modes = list(dict.fromkeys(c.label("mode") for c in components))[:MOST]
+    components = [c for c in components if c.label("mode") in modes]
     if not modes:
         return False
-    matrix = mac(_columns(components, modes, "test"), _columns(components, modes, "revised"))
+    matrix = mac(columns(components, modes, "test"), columns(components, modes, "revised"))
     axes.imshow(matrix, cmap="Blues", vmin=0, vmax=1)
     for i, k in np.ndindex(matrix.shape) if len(modes) <= _WRITTEN else ():
         colour = "white" if matrix[i, k] > _DARK else "black"
@@ -31,17 +32,6 @@ def draw(document: Part, axes: Any) -> bool:
     axes.set_xlabel("mode of the revised model")
     axes.set_ylabel("measured mode")
     return True
-
-
-def _columns(components: list[Part], modes: list[str], key: str) -> np.ndarray:
-    """Components (s, m), NaN where one was not measured."""
-    rows = {name: i for i, name in enumerate(dict.fromkeys(c.label("dof") for c in components))}
-    found = np.full((len(rows), len(modes)), np.nan)
-    for each in components:
-        value = each.number(key)
-        if value is not None and each.label("mode") in modes:
-            found[rows[each.label("dof")], modes.index(each.label("mode"))] = value
-    return found
 
 
 PLOT = Plot("answer-mac", 30, "MAC of test and revised model", draw, (Part,))

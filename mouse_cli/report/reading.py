@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import Any
 
+import numpy as np
+
 from mouse_cli._errors import ERROR, DeckError, Diagnostic
 
 ANSWERS = ("mouse.result/1", "mouse.diagnosis/1", "mouse.arrangements/1")  # of `mouse run` and `mouse diagnose`
@@ -125,6 +127,17 @@ def updates(document: Part) -> list[tuple[str, str, Part]]:
         return [("all", "the model with all causes", document)]
     both = (("baseline", "the model as it is"), ("extended", "the extended model"))
     return [(key, name, document.part(key)) for key, name in both if document.part(key)]
+
+
+def columns(components: list[Part], modes: list[str], key: str) -> np.ndarray:
+    """Values `key` (s, m) of the `components` of shapes, for the modes so labelled; NaN where one is unknown."""
+    dofs = {name: i for i, name in enumerate(dict.fromkeys(c.label("dof") for c in components))}
+    found = np.full((len(dofs), len(modes)), np.nan)
+    column = {name: i for i, name in enumerate(modes)}
+    for each in components:
+        value = each.number(key)
+        found[dofs[each.label("dof")], column[each.label("mode")]] = np.nan if value is None else value
+    return found
 
 
 def rejected(code: str, message: str) -> DeckError:

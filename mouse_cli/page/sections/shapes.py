@@ -2,15 +2,13 @@
 
 from collections.abc import Iterator
 
-import numpy as np
-
 from mouse_cli.dynamics.correlation import mac
 from mouse_cli.page.html import Markup, tag
 from mouse_cli.page.matrix import matrix, shade
 from mouse_cli.page.section import PageSection
 from mouse_cli.page.sections._words import paragraphs
 from mouse_cli.page.tables import Cell, table
-from mouse_cli.report.reading import Part, updates
+from mouse_cli.report.reading import Part, columns, updates
 
 _MOST = 60  # modes of a matrix that is still read
 _Matrix = tuple[str, str, Part, str]  # key for ids, name of the model, update with its components, and which of them
@@ -24,7 +22,7 @@ def shapes(document: Part) -> Iterator[Markup]:
         modes = list(dict.fromkeys(c.label("mode") for c in components))
         if not 0 < len(modes) <= _MOST:
             continue
-        values = mac(_columns(components, modes, "test"), _columns(components, modes, which)).tolist()
+        values = mac(columns(components, modes, "test"), columns(components, modes, which)).tolist()
         title = f"MAC of the measured shapes with those of {name}"
         told = f"Diagonal: {', '.join(f'mode {m} {row[i]:.3f}' for i, (m, row) in enumerate(zip(modes, values, strict=True)))}."
         drawn.append(matrix(f"matrix-{key}", title, told, modes, values))
@@ -43,17 +41,6 @@ def _models(document: Part) -> list[_Matrix]:
     if document.text("schema") == "mouse.result/1":
         return [(key, f"the {key} model", document, key) for key in ("prior", "revised")]
     return [(key, name, found, "revised") for key, name, found in updates(document)]
-
-
-def _columns(components: list[Part], modes: list[str], key: str) -> np.ndarray:
-    """Components (s, m), NaN where one was not measured."""
-    dofs = {name: i for i, name in enumerate(dict.fromkeys(c.label("dof") for c in components))}
-    found = np.full((len(dofs), len(modes)), np.nan)
-    column = {name: i for i, name in enumerate(modes)}
-    for each in components:
-        value = each.number(key)
-        found[dofs[each.label("dof")], column[each.label("mode")]] = np.nan if value is None else value
-    return found
 
 
 def _shaded(value: float) -> Cell:
