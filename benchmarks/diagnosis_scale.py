@@ -61,13 +61,13 @@ def main() -> None:
     import numpy as np
 
     from mouse_cli.diagnosis import diagnose
-    from mouse_cli.diagnosis.baseline.altered import Model
-    from mouse_cli.diagnosis.baseline.reduced import reduced
     from mouse_cli.diagnosis.diagnose import ENOUGH
-    from mouse_cli.diagnosis.locate.energy_map import energy_map
-    from mouse_cli.diagnosis.locate.force import locate
-    from mouse_cli.diagnosis.name.fit import fit
-    from mouse_cli.diagnosis.name.rank import rank
+    from mouse_cli.diagnosis.likelihoods.modal.model import Model
+    from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
+    from mouse_cli.diagnosis.localise.energy_map import energy_map
+    from mouse_cli.diagnosis.localise.force import locate
+    from mouse_cli.diagnosis.search.fit import fit
+    from mouse_cli.diagnosis.search.rank import rank
     from mouse_cli.dynamics.solver import EigenSolver
     from mouse_cli.terms.assembly import assembly
     from mouse_cli.updating.loop import run

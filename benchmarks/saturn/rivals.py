@@ -7,10 +7,10 @@ import numpy as np
 from benchmarks.saturn.decks import segments
 from benchmarks.saturn.stack import MEASURED, Vehicle
 from benchmarks.saturn.vehicle import problem
-from mouse_cli.diagnosis.baseline.altered import Model
-from mouse_cli.diagnosis.baseline.reduced import Reduced, reduced
-from mouse_cli.diagnosis.candidates import Candidate, registry
-from mouse_cli.diagnosis.name.fit import Fit, fit
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced, reduced
+from mouse_cli.diagnosis.mechanisms import Candidate, registry
+from mouse_cli.diagnosis.search.fit import Fit, fit
 
 _STARTS, _FEWER = 8, 4  # fits of candidates with one unknown, and with more
 SENSORS = np.array([1, 3, 5, 7, 9, 11, 13, 14, 15, 17, 19, 20, 21, 22, 23, 25, 26, 27, 28]) - 1  # nodes of Table 5-5

@@ -63,7 +63,7 @@ def _considered(section: Section) -> dict[str, Any]:
     """Options of a diagnosis."""
     causes, names = section.value("causes"), section.value("candidates")
     if names:
-        from mouse_cli.diagnosis.candidates import registry
+        from mouse_cli.diagnosis.mechanisms import registry
 
         known = registry()
         for name in names:

@@ -79,7 +79,7 @@ def diagnosed(
     choices: Choices,
 ) -> ArrangementsDiagnosis:
     """What arrangements lack; common_sd in per cent."""
-    from mouse_cli.diagnosis.arranged.diagnose import Decks, diagnose_arrangements
+    from mouse_cli.diagnosis.likelihoods.configurations.diagnose import Decks, diagnose_arrangements
 
     fitted = Decks(problems, named.having(named.fitted), common_sd / 100)
     held = Decks(unseen, named.having(named.unseen), common_sd / 100)

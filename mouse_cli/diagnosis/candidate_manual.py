@@ -1,8 +1,8 @@
 """The physics that a diagnosis knows, in Markdown: for `mouse explain candidates` and the reference."""
 
-from mouse_cli.diagnosis.candidates import Candidate, registry
-from mouse_cli.diagnosis.frf.dashpots import DASHPOT
-from mouse_cli.diagnosis.frf.lossy_parts import LOSSY_PART
+from mouse_cli.diagnosis.likelihoods.frf.dashpots import DASHPOT
+from mouse_cli.diagnosis.likelihoods.frf.lossy_parts import LOSSY_PART
+from mouse_cli.diagnosis.mechanisms import Candidate, registry
 
 _HEAD = """# Candidates
 

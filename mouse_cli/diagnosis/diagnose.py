@@ -5,24 +5,24 @@ from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.baseline.altered import Model
-from mouse_cli.diagnosis.baseline.reduced import Reduced, reduced
-from mouse_cli.diagnosis.candidates import Candidate, registry
+from mouse_cli.diagnosis.cautions import cautions, misstated
 from mouse_cli.diagnosis.extend.deck import extended
-from mouse_cli.diagnosis.frf.compared import compared
-from mouse_cli.diagnosis.frf.deck import with_damping
-from mouse_cli.diagnosis.frf.identified import with_modes
-from mouse_cli.diagnosis.frf.rank import heard
-from mouse_cli.diagnosis.locate.energy_map import energy_map
-from mouse_cli.diagnosis.locate.force import locate
-from mouse_cli.diagnosis.locate.implied_law import implied_law
-from mouse_cli.diagnosis.name.cautions import cautions, misstated
-from mouse_cli.diagnosis.name.decide import Verdict, explanations, judge
-from mouse_cli.diagnosis.name.fit import Fit, fit
-from mouse_cli.diagnosis.name.numerics import numerics
-from mouse_cli.diagnosis.name.rank import Ranking, group, rank
-from mouse_cli.diagnosis.prove.next_measurement import proposals
-from mouse_cli.diagnosis.time.diagnose import diagnose_records
+from mouse_cli.diagnosis.likelihoods.frf.compared import compared
+from mouse_cli.diagnosis.likelihoods.frf.deck import with_damping
+from mouse_cli.diagnosis.likelihoods.frf.identified import with_modes
+from mouse_cli.diagnosis.likelihoods.frf.rank import heard
+from mouse_cli.diagnosis.likelihoods.history.diagnose import diagnose_records
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.likelihoods.modal.numerics import numerics
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced, reduced
+from mouse_cli.diagnosis.localise.energy_map import energy_map
+from mouse_cli.diagnosis.localise.force import locate
+from mouse_cli.diagnosis.localise.implied_law import implied_law
+from mouse_cli.diagnosis.mechanisms import Candidate, registry
+from mouse_cli.diagnosis.search.fit import Fit, fit
+from mouse_cli.diagnosis.search.rank import Ranking, group, rank
+from mouse_cli.diagnosis.validate.next_measurement import proposals
+from mouse_cli.diagnosis.verdict import Verdict, explanations, judge
 from mouse_cli.dynamics.solver import EigenSolver
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Choices, Diagnosis, Proposal
 from mouse_cli.model.modal_test import restricted

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from mouse_cli.diagnosis.baseline.altered import Model
-from mouse_cli.diagnosis.baseline.reduced import reduced
-from mouse_cli.diagnosis.candidates import registry
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
+from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.formats import read_deck, write_deck
 from mouse_cli.model.arrays import dense
 from mouse_cli.terms.assembly import assembly

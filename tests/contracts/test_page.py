@@ -157,7 +157,9 @@ def test_large_documents_stay_small():
 
 
 def test_the_answer_of_a_job_has_the_page_of_the_answer():
-    job = json.dumps({"schema": "mouse.job/1", "deck": "d.yaml", "exit_code": 1, "document": document("named")}).encode()
+    job = json.dumps(
+        {"schema": "mouse.job/1", "deck": "d.yaml", "exit_code": 1, "document": document("named")}
+    ).encode()
     assert page(read(job, "job.json")) == made("named")
 
 

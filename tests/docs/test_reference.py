@@ -207,7 +207,7 @@ def test_json_of_arrangements(tmp_path):
 def test_candidates():
     """Every candidate has its section in the reference, its line in the list and its explanation."""
     page, listed = _page("candidates.md"), _told("list", "candidates")
-    for key, candidate in discover("mouse_cli.diagnosis.candidates", "CANDIDATE").items():
+    for key, candidate in discover("mouse_cli.diagnosis.mechanisms", "CANDIDATE").items():
         assert f"\n## {key}\n" in page
         assert f"| {candidate.group} |" in page
         assert re.search(rf"^{key} ", listed, re.MULTILINE)

@@ -11,13 +11,13 @@ from scipy.linalg import eigh
 from scipy.optimize import brentq
 from scipy.stats import multivariate_normal
 
-from mouse_cli.diagnosis.baseline.altered import Model
-from mouse_cli.diagnosis.baseline.reduced import reduced
 from mouse_cli.diagnosis.diagnose import diagnose
-from mouse_cli.diagnosis.name import decide
-from mouse_cli.diagnosis.name.accuracy import ERRORS, ways
-from mouse_cli.diagnosis.name.fit import fit
-from mouse_cli.diagnosis.name.rank import rank
+from mouse_cli.diagnosis.likelihoods.modal.accuracy import ERRORS, ways
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
+from mouse_cli.diagnosis.search import decide
+from mouse_cli.diagnosis.search.fit import fit
+from mouse_cli.diagnosis.search.rank import rank
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.model.diagnosis import BY_DECK, NAMED, NOTHING, ONE_OF, UNKNOWN, HeldOut, Score

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from mouse_cli.cli.main import _run
-from mouse_cli.diagnosis.arranged.model import Arranged, Together, common
-from mouse_cli.diagnosis.arranged.predict import predicted
-from mouse_cli.diagnosis.baseline.reduced import reduced
-from mouse_cli.diagnosis.name.fit import fit
+from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, Together, common
+from mouse_cli.diagnosis.likelihoods.configurations.predict import predicted
+from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
+from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.formats import read_deck
 
 N, K, MASS, ITEM = 8, 2.0e5, 1.0, 0.12

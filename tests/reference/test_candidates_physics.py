@@ -5,10 +5,10 @@ import pytest
 from scipy.linalg import eigh
 from scipy.optimize import brentq
 
-from mouse_cli.diagnosis.baseline.altered import Model
-from mouse_cli.diagnosis.baseline.reduced import reduced
-from mouse_cli.diagnosis.candidates import registry
-from mouse_cli.diagnosis.physics.fracture import bending
+from mouse_cli.diagnosis.effects.fracture import bending
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
+from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
 

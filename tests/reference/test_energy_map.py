@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from test_locate import cantilever, chain, measured, problem
 
-from mouse_cli.diagnosis.baseline.altered import Model
-from mouse_cli.diagnosis.baseline.reduced import reduced
-from mouse_cli.diagnosis.locate.energy_map import energy_map
-from mouse_cli.diagnosis.name.fit import fit
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
+from mouse_cli.diagnosis.localise.energy_map import energy_map
+from mouse_cli.diagnosis.search.fit import fit
 
 
 def mapped(K, M, test):

@@ -11,17 +11,17 @@ sys.path.insert(0, str(Path(__file__).parents[2]))
 from benchmarks.blind_frf.cases import cases
 from benchmarks.blind_frf.decks import write
 from benchmarks.blind_frf.exact import Joint, receptance
-from mouse_cli.diagnosis.baseline.reduced import reduced
-from mouse_cli.diagnosis.candidates import registry
 from mouse_cli.diagnosis.extend.edit import Edit
-from mouse_cli.diagnosis.frf.correlated import correlated
-from mouse_cli.diagnosis.frf.damping import damping
-from mouse_cli.diagnosis.frf.dashpots import dashpots
-from mouse_cli.diagnosis.frf.data import FrfData, lines
-from mouse_cli.diagnosis.frf.extend import with_loss
-from mouse_cli.diagnosis.frf.identified import with_modes
-from mouse_cli.diagnosis.frf.lossy import STRUCTURAL, VISCOUS, lossy
-from mouse_cli.diagnosis.frf.model import FrfModel
+from mouse_cli.diagnosis.likelihoods.frf.correlated import correlated
+from mouse_cli.diagnosis.likelihoods.frf.damping import damping
+from mouse_cli.diagnosis.likelihoods.frf.dashpots import dashpots
+from mouse_cli.diagnosis.likelihoods.frf.data import FrfData, lines
+from mouse_cli.diagnosis.likelihoods.frf.extend import with_loss
+from mouse_cli.diagnosis.likelihoods.frf.identified import with_modes
+from mouse_cli.diagnosis.likelihoods.frf.lossy import STRUCTURAL, VISCOUS, lossy
+from mouse_cli.diagnosis.likelihoods.frf.model import FrfModel
+from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
+from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.dynamics.solver import EigenSolver
 from mouse_cli.formats import read_deck
 from mouse_cli.terms.assembly import assembly

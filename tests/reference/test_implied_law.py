@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from mouse_cli.diagnosis.baseline.altered import Model
-from mouse_cli.diagnosis.baseline.reduced import reduced
-from mouse_cli.diagnosis.candidates import registry
-from mouse_cli.diagnosis.locate.implied_law import _gram, implied_law
-from mouse_cli.diagnosis.name.fit import fit
-from mouse_cli.diagnosis.physics.change import Change
+from mouse_cli.diagnosis.effects.change import Change
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
+from mouse_cli.diagnosis.localise.implied_law import _gram, implied_law
+from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.problem import Problem

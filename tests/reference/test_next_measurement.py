@@ -5,12 +5,12 @@ import pytest
 from scipy.linalg import eigh
 from test_locate import chain, measured, problem
 
-from mouse_cli.diagnosis.baseline.altered import Model
-from mouse_cli.diagnosis.baseline.reduced import reduced
-from mouse_cli.diagnosis.candidates import registry
-from mouse_cli.diagnosis.name.fit import fit
-from mouse_cli.diagnosis.prove.measurements import SHAPE_SD, measurements
-from mouse_cli.diagnosis.prove.next_measurement import chosen_places, order, proposals, separated
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
+from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.diagnosis.search.fit import fit
+from mouse_cli.diagnosis.validate.measurements import SHAPE_SD, measurements
+from mouse_cli.diagnosis.validate.next_measurement import chosen_places, order, proposals, separated
 from mouse_cli.model.diagnosis import Effort, Proposal
 
 HELD = 4e4  # N/m, of the spring to the ground that the model lacks

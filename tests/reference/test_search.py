@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from mouse_cli.diagnosis.baseline.altered import Model
-from mouse_cli.diagnosis.baseline.reduced import Reduced, reduced
-from mouse_cli.diagnosis.baseline.unseen import unseen
-from mouse_cli.diagnosis.candidates import registry
-from mouse_cli.diagnosis.name.fit import fit
-from mouse_cli.diagnosis.name.search import Study
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced, reduced
+from mouse_cli.diagnosis.likelihoods.modal.unseen import unseen
+from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.diagnosis.search.fit import fit
+from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.problem import Problem

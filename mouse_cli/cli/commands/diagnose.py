@@ -100,7 +100,7 @@ def _answer(named: Named, common_sd: float | None, choices, quiet: bool, how: di
 
 def _choices(candidates: str | None, without: str | None, causes: int):
     """What is to be considered. Raises click.UsageError for names that do not exist."""
-    from mouse_cli.diagnosis.candidates import registry
+    from mouse_cli.diagnosis.mechanisms import registry
     from mouse_cli.model.diagnosis import Choices
 
     if candidates is None and without is None:

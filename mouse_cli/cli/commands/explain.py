@@ -115,5 +115,5 @@ def _entries() -> Iterator[tuple[str, str]]:
         yield key, f"{key}: {recursion.MEANING}"
     for key, kind in registry().items():
         yield key, about(kind)
-    for key, candidate in discover("mouse_cli.diagnosis.candidates", "CANDIDATE").items():
+    for key, candidate in discover("mouse_cli.diagnosis.mechanisms", "CANDIDATE").items():
         yield key, candidate_manual.about(candidate)

@@ -81,7 +81,7 @@ def _elements() -> Iterator[tuple[str, str]]:
 def _candidates() -> Iterator[tuple[str, str]]:
     from mouse_cli._registry import discover
 
-    for key, candidate in discover("mouse_cli.diagnosis.candidates", "CANDIDATE").items():
+    for key, candidate in discover("mouse_cli.diagnosis.mechanisms", "CANDIDATE").items():
         yield key, f"{candidate.title} ({candidate.group})"
 
 

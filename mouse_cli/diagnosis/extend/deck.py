@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from mouse_cli.diagnosis.effects.sensors import name, readings
 from mouse_cli.diagnosis.extend.edit import moved, moved_functions
-from mouse_cli.diagnosis.name.fit import Fit
-from mouse_cli.diagnosis.physics.sensors import name, readings
+from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.model.hold_out import HoldOut
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.problem import Problem

@@ -5,7 +5,7 @@ import numpy as np
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.matrices import of_matrices, with_degree_of_freedom, with_entries
 from mouse_cli.diagnosis.extend.places import node_at
-from mouse_cli.diagnosis.places.points import Points
+from mouse_cli.diagnosis.sites.points import Points
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.parameter import Parameter
 from mouse_cli.model.problem import Problem

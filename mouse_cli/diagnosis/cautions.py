@@ -1,0 +1,86 @@
+"""What an answer stands or falls with, in sentences: accuracy of the test, held-out data, the place that shapes point to."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from mouse_cli.diagnosis.likelihoods.modal.accuracy import scatter
+from mouse_cli.diagnosis.likelihoods.modal.scales import span
+from mouse_cli.diagnosis.search.rank import Ranking
+from mouse_cli.diagnosis.verdict import Verdict
+from mouse_cli.model.diagnosis import NAMED, NOTHING, Location
+
+_PROBABLE = 0.5  # of an error of the test from which on it is told
+_NOISY = 1.5  # noise scale from which on it is told what the accuracies seem to be
+_FAR = 0.1  # of the span, between the place of a cause and the nearest one that shapes point to
+_PLAIN = 0.05  # probability of a misfit as large as that of the best single place, from which on it may be the place
+_SMALL = 0.2  # share of all places that the 90 % region may hold to point anywhere
+_TOLD = {
+    "gains": "every sensor looks off by about {size:.1f} % of what it reads, in all modes alike, which the deck does not state: "
+    "calibrate the sensors, or add that much of each component to shape_sd",
+    "places": "every sensor looks out of its place by about {size:.2f} % of the length of its row of bars, which the deck does not "
+    "state: measure where they stand, or add what that makes of the shapes to shape_sd",
+    "drift": "the frequencies look off by about {size:.2f} % each, one from another, which the deck does not state (temperature, "
+    "amplitude, sensors moved between modes): repeat the test, or add that much to frequency_sd",
+}
+
+
+def misstated(ranking: Ranking) -> str | None:
+    """Key of the error that explains the data better than the accuracies of the deck do; None where those may be right."""
+    likely = [each.key for each in ranking.doubts if each.probability > _PROBABLE and ranking.noise_scale <= _NOISY]
+    return likely[0] if likely else None
+
+
+def cautions(ranking: Ranking, verdict: Verdict, location: Location | None) -> tuple[str, ...]:
+    """The sentences, each whole; none where nothing is missing."""
+    if verdict.kind == NOTHING:
+        return ()
+    return (*_errors(ranking), *_noise(ranking), *_refuted(verdict), *_elsewhere(verdict, location))
+
+
+def _errors(ranking: Ranking) -> Iterator[str]:
+    for doubt in ranking.doubts:
+        if doubt.key == misstated(ranking):
+            p = f"P = {doubt.probability:.2f}" if doubt.probability < 0.995 else "P > 0.99"
+            yield f"The test is less accurate than its deck says ({p}): {_TOLD[doubt.key].format(size=100 * doubt.size)}."
+
+
+def _noise(ranking: Ranking) -> Iterator[str]:
+    """What the accuracies would have to be for the best explanation to be right."""
+    if ranking.noise_scale > _NOISY:
+        best = min((one for one in ranking.fits if one.dof > 0), key=lambda one: one.misfit / one.dof)
+        named = zip(("frequencies", "shapes"), scatter(best), strict=True)
+        parts = " and ".join(f"{name} {factor:.2g} times" for name, factor in named if np.isfinite(factor))
+        yield (
+            f"Even the best explanation leaves {parts} the scatter that the deck states. Unless the cause is one that mouse does "
+            "not know, the test is that much less accurate: repeat a measurement to see how far it scatters."
+        )
+
+
+def _refuted(verdict: Verdict) -> Iterator[str]:
+    if verdict.refuted:
+        yield f"Refuted by the data held out, which are predicted worse with it than without: {', '.join(verdict.refuted)}."
+
+
+def _elsewhere(verdict: Verdict, location: Location | None) -> Iterator[str]:
+    """Where the measured shapes point to one place, and the cause that is named does not act there."""
+    best = verdict.best
+    if verdict.kind != NAMED or location is None or location.p < _PLAIN:
+        return
+    if location.region > max(1, _SMALL * len(location.places)):
+        return
+    sites = [recipe.site(recipe.values(best.c[own])) for recipe, own in zip(best.recipes, best.model.own, strict=True)]
+    region = location.places[: location.region]
+    if any(site.kind == "sensor" for site in sites) or any(_near(a, b.site, best) for a in sites for b in region):
+        return
+    first = region[0].site
+    yield (
+        f"The measured shapes by themselves point to {first.text or f'{first.kind} {first.ids}'}, where this cause does not act, "
+        "or not there alone: look at that place before you believe the name."
+    )
+
+
+def _near(one, other, best) -> bool:
+    if one.position is None or other.position is None:
+        return bool(one.ids) and one.ids == other.ids
+    return float(np.linalg.norm(np.subtract(one.position, other.position))) < _FAR * span(best.model.base)

@@ -1,0 +1,115 @@
+"""Places along bars where something gives way in bending."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Softening, Unknown, product
+from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.extend.places import element_at, hinge
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.bars import Bars
+from mouse_cli.diagnosis.sites.lines import Line
+from mouse_cli.diagnosis.sites.points import wanted
+from mouse_cli.model.problem import Problem
+
+_STARTS = 15  # places to begin from on a line
+_ENDS = 12  # ends of lines that a search in few coordinates knows to bend
+
+
+def lines(model: Reduced) -> list[Line]:
+    """Lines of bars that are worth looking at."""
+    keep, bars = wanted(model), model.bars
+    found = () if bars is None else bars.lines
+    return [line for line in found if keep is None or keep[bars.nodes[line.members]].any()]
+
+
+def ends(model: Reduced) -> np.ndarray:
+    """Pairs of moments (c, r) by which ends of lines give way where others begin, those first that bear most; few at most."""
+    bars = model.bars
+    if bars is None:
+        return np.zeros((0, model.r))
+    chosen = [(line.members[0], -1.0) for line in bars.lines] + [(line.members[-1], 1.0) for line in bars.lines]
+    b, eta = (np.array(part) for part in zip(*chosen, strict=True))
+    yields = (bars.strain[b] / np.diagonal(bars.flexibility[b], axis1=1, axis2=2)[:, :, None])[:, :2]
+    moments = yields[:, 0] + eta[:, None] * yields[:, 1]
+    count = min(model.r, int(model.data.test.number.max()) + 1)
+    return moments[np.argsort(-np.abs(moments[:, :count]).max(axis=1), kind="stable")[:_ENDS]]
+
+
+def places(
+    model: Reduced,
+    candidate: Candidate,
+    sizes: tuple[Unknown, ...],
+    added: Callable[[int, float, np.ndarray], np.ndarray],
+    starts: np.ndarray,
+    extend: Callable[[Problem, int, float, np.ndarray], Problem],
+) -> list[Recipe]:
+    """A recipe for each line of bars: `added` (bar, share of its length, values of `sizes`) comes to the flexibility (2, 2).
+
+    extend(problem, bar, share, values): the deck with that in it.
+    """
+    chosen, found = lines(model), []
+    total = sum(line.length for line in chosen)
+    for line in chosen:
+        where = Unknown("place", "m", 0.0, line.length, log=False)
+        at = line.starts(_STARTS, line.length / total)
+
+        def change(values: np.ndarray, line=line) -> Change:
+            bar, share = line.at(values[-1])
+            return Change(softening=Softening(np.array([bar]), added(bar, share, values[:-1])[None]))
+
+        def site(values: np.ndarray, line=line):
+            return line.site(values[-1])
+
+        def extended(problem: Problem, values: np.ndarray, line=line) -> Problem:
+            return extend(problem, *line.at(values[-1]), values[:-1])
+
+        prior = float(np.log(line.length / total))
+        grid = product(*starts.T, at) if starts.ndim > 1 else product(starts, at)
+        found.append(Recipe(candidate, (*sizes, where), change, grid, site, log_prior=prior, extend=extended))
+    return found
+
+
+def with_hinge(
+    problem: Problem,
+    bars: Bars,
+    bar: int,
+    share: float,
+    name: str,
+    turning: float,
+    sliding: float = 0.0,
+    parting: float = 0.0,
+    off: float = 0.0,
+) -> Problem:
+    """The deck with a spring (N m/rad) at `share` of a bar, in its plane, and springs (N/m) across and along it if it gives way so.
+
+    off: distance from the axis of the point about which it turns.
+    """
+    edit = Edit(problem)
+    element, there = element_at(edit, np.array(bars.point(bar, share)), bars.axis[bar])
+    node = edit.split(element, there)
+    end = int(np.argmax(edit.sets[element[0]].nodes[element[1]] == node))
+    axis, across = bars.axis[bar], bars.across[bar]
+    spring = hinge(edit, element, end, np.stack([axis, across, np.cross(axis, across)]), turning, sliding, parting, off)
+    properties = edit.sets[spring[0]].properties
+    if sliding or spring_is_joint(edit, spring):
+        _bind_factor(edit, spring, name, properties, (turning, sliding, parting))
+    else:
+        edit.bind(name, [spring], tuple(properties), unit="N m/rad")
+    return edit.done()
+
+
+def spring_is_joint(edit: Edit, element: tuple[int, int]) -> bool:
+    """Whether the element holds further directions rigid."""
+    return edit.sets[element[0]].type == "joint"
+
+
+def _bind_factor(edit: Edit, spring: tuple[int, int], name: str, properties: dict, given: tuple[float, ...]) -> None:
+    """The springs follow one factor; those that stand for rigidity do not."""
+    soft = tuple(key for key, value in properties.items() if value[0] in given)
+    if len(soft) == 1:
+        edit.bind(name, [spring], soft, unit="N m/rad")
+    else:
+        edit.bind(name, [spring], soft, factor=1.0)

@@ -1,0 +1,188 @@
+"""Elements other than bars, springs between degrees of freedom, and groups of matrix elements, that lose or gain stiffness."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.extend.matrices import Entries, of_matrices, with_entries
+from mouse_cli.diagnosis.extend.points import found as new_parameter
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.points import wanted
+from mouse_cli.model.arrays import dense
+from mouse_cli.model.diagnosis import Site
+from mouse_cli.model.geometry import DIRECTIONS
+from mouse_cli.model.problem import Problem
+from mouse_cli.terms.bound_properties import BoundProperties, nominal_properties
+from mouse_cli.terms.elements import Layout, Matrices, registry
+
+_MOST = 60  # places that are looked at: those that hold most energy in the lowest modes
+_STIFF = {"rod": ("E",), "spring": DIRECTIONS, "storey": DIRECTIONS, "joint": DIRECTIONS}
+LOST = "share lost"
+_LOST, _GAINED = Unknown(LOST, "1", 0.02, 0.95), Unknown("share gained", "1", 0.02, 3.0)
+
+
+def of_elements(model: Reduced, candidate: Candidate, sign: int = -1) -> list[Recipe]:
+    """K - d K_e of each rod, spring, storey and joint, or K + d K_e by `sign`."""
+    mesh = model.problem.mesh
+    parts = [] if mesh is None else [_stiffness(model, s) for s in range(len(mesh.elements))]
+    found = [(s, i, K) for s, blocks in enumerate(parts) for i, K in blocks]
+    return [_element(model, candidate, s, i, sign * K, len(found), sign) for s, i, K in _strained(model, found)]
+
+
+def _strained(model: Reduced, found: list) -> list:
+    """Those of (..., K_e (r, r)) that hold most energy in the lowest modes, of those that hold any."""
+    count = min(model.r, int(model.data.test.number.max()) + 1)
+    scale = np.maximum(model.eigenvalues[:count], 1e-9 * model.eigenvalues[-1])
+    energy = np.array([(np.diag(each[-1])[:count] / scale).max() for each in found])
+    return [found[i] for i in sorted(np.argsort(-energy)[:_MOST]) if energy[i] > 1e-6]
+
+
+def _stiffness(model: Reduced, s: int) -> list[tuple[int, np.ndarray]]:
+    """Members of set s and their K_e (r, r)."""
+    mesh, keep = model.problem.mesh, wanted(model)
+    elements = mesh.elements[s]
+    if elements.type not in _STIFF:
+        return []
+    matrices = matrices_of(model, s)["K"]
+    rows = {int(n): _node(model, int(n)) for n in np.unique(elements.nodes)}
+    chosen = [i for i in range(len(elements)) if keep is None or keep[elements.nodes[i]].any()]
+    moved = ((i, np.concatenate([rows[int(n)] for n in elements.nodes[i]])) for i in chosen)
+    return [(i, u.T @ matrices[i] @ u) for i, u in moved]
+
+
+def matrices_of(model: Reduced, s: int) -> Matrices:
+    """Matrices of the elements of set s, at the parameters where causes are weighed."""
+    mesh = model.problem.mesh
+    elements, kind = mesh.elements[s], registry()[mesh.elements[s].type]
+    options = {k: o.default for k, o in kind.options.items()} | elements.options
+    layout = Layout(mesh.coordinates[elements.nodes], options)
+    properties = {k: np.array(v, float) for k, v in nominal_properties(kind, elements, layout).items()}
+    own = tuple(b for b in model.problem.bindings if b.set == s)
+    if own:
+        bound = BoundProperties(kind, elements, layout, own)
+        for name, value in bound.at(model.theta)[0].items():
+            properties[name][bound.members] = value
+    return kind.matrices(layout, properties)
+
+
+def _node(model: Reduced, n: int) -> np.ndarray:
+    """Motion (6, r) of a node, or of a degree of freedom that serves as one."""
+    if model.motion is not None:
+        return model.node(n)
+    return np.vstack([model.V[n : n + 1], np.zeros((5, model.r))])
+
+
+def _element(model: Reduced, candidate: Candidate, s: int, i: int, K: np.ndarray, count: int, sign: int) -> Recipe:
+    mesh = model.problem.mesh
+    elements, number = mesh.elements[s], int(mesh.elements[s].ids[i])
+    at = mesh.coordinates[elements.nodes[i]].mean(axis=0)
+    text = f"{elements.type} {number}"
+    site = Site("element", (number,), tuple(at.tolist()), text)
+
+    def extend(problem: Problem, values: np.ndarray) -> Problem:
+        edit = Edit(problem)
+        element = edit.element(number)
+        own = edit.sets[element[0]].properties
+        stiff = tuple(name for name in _STIFF[elements.type] if name in own and own[name][element[1]])
+        name = f"stiffness left of {text}" if sign < 0 else f"stiffness of {text}, strengthened"
+        edit.bind(name, [element], stiff, factor=1 + sign * values[0])
+        return edit.done()
+
+    return _recipe(candidate, K, site, count, extend, sign)
+
+
+def _recipe(candidate: Candidate, K: np.ndarray, site: Site, count: int, extend, sign: int) -> Recipe:
+    """K: what is added for a share of 1."""
+    share = _LOST if sign < 0 else _GAINED
+    return Recipe(
+        candidate,
+        (share,),
+        lambda values: Change(K=values[0] * K, spring=(values[0] + sign) * K),
+        steps(share, 3)[:, None],
+        lambda values: site,
+        log_prior=-float(np.log(count)),
+        extend=extend,
+    )
+
+
+def of_springs(model: Reduced, candidate: Candidate, sign: int = -1) -> list[Recipe]:
+    """K - d k b b' of each spring that a model of matrices shows, and K - d theta_j dK/dtheta_j of parameters of more than one.
+
+    Or K + d ... by `sign`.
+    """
+    if not of_matrices(model.problem) or (model.problem.mesh is not None and not len(model.problem.elements)):
+        return []
+    found = _strained(model, _springs(model) + _groups(model))
+    return [_listed(candidate, sign * K, entries, text, len(found), sign) for text, entries, K in found]
+
+
+Listed = tuple[str, Entries, np.ndarray]
+
+
+def _springs(model: Reduced) -> list[Listed]:
+    """Pairs of degrees of freedom with K_ij < 0, and what ties them to the ground where all are springs."""
+    from scipy.sparse import coo_array
+
+    K, keep = model.assembly.matrices(model.theta)[0], wanted(model)
+    labels, at = model.problem.structure.labels, model.problem.structure.geometry
+    stored = coo_array(K)
+    upper = (stored.row < stored.col) & (stored.data < 0)
+    if keep is not None:
+        upper &= keep[stored.row] & keep[stored.col]
+    if at is not None:
+        upper &= (at.direction[stored.row] == at.direction[stored.col]) & (at.direction[stored.row] < 3)
+    pairs = zip(stored.row[upper].tolist(), stored.col[upper].tolist(), -stored.data[upper], strict=True)
+    found = [
+        _spring(model, f"the spring between {labels[i]} and {labels[j]}", k, i, j) for i, j, k in _largest(model, pairs)
+    ]
+    if not (stored.data[stored.row != stored.col] > 0).any() and K.shape[0] <= 10 * _MOST:
+        ground = np.asarray(K.sum(axis=1)).ravel()
+        tied = np.flatnonzero(ground > 1e-6 * K.diagonal())
+        found += [_spring(model, f"the spring from {labels[i]} to the ground", ground[i], int(i), None) for i in tied]
+    return found
+
+
+def _largest(model: Reduced, pairs) -> list[tuple[int, int, float]]:
+    """The pairs (i, j, k) whose springs hold most energy in the lowest modes."""
+    count = min(model.r, int(model.data.test.number.max()) + 1)
+    pairs = list(pairs)
+    if not pairs:
+        return []
+    i, j, k = (np.array(part) for part in zip(*pairs, strict=True))
+    energy = (k[:, None] * (model.V[i, :count] - model.V[j, :count]) ** 2).max(axis=1)
+    return [pairs[n] for n in sorted(np.argsort(-energy)[:_MOST])]
+
+
+def _spring(model: Reduced, text: str, k: float, i: int, j: int | None) -> Listed:
+    if j is None:
+        b, entries = model.V[i], (np.array([i]), np.array([i]), np.array([-k]))
+    else:
+        b, entries = (
+            model.V[i] - model.V[j],
+            (np.array([i, i, j]), np.array([i, j, j]), k * np.array([-1.0, 1.0, -1.0])),
+        )
+    return text, entries, k * np.outer(b, b)
+
+
+def _groups(model: Reduced) -> list[Listed]:
+    """Stiffness that follows a parameter of its own, where that is more than one spring."""
+    problem, found = model.problem, []
+    listed = problem.elements
+    for j, parameter in enumerate(problem.parameters if len(problem.parameters) <= _MOST else ()):
+        column = dense(problem.A[:, [j]]).ravel() if len(listed) else np.zeros(0)
+        own = np.flatnonzero((column != 0) & ~listed.is_mass)
+        if len(own) > 3 and model.theta[j]:
+            entries = listed.row[own], listed.col[own], -model.theta[j] * column[own]
+            found.append((f"what '{parameter.name}' stands for", entries, model.theta[j] * model.dK[j]))
+    return found
+
+
+def _listed(candidate: Candidate, K: np.ndarray, entries: Entries, text: str, count: int, sign: int) -> Recipe:
+    row, col, lost = entries
+
+    def extend(problem: Problem, values: np.ndarray) -> Problem:
+        name = f"share {'lost' if sign < 0 else 'gained'} by {text}"
+        return with_entries(problem, new_parameter(name, values[0], "1"), K=(row, col, -sign * lost))
+
+    return _recipe(candidate, K, Site("dof", (), None, text), count, extend, sign)

@@ -1,0 +1,1 @@
+"""What each kind of data says of a hypothesis: modal, frequency responses, histories, and configurations of one structure."""

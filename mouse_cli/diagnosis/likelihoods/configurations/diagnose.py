@@ -1,0 +1,205 @@
+"""What arrangements of one structure lack, one cause after another: each is put into all decks before the next is sought."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from mouse_cli._errors import ERROR, DeckError, Diagnostic
+from mouse_cli.diagnosis.extend.deck import in_its_units
+from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, SharedRecipe, Together
+from mouse_cli.diagnosis.likelihoods.configurations.predict import predicted, shared_errors
+from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
+from mouse_cli.diagnosis.mechanisms import Candidate, registry
+from mouse_cli.diagnosis.search.fit import Fit
+from mouse_cli.diagnosis.search.rank import Ranking, rank
+from mouse_cli.diagnosis.verdict import ODDS, SURE, doubtful, explanation, explanations, leader, sure
+from mouse_cli.model.arrangements import ArrangementsDiagnosis, Turn
+from mouse_cli.model.diagnosis import BY_DECK, NAMED, ONE_OF, Choices, HeldOut, Score
+from mouse_cli.model.problem import Problem
+
+_MOST = 8  # causes that are told one after another
+_ALL = Choices()
+
+
+@dataclass(frozen=True)
+class Decks:
+    """Decks (a,) of arrangements, and which of them have the causes that are sought.
+
+    common_sd: of ln f, of what theory errs in all of them alike.
+    """
+
+    problems: tuple[Problem, ...]
+    having: tuple[bool, ...]
+    common_sd: float
+
+    @cached_property
+    def arranged(self) -> Arranged:
+        """As one model."""
+        parts = tuple(reduced(each, each.prior.mean) for each in self.problems)
+        return Arranged(parts, self.common_sd, self.having)
+
+    def extended(self, recipe: SharedRecipe, coordinates: np.ndarray) -> "Decks":
+        """The same with a cause in them."""
+        if not self.problems:
+            return self
+        own = len(self.problems[0].parameters)
+        found = self.arranged.like(recipe).extended(self.problems, coordinates)
+        return replace(self, problems=tuple(in_its_units(each, own) for each in found))
+
+
+@dataclass(frozen=True)
+class State:
+    """Decks with the causes that were told so far, those held out among them, and what further candidates make of them."""
+
+    fitted: Decks
+    unseen: Decks
+    ranking: Ranking
+    before: Score | None
+
+
+def diagnose_arrangements(
+    fitted: Decks,
+    unseen: Decks,
+    notice: Callable[[str], None] = lambda text: None,
+    choices: Choices = _ALL,
+) -> ArrangementsDiagnosis:
+    """Causes that `fitted` share, proved on `unseen`.
+
+    Raises DeckError when decks are no arrangements of one structure (MD690, MD691).
+    """
+    _check((*fitted.problems, *unseen.problems))
+    known = None if choices.candidates is None else {key: registry()[key] for key in choices.candidates}
+    first = at = _state(fitted, unseen, known)
+    turns: list[Turn] = []
+    refuted = ""
+    while len(turns) < _MOST and not refuted:
+        turn, best = _turn(at)
+        if turn is None:
+            break
+        if _better(at, turn.held) < -ODDS:
+            refuted = turn.best.title
+            continue
+        turns.append(turn)
+        notice(f"{len(turns)}: {turn.best.title}")
+        recipe = best.recipes[0]
+        at = _state(at.fitted.extended(recipe, best.c), at.unseen.extended(recipe, best.c), known)
+    held = _held_out(unseen.problems, first.before, at.before if turns else None)
+    return _told(fitted, at, tuple(turns), held, refuted, choices)
+
+
+def _told(
+    fitted: Decks, at: State, turns: tuple[Turn, ...], held: HeldOut | None, refuted: str, choices: Choices
+) -> ArrangementsDiagnosis:
+    """The answer, from the decks `fitted` as they were and the state `at` in which the search ended."""
+    last, tried = at.ranking.baseline, explanations(at.ranking)
+    told = next(one for one in tried if not one.causes)
+    return ArrangementsDiagnosis(
+        problems=fitted.problems,
+        changed=None if all(fitted.having) else fitted.having,
+        extended=at.fitted.problems if turns else (),
+        common_sd=fitted.common_sd,
+        turns=turns,
+        chi2=last.misfit,
+        dof=last.dof,
+        p=told.p,
+        adequate=not doubtful(last, False),
+        values=told.theta,
+        sd=_sd(last),
+        shared=shared_errors(last),
+        rest=(told, *(one for one in tried if one.causes)),
+        held_out=held,
+        refuted=refuted,
+        choices=choices,
+    )
+
+
+def _state(fitted: Decks, unseen: Decks, known: dict[str, Candidate] | None) -> State:
+    """What candidates make of decks as they are."""
+    ranking = rank(fitted.arranged, known, 1, kind=Together)
+    return State(fitted, unseen, ranking, _predicted(ranking.baseline, unseen))
+
+
+def _predicted(one: Fit, unseen: Decks) -> Score | None:
+    return predicted(one, unseen.arranged) if unseen.problems else None
+
+
+def _turn(at: State) -> tuple[Turn | None, Fit | None]:
+    """The next cause, where one is demanded: by what is left, or by evidence that arrangements held out confirm."""
+    ranking, best = at.ranking, leader(at.ranking)
+    demanded = doubtful(ranking.baseline, False)
+    if best is None or best.recipes[0].extend is None or not (demanded or (at.unseen.problems and sure(ranking))):
+        return None, None
+    gain = (best.log_evidence - ranking.baseline.log_evidence) / ranking.noise_scale
+    held = _predicted(best, at.unseen)
+    if at.unseen.problems and held is None:
+        return None, None  # what is kept to prove it cannot
+    if gain < ODDS or not (demanded or _better(at, held) > ODDS):
+        return None, None
+    before = explanation(ranking.baseline)
+    turn = Turn(ONE_OF, explanations(ranking), ranking.groups, ranking.noise_scale, before, held)
+    return replace(turn, kind=NAMED if turn.probability > SURE else ONE_OF), best
+
+
+def _better(at: State, held: Score | None) -> float:
+    """Nats by which arrangements held out are predicted better with a cause than without; 0 where nothing tells."""
+    return 0.0 if held is None or at.before is None else held.log_predictive_density - at.before.log_predictive_density
+
+
+def _sd(one: Fit) -> np.ndarray:
+    """sd (p,) of the parameters."""
+    base, z = one.model.base, one.point.x[: one.model.k]
+    first = base.parts[0]
+    slope = first.coordinates.slope(first.coordinates.mean + base.L @ z)[:, None] * base.L
+    return np.sqrt(np.einsum("pi,ij,pj->p", slope, one.covariance[: len(z), : len(z)], slope))
+
+
+def _held_out(unseen: tuple[Problem, ...], before: Score | None, after: Score | None) -> HeldOut | None:
+    if before is None:
+        return None
+    labels, measured = [], []
+    for each in unseen:
+        have = np.isfinite(each.test.frequency_hz)
+        labels += [f"{each.title.strip()}, mode {number}" for number in each.test.number[have]]
+        measured.append(each.test.frequency_hz[have])
+    return HeldOut(BY_DECK, tuple(labels), np.concatenate(measured), before, after)
+
+
+def _check(problems: tuple[Problem, ...]) -> None:
+    """Refuse decks that are no arrangements of one structure."""
+    first = problems[0]
+    for each in problems:
+        if each.test is None or each.hold_out is not None:
+            raise DeckError(
+                Diagnostic(
+                    "MD691",
+                    ERROR,
+                    "arrangements are diagnosed by their measured modes, and held out as a whole; "
+                    + ("this deck has none" if each.test is None else "this deck holds out a part of its test"),
+                    each.place("test"),
+                    help="give test.modes without hold_out; name whole decks with --held-out",
+                )
+            )
+        if _parameters(each) != _parameters(first) or not _alike(each, first):
+            names = ", ".join(p.name for p in first.parameters) or "none"
+            raise DeckError(
+                Diagnostic(
+                    "MD690",
+                    ERROR,
+                    f"its parameters are not those of {first.source.path} ({names}, with their values, sd and transforms)",
+                    each.place("parameters"),
+                    help="write the same parameters and prior in every arrangement",
+                )
+            )
+
+
+def _parameters(problem: Problem) -> list[tuple]:
+    return [(p.name, p.nominal, p.sd, p.transform) for p in problem.parameters]
+
+
+def _alike(one: Problem, other: Problem) -> bool:
+    """Whether prior means and covariances are the same."""
+    return bool(
+        np.array_equal(one.prior.mean, other.prior.mean) and np.array_equal(one.prior.dense(), other.prior.dense())
+    )

@@ -1,0 +1,64 @@
+"""Damping of the structure itself, of which a diagnosis knows little beforehand: amounts that are estimated beside every cause."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.model.arrays import Matrix
+
+_LOSS, _SPREAD = 0.01, 1.0  # loss factor of a structure whose deck states none, and sd of its logarithm
+_TRACE, _WIDE = 1e-4, 3.0  # viscous damping ratio in mid-band that may come beside it, and sd of its logarithm
+_FAR = 8.0  # standard deviations beyond which damping does not change
+_SAME = 1e-6  # share of the damping below which what a deck states is like the rest
+
+
+@dataclass(frozen=True)
+class Damping:
+    """Unknowns ln eta, ln alpha, ln beta: loss factor, viscous damping by mass (1/s) and by stiffness (s), N(mean, sd) each.
+
+    stated: loss factor that the deck gives most of the structure. rows (c, r), own (c,), viscous (c,): what it states besides,
+    D + i omega C = rows' diag(own + i omega viscous) rows.
+    """
+
+    mean: np.ndarray
+    sd: np.ndarray
+    rows: np.ndarray
+    own: np.ndarray
+    viscous: np.ndarray
+    stated: float = 0.0
+
+    def values(self, u: np.ndarray) -> np.ndarray:
+        """eta, alpha, beta at u (3,), prior standard deviations from the mean."""
+        return np.exp(self.mean + self.sd * np.clip(u, -_FAR, _FAR))
+
+
+def damping(model: Reduced) -> Damping:
+    """The damping of the deck at the prior mean of its parameters: what is spread evenly by amount, and what is local."""
+    C, D = (_projected(matrix, model) for matrix in model.assembly.damping(model.problem.prior.mean))
+    measured = model.data.test.frequency_hz
+    middle = 2 * np.pi * float(np.sqrt(np.nanmin(measured) * np.nanmax(measured)))
+    count = min(model.r, int(model.data.test.number.max()))
+    stiff = np.maximum(model.eigenvalues[:count], 1e-300)
+    stated = 0.0 if D is None else float(np.median(np.diag(D)[:count] / stiff))
+    rows, own, viscous = [np.zeros((0, model.r))], [np.zeros(0)], [np.zeros(0)]
+    if D is not None:
+        size, U = of_low_rank(D - stated * np.diag(model.eigenvalues), np.abs(D).max())
+        rows.append(U.T), own.append(size), viscous.append(np.zeros(len(size)))
+    if C is not None:
+        size, U = of_low_rank(C, np.abs(C).max())
+        rows.append(U.T), own.append(np.zeros(len(size))), viscous.append(size)
+    mean = np.log([stated or _LOSS, 2 * _TRACE * middle, 2 * _TRACE / middle])
+    parts = (np.concatenate(part) for part in (rows, own, viscous))
+    return Damping(mean, np.array([_SPREAD, _WIDE, _WIDE]), *parts, stated)
+
+
+def _projected(matrix: Matrix | None, model: Reduced) -> np.ndarray | None:
+    return None if matrix is None else model.project(matrix)
+
+
+def of_low_rank(matrix: np.ndarray, scale: float | None = None) -> tuple[np.ndarray, np.ndarray]:
+    """Eigenvalues (c,) and vectors (size, c) of a symmetric matrix, but for those that are nothing beside `scale`."""
+    size, U = np.linalg.eigh(matrix)
+    kept = np.abs(size) > _SAME * (np.abs(size).max(initial=0.0) if scale is None else scale)
+    return size[kept], U[:, kept]

@@ -1,0 +1,97 @@
+"""Frequency response functions as a diagnosis sees them: real and imaginary parts over their standard deviations."""
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from mouse_cli.diagnosis.likelihoods.modal.data import THEORY_SHAPE
+from mouse_cli.model.frf_test import MOST_LINES, FrfTest
+from mouse_cli.observables.frf import observe
+
+_VALUES, _FEW, _MOST = (
+    4000,
+    MOST_LINES,
+    2 * MOST_LINES,
+)  # values of one measurement, and its lines, at least and at most
+
+
+@dataclass(frozen=True)
+class Lines:
+    """f lines of o responses to i forces: s (f,), rad/s; H, sd (f, o, i), sd of the real and of the imaginary part.
+
+    has (f, o, i): what was measured. factor (f, 1, 1): what receptance is multiplied by. assumed: no accuracy was stated.
+    """
+
+    test: FrfTest
+    s: np.ndarray
+    H: np.ndarray
+    sd: np.ndarray
+    has: np.ndarray
+    factor: np.ndarray
+    assumed: bool = False
+
+    @property
+    def omega(self) -> np.ndarray:
+        """rad/s (f,)."""
+        return self.s.imag
+
+    def every(self, count: int) -> "Lines":
+        """Every so manieth line of them."""
+        own = {name: getattr(self, name)[::count] for name in ("s", "H", "sd", "has")}
+        return replace(self, **own, factor=self.factor[::count])
+
+    def stacked(self, H: np.ndarray) -> np.ndarray:
+        """Real and imaginary parts (2 q, ...) of what was measured of H (f, o, i, ...), over their standard deviations."""
+        whitened = H[self.has] / self.sd[self.has].reshape(-1, *[1] * (H.ndim - 3))
+        return np.concatenate([whitened.real, whitened.imag])
+
+
+def lines(test: FrfTest) -> Lines:
+    """The lines of `test` that tell most, as a run chooses them, but more of them; with what theory leaves of shapes."""
+    most = int(np.clip(_VALUES / (test.H.shape[1] * test.H.shape[2]), _FEW, _MOST))
+    seen = observe(replace(test, lines=max(test.lines, most)), "complex")
+    H = np.where(seen.have, seen.H, 0.0)
+    sd = np.where(seen.have, np.hypot(seen.sd, THEORY_SHAPE / np.sqrt(2) * _largest(H)), 1.0)
+    return Lines(test, seen.s, H, sd, seen.have, seen.factor, seen.assumed)
+
+
+def _largest(H: np.ndarray) -> np.ndarray:
+    """|H| (f, o, i) as large as that of the response that is largest at its line, each beside its own mean square."""
+    size = np.sqrt((np.abs(H) ** 2).mean(axis=0))
+    share = np.divide(np.abs(H), size, out=np.zeros(H.shape), where=size > 0)
+    return size * share.max(axis=1, keepdims=True)
+
+
+@dataclass(frozen=True)
+class FrfData:
+    """All FRFs of a diagnosis. theory (c,): sd of ln f of the lowest modes by what theory and mesh leave. alike: how many data say
+    the same. slack: 0, as no datum is made less accurate between rivals.
+    """
+
+    blocks: tuple[Lines, ...]
+    theory: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    alike: float = 1.0
+    slack: float = 0.0
+    by_shape: bool = True  # modes are told apart by what several sensors read
+
+    @property
+    def dof(self) -> int:
+        """Real numbers measured, those that say the same counted once."""
+        return int(2 * sum(block.has.sum() for block in self.blocks) / self.alike)
+
+    @property
+    def assumed(self) -> bool:
+        """Whether no accuracy was stated for some of them."""
+        return any(block.assumed for block in self.blocks)
+
+    def weighed(self, alike: float, scale: float) -> "FrfData":
+        """The same where `alike` data say the same, and variances are `scale` times what they were held to be."""
+        more = np.sqrt(alike * scale)
+        blocks = tuple(replace(block, sd=block.sd * more) for block in self.blocks)
+        return replace(self, blocks=blocks, alike=self.alike * alike)
+
+    @property
+    def middle(self) -> float:
+        """omega_0 (rad/s), the middle of the band on a logarithmic scale."""
+        omega = np.concatenate([block.omega for block in self.blocks])
+        return float(np.sqrt(omega.min() * omega.max()))

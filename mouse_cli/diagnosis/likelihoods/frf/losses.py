@@ -1,0 +1,96 @@
+"""Losses that are not spread like stiffness and mass: dashpots, lossy elements, and springs of causes with a law of their own.
+
+They are of low rank, G' W(s) G with rows G (c, size) and cores W (f, c, c), beside Z_0 = g(s) K + s^2 M + s alpha M.
+"""
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Change
+from mouse_cli.diagnosis.likelihoods.frf.damping import Damping, of_low_rank
+from mouse_cli.diagnosis.likelihoods.frf.lossy import SAME, VISCOUS
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+
+
+class Losses:
+    """What the losses of a model with causes add to those of the structure.
+
+    model: structure and causes, all elastic; middle: omega_0, rad/s, to which viscous loss factors belong.
+    """
+
+    def __init__(self, model: Model, damping: Damping, middle: float):
+        self.model, self.damping, self.middle = model, damping, middle
+
+    def of_structure(self, s: np.ndarray, own: np.ndarray) -> tuple[np.ndarray, float]:
+        """g (f,) and alpha (1/s) of the structure, for unknowns `own` (3,) of its damping."""
+        eta, alpha, beta = self.damping.values(own)
+        return 1 + 1j * eta + s * beta, alpha
+
+    def local(self, s: np.ndarray, z: np.ndarray, own: np.ndarray, c: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Rows G (c, size) and cores W (f, c, c), for parameters z of the deck, `own` of the damping and c of the causes."""
+        changes, g = self.model.changes(c), self.of_structure(s, own)[0]
+        rows, cores = [np.zeros((0, self.model.size))], [np.zeros((len(s), 0, 0))]
+        if len(stated := self.damping.rows):
+            rows.append(self._wide(stated, np.arange(self.model.base.r)))
+            cores.append((1j * self.damping.own + s[:, None] * self.damping.viscous)[:, :, None] * np.eye(len(stated)))
+        springs = self._springs(s, g, c)
+        for i, change in enumerate(changes):
+            for matrix, unit in ((change.C, s), (change.D, np.full_like(s, 1j))):
+                if matrix is not None:
+                    size, U = of_low_rank(matrix)
+                    (
+                        rows.append(self._wide(U.T, self.model.places[i])),
+                        cores.append(unit[:, None, None] * np.diag(size)),
+                    )
+            spring = change.K if change.spring is None else change.spring
+            if self.model.recipes[i].law != SAME and spring is not None:
+                size, U = of_low_rank(self.model.summed([(i, Change(K=spring))])[0])
+                rows.append(U.T), cores.append((springs[i] - g)[:, None, None] * np.diag(size))
+        softer = [(i, change.softening) for i, change in enumerate(changes) if change.softening is not None]
+        if any(self.model.recipes[i].law != SAME for i, _ in softer):
+            G, W = self._softer(softer, changes, springs, g, z)
+            rows.append(G), cores.append(W)
+        return np.concatenate(rows), _diagonal(cores)
+
+    def _wide(self, rows: np.ndarray, places: np.ndarray) -> np.ndarray:
+        """Rows (c, own) of some coordinates as rows (c, size) of all."""
+        wide = np.zeros((len(rows), self.model.size))
+        wide[:, places] = rows
+        return wide
+
+    def _springs(self, s: np.ndarray, g: np.ndarray, c: np.ndarray) -> list[np.ndarray]:
+        """g (f,) of the spring of each cause."""
+        found = []
+        for recipe, own in zip(self.model.recipes, self.model.own, strict=True):
+            if recipe.law == SAME:
+                found.append(g)
+                continue
+            loss = recipe.unknowns[-1].value(c[own][-1])
+            found.append(1 + loss * (s / self.middle if recipe.law == VISCOUS else np.full_like(s, 1j)))
+        return found
+
+    def _softer(self, parts: list, changes: list[Change], springs: list[np.ndarray], g: np.ndarray, z: np.ndarray):
+        """Bars that give way: complex flexibilities in series, less what they are without losses of their own."""
+        bars, at = np.unique(np.concatenate([part.bars for _, part in parts]), return_inverse=True)
+        total, start = np.zeros((len(g), len(bars), 3, 3), complex), 0
+        for i, part in parts:
+            own = at[start : start + len(part.bars)]
+            for b, added in zip(own, part.added, strict=True):
+                total[:, b] += added / springs[i][:, None, None]
+            start += len(part.bars)
+        base = self.model.base
+        F, scale = base.bars.flexibility[bars], g[:, None, None, None]
+        core = np.linalg.inv(F / scale + total) - scale * np.linalg.inv(F)
+        W = (core - scale * self.model.softer(changes)[1]) * self.model.follow(bars, z)
+        return self._wide(base.bars.strain[bars].reshape(-1, base.r), np.arange(base.r)), _diagonal(
+            list(np.swapaxes(W, 0, 1))
+        )
+
+
+def _diagonal(blocks: list[np.ndarray]) -> np.ndarray:
+    """Blocks (f, c, c) along the diagonal."""
+    size = sum(block.shape[1] for block in blocks)
+    W, at = np.zeros((len(blocks[0]), size, size), complex), 0
+    for block in blocks:
+        W[:, at : at + block.shape[1], at : at + block.shape[1]] = block
+        at += block.shape[1]
+    return W

@@ -1,0 +1,31 @@
+"""What the mesh of bars does to functions, which no cause is to explain."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from mouse_cli.diagnosis.likelihoods.frf.damping import damping
+from mouse_cli.diagnosis.likelihoods.frf.model import FrfModel
+from mouse_cli.diagnosis.likelihoods.modal.numerics import halved, refinable
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced, reduced
+from mouse_cli.diagnosis.search.fit import Fit, fit
+from mouse_cli.dynamics.solver import EigenSolver
+
+
+def of_mesh(one: Fit, base: Reduced) -> float:
+    """chi-square that the fit `one` of FRFs without a cause leaves of the functions of its own deck on half as long elements.
+
+    No cause can gain more than that by imitating the mesh. base: the model with its modes; 0 where no mesh of bars can be halved.
+    """
+    if not refinable(base.problem):
+        return 0.0
+    theta = base.parameters(one.point.x[: one.model.of_deck])
+    finer = reduced(halved(base.problem), theta, EigenSolver())
+    data = one.model.base.data
+    there = FrfModel(replace(finer, data=data), damping(finer)).point(one.point.x)
+    if there is None:
+        return 0.0
+    blocks = tuple(replace(block, H=part.H) for block, part in zip(data.blocks, there.parts, strict=True))
+    model = FrfModel(replace(one.model.base, data=replace(data, blocks=blocks)), one.model.damping)
+    again = fit(model, np.zeros(0), one.point.x)
+    return 0.0 if again is None else again.point.chi2

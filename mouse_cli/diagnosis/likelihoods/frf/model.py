@@ -1,0 +1,214 @@
+"""A reduced model with causes and their losses: its frequency response functions at x, and their derivatives.
+
+With the modes X of the structure and its causes, all elastic, Z_0 = g(s) diag(lambda) + s^2 + s alpha is diagonal, and other losses
+are of low rank: Z = Z_0 + G' W(s) G. Then
+
+    H = s^k S Z^-1 B',   Z^-1 = Z_0^-1 - Z_0^-1 G' (I + W G Z_0^-1 G')^-1 W G Z_0^-1,   dH = s^k (dS Z^-1 - S Z^-1 dZ Z^-1) B'
+
+(Sherman, Morrison and Woodbury; lecture 21 for the derivative).
+"""
+
+from dataclasses import dataclass
+from itertools import chain
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Recipe
+from mouse_cli.diagnosis.likelihoods.frf.damping import Damping
+from mouse_cli.diagnosis.likelihoods.frf.gains import gains
+from mouse_cli.diagnosis.likelihoods.frf.losses import Losses
+from mouse_cli.diagnosis.likelihoods.modal.model import Model, modes_of
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.dynamics.sensing import read
+
+_STEP = 1e-5  # of a range, for derivatives of losses
+
+
+@dataclass(frozen=True)
+class FrfPoint:
+    """The model at x: eigenvalues (size,), modes X (size, size), residual (2 q,) and each block of functions."""
+
+    x: np.ndarray
+    eigenvalues: np.ndarray
+    X: np.ndarray
+    residual: np.ndarray
+    parts: tuple["Functions", ...]
+
+    @property
+    def chi2(self) -> float:
+        """What is left of the data's misfit."""
+        return float(self.residual @ self.residual)
+
+
+@dataclass(frozen=True)
+class Functions:
+    """left (f, o, size) = S Z^-1 and right (f, size, i) = Z^-1 B' in modes; H (f, o, i) as measured, gains in it."""
+
+    left: np.ndarray
+    right: np.ndarray
+    H: np.ndarray
+    factor: np.ndarray
+
+
+class FrfModel:
+    """What `fit` needs of a model. x: k unknowns N(0, 1), then t of the causes.
+
+    The k are of the deck, of the damping, of the gains, and what theory errs in ln f of the lowest modes.
+    """
+
+    def __init__(self, base: Reduced, damping: Damping, recipes: tuple[Recipe, ...] = (), middle: float | None = None):
+        """base.data: FrfData; middle: omega_0, rad/s, of viscous losses; None: the middle of the band."""
+        self.base, self.damping, self.recipes = base, damping, recipes
+        self.elastic = Model(base, recipes)
+        self.gains = gains(tuple(block.test for block in base.data.blocks))
+        self.losses = Losses(self.elastic, damping, base.data.middle if middle is None else middle)
+        self.of_deck, self.lossy = base.L.shape[1], base.L.shape[1] + len(damping.mean)
+        self.theory, self.measured = base.data.theory, self.lossy + self.gains.count
+        self.k, self.t = self.measured + len(self.theory), self.elastic.t
+        self.bounds, self.width, self.own = self.elastic.bounds, self.elastic.width, self.elastic.own
+        self._ends = [(self._rows(block.test.outputs), self._rows(block.test.inputs)) for block in base.data.blocks]
+        self._sensors = [_same(S[:, : base.r], base.sensing) for S, _ in self._ends]
+
+    @property
+    def start(self) -> np.ndarray:
+        """Coordinates (k,) where a search begins."""
+        return np.concatenate([self.base.z, np.zeros(self.k - self.of_deck)])
+
+    def split(self, x: np.ndarray) -> tuple[np.ndarray, ...]:
+        """Coordinates of the deck's parameters, of the damping, of the gains, of what theory errs, and of the causes."""
+        return tuple(np.split(x, [self.of_deck, self.lossy, self.measured, self.k]))
+
+    def _rows(self, sensing) -> np.ndarray:
+        """What is read of, or forces on, each coordinate (s, size)."""
+        found = np.zeros((sensing.shape[0], self.elastic.size))
+        found[:, : self.base.r] = read(sensing, self.base.V)
+        for places, recipe in zip(self.elastic.places, self.recipes, strict=True):
+            if recipe.carried is not None:
+                found[:, places[self.base.r :]] = read(sensing, recipe.carried.whole)
+        return found
+
+    def point(self, x: np.ndarray) -> FrfPoint | None:
+        """The model at x (k + t,); None where it is not physical."""
+        r, (z, _, _, errs, c) = self.base.r, self.split(x)
+        K, M, sensing = self.elastic.added(np.concatenate([z, c]))
+        K0, M0 = self.base.matrices(z)
+        K[:r, :r] += K0
+        M[:r, :r] += M0
+        eigenvalues, X = modes_of(K, M)
+        if not np.isfinite(eigenvalues).all() or eigenvalues[0] < -1e-5 * abs(eigenvalues[-1]):
+            return None
+        eigenvalues[: len(errs)] *= np.exp(2 * self.theory * errs)
+        parts = tuple(self._functions(i, x, eigenvalues, X, sensing) for i in range(len(self._ends)))
+        blocks = self.base.data.blocks
+        residual = np.concatenate([b.stacked(b.H - part.H) for b, part in zip(blocks, parts, strict=True)])
+        return FrfPoint(x, eigenvalues, X, residual, parts) if np.isfinite(residual).all() else None
+
+    def _functions(
+        self, i: int, x: np.ndarray, eigenvalues: np.ndarray, X: np.ndarray, sensing: np.ndarray
+    ) -> Functions:
+        """Functions of block i; sensing (s, size): what causes add to what the sensors of the test read."""
+        block, (S, B), (z, own, u, _, c) = self.base.data.blocks[i], self._ends[i], self.split(x)
+        s, S = block.s, S + self._sensors[i] @ sensing
+        g, alpha = self.losses.of_structure(s, own)
+        flat = 1 / (g[:, None] * eigenvalues + (s**2 + s * alpha)[:, None])
+        left, right = (S @ X)[None] * flat[:, None], (flat[:, :, None] * (B @ X).T[None])
+        G, W = self.losses.local(s, z, own, c)
+        if len(G):
+            rows = G @ X
+            carried = rows[None] * flat[:, None]  # G Z_0^-1 (f, c, size)
+            core = np.linalg.solve(np.eye(len(G)) + W @ (carried @ rows.T), W)
+            right = right - np.swapaxes(carried, 1, 2) @ (core @ (rows @ right))
+            left = left - (left @ rows.T) @ core @ carried
+        factor = block.factor * self.gains.factor(i, u)
+        return Functions(left, right, factor * ((S @ X) @ right), factor)
+
+    def jacobian(self, at: FrfPoint) -> np.ndarray:
+        """d(prediction)/dx (2 q, k + t), whitened."""
+        columns = [self._moved(i, at) for i in range(len(at.parts))]
+        return np.concatenate([b.stacked(d) for b, d in zip(self.base.data.blocks, columns, strict=True)])
+
+    def _moved(self, i: int, at: FrfPoint) -> np.ndarray:
+        """dH/dx (f, o, i, k + t) of block i."""
+        part, s = at.parts[i], self.base.data.blocks[i].s
+        _, own, _, errs, _ = self.split(at.x)
+        g, _ = self.losses.of_structure(s, own)
+        left, right = part.left @ at.X.T, at.X @ part.right  # in the coordinates of the model
+        K, M, S = self._slopes(at)
+        elastic = g[:, None, None, None] * _between(left, K, right) + (s**2)[:, None, None, None] * _between(
+            left, M, right
+        )
+        elastic -= np.einsum("pos,fsi->foip", self._sensors[i] @ S, right)
+        stiff, inert = part.left @ (at.eigenvalues[:, None] * part.right), part.left @ part.right
+        s = s[:, None, None]
+        damping = self.damping.values(own) * self.damping.sd * np.stack([1j * stiff, s * inert, s * stiff], axis=-1)
+        found = np.concatenate([elastic[..., : self.of_deck], damping, elastic[..., self.of_deck :]], axis=-1)
+        for j, slope in self._of_losses(i, at.x, left, right):
+            found[..., j - (self.k - self.lossy) * (j >= self.k)] += slope
+        c = len(errs)
+        own = part.left[:, :, None, :c] * np.swapaxes(part.right[:, :c], 1, 2)[:, None]  # (f, o, i, c)
+        own = g[:, None, None, None] * own * (2 * self.theory * at.eigenvalues[:c])
+        factor = part.factor[..., None]
+        return np.concatenate(
+            [
+                -factor * found[..., : self.lossy],
+                self.gains.slopes(i, part.H),
+                -factor * own,
+                -factor * found[..., self.lossy :],
+            ],
+            axis=-1,
+        )
+
+    def _slopes(self, at: FrfPoint) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """dK, dM (p, size, size) and d(sensing) (p, s, size) by the deck's parameters, then by the causes, all elastic."""
+        r, (z, *_, c) = self.base.r, self.split(at.x)
+        count, size = self.of_deck + self.t, self.elastic.size
+        K, M, S = (np.zeros((count, rows, size)) for rows in (size, size, len(self.base.sensing)))
+        K[: self.of_deck, :r, :r], M[: self.of_deck, :r, :r] = self.base.slopes(z)
+        if (followed := self.elastic.followed(z)) is not None:
+            for into, slopes in zip((K, M), followed, strict=True):
+                into[: self.of_deck] += slopes
+        bars, core = self.elastic.softer(self.elastic.changes(c))
+        if len(bars):
+            follow = self.base.stiffening[bars].T[:, :, None, None] * self.elastic.follow(bars, z)
+            for j in np.flatnonzero(follow.any(axis=(1, 2, 3))):
+                K[j, :r, :r] += self.base.bars.strained(bars, core * follow[j])
+        for j, (i, change) in enumerate(self.elastic.derivatives(np.concatenate([z, c])), self.of_deck):
+            K[j], M[j], S[j] = self.elastic.summed([(i, change)])
+        return K, M, S
+
+    def _of_losses(self, i: int, x: np.ndarray, left: np.ndarray, right: np.ndarray):
+        """j and S Z^-1 d(G' W G)/dx_j Z^-1 B' (f, o, i), by central differences, of every x_j that the losses may follow."""
+        s, (z, own, _, _, c) = self.base.data.blocks[i].s, self.split(x)
+        if not len(self.losses.local(s[:1], z, own, c)[0]):
+            return
+        for j in chain(range(self.lossy), range(self.k, self.k + self.t)):
+            sides, length = [], 0.0
+            for sign in (1, -1):
+                there = x.copy()
+                there[j] += sign * _STEP * (self.width[j - self.k] if j >= self.k else 1.0)
+                if j >= self.k:
+                    there[j] = np.clip(there[j], *self.bounds[j - self.k])
+                z, own, _, _, c = self.split(there)
+                G, W = self.losses.local(s, z, own, c)
+                sides.append((left @ G.T) @ W @ (G @ right))
+                length += sign * there[j]
+            yield j, (sides[0] - sides[1]) / length
+
+
+def _between(left: np.ndarray, matrices: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """left (f, o, n) matrices (p, n, n) right (f, n, i): (f, o, i, p); matrices of zeros cost nothing."""
+    lines, n, i = right.shape
+    found = np.zeros((lines, left.shape[1], i, len(matrices)), complex)
+    there = np.flatnonzero(matrices.any(axis=(1, 2)))
+    if len(there):
+        motion = np.ascontiguousarray(np.moveaxis(right, 1, 0)).reshape(n, -1).view(float)  # (n, f i 2)
+        forces = (matrices[there].reshape(-1, n) @ motion).view(complex).reshape(len(there), n, lines, i)
+        forces = np.ascontiguousarray(np.transpose(forces, (2, 1, 3, 0))).reshape(lines, n, -1)
+        found[..., there] = (left @ forces).reshape(lines, -1, i, len(there))
+    return found
+
+
+def _same(rows: np.ndarray, sensing: np.ndarray) -> np.ndarray:
+    """(o, s): 1 where a row (o, r) reads what a sensor (s, r) of the modal test reads."""
+    apart = np.linalg.norm(rows[:, None] - sensing[None], axis=2)
+    return (apart < 1e-9 * np.linalg.norm(rows, axis=1)[:, None]).astype(float)

@@ -1,0 +1,200 @@
+"""Explanations of modes, judged anew by the frequency response functions: with laws of damping, and causes that only damp.
+
+All are fitted to few lines and in few steps first; those that lead are fitted to all lines and to the end.
+"""
+
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Recipe
+from mouse_cli.diagnosis.likelihoods.frf.correlated import correlated
+from mouse_cli.diagnosis.likelihoods.frf.damping import Damping, damping
+from mouse_cli.diagnosis.likelihoods.frf.dashpots import dashpots
+from mouse_cli.diagnosis.likelihoods.frf.data import FrfData, lines
+from mouse_cli.diagnosis.likelihoods.frf.lossy import GROUPS, LAWS, LOSS, SAME, lossy
+from mouse_cli.diagnosis.likelihoods.frf.lossy_parts import lossy_parts
+from mouse_cli.diagnosis.likelihoods.frf.mesh import of_mesh
+from mouse_cli.diagnosis.likelihoods.frf.model import FrfModel
+from mouse_cli.diagnosis.likelihoods.modal.data import THEORY_LOG
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.search.fit import GATE, MOST, Fit, fit
+from mouse_cli.diagnosis.search.rank import Ranking, adequate, ranking
+from mouse_cli.updating.chi_square import upper_tail
+
+_REACH = 60.0  # nats by which modes may speak against an explanation that is judged by FRFs still
+_SINGLES, _ELSEWHERE = (
+    3,
+    2,
+)  # single causes that are judged in any case; other places at which modes leave a cause possible
+_PLACES, _KEPT = 5, 2  # places from which what only damps begins, and how many of its kind go on
+_THIN, _BRIEF = 4, 12  # in a first look: every so manieth line, and steps
+_WEIGHED = 3  # times that accuracies nobody stated are taken from what is left
+_FAR, _LEAST = (
+    200.0,
+    4,
+)  # nats below the leading one up to which an explanation is fitted to the end, and how many are at least
+
+
+@dataclass(frozen=True)
+class Heard(Fit):
+    """A fit of FRFs, with the model of modes at the same parameters beside it, which all that follows a ranking needs."""
+
+    frf: Fit | None = None
+    bearable: ClassVar[float] = 1.2  # scatter of functions is measured better than that of modes
+    telling: ClassVar[bool] = True
+
+    @property
+    def dof(self) -> int:
+        """Degrees of freedom of the FRFs."""
+        return self.frf.dof
+
+    @property
+    def strained(self) -> bool:
+        """The same of functions of no stated accuracy, which any explanation leaves as much as it does."""
+        z = self.frf.point.x[: self.frf.model.of_deck]
+        return self.frf.model.base.data.assumed and upper_tail(float(z @ z), max(len(z), 1)) < GATE
+
+
+@dataclass(frozen=True)
+class Judge:
+    """FRFs of a test and the damping of the structure as it is held likely."""
+
+    data: FrfData
+    damping: Damping
+
+    def thinned(self) -> "Judge":
+        """By few lines."""
+        return replace(self, data=replace(self.data, blocks=tuple(block.every(_THIN) for block in self.data.blocks)))
+
+    def model(self, base: Reduced, recipes: tuple) -> FrfModel:
+        """The reduced model `base` with causes, as the FRFs see it."""
+        return FrfModel(replace(base, data=self.data), self.damping, recipes)
+
+    def fitted(self, one: Fit, law: str = SAME, most: int = MOST) -> Fit | None:
+        """The explanation `one` of modes, or of FRFs, fitted from where it is; law: of its springs, where they have none yet."""
+        recipes = tuple(lossy(recipe, law, self.data.middle) for recipe in one.recipes)
+        model = self.model(one.model.base, recipes)
+        parts = zip(one.recipes, recipes, one.model.own, strict=True)
+        c = [np.append(one.c[own], [np.log(LOSS)] * (len(r.unknowns) - len(was.unknowns))) for was, r, own in parts]
+        start = np.concatenate([one.point.x[: one.model.k], model.start[one.model.k :]])
+        return fit(model, np.concatenate([np.zeros(0), *c]), start, most)
+
+    def all_of(self, fits: list[Fit]) -> list[Fit]:
+        """Each fitted to the end, from where it is."""
+        found = [self.fitted(one) for one in fits]
+        return [one for one in found if one is not None]
+
+    def laws(self, one: Fit) -> list[Fit]:
+        """A first look at the explanation `one` of modes under each law of damping that its springs may follow."""
+        may = any(recipe.candidate.group in GROUPS for recipe in one.recipes)
+        found = [self.fitted(one, law, _BRIEF) for law in (LAWS if may else (SAME,))]
+        return [each for each in found if each is not None]
+
+    def damped(self, one: Fit, base: Reduced) -> list[Fit]:
+        """A first look at what only damps, beside the causes of `one`, a fit of FRFs; base: its model with its modes."""
+        found = []
+        for recipes in (dashpots(base), lossy_parts(base, self.data.middle)):
+            fits = [fit(trial, x[trial.k :], x[: trial.k], _BRIEF) for trial, x in self._starts(one, recipes)]
+            found += sorted((each for each in fits if each is not None), key=lambda each: -each.log_evidence)[:_KEPT]
+        return found
+
+    def _starts(self, one: Fit, recipes: list[Recipe]) -> list[tuple[FrfModel, np.ndarray]]:
+        """Where what only damps does most: models and x, at most one for each place of a recipe.
+
+        The damping of the structure is as it is held likely: `one` has made that of the cause.
+        """
+        x, tried = one.point.x.copy(), []
+        x[one.model.of_deck : one.model.lossy] = 0.0
+        for recipe in recipes:
+            trial = self.model(one.model.base, (*one.recipes, recipe))
+            places: dict[bytes, tuple] = {}
+            for values in recipe.grid:
+                at = trial.point(np.concatenate([x, recipe.coordinates(values)]))
+                place = values[1:].tobytes()
+                if at is not None and (place not in places or at.chi2 < places[place][0]):
+                    places[place] = at.chi2, trial, at.x
+            tried += places.values()
+        return [(trial, x) for _, trial, x in sorted(tried, key=lambda item: item[0])[:_PLACES]]
+
+
+def heard(modal: Ranking) -> Ranking:
+    """The ranking `modal` of what modes say, judged anew by the FRFs of the test; `modal` itself where there are none."""
+    base = modal.baseline.model.base
+    if not base.problem.frf:
+        return modal
+    judge = Judge(FrfData(tuple(lines(test) for test in base.problem.frf), _theory(modal.baseline)), damping(base))
+    quick = judge.thinned()
+    none = quick.fitted(modal.baseline)
+    if none is None:
+        return modal
+    looked = [law for one in _promising(modal) for law in quick.laws(one)] + quick.damped(none, base)
+    fits = judge.all_of([none, *_leading(looked)])
+    alike = None
+    for _ in range(_WEIGHED):
+        nearest = min(fits, key=lambda one: one.misfit)
+        if adequate(nearest) or not (alike is None or judge.data.assumed):
+            break
+        alike = correlated(nearest) if alike is None else 1.0
+        judge = replace(judge, data=judge.data.weighed(alike, _scatter(nearest)))
+        fits = judge.all_of(fits)
+    fits = _shared(fits)
+    fits[0] = replace(fits[0], log_evidence=fits[0].log_evidence + of_mesh(fits[0], base) / 2)
+    found = ranking(fits[0], fits)
+    views = {id(one): _beside_modes(one, base.data) for one in fits}
+    return replace(found, baseline=views[id(fits[0])], fits=tuple(views[id(one)] for one in found.fits))
+
+
+def _theory(one: Fit) -> np.ndarray:
+    """sd of ln f (c,) of the lowest modes, by what theory and numerics leave, of the fit `one` of modes."""
+    data, modes = one.model.base.data, one.point.modes
+    found = np.full(min(one.model.base.r, int(modes.max()) + 2), THEORY_LOG)
+    found[modes] = data.theory
+    return found
+
+
+def _scatter(nearest: Fit) -> float:
+    """Variance of the data over what it was held to be: 1 where a deck states it, else what the nearest fit leaves."""
+    return nearest.misfit / nearest.dof if nearest.model.base.data.assumed else 1.0
+
+
+def _promising(modal: Ranking) -> list[Fit]:
+    """Explanations that modes leave possible, at all places that do; the best of single causes whatever modes say of them."""
+    best = modal.fits[0].log_evidence / modal.noise_scale
+    near = [one for one in modal.fits if one.recipes and one.log_evidence / modal.noise_scale > best - _REACH]
+    singles = [one for one in modal.fits if len(one.recipes) == 1 and not any(one is other for other in near)]
+    return [
+        place
+        for one in near + singles[:_SINGLES]
+        for place in (one, *(other for other, _ in one.elsewhere[:_ELSEWHERE]))
+    ]
+
+
+def _leading(looked: list[Fit]) -> list[Fit]:
+    """Those of a first look that may lead when all lines are used."""
+    order = sorted(looked, key=lambda one: -one.log_evidence)
+    best = order[0].log_evidence if order else 0.0
+    return [one for i, one in enumerate(order) if i < _LEAST or best - one.log_evidence < _FAR / _THIN]
+
+
+def _shared(fits: list[Fit]) -> list[Fit]:
+    """Fits whose springs follow one law of several: each law has its share of the prior of the cause."""
+    return [replace(one, log_evidence=one.log_evidence - np.log(_laws(one))) for one in fits]
+
+
+def _laws(one: Fit) -> int:
+    return len(LAWS) if any(recipe.candidate.group in GROUPS for recipe in one.recipes) else 1
+
+
+def _beside_modes(one: Fit, data) -> Fit:
+    """The fit `one` of FRFs with the model of modes at its parameters; one itself where modes have none there."""
+    own, k = one.model.of_deck, one.model.k
+    model = Model(replace(one.model.base, data=data), one.recipes)
+    elastic = np.r_[0:own, k : k + one.model.t]
+    at = model.point(one.point.x[elastic])
+    if at is None:
+        return one
+    known = np.linalg.inv(one.covariance[np.ix_(elastic, elastic)])  # the damping of the structure integrated out
+    return Heard(model, at, one.misfit, known, one.log_evidence, frf=one)

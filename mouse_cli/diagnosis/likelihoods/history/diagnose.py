@@ -1,0 +1,60 @@
+"""Diagnosis by recordings: is it linear, where does it depart, which law, how much, and is it true."""
+
+from collections.abc import Callable
+
+from mouse_cli.diagnosis.likelihoods.history.deck_laws import extended
+from mouse_cli.diagnosis.likelihoods.history.prove import ratio, scores, surface, trace
+from mouse_cli.diagnosis.likelihoods.history.records import records
+from mouse_cli.diagnosis.likelihoods.history.search import weighed
+from mouse_cli.diagnosis.likelihoods.history.signs import linearity
+from mouse_cli.diagnosis.likelihoods.history.study import study
+from mouse_cli.diagnosis.likelihoods.history.verdict import decided, explanation, ranked
+from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, Choices, Diagnosis
+from mouse_cli.model.problem import Problem
+from mouse_cli.model.record_diagnosis import RecordDiagnosis
+from mouse_cli.model.result import ChiSquareTest
+from mouse_cli.terms.laws import registry
+from mouse_cli.updating.chi_square import upper_tail
+
+Notice = Callable[[str], None]
+
+
+def diagnose_records(problem: Problem, notice: Notice, choices: Choices) -> Diagnosis:
+    """What the model of `problem` lacks, judged by its recordings. Raises DeckError (MD640) for records that cannot judge."""
+    found = records(problem)
+    own = study(problem, found)
+    known = (
+        None if choices.candidates is None else [law for key, law in registry().items() if key in choices.candidates]
+    )
+    searched = weighed(own, notice, known, choices.causes)
+    baseline, ranking = searched.baseline, ranked(searched)
+    notice("records that no fit has seen")
+    best = ranking.best
+    proof = scores(own, baseline, best)
+    kind = decided(ranking, searched, ratio(proof))
+    told = best if kind in (NAMED, ONE_OF) else None
+    theta = lambda one: own.model.theta(one.x[: own.model.own])
+    shown = zip(ranking.fits, ranking.probabilities, strict=True)
+    dof = max(int(baseline.dof), 1)
+    return RecordDiagnosis(
+        problem=problem,
+        kind=kind,
+        result=None,
+        innovation=ChiSquareTest("residual", baseline.misfit, dof, upper_tail(baseline.misfit, dof)),
+        explanations=tuple(explanation(one, float(p), theta(one)) for one, p in shown),
+        groups=ranking.groups,
+        noise_scale=ranking.noise_scale,
+        remarks=found.remarks + own.model.remarks,
+        choices=choices,
+        channels=tuple(channel.sensor or channel.name for channel in found.outputs),
+        units=tuple(channel.unit for channel in found.outputs),
+        inputs=tuple(channel.sensor or channel.name for channel in found.inputs),
+        sd=found.fitted[0].sd,
+        fitted=tuple(one.title for one in found.fitted),
+        linearity=linearity(own, baseline),
+        scores=proof,
+        trace=trace(own, baseline, best if kind != NOTHING else None),
+        noise=searched.noise,
+        surface=None if told is None else surface(own, told),
+        extended=None if told is None else extended(problem, told),
+    )

@@ -1,0 +1,118 @@
+"""What a record says of motions and of one unknown force, line by line of the spectrum, whatever the law of the force."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from mouse_cli.diagnosis.likelihoods.history.linear import Linear
+from mouse_cli.diagnosis.likelihoods.history.series import Series
+
+_EVERYWHERE = 0.03  # rms of small unknown forces at every degree of freedom, by that of the measured force
+_HERE = 3.0  # rms of the unknown force at one place, by that of the measured force
+_QUIET, _MOST = 9.0, 6  # times the slowest motion falls by e in the room after the record; at most so many records long
+_TAPER = 0.03  # share of the record at its end, and of its beginning where it does not begin at rest
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """A record and a linear model line by line: w (l,) rad/s; H (l, n, n) receptance; S (l, s, n): what sensors read of motion.
+
+    missing (t, s): measured less the answer of the model, from rest. weights (l, s, s): of outputs over their sd, for noise
+    that is not white; None: 1.
+    """
+
+    series: Series
+    linear: Linear
+    weights: np.ndarray | None = None
+
+    @cached_property
+    def padded(self) -> int:
+        """Length of the transforms: room for the motion after the record to die away before it comes round to the beginning."""
+        from scipy.fft import next_fast_len
+
+        model, n, t = self.linear, len(self.linear.M), len(self.series)
+        A = np.block([[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(model.M, part) for part in (model.K, model.C)]])
+        slowest = max(float(-np.linalg.eigvals(A).real.max()), 1e-12)
+        return next_fast_len(t + int(np.clip(_QUIET / slowest / self.series.dt, t // 4, _MOST * t)), real=True)
+
+    @cached_property
+    def w(self) -> np.ndarray:
+        """Circular frequencies (l,)."""
+        return 2 * np.pi * np.fft.rfftfreq(self.padded, self.series.dt)
+
+    @cached_property
+    def H(self) -> np.ndarray:
+        """Receptance (l, n, n); that of the lowest line at 0 for a structure that is free there."""
+        model, w = self.linear, self.w[:, None, None]
+        Z = model.K - w**2 * model.M + 1j * w * model.C
+        low = np.linalg.cond(Z[0]) > 1e12
+        if low:
+            Z[0] = Z[1]
+        return np.linalg.inv(Z)
+
+    @cached_property
+    def S(self) -> np.ndarray:
+        """Sensors by motion (l, s, n)."""
+        return self.series.sensing[None] * (1j * self.w[:, None])[:, :, None] ** self.series.order[None, :, None]
+
+    @cached_property
+    def SH(self) -> np.ndarray:
+        """Sensors by forces (l, s, n)."""
+        return self.S @ self.H
+
+    def line(self, x: np.ndarray) -> np.ndarray:
+        """Lines (l, ...) of a history (t, ...), zero after it."""
+        return np.fft.rfft(x, self.padded, axis=0)
+
+    def history(self, X: np.ndarray) -> np.ndarray:
+        """History (t, ...) of lines (l, ...)."""
+        return np.fft.irfft(X, self.padded, axis=0)[: len(self.series)]
+
+    def weighed(self, x: np.ndarray) -> np.ndarray:
+        """Outputs (t, s) over their sd, and by the weights."""
+        own = x / self.series.sd
+        return own if self.weights is None else self.history(np.einsum("lij,lj->li", self.weights, self.line(own)))
+
+    @cached_property
+    def motion(self) -> np.ndarray:
+        """Lines (l, n) of the motion of the model under the measured force."""
+        F = self.line(self.series.force - self._mean) @ self.series.inputs.T
+        return np.einsum("lij,lj->li", self.H, F)
+
+    @property
+    def _mean(self) -> np.ndarray:
+        return self.series.force.mean(axis=0)
+
+    @cached_property
+    def missing(self) -> np.ndarray:
+        """Measured less simulated (t, s), tapered at the end."""
+        answer = self.history(np.einsum("lsn,ln->ls", self.S, self.motion))
+        own = self.series.measured - self.series.measured.mean(axis=0) * (self.series.order < 2)
+        return (own - answer) * self.window[:, None]
+
+    @cached_property
+    def window(self) -> np.ndarray:
+        """1, and a half cosine to 0 at the end (t,); at the beginning too."""
+        t = len(self.series)
+        m = max(2, int(_TAPER * t))
+        fall = 0.5 + 0.5 * np.cos(np.pi * (np.arange(m) + 1) / m)
+        found = np.ones(t)
+        found[-m:] = fall
+        if not self.series.at_rest:
+            found[:m] = fall[::-1]
+        return found
+
+    def motions(self, B: np.ndarray) -> np.ndarray:
+        """Lines (l, n) of the most probable motion when unknown forces act through B (n, r), and small ones everywhere.
+
+        Forces of circular normal distribution with covariance Q: u = H f + H Q (SH)' (SH Q SH' + R)^-1 (y - S H f).
+        """
+        size = np.sqrt((self.series.force**2).mean(axis=0).sum())
+        unit = B / np.linalg.norm(B, axis=0)
+        Q = size**2 * (_EVERYWHERE**2 * np.eye(len(B)) + _HERE**2 * unit @ unit.T)
+        R = np.diag(self.series.sd**2)
+        G = self.SH @ Q
+        total = G @ self.SH.conj().transpose(0, 2, 1) + R
+        solved = np.linalg.solve(total, self.line(self.missing)[:, :, None])
+        return self.motion + (self.H @ (G.conj().transpose(0, 2, 1) @ solved))[:, :, 0]

@@ -1,0 +1,231 @@
+"""A model of a record: the deck's parameters and nuisances, and laws at places."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from mouse_cli.diagnosis.likelihoods.history.linear import Linear
+from mouse_cli.diagnosis.likelihoods.history.series import Series
+from mouse_cli.dynamics.response import LocalForce, Plant
+from mouse_cli.model.diagnosis import Site
+from mouse_cli.terms.laws import Law, Scale, Unknown
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a law may act. B (m,): the motion in the coordinates of the simulation; motion (n,): by the degrees of freedom of the
+    deck; ground: whether its other end is the ground.
+    """
+
+    site: Site
+    B: np.ndarray
+    ground: bool
+    scale: Scale
+    motion: np.ndarray
+
+
+@dataclass(frozen=True)
+class Acting:
+    """A nonlinear law that the deck has already: its motion B (n,), its parameters p (q,)."""
+
+    B: np.ndarray
+    law: Law
+    words: dict[str, float]
+    p: np.ndarray
+
+
+@dataclass(frozen=True)
+class Part:
+    """A law at a place, in one of its variants; ranges: of its parameters, where they are not those of the law there."""
+
+    place: Place
+    law: Law
+    variant: int
+    ranges: tuple[Unknown, ...] = ()
+
+    @property
+    def unknowns(self) -> tuple[Unknown, ...]:
+        """Its parameters and how large they may be."""
+        return self.ranges or self.law.unknowns(self.place.scale)
+
+    @property
+    def words(self) -> dict[str, float]:
+        """Its variant, as the law takes it."""
+        return self.law.variants[self.variant]
+
+    def matrices(self, p: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """K, C, M of a linear law."""
+        return self.law.matrices(p, **self.words)
+
+    @cached_property
+    def extra(self) -> int:
+        """Degrees of freedom of a linear law's own."""
+        middle = np.array([np.sqrt(u.lower * u.upper) for u in self.unknowns])
+        return len(self.matrices(middle)[0]) - 1 if self.law.linear else 0
+
+    def acting(self, p: np.ndarray) -> Acting:
+        """With parameters p."""
+        return Acting(self.place.B, self.law, self.words, p)
+
+
+@dataclass(frozen=True)
+class Hypothesis:
+    """x (k,): nuisances in prior sd, offsets of the measured forces among them, then ln parameters of each law.
+
+    offset (i,): prior sd of a constant that a force channel reads wrongly; known: laws that the deck has already; parts: laws with
+    free parameters. place: that which is looked at, or that of the last law. fixed: x that no fit moves.
+    """
+
+    linear: Linear
+    offset: np.ndarray
+    known: tuple[Acting, ...] = ()
+    place: Place | None = None
+    parts: tuple[Part, ...] = ()
+    fixed: np.ndarray | None = None
+
+    @property
+    def law(self) -> Law | None:
+        """The last law."""
+        return self.parts[-1].law if self.parts else None
+
+    @property
+    def unknowns(self) -> tuple[Unknown, ...]:
+        """Parameters of all laws."""
+        return tuple(u for part in self.parts for u in part.unknowns)
+
+    @property
+    def nuisances(self) -> int:
+        """How many of x are not parameters of a law."""
+        return self.linear.k + len(self.offset)
+
+    @property
+    def mean(self) -> np.ndarray:
+        """Of the prior (k,)."""
+        return self._of(np.zeros(self.nuisances), [np.log(u.lower * u.upper) / 2 for u in self.unknowns])
+
+    @property
+    def sd(self) -> np.ndarray:
+        """Of the prior; infinite for ln parameters of the laws, which are uniform."""
+        return self._of(np.ones(self.nuisances), [np.inf] * len(self.unknowns))
+
+    @property
+    def unit(self) -> np.ndarray:
+        """A natural step of each."""
+        return self._of(np.ones(self.nuisances), [1.0] * len(self.unknowns))
+
+    @property
+    def width(self) -> np.ndarray:
+        """Of uniform priors; infinite for nuisances."""
+        spans = [np.log(u.upper / u.lower) for u in self.unknowns]
+        return self._of(np.full(self.nuisances, np.inf), spans)
+
+    @property
+    def bounds(self) -> tuple[np.ndarray, np.ndarray]:
+        """Of x."""
+        many = np.full(self.nuisances, np.inf)
+        return (
+            self._of(-many, [np.log(u.lower) for u in self.unknowns]),
+            self._of(many, [np.log(u.upper) for u in self.unknowns]),
+        )
+
+    def _of(self, nuisances: np.ndarray, own: list[float]) -> np.ndarray:
+        return np.zeros(0) if self.fixed is not None else np.concatenate([nuisances, own])
+
+    @property
+    def extra(self) -> int:
+        """Degrees of freedom of the laws' own."""
+        return sum(part.extra for part in self.parts)
+
+    def whole(self, many: np.ndarray) -> np.ndarray:
+        """All x (P, k), the fixed ones where nothing is fitted."""
+        return many if self.fixed is None else np.repeat(self.fixed[None], len(many), 0)
+
+    def sizes(self, many: np.ndarray) -> list[tuple[Part, np.ndarray]]:
+        """Each law with its parameters (q, P) at x (P, k)."""
+        values = np.exp(self.whole(many)[:, self.nuisances :]).T
+        ends = np.cumsum([len(part.unknowns) for part in self.parts])[:-1]
+        return list(zip(self.parts, np.split(values, ends), strict=True)) if self.parts else []
+
+    def acting(self, x: np.ndarray) -> list[Acting]:
+        """The laws that are not linear at x (k,): those of the deck, then those of the hypothesis."""
+        return [*self.known, *(part.acting(p[:, 0]) for part, p in self.sizes(x[None]) if not part.law.linear)]
+
+    def local(self, many: np.ndarray) -> LocalForce | None:
+        """The forces of all laws at x (P, k), internal states as a list; None where all is linear."""
+        own = [part.acting(p[:, :, None, None]) for part, p in self.sizes(many) if not part.law.linear]
+        every = [*self.known, *own]
+        if not every:
+            return None
+        shaped = [one.p if one.p.ndim > 1 else one.p[:, None, None, None] for one in every]
+
+        def forces(x: np.ndarray, v: np.ndarray, z: list):
+            found = [
+                one.law.force(x[:, [i]], v[:, [i]], z[i], p, **one.words)
+                for i, (one, p) in enumerate(zip(every, shaped, strict=True))
+            ]
+            return np.concatenate([F for F, _ in found], axis=1), [after for _, after in found]
+
+        return forces
+
+    def plant(self, many: np.ndarray, series: Series) -> Plant:
+        """The linear part at x (P, k), with the matrices of linear laws in it."""
+        x, a = self.whole(many), self.extra
+        M, C, K = self.linear.matrices(x[:, : self.linear.k])
+        m = M.shape[1]
+        constant = (x[:, self.linear.k : self.nuisances] * self.offset) @ series.inputs.T
+        inputs = np.repeat(series.inputs[None], len(many), 0)
+        inputs = np.concatenate([inputs, constant[:, :, None]], axis=2)
+        motions = [one.B for one in self.known] + [part.place.B for part in self.parts if not part.law.linear]
+        local = np.zeros((m + a, len(motions)))
+        local[:m] = np.array(motions).reshape(-1, m).T
+        if any(part.law.linear for part in self.parts):
+            M, C, K = self._with_matrices(many, M, C, K)
+        sensing = np.pad(series.sensing, ((0, 0), (0, a)))
+        return Plant(M, C, K, np.pad(inputs, ((0, 0), (0, a), (0, 0))), local, sensing, series.order)
+
+    def _with_matrices(self, many: np.ndarray, *matrices: np.ndarray) -> tuple[np.ndarray, ...]:
+        """M, C, K (P, m + a, m + a) with those of linear laws."""
+        a, m = self.extra, matrices[0].shape[1]
+        M, C, K = (np.pad(one, ((0, 0), (0, a), (0, a))) for one in matrices)
+        at = m
+        for part, values in self.sizes(many):
+            if not part.law.linear:
+                continue
+            B = np.zeros((m + a, 1 + part.extra))
+            B[:m, 0] = part.place.B
+            B[at : at + part.extra, 1:] = np.eye(part.extra)
+            at += part.extra
+            for i, p in enumerate(values.T):
+                for whole, own in zip((K, C, M), part.matrices(p), strict=True):
+                    whole[i] += B @ own @ B.T
+        return M, C, K
+
+    def padded_states(self, states: np.ndarray) -> np.ndarray:
+        """Displacements and velocities (2n, ...) with those of the laws' own degrees of freedom, like those of their places."""
+        n = len(self.linear.M)
+        if not self.extra or len(states) != 2 * n:
+            return states
+        halves = [[half] for half in (states[:n], states[n:])]
+        for part in self.parts:
+            for half, size in zip(halves, (part.place.scale.x, part.place.scale.v), strict=True):
+                own = np.asarray(size) if states.ndim == 1 else part.place.B @ half[0]
+                half.append(np.broadcast_to(own, (part.extra, *states.shape[1:])))
+        return np.concatenate([one for half in halves for one in half])
+
+    def placed(self, place: Place) -> "Hypothesis":
+        """The same, looking at a place."""
+        return replace(self, place=place)
+
+    def held(self, x: np.ndarray) -> "Hypothesis":
+        """The same with x (k,) fixed: only initial states are free."""
+        return replace(self, fixed=x)
+
+    def at(self, law: Law, variant: int) -> "Hypothesis":
+        """The same with one law more, at the place that is looked at."""
+        return replace(self, parts=(*self.parts, Part(self.place, law, variant)))
+
+    @property
+    def without_last(self) -> "Hypothesis":
+        """The same with one law less."""
+        return replace(self, parts=self.parts[:-1])

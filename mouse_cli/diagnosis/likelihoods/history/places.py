@@ -1,0 +1,62 @@
+"""Where a local force may act: between two degrees of freedom that the structure links, and from each to the ground."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from mouse_cli.diagnosis.likelihoods.history.free_force import Spectrum
+from mouse_cli.diagnosis.likelihoods.history.hypothesis import Place
+from mouse_cli.diagnosis.likelihoods.history.uncertain import LARGEST, links
+from mouse_cli.model.diagnosis import Site
+from mouse_cli.model.problem import Problem
+from mouse_cli.terms.assembly import assembly
+from mouse_cli.terms.laws import Scale
+
+
+def motions(problem: Problem, sensed: np.ndarray) -> Iterator[tuple[Site, np.ndarray, bool]]:
+    """Site, motion B (n,) and whether it is against the ground. sensed (n,): mask of what is driven or measured."""
+    labels, n = problem.structure.labels, problem.structure.n
+    for i in range(n):
+        if not _turns(labels[i]) and (n <= LARGEST or sensed[i]):
+            yield Site("dof", (labels[i],), text=f"between {_named(labels[i])} and the ground"), np.eye(n)[i], True
+    K, _ = assembly(problem).matrices(problem.prior.mean)
+    found = links(K)
+    for b in () if found is None else found.B.T:
+        ends = np.flatnonzero(b)
+        if len(ends) == 2 and _alike(*(labels[i] for i in ends)):
+            i, j = ends
+            yield (
+                Site("dof", (labels[i], labels[j]), text=f"between {_named(labels[i])} and {_named(labels[j])}"),
+                b,
+                False,
+            )
+
+
+def _turns(label: str) -> bool:
+    return label[-2:-1] == "R"
+
+
+def _alike(one: str, other: str) -> bool:
+    """Whether two degrees of freedom move along the same line: the numbers of a matrix model may."""
+    return not _turns(one) and (one[-2:] == other[-2:] or (one.isdigit() and other.isdigit()))
+
+
+def _named(label: str) -> str:
+    return f"degree of freedom {label}" if label.isdigit() else label
+
+
+def places(problem: Problem, spectrum: Spectrum, basis: np.ndarray, band: tuple[float, float]) -> list[Place]:
+    """All of them, with the motion that the record has there by the model as it is."""
+    series, model = spectrum.series, spectrum.linear
+    sensed = (np.abs(basis @ np.hstack([series.inputs, series.sensing.T])) > 1e-9).any(axis=1)
+    u = spectrum.motion
+    found = []
+    for site, b, ground in motions(problem, sensed):
+        B = basis.T @ b
+        size = float(B @ B)
+        x, v = (float(spectrum.history(u @ B * (1j * spectrum.w) ** order).std()) for order in (0, 1))
+        if size < 1e-24 or x == 0:
+            continue
+        scale = Scale(float(B @ model.K @ B) / size**2, float(B @ model.M @ B) / size**2, x, v, band)
+        found.append(Place(site, B, ground, scale, b))
+    return found

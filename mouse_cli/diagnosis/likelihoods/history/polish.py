@@ -1,0 +1,217 @@
+"""Output-error fit of a model with one local law: short horizons, each with a free initial state.
+
+Maximum a posteriori by Levenberg-Marquardt. Segments of a record are simulated side by side, together with all perturbed
+models; initial states belong to one segment each and are eliminated (Golub and Pereyra's variable projection for what is linear
+nearly). The logarithm of the evidence is Laplace's.
+"""
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from mouse_cli.diagnosis.likelihoods.history.hypothesis import Hypothesis
+from mouse_cli.diagnosis.likelihoods.history.series import REACH, Series, passed, sampled
+from mouse_cli.dynamics.response import simulate
+
+_DAMPING, _UP, _DOWN = 1e-3, 10.0, 0.2  # of Levenberg and Marquardt
+_STEPS = 25
+_SETTLED = 0.05  # of the cost in nats, at which a step is no more worth its time
+_LEAST = 64  # samples of a horizon
+_PATIENCE, _BEHIND = 3, 2.0  # steps of a fit whose cost is so many times that of a better one
+_PERTURBED = 1e-4  # of prior or range
+
+
+@dataclass(frozen=True)
+class Segments:
+    """G stretches of a record, `length` samples each, from samples `starts` (G,)."""
+
+    series: Series
+    starts: np.ndarray
+    length: int
+
+    def begun(self) -> "Segments":
+        """Their first quarters."""
+        return replace(self, length=max(self.length // 4, min(self.length, _LEAST)))
+
+    @property
+    def force(self) -> np.ndarray:
+        """At every step, with REACH samples on either side of what is compared; the last input is 1 at all times."""
+        factor = self.series.factor
+        steps = (self.length + 2 * REACH - 1) * factor + 1
+        own = np.stack([self.series.fine[(s - REACH) * factor :][:steps] for s in self.starts], axis=2)
+        return np.concatenate([own, np.ones_like(own[:, :1])], axis=1)
+
+    @property
+    def measured(self) -> np.ndarray:
+        """Filtered channels over their sd."""
+        whole = self.series.filtered / self.series.sd
+        return np.stack([whole[s : s + self.length].T for s in self.starts], axis=2)
+
+
+def segments(series: Series, length: int, most: int) -> Segments:
+    """Up to `most` stretches of `length` samples that follow one another, over the whole of the record."""
+    first, last = REACH, len(series) - REACH
+    starts = np.arange(first, last - length + 1, length)
+    if len(starts) > most:
+        starts = starts[np.unique(np.linspace(0, len(starts) - 1, most).round().astype(int))]
+    return Segments(series, starts, length)
+
+
+@dataclass
+class Fit:
+    """What a fit found. x (k,): nuisances and law; states (2n, G); covariance (k, k); misfit: chi2; log_evidence."""
+
+    hypothesis: Hypothesis
+    x: np.ndarray
+    states: np.ndarray
+    covariance: np.ndarray
+    misfit: float
+    dof: float
+    cost: float
+    log_evidence: float
+    residual: np.ndarray = field(repr=False)
+
+
+@dataclass
+class _Point:
+    """Residual (s, t, G) and Jacobians by x (s, t, G, k) and by initial states (s, t, G, 2n)."""
+
+    residual: np.ndarray
+    J: np.ndarray
+    X: np.ndarray
+
+
+class Polish:
+    """The fit of one hypothesis to segments of records alike; spread (2n,): sd of initial states before the test."""
+
+    def __init__(self, hypothesis: Hypothesis, data: list[Segments], spread: np.ndarray):
+        self.h, self.series = hypothesis, data[0].series
+        self.spread = hypothesis.padded_states(spread)
+        self.force = np.concatenate([part.force for part in data], axis=2)
+        self.measured = np.concatenate([part.measured for part in data], axis=2)
+
+    def fit(
+        self, x: np.ndarray, states: np.ndarray, internal=None, steps: int = _STEPS, beat: float = np.inf
+    ) -> Fit | None:
+        """From x (k,), states (2n, G) and internal states of the law; None where no simulation stays finite.
+
+        beat: the cost of a better fit, far behind which this one is not followed to its end.
+        """
+        try:
+            return self._followed(x, states, internal, steps, beat)
+        except np.linalg.LinAlgError:  # trajectories part so fast that data tell of initial states alone
+            return None
+
+    def _followed(self, x: np.ndarray, states: np.ndarray, internal, steps: int, beat: float) -> Fit | None:
+        states = self.h.padded_states(states)
+        x = np.clip(x, *self.h.bounds)
+        self.internal = internal
+        here = self._point(x, states)
+        cost, damping = self._cost(here, x, states), _DAMPING
+        if not np.isfinite(cost):
+            return None
+        for step in range(steps):
+            if step >= _PATIENCE and cost > _BEHIND * beat:
+                break
+            moved, d_states = self._step(here, x, states, damping)
+            nx, ns = np.clip(x + moved, *self.h.bounds), states + d_states
+            there = self._point(nx, ns)
+            new = self._cost(there, nx, ns)
+            if not np.isfinite(new) or new > cost:
+                damping = max(damping, 1e-6) * _UP
+                if damping > 1e8:
+                    break
+                continue
+            gained, x, states, here, cost, damping = cost - new, nx, ns, there, new, damping * _DOWN
+            if gained < 2 * _SETTLED:
+                break
+        return self._fit(here, x, states, cost)
+
+    def _point(self, x: np.ndarray, states: np.ndarray) -> _Point:
+        """Simulations at x, at every perturbed x and at every perturbed state, all at once."""
+        k, n2 = len(x), len(states)
+        steps = np.where(x + _PERTURBED * self.h.unit > self.h.bounds[1], -1, 1) * _PERTURBED * self.h.unit
+        many = np.vstack([x, x + np.diag(steps), np.repeat(x[None], n2, 0)])
+        begin = np.repeat(states[None], 1 + k + n2, 0)
+        nudge = _PERTURBED * self.spread
+        begin[1 + k + np.arange(n2), np.arange(n2)] += nudge[:, None]
+        seen = self._simulated(many, begin)
+        residual = self.measured - seen[0]
+        J = (
+            np.stack([(seen[1 + j] - seen[0]) / steps[j] for j in range(k)], -1)
+            if k
+            else np.zeros((*residual.shape, 0))
+        )
+        X = np.stack([(seen[1 + k + j] - seen[0]) / nudge[j] for j in range(n2)], -1)
+        return _Point(residual, J, X)
+
+    def _simulated(self, many: np.ndarray, begin: np.ndarray) -> np.ndarray:
+        """Filtered sensors over their sd (P, s, t, G)."""
+        series, z = self.series, None
+        if self.internal is not None:
+            z = [None if one is None else np.repeat(one[:, None], len(many), 1) for one in self.internal]
+        plant, local = self.h.plant(many, series), self.h.local(many)
+        with np.errstate(all="ignore"):
+            out, _ = simulate(plant, series.dt / series.factor, self.force, begin, local, z)
+        return sampled(out, series.factor) / series.sd[None, :, None, None]
+
+    def _cost(self, at: _Point, x: np.ndarray, states: np.ndarray) -> float:
+        prior = (((x - self.h.mean) / self.h.sd) ** 2).sum() + ((states / self.spread[:, None]) ** 2).sum()
+        return float((at.residual**2).sum() + prior)
+
+    def _normal(self, at: _Point, x: np.ndarray, states: np.ndarray, damping: float):
+        """Normal equations with the initial states eliminated: matrix, right side, and what gives the states back.
+
+        A parameter that the data do not feel is held by the width of its range.
+        """
+        P0 = 1 / self.h.sd**2
+        H, g = np.diag(P0 + 2 * np.pi / self.h.width**2), -P0 * (x - self.h.mean)
+        backs, logs = [], 0.0
+        for j in range(states.shape[1]):
+            r, J, X = (
+                at.residual[:, :, j].ravel(),
+                at.J[:, :, j].reshape(at.residual[:, :, j].size, len(x)),
+                at.X[:, :, j].reshape(-1, len(states)),
+            )
+            S0 = 1 / self.spread**2
+            XX = X.T @ X + np.diag(S0)
+            logs += np.linalg.slogdet(XX * np.outer(self.spread, self.spread))[1]
+            XX = XX + damping * np.diag(np.diag(XX))
+            XJ, Xr = X.T @ J, X.T @ r - S0 * states[:, j]
+            solved = np.linalg.solve(XX, np.column_stack([XJ, Xr]))
+            H = H + J.T @ J - XJ.T @ solved[:, :-1]
+            g = g + J.T @ r - XJ.T @ solved[:, -1]
+            backs.append(solved)
+        return H, g, backs, logs
+
+    def _step(self, at: _Point, x: np.ndarray, states: np.ndarray, damping: float):
+        H, g, backs, _ = self._normal(at, x, states, damping)
+        moved = np.linalg.solve(H + damping * np.diag(np.diag(H)), g) if len(x) else np.zeros(0)
+        return moved, np.stack([b[:, -1] - b[:, :-1] @ moved for b in backs], axis=1)
+
+    def _fit(self, at: _Point, x: np.ndarray, states: np.ndarray, cost: float) -> Fit:
+        H, _, _, logs = self._normal(at, x, states, 0.0)
+        width = self.h.width
+        own = np.isfinite(width)
+        shape = np.linalg.slogdet(H)[1]
+        evidence = -cost / 2 - np.log(width[own] / np.sqrt(2 * np.pi)).sum() - shape / 2 - logs / 2
+        misfit = float((at.residual**2).sum())
+        dof = passed() * at.residual.size - len(x) - states.size
+        covariance = np.linalg.inv(H)
+        return Fit(self.h, x, states, covariance, misfit, dof, cost, float(evidence), at.residual)
+
+
+def followed(
+    hypothesis: Hypothesis,
+    data: list[Segments],
+    spread: np.ndarray,
+    x: np.ndarray,
+    states,
+    internal,
+    beat: float = np.inf,
+) -> Fit | None:
+    """The fit over the first quarters of the segments, then over the whole of them: a short horizon has fewer false minima."""
+    first = Polish(hypothesis, [part.begun() for part in data], spread).fit(x, states, internal)
+    if first is not None:
+        x, states = first.x, first.states
+    return Polish(hypothesis, data, spread).fit(x, states, internal, beat=beat)

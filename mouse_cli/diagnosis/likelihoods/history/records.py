@@ -1,0 +1,125 @@
+"""The recordings of a deck as series: channels of the model, accuracies from the records, what is fitted and what held out."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mouse_cli._errors import ERROR, DeckError, Diagnostic
+from mouse_cli.diagnosis.likelihoods.history.series import REACH, Series
+from mouse_cli.model.problem import Problem
+from mouse_cli.model.recording import MOTIONS, Channel, Recording
+
+FLOOR = 0.01  # of the rms of a channel: no transducer and no theory is more accurate
+HELD = 0.3  # share at the end of each record that is held out where the deck holds nothing out
+_LINES = 32  # spectral lines averaged for the noise floor
+_FORCES = ("force", "moment")
+_RATE = 30.0  # steps in a period of the highest mode of interest, at least
+
+
+@dataclass(frozen=True)
+class Records:
+    """Series that are fitted and series that are held out, of the same channels; basis (n, m) of the model; remarks."""
+
+    fitted: tuple[Series, ...]
+    held: tuple[Series, ...]
+    outputs: tuple[Channel, ...]
+    inputs: tuple[Channel, ...]
+    remarks: tuple[str, ...]
+
+
+def records(problem: Problem) -> Records:
+    """All of a deck. Raises DeckError (MD640) where a record has no force or no motion that the model has."""
+    fitted = list(problem.recordings)
+    held = list(problem.held_records.recordings) if problem.held_records else []
+    said: list[str] = []
+    first = fitted[0] if fitted else held[0]
+    inputs, outputs = _channels(problem, first)
+    alike = [one for one in fitted if _alike(one, first)]
+    if len(alike) < len(fitted):
+        said.append(
+            f"{len(fitted) - len(alike)} recordings have other channels or another rate than the first and were left out"
+        )
+    held = [one for one in held if _alike(one, first)]
+    sd = np.max([_sd(one.samples[:, outputs]) for one in alike], axis=0)
+    make = lambda one: _series(problem, one, inputs, outputs, sd)
+    if held:
+        series, kept = [make(one) for one in alike], [make(one) for one in held]
+    else:
+        whole = [make(one) for one in alike]
+        series = [one.part(0, int((1 - HELD) * len(one))) for one in whole]
+        kept = [replace(one.part(int((1 - HELD) * len(one)), len(one)), title=f"{one.title}, its end") for one in whole]
+        said.append(f"the deck holds no record out: the last {100 * HELD:g} % of each was held out from all fits")
+    channels = lambda columns: tuple(first.channels[j] for j in columns)
+    return Records(tuple(series), tuple(kept), channels(outputs), channels(inputs), tuple(said))
+
+
+def _channels(problem: Problem, record: Recording) -> tuple[list[int], list[int]]:
+    """Columns of forces and of motions on degrees of freedom of the model."""
+    own = lambda j: bool(record.channels[j].weights)
+    inputs = [int(j) for j in record.inputs if record.channels[j].quantity in _FORCES and own(j)]
+    outputs = [int(j) for j in record.outputs if record.channels[j].quantity in MOTIONS and own(j)]
+    for what, columns in (("force", inputs), ("displacement, velocity or acceleration", outputs)):
+        if not columns:
+            message = f"recording '{record.title}' has no channel of {what} at a degree of freedom of the model"
+            help = "name it under inputs or outputs with its quantity; simulation needs the measured force"
+            raise DeckError([Diagnostic("MD640", ERROR, message, problem.place("recordings"), help=help)])
+    return inputs, outputs
+
+
+def _alike(one: Recording, other: Recording) -> bool:
+    same = lambda r: [(c.role, c.quantity, c.weights) for c in r.channels]
+    return abs(one.time_step_s / other.time_step_s - 1) < 1e-6 and same(one) == same(other)
+
+
+def _series(problem: Problem, record: Recording, inputs: list[int], outputs: list[int], sd: np.ndarray) -> Series:
+    n = problem.structure.n
+    rows = lambda columns: np.array([_weights(record.channels[j], n) for j in columns])
+    order = np.array([MOTIONS[record.channels[j].quantity] for j in outputs])
+    samples = record.samples
+    return Series(
+        record.title,
+        record.time_step_s,
+        samples[:, inputs],
+        samples[:, outputs],
+        sd,
+        rows(inputs).T,
+        rows(outputs),
+        order,
+        first=record.start,
+    )
+
+
+def _weights(channel: Channel, n: int) -> np.ndarray:
+    found = np.zeros(n)
+    for dof, share in channel.weights.items():
+        found[dof] = share
+    return found
+
+
+def _sd(samples: np.ndarray) -> np.ndarray:
+    """Accuracy of channels (t, s): the floor of their spectra, where the structure is quiet, and at least FLOOR of their rms.
+
+    The lowest mean of _LINES neighbouring lines, times what the lowest of so many falls short of their level on average.
+    """
+    t = len(samples)
+    window = np.hanning(t)[:, None]
+    power = np.abs(np.fft.rfft((samples - samples.mean(axis=0)) * window, axis=0)) ** 2 / (window**2).sum()
+    groups = power[1 : 1 + (len(power) - 1) // _LINES * _LINES].reshape(-1, _LINES, power.shape[1]).mean(axis=1)
+    floor = np.sqrt(np.quantile(groups, 0.1, axis=0) * 1.2)
+    return np.maximum(floor, FLOOR * samples.std(axis=0))
+
+
+def steps(series: Series, highest_hz: float) -> Series:
+    """With so many steps in a sample that the highest mode of interest has _RATE in a period; 2 to 16."""
+    wanted = _RATE * highest_hz * series.dt
+    return replace(series, factor=int(np.clip(2 ** np.ceil(np.log2(max(wanted, 1.0))), 2, 16)))
+
+
+def reduced(series: Series, basis: np.ndarray) -> Series:
+    """The series in the coordinates of a basis (n, m)."""
+    return replace(series, inputs=basis.T @ series.inputs, sensing=series.sensing @ basis)
+
+
+def enough(series: Series, length: int) -> bool:
+    """Whether the series holds two segments."""
+    return len(series) >= 2 * length + 2 * REACH

@@ -1,0 +1,240 @@
+"""Which law at which place: the missing part of the record as the answer of the model to a force that follows from the motion.
+
+The true structure answers y = S H (f - dZ u - B F(B'u, B'u')), H of the model as it is: linear in the sizes of dK, dC and F once
+u is known. u is taken from the record, so that the fit has a closed form; it gives starts for `polish` and no verdict.
+"""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.diagnosis.likelihoods.history.free_force import Spectrum
+from mouse_cli.diagnosis.likelihoods.history.hypothesis import Acting, Hypothesis, Place
+from mouse_cli.terms.laws import Law, registry
+
+_APART = 0.15  # of the logarithm of a size, from which on two starts are two
+_FAR = 0.7  # most that ln parameters of a law that is there already move in a first look
+_STEP = 1e-3  # of ln parameters, in differences
+_BEGIN = 0.02  # share of the record whose states are not known well, left out
+
+
+@dataclass(frozen=True)
+class Start:
+    """A law at a place with sizes that explain most of the missing part: x (k,) of `hypothesis`; left: its chi2."""
+
+    hypothesis: Hypothesis
+    x: np.ndarray
+    left: float
+
+
+@dataclass(frozen=True)
+class Local:
+    """All that a place needs: histories x, v (t,) of its motion, lines X (l,), answer (l, s) of sensors to a force there."""
+
+    place: Place
+    x: np.ndarray
+    v: np.ndarray
+    X: np.ndarray
+    answer: np.ndarray
+
+
+class Regression:
+    """Regressions of one record at one place: nuisances are projected out once.
+
+    begun (k,): x of `hypothesis`, about which laws that it has already are linear; None where it has none.
+    """
+
+    def __init__(self, spectrum: Spectrum, hypothesis: Hypothesis, begun: np.ndarray | None = None):
+        self.spectrum, self.base = spectrum, hypothesis
+        self.begun = np.zeros(hypothesis.nuisances) if begun is None else begun
+        place = hypothesis.place
+        others = [*(one.B for one in hypothesis.known), *(part.place.B for part in hypothesis.parts)]
+        U = spectrum.motions(np.stack([place.B, *others], axis=1))
+        self._U = U
+        X = U @ place.B
+        both = np.concatenate([U, 1j * spectrum.w[:, None] * U], axis=1)
+        self._states = spectrum.history(both).T
+        self.spread = self._states.std(axis=1)
+        histories = (spectrum.history(X * (1j * spectrum.w) ** order) for order in (0, 1))
+        self.local = Local(place, *histories, X, spectrum.SH @ place.B)
+        t = len(spectrum.series)
+        self.kept = slice(int(_BEGIN * t), t - 2 * int(_BEGIN * t))
+        self.missing = spectrum.missing + self._answer(self.begun)
+        self.y = self._stacked(self.missing)
+        self.J = np.stack([self._stacked(column) for column in (*self._nuisances(U), *self._slopes())], axis=1)
+        k = self.J.shape[1]
+        self.Q, self.R = np.linalg.qr(np.vstack([self.J, np.eye(k)]))
+        self.target = np.concatenate([self.y, np.zeros(k)])
+        self.target -= self.Q @ (self.Q.T @ self.target)
+
+    def _answer(self, x: np.ndarray) -> np.ndarray:
+        """What the laws of the deck and of the hypothesis, at x (k,), take off the outputs (t, s), at the motion of the record."""
+        s, n, found = self.spectrum, len(self._states) // 2, np.zeros_like(self.spectrum.missing)
+        add = lambda F, B: s.history(F[:, None] * (s.SH @ B)) * s.window[:, None]
+        for one in self.base.acting(x):
+            along, speed = one.B @ self._states[:n], one.B @ self._states[n:]
+            if one.law.states:
+                F = stepped(one.law, along, speed, one.p[:, None], one.words)[:, 0]
+            else:
+                F = one.law.force(along, speed, None, one.p, **one.words)[0]
+            found += add(s.line(F * s.window), one.B)
+        for part, p in self.base.sizes(x[None]):
+            if part.law.linear:
+                found += add(_stiffness(part.matrices(p[:, 0]), s.w) * (self._U @ part.place.B), part.place.B)
+        return found
+
+    def _slopes(self) -> Iterator[np.ndarray]:
+        """Answers (t, s) to a change of the ln parameters of the laws that the hypothesis has."""
+        for j in range(self.base.nuisances, len(self.begun)):
+            step = np.zeros_like(self.begun)
+            step[j] = _STEP
+            yield (self._answer(self.begun - step) - self._answer(self.begun + step)) / (2 * _STEP)
+
+    def states(self, at: np.ndarray) -> np.ndarray:
+        """Displacements and velocities (2n, G) at samples (G,)."""
+        return self._states[:, at]
+
+    def internal(self, one: Acting, at: np.ndarray) -> np.ndarray | None:
+        """Internal states (states, 1, G) of a law at samples (G,)."""
+        law, p, words = one.law, one.p, one.words
+        if not law.states:
+            return None
+        n = len(one.B)
+        x, v = one.B @ self._states[:n], one.B @ self._states[n:]
+        z, found = np.zeros((law.states, 1)), np.zeros((law.states, 1, len(at)))
+        wanted = {int(sample): g for g, sample in enumerate(at)}
+        for i in range(int(max(at)) + 1):
+            _, z = law.force(x[i], v[i], z, p[:, None], **words)
+            if i in wanted:
+                found[:, :, wanted[i]] = z
+        return found
+
+    def _stacked(self, columns: np.ndarray) -> np.ndarray:
+        return self.spectrum.weighed(columns)[self.kept].ravel()
+
+    def _nuisances(self, U: np.ndarray) -> Iterator[np.ndarray]:
+        """Answers (t, s) to forces -(dK + iw dC - w^2 dM) u of each nuisance."""
+        s, w = self.spectrum, self.spectrum.w[:, None]
+        for dM, dC, dK in zip(*self.base.linear.slopes, strict=True):
+            force = U @ dK.T + 1j * w * (U @ dC.T) - w**2 * (U @ dM.T)
+            yield s.history(-np.einsum("lsn,ln->ls", s.SH, force)) * s.window[:, None]
+
+    def free(self, x: np.ndarray) -> np.ndarray:
+        """The force (t,) at the place that the record asks for, whatever its law: nuisances as in x (k,), least squares by line.
+
+        Lines in which no sensor feels a force there are left out.
+        """
+        s, k = self.spectrum, self.base.linear.k
+        answer = np.zeros_like(self.missing)
+        for z, column in zip(x[:k], self._nuisances(self._U), strict=True):
+            answer += z * column
+        E = s.line(self.missing - answer) / s.series.sd
+        A = self.local.answer / s.series.sd
+        size = (np.abs(A) ** 2).sum(axis=1)
+        G = -(A.conj() * E).sum(axis=1) / np.where(size > 1e-6 * size.max(), size, np.inf)
+        return s.history(G)
+
+    @property
+    def left(self) -> np.ndarray:
+        """What the nuisances leave of the outputs (t, s), weighed; 0 at either end."""
+        found = np.zeros_like(self.missing)
+        found[self.kept] = self.target[: len(self.y)].reshape(-1, found.shape[1])
+        return found
+
+    def share(self, forces: list[np.ndarray]) -> float:
+        """Share of what is left that any sum of histories (t,) of a force at the place takes."""
+        s, k = self.spectrum, self.J.shape[1]
+        columns = [
+            self._stacked(s.history(s.line(F * s.window)[:, None] * self.local.answer) * s.window[:, None])
+            for F in forces
+        ]
+        A = np.vstack([np.stack(columns, axis=1), np.zeros((k, len(forces)))])
+        A -= self.Q @ (self.Q.T @ A)
+        A /= np.maximum(np.linalg.norm(A, axis=0), 1e-300)
+        U, size, _ = np.linalg.svd(A, full_matrices=False)
+        return float(((U[:, size > 1e-6 * size[0]].T @ self.target) ** 2).sum()) / self.nothing
+
+    @property
+    def nothing(self) -> float:
+        """chi2 without any law, and the prior of the nuisances."""
+        return float(self.target @ self.target)
+
+    def forces(self, law: Law, variant: int, many: np.ndarray) -> Iterator[np.ndarray]:
+        """Lines (l,) of the force of a law for each of its parameters (m, q)."""
+        words, local, s = law.variants[variant], self.local, self.spectrum
+        if law.states:
+            found = stepped(law, local.x, local.v, many.T, words)
+            yield from (s.line(column * s.window) for column in found.T)
+            return
+        for p in many:
+            if law.linear:
+                yield _stiffness(law.matrices(p, **words), s.w) * local.X
+            else:
+                yield s.line(law.force(local.x, local.v, None, p, **words)[0] * s.window)
+
+    def best(self, law: Law, variant: int) -> Start | None:
+        """The sizes of the law that leave least; None where no force of its sign leaves less than none."""
+        return next(iter(self.apart(law, variant, 1)), None)
+
+    def apart(self, law: Law, variant: int, most: int) -> list[Start]:
+        """Up to `most` sizes of the law, that which leaves least first, each far from those before it in what is not linear."""
+        many, s, tried = np.array(list(law.inner(self.local.place.scale))), self.spectrum, []
+        for p, force in zip(many, self.forces(law, variant, many), strict=True):
+            column = self._stacked(s.history(-force[:, None] * self.local.answer) * s.window[:, None])
+            own = np.concatenate([column, np.zeros(self.J.shape[1])])
+            own -= self.Q @ (self.Q.T @ own)
+            size = float(own @ own)
+            factor = float(own @ self.target) / size if size > 0 else 0.0
+            if factor > 0:
+                tried.append((self.nothing - factor**2 * size, p, factor))
+        found, near = [], []
+        for left, p, factor in sorted(tried, key=lambda one: one[0]):
+            if len(found) < most and all(np.abs(np.log(p / other)).max() > _APART for other in near):
+                near.append(p)
+                found.append(self._start(law, variant, law.scaled(p, factor), left))
+        return found
+
+    def _start(self, law: Law, variant: int, p: np.ndarray, left: float) -> Start:
+        """The nuisances that go with sizes p (q,) of a law."""
+        hypothesis, s = self.base.at(law, variant), self.spectrum
+        (force,) = self.forces(law, variant, p[None])
+        column = self._stacked(s.history(-force[:, None] * self.local.answer) * s.window[:, None])
+        z = np.linalg.solve(self.R, self.Q.T @ np.concatenate([self.y - column, np.zeros(self.J.shape[1])]))
+        k, first = self.base.linear.k, self.base.nuisances
+        moved = self.begun[first:] + np.clip(z[k:], -_FAR, _FAR)
+        x = np.concatenate([z[:k], self.begun[k:first], moved, np.log(p)])
+        return Start(hypothesis, np.clip(x, *hypothesis.bounds), left)
+
+
+def _stiffness(matrices: tuple[np.ndarray, np.ndarray, np.ndarray], w: np.ndarray) -> np.ndarray:
+    """Dynamic stiffness (l,) of a linear law against its motion, its own degrees of freedom eliminated."""
+    K, C, M = matrices
+    Z = K + 1j * w[:, None, None] * C - w[:, None, None] ** 2 * M
+    if len(K) == 1:
+        return Z[:, 0, 0]
+    return Z[:, 0, 0] - (Z[:, :1, 1:] @ np.linalg.solve(Z[:, 1:, 1:], Z[:, 1:, :1]))[:, 0, 0]
+
+
+def stepped(law: Law, x: np.ndarray, v: np.ndarray, p: np.ndarray, words: dict[str, float]) -> np.ndarray:
+    """The forces (t, m) of a law with internal states along a motion (t,), for parameters (q, m)."""
+    z, found = np.zeros((law.states, p.shape[1])), np.empty((len(x), p.shape[1]))
+    for i in range(len(x)):
+        found[i], z = law.force(x[i], v[i], z, p, **words)
+    return found
+
+
+def allowed(place: Place, laws: list[Law] | None = None) -> list[Law]:
+    """The laws that a first look tries at a place."""
+    own = registry().values() if laws is None else laws
+    return [law for law in own if law.key != "iwan" and (law.at != "ground" or place.ground)]
+
+
+def starts(looks: Iterable[Regression], laws: list[Law] | None = None) -> list[Start]:
+    """Every law at every place that is looked at, that which leaves least first."""
+    found = []
+    for at in looks:
+        for law in allowed(at.local.place, laws):
+            options = [at.best(law, variant) for variant in range(len(law.variants))]
+            found += [one for one in options if one is not None]
+    return sorted(found, key=lambda one: one.left)

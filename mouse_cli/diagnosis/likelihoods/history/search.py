@@ -1,0 +1,183 @@
+"""Every law at every place, weighed: the model as it is, first looks in closed form, fits by simulation, and a second law."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.diagnosis.likelihoods.history.noise import noise
+from mouse_cli.diagnosis.likelihoods.history.polish import Fit
+from mouse_cli.diagnosis.likelihoods.history.regression import Start, starts
+from mouse_cli.diagnosis.likelihoods.history.study import Study, fitted
+from mouse_cli.model.record_diagnosis import Noise
+from mouse_cli.terms.laws import Law
+from mouse_cli.terms.laws import registry as laws
+from mouse_cli.updating.chi_square import upper_tail
+
+GATE, MATERIAL, INADEQUATE = 1e-3, 1.1, 1.5  # probability of a misfit by chance; ratios to the variance expected
+_POLISHED, _MORE, _AGAIN = 4, 12, 8  # starts that are fitted; where none of them is adequate; of the nearest law again
+_ROUNDS, _SECONDS = 3, 4  # laws beside which a second one is sought, and starts of it that are fitted
+
+Notice = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class Weighed:
+    """The model as it is, and every explanation that was followed to its optimum.
+
+    noise: what is left beside the explanation `beside`, where that is more than the accuracy of the channels and yet noise.
+    """
+
+    baseline: Fit
+    fits: list[Fit]
+    noise: Noise | None = None
+    beside: Fit | None = None
+
+
+def weighed(study: Study, notice: Notice, known: list[Law] | None = None, causes: int = 2) -> Weighed:
+    """The model as it is, then one law, then, where no single one is adequate and what it leaves is no noise, up to `causes`."""
+    notice("the linear model as it is")
+    baseline = fitted(study, None)
+    if baseline is None or not missing(baseline):
+        return Weighed(baseline, [])
+    quiet = noise(study.spectrum, study.base, study.places)
+    if quiet is not None:
+        return Weighed(baseline, [], quiet, baseline)
+    found = _singles(study, notice, known, baseline)
+    best = min([baseline, *found], key=lambda one: one.misfit)
+    if best is baseline or adequate(best):
+        return Weighed(baseline, found)
+    quiet = _left(study, best)
+    if quiet is None and causes > 1:
+        found += _pairs(study, notice, known, found)
+        best = min(found, key=lambda one: one.misfit)
+        quiet = None if adequate(best) else _left(study, best)
+    return Weighed(baseline, found, quiet, None if quiet is None else best)
+
+
+def _left(study: Study, one: Fit) -> Noise | None:
+    return noise(study.spectrum, one.hypothesis, study.places, one.x)
+
+
+def _singles(study: Study, notice: Notice, known: list[Law] | None, baseline: Fit) -> list[Fit]:
+    notice(f"{len(study.places)} places, first look")
+    order = starts((study.looked(place, study.spectrum) for place in study.places), known)
+    found, best = [], baseline
+    for count, start in enumerate(_varied(order), 1):
+        if count > _POLISHED and (adequate(best) or count > _MORE):
+            break
+        notice(_named(start))
+        one = fitted(study, start, best.cost if found else np.inf)
+        if one is not None:
+            found.append(one)
+            best = min(best, one, key=lambda each: each.misfit)
+    if not adequate(best):
+        found += _again(study, best)
+    return found + _relatives(study, best, known)
+
+
+def _named(start: Start) -> str:
+    return " and ".join(f"{part.law.title}, {part.place.site.text}" for part in start.hypothesis.parts)
+
+
+def _pairs(study: Study, notice: Notice, known: list[Law] | None, singles: list[Fit]) -> list[Fit]:
+    """Two laws: a second one beside the best, then beside that second one by itself, as the first may have stood for both."""
+    found: list[Fit] = []
+    first = min(singles, key=lambda one: one.misfit)
+    tried = []
+    for _ in range(_ROUNDS):
+        tried.append(_where(first))
+        notice(f"a second law beside {first.hypothesis.law.title}, {first.hypothesis.place.site.text}")
+        found += _beside(study, notice, known, first, found)
+        if not found or adequate(min(found, key=lambda one: one.misfit)):
+            break
+        first = _other(study, min(found, key=lambda one: one.misfit), tried)
+        if first is None:
+            break
+    return found
+
+
+def _where(one: Fit) -> tuple[str, str]:
+    return one.hypothesis.law.key, one.hypothesis.place.site.text
+
+
+def _beside(study: Study, notice: Notice, known: list[Law] | None, first: Fit, others: list[Fit]) -> list[Fit]:
+    """Fits of `first` with a second law; two laws of one kind at one place are one."""
+    looks = (study.looked(place, study.spectrum, first) for place in study.places)
+    order = [one for one in _varied(starts(looks, known)) if not _doubled(one)]
+    found: list[Fit] = []
+    for start in order[:_SECONDS]:
+        notice(_named(start))
+        best = min([*others, *found], key=lambda one: one.misfit, default=None)
+        one = fitted(study, start, np.inf if best is None else best.cost, first)
+        found += [] if one is None else [one]
+    return found
+
+
+def _doubled(start: Start) -> bool:
+    keys = [(part.law.key, part.place.site.text) for part in start.hypothesis.parts]
+    return len({*keys}) < len(keys)
+
+
+def _other(study: Study, pair: Fit, tried: list[tuple[str, str]]) -> Fit | None:
+    """The second law of a pair by itself; None where it was a first already."""
+    part, hypothesis = pair.hypothesis.parts[-1], pair.hypothesis
+    count = len(part.unknowns)
+    alone = study.base.placed(part.place).at(part.law, part.variant)
+    x = np.concatenate([pair.x[: hypothesis.nuisances], pair.x[-count:]])
+    if (part.law.key, part.place.site.text) in tried:
+        return None
+    return fitted(study, Start(alone, x, 0.0))
+
+
+def _again(study: Study, best: Fit) -> list[Fit]:
+    """The law that comes nearest, begun from other sizes until one is adequate."""
+    if best.hypothesis.law is None:
+        return []
+    found = []
+    last = best.hypothesis.parts[-1]
+    for start in study.at(last.place).apart(last.law, last.variant, _AGAIN)[1:]:
+        one = fitted(study, start)
+        found += [] if one is None else [one]
+        if one is not None and adequate(one):
+            break
+    return found
+
+
+def _varied(order: list[Start]) -> list[Start]:
+    """The first of each law at each place; after the leaders the first of each group that is not among them."""
+    seen, found = set(), []
+    for one in order:
+        key = one.hypothesis.law.key, id(one.hypothesis.place)
+        if key not in seen:
+            seen.add(key)
+            found.append(one)
+    known = {one.hypothesis.law.group for one in found[:_POLISHED]}
+    groups, others = [], []
+    for one in found[_POLISHED:]:
+        (others if one.hypothesis.law.group in known else groups).append(one)
+        known.add(one.hypothesis.law.group)
+    return found[:_POLISHED] + groups + others
+
+
+def _relatives(study: Study, best: Fit, known: list[Law] | None) -> list[Fit]:
+    """Laws that have no first look of their own, begun from the one they generalise: Iwan's from friction."""
+    law = best.hypothesis.law
+    relative = laws()["iwan"]
+    if law is None or law.key != "friction" or adequate(best) or (known is not None and relative not in known):
+        return []
+    kt, slip = np.exp(best.x[-2:])
+    hypothesis = best.hypothesis.without_last.at(relative, 0)
+    x = np.concatenate([best.x[:-2], np.log([1.3 * slip, 1.3 * kt, 0.6, 1.0])])
+    one = fitted(study, Start(hypothesis, x, 0.0))
+    return [] if one is None else [one]
+
+
+def missing(baseline: Fit) -> bool:
+    """Whether what the model leaves is neither chance nor a trifle."""
+    return upper_tail(baseline.misfit, max(int(baseline.dof), 1)) < GATE and baseline.misfit > MATERIAL * baseline.dof
+
+
+def adequate(one: Fit) -> bool:
+    """Whether what a fit leaves may be noise."""
+    return one.misfit <= INADEQUATE * one.dof or upper_tail(one.misfit, max(int(one.dof), 1)) >= GATE

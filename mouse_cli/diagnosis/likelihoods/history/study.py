@@ -1,0 +1,132 @@
+"""What all fits of a deck by its recordings share, and one fit."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.diagnosis.likelihoods.history.deck_laws import acting
+from mouse_cli.diagnosis.likelihoods.history.free_force import Spectrum
+from mouse_cli.diagnosis.likelihoods.history.hypothesis import Hypothesis, Place
+from mouse_cli.diagnosis.likelihoods.history.places import places
+from mouse_cli.diagnosis.likelihoods.history.polish import Fit, Segments, followed, segments
+from mouse_cli.diagnosis.likelihoods.history.records import Records, reduced, steps
+from mouse_cli.diagnosis.likelihoods.history.regression import Regression, Start
+from mouse_cli.diagnosis.likelihoods.history.series import REACH, Series
+from mouse_cli.diagnosis.likelihoods.history.uncertain import Uncertain, uncertain
+from mouse_cli.model.problem import Problem
+
+OFFSET = 0.3  # sd of the offset of a force channel, by its rms
+_SAMPLES = 8192  # of a record that the closed form looks at
+_PERIODS, _SHORTEST, _LONGEST = 10, 256, 1024  # of the first mode in a horizon; its samples
+_SEGMENTS = 10
+_ABOVE, _BEYOND = (
+    2.0,
+    0.75,
+)  # highest mode of a large model, by the highest frequency of the response; by the sample rate at most
+
+
+@dataclass
+class Study:
+    """Everything that fits of one deck share."""
+
+    problem: Problem
+    records: Records
+    model: Uncertain
+    base: Hypothesis
+    look: Series
+    data: list[Segments]
+    band: tuple[float, float]
+    length: int
+
+    def __post_init__(self) -> None:
+        self.spectrum = Spectrum(self.look, self.model.linear)
+        self.places = places(self.problem, self.spectrum, self.model.basis, self.band)
+        self._at: dict[tuple, tuple[Fit | None, Regression]] = {}
+
+    def at(self, place: Place, series: Series | None = None, first: Fit | None = None) -> Regression:
+        """The regression at a place of the record that is looked at, or of another; beside the laws of `first`."""
+        if series is not None:
+            return self.looked(place, Spectrum(series, self.model.linear), first)
+        key = id(place), id(first)
+        if key not in self._at:
+            self._at[key] = first, self.looked(place, self.spectrum, first)
+        return self._at[key][1]
+
+    def looked(self, place: Place, spectrum: Spectrum, first: Fit | None = None) -> Regression:
+        """The same of a spectrum, not kept."""
+        base, x = (self.base, None) if first is None else (first.hypothesis, first.x)
+        return Regression(spectrum, base.placed(place), x)
+
+
+def study(problem: Problem, found: Records) -> Study:
+    """What the fits of a deck begin from."""
+    first = found.fitted[0]
+    lowest, high = _occupied(first)
+    at = np.unique(np.hstack([first.inputs, first.sensing.T]), axis=1)
+    model = uncertain(problem, min(_ABOVE * high, _BEYOND / first.dt), at)
+    hz = _resonances(model)
+    low = min(lowest, 0.5 * float(hz[hz > 1e-3 * hz.max()].min()))
+    make = lambda one: steps(reduced(one, model.basis), min(hz.max(), high))
+    fitted = [make(one) for one in found.fitted]
+    slowest = hz[hz > 1e-3 * hz.max()].min()
+    length = int(np.clip(_PERIODS / slowest / fitted[0].dt, _SHORTEST, _LONGEST))
+    length = max(64, min(length, min(len(one) for one in fitted) // 3))
+    share = max(2, _SEGMENTS // len(fitted))
+    data = [segments(one, length, share) for one in fitted]
+    rms = np.sqrt(np.mean([(one.force**2).mean(axis=0) for one in fitted], axis=0))
+    base = Hypothesis(model.linear, OFFSET * rms, acting(problem, model.basis))
+    loudest = max(fitted, key=lambda one: float((one.measured / one.sd).std()))
+    look = loudest.part(0, min(len(loudest), _SAMPLES))
+    return Study(problem, found, model, base, look, data, (low, high), length)
+
+
+def _resonances(model: Uncertain) -> np.ndarray:
+    from scipy.linalg import eigh
+
+    values = eigh(model.linear.K, model.linear.M, eigvals_only=True)
+    return np.sqrt(np.maximum(values, 0.0)) / (2 * np.pi)
+
+
+def _occupied(series: Series) -> tuple[float, float]:
+    """Where the response is, in Hz: all but a thousandth of its power."""
+    power = (np.abs(np.fft.rfft((series.measured - series.measured.mean(axis=0)) / series.sd, axis=0)) ** 2).sum(axis=1)
+    share = np.cumsum(power) / power.sum()
+    lines = np.fft.rfftfreq(len(series), series.dt)
+    return float(lines[np.searchsorted(share, 0.001)]), float(lines[np.searchsorted(share, 0.999)])
+
+
+def fitted(study: Study, start: Start | None, beat: float = np.inf, first: Fit | None = None) -> Fit | None:
+    """A start followed to its optimum, or until it stays far behind `beat`; the model as it is without one.
+
+    first: the fit of the laws that the start has beside its last one.
+    """
+    hypothesis = study.base if start is None else start.hypothesis
+    place = hypothesis.place or study.places[0]
+    x = np.zeros(len(study.base.mean)) if start is None else start.x
+    look = {id(data): study.at(place, _own(study, data), first) for data in study.data}
+    spread = look[id(study.data[0])].spread
+    states, internal = begin(hypothesis, x, study.data, [look[id(data)] for data in study.data])
+    return followed(hypothesis, study.data, spread, x, states, internal, beat)
+
+
+def begin(hypothesis: Hypothesis, x: np.ndarray, data: list[Segments], looks: list[Regression]):
+    """States (2n, G), and internal states of each law, in which the segments begin, by the motion that records show."""
+    at = [part.starts - REACH for part in data]
+    pairs = list(zip(looks, at, strict=True))
+    states = np.concatenate([look.states(own) for look, own in pairs], axis=1)
+    internal = []
+    for one in hypothesis.acting(x):
+        parts = [look.internal(one, own) for look, own in pairs]
+        internal.append(None if parts[0] is None else np.concatenate(parts, axis=2))
+    return states, internal or None
+
+
+def _own(study: Study, data: Segments) -> Series | None:
+    """The series of `data` where it is not the one that is looked at from its beginning."""
+    last = int(data.starts.max()) + data.length
+    same = (
+        data.series.title == study.look.title
+        and data.series.first == study.look.first
+        and last <= len(study.look) - REACH
+    )
+    return None if same else data.series

@@ -1,0 +1,108 @@
+"""A run on recordings: parameters of the deck and of its laws by the output-error fit that a diagnosis begins with."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from mouse_cli.diagnosis.likelihoods.history.hypothesis import Hypothesis, Part, Place
+from mouse_cli.diagnosis.likelihoods.history.noise import noise
+from mouse_cli.diagnosis.likelihoods.history.polish import Fit, Polish, followed
+from mouse_cli.diagnosis.likelihoods.history.prove import scores, surface, trace
+from mouse_cli.diagnosis.likelihoods.history.records import Records, records
+from mouse_cli.diagnosis.likelihoods.history.search import Notice, missing
+from mouse_cli.diagnosis.likelihoods.history.study import Study, begin, study
+from mouse_cli.diagnosis.likelihoods.history.uncertain import Uncertain
+from mouse_cli.diagnosis.likelihoods.history.verdict import causes
+from mouse_cli.model.diagnosis import Site
+from mouse_cli.model.local_law import LocalLaw
+from mouse_cli.model.problem import Problem
+from mouse_cli.model.record_update import RecordUpdate
+from mouse_cli.model.result import ChiSquareTest
+from mouse_cli.terms.laws import Scale, registry
+from mouse_cli.updating.chi_square import upper_tail
+from mouse_cli.updating.refusals import not_simulated
+
+_RANGE = 30.0  # factor within which a parameter of a law may be revised
+_STEP = 1e-4  # of finite differences, in prior sd
+
+
+def update_records(problem: Problem, notice: Notice) -> RecordUpdate:
+    """The model of `problem` revised by its recordings.
+
+    Raises DeckError (MD640) for records that cannot judge, NumericalError (MD540) where the model as it is cannot be simulated.
+    """
+    found = records(problem)
+    own = study(problem, found)
+    notice("simulation of the records")
+    prior, fit = _fitted(own, [_part(one, own) for one in problem.laws])
+    if fit is None:
+        raise not_simulated(problem)
+    notice("records that no fit has seen")
+    left = noise(own.spectrum, fit.hypothesis, own.places, fit.x) if missing(fit) else None
+    scale = max(1.0, fit.misfit / fit.dof) / (left.effective if left else 1.0)
+    dof = max(int(fit.dof), 1)
+    return RecordUpdate(
+        problem=problem,
+        theta=own.model.theta(fit.x[: own.model.own]),
+        covariance=scale * _covariance(own.model, fit),
+        laws=causes(replace(fit, covariance=scale * fit.covariance)),
+        residual=ChiSquareTest("residual", fit.misfit, dof, upper_tail(fit.misfit, dof)),
+        noise_scale=scale,
+        explained=not missing(fit) or left is not None,
+        noise=left,
+        scores=scores(own, prior, fit),
+        trace=trace(own, prior, fit),
+        surface=surface(own, fit),
+        remarks=found.remarks + own.model.remarks,
+        **_told(found),
+    )
+
+
+def _told(found: Records) -> dict[str, object]:
+    """What reports say of the records."""
+    return {
+        "channels": tuple(channel.sensor or channel.name for channel in found.outputs),
+        "units": tuple(channel.unit for channel in found.outputs),
+        "sd": found.fitted[0].sd,
+        "inputs": tuple(channel.sensor or channel.name for channel in found.inputs),
+        "fitted": tuple(one.title for one in found.fitted),
+    }
+
+
+def _part(one: LocalLaw, own: Study) -> tuple[Part, np.ndarray]:
+    """A law of the deck with free parameters, and their values."""
+    law, structure, basis = registry()[one.law], own.problem.structure, own.model.basis
+    names = tuple(structure.labels[i] for i in one.dofs)
+    motion = np.zeros(structure.n)
+    motion[one.dofs[-1]] = 1.0
+    if len(one.dofs) > 1:
+        motion[one.dofs[0]] = -1.0
+    text = f"between {' and '.join((*names, 'the ground') if len(names) == 1 else names)}"
+    place = Place(Site("dof", names, text=text), basis.T @ motion, len(names) == 1, Scale(1, 1, 1, 1, (1, 1)), motion)
+    values = np.array([one.values[size.name] for size in law.parameters])
+    sizes = zip(law.parameters, values, strict=True)
+    ranges = tuple(replace(size, lower=value / _RANGE, upper=value * _RANGE) for size, value in sizes)
+    return Part(place, law, law.words.index(one.variant), ranges), values
+
+
+def _fitted(own: Study, parts: list[tuple[Part, np.ndarray]]) -> tuple[Fit | None, Fit | None]:
+    """The deck as it is, only initial states fitted, and the posterior; None where no simulation stays finite."""
+    place = parts[-1][0].place if parts else None
+    hypothesis = Hypothesis(own.base.linear, own.base.offset, (), place, tuple(part for part, _ in parts))
+    sizes = [np.log(values) for _, values in parts]
+    x = np.concatenate([np.zeros(hypothesis.nuisances), *sizes])
+    looks = [own.at(own.places[0], data.series) for data in own.data]
+    states, internal = begin(hypothesis, x, own.data, looks)
+    spread = looks[0].spread
+    as_it_is = Polish(hypothesis.held(x), own.data, spread).fit(np.zeros(0), states, internal)
+    if as_it_is is None:
+        return None, None
+    return replace(as_it_is, hypothesis=hypothesis, x=x), followed(hypothesis, own.data, spread, x, states, internal)
+
+
+def _covariance(model: Uncertain, fit: Fit) -> np.ndarray:
+    """Of the parameters of the deck (p, p): J S J', J the slope of their values by the nuisances that they are."""
+    z = fit.x[: model.own]
+    J = [(model.theta(z + step) - model.theta(z - step)) / (2 * _STEP) for step in _STEP * np.eye(model.own)]
+    J = np.array(J).reshape(model.own, -1).T
+    return J @ fit.covariance[: model.own, : model.own] @ J.T

@@ -1,0 +1,251 @@
+"""A reduced model with causes added to it: what it predicts at any parameters and sizes, and by which derivatives."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Change, Recipe
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+
+_STEP = 1e-5  # of a range, for derivatives of matrices
+
+
+class Model:
+    """A reduced model with causes: what it predicts at x, and by which derivatives."""
+
+    def __init__(self, base: Reduced, recipes: tuple[Recipe, ...] = ()):
+        self.base, self.recipes = base, recipes
+        self.k = base.L.shape[1]
+        counts = [len(recipe.unknowns) for recipe in recipes]
+        self.t, cut = sum(counts), np.cumsum([0, *counts])
+        self.own = [slice(a, b) for a, b in pairwise(cut)]
+        self.bounds = np.concatenate([np.zeros((0, 2)), *(recipe.bounds for recipe in recipes)])
+        self.width = self.bounds[:, 1] - self.bounds[:, 0]
+        last, self.places = base.r, []
+        for recipe in recipes:
+            self.places.append(np.concatenate([np.arange(base.r), last + np.arange(recipe.own)]).astype(int))
+            last += recipe.own
+        self.size = last
+
+    def changes(self, c: np.ndarray) -> list[Change]:
+        """What each cause does at the coordinates c (t,)."""
+        return [recipe.at(c[own]) for recipe, own in zip(self.recipes, self.own, strict=True)]
+
+    def added(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """K, M (size, size) and sensing (s, size) that the causes add at x (k + t,)."""
+        changes = self.changes(x[self.k :])
+        K, M, S = self.summed(list(enumerate(changes)))
+        self._crossed(K, M)
+        if self.following is not None:
+            step = self.base.step(x[: self.k])
+            for into, slopes in zip((K, M), self.following, strict=True):
+                into += np.tensordot(step, slopes, 1)
+        bars, core = self.softer(changes)
+        if len(bars):
+            K[: self.base.r, : self.base.r] += self.base.bars.strained(bars, core * self.follow(bars, x[: self.k]))
+        return K, M, S
+
+    def softer(self, changes: list[Change]) -> tuple[np.ndarray, np.ndarray]:
+        """Bars (c,), and the changes of their stiffness (c, 3, 3) by all that makes them softer, in series within each."""
+        parts = [change.softening for change in changes if change.softening is not None]
+        if not parts:
+            return np.zeros(0, int), np.zeros((0, 3, 3))
+        bars, at = np.unique(np.concatenate([part.bars for part in parts]), return_inverse=True)
+        total = np.zeros((len(bars), 3, 3))
+        np.add.at(total, at, np.concatenate([part.added for part in parts]))
+        return bars, self.base.bars.lost(bars, total)
+
+    def follow(self, bars: np.ndarray, z: np.ndarray) -> np.ndarray:
+        """EI of `bars` at z over what it is at the parameters of the base (c, 1, 1)."""
+        return np.exp(self.base.stiffening[bars] @ (z - self.base.z))[:, None, None]
+
+    def summed(self, parts: list[tuple[int, Change]]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """K, M (size, size) and sensing (s, size) that `parts` make, by number of the recipe; without what softens bars."""
+        K, M = np.zeros((2, self.size, self.size))
+        S = np.zeros((self.base.sensing.shape[0], self.size))
+        for i, change in parts:
+            at, G = self.places[i], self._carried(i)
+            for into, matrix in ((K, change.K), (M, change.M)):
+                if matrix is not None and G is not None:
+                    into += G.T @ matrix @ G
+                elif matrix is not None:
+                    into[at[:, None], at] += matrix
+            if change.sensing is not None and G is not None:
+                S += change.sensing @ G
+            elif change.sensing is not None:
+                S[:, at] += change.sensing
+        return K, M, S
+
+    def _crossed(self, K: np.ndarray, M: np.ndarray) -> None:
+        """Adds what is between the own degrees of freedom of two causes that both carry the model along."""
+        own = [j for j, recipe in enumerate(self.recipes) if recipe.carried is not None]
+        for i, j in ((i, j) for i in own for j in own if i != j):
+            one, other = self.recipes[i].carried, self.recipes[j].carried
+            at = np.ix_(self.places[i][self.base.r :], self.places[j][self.base.r :])
+            K[at] += one.whole.T @ other.K
+            M[at] += one.whole.T @ other.M
+
+    @cached_property
+    def following(self) -> tuple[np.ndarray, np.ndarray] | None:
+        """What the deck's parameters, along each of d directions, add to K and M (d, size, size) of the causes; None: nothing."""
+        own = [(i, recipe.carried) for i, recipe in enumerate(self.recipes) if recipe.carried and recipe.carried.slopes]
+        if not own:
+            return None
+        K, M = np.zeros((2, self.base.directions.shape[1], self.size, self.size))
+        for i, carried in own:
+            at = self.places[i]
+            of_K, of_M, *of_cause = carried.slopes
+            for into, slopes in zip((K, M), of_cause, strict=True):
+                into[:, at[:, None], at] += slopes
+            for j, other in own:
+                if i != j:
+                    across = (slice(None), *np.ix_(self.places[j][self.base.r :], at[self.base.r :]))
+                    K[across] += other.whole.T @ of_K
+                    M[across] += other.whole.T @ of_M
+        return K, M
+
+    def followed(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+        """Its derivatives by z (k, size, size)."""
+        if self.following is None:
+            return None
+        rates = self.base.rates(z)
+        return tuple(np.tensordot(rates, slopes, 1) for slopes in self.following)
+
+    def _carried(self, i: int) -> np.ndarray | None:
+        """Coordinates of cause i from those of all (., size), where other causes carry the model along."""
+        r, at = self.base.r, self.places[i]
+        others = [j for j, recipe in enumerate(self.recipes) if j != i and recipe.carried is not None]
+        if not others or self.recipes[i].carried is not None:
+            return None
+        G = np.zeros((len(at), self.size))
+        G[range(len(at)), at] = 1.0
+        for j in others:
+            G[:r, self.places[j][r:]] = self.recipes[j].carried.model
+        return G
+
+    def point(self, x: np.ndarray) -> "Point | None":
+        """The model at x (k + t,); None where it is not physical."""
+        r = self.base.r
+        K, M, S = self.added(x)
+        K0, M0 = self.base.matrices(x[: self.k])
+        K[:r, :r] += K0
+        M[:r, :r] += M0
+        S[:, :r] += self.base.sensing
+        eigenvalues, X = modes_of(K, M)
+        if not np.isfinite(eigenvalues).all() or eigenvalues[0] < -1e-5 * abs(eigenvalues[-1]):
+            return None
+        seen = S @ X
+        modes = self.base.data.pair(eigenvalues, seen)
+        if modes.max() >= len(eigenvalues) or eigenvalues[modes].min() <= 0:
+            return None
+        residual, a = self.base.data.residual(eigenvalues[modes], seen[:, modes])
+        return Point(x, eigenvalues, X, seen, modes, residual, a)
+
+    def jacobian(self, at: "Point") -> np.ndarray:
+        """d(prediction)/dx (q, k + t), whitened."""
+        r, X, m = self.base.r, at.X, at.modes
+        dK, dM = self.base.slopes(at.x[: self.k])
+        inertia = dM @ X[:r, m]
+        forces = dK @ X[:r, m] - inertia * at.eigenvalues[m] + self._following(at)
+        G = [np.swapaxes(forces, 1, 2) @ X[:r]]  # (k, m, modes)
+        own = [np.einsum("prm,rm->pm", inertia, X[:r, m])]
+        if (followed := self.followed(at.x[: self.k])) is not None:
+            carried = followed[1] @ X[:, m]
+            G[0] += np.swapaxes(followed[0] @ X[:, m] - carried * at.eigenvalues[m], 1, 2) @ X
+            own[0] += np.einsum("prm,rm->pm", carried, X[:, m])
+        sensed = np.zeros((self.k, at.seen.shape[0], len(m)))
+        for i, change in self.derivatives(at.x):
+            K, M, S = self.summed([(i, change)])
+            moved = M @ X[:, m]
+            G.append(((K @ X[:, m] - moved * at.eigenvalues[m]).T @ X)[None])
+            own.append(np.einsum("rm,rm->m", moved, X[:, m])[None])
+            sensed = np.concatenate([sensed, (S @ X[:, m])[None]])
+        G, own = np.concatenate(G), np.concatenate(own)
+        apart = at.eigenvalues[m][:, None] - at.eigenvalues
+        apart[np.abs(apart) < 1e-9 * np.abs(at.eigenvalues[m])[:, None]] = np.inf
+        d_lambda = G[:, np.arange(len(m)), m]
+        d_seen = np.einsum("sj,pmj->psm", at.seen, G / apart) - 0.5 * own[:, None] * at.seen[:, m] + sensed
+        return self.base.data.jacobian(at.eigenvalues[m], at.seen[:, m], at.a, d_lambda.T, np.moveaxis(d_seen, 0, -1))
+
+    def _following(self, at: "Point") -> np.ndarray | float:
+        """Forces (k, r, m) on the measured modes by what softens bars, as it follows their stiffness."""
+        bars, core = self.softer(self.changes(at.x[self.k :]))
+        if not len(bars):
+            return 0.0
+        rows = self.base.bars.strain[bars]
+        loads = (core * self.follow(bars, at.x[: self.k])) @ (rows @ at.X[: self.base.r, at.modes])
+        b, follows = len(bars), self.base.stiffening[bars].T
+        loads = follows[:, :, None, None] * loads  # (k, b, 3, m)
+        return rows.reshape(3 * b, -1).T @ loads.reshape(len(follows), 3 * b, loads.shape[-1])
+
+    def parts(self, at: "Point") -> list[tuple["Model", "Point"]]:
+        """The model and its point by themselves: there is one arrangement."""
+        return [(self, at)]
+
+    def loosened(self, at: "Point", share: float) -> "Model | None":
+        """The same, its data allowed that share of what the causes do at a point; None where there is no model without them."""
+        bare = Model(self.base).point(at.x[: self.k])
+        if bare is None:
+            return None
+        data = self.base.data
+        off = share * 0.5 * np.log(at.eigenvalues[at.modes] / bare.eigenvalues[bare.modes])
+        _, a = data.residual(bare.eigenvalues[bare.modes], bare.seen[:, bare.modes])
+        moved = share * (at.a * at.seen[:, at.modes] - a * bare.seen[:, bare.modes])
+        return Model(self.base.judged_by(data.loosened(off, moved)), self.recipes)
+
+    def derivatives(self, x: np.ndarray) -> Iterator[tuple[int, Change]]:
+        """Recipe and d(change)/dc, by central differences of the matrices, for each coordinate of the causes."""
+        z, c = x[: self.k], x[self.k :]
+        changes = self.changes(c)
+        for i, (recipe, own) in enumerate(zip(self.recipes, self.own, strict=True)):
+            for j in range(own.start, own.stop):
+                sides = np.clip(c[j] + _STEP * self.width[j] * np.array([1, -1]), *self.bounds[j])
+                one, other = (self._with(recipe, c[own], j - own.start, side) for side in sides)
+                yield i, self._difference(z, changes, i, (one, other), sides[0] - sides[1])
+
+    def _with(self, recipe: Recipe, c: np.ndarray, j: int, value: float) -> Change:
+        there = c.copy()
+        there[j] = value
+        return recipe.change(recipe.values(there))
+
+    def _difference(self, z: np.ndarray, changes: list[Change], i: int, sides: tuple[Change, Change], length: float):
+        """Their difference over `length`, for cause number i beside the other ones."""
+        parts = []
+        for name in ("K", "M", "sensing"):
+            a, b = (getattr(side, name) for side in sides)
+            parts.append(None if a is None else (a - b) / length)
+        if sides[0].softening is not None:
+            one, other = (self.softer([*changes[:i], side, *changes[i + 1 :]]) for side in sides)
+            a, b = (self.base.bars.strained(bars, core * self.follow(bars, z)) for bars, core in (one, other))
+            softer = (a - b) / length
+            parts[0] = softer if parts[0] is None else parts[0] + softer
+        return Change(*parts)
+
+
+def modes_of(K: np.ndarray, M: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Eigenvalues (size,) and mass-normalised shapes of symmetric K and M, which are overwritten; NaN where M is no mass."""
+    from scipy.linalg.lapack import dsygvd
+
+    eigenvalues, X, fault = dsygvd(K.T, M.T, overwrite_a=1, overwrite_b=1)
+    return (np.full(len(K), np.nan) if fault else eigenvalues), X
+
+
+@dataclass(frozen=True)
+class Point:
+    """Model at x: all eigenvalues, shapes X (size, size), what sensors see of them (s, size), measured modes, residual, scales."""
+
+    x: np.ndarray
+    eigenvalues: np.ndarray
+    X: np.ndarray
+    seen: np.ndarray
+    modes: np.ndarray
+    residual: np.ndarray
+    a: np.ndarray
+
+    @property
+    def chi2(self) -> float:
+        """What is left of the data's misfit."""
+        return float(self.residual @ self.residual)

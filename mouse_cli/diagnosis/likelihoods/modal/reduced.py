@@ -1,0 +1,220 @@
+"""The baseline in few coordinates: its modes, what its parameters do to them, and what forces where sensors are would do.
+
+u = V q with V'M V = I and V'K V diagonal at the parameters that the update found. A small model keeps all of its modes, and is
+exact; of a large one V holds the lowest, the static responses to unit loads at sensors and at places that matter, and the
+derivatives of the measured modes by the parameters.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from mouse_cli.diagnosis.likelihoods.modal.data import Data
+from mouse_cli.diagnosis.likelihoods.modal.directions import Directions, directions, projected
+from mouse_cli.diagnosis.sites.bars import Bars, bars, motion_of, stiffening
+from mouse_cli.dynamics.contraction import Stack
+from mouse_cli.dynamics.eigen import dense_solution
+from mouse_cli.dynamics.sensing import read
+from mouse_cli.dynamics.solver import EigenSolver
+from mouse_cli.model.arrays import dense
+from mouse_cli.model.modal_test import ModalTest, restricted
+from mouse_cli.model.problem import Problem
+from mouse_cli.terms.assembly import Assembly, assembly
+from mouse_cli.terms.constraints import Motion
+from mouse_cli.updating.coordinates import Coordinates
+
+WHOLE = 200  # degrees of freedom up to which a model is not reduced
+
+
+@dataclass(frozen=True)
+class Reduced:
+    """theta (p,): where causes are weighed. eigenvalues (r,) where V is taken: there, or at `origin` (p,). dK, dM (k, r, r):
+    derivatives along `directions` (p, k) of theta.
+
+    sensing (s, r); V (n, r); data: the test. places: degrees of freedom (from 0) at which a force is exact, of a large model;
+    None: everywhere.
+    """
+
+    problem: Problem
+    theta: np.ndarray
+    coordinates: Coordinates
+    directions: np.ndarray
+    V: np.ndarray
+    eigenvalues: np.ndarray
+    dK: np.ndarray
+    dM: np.ndarray
+    sensing: np.ndarray
+    data: Data
+    assembly: Assembly
+    places: np.ndarray | None = None
+    origin: np.ndarray | None = None
+
+    @property
+    def r(self) -> int:
+        """Number of coordinates."""
+        return len(self.eigenvalues)
+
+    @cached_property
+    def L(self) -> np.ndarray:
+        """Root (p, k) of the prior, in the coordinates u in which parameters are estimated."""
+        L = self.coordinates.L
+        return np.diag(L) if L.ndim == 1 else L
+
+    def parameters(self, z: np.ndarray) -> np.ndarray:
+        """Values (p,) of the deck's parameters at z (k,), prior standard deviations from the prior mean."""
+        return self.coordinates.value(self.coordinates.mean + self.L @ z)
+
+    def matrices(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """K and M (r, r) at z (k,)."""
+        key = z.tobytes()
+        if key not in self._at:
+            step = self.step(z)
+            K, M = (step @ d.reshape(len(step), self.r**2) for d in (self.dK, self.dM))
+            K[:: self.r + 1] += self.eigenvalues
+            M[:: self.r + 1] += 1.0
+            self._at.clear()
+            self._at[key] = K.reshape(self.r, self.r), M.reshape(self.r, self.r)
+        return self._at[key]
+
+    def step(self, z: np.ndarray) -> np.ndarray:
+        """How far (d,) the parameters at z are along each direction from where V was taken."""
+        return self._along @ (self.parameters(z) - (self.theta if self.origin is None else self.origin))
+
+    def rates(self, z: np.ndarray) -> np.ndarray:
+        """Its derivatives (k, d)."""
+        by = self.coordinates.slope(self.coordinates.mean + self.L @ z)[:, None] * self.L
+        return (self._along @ by).T
+
+    @cached_property
+    def _at(self) -> dict[bytes, tuple[np.ndarray, np.ndarray]]:
+        """K and M at the z that was asked for last: many causes are looked at with the same parameters."""
+        return {}
+
+    def slopes(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """dK/dz and dM/dz (k, r, r)."""
+        by = self.rates(z)
+        shape = len(by), self.r, self.r
+        return tuple((by @ d.reshape(len(d), self.r**2)).reshape(shape) for d in (self.dK, self.dM))
+
+    @cached_property
+    def _along(self) -> np.ndarray:
+        """From changes of the parameters to steps in the directions (k, p)."""
+        return np.linalg.pinv(self.directions)
+
+    @cached_property
+    def z(self) -> np.ndarray:
+        """z (k,) of theta."""
+        u = np.where(self.coordinates.logarithmic, np.log(np.maximum(self.theta, 1e-300)), self.theta)
+        return (
+            np.linalg.lstsq(self.L, u - self.coordinates.mean, rcond=None)[0]
+            if self.L.size
+            else np.zeros(self.L.shape[1])
+        )
+
+    @cached_property
+    def motion(self) -> Motion | None:
+        """How nodes follow degrees of freedom; None without a mesh."""
+        return None if self.problem.mesh is None else motion_of(self.problem)
+
+    @cached_property
+    def bars(self) -> Bars | None:
+        """Bars that bend; None where there are none."""
+        return None if self.motion is None else bars(self.problem, self.motion, self.theta, self.V)
+
+    @cached_property
+    def stiffening(self) -> np.ndarray:
+        """d ln EI / dz (b, k) of the bars: what softens them follows their stiffness."""
+        by = self.coordinates.slope(self.coordinates.mean + self.L @ self.z)[:, None] * self.L
+        return stiffening(self.problem, self.bars, self.theta) @ by
+
+    @cached_property
+    def total_mass(self) -> float:
+        """Mass (kg) that moves when the structure translates; without geometry the sum of the diagonal."""
+        _, M = self.assembly.matrices(self.theta)
+        at = self.problem.structure.geometry
+        if at is None:
+            return float(M.diagonal().sum())
+        rigid = ((at.direction == np.arange(3)[:, None]) & (at.node >= 0)).astype(float)
+        return max(float(row @ (M @ row)) for row in rigid) or float(M.diagonal().sum())
+
+    def project(self, matrix) -> np.ndarray:
+        """V' matrix V (r, r)."""
+        return self.V.T @ (matrix @ self.V)
+
+    def node(self, index: int) -> np.ndarray:
+        """Motion (6, r) of a node in each coordinate."""
+        rows = np.zeros((6, self.r))
+        for d in range(6):
+            dofs, factor = self.motion.of(index, d)
+            rows[d] = factor @ self.V[dofs] if len(dofs) else 0.0
+        return rows
+
+    def within(self, Q: np.ndarray) -> "Reduced":
+        """The same model in fewer coordinates, combinations Q (r, c) of its own with Q'Q = I."""
+        eigenvalues, W = np.linalg.eigh((Q.T * self.eigenvalues) @ Q)
+        Q = Q @ W
+        return replace(
+            self,
+            V=self.V @ Q,
+            eigenvalues=eigenvalues,
+            dK=Q.T @ self.dK @ Q,
+            dM=Q.T @ self.dM @ Q,
+            sensing=self.sensing @ Q,
+        )
+
+    def recipes(self, candidate) -> list:
+        """What `candidate` can do to this model, and where."""
+        return candidate.recipes(self, candidate)
+
+    def looked_at(self, do: Callable[["Reduced"], "Reduced"]) -> "Reduced":
+        """What a first look is made with: what `do` makes of it."""
+        return do(self)
+
+    def judged_by(self, data: Data) -> "Reduced":
+        """The same model for the same test at other accuracies."""
+        return replace(self, data=data)
+
+    def at(self, theta: np.ndarray) -> "Reduced":
+        """The same model at other values theta (p,) of its parameters; a large one in the same coordinates and places."""
+        if self.V.shape[0] <= WHOLE:
+            return replace(reduced(self.problem, theta), data=self.data)
+        return replace(self, theta=theta, origin=self.theta if self.origin is None else self.origin)
+
+    def without(self, keep_modes: np.ndarray) -> "Reduced":
+        """The same model with fewer measured modes: mask `keep_modes` (m,)."""
+        return self.with_test(restricted(self.data.test, keep_modes))
+
+    def with_test(self, test: ModalTest, sensing: np.ndarray | None = None) -> "Reduced":
+        """The same model for another test, of the same sensors or of `sensing` (s, r)."""
+        return replace(self, data=Data(test), sensing=self.sensing if sensing is None else sensing)
+
+
+def reduced(problem: Problem, theta: np.ndarray, solver: EigenSolver | None = None) -> Reduced:
+    """The model of `problem` at theta (p,), reduced where it is large; solver: one that may have its modes."""
+    total = assembly(problem)
+    K, M = total.matrices(theta)
+    if K.shape[0] > WHOLE:
+        from mouse_cli.diagnosis.likelihoods.modal.subspace import large
+
+        return large(problem, total, K, M, theta, solver)
+    solution = dense_solution(dense(K), dense(M))
+    stack = Stack(total.n, total.p, total.slopes(theta))
+    V, eigenvalues = solution.shapes, solution.eigenvalues
+    return built(problem, total, theta, V, eigenvalues, directions(problem, total, theta, stack, V, eigenvalues), stack)
+
+
+def built(
+    problem: Problem,
+    total: Assembly,
+    theta: np.ndarray,
+    V: np.ndarray,
+    eigenvalues: np.ndarray,
+    by: Directions,
+    stack: Stack,
+) -> Reduced:
+    """The model in the coordinates V (n, r), whose parameters move it in the directions `by`."""
+    dK, dM = projected(stack, by.values, V)
+    seen = np.asarray(read(problem.test.measured_at, V))
+    return Reduced(problem, theta, by.coordinates, by.values, V, eigenvalues, dK, dM, seen, Data(problem.test), total)

@@ -1,0 +1,87 @@
+"""Mass along bars: a liquid that moves along, ice, coating, cladding."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product, steps
+from mouse_cli.diagnosis.effects.line_mass import Wet
+from mouse_cli.diagnosis.extend.edit import Edit, every_beam
+from mouse_cli.diagnosis.extend.places import beams_within, element_at
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.lines import Line
+from mouse_cli.diagnosis.sites.preload import runs
+from mouse_cli.model.diagnosis import Site
+from mouse_cli.model.problem import Problem
+
+_MOST = 12  # rows of bars that may be covered from an end
+
+
+def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
+    """M + m times the integral of u'u over all bars, or over a row of them from either end on."""
+    found = runs(model, "nonstructural_mass")
+    if not found:
+        return []
+    bars = model.bars
+    mean = float(np.average(bars.line_mass, weights=bars.length)) or 1.0
+    m = Unknown("mass per length", "kg/m", 1e-3 * mean, mean)
+    wet = {i: Wet(run) for i, run in enumerate(found)}
+    total = sum(part.sums[-1] for part in wet.values())
+    everywhere = Recipe(
+        candidate,
+        (m,),
+        lambda values: Change(M=values[0] * total),
+        steps(m, 4)[:, None],
+        log_prior=float(np.log(0.5)),
+        extend=lambda problem, values: _with_mass(problem, values[0], None, "all beams"),
+    )
+    ended = list(wet.items())[:_MOST] if len(found) == len(bars.runs) else []
+    share = 0.5 / (2 * max(len(ended), 1))
+    partly = [_partly(candidate, found[i], part, m, back, share) for i, part in ended for back in (False, True)]
+    return [everywhere, *partly] if len(found) == len(bars.runs) else []
+
+
+def _partly(candidate: Candidate, run: Line, wet: Wet, m: Unknown, back: bool, share: float) -> Recipe:
+    """Over a part of a row, from its beginning or (`back`) from its end."""
+    covered = Unknown("covered share of the length", "1", 0.05, 0.95, log=False)
+    L, ids = run.length, run.bars.ids[run.members]
+
+    def change(values: np.ndarray) -> Change:
+        s = L * (1 - values[1] if back else values[1])
+        return Change(M=values[0] * (wet.sums[-1] - wet.upto(s) if back else wet.upto(s)))
+
+    def site(values: np.ndarray) -> Site:
+        first, last = (ids[-1], ids[0]) if back else (ids[0], ids[-1])
+        text = f"{values[1]:.2f} of the length from the end at element {first} towards element {last}"
+        return Site("element", tuple(ids.tolist()), None, text)
+
+    def extend(problem: Problem, values: np.ndarray) -> Problem:
+        s = L * (1 - values[1] if back else values[1])
+        middle = np.array(run.bars.point(*run.at(s)))
+        ends = (middle, run.ends[1]) if back else (run.ends[0], middle)
+        return _with_mass(problem, values[0], ends, site(values).text)
+
+    grid = product(steps(m, 3), steps(covered, 3))
+    return Recipe(candidate, (m, covered), change, grid, site, log_prior=float(np.log(share)), extend=extend)
+
+
+def _with_mass(problem: Problem, m: float, ends: tuple | None, where: str) -> Problem:
+    edit = Edit(problem)
+    if ends is None:
+        beams = every_beam(edit)
+    else:
+        for end in ends:
+            edit.split(*element_at(edit, end, ends[1] - ends[0]))
+        beams = beams_within(edit, [ends])
+    edit.put(beams, "nonstructural_mass", np.array([edit.values(e, "nonstructural_mass") for e in beams]) + m)
+    edit.bind(f"added mass of {where}", beams, ("nonstructural_mass",), unit="kg/m")
+    return edit.done()
+
+
+CANDIDATE = Candidate(
+    "added-mass",
+    "added mass along bars",
+    "added-mass",
+    "mass per length that the model does not know (liquid that moves along, ice, cladding), on all bars or from an end on; on all "
+    "bars alike it is what a larger density would be",
+    recipes,
+)

@@ -1,0 +1,48 @@
+"""An open crack across a bar of rectangular section."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Recipe, Unknown, steps
+from mouse_cli.diagnosis.effects.fracture import bending, coupling, shearing, stretching
+from mouse_cli.diagnosis.effects.hinges import places, with_hinge
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.model.problem import Problem
+
+
+def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
+    """F + 6 (1 - nu^2) h F1 / EI b b' + l/(3 EI) 2 (1 - nu^2) (h/l)^3 F2 on the antisymmetric strain, b = [1, eta, e].
+
+    e: distance of the point about which the crack turns from the axis; what it parts there comes to the elongation.
+    """
+    bars, depth = model.bars, Unknown("depth over height", "1", 0.05, 0.7)
+
+    def compliances(bar: int, depth: float) -> tuple[float, float, float, float]:
+        """Angle for a unit moment, sliding and parting for unit forces, and e."""
+        height = np.sqrt(12 * bars.EI[bar] / bars.E[bar] / bars.A[bar])
+        c = (1 - bars.nu[bar] ** 2) * height / bars.EI[bar]
+        turning, both = 6 * c * bending(depth), c * height * coupling(depth)
+        parting = c * height**2 * stretching(depth) / 6 - both**2 / turning
+        return turning, c * height**2 * shearing(depth) / 6, parting, both / turning
+
+    def added(bar: int, at: float, values: np.ndarray) -> np.ndarray:
+        turning, sliding, parting, e = compliances(bar, values[0])
+        b = np.array([1.0, 2 * at - 1, e])
+        return turning * np.outer(b, b) + np.diag([0.0, 4 / bars.length[bar] ** 2 * sliding, parting])
+
+    def extend(problem: Problem, bar: int, at: float, values: np.ndarray) -> Problem:
+        turning, sliding, parting, e = compliances(bar, values[0])
+        name = f"crack in {bars.site(bar, at).text}"
+        return with_hinge(problem, bars, bar, at, name, 1 / turning, 1 / sliding, 1 / parting, e)
+
+    return places(model, candidate, (depth,), added, steps(depth, 3), extend)
+
+
+CANDIDATE = Candidate(
+    "crack",
+    "an open crack",
+    "local-stiffness",
+    "an open edge crack across a bar of rectangular section: it gives way in bending about a point off the axis, and a little in "
+    "tension and shear, by its depth (linear fracture mechanics)",
+    recipes,
+)

@@ -1,0 +1,36 @@
+"""A spring from one place of the structure to the ground."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.extend.points import with_spring
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.likelihoods.modal.scales import lowest, total_mass
+from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.points import Points, directions, placed
+
+_ALONG, _AT = 6, 18  # stiffnesses to begin from: along a line each helps its neighbours, at one place nothing else does
+
+
+def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
+    """K + k B'B, B the motion of a place in one direction."""
+    scale = lowest(model) * total_mass(model)
+    k = Unknown("stiffness", "N/m", 1e-3 * scale, 1e3 * scale)
+
+    def change(sizes: np.ndarray, B: np.ndarray) -> Change:
+        return Change(K=sizes[0] * B.T @ B)
+
+    def at(point: Points) -> Recipe:
+        starts = steps(k, _ALONG if point.unknown else _AT)
+        return placed(candidate, point, (k,), (starts,), change, with_spring)
+
+    return [at(point) for point in directions(model)]
+
+
+CANDIDATE = Candidate(
+    "ground-spring",
+    "a spring to the ground",
+    "ground-spring",
+    "a support, cable or contact that ties one place to the surroundings: K + k B'B",
+    recipes,
+)

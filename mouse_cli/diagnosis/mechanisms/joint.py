@@ -1,0 +1,99 @@
+"""A joint of bars that gives way in bending."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Softening, Unknown, steps
+from mouse_cli.diagnosis.effects.hinges import with_hinge
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.bars import Bars
+from mouse_cli.model.diagnosis import Site
+from mouse_cli.model.problem import Problem
+
+_MOST = 60  # joints that are looked at: those that bend most in the lowest modes
+_SAME = 1e-6  # of directions
+_STEP = 1.3  # ratio of stiffnesses or masses from which on a straight line changes its section, and does not taper
+
+
+def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
+    """F + c [1, eta]'[1, eta], eta = +-1, at each end of a bar where others begin, in each plane."""
+    bars = model.bars
+    if bars is None:
+        return []
+    ends = _ends(bars)
+    modes = slice(0, min(model.r, int(model.data.test.number.max()) + 1))
+    bent = [np.abs(_moment(bars, bar, end, modes)).max() for bar, end in ends]
+    chosen = [ends[i] for i in sorted(np.argsort(bent)[::-1][:_MOST])]
+    return [_recipe(model, candidate, bar, end, len(ends)) for bar, end in chosen]
+
+
+def _moment(bars: Bars, bar: int, end: int, modes: slice) -> np.ndarray:
+    """Bending moment of the modes at an end."""
+    return np.array([1.0, 2.0 * end - 1, 0.0]) @ np.linalg.solve(bars.flexibility[bar], bars.strain[bar][:, modes])
+
+
+def _ends(bars: Bars) -> list[tuple[int, int]]:
+    """Ends of bars (bar, 0 or 1) at nodes where not just one uniform line passes; of two that turn about one axis, one."""
+    at: dict[int, list[tuple[int, int]]] = {}
+    for bar in range(len(bars)):
+        for end in (0, 1):
+            at.setdefault(int(bars.nodes[bar, end]), []).append((bar, end))
+    found = []
+    for ends in at.values():
+        elements = {(int(bars.set[b]), int(bars.member[b])) for b, _ in ends}
+        if len(elements) < 2 or (len(elements) == 2 and _passes(bars, ends)):
+            continue
+        found += _different(bars, ends) if len(elements) == 2 else ends
+    return found
+
+
+def _passes(bars: Bars, ends: list[tuple[int, int]]) -> bool:
+    """Whether two bars continue one another without a step in their section."""
+    return all(
+        any(
+            bars.line[b] == bars.line[c]
+            and all(v[b] < _STEP * v[c] and v[c] < _STEP * v[b] for v in (bars.EI, bars.line_mass + 1e-300))
+            for c, _ in ends
+            if c != b
+        )
+        for b, _ in ends
+    )
+
+
+def _different(bars: Bars, ends: list[tuple[int, int]]) -> list[tuple[int, int]]:
+    """Ends that turn about different axes, for a hinge between two bars is one, whichever of them it is put to."""
+    found, axes = [], []
+    for bar, end in ends:
+        axis = np.cross(bars.axis[bar], bars.across[bar])
+        if not any(abs(axis @ other) > 1 - _SAME for other in axes):
+            found.append((bar, end)), axes.append(axis)
+    return found
+
+
+def _recipe(model: Reduced, candidate: Candidate, bar: int, end: int, count: int) -> Recipe:
+    bars = model.bars
+    line = bars.lines[bars.line[bar]]
+    scale = bars.EI[bar] / line.length
+    k = Unknown("stiffness of the joint", "N m/rad", scale / 0.5, scale / 3e-4)
+    b, at = np.array([1.0, 2.0 * end - 1]), np.array([bar])
+    node = int(model.problem.mesh.node_ids[bars.nodes[bar, end]])
+    position = bars.point(bar, float(end))
+    site = Site("node", (node,), position, f"element {bars.ids[bar]} at node {node}, local {'yz'[bars.plane[bar]]}")
+
+    def change(values: np.ndarray) -> Change:
+        return Change(softening=Softening(at, np.outer(b, b)[None] / values[0]))
+
+    def extend(problem: Problem, values: np.ndarray) -> Problem:
+        return with_hinge(problem, bars, bar, float(end), f"joint of {site.text}", values[0])
+
+    log_prior = -float(np.log(count))
+    return Recipe(candidate, (k,), change, steps(k, 3)[:, None], lambda values: site, 0, log_prior, extend)
+
+
+CANDIDATE = Candidate(
+    "joint",
+    "a joint that gives way",
+    "local-stiffness",
+    "a connection of bars (bolts, weld, corner) that the model takes as rigid and that turns in proportion to the moment",
+    recipes,
+)

@@ -1,0 +1,36 @@
+"""A mass at one place of the structure."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.extend.points import with_mass
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.likelihoods.modal.scales import total_mass
+from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.points import Points, all_motions, placed
+
+_ALONG, _AT = 4, 8  # masses to begin from, along a line and at one place
+
+
+def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
+    """M + m B'B, B the translations of a place."""
+    total = total_mass(model)
+    m = Unknown("mass", "kg", 1e-3 * total, 0.5 * total)
+
+    def change(sizes: np.ndarray, B: np.ndarray) -> Change:
+        return Change(M=sizes[0] * B.T @ B)
+
+    def at(point: Points) -> Recipe:
+        starts = steps(m, _ALONG if point.unknown else _AT)
+        return placed(candidate, point, (m,), (starts,), change, with_mass)
+
+    return [at(point) for point in all_motions(model)]
+
+
+CANDIDATE = Candidate(
+    "mass",
+    "a lumped mass",
+    "mass",
+    "something heavy at one place that the model does not know: M + m B'B for the translations B of the place",
+    recipes,
+)

@@ -1,0 +1,35 @@
+"""The inertia of sections that turn, after Rayleigh."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.effects.shearing import rotary, slender, with_rotary
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.model.problem import Problem
+
+
+def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
+    """M + a times the integral of density I N_theta' N_theta; a = 1 is what the section itself has."""
+    if not slender(model):
+        return []
+    factor = Unknown("times density I of the section", "1", 0.5, 30.0)
+    M = rotary(model)
+
+    def change(values: np.ndarray) -> Change:
+        return Change(M=values[0] * M)
+
+    def extend(problem: Problem, values: np.ndarray) -> Problem:
+        return with_rotary(problem, values[0])
+
+    return [Recipe(candidate, (factor,), change, steps(factor, 4)[:, None], extend=extend)]
+
+
+CANDIDATE = Candidate(
+    "rotary-inertia",
+    "rotary inertia",
+    "shear",
+    "inertia of sections that turn in bending (Rayleigh), about a third of what shear does; more than 1 times the section's own "
+    "means heavy parts far from the axis",
+    recipes,
+)

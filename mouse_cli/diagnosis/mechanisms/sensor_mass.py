@@ -1,0 +1,62 @@
+"""The mass of sensors and their cables."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.extend.matrices import of_matrices, with_entries
+from mouse_cli.diagnosis.extend.points import found
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.likelihoods.modal.scales import total_mass
+from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.model.diagnosis import Site
+from mouse_cli.model.problem import Problem
+
+
+def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
+    """M + m sum B'B, B the translations of each place with a sensor, or what a sensor without a place reads."""
+    test, structure = model.data.test, model.problem.structure
+    if not test.s:
+        return []
+    geometry, dofs = structure.geometry, np.unique(test.dofs)
+    nodes = np.zeros(0, int)
+    if geometry is not None:
+        nodes = np.unique(geometry.node[dofs])
+        dofs = np.flatnonzero(np.isin(geometry.node, nodes[nodes >= 0]) & (geometry.direction < 3))
+    if not len(dofs):
+        return []
+    rows = model.V[dofs] if model.motion is None else np.concatenate([model.node(int(i))[:3] for i in nodes if i >= 0])
+    M = rows.T @ rows
+    each = total_mass(model) / max(len(nodes), 1 if len(nodes) else len(dofs))
+    m = Unknown("mass of each sensor", "kg", 1e-3 * each, 0.1 * each)
+    site = Site("sensor", tuple(structure.labels[i] for i in np.unique(test.dofs)), None, "at every sensor")
+
+    def extend(problem: Problem, values: np.ndarray) -> Problem:
+        if of_matrices(problem):
+            return with_entries(
+                problem, found("mass of each sensor", values[0], "kg"), M=(dofs, dofs, np.ones(len(dofs)))
+            )
+        edit = Edit(problem)
+        at = [[edit.index(int(model.problem.mesh.node_ids[i]))] for i in nodes if i >= 0]
+        edit.bind("mass of each sensor", edit.add("mass", at, {"mass": values[0]}), ("mass",), unit="kg")
+        return edit.done()
+
+    return [
+        Recipe(
+            candidate,
+            (m,),
+            lambda values: Change(M=values[0] * M),
+            steps(m, 4)[:, None],
+            lambda values: site,
+            extend=extend,
+        )
+    ]
+
+
+CANDIDATE = Candidate(
+    "sensor-mass",
+    "the mass of the sensors",
+    "sensor-mass",
+    "sensors and cables that are heavy for what they are mounted on, the same mass at each",
+    recipes,
+)

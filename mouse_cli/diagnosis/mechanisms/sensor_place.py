@@ -1,0 +1,54 @@
+"""A sensor that is not quite where the deck says."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown
+from mouse_cli.diagnosis.effects.sensors import changed, row, share, site, standing, suspects, with_readings
+from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.extend.places import element_at
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.bars import deflected
+from mouse_cli.diagnosis.sites.lines import Line
+from mouse_cli.model.problem import Problem
+
+_REACH = 0.02  # of the length of the line
+
+
+def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
+    """y(s) -> y(s + dx) along the row of bars that the sensor stands on."""
+    found = []
+    for k in suspects(model) if model.bars is not None else ():
+        on = standing(model, k)
+        if on is not None:
+            found.append(_recipe(model, candidate, k, *on))
+    return found
+
+
+def _recipe(model: Reduced, candidate: Candidate, k: int, run: Line, s: float, direction: np.ndarray) -> Recipe:
+    bars, reach = model.bars, _REACH * run.length
+    lower, upper = max(-reach, -s), min(reach, run.length - s)
+    dx = Unknown("shift along the bars", "m", lower, upper, log=False)
+    here, where = direction @ bars.motion(*run.at(s)), site(model.problem, k)
+
+    def change(values: np.ndarray) -> Change:
+        there = direction @ bars.motion(*run.at(s + values[0]))
+        return Change(sensing=changed(model, {k: model.sensing[k] + there - here}))
+
+    def extend(problem: Problem, values: np.ndarray) -> Problem:
+        edit, axis = Edit(problem), bars.axis[run.members[0]]
+        points = [np.array(bars.point(*run.at(x))) for x in (s, s + values[0])]
+        old, new = (direction @ deflected(problem, *element_at(edit, point, axis)) for point in points)
+        return with_readings(problem, {k: row(problem, k) + new - old})
+
+    grid = np.array([[lower / 2], [upper / 2]]) if lower < 0 < upper else np.array([[(lower + upper) / 2]])
+    return Recipe(candidate, (dx,), change, grid, lambda values: where, 0, share(model), extend)
+
+
+CANDIDATE = Candidate(
+    "sensor-place",
+    "a sensor out of its place",
+    "sensor",
+    "one sensor stands up to 2 % of the length of its row of bars away from where the deck has it",
+    recipes,
+)

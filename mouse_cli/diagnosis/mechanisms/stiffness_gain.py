@@ -1,0 +1,41 @@
+"""A part that is stiffer than the model says: a stretch of a bar, another element, a spring of a model of matrices."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Recipe
+from mouse_cli.diagnosis.effects.losses import of_elements, of_springs
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.stretches import of_lines
+
+_SELDOM = 0.1  # how often a part is stiffer beside how often any other cause is there: nothing stiffens by wear or by accident
+_KNOWN = 0.1  # the same of a part with a parameter of its own, of which the deck has said how far it may go
+_SAME = 0.999  # cosine between the changes of stiffness by a part and by a parameter, from which on they are one
+
+
+def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
+    """EI (1 + d) over a stretch of a line; K_e (1 + d) of an element; K + d k b b' of a spring between degrees of freedom."""
+    lines, others = of_lines(model, candidate, True), of_elements(model, candidate, 1) + of_springs(model, candidate, 1)
+    share = float(np.log(_SELDOM * (0.5 if lines and others else 1.0)))
+    others = [replace(each, log_prior=each.log_prior + _log_known(model, each)) for each in others]
+    return [replace(each, log_prior=each.log_prior + share) for each in lines + others]
+
+
+def _log_known(model: Reduced, recipe: Recipe) -> float:
+    """ln of how much less likely a part is to be stiffer when a parameter of the deck stands for that part alone."""
+    K = recipe.change(np.ones(1)).K
+    sizes = np.linalg.norm(model.dK, axis=(1, 2)) * np.linalg.norm(K)
+    along = np.abs(np.tensordot(model.dK, K, 2))
+    return float(np.log(_KNOWN)) if (along > _SAME * np.maximum(sizes, 1e-300)).any() else 0.0
+
+
+CANDIDATE = Candidate(
+    "stiffness-gain",
+    "a local gain of stiffness",
+    "added-stiffness",
+    "a stretch of a bar, or another element, that is stiffer than the model says: a doubler or a gusset, an infill, a repair, "
+    "a thicker section; held to be ten times less likely than any other cause, a part with a parameter of its own a hundred times",
+    recipes,
+)

@@ -1,0 +1,28 @@
+"""A part that is softer than the model says: a stretch of a bar, another element, a spring of a model of matrices."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Recipe
+from mouse_cli.diagnosis.effects.losses import of_elements, of_springs
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.stretches import of_lines
+
+
+def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
+    """F (1 + d) over a stretch of a line; K_e (1 - d) of an element; K - k b b' of a spring between degrees of freedom."""
+    lines, others = of_lines(model, candidate), of_elements(model, candidate) + of_springs(model, candidate)
+    if not lines or not others:
+        return lines + others
+    return [replace(recipe, log_prior=recipe.log_prior - float(np.log(2))) for recipe in lines + others]
+
+
+CANDIDATE = Candidate(
+    "stiffness-loss",
+    "a local loss of stiffness",
+    "local-stiffness",
+    "a stretch of a bar, or another element, that is softer than the model says: damage, a weaker section, another material",
+    recipes,
+)

@@ -1,0 +1,20 @@
+"""A support that gives way in rotation."""
+
+from mouse_cli.diagnosis.effects.change import Recipe
+from mouse_cli.diagnosis.effects.supports import yielding
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.mechanisms import Candidate
+
+
+def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
+    """The support moves: psi = [-K_ff^-1 K_fs; 1] beside the model, with a spring against it."""
+    return yielding(model, candidate, turning=True)
+
+
+CANDIDATE = Candidate(
+    "support-rotation",
+    "a support that gives way in rotation",
+    "support",
+    "what the model clamps turns a little (base plate, foundation, clamp); in one bar close to a smaller EI of all of it",
+    recipes,
+)

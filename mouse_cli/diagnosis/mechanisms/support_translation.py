@@ -1,0 +1,20 @@
+"""A support that gives way in translation."""
+
+from mouse_cli.diagnosis.effects.change import Recipe
+from mouse_cli.diagnosis.effects.supports import yielding
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.mechanisms import Candidate
+
+
+def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
+    """The support moves: psi = [-K_ff^-1 K_fs; 1] beside the model, with a spring against it."""
+    return yielding(model, candidate, turning=False)
+
+
+CANDIDATE = Candidate(
+    "support-translation",
+    "a support that gives way in translation",
+    "support",
+    "what the model holds rigidly moves along the direction of a reaction (soil, bearing, test stand)",
+    recipes,
+)

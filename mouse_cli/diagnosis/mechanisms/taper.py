@@ -1,0 +1,73 @@
+"""A section that changes along a row of bars."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Softening, Unknown, product, steps
+from mouse_cli.diagnosis.effects.line_mass import uniform
+from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.extend.places import beams_within
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.lines import Line, whole
+from mouse_cli.diagnosis.sites.preload import runs, site_of
+from mouse_cli.model.problem import Problem
+
+_FEWEST = 4  # bars in a row that show a slope
+_MOST = 0.6  # change from the middle to an end
+
+
+def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
+    """EI (1 + a xi) and mass per length (1 + b xi), xi from -1 at one end of the row to 1 at the other."""
+    found = [run for run in runs(model, "nonstructural_mass", "Iy", "Iz") if len(run.members) >= _FEWEST]
+    return [_recipe(model, candidate, run, len(found)) for run in found]
+
+
+def _recipe(model: Reduced, candidate: Candidate, run: Line, count: int) -> Recipe:
+    bars = model.bars
+    a = Unknown("slope of EI over its mean", "1", -_MOST, _MOST, log=False)
+    b = Unknown("slope of the mass over its mean", "1", -_MOST, _MOST, log=False)
+    along = {int(i): _xi(run, run.bars.point(int(i), 0.5)) for i in run.members}
+    members = whole(run)
+    same = {(int(bars.set[i]), int(bars.member[i])): xi for i, xi in along.items()}
+    xi = np.array([same[int(bars.set[i]), int(bars.member[i])] for i in members])
+    F = np.zeros((len(members), 2, 2))
+    F[:, 0, 0], F[:, 1, 1] = bars.length[members] / bars.EI[members], bars.length[members] / (3 * bars.EI[members])
+    one = np.ones(len(run.members))
+    M = uniform(bars, run.members, 0 * one, one, bars.line_mass[run.members] * np.array(list(along.values())))
+    site = site_of(model, run)
+
+    def change(values: np.ndarray) -> Change:
+        return Change(M=values[1] * M, softening=Softening(members, F * (1 / (1 + values[0] * xi) - 1)[:, None, None]))
+
+    def extend(problem: Problem, values: np.ndarray) -> Problem:
+        return _tapered(problem, run, *values)
+
+    grid = product(steps(a, 4), steps(b, 2))
+    return Recipe(candidate, (a, b), change, grid, lambda values: site, 0, -float(np.log(count)), extend)
+
+
+def _xi(run: Line, point: tuple[float, float, float]) -> float:
+    start, end = run.ends
+    return float(2 * (np.array(point) - start) @ (end - start) / ((end - start) @ (end - start)) - 1)
+
+
+def _tapered(problem: Problem, run: Line, a: float, b: float) -> Problem:
+    """The sections themselves; no parameter can say a slope."""
+    edit = Edit(problem)
+    beams = beams_within(edit, [run.ends])
+    middles = [np.mean([edit.coordinates[n] for n in edit.sets[s].nodes[i]], axis=0) for s, i in beams]
+    xi = np.array([_xi(run, middle) for middle in middles])
+    for name in ("Iy", "Iz"):
+        edit.put(beams, name, np.array([edit.values(e, name) for e in beams]) * (1 + a * xi))
+    density, A, more = (np.array([edit.values(e, n) for e in beams]) for n in ("density", "A", "nonstructural_mass"))
+    edit.put(beams, "nonstructural_mass", more + b * xi * (density * A + more))
+    return edit.done()
+
+
+CANDIDATE = Candidate(
+    "taper",
+    "a taper",
+    "taper",
+    "sections that grow or shrink along a row of bars which the model takes as uniform: stiffness and mass change linearly",
+    recipes,
+)

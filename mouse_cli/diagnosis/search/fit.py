@@ -1,0 +1,141 @@
+"""Most probable parameters of the deck and of causes that are added to it, and the evidence for those causes.
+
+x = [z, c]: the deck's parameters in prior standard deviations, N(0, 1), and coordinates of the causes, uniform in their ranges.
+C = |residual|^2 + |z|^2 is lowered by Levenberg-Marquardt steps within the ranges, one exact eigensolution a step. With
+H = J'J + I_z at the end, Laplace's evidence for d unknowns of widths w is
+
+    ln Z = -C/2 - sum ln w + (d/2) ln 2 pi - 1/2 ln |H + diag(0, 2 pi / w^2)|
+
+where what is added to H keeps an unknown that the data do not feel from being found wider than its range.
+"""
+
+from dataclasses import dataclass, field
+from typing import ClassVar
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Recipe
+from mouse_cli.diagnosis.likelihoods.modal.model import Model, Point
+
+_SMALL = 1e-4  # change of J, relative to 1 + its share of rounding, that ends the search
+MOST = 40
+GATE = 1e-3  # probability of so large a misfit by chance, below which something is missing
+_GIVE_UP = 1e8
+_HOPE = 4.0  # times the gain that a full step promises: what a search may gain at most
+
+
+@dataclass(frozen=True)
+class Fit:
+    """The end of a search. misfit = chi2 + |z|^2; covariance (k + t, k + t) of x; log_evidence.
+
+    elsewhere: the same causes at other places, and their share in the evidence.
+    """
+
+    model: Model
+    point: Point
+    misfit: float
+    hessian: np.ndarray = field(repr=False)
+    log_evidence: float
+    elsewhere: tuple[tuple["Fit", float], ...] = ()
+    bearable: ClassVar[float] = 1.5  # misfit over degrees of freedom above which no explanation is one
+    telling: ClassVar[bool] = False  # so many data that evidence alone says whether something is missing
+
+    @property
+    def strained(self) -> bool:
+        """Whether parameters are further from their priors than chance allows, where the misfit cannot tell."""
+        return False
+
+    @property
+    def recipes(self) -> tuple[Recipe, ...]:
+        """The causes."""
+        return self.model.recipes
+
+    @property
+    def dof(self) -> int:
+        """Degrees of freedom that the misfit has when the model is right."""
+        return self.model.base.data.dof - self.model.t
+
+    @property
+    def covariance(self) -> np.ndarray:
+        """Of x, unknowns that the data do not feel as wide as their range."""
+        return np.linalg.inv(_capped(self.hessian, self.model))
+
+    @property
+    def c(self) -> np.ndarray:
+        """Coordinates of the causes."""
+        return self.point.x[self.model.k :]
+
+
+def fit(
+    model: Model, c: np.ndarray, z: np.ndarray | None = None, most: int = MOST, reach: float = np.inf
+) -> Fit | None:
+    """The most probable x, from coordinates c (t,) of the causes and z (k,) on; None where the model is not physical there.
+
+    most: steps; reach: a misfit above which no fit matters: the search ends where it will not come so low.
+    """
+    k = model.k
+    lower = np.concatenate([np.full(k, -np.inf), model.bounds[:, 0]])
+    upper = np.concatenate([np.full(k, np.inf), model.bounds[:, 1]])
+    x = np.concatenate([model.base.z if z is None else z, c])
+    at = model.point(np.clip(x, lower, upper))
+    if at is None:
+        return None
+    J, damping = _cost(at, k), 1e-3
+    prior = np.concatenate([np.ones(k), np.zeros(model.t)])
+    for _ in range(most):
+        T = model.jacobian(at)
+        H, slope = T.T @ T + np.diag(prior), T.T @ at.residual - prior * at.x
+        if reach < np.inf and J - _HOPE * float(slope @ _step(H, slope, 1e-6, at.x, lower, upper)) > reach:
+            return Fit(model, at, J, H, _evidence(J, H, model))
+        moved = False
+        while damping < _GIVE_UP:
+            step = _step(H, slope, damping, at.x, lower, upper)
+            there = model.point(np.clip(at.x + step, lower, upper))
+            cost = np.inf if there is None else _cost(there, k)
+            if cost <= J:
+                moved = True
+                break
+            damping *= 6
+        if not moved:
+            break
+        gained, at, J = J - cost, there, cost
+        damping = max(damping / 8, 1e-9)
+        if gained < _SMALL * (1 + 1e-3 * J):
+            break
+    T = model.jacobian(at)
+    H = T.T @ T + np.diag(prior)
+    return Fit(model, at, J, H, _evidence(J, H, model))
+
+
+def _cost(at: Point, k: int) -> float:
+    return at.chi2 + float(at.x[:k] @ at.x[:k])
+
+
+def _step(H, slope, damping, x, lower, upper) -> np.ndarray:
+    """Damped step; what stands at a limit and would leave it is held."""
+    held = ((x <= lower) & (slope < 0)) | ((x >= upper) & (slope > 0))
+    free = ~held
+    step = np.zeros(len(x))
+    A = H[np.ix_(free, free)]
+    step[free] = np.linalg.solve(A + damping * np.diag(A.diagonal()) + 1e-12 * np.eye(len(A)), slope[free])
+    return step
+
+
+def _capped(H: np.ndarray, model: Model) -> np.ndarray:
+    H = H.copy()
+    at = np.arange(model.k, len(H))
+    H[at, at] += 2 * np.pi / model.width**2
+    return H
+
+
+def _evidence(J: float, H: np.ndarray, model: Model) -> float:
+    places = sum(recipe.log_prior for recipe in model.recipes)
+    _, size = np.linalg.slogdet(_capped(H, model))
+    return (
+        -0.5 * J
+        - float(np.log(model.width).sum())
+        + 0.5 * model.t * np.log(2 * np.pi)
+        - 0.5 * size
+        + places
+        - model.base.data.slack
+    )

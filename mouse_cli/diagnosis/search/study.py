@@ -1,0 +1,285 @@
+"""The most probable fit of a cause: a first look at all places and sizes, descents from the best, and what ends them too soon."""
+
+from dataclasses import replace
+from functools import cached_property
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Recipe
+from mouse_cli.diagnosis.effects.hinges import ends
+from mouse_cli.diagnosis.likelihoods.modal.model import Model, Point
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
+from mouse_cli.diagnosis.likelihoods.modal.unseen import unseen
+from mouse_cli.diagnosis.mechanisms import Candidate, registry
+from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
+
+_STARTS = 3  # fits of a candidate to the end, from different optima
+_LOOKS, _MOST, _EACH, _BRIEF = 12, 40, 4, 4  # brief descents at least, at most, from one recipe, and their steps
+_APART = 0.08  # of a range: between starts of one recipe
+_TOLD = 0.05  # squared distance of what two places predict, by the data's sd, up to which they are as one
+_SLACK = 1.5  # times the misfit that matters in all coordinates: what matters in few
+_TIED, _TIES = 6.0, 8  # misfit above the best up to which other places are as good, and how many of them are fitted
+_SETTLE, _MOVED = 3, 5e-3  # times that causes are weighed anew, as long as parameters move more than that share
+_THEORY = 0.01  # of what a cause does to frequencies and shapes, by which its theory may be wrong
+_SHIFTS = np.array([-5, -3, -2, -1, 1, 2, 3, 5]) / 50  # of the range of a place
+_FEW = 16  # places and sizes that are looked at in all coordinates
+_COARSE = 24  # coordinates at least for a first look
+
+
+class Study:
+    """A reduced model, what each candidate can do to it, and the same at other parameters, where causes weigh otherwise.
+
+    known: candidates by key; None: all. kind: of what a model with causes is made, of one structure or of its arrangements.
+    """
+
+    def __init__(self, model: Reduced, known: dict[str, Candidate] | None = None, kind: type[Model] = Model):
+        self.model, self.k, self.kind = model, model.L.shape[1], kind
+        self.known = registry() if known is None else known
+        self._made: dict[str, list[Recipe]] = {}
+        self._looked: dict[str, list[tuple[float, int, np.ndarray]]] = {}
+
+    def recipes(self, name: str) -> list[Recipe]:
+        """What candidate `name` can do, and where; made when first asked for."""
+        if name not in self._made:
+            candidate = self.known[name]
+            made = self.model.recipes(candidate)
+            self._made[name] = [replace(recipe, number=i) for i, recipe in enumerate(made)]
+        return self._made[name]
+
+    @cached_property
+    def coarse(self) -> "Study":
+        """The same in few coordinates, in which all places and sizes are looked at before any is fitted.
+
+        Those are the lowest, and how the rest bends when one end of a line gives way, which they alone do not.
+        """
+        model = self.model.looked_at(_lowest)
+        return self if model is self.model else Study(model, self.known, self.kind)
+
+    def promising(self) -> list[str]:
+        """All candidates, those first that a first look at them alone finds most promising."""
+        none = np.zeros(self.k)
+        looks = {name: self.coarse.looks(name, none, ()) for name in self.known}
+        return sorted(looks, key=lambda name: looks[name][0][0] if looks[name] else np.inf)
+
+    def starts(self, name: str, before: np.ndarray, beside: tuple[Recipe, ...]) -> list[tuple[int, np.ndarray]]:
+        """Numbers of recipes of candidate `name`, and x to begin from, the most promising first."""
+        return [(number, x) for _, number, x in self.looks(name, before, beside)]
+
+    def looks(self, name: str, before: np.ndarray, beside: tuple[Recipe, ...]) -> list[tuple[float, int, np.ndarray]]:
+        """The same, with the misfits that are to be expected; kept where nothing is beside."""
+        if not beside and name in self._looked:
+            return self._looked[name]
+        others, found = self.own(beside), []
+        for recipe in self.recipes(name):
+            trial = self.kind(self.model, (*others, recipe))
+            for values in recipe.grid:
+                at = trial.point(np.concatenate([before, recipe.coordinates(values)]))
+                if at is not None:
+                    found.append((self.foreseen(at), recipe.number, at.x))
+        found.sort(key=lambda item: item[0])
+        if not beside:
+            self._looked[name] = found
+        return found
+
+    def approached(
+        self, name: str, before: np.ndarray, beside: tuple[Recipe, ...], reach: float = np.inf
+    ) -> list[tuple[float, int, list[np.ndarray]]]:
+        """Misfit, number of the recipe, x at the end and at the start of brief descents, the best first, no two alike.
+
+        reach: misfit from which on none need go on. What a first look finds best may be beside the true place many times
+        over, and the true one at a wrong size.
+        """
+        trials = {i: self.with_cause(beside, name, i) for i in range(len(self.recipes(name)))}
+        most = min(max(_LOOKS, len(trials)), _MOST) // (2 if beside else 1)  # a partner is tried beside many
+        chosen = _spread(self.starts(name, before, beside), trials, most)
+        if len(chosen) < 2:
+            return [(0.0, i, [x]) for i, x in chosen]
+        descents = [(i, x, fit(trials[i], x[self.k :], x[: self.k], _BRIEF, reach)) for i, x in chosen]
+        led: list[tuple[int, np.ndarray, Fit]] = []
+        for i, x, one in sorted((d for d in descents if d[2] is not None), key=lambda item: item[2].misfit):
+            if not any(_alike(one, other) for _, _, other in led):
+                led.append((i, x, one))
+        kept = {id(end) for _, end in _spread([(i, one.point.x) for i, _, one in led], trials, most)}
+        return [(one.misfit, i, [one.point.x, x]) for i, x, one in led if id(one.point.x) in kept]
+
+    @cached_property
+    def _adapted(self) -> tuple[np.ndarray, np.ndarray]:
+        """T (q, k), and (T'T + I)^-1 [T', -I] (k, q + k): how far the deck's parameters follow a residual."""
+        plain = self.kind(self.model)
+        T = plain.jacobian(plain.point(np.zeros(self.k)))
+        return T, np.linalg.solve(T.T @ T + np.eye(self.k), np.hstack([T.T, -np.eye(self.k)]))
+
+    def foreseen(self, at: Point) -> float:
+        """The misfit that is left of `at` when the deck's parameters adapt, to first order."""
+        T, adapted = self._adapted
+        step = adapted @ np.concatenate([at.residual, at.x[: self.k]])
+        left, z = at.residual - T @ step, at.x[: self.k] + step
+        return float(left @ left + z @ z)
+
+    def own(self, recipes: tuple[Recipe, ...]) -> tuple[Recipe, ...]:
+        """The same causes at the same places in this model, which may count places otherwise."""
+        return tuple(self._same(recipe) for recipe in recipes)
+
+    def _same(self, recipe: Recipe) -> Recipe:
+        made, text = self.recipes(recipe.candidate.key), recipe.site(recipe.grid[0]).text
+        order = sorted(made, key=lambda each: each.number != recipe.number)
+        return next((each for each in order if each.site(each.grid[0]).text == text), order[0])
+
+    def with_cause(self, others: tuple[Recipe, ...], name: str, number: int) -> Model:
+        """The model with the causes `others`, from any study, and recipe `number` of candidate `name`."""
+        return self.kind(self.model, (*self.own(others), self.recipes(name)[number]))
+
+    def at(self, one: Fit) -> "Study":
+        """The same at the parameters that a fit found."""
+        theta = one.model.base.parameters(one.point.x[: self.k])
+        return Study(self.model.at(theta), self.known, self.kind)
+
+
+def _lowest(model: Reduced) -> Reduced:
+    """A model in its lowest coordinates, and those by which ends of lines give way; itself where there are no more."""
+    least = max(_COARSE, 4 * model.data.m + 8, int(model.data.test.number.max()) + 12)
+    if least >= model.r:
+        return model
+    bent = ends(model)[:, least:] / (model.eigenvalues[least:] + lowest(model))
+    bent = bent[: model.r - least]
+    Q = np.eye(model.r)[:, : least + len(bent)]
+    Q[least:, least:] = np.linalg.qr(bent.T)[0]
+    return model.within(Q)
+
+
+def _spread(starts: list[tuple[int, np.ndarray]], trials: dict[int, Model], most: int) -> list[tuple[int, np.ndarray]]:
+    """The first `most` of `starts` (number of recipe, x), without such as are close to an earlier one of the same recipe."""
+    taken: dict[int, list[np.ndarray]] = {}
+    found = []
+    for number, x in starts:
+        trial, own = trials[number], taken.setdefault(number, [])
+        at = x[trial.k :] / trial.width
+        if len(own) < max(_EACH, most // len(trials)) and all(np.abs(at - other).max() > _APART for other in own):
+            own.append(at), found.append((number, x))
+        if len(found) == most:
+            break
+    return found
+
+
+def _alike(one: Fit, other: Fit) -> bool:
+    """Whether both predict the same, as two nodes through the thickness of a plate do."""
+    return bool(np.sum((one.point.residual - other.point.residual) ** 2) < _TOLD * (1 + 1e-2 * one.misfit))
+
+
+def shifted(one: Fit) -> Fit:
+    """The fit from places nearby: across the end of a finite element the misfit has a step, before which a descent stops."""
+    model = one.model
+    unknowns = [u for recipe in one.recipes for u in recipe.unknowns]
+    for j in (i for i, u in enumerate(unknowns) if not u.log):
+        T = np.delete(model.jacobian(one.point), model.k + j, axis=1)
+        H = T.T @ T + np.diag((np.arange(T.shape[1]) < model.k).astype(float))
+        best, start = one.misfit - 1, None
+        for share in _SHIFTS:
+            c = one.c.copy()
+            c[j] = np.clip(c[j] + share * model.width[j], *model.bounds[j])
+            at = model.point(np.concatenate([one.point.x[: model.k], c]))
+            if at is None:
+                continue
+            pull = T.T @ at.residual - np.where(np.arange(T.shape[1]) < model.k, np.delete(at.x, model.k + j), 0.0)
+            left = at.chi2 + at.x[: model.k] @ at.x[: model.k] - pull @ np.linalg.lstsq(H, pull, rcond=None)[0]
+            if left < best:
+                best, start = left, c
+        again = None if start is None else fit(model, start, one.point.x[: model.k])
+        if again is not None and again.misfit < one.misfit:
+            one = again
+    return one
+
+
+def idealised(one: Fit) -> Fit:
+    """The fit when the theory of its causes is right to some share of what they do."""
+    loose = one.model.loosened(one.point, _THEORY)
+    return one if loose is None else fit(loose, one.c, one.point.x[: one.model.k]) or one
+
+
+def settled(one: Fit, study: Study) -> Fit:
+    """The fit with its causes weighed at the parameters that it found, not at those where the search began."""
+    for _ in range(_SETTLE):
+        theta = one.model.base.parameters(one.point.x[: one.model.k])
+        before = one.model.base.theta
+        if not one.recipes or np.all(np.abs(theta - before) <= _MOVED * np.abs(before)):
+            break
+        there = study.at(one)
+        base = there.model.judged_by(one.model.base.data)
+        again = fit(study.kind(base, there.own(one.recipes)), one.c, one.point.x[: one.model.k])
+        if again is None:
+            break
+        one = again
+    return one
+
+
+def best(study: Study, name: str, reach: float = np.inf) -> Fit | None:
+    """The most probable fit of candidate `name` over all of its places, its evidence summed over distinct optima.
+
+    reach: misfit above which no fit matters, and is left as it was found.
+    """
+    found = _distinct(tried(study, name, None, _STARTS, reach=reach))
+    return summed([settled(shifted(one), study) if one.misfit < reach else one for one in found], reach)
+
+
+def tried(
+    study: Study, name: str, beside: Fit | None, count: int, most: int = MOST, reach: float = np.inf
+) -> list[Fit]:
+    """Fits of candidate `name` from its `count` most promising places, in at most so many steps; beside: causes there already.
+
+    Each first in the lowest coordinates, then in all; in all at once where there is little to look at, for what is spread over
+    the structure, such as shear, is not to be had in few. reach: misfit above which none matters.
+    """
+    others = () if beside is None else beside.recipes
+    before = np.zeros(study.k) if beside is None else beside.point.x
+    first = study if sum(len(recipe.grid) for recipe in study.recipes(name)) <= _FEW else study.coarse
+    near_by = first.approached(name, before, others, _SLACK * reach)
+    tied = 0 if beside is not None or not near_by else sum(left < near_by[0][0] + _TIED for left, _, _ in near_by)
+    found = [
+        _ended(study, first, others, name, i, x, most, reach) for _, i, x in near_by[: max(count, min(tied, _TIES))]
+    ]
+    return [one for one in found if one is not None]
+
+
+def _ended(
+    study: Study, first: Study, others: tuple, name: str, i: int, starts: list, most: int, reach: float
+) -> Fit | None:
+    """The fit of recipe i, in the coordinates of `first`, then in all from where the whole misfits least: there, or a start."""
+    k, whole = study.k, study.with_cause(others, name, i)
+    if first is not study:
+        near = fit(first.with_cause(others, name, i), starts[0][k:], starts[0][:k], most, _SLACK * reach)
+        starts = starts if near is None else [near.point.x, *starts]
+        reach = reach if near is None or near.misfit > reach else np.inf
+    points = [at for at in map(whole.point, starts) if at is not None]
+    if not points:
+        return None
+    x = min(points, key=lambda at: at.chi2 + at.x[:k] @ at.x[:k]).x
+    return fit(whole, x[k:], x[:k], most, reach)
+
+
+def summed(found: list[Fit], reach: float = np.inf) -> Fit | None:
+    """The best of several optima, its theory taken for as good as it is; those at other places add to its evidence."""
+    if not found:
+        return None
+    distinct = _distinct(found)
+    total = np.logaddexp.reduce([one.log_evidence for one in distinct])
+    others = tuple((one, float(np.exp(one.log_evidence - total))) for one in distinct[1:])
+    best = idealised(distinct[0]) if distinct[0].misfit < reach else distinct[0]
+    log_evidence = best.log_evidence + float(total - distinct[0].log_evidence) - unseen(best)
+    return replace(best, log_evidence=log_evidence, elsewhere=others)
+
+
+def _distinct(found: list[Fit]) -> list[Fit]:
+    """The fits in the order of their evidence, one of each optimum."""
+    distinct: list[Fit] = []
+    for one in sorted(found, key=lambda one: -one.log_evidence):
+        if not any(_same(one, other) for other in distinct):
+            distinct.append(one)
+    return distinct
+
+
+def _same(one: Fit, other: Fit) -> bool:
+    if [recipe.number for recipe in one.recipes] != [recipe.number for recipe in other.recipes]:
+        return False
+    sd = np.sqrt(np.abs(np.diag(one.covariance)[one.model.k :]))
+    return bool((np.abs(one.c - other.c) < 2 * sd + 1e-3 * one.model.width).all())

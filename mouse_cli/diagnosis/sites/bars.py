@@ -1,0 +1,285 @@
+"""The bars of a model that bend: what each does, in either plane, when the model moves in its coordinates.
+
+Bending of a bar of length l in a plane, in its natural strains e = [v_s'q, (2/l) v_a'q], v_s = [0, -1, 0, 1],
+v_a = [1, l/2, -1, l/2] on q = [w1, slope1, w2, slope2]: K = E'F^-1 E with the flexibility F = diag(l/EI, l/(3EI) (1 + phi)).
+A bending moment at 2 x/l - 1 = eta does work on [1, eta], so whatever gives way there adds c [1, eta]' [1, eta] to F. The third
+strain is the elongation, with l/EA.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from mouse_cli.diagnosis.sites.lines import Line, joined_lines
+from mouse_cli.model.diagnosis import Site
+from mouse_cli.model.mesh import ElementSet, Mesh
+from mouse_cli.model.problem import Problem
+from mouse_cli.terms.bound_properties import BoundProperties, nominal_properties
+from mouse_cli.terms.constraints import Motion
+from mouse_cli.terms.elements import Layout, Properties, registry
+from mouse_cli.terms.elements import _beam as beam
+
+_BENDING, _STEP = ("E", "Iy", "Iz"), 1e-4  # properties that bending stiffness follows; step in them
+_STIFF = 1e-9  # share of the largest bending stiffness below which a bar does not bend in that plane
+
+
+@dataclass(frozen=True)
+class Bars:
+    """b bars: beam elements, each once for every plane that it can bend in.
+
+    set, member (b,): which element of the mesh; ids (b,); nodes (b, 2): indices; plane (b,): 0 local x-y, 1 local x-z. length,
+    EI, phi, line_mass, section_inertia (density times I), A (b,); ends (b, 4, r): w1, slope1, w2, slope2 for each coordinate of the
+    model, axial, twist (b, 2, r): u1, u2 and the turns about the bar there; start, axis, across (b, 3): first end, unit vectors
+    along the bar and in the direction of w.
+    line (b,): bars with one number continue one another in one plane; before (b,): length of the line before the bar.
+    """
+
+    set: np.ndarray
+    member: np.ndarray
+    ids: np.ndarray
+    nodes: np.ndarray
+    plane: np.ndarray
+    length: np.ndarray
+    EI: np.ndarray
+    phi: np.ndarray
+    line_mass: np.ndarray
+    section_inertia: np.ndarray
+    A: np.ndarray
+    E: np.ndarray
+    nu: np.ndarray
+    ends: np.ndarray
+    axial: np.ndarray
+    twist: np.ndarray
+    start: np.ndarray
+    axis: np.ndarray
+    across: np.ndarray
+    line: np.ndarray
+    before: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.length)
+
+    @cached_property
+    def strain(self) -> np.ndarray:
+        """E (b, 3, r): bending, symmetric and antisymmetric, and elongation."""
+        w1, s1, w2, s2 = np.moveaxis(self.ends, 1, 0)
+        l = self.length[:, None]
+        return np.stack([s2 - s1, 2 / l * (w1 - w2) + s1 + s2, self.axial[:, 1] - self.axial[:, 0]], axis=1)
+
+    @cached_property
+    def flexibility(self) -> np.ndarray:
+        """F (b, 3, 3)."""
+        F = np.zeros((len(self), 3, 3))
+        F[:, 0, 0], F[:, 1, 1] = self.length / self.EI, self.length / (3 * self.EI) * (1 + self.phi)
+        F[:, 2, 2] = self.length / (self.E * self.A)
+        return F
+
+    @cached_property
+    def span(self) -> float:
+        """Length of the longest line, by which sizes are measured."""
+        return float(np.bincount(self.line, self.length).max())
+
+    @cached_property
+    def stiffness(self) -> float:
+        """Mean EI over the length."""
+        return float(np.average(self.EI, weights=self.length))
+
+    def lost(self, bars: np.ndarray, added: np.ndarray) -> np.ndarray:
+        """Change (c, 3, 3) of the stiffness of `bars` (c,) when `added` comes to their flexibility."""
+        F = self.flexibility[bars]
+        return np.linalg.inv(F + added) - np.linalg.inv(F)
+
+    def strained(self, bars: np.ndarray, core: np.ndarray) -> np.ndarray:
+        """Matrix (r, r) of stiffnesses `core` (c, 3, 3) on the natural strains of `bars` (c,)."""
+        rows = self.strain[bars]
+        return rows.reshape(-1, rows.shape[-1]).T @ (core @ rows).reshape(-1, rows.shape[-1])
+
+    def added(self, blocks: np.ndarray, bars: np.ndarray | slice = slice(None)) -> np.ndarray:
+        """Matrix (r, r) of the 4 x 4 `blocks` (c, 4, 4) on the ends of `bars`."""
+        rows = self.ends[bars]
+        return rows.reshape(-1, rows.shape[-1]).T @ (blocks @ rows).reshape(-1, rows.shape[-1])
+
+    def deflection(self, bar: int, at: float) -> np.ndarray:
+        """w (r,) at the share `at` of the length of one bar."""
+        x, l = at, self.length[bar]
+        N = np.array([1 - 3 * x**2 + 2 * x**3, l * (x - 2 * x**2 + x**3), 3 * x**2 - 2 * x**3, l * (x**3 - x**2)])
+        return N @ self.ends[bar]
+
+    @cached_property
+    def twins(self) -> dict[tuple[int, int], list[int]]:
+        """Bars by set and member: the planes of one element."""
+        twins: dict[tuple[int, int], list[int]] = {}
+        for i in range(len(self)):
+            twins.setdefault((int(self.set[i]), int(self.member[i])), []).append(i)
+        return twins
+
+    def motion(self, bar: int, at: float) -> np.ndarray:
+        """Displacement (3, r) in global axes of that place: along the bar, and across it in either plane."""
+        along = (1 - at) * self.axial[bar, 0] + at * self.axial[bar, 1]
+        u = self.axis[bar][:, None] * along
+        for twin in self.twins[int(self.set[bar]), int(self.member[bar])]:
+            u = u + self.across[twin][:, None] * self.deflection(twin, at)
+        return u
+
+    def point(self, bar: int, at: float) -> tuple[float, float, float]:
+        """Coordinates of that place."""
+        return tuple((self.start[bar] + at * self.length[bar] * self.axis[bar]).tolist())
+
+    def site(self, bar: int, at: float) -> Site:
+        """That place in words."""
+        return Site("element", (int(self.ids[bar]),), self.point(bar, at), f"element {self.ids[bar]}, {at:.2f} of it")
+
+    @cached_property
+    def lines(self) -> tuple[Line, ...]:
+        """The lines that bars form."""
+        return tuple(Line(self, np.flatnonzero(self.line == i)) for i in range(self.line.max(initial=-1) + 1))
+
+    @cached_property
+    def runs(self) -> tuple[Line, ...]:
+        """Lines of different elements: the same elements in their other plane are left out."""
+        found = {}
+        for line in self.lines:
+            members = zip(self.set[line.members].tolist(), self.member[line.members].tolist(), strict=True)
+            found.setdefault(tuple(sorted(members)), line)
+        return tuple(found.values())
+
+
+def bars(problem: Problem, motion: Motion, theta: np.ndarray, V: np.ndarray | None) -> Bars | None:
+    """The bars of `problem` at theta (p,), for a model that moves by u = V q (V None: q are the degrees of freedom)."""
+    mesh = problem.mesh
+    parts = []
+    for number, elements in enumerate(mesh.elements):
+        if elements.type != "beam" or elements.options.get("releases"):
+            continue
+        layout = _layout(mesh, elements)
+        own = tuple(b for b in problem.bindings if b.set == number)
+        parts += _planes(number, mesh, layout, _properties(elements, layout, own, theta), motion, V)
+    if not parts:
+        return None
+    joined = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    bends = joined["EI"] > _STIFF * joined["EI"].max()
+    moves = np.abs(joined["ends"]).max(axis=(1, 2)) > 0
+    joined = {name: value[bends & moves] for name, value in joined.items()}
+    line, before, order = joined_lines(joined)
+    joined = {name: value[order] for name, value in joined.items()}
+    return Bars(**joined, line=line, before=before)
+
+
+def stiffening(problem: Problem, found: Bars, theta: np.ndarray) -> np.ndarray:
+    """d ln EI / d theta (b, p) of the bars."""
+    follows = np.zeros((len(found), len(theta)))
+    for j in sorted({b.parameter for b in problem.bindings if b.property in _BENDING}):
+        step = _STEP * (theta[j] or 1.0)
+        there = theta + step * (np.arange(len(theta)) == j)
+        follows[:, j] = (_stiffness(problem, found, there) / found.EI - 1) / step
+    return follows
+
+
+def _stiffness(problem: Problem, found: Bars, theta: np.ndarray) -> np.ndarray:
+    """EI (b,) of the bars at theta."""
+    EI = np.empty(len(found))
+    for number in np.unique(found.set).tolist():
+        elements = problem.mesh.elements[number]
+        own = tuple(b for b in problem.bindings if b.set == number)
+        p = _properties(elements, _layout(problem.mesh, elements), own, theta)
+        for plane, name in enumerate(("Iz", "Iy")):
+            at = (found.set == number) & (found.plane == plane)
+            EI[at] = (p["E"] * p[name])[found.member[at]]
+    return EI
+
+
+def _layout(mesh: Mesh, elements: ElementSet) -> Layout:
+    options = {key: option.default for key, option in registry()["beam"].options.items()}
+    return Layout(mesh.coordinates[elements.nodes], options | elements.options)
+
+
+def _properties(elements, layout: Layout, own: tuple, theta: np.ndarray) -> Properties:
+    found = {
+        name: np.array(value, float) for name, value in nominal_properties(registry()["beam"], elements, layout).items()
+    }
+    if own:
+        bound = BoundProperties(registry()["beam"], elements, layout, own)
+        for name, value in bound.at(theta)[0].items():
+            found[name][bound.members] = value
+    return found
+
+
+def _planes(number: int, mesh: Mesh, layout: Layout, p: Properties, motion: Motion, V: np.ndarray | None) -> list[dict]:
+    elements, at = mesh.elements[number], beam.span(layout)
+    u = _displacements(motion, elements.nodes, V)
+    local = np.einsum("eij,ejr->eir", at.motion, u)
+    parts = []
+    for plane, axis, across in ((0, "z", "y"), (1, "y", "z")):
+        dofs, sense = beam.PLANES[plane]
+        EI = p["E"] * p[f"I{axis}"]
+        timoshenko = layout.options.get("theory") == "timoshenko"
+        phi = 12 * EI / (p[f"kappa_{across}"] * p["G"] * p["A"] * at.length**2) if timoshenko else np.zeros(len(EI))
+        parts.append(
+            {
+                "set": np.full(len(EI), number),
+                "member": np.arange(len(EI)),
+                "ids": elements.ids,
+                "nodes": elements.nodes,
+                "plane": np.full(len(EI), plane),
+                "length": at.length,
+                "EI": EI,
+                "phi": phi,
+                "line_mass": p["density"] * p["A"] + p["nonstructural_mass"],
+                "section_inertia": p["density"] * p[f"I{axis}"],
+                "A": p["A"],
+                "E": p["E"],
+                "nu": p["nu"],
+                "ends": local[:, dofs] * sense[:, None],
+                "axial": local[:, [0, 6]],
+                "twist": local[:, [3, 9]],
+                "start": layout.coordinates[:, 0],
+                "axis": at.axes[:, 0],
+                "across": at.axes[:, 1 + plane],
+            }
+        )
+    return parts
+
+
+def _displacements(motion: Motion, nodes: np.ndarray, V: np.ndarray | None) -> np.ndarray:
+    """Motion (e, 12, r) of the nodes (e, 2) in each coordinate."""
+    places = 6 * np.unique(nodes)[:, None] + np.arange(6)
+    rows = motion.rows(places.ravel()) if V is None else _rows(motion, places.ravel()) @ V
+    where = np.searchsorted(np.unique(nodes), nodes)
+    at = (6 * where[:, :, None] + np.arange(6)).reshape(len(nodes), 12)
+    return rows[at]
+
+
+def _rows(motion: Motion, places: np.ndarray):
+    """The rows `places` of T, sparse."""
+    from scipy.sparse import csr_array
+
+    counts = motion.counts[places]
+    first = motion.start[places]
+    at = np.repeat(first - np.cumsum(counts) + counts, counts) + np.arange(counts.sum())
+    start = np.concatenate([[0], np.cumsum(counts)])
+    return csr_array((motion.factor[at], motion.dof[at], start), shape=(len(places), motion.n))
+
+
+def motion_of(problem: Problem) -> Motion | None:
+    """How the nodes of a mesh follow the degrees of freedom of `problem`; None where degrees of freedom serve as nodes."""
+    from mouse_cli.terms.constraints import links
+
+    at, mesh = problem.structure.geometry, problem.mesh
+    if at is None:
+        return None
+    beside = at.node < 0
+    order = np.where(beside, 6 * len(mesh.node_ids) + np.cumsum(beside) - 1, 6 * at.node + at.direction)
+    return links(mesh, int(beside.sum())).motion(order)
+
+
+def deflected(problem: Problem, element: tuple[int, int], share: float) -> np.ndarray:
+    """Displacement (3, n) at a share of the length of a beam (set, member), for each degree of freedom of `problem`."""
+    mesh, (s, i) = problem.mesh, element
+    nodes = mesh.elements[s].nodes[[i]]
+    at = beam.span(Layout(mesh.coordinates[nodes], dict(mesh.elements[s].options)))
+    places = (6 * nodes[0][:, None] + np.arange(6)).ravel()
+    local, l, x = at.motion[0] @ motion_of(problem).rows(places), at.length[0], share
+    N = np.array([1 - 3 * x**2 + 2 * x**3, l * (x - 2 * x**2 + x**3), 3 * x**2 - 2 * x**3, l * (x**3 - x**2)])
+    across = [(N * sense) @ local[dofs] for dofs, sense in beam.PLANES]
+    return at.axes[0].T @ np.stack([(1 - x) * local[0] + x * local[6], *across])

@@ -1,0 +1,216 @@
+"""Where one force may act: along the lines of bars, at nodes, or at degrees of freedom of models without geometry."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.sites.lines import Line, elements
+from mouse_cli.model.diagnosis import Site
+from mouse_cli.model.geometry import DIRECTIONS
+from mouse_cli.model.problem import Problem
+from mouse_cli.model.structure import Structure
+
+_STILL = 0.02  # share of the largest motion in a measured mode below which a direction does not take part
+_ALIKE = 0.01  # of the motion of a line: differences along it up to which it moves as one
+_EACH = 6  # places to begin from on a line
+_ALL = 300  # nodes or degrees of freedom that are looked at where nothing tells them apart
+
+
+@dataclass(frozen=True)
+class Points:
+    """Places of one kind, and how they move. share: of all places, by which the prior is spread.
+
+    motion(values): rows (d, r) of the displacement there, for the values of `unknown`, none of which for a single place.
+    dofs: directions that they are along, or, in a model of matrices, degrees of freedom (from 0).
+    """
+
+    unknown: tuple[Unknown, ...]
+    starts: np.ndarray
+    motion: Callable[[np.ndarray], np.ndarray]
+    site: Callable[[np.ndarray], Site]
+    share: float
+    dofs: tuple[int, ...] = ()
+
+
+def all_motions(model: Reduced) -> list[Points]:
+    """Places with all their translations: where a mass may sit."""
+    found = _lines(model, None) + _nodes(model) if model.motion is not None else _dofs(model, together=True)
+    return _shared(found)
+
+
+def directions(model: Reduced) -> list[Points]:
+    """Places with one direction each: where a spring to the ground may act."""
+    if model.motion is None:
+        return _shared(_dofs(model, together=False))
+    found = []
+    for d in range(3):
+        found += _lines(model, d)
+    return _shared(found + [point for node in _nodes(model) for point in _split(node)])
+
+
+def placed(
+    candidate: Any,
+    point: Points,
+    sizes: tuple[Unknown, ...],
+    starts: tuple[np.ndarray, ...],
+    change: Callable[[np.ndarray, np.ndarray], Change],
+    extend: Callable[..., Problem],
+    own: int = 0,
+) -> Recipe:
+    """What acts at one of these places: values are those of `sizes`, then of the place.
+
+    starts: values of each size to begin from. change(values of the sizes, B): for the motion B (d, r) of the place;
+    extend(problem, point, values of the place, *values of the sizes): the deck with it.
+    """
+    t = len(sizes)
+    return Recipe(
+        candidate,
+        (*sizes, *point.unknown),
+        lambda values: change(values[:t], point.motion(values[t:])),
+        product(*starts, *point.starts.T),
+        lambda values: point.site(values[t:]),
+        own,
+        float(np.log(point.share)),
+        lambda problem, values: extend(problem, point, values[t:], *values[:t]),
+    )
+
+
+def _shared(found: list[Points]) -> list[Points]:
+    total = sum(point.share for point in found) or 1.0
+    return [Points(p.unknown, p.starts, p.motion, p.site, p.share / total, p.dofs) for p in found]
+
+
+def _reach(model: Reduced) -> np.ndarray:
+    """Coordinates (r,) weighed by how much the measured modes hold of them: the lowest, evenly."""
+    count = min(model.r, int(model.data.test.number.max()) + 2)
+    return (np.arange(model.r) < count).astype(float)
+
+
+def wanted(model: Reduced) -> np.ndarray | None:
+    """Mask of the nodes, or degrees of freedom of a model of matrices, that are worth looking at; None: all.
+
+    Where no shape tells places apart, some all over a large model.
+    """
+    places, at = getattr(model, "places", None), model.problem.structure.geometry
+    n = model.problem.structure.n
+    if model.motion is not None:
+        n = len(model.problem.mesh.node_ids)
+        places = None if places is None else np.unique(at.node[places][at.node[places] >= 0])
+    if places is None or (not len(places) and n <= _ALL):
+        return None
+    mask = np.zeros(n, bool)
+    mask[places if len(places) else np.linspace(0, n - 1, _ALL).astype(int)] = True
+    return mask
+
+
+def _lines(model: Reduced, direction: int | None) -> list[Points]:
+    bars = model.bars
+    if bars is None:
+        return []
+    used, keep = _reach(model), wanted(model)
+    runs = [run for run in bars.runs if keep is None or keep[bars.nodes[run.members]].any()]
+    sizes = [np.abs(run.middles * used).max(axis=2) for run in runs]  # (bars, 3)
+    largest, found = max((size.max() for size in sizes), default=0.0), []
+    total = sum(run.length for run in runs)
+    for run, size in zip(runs, sizes, strict=True):
+        if (size if direction is None else size[:, direction]).max() < _STILL * largest:
+            continue
+        if direction is not None and _as_one(run, direction, used):
+            found.append(_whole(run, direction, run.length / bars.span))
+            continue
+
+        def motion(values, run=run):
+            u = bars.motion(*run.at(values[0]))
+            return u if direction is None else u[direction : direction + 1]
+
+        def site(values, run=run):
+            here = run.site(values[0])
+            return here if direction is None else replace(here, text=f"{here.text}, {DIRECTIONS[direction]}")
+
+        starts = np.concatenate([[0.0], run.starts(2 * _EACH, run.length / total), [run.length]])
+        where = Unknown("place", "m", 0.0, run.length, log=False)
+        dofs = (0, 1, 2) if direction is None else (direction,)
+        found.append(Points((where,), starts[:, None], motion, site, run.length / bars.span, dofs))
+    return found
+
+
+def _as_one(run: Line, direction: int, used: np.ndarray) -> bool:
+    """Whether a line moves as one in a direction, as a bar does along itself: then no place on it is told from another."""
+    rows = run.middles[:, direction] * used
+    return bool(np.ptp(rows, axis=0).max() < _ALIKE * np.abs(rows).max())
+
+
+def _whole(run: Line, direction: int, share: float) -> Points:
+    """Anywhere along a line that moves as one in a direction."""
+    ids = tuple(int(run.bars.ids[bar]) for bar in run.members)
+    site = Site("element", ids, None, f"anywhere along {elements(ids)}, {DIRECTIONS[direction]}")
+    row = run.middles[len(run.members) // 2, direction]
+    return Points((), np.zeros((1, 0)), _fixed(row[None]), _fixed(site), share, (direction,))
+
+
+def _nodes(model: Reduced) -> list[Points]:
+    """Nodes that no bar touches."""
+    mesh, bars, used, keep = model.problem.mesh, model.bars, _reach(model), wanted(model)
+    touched = set() if bars is None else set(bars.nodes.ravel().tolist())
+    free = [i for i in range(len(mesh.node_ids)) if i not in touched and (keep is None or keep[i])]
+    rows = {i: model.node(i)[:3] for i in free}
+    largest = max((np.abs(u * used).max() for u in rows.values()), default=0.0)
+    found = []
+    for i, u in rows.items():
+        own = [d for d in range(3) if np.abs(u[d] * used).max() > _STILL * largest]
+        if own:
+            at = tuple(float(x) for x in mesh.coordinates[i])
+            name = int(mesh.node_ids[i])
+            site = Site("node", (name,), at, f"node {name}")
+            found.append(Points((), np.zeros((1, 0)), _fixed(u[own]), _fixed(site), 1.0, tuple(own)))
+    return found
+
+
+def _split(node: Points) -> Iterator[Points]:
+    rows, site = node.motion(np.zeros(0)), node.site(np.zeros(0))
+    for row, d in zip(rows, node.dofs, strict=True):
+        name = f"{site.ids[0]}{DIRECTIONS[d]}"
+        here = Site("dof", (name,), site.position, name)
+        yield Points((), node.starts, _fixed(row[None]), _fixed(here), 1.0, (d,))
+
+
+def _dofs(model: Reduced, together: bool) -> list[Points]:
+    """Degrees of freedom of a model of matrices, rotations left out where they are known; or the nodes that they are of."""
+    structure, keep = model.problem.structure, wanted(model)
+    free = np.arange(structure.n) if keep is None else np.flatnonzero(keep)
+    at = structure.geometry
+    if at is not None:
+        free = free[at.direction[free] < 3]
+    if at is None or not together:
+        sites = [_named(structure, int(i)) for i in free]
+        return [_single(model, site, (int(i),)) for i, site in zip(free, sites, strict=True)]
+    found = []
+    for node in np.unique(at.node[free]):
+        own = tuple(np.flatnonzero((at.node == node) & (at.direction < 3)).tolist())
+        number = int(at.node_ids[node]) if node >= 0 else 0
+        if node < 0:
+            found += [_single(model, _named(structure, i), (i,)) for i in own]
+        else:
+            position = tuple(at.coordinates[node].tolist())
+            found.append(_single(model, Site("node", (number,), position, f"node {number}"), own))
+    return found
+
+
+def _named(structure: Structure, i: int) -> Site:
+    """A degree of freedom, and where it is if that is known."""
+    at, label = structure.geometry, structure.labels[i]
+    known = at is not None and at.node[i] >= 0
+    here = tuple(at.coordinates[at.node[i]].tolist()) if known else None
+    return Site("dof", (label,), here, f"degree of freedom {label}")
+
+
+def _single(model: Reduced, site: Site, dofs: tuple[int, ...]) -> Points:
+    return Points((), np.zeros((1, 0)), _fixed(model.V[list(dofs)]), _fixed(site), 1.0, dofs)
+
+
+def _fixed(value):
+    return lambda values: value

@@ -1,0 +1,63 @@
+"""Axial forces in straight rows of bars."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.extend.places import beams_within
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.lines import Line, elements, whole
+from mouse_cli.diagnosis.sites.points import wanted
+from mouse_cli.model.diagnosis import Site
+from mouse_cli.model.problem import Problem
+from mouse_cli.terms.elements import _beam as beam
+
+
+def runs(model: Reduced, *bound: str) -> list[Line]:
+    """Rows of bars that are worth looking at, and that no parameter gives a property of `bound` already."""
+    bars, keep, found = model.bars, wanted(model), []
+    taken = {(b.set, int(i)) for b in model.problem.bindings if b.property in bound for i in b.members}
+    for run in () if bars is None else bars.runs:
+        own = zip(bars.set[run.members].tolist(), bars.member[run.members].tolist(), strict=True)
+        if not taken & set(own) and (keep is None or keep[bars.nodes[run.members]].any()):
+            found.append(run)
+    return found
+
+
+def site_of(model: Reduced, run: Line) -> Site:
+    """A row of bars in words."""
+    ids = tuple(model.bars.ids[run.members].tolist())
+    return Site("element", ids, None, elements(ids))
+
+
+def preloads(model: Reduced, candidate: Candidate, sign: int) -> list[Recipe]:
+    """K + T Kg, T of the given sign, for each straight row of bars."""
+    found = runs(model, "preload")
+    return [_recipe(model, candidate, run, sign, len(found)) for run in found]
+
+
+def _recipe(model: Reduced, candidate: Candidate, run: Line, sign: int, count: int) -> Recipe:
+    bars, members = model.bars, whole(run)
+    _, slope, _ = beam.shapes(bars.length[members], bars.phi[members])
+    Kg = sign * bars.added(beam.integral(slope, bars.length[members]), members)
+    scale = float(bars.EI[run.members].mean()) / run.length**2
+    T = Unknown("force", "N", 0.03 * scale, 30 * scale)
+    site = site_of(model, run)
+
+    def extend(problem: Problem, values: np.ndarray) -> Problem:
+        edit = Edit(problem)
+        beams = beams_within(edit, [run.ends])
+        edit.put(beams, "preload", np.array([edit.values(e, "preload") for e in beams]) + sign * values[0])
+        edit.bind(f"axial force of {site.text}", beams, ("preload",), unit="N")
+        return edit.done()
+
+    return Recipe(
+        candidate,
+        (T,),
+        lambda values: Change(K=values[0] * Kg),
+        steps(T, 6)[:, None],
+        lambda values: site,
+        log_prior=-float(np.log(count)),
+        extend=extend,
+    )

@@ -1,0 +1,187 @@
+"""Is it true? Both models predict data that no fit has seen, with the uncertainty of their own parameters.
+
+Data held out by the deck, an altered configuration among them, are kept from the first fit on. Where a deck holds nothing out,
+each measured mode is predicted from the others: both models, of settled form, are fitted without it.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Change, Recipe
+from mouse_cli.diagnosis.likelihoods.modal.data import THEORY_SHAPE
+from mouse_cli.diagnosis.likelihoods.modal.model import Model, Point
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.search.fit import Fit, fit
+from mouse_cli.dynamics.correlation import mac
+from mouse_cli.dynamics.sensing import read
+from mouse_cli.model.diagnosis import BY_DECK, BY_MODE, HeldOut, Score
+from mouse_cli.model.hold_out import HoldOut
+from mouse_cli.model.modal_test import ModalTest, restricted
+
+_STEP = 1e-4  # of a prior standard deviation, or of the range of an unknown, for derivatives
+_COVERED = 1.6448536269514722  # standard deviations of a 90 % interval
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """Of a test that was not fitted: frequencies (m,) and their sd by both model and data, MAC (m,), log density.
+
+    covered (f,): frequencies within their intervals; shape_error (c,): of components, over the largest of their mode.
+    """
+
+    test: ModalTest
+    hz: np.ndarray
+    sd_hz: np.ndarray
+    mac: np.ndarray
+    density: float
+    covered: np.ndarray
+    shape_error: np.ndarray = field(default_factory=lambda: np.zeros(0))
+
+
+def predict(one: Fit, base: Reduced, fixed: tuple[Recipe, ...] = ()) -> Prediction | None:
+    """What the model of `one` says of the test of `base`; fixed: changes of the structure that are known."""
+    model = Model(base, (*one.recipes, *fixed))
+    at = model.point(one.point.x)
+    if at is None:
+        return None
+    T, data = model.jacobian(at), base.data
+    spread = T @ one.covariance @ T.T
+    total = np.eye(len(spread)) + spread
+    _, size = np.linalg.slogdet(total)
+    density = -0.5 * (at.residual @ np.linalg.solve(total, at.residual) + size) - data.log_sd
+    frequencies = int(data.has_frequency.sum())
+    off, sd = at.residual[:frequencies], np.sqrt(np.diag(total)[:frequencies])
+    hz = np.sqrt(np.maximum(at.eigenvalues[at.modes], 0.0)) / (2 * np.pi)
+    sd_hz = np.full(data.m, np.nan)
+    sd_hz[data.has_frequency] = hz[data.has_frequency] * data.sd_log[data.has_frequency] * sd
+    alike = np.full(data.m, np.nan)
+    if data.s:
+        alike = mac(data.test.shapes, at.seen[:, at.modes]).diagonal()
+    return Prediction(data.test, hz, sd_hz, alike, float(density), np.abs(off) < _COVERED * sd)
+
+
+def readings(one: Fit, test: ModalTest) -> Prediction | None:
+    """What the model of `one` says of the modes that it was fitted to, at the sensors of `test`, which it was not.
+
+    Lengths and signs of the shapes are those of the sensors that were fitted, with the uncertainty that these leave.
+    """
+    base, at = one.model.base, one.point
+    sensing = np.asarray(read(test.measured_at, base.V))
+    known, scale = np.isfinite(test.shapes), np.abs(np.nan_to_num(base.data.test.shapes)).max(axis=0)
+    told = lambda point: (point.a * (sensing @ point.X[: base.r, point.modes]))[known]
+    sd = np.hypot(test.shape_sd, THEORY_SHAPE * scale)[known]
+    J = _sensitivity(one, told)
+    if J is None or not known.any():
+        return None
+    own = base.data.scale_sd(at.seen[:, at.modes]) / np.where(at.a == 0, 1.0, at.a)
+    of_mode = np.nonzero(known)[1][:, None] == np.arange(test.m)
+    J = np.hstack([J @ np.linalg.cholesky(one.covariance), of_mode * (told(at)[:, None] * own)]) / sd[:, None]
+    off = (test.shapes[known] - told(at)) / sd
+    total = np.eye(len(off)) + J @ J.T
+    density = -0.5 * (off @ np.linalg.solve(total, off) + np.linalg.slogdet(2 * np.pi * total)[1]) - np.log(sd).sum()
+    unmeasured = np.full(test.m, np.nan)
+    alike = mac(test.shapes, sensing @ at.X[: base.r, at.modes]).diagonal() if len(sensing) > 1 else unmeasured
+    left = off * sd / scale[np.nonzero(known)[1]]
+    blind = replace(test, frequency_hz=unmeasured)
+    return Prediction(blind, unmeasured, unmeasured, alike, float(density), np.zeros(0, bool), left)
+
+
+def _sensitivity(one: Fit, told: Callable[[Point], np.ndarray]) -> np.ndarray | None:
+    """d told / dx (q, k + t) at the end of a fit, by central differences."""
+    model, columns = one.model, []
+    low, high = np.vstack([np.tile([-np.inf, np.inf], (model.k, 1)), model.bounds]).T
+    for j, step in enumerate(_STEP * np.concatenate([np.ones(model.k), model.width])):
+        sides = [one.point.x.copy() for _ in range(2)]
+        for x, way in zip(sides, (step, -step), strict=True):
+            x[j] = np.clip(x[j] + way, low[j], high[j])
+        ends = [model.point(x) for x in sides]
+        if None in ends:
+            return None
+        columns.append((told(ends[0]) - told(ends[1])) / (sides[0][j] - sides[1][j]))
+    return np.column_stack([np.zeros((len(told(one.point)), 0)), *columns])
+
+
+def score(parts: list[Prediction]) -> Score:
+    """Several predictions as one."""
+    measured = np.concatenate([part.test.frequency_hz for part in parts])
+    hz, have = np.concatenate([part.hz for part in parts]), np.isfinite(measured)
+    error, left = hz[have] / measured[have] - 1, np.concatenate([part.shape_error for part in parts])
+    return Score(
+        rms_frequency_error=float(np.sqrt(np.mean(error**2))) if have.any() else float("nan"),
+        log_predictive_density=float(sum(part.density for part in parts)),
+        covered=float(np.mean(np.concatenate([part.covered for part in parts]))) if have.any() else float("nan"),
+        frequencies_hz=hz,
+        sd_hz=np.concatenate([part.sd_hz for part in parts]),
+        mac=np.concatenate([part.mac for part in parts]),
+        rms_shape_error=float(np.sqrt(np.mean(left**2))) if len(left) else float("nan"),
+    )
+
+
+def held_out(model: Reduced, baseline: Fit, best: Fit | None) -> HeldOut | None:
+    """Both models on what the deck holds out, else on each mode in turn."""
+    held = model.problem.hold_out
+    if held is None or not (held.altered or len(held.modes) or len(held.sensors)):
+        return cross_validated(model, baseline, best)
+    parts = {"baseline": _foreseen(held, baseline), "revised": best and _foreseen(held, best)}
+    labels, kept = [], []
+    for i, (title, own) in enumerate(parts["baseline"]):
+        if own is not None and (best is None or parts["revised"][i][1] is not None):
+            labels += [title.format(number) for number in own.test.number]
+            kept.append(i)
+    if not kept:
+        return None
+    found = {name: part and [part[i][1] for i in kept] for name, part in parts.items()}
+    measured = np.concatenate([part.test.frequency_hz for part in found["baseline"]])
+    revised = None if best is None else score(found["revised"])
+    return HeldOut(BY_DECK, tuple(labels), measured, score(found["baseline"]), revised)
+
+
+def _foreseen(held: HoldOut, one: Fit) -> list[tuple[str, Prediction | None]]:
+    """Title of each case that was held out, and what the model of `one` says of it."""
+    base, found = one.model.base, []
+    if held.test is not None and held.test.m:
+        found.append(("mode {}", predict(one, base.with_test(held.test))))
+    if held.readings is not None and base.data.by_shape:
+        found.append(("mode {} at sensors held out", readings(one, held.readings)))
+    for altered in held.altered:
+        unmeasured = np.full((base.data.s, len(altered.number)), np.nan)
+        frequencies = altered.number, altered.frequency_hz, altered.frequency_sd_hz
+        test = ModalTest(*frequencies, base.data.test.dofs, unmeasured, unmeasured, "fitted")
+        fixed = known(base, altered.masses, altered.springs)
+        title = altered.title.replace("{", "{{").replace("}", "}}")
+        found.append((title + ", mode {}", predict(one, base.with_test(test), (fixed,))))
+    return found
+
+
+def known(model: Reduced, masses: dict[int, float], springs: dict[int, float]) -> Recipe:
+    """A change without unknowns: masses in kg and springs to the ground in N/m at degrees of freedom."""
+    K, M = np.zeros((2, model.r, model.r))
+    for into, values in ((K, springs), (M, masses)):
+        for dof, value in values.items():
+            into += value * np.outer(model.V[dof], model.V[dof])
+    return Recipe(None, (), lambda values: Change(K, M), np.zeros((1, 0)))
+
+
+def cross_validated(model: Reduced, baseline: Fit, best: Fit | None) -> HeldOut | None:
+    """Each mode predicted by both models fitted to the others; None where there are too few."""
+    test = model.data.test
+    if test.m < 3:
+        return None
+    found: dict[str, list[Prediction]] = {"baseline": [], "revised": []}
+    for i in range(test.m):
+        own = np.arange(test.m) == i
+        for name, one in (("baseline", baseline), ("revised", best)):
+            if one is None:
+                continue
+            base = one.model.base
+            rest, left = base.without(~own), base.with_test(restricted(test, own))
+            again = fit(Model(rest, one.recipes), one.c, one.point.x[: one.model.k])
+            part = None if again is None else predict(again, left)
+            if part is None:
+                return None
+            found[name].append(part)
+    labels = tuple(f"mode {number}" for number in test.number)
+    revised = None if best is None else score(found["revised"])
+    return HeldOut(BY_MODE, labels, test.frequency_hz, score(found["baseline"]), revised)
