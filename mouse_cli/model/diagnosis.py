@@ -1,6 +1,6 @@
 """What a diagnosis found: where model and test part, what physics would explain it, how much of it, and whether that is true."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import IntEnum
 
 import numpy as np
@@ -182,6 +182,52 @@ class HeldOut:
     revised: Score | None
 
 
+STIFFNESS, MASS, BED, FORCE = "stiffness", "mass", "bed", "force"  # of what kind physics without a name is
+
+
+@dataclass(frozen=True)
+class FieldValue:
+    """A field at a site: value and sd, relative to what the model has there; of a bed in units of EI / L^4."""
+
+    site: Site
+    value: float
+    sd: float
+
+
+@dataclass(frozen=True)
+class Field:
+    """Physics that has no name: a smooth change of `property` (STIFFNESS, MASS, BED) along the structure, or a FORCE at one site.
+
+    spread: sd of its values; length: over which they are correlated, in m or in steps from site to site (`unit`), 0 for a force.
+    log_evidence_over_named: by which it leads everything that has a name; held_out: how the model with it predicts what no fit
+    has seen.
+    """
+
+    property: str
+    values: tuple[FieldValue, ...]
+    spread: float
+    length: float
+    unit: str
+    log_evidence_over_named: float
+    held_out: HeldOut | None = None
+
+
+@dataclass(frozen=True)
+class Rest:
+    """What remains unexplained with the mechanisms that are named: share of the misfit of the model as it is, p-value of it."""
+
+    share: float
+    p: float
+
+
+@dataclass(frozen=True)
+class Untried:
+    """A candidate that could not be tried, and why: no site in this model, or nothing that the data respond to."""
+
+    physics: str
+    reason: str
+
+
 class Effort(IntEnum):
     """What a measurement takes, the least first: the band of the test, a sensor, several, a mass, a hold on the structure."""
 
@@ -233,7 +279,8 @@ class Diagnosis:
     answer stands or falls with, the accuracy of the test above all; misstated: what of that the deck seems to have wrong,
     `gains`, `places` or `drift`. location, energy: what shapes alone say of the place.
     extended: the deck with the cause in it, and its update. frf, held_frf: functions of the model as it is, and with the cause
-    where there is one, beside those fitted and those held out; damping: of the structure, as functions show it.
+    where there is one, beside those fitted and those held out; damping: of the structure, as functions show it. field: physics
+    without a name where the answer is UNKNOWN; rest: what a named mechanism leaves unexplained; untried: candidates left out.
     """
 
     problem: Problem
@@ -250,7 +297,7 @@ class Diagnosis:
     proposals: tuple[Proposal, ...] = ()
     extended: Problem | None = None
     extended_result: Result | None = None
-    remarks: tuple[str, ...] = field(default=())
+    remarks: tuple[str, ...] = ()
     refuted: tuple[str, ...] = ()
     cautions: tuple[str, ...] = ()
     misstated: str | None = None
@@ -258,6 +305,9 @@ class Diagnosis:
     frf: tuple[FrfFit, ...] = ()
     held_frf: tuple[FrfFit, ...] = ()
     damping: tuple[Damping, ...] = ()
+    field: Field | None = None
+    rest: Rest | None = None
+    untried: tuple[Untried, ...] = ()
 
     @property
     def best(self) -> Explanation | None:
