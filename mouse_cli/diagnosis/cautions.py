@@ -35,7 +35,7 @@ def cautions(ranking: Ranking, verdict: Verdict, location: Location | None) -> t
     """The sentences, each whole; none where nothing is missing."""
     if verdict.kind == NOTHING:
         return ()
-    return (*_errors(ranking), *_noise(ranking), *_refuted(verdict), *_elsewhere(verdict, location))
+    return (*verdict.reasons, *_errors(ranking), *_noise(ranking), *_refuted(verdict), *_elsewhere(verdict, location))
 
 
 def _errors(ranking: Ranking) -> Iterator[str]:

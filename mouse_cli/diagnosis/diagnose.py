@@ -19,12 +19,13 @@ from mouse_cli.diagnosis.localise.energy_map import energy_map
 from mouse_cli.diagnosis.localise.force import locate
 from mouse_cli.diagnosis.localise.implied_law import implied_law
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
+from mouse_cli.diagnosis.nameless.fit import as_field
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.rank import Ranking, group, rank
 from mouse_cli.diagnosis.validate.next_measurement import proposals
-from mouse_cli.diagnosis.verdict import Verdict, explanations, judge
+from mouse_cli.diagnosis.verdict import Verdict, explanations, judge, rest
 from mouse_cli.dynamics.solver import EigenSolver
-from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Choices, Diagnosis, Proposal
+from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Choices, Diagnosis, Field, Proposal
 from mouse_cli.model.modal_test import restricted
 from mouse_cli.model.problem import Problem, RunOptions
 from mouse_cli.model.result import Result
@@ -66,7 +67,8 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices) -> Diagnos
     verdict, as_it_is = judge(ranking, result.rejected and given.test is not None, model), ranking.baseline
     kind, best, missing = verdict.kind, verdict.best, verdict.kind != NOTHING
     location = locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None
-    deck = extended(problem, best) if kind in (NAMED, ONE_OF) else None
+    put = best if kind in (NAMED, ONE_OF) else verdict.field
+    deck = None if put is None else extended(problem, put)
     return Diagnosis(
         problem=problem,
         kind=kind,
@@ -84,13 +86,25 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices) -> Diagnos
         misstated=misstated(ranking) if missing else None,
         proposals=_proposals(ranking, verdict),
         remarks=doubts + remarks + told + (() if deck is None else _coarse(deck)),
-        extended=deck and with_damping(replace(deck, test=given.test and deck.test), problem, best),
+        extended=deck and with_damping(replace(deck, test=given.test and deck.test), problem, put),
         extended_result=None
         if deck is None
-        else run(_by_modes(deck), notice=notice, guess=_values(deck, best), enough=enough),
+        else run(_by_modes(deck), notice=notice, guess=_values(deck, put), enough=enough),
         choices=choices,
+        field=_field(ranking, verdict),
+        rest=rest(ranking) if kind == NAMED else None,
+        untried=ranking.untried,
         **vars(compared(problem, ranking, best if missing else None)),
     )
+
+
+def _field(ranking: Ranking, verdict: Verdict) -> Field | None:
+    """What is missing where it has no name."""
+    if verdict.field is None:
+        return None
+    at = next(i for i, one in enumerate(ranking.fits) if one is verdict.field)
+    named = max(float(ranking.log_odds[i]) for i in ranking.named)
+    return as_field(verdict.field, float(ranking.log_odds[at]) - named, verdict.field_proof)
 
 
 def _by_modes(problem: Problem) -> Problem:
@@ -160,12 +174,13 @@ def _proposals(ranking: Ranking, verdict: Verdict) -> tuple[Proposal, ...]:
     best = verdict.best
     if best is None or verdict.kind in (NOTHING, UNKNOWN):
         return ()
-    names = [group(one) for one in ranking.fits]
-    others = [(name, p) for name, p in ranking.groups if name not in (group(best), *verdict.refuted)]
+    fits_named = [ranking.fits[i] for i in ranking.named]
+    names = [group(one) for one in fits_named]
+    others = [(name, p) for name, p in ranking.groups if name in names and name not in (group(best), *verdict.refuted)]
     rivals = [name for name, p in others if p > RIVAL]
     if verdict.kind == ONE_OF and not rivals:
         rivals = [name for name, _ in others[:1]]
     if not rivals:
         return ()
-    fits = [best, *(ranking.fits[names.index(name)] for name in rivals[:_RIVALS])]
+    fits = [best, *(fits_named[names.index(name)] for name in rivals[:_RIVALS])]
     return proposals(fits, [group(one) for one in fits])

@@ -4,8 +4,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mouse_cli.diagnosis.gates import DEMANDED, FAR, GATE, LIKELY, ODDS, SEVERAL, SURE
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.search.fit import GATE, Fit
+from mouse_cli.diagnosis.likelihoods.modal.unseen import unmeasured_hz
+from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.rank import Ranking, group
 from mouse_cli.diagnosis.validate.held_out import held_out
 from mouse_cli.model.diagnosis import (
@@ -18,6 +20,7 @@ from mouse_cli.model.diagnosis import (
     Cause,
     Explanation,
     HeldOut,
+    Rest,
     Site,
     Size,
 )
@@ -25,10 +28,8 @@ from mouse_cli.model.groups import leading
 from mouse_cli.model.units import Units
 from mouse_cli.updating.chi_square import upper_tail
 
-SURE = 0.9  # probability of a group from which on it is named
-ODDS = 3.0  # nats over no cause at all that a name needs
 _BELIEVED = 0.5  # share of the stated accuracies in the leading explanation below which the test itself is the finding
-_STANDS = 1e-6  # probability of no cause below which some cause acts, whatever errors the test has
+_STANDS = 1e-6  # probability of no mechanism below which some mechanism acts, whatever errors the test has
 
 
 def doubtful(baseline: Fit, rejected: bool) -> bool:
@@ -38,69 +39,134 @@ def doubtful(baseline: Fit, rejected: bool) -> bool:
 
 @dataclass(frozen=True)
 class Verdict:
-    """kind of answer; best: the fit that leads, with a cause; proof: how it predicts what was held out; refuted: groups by that."""
+    """kind of answer; best: the fit that leads, with a mechanism; proof: how it predicts what was held out.
+
+    refuted: groups that held-out data speak against. field: the leading rival without a name where the answer is UNKNOWN, with
+    field_proof, how it predicts what was held out. reasons: what forbids a name that evidence alone would give, in sentences.
+    """
 
     kind: str
     best: Fit | None
     proof: HeldOut | None
     refuted: tuple[str, ...] = ()
+    field: Fit | None = None
+    field_proof: HeldOut | None = None
+    reasons: tuple[str, ...] = ()
 
 
 def judge(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
     """What may be said of all fits: by their evidence, and by data that none of them has seen; rejected: by the update itself.
 
-    Something is missing where the update leaves too much, or where it is sure that some cause acts and what the deck holds out
-    confirms the first of them: two judgements on different data. Of thousands of data that say so, none need be held out.
-    A cause that is refuted gives its place to the next rival.
+    Something is missing where the update leaves too much, where the model as it is is improbable (DEMANDED), or where some
+    mechanism is sure and what the deck holds out confirms it. Where none of that holds and yet the model as it is is not probable
+    (LIKELY), a mechanism is likely, not proved: one of several, the model as it is among them.
     """
-    baseline, best = ranking.baseline, leader(ranking)
-    demanded = doubtful(baseline, rejected) or (baseline.telling and dict(ranking.groups).get("none", 0.0) < GATE)
-    certain = best is not None and sure(ranking)
-    proof = held_out(model, baseline, best if demanded or certain else None)
-    if not demanded and not (certain and _gain(proof) > ODDS):
+    baseline, best, none = ranking.baseline, leader(ranking), dict(ranking.groups).get("none", 0.0)
+    believed = ranking.stated[0] >= _BELIEVED
+    demanded = doubtful(baseline, rejected) or (baseline.telling and none < GATE) or (believed and none < DEMANDED)
+    likely = best is not None and believed and none <= LIKELY
+    proof = held_out(model, baseline, best if demanded or likely else None)
+    gain = _gain(proof)
+    if not demanded and not (likely and gain > -ODDS):
         return Verdict(NOTHING, None, None if proof is None else replace(proof, revised=None))
-    kind = decide(ranking)
-    if kind == UNKNOWN or best is None or not _gain(proof) < -ODDS:
-        return Verdict(kind, best, proof)
+    kind, reasons = decide(ranking)
+    if not demanded and gain <= ODDS:
+        kind = ONE_OF
+    if kind == UNKNOWN or best is None:
+        return _unknown(ranking, model, best, proof, (), reasons)
+    if gain >= -ODDS:
+        return Verdict(kind, best, proof, reasons=reasons)
+    return _next_rival(ranking, model, best, proof, reasons)
+
+
+def _next_rival(ranking: Ranking, model: Reduced, best: Fit, proof: HeldOut, reasons: tuple[str, ...]) -> Verdict:
+    """A mechanism that is refuted by held-out data gives its place to the next rival that is not."""
     struck = [group(best)]
     for name in (name for name, p in ranking.groups if p > RIVAL and name not in ("none", *struck)):
         other = next(one for one in ranking.fits if group(one) == name)
-        again = held_out(model, baseline, other)
+        if other.nameless:
+            continue
+        again = held_out(model, ranking.baseline, other)
         if not _gain(again) < -ODDS:
-            return Verdict(ONE_OF, other, again, tuple(struck))
+            return Verdict(ONE_OF, other, again, tuple(struck), reasons=reasons)
         struck.append(name)
-    return Verdict(UNKNOWN, best, proof, tuple(struck))
+    return _unknown(ranking, model, best, proof, tuple(struck), reasons)
+
+
+def _unknown(ranking: Ranking, model: Reduced, best: Fit | None, proof, struck: tuple, reasons: tuple) -> Verdict:
+    """No name; what has none is given where it explains the data."""
+    at = next((i for i, one in enumerate(ranking.fits) if one.nameless), None)
+    field = None if at is None else ranking.fits[at]
+    if field is None or not ranking.log_odds[at] > ODDS:
+        return Verdict(UNKNOWN, best, proof, struck, reasons=reasons)
+    return Verdict(UNKNOWN, best, proof, struck, field, held_out(model, ranking.baseline, field), reasons)
 
 
 def leader(ranking: Ranking) -> Fit | None:
-    """The leading fit of the leading group that has a cause; None without any."""
-    at = leading(ranking.groups, [group(one) for one in ranking.fits])
-    return ranking.fits[at] if at is not None and ranking.fits[at].recipes else None
+    """The leading fit of the leading group that has a mechanism with a name; None without any."""
+    fits = [ranking.fits[i] for i in ranking.named]
+    at = leading(ranking.groups, [group(one) for one in fits])
+    return fits[at] if at is not None and fits[at].recipes else None
 
 
 def sure(ranking: Ranking) -> bool:
-    """Whether some cause acts, whichever it is, and the test may be as accurate as it is said to be."""
+    """Whether some mechanism acts, whichever it is, and the test may be as accurate as it is said to be."""
     return dict(ranking.groups).get("none", 0.0) <= 1 - SURE and ranking.stated[0] >= _BELIEVED
 
 
-def decide(ranking: Ranking) -> str:
-    """The kind of answer when something is missing, by the gates of adequacy, probability and odds."""
+def decide(ranking: Ranking) -> tuple[str, tuple[str, ...]]:
+    """The kind of answer when something is missing, by the gates of adequacy, probability and odds; and why no name is given."""
     first, (name, probability) = ranking.fits[0], ranking.groups[0]
-    dof = max(first.dof, 1)
-    if upper_tail(first.misfit, dof) < GATE and first.misfit > first.bearable * dof:
-        return UNKNOWN
-    if first.strained:
-        return UNKNOWN
+    if first.nameless or name == "none":
+        return UNKNOWN, ()
+    if not explains(first) or first.strained:
+        return UNKNOWN, ()
     if ranking.stated[0] < _BELIEVED and dict(ranking.groups).get("none", 0.0) > _STANDS:
-        return UNKNOWN  # the test is not as accurate as it is said to be, and what is missing besides cannot be told
+        return (
+            UNKNOWN,
+            (),
+        )  # the test is not as accurate as it is said to be, and what is missing besides cannot be told
+    if far := far_parameters(first):
+        return UNKNOWN, (_FAR.format(far),)
+    if probability < SURE or not ranking.log_odds[0] > ODDS:
+        return ONE_OF, ()
     if not first.model.base.data.by_shape and any(recipe.own for recipe in first.recipes):
-        return ONE_OF  # paired by number, a list of frequencies cannot prove that it holds one mode more
-    if probability < SURE:
-        return ONE_OF
-    if name == "none":
-        return UNKNOWN
-    odds = (first.log_evidence - ranking.baseline.log_evidence) / ranking.noise_scale
-    return NAMED if odds > ODDS else ONE_OF
+        return ONE_OF, ()  # paired by number, a list of frequencies cannot prove that it holds one mode more
+    if hz := unmeasured_hz(first):
+        return ONE_OF, (_OWN_MODE.format(", ".join(f"{value:.4g} Hz" for value in hz)),)
+    return NAMED, ()
+
+
+_FAR = (
+    "With this mechanism {} of the deck would have to be wrong by more than 5 of its prior standard deviations: either the prior "
+    "is much too narrow, or the physics is another."
+)
+_OWN_MODE = (
+    "This mechanism has a mode of its own at {}, within the measured band, which the test does not have: look for it there; as "
+    "long as it is not seen, the mechanism is not proved."
+)
+
+
+def explains(one: Fit) -> bool:
+    """Whether what an explanation leaves may be noise, or is next to it; several mechanisms are held to more."""
+    dof = max(one.dof, 1)
+    p = upper_tail(one.misfit, dof)
+    return p >= SEVERAL if len(one.recipes) > 1 else p >= GATE or one.misfit <= one.bearable * dof
+
+
+def rest(ranking: Ranking) -> Rest | None:
+    """What the leading explanation leaves, where that is more than chance."""
+    first, dof = ranking.fits[0], max(ranking.fits[0].dof, 1)
+    p = upper_tail(first.misfit, dof)
+    return None if p >= GATE else Rest(float((first.misfit - dof) / max(ranking.baseline.misfit - dof, 1.0)), p)
+
+
+def far_parameters(one: Fit) -> str:
+    """Names of the parameters that are FAR from their prior means; empty: none is."""
+    base, z = one.model.base, one.point.x[: one.model.k]
+    size = np.sqrt((base.L**2).sum(axis=1))
+    off = np.abs(base.L @ z) / np.where(size > 0, size, np.inf)
+    return ", ".join(f"'{base.problem.parameters[j].name}'" for j in np.flatnonzero(off > FAR))
 
 
 def _gain(proof: HeldOut | None) -> float:
@@ -112,7 +178,7 @@ def _gain(proof: HeldOut | None) -> float:
 
 def explanations(ranking: Ranking) -> tuple[Explanation, ...]:
     """All fits in words and numbers."""
-    return tuple(explanation(one, float(p)) for one, p in zip(ranking.fits, ranking.probabilities, strict=True))
+    return tuple(explanation(ranking.fits[i], float(ranking.probabilities[i])) for i in ranking.named)
 
 
 def explanation(one: Fit, probability: float = 0.0) -> Explanation:

@@ -113,11 +113,16 @@ def of_springs(model: Reduced, candidate: Candidate, sign: int = -1) -> list[Rec
     """
     if not of_matrices(model.problem) or (model.problem.mesh is not None and not len(model.problem.elements)):
         return []
-    found = _strained(model, _springs(model) + _groups(model))
+    found = _strained(model, listed_springs(model))
     return [_listed(candidate, sign * K, entries, text, len(found), sign) for text, entries, K in found]
 
 
 Listed = tuple[str, Entries, np.ndarray]
+
+
+def listed_springs(model: Reduced) -> list[Listed]:
+    """Springs and groups of a model of matrices: name, entries of -K in its matrices, and K (r, r)."""
+    return _springs(model) + _groups(model)
 
 
 def _springs(model: Reduced) -> list[Listed]:

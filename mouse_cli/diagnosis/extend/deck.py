@@ -6,6 +6,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.sensors import name, readings
 from mouse_cli.diagnosis.extend.edit import moved, moved_functions
+from mouse_cli.diagnosis.nameless.fit import extended as of_field
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.model.hold_out import HoldOut
 from mouse_cli.model.modal_test import ModalTest
@@ -13,8 +14,10 @@ from mouse_cli.model.problem import Problem
 
 
 def extended(problem: Problem, one: Fit) -> Problem | None:
-    """The deck with each cause of a fit added as a parameter; None where a cause cannot be put into a deck."""
-    deck = problem
+    """The deck with each mechanism of a fit added as a parameter, or its field; None where one cannot be put into a deck."""
+    deck = of_field(problem, one) if one.nameless else problem
+    if deck is None:
+        return None
     for recipe, own in zip(one.recipes, one.model.own, strict=True):
         if recipe.extend is None:
             return None

@@ -44,6 +44,14 @@ def with_entries(problem: Problem, parameter: Parameter, K: Entries = _NONE, M: 
     return replace(deck, structure=replace(structure, **changed), elements=elements, A=A)
 
 
+def with_shares(problem: Problem, what: str, shares: list[tuple[str, float, Entries]], sd: float) -> Problem:
+    """The deck with each of `shares` (where, value, entries) of its matrix `what` as a parameter N(value, sd)."""
+    for where, value, entries in shares:
+        share = Parameter(f"share of {what}, {where}", sd, value, "1")
+        problem = with_entries(problem, share, **{"M" if what == "mass" else "K": entries})
+    return problem
+
+
 def _spread(A: Matrix, old: np.ndarray, e: int, at: np.ndarray, value: np.ndarray) -> Matrix:
     """A (e, p) with its former rows at `old`, and `value` at the rows `at` of its last column."""
     if not is_sparse(A):

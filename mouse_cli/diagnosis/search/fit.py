@@ -19,7 +19,6 @@ from mouse_cli.diagnosis.likelihoods.modal.model import Model, Point
 
 _SMALL = 1e-4  # change of J, relative to 1 + its share of rounding, that ends the search
 MOST = 40
-GATE = 1e-3  # probability of so large a misfit by chance, below which something is missing
 _GIVE_UP = 1e8
 _HOPE = 4.0  # times the gain that a full step promises: what a search may gain at most
 
@@ -44,6 +43,11 @@ class Fit:
     def strained(self) -> bool:
         """Whether parameters are further from their priors than chance allows, where the misfit cannot tell."""
         return False
+
+    @property
+    def nameless(self):
+        """The field that the model has, a rival without a name; None: there is none."""
+        return getattr(self.model.base, "nameless", None)
 
     @property
     def recipes(self) -> tuple[Recipe, ...]:

@@ -186,21 +186,21 @@ def _dofs(model: Reduced, together: bool) -> list[Points]:
     if at is not None:
         free = free[at.direction[free] < 3]
     if at is None or not together:
-        sites = [_named(structure, int(i)) for i in free]
+        sites = [named_dof(structure, int(i)) for i in free]
         return [_single(model, site, (int(i),)) for i, site in zip(free, sites, strict=True)]
     found = []
     for node in np.unique(at.node[free]):
         own = tuple(np.flatnonzero((at.node == node) & (at.direction < 3)).tolist())
         number = int(at.node_ids[node]) if node >= 0 else 0
         if node < 0:
-            found += [_single(model, _named(structure, i), (i,)) for i in own]
+            found += [_single(model, named_dof(structure, i), (i,)) for i in own]
         else:
             position = tuple(at.coordinates[node].tolist())
             found.append(_single(model, Site("node", (number,), position, f"node {number}"), own))
     return found
 
 
-def _named(structure: Structure, i: int) -> Site:
+def named_dof(structure: Structure, i: int) -> Site:
     """A degree of freedom, and where it is if that is known."""
     at, label = structure.geometry, structure.labels[i]
     known = at is not None and at.node[i] >= 0

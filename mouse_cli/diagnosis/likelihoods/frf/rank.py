@@ -9,6 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Recipe
+from mouse_cli.diagnosis.gates import GATE
 from mouse_cli.diagnosis.likelihoods.frf.correlated import correlated
 from mouse_cli.diagnosis.likelihoods.frf.damping import Damping, damping
 from mouse_cli.diagnosis.likelihoods.frf.dashpots import dashpots
@@ -20,8 +21,9 @@ from mouse_cli.diagnosis.likelihoods.frf.model import FrfModel
 from mouse_cli.diagnosis.likelihoods.modal.data import THEORY_LOG
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.search.fit import GATE, MOST, Fit, fit
-from mouse_cli.diagnosis.search.rank import Ranking, adequate, ranking
+from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
+from mouse_cli.diagnosis.search.rank import Ranking, ranking
+from mouse_cli.diagnosis.search.several import adequate
 from mouse_cli.updating.chi_square import upper_tail
 
 _REACH = 60.0  # nats by which modes may speak against an explanation that is judged by FRFs still
@@ -163,7 +165,11 @@ def _scatter(nearest: Fit) -> float:
 def _promising(modal: Ranking) -> list[Fit]:
     """Explanations that modes leave possible, at all places that do; the best of single causes whatever modes say of them."""
     best = modal.fits[0].log_evidence / modal.noise_scale
-    near = [one for one in modal.fits if one.recipes and one.log_evidence / modal.noise_scale > best - _REACH]
+    near = [
+        one
+        for one in modal.fits
+        if (one.recipes or one.nameless) and one.log_evidence / modal.noise_scale > best - _REACH
+    ]
     singles = [one for one in modal.fits if len(one.recipes) == 1 and not any(one is other for other in near)]
     return [
         place

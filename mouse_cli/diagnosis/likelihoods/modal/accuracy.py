@@ -16,6 +16,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.sensors import sliding
 from mouse_cli.diagnosis.likelihoods.modal.data import Data
+from mouse_cli.diagnosis.noise import log_density
 from mouse_cli.diagnosis.search.fit import Fit
 
 _PROBABLE = 0.03  # of each kind of error, before the test
@@ -45,10 +46,11 @@ class Weighed:
     gained: np.ndarray
     misfit: np.ndarray
 
-    def log_weight(self, noise_scale: float) -> float:
-        """ln of its share in the evidence of the fit, the prior of the error in it, those of tau alike."""
+    def log_weight(self, dof: float) -> float:
+        """ln of what the evidence of the fit is multiplied by: the prior of the error, and noise larger than stated, integrated."""
         prior = _PROBABLE if self.error else 1 - len(ERRORS) * _PROBABLE
-        return float(np.logaddexp.reduce(self.gained / noise_scale) + np.log(prior / len(self.gained)))
+        more = self.gained + 0.5 * self.misfit + log_density(self.misfit, dof)
+        return float(np.logaddexp.reduce(more) + np.log(prior / len(self.gained)))
 
     @property
     def size(self) -> float:

@@ -9,25 +9,45 @@ _RIGID, _VISIBLE = 1e-3, 0.03  # eigenvalue and motion, of measured modes, below
 
 
 def unseen(one: Fit) -> float:
-    """Nats against causes with a mode of their own that the test does not have, though its sensors would have seen it.
+    """Nats against mechanisms with a mode of their own that the test does not have, though its sensors would have seen it.
 
     Of a mode below the highest measured one whose largest component is r times that of those measured (unit modal masses), a test
     misses 1 in 1 + (r / 0.03)^2: what responds at resonance goes with r^2. Where the test counts that mode, nothing.
     """
-    return sum(_in_one(model, at) for model, at in one.model.parts(one.point))
+    return sum(max(0.0, _surprise(parts[0]) - _surprise(parts[1])) for parts in _pairs(one))
 
 
-def _in_one(model: Model, at: Point) -> float:
-    """The same of one arrangement."""
-    bare = Model(model.base).point(at.x[: model.k])
-    if bare is None or not at.modes.size or at.modes.max() + 1 <= model.base.data.test.number.max():
-        return 0.0
-    return max(0.0, _missed(at) - _missed(bare))
+def unmeasured_hz(one: Fit) -> tuple[float, ...]:
+    """Frequencies (Hz) of visible modes within the measured band that the mechanisms make and that nobody measured."""
+    found: list[float] = []
+    for own, bare in _pairs(one):
+        more = int((own[1] > 1).sum() - (bare[1] > 1).sum())
+        order = np.argsort(-own[1])[: max(more, 0)]
+        found += [float(hz) for hz in own[0][order]]
+    return tuple(sorted(found))
 
 
-def _missed(at: Point) -> float:
-    """ln of how rarely a test misses what `at` has between rigid modes and the highest measured one, and the test has not."""
+Missed = tuple[np.ndarray, np.ndarray]  # frequencies (Hz) and motion over what is easily missed, of modes not measured
+
+
+def _pairs(one: Fit) -> list[tuple[Missed, Missed]]:
+    """What each arrangement misses with the mechanisms, and without them; none where the test counts those modes."""
+    found = []
+    for model, at in one.model.parts(one.point):
+        bare = Model(model.base).point(at.x[: model.k])
+        if bare is not None and at.modes.size and at.modes.max() + 1 > model.base.data.test.number.max():
+            found.append((_missed(at), _missed(bare)))
+    return found
+
+
+def _missed(at: Point) -> Missed:
+    """Modes of `at` between rigid ones and the highest measured one that the test has not."""
     measured, size = at.eigenvalues[at.modes], np.abs(at.seen).max(axis=0, initial=0.0)
     between = (at.eigenvalues > _RIGID * measured.min()) & (at.eigenvalues < measured.max())
     between[at.modes] = False
-    return float(np.log1p((size[between] / np.median(size[at.modes]) / _VISIBLE) ** 2).sum())
+    return np.sqrt(at.eigenvalues[between]) / (2 * np.pi), size[between] / np.median(size[at.modes]) / _VISIBLE
+
+
+def _surprise(missed: Missed) -> float:
+    """ln of how rarely a test misses all of these."""
+    return float(np.log1p(missed[1] ** 2).sum())

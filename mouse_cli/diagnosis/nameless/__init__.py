@@ -1,0 +1,31 @@
+"""Rivals without a name: smooth random changes of the model that compete, by evidence, with every mechanism that has one.
+
+One module = one rival, found by `registry`: of what it is a change, and its cells, the parts of the structure that it changes.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from mouse_cli import _registry
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.nameless._cells import Cells
+
+
+@dataclass(frozen=True)
+class Nameless:
+    """key; title: in words; property: STIFFNESS, MASS or BED; meaning: what it is, for the manual.
+
+    cells(model): what it changes; None where there are fewer than three. spreads: sd of the field that are integrated over.
+    """
+
+    key: str
+    title: str
+    property: str
+    meaning: str
+    spreads: tuple[float, ...]
+    cells: Callable[[Reduced], Cells | None]
+
+
+def registry() -> dict[str, Nameless]:
+    """All rivals by key."""
+    return _registry.discover(__name__, "NAMELESS")

@@ -1,0 +1,115 @@
+"""The parts of a structure over which a field is spread: elements of a mesh, springs and masses of a model of matrices."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.losses import matrices_of
+from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.model.diagnosis import Site
+from mouse_cli.model.problem import Problem
+
+FEWEST = 3  # cells that make a field
+_MOST = 4000  # elements of a mesh up to which a field is spread over it
+_TRIFLE = 1e-9  # share of the largest energy below which a cell has none
+
+Block = tuple[np.ndarray, np.ndarray]  # rows (c, r) of motion in the coordinates of the model, and their matrix (c, c)
+
+
+@dataclass(frozen=True)
+class Cells:
+    """c cells: sites; at (c, d): where they are, distances in `unit`; blocks: K or M of each, of the nominal model, or per unit.
+
+    into: `K` or `M`, the matrix that they change. extend(problem, values (c,), spread): the deck with the field in it.
+    """
+
+    sites: tuple[Site, ...]
+    at: np.ndarray
+    unit: str
+    blocks: tuple[Block, ...]
+    into: str
+    extend: Callable[[Problem, np.ndarray, float], Problem] | None = None
+
+    def __len__(self) -> int:
+        return len(self.sites)
+
+    def summed(self, weights: np.ndarray) -> np.ndarray:
+        """sum over cells of weights (c, w) times u' B u: (w, r, r)."""
+        u = np.concatenate([rows for rows, _ in self.blocks])
+        found = np.zeros((weights.shape[1], u.shape[1], u.shape[1]))
+        loads = np.concatenate([matrix @ rows for rows, matrix in self.blocks])
+        sizes = [len(rows) for rows, _ in self.blocks]
+        for w, own in enumerate(weights.T):
+            found[w] = u.T @ (np.repeat(own, sizes)[:, None] * loads)
+        return found
+
+    def some(self, kept: np.ndarray) -> "Cells":
+        """The cells `kept`, by index."""
+        chosen = lambda every: tuple(every[i] for i in kept.tolist())
+        return Cells(chosen(self.sites), self.at[kept], self.unit, chosen(self.blocks), self.into, self.extend)
+
+
+def of_elements(model: Reduced, into: str, properties: tuple[str, ...]) -> Cells | None:
+    """Elements of a mesh with a matrix `into`, which `properties` of theirs are proportional to."""
+    mesh = model.problem.mesh
+    if mesh is None or model.motion is None or sum(len(s) for s in mesh.elements) > _MOST:
+        return None
+    sites, at, blocks, rows = [], [], [], {}
+    for s, members in enumerate(mesh.elements):
+        matrices = matrices_of(model, s).get(into)
+        for i in range(len(members)) if matrices is not None and members.type != "foundation" else ():
+            for n in members.nodes[i].tolist():
+                rows[n] = model.node(n) if n not in rows else rows[n]
+            u = np.concatenate([rows[n] for n in members.nodes[i].tolist()])
+            position = mesh.coordinates[members.nodes[i]].mean(axis=0)
+            number = int(members.ids[i])
+            sites.append(Site("element", (number,), tuple(position.tolist()), f"{members.type} {number}"))
+            at.append(position)
+            blocks.append((u, matrices[i]))
+
+    def extend(problem: Problem, values: np.ndarray, spread: float) -> Problem:
+        edit = Edit(problem)
+        for site, value in zip(found.sites, values, strict=True):
+            element = edit.element(site.ids[0])
+            own = edit.sets[element[0]]
+            bound = tuple(p for p in _proportional(own.type, properties) if p in own.properties)
+            edit.bind(f"{into} of {site.text}", [element], bound, factor=max(1 + float(value), 1e-3))
+        edit.parameters = [replaced(parameter, spread) for parameter in edit.parameters]
+        return edit.done()
+
+    found = _felt(model, Cells(tuple(sites), np.array(at).reshape(-1, 3), "m", tuple(blocks), into, extend))
+    return found
+
+
+def _proportional(kind: str, properties: tuple[str, ...]) -> tuple[str, ...]:
+    """Properties of elements of one kind that a stiffness or a mass is proportional to, all of them together."""
+    from mouse_cli.model.geometry import DIRECTIONS
+
+    return DIRECTIONS if "E" in properties and kind in ("spring", "storey", "joint") else properties
+
+
+def replaced(parameter, spread: float):
+    """A parameter of a field: known to the spread of the field beforehand."""
+    from dataclasses import replace
+
+    return replace(parameter, sd=spread * abs(parameter.nominal))
+
+
+def _felt(model: Reduced, cells: Cells) -> Cells | None:
+    """Those with a part in the lowest modes; None where there are too few."""
+    count = min(model.r, int(model.data.test.number.max()) + 2)
+    energy = np.array([np.abs(np.einsum("cr,cd,dr->r", u[:, :count], B, u[:, :count])).max() for u, B in cells.blocks])
+    kept = np.flatnonzero(energy > _TRIFLE * energy.max(initial=0.0))
+    return None if len(kept) < FEWEST else cells.some(kept)
+
+
+def of_rows(
+    model: Reduced, sites: list[Site], at: np.ndarray, unit: str, rows: np.ndarray, sizes: np.ndarray, into: str, extend
+) -> Cells | None:
+    """Cells of one row of motion (c, r) each, of stiffness or mass `sizes` (c,)."""
+    if len(sites) < FEWEST:
+        return None
+    blocks = tuple((row[None], np.array([[size]])) for row, size in zip(rows, sizes, strict=True))
+    return _felt(model, Cells(tuple(sites), at, unit, blocks, into, extend))

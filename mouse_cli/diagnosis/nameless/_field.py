@@ -1,0 +1,99 @@
+"""A smooth random field over the cells of a structure, fitted beside the parameters of the deck.
+
+v (c,), the relative change in each cell, is Gaussian with covariance s^2 exp(-d^2 / 2 l^2), d between cells. With the leading
+eigenvectors of that, v = s P w, w ~ N(0, I): as many unknowns more, in which K or M is linear. The evidence of each spread s and
+correlation length l is Laplace's; they are integrated over a grid, all alike beforehand.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.nameless import Nameless
+from mouse_cli.diagnosis.nameless._cells import Cells
+from mouse_cli.model.diagnosis import Field, FieldValue, HeldOut
+
+LENGTHS = (0.08, 0.2, 0.5)  # correlation lengths, of the extent of the cells
+_KEPT, _MOST = 0.995, 16  # share of the variance that is kept, and eigenvectors at most
+
+
+@dataclass(frozen=True)
+class Smooth:
+    """A field of one kind: rival; cells; P (c, w), its spread in it; spread s; length l in the unit of the cells."""
+
+    rival: Nameless
+    cells: Cells
+    P: np.ndarray
+    spread: float
+    length: float
+
+    def values(self, w: np.ndarray) -> np.ndarray:
+        """Relative changes (c,) at w (w,)."""
+        return self.P @ w
+
+
+def smooth(rival: Nameless, cells: Cells, spread: float, share: float) -> Smooth:
+    """The field of that spread, correlated over that share of the extent of its cells."""
+    apart = np.linalg.norm(cells.at[:, None] - cells.at[None], axis=2)
+    length = share * float(apart.max())
+    size, U = np.linalg.eigh(np.exp(-0.5 * (apart / length) ** 2))
+    size, U = np.maximum(size[::-1], 0.0), U[:, ::-1]
+    kept = min(_MOST, int(np.searchsorted(np.cumsum(size) / size.sum(), _KEPT)) + 1)
+    return Smooth(rival, cells, spread * U[:, :kept] * np.sqrt(size[:kept]), spread, length)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fielded(Reduced):
+    """A reduced model with a field in it: z = [z of the deck (k,), w]. of_field (w, r, r): what each w adds to K or M."""
+
+    nameless: Smooth
+    of_field: np.ndarray
+
+    @property
+    def deck(self) -> int:
+        """How many of z are of the deck."""
+        return super().L.shape[1]
+
+    @property
+    def L(self) -> np.ndarray:
+        """Root (p, k + w) of the prior of the deck's parameters, which do not follow the field."""
+        own = super().L
+        return np.hstack([own, np.zeros((len(own), len(self.of_field)))])
+
+    @property
+    def z(self) -> np.ndarray:
+        """z (k + w,) of theta, without a field."""
+        return np.append(super().z, np.zeros(len(self.of_field)))
+
+    def matrices(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """K and M (r, r) at z."""
+        found = dict(zip("KM", super().matrices(z), strict=True))
+        into = self.nameless.cells.into
+        found[into] = found[into] + np.tensordot(z[self.deck :], self.of_field, 1)
+        return found["K"], found["M"]
+
+    def slopes(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """dK/dz and dM/dz (k + w, r, r)."""
+        found = dict(zip("KM", super().slopes(z), strict=True))
+        found[self.nameless.cells.into][self.deck :] = self.of_field
+        return found["K"], found["M"]
+
+    def at(self, theta: np.ndarray) -> "Fielded":
+        """Itself: a field is of the model as it is."""
+        return self
+
+
+def fielded(base: Reduced, field: Smooth) -> Fielded:
+    """`base` with a field in it."""
+    own = {name: getattr(base, name) for name in Reduced.__dataclass_fields__}
+    return Fielded(**own, nameless=field, of_field=field.cells.summed(field.P))
+
+
+def found(base: Fielded, z: np.ndarray, covariance: np.ndarray, over_named: float, held: HeldOut | None) -> Field:
+    """The field at z, of covariance (k + w, k + w), in words and numbers."""
+    field, own = base.nameless, slice(base.deck, None)
+    values = field.values(z[own])
+    sd = np.sqrt(np.einsum("cw,wv,cv->c", field.P, covariance[own, own], field.P))
+    sites = tuple(FieldValue(*each) for each in zip(field.cells.sites, values.tolist(), sd.tolist(), strict=True))
+    return Field(field.rival.property, sites, field.spread, field.length, field.cells.unit, over_named, held)

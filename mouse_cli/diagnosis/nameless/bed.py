@@ -1,0 +1,73 @@
+"""A bed of springs to the ground whose stiffness varies smoothly along the structure."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.extend.matrices import of_matrices, with_shares
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.likelihoods.modal.scales import lowest, total_mass
+from mouse_cli.diagnosis.nameless import Nameless
+from mouse_cli.diagnosis.nameless._cells import FEWEST, Cells, of_rows, replaced
+from mouse_cli.diagnosis.sites.points import named_dof, wanted
+from mouse_cli.model.diagnosis import BED
+from mouse_cli.model.problem import Problem
+from mouse_cli.terms.elements import _beam as beam
+
+_FIRST = 12.36  # (beta L)^4 of the first mode of a cantilever: w^2 m = 12.36 EI / L^4
+
+
+def cells(model: Reduced) -> Cells | None:
+    """K + sum v_e k w'w, k = EI / L^4 along the bars of a mesh; of a model of matrices at each degree of freedom."""
+    return _at_dofs(model) if of_matrices(model.problem) else _under_bars(model)
+
+
+def _under_bars(model: Reduced) -> Cells | None:
+    bars = model.bars
+    if bars is None or len(bars) < FEWEST:
+        return None
+    w, _, _ = beam.shapes(bars.length, np.zeros(len(bars)))
+    unit = bars.stiffness / bars.span**4
+    parts = beam.integral(w, bars.length) * unit
+    at = bars.start + 0.5 * bars.length[:, None] * bars.axis
+    sites = tuple(bars.site(i, 0.5) for i in range(len(bars)))
+
+    def extend(problem: Problem, values: np.ndarray, spread: float) -> Problem:
+        edit = Edit(problem)
+        for i, value in enumerate(values):
+            element = edit.element(int(bars.ids[i]))
+            own, name = edit.sets[element[0]], f"k{'yz'[bars.plane[i]]}"
+            options = {k: own.options[k] for k in ("orientation", "offsets") if k in own.options}
+            new = edit.add("foundation", own.nodes[[element[1]]], {name: value * unit}, options)
+            edit.bind(f"bed of {sites[i].text}", new, (name,), factor=1.0)
+            edit.parameters[-1] = replaced(edit.parameters[-1], spread / max(abs(float(value)), 1e-3 * spread))
+        return edit.done()
+
+    return Cells(sites, at, "m", tuple(zip(bars.ends, parts, strict=True)), "K", extend)
+
+
+def _at_dofs(model: Reduced) -> Cells | None:
+    structure, keep = model.problem.structure, wanted(model)
+    own = np.arange(structure.n) if keep is None else np.flatnonzero(keep)
+    if structure.geometry is not None:
+        own = own[structure.geometry.direction[own] < 3]
+    sites = [named_dof(structure, int(i)) for i in own]
+    unit = lowest(model) * total_mass(model) / max(len(own), 1) / _FIRST
+
+    def extend(problem: Problem, values: np.ndarray, spread: float) -> Problem:
+        shares = [(site.text, float(v), (np.array([i]), np.array([i]), np.array([unit])))
+                  for site, i, v in zip(sites, own, values, strict=True)]  # fmt: skip
+        return with_shares(problem, "bed", shares, spread)
+
+    at, sizes = own[:, None].astype(float), np.full(len(own), unit)
+    return of_rows(model, sites, at, "degrees of freedom", model.V[own], sizes, "K", extend)
+
+
+NAMELESS = Nameless(
+    "field-bed",
+    "a bed of springs to the ground that varies along the structure",
+    BED,
+    "springs per length to the ground, neighbours alike: a smooth random field whose spread and correlation length are integrated "
+    "out, in units of EI / L^4",
+    (10.0, 100.0, 1000.0),
+    cells,
+)

@@ -1,0 +1,46 @@
+"""A mass that varies smoothly along the structure."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.extend.matrices import of_matrices, with_shares
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.nameless import Nameless
+from mouse_cli.diagnosis.nameless._cells import Cells, of_elements, of_rows
+from mouse_cli.diagnosis.sites.points import named_dof, wanted
+from mouse_cli.model.diagnosis import MASS
+from mouse_cli.model.problem import Problem
+
+
+def cells(model: Reduced) -> Cells | None:
+    """M + sum v_e M_e over elements, or over the diagonal of a mass matrix."""
+    return (
+        _diagonal(model)
+        if of_matrices(model.problem)
+        else of_elements(model, "M", ("density", "nonstructural_mass", "mass"))
+    )
+
+
+def _diagonal(model: Reduced) -> Cells | None:
+    mass = model.assembly.matrices(model.theta)[1].diagonal()
+    keep = wanted(model)
+    own = np.flatnonzero(mass > 0) if keep is None else np.flatnonzero(keep & (mass > 0))
+    sites = [named_dof(model.problem.structure, int(i)) for i in own]
+
+    def extend(problem: Problem, values: np.ndarray, spread: float) -> Problem:
+        shares = [(site.text, float(v), (np.array([i]), np.array([i]), mass[[i]]))
+                  for site, i, v in zip(sites, own, values, strict=True)]  # fmt: skip
+        return with_shares(problem, "mass", shares, spread)
+
+    at = own[:, None].astype(float)
+    return of_rows(model, sites, at, "degrees of freedom", model.V[own], mass[own], "M", extend)
+
+
+NAMELESS = Nameless(
+    "field-mass",
+    "a mass that varies along the structure",
+    MASS,
+    "mass of every part is off by its own share, neighbours alike: a smooth random field whose spread and correlation length are "
+    "integrated out",
+    (0.03, 0.1, 0.3),
+    cells,
+)

@@ -1,0 +1,184 @@
+"""Several mechanisms together, as many as the data need: one is added, each is exchanged in turn, and none stays needlessly.
+
+Pairs begin from every leading single one. Larger sets grow from the best smaller ones, and from several of one kind: masses removed
+at three places look like anything but one of them.
+"""
+
+from collections import Counter
+from collections.abc import Iterable
+
+import numpy as np
+
+from mouse_cli.diagnosis.search.fit import Fit, fit
+from mouse_cli.diagnosis.search.study import Study, settled, shifted, summed, tried
+from mouse_cli.updating.chi_square import upper_tail
+
+_SECOND, _QUICK = 2, 8  # fits of a further mechanism beside others, and their steps, in a first try
+_SWAPPED, _FINISHED = 2, 6  # pairs whose aliases are tried; sets that are fitted to the end
+_PAIRED, _WIDE = 8, 5  # candidates that are tried in pairs; groups of which the best is tried with every candidate
+_PARTNERS = 6  # candidates that a first look finds best beside others, which alone are fitted
+_GROWN, _ALIKE = 2, 5  # sets that grow further; kinds of which several are tried
+_ROUNDS = 2  # of exchanges
+_ADEQUATE = 0.05  # p-value of the misfit below which a further mechanism is sought
+_FAR = 200.0  # misfit above the best one, by its degrees of freedom, from which on a fit is no rival
+MATERIAL = 3.0  # log evidence that each further mechanism must gain
+
+Found = dict[tuple[str, ...], Fit]  # the best fit of each set of candidates
+
+
+def key(one: Fit) -> tuple[str, ...]:
+    """Keys of the mechanisms of a fit, sorted."""
+    return tuple(sorted(recipe.candidate.key for recipe in one.recipes))
+
+
+def adequate(one: Fit, least: float = _ADEQUATE) -> bool:
+    """Whether what a fit leaves may be noise."""
+    return upper_tail(one.misfit, max(one.dof, 1)) > least
+
+
+def several(study: Study, singles: list[Fit], most: int) -> list[Fit]:
+    """Sets of two mechanisms, and of more up to `most` as long as the best set leaves more than noise and gains."""
+    found = pairs(study, singles)
+    smaller, growing = singles + found, found
+    alike = same_kind(study, singles, most) if most > 2 or not any(map(adequate, found)) else []
+    count = 3
+    while count <= most and not any(adequate(one) for one in growing):
+        begun = sorted(growing, key=lambda one: -one.log_evidence)[:_GROWN]
+        larger: Found = {}
+        for one in begun:
+            for more in _added(study, one, larger):
+                _keep(larger, _exchanged(study, more))
+        growing = [one for one in _finished(study, larger) if material(one, smaller)]
+        if not growing:
+            break
+        found, smaller, count = found + growing, smaller + growing, count + 1
+    known = {key(one) for one in found}
+    return found + [one for one in alike if key(one) not in known and material(one, smaller + alike)]
+
+
+def pairs(study: Study, singles: list[Fit]) -> list[Fit]:
+    """Two: the leading ones of different groups with the best partners, the leading ones with one another, and aliases.
+
+    All are tried in few steps; those that lead are fitted to the end.
+    """
+    leading = sorted(singles, key=lambda one: -one.log_evidence)[:_PAIRED]
+    firsts = {one.recipes[0].candidate.group: one for one in reversed(leading)}  # the best of each group
+    wide = sorted(firsts.values(), key=lambda one: -one.log_evidence)[:_WIDE]
+    found: Found = {}
+    for first in leading:
+        own = [one.recipes[0].candidate.key for one in leading]
+        any_of = any(first is one for one in wide)
+        _beside(study, first, study.known if any_of else own, found)
+    done: set[tuple[str, ...]] = set()
+    for _ in range(_ROUNDS):  # both may be there by an alias
+        for two in _best_of(found, _SWAPPED):
+            if key(two) not in done:
+                done.add(key(two))
+                _swap(study, two, found)
+    return [two for two in _finished(study, found) if material(two, singles)]
+
+
+def same_kind(study: Study, singles: list[Fit], most: int) -> list[Fit]:
+    """Two and more of one kind at different sites, each moved in turn to where it fits best."""
+    found: Found = {}
+    order = sorted(singles, key=lambda one: -one.log_evidence)
+    kinds = [one for one in order if len(study.recipes(one.recipes[0].candidate.key)) > 1 and one.c.size][:_ALIKE]
+    for one in kinds:
+        name = one.recipes[0].candidate.key
+        while len(one.recipes) < most and not adequate(one):
+            larger: Found = {}
+            _beside(study, one, [name], larger)
+            if not larger:
+                break
+            one = _exchanged(study, next(iter(larger.values())), (name,))
+            _keep(found, one)
+    return _finished(study, found)
+
+
+def material(one: Fit, smaller: list[Fit]) -> bool:
+    """Whether every mechanism of a set is needed: what it gains over the best of its parts."""
+    own = Counter(key(one))
+    parts = [each.log_evidence for each in smaller if each is not one and Counter(key(each)) < own]
+    return not parts or one.log_evidence - max(parts) > MATERIAL
+
+
+def _finished(study: Study, found: Found) -> list[Fit]:
+    return [summed([settled(shifted(one), study)]) for one in _best_of(found, _FINISHED)]
+
+
+def _best_of(found: Found, count: int) -> list[Fit]:
+    return sorted(found.values(), key=lambda one: -one.log_evidence)[:count]
+
+
+def _keep(found: Found, one: Fit) -> None:
+    other = found.get(key(one))
+    if other is None or one.log_evidence > other.log_evidence:
+        found[key(one)] = one
+
+
+def _reach(found: Iterable[Fit]) -> float:
+    """Misfit above which a fit can be no rival of the best of `found`."""
+    least = min(found, key=lambda one: one.misfit)
+    return least.misfit + _FAR * max(1.0, least.misfit / max(least.dof, 1))
+
+
+def _swap(study: Study, two: Fit, found: Found) -> None:
+    """Into `found` the same mechanisms with either replaced by what is hard to tell from it, begun from the pair itself."""
+    for i, recipe in enumerate(two.recipes):
+        own = recipe.candidate
+        aliases = [name for name, each in study.known.items() if each.group == own.group and name != own.key]
+        rest = _without(two, i)
+        if rest is not None and aliases:
+            _beside(study, rest, aliases, found)
+
+
+def _beside(study: Study, first: Fit, partners: Iterable[str], found: Found) -> None:
+    """Into `found` what `first` and the best of `partners` make together, where it is better than what is there."""
+    there = study.at(first)
+    for name in _promising(there, first, list(partners)):
+        for more in tried(there, name, first, _SECOND, _QUICK, _reach([first, *found.values()])):
+            _keep(found, more)
+
+
+def _promising(there: Study, first: Fit, partners: list[str]) -> list[str]:
+    """Those of `partners` that a first look beside `first` finds best."""
+    if len(partners) <= _PARTNERS:
+        return partners
+    coarse, before = there.coarse, first.point.x
+    looks = {name: coarse.looks(name, before, first.recipes) for name in partners}
+    order = sorted((name for name in partners if looks[name]), key=lambda name: looks[name][0][0])
+    return order[:_PARTNERS]
+
+
+def _added(study: Study, one: Fit, others: Found) -> list[Fit]:
+    """The best sets of `one` and any further mechanism."""
+    found: Found = {}
+    _beside(study, one, study.known, found)
+    return _best_of({name: each for name, each in found.items() if name not in others}, _SECOND)
+
+
+def _exchanged(study: Study, one: Fit, names: tuple[str, ...] | None = None) -> Fit:
+    """The set with each mechanism in turn replaced by what fits best beside the others, as long as that gains.
+
+    names: candidates that may take a place; None: all.
+    """
+    for _ in range(_ROUNDS):
+        before = one.log_evidence
+        for i in range(len(one.recipes)):
+            rest = _without(one, i)
+            if rest is None:
+                continue
+            found: Found = {}
+            _beside(study, rest, study.known if names is None else names, found)
+            better = max(found.values(), key=lambda each: each.log_evidence, default=one)
+            one = better if better.log_evidence > one.log_evidence else one
+        if one.log_evidence < before + 1.0:
+            break
+    return one
+
+
+def _without(one: Fit, i: int) -> Fit | None:
+    """The fit without its mechanism number i, the others where they are to begin with."""
+    rest = (*one.recipes[:i], *one.recipes[i + 1 :])
+    c = np.concatenate([np.zeros(0), *(one.c[own] for j, own in enumerate(one.model.own) if j != i)])
+    return fit(type(one.model)(one.model.base, rest), c, one.point.x[: one.model.k], _QUICK)
