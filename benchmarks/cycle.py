@@ -18,7 +18,7 @@ from dataclasses import replace
 import numpy as np
 from _paired import paired
 
-from mouse_cli.dynamics.eigen import eigensolution
+from mouse_cli.dynamics.solver import eigensolution
 from mouse_cli.estimators.bayes import solve
 from mouse_cli.estimators.linear import LinearProblem
 from mouse_cli.model.modal_test import ModalTest

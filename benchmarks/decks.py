@@ -9,7 +9,7 @@ import statistics
 import time
 from pathlib import Path
 
-from mouse_cli.dynamics.eigen import eigensolution
+from mouse_cli.dynamics.solver import eigensolution
 from mouse_cli.formats import read_deck
 from mouse_cli.updating import run
 

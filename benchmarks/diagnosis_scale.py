@@ -62,8 +62,8 @@ def main() -> None:
 
     from mouse_cli.diagnosis import diagnose
     from mouse_cli.diagnosis.diagnose import ENOUGH
+    from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
     from mouse_cli.diagnosis.likelihoods.modal.model import Model
-    from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
     from mouse_cli.diagnosis.localise.energy_map import energy_map
     from mouse_cli.diagnosis.localise.force import locate
     from mouse_cli.diagnosis.search.fit import fit

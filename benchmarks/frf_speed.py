@@ -39,7 +39,7 @@ def main() -> None:
 
     from mouse_cli.dynamics.frf import Dynamics
     from mouse_cli.dynamics.frf_basis import frf_model
-    from mouse_cli.dynamics.frf_slopes import Change
+    from mouse_cli.dynamics.frf_slopes import Change, slopes
     from mouse_cli.dynamics.solver import EigenSolver
     from mouse_cli.terms.assembly import assembly as assemble
 
@@ -65,11 +65,11 @@ def main() -> None:
     change = timed(parts, "patterns of derivatives, once a run", lambda: Change(n, assembly.p, assembly.slopes(theta)))
     d_alpha = np.empty((*alpha.shape, assembly.p), complex)
 
-    def slopes() -> None:
-        for part, values in fields.slopes(change):
+    def derived() -> None:
+        for part, values in slopes(fields, change):
             d_alpha[..., part] = values
 
-    timed(parts, "derivatives", slopes)
+    timed(parts, "derivatives", derived)
     print(
         f"{options.kind}: {n} degrees of freedom, {len(s)} lines, {len(outputs)} x {FORCES} FRFs, {assembly.p} parameters"
     )

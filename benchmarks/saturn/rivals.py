@@ -7,8 +7,9 @@ import numpy as np
 from benchmarks.saturn.decks import segments
 from benchmarks.saturn.stack import MEASURED, Vehicle
 from benchmarks.saturn.vehicle import problem
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
-from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced, reduced
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
 from mouse_cli.diagnosis.search.fit import Fit, fit
 

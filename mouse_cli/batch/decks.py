@@ -48,13 +48,6 @@ def is_manifest(path: str) -> bool:
     return is_yaml(data, path) and re.search(rb"^batch[ \t]*:", data, re.MULTILINE) is not None
 
 
-def manifest_jobs(path: str, outside: bool = False) -> list:
-    """The jobs of the manifest `path`, as `manifest.read` gives them. Raises DeckError with all that is wrong with it."""
-    from mouse_cli.batch import manifest
-
-    return manifest.read(path, outside)
-
-
 def _below(folder: str) -> Iterator[str]:
     for place, _, names in sorted(os.walk(folder)):
         yield from (os.path.join(place, name) for name in sorted(names) if name.endswith(_SUFFIXES))

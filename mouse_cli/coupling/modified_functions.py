@@ -6,7 +6,7 @@ import numpy as np
 from mouse_cli.coupling.parts import model_of
 from mouse_cli.coupling.peaks import peaks
 from mouse_cli.dynamics.frf import Dynamics, FrfModel
-from mouse_cli.dynamics.frf_slopes import Change
+from mouse_cli.dynamics.frf_slopes import Change, slopes
 from mouse_cli.dynamics.solver import Notice
 from mouse_cli.estimators.linear import in_prior_units
 from mouse_cli.model.arrays import Matrix
@@ -61,7 +61,7 @@ def _solved(model: FrfModel, s: np.ndarray, change: Change, prior) -> tuple[np.n
         H = fields.receptance()
         J = np.zeros((*H.shape, max(change.p, 1)), complex)
         if change.p:
-            for part, values in fields.slopes(change):
+            for part, values in slopes(fields, change):
                 J[..., part] = values
             J = in_prior_units((J * slope).reshape(-1, change.p), prior.L).reshape(*H.shape, -1)
         with np.errstate(divide="ignore", invalid="ignore"):

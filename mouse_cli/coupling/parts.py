@@ -9,7 +9,7 @@ from mouse_cli.coupling.picks import block, span
 from mouse_cli.dynamics.eigen import IndefiniteError
 from mouse_cli.dynamics.frf import Dynamics, Fields, FrfModel, Loads
 from mouse_cli.dynamics.frf_basis import BEYOND, WHOLE, frf_model
-from mouse_cli.dynamics.frf_slopes import Change
+from mouse_cli.dynamics.frf_slopes import Change, slopes
 from mouse_cli.dynamics.solver import EigenSolver, Notice
 from mouse_cli.estimators.linear import in_prior_units
 from mouse_cli.model.arrays import dense, is_sparse
@@ -72,7 +72,8 @@ class Modelled:
         o, i = L.shape[1], R.shape[2]
         within = FrfModel(model.matrices, np.zeros((model.d, o + i)), [slice(0, o), slice(o, o + i)], model.V)
         J = np.empty((len(Y), o, i, self._change.p), complex)
-        for part, values in Fields(within, self._fields.s, np.concatenate(motions, axis=2)).slopes(self._change):
+        fields = Fields(within, self._fields.s, np.concatenate(motions, axis=2))
+        for part, values in slopes(fields, self._change):
             J[..., part] = values
         slope = self._prior.slope(self._prior.mean)
         found = in_prior_units((J * slope).reshape(-1, self._change.p), self._prior.L)

@@ -1,7 +1,6 @@
 """The physics that a diagnosis knows, in Markdown: for `mouse explain candidates` and the reference."""
 
-from mouse_cli.diagnosis.likelihoods.frf.dashpots import DASHPOT
-from mouse_cli.diagnosis.likelihoods.frf.lossy_parts import LOSSY_PART
+from mouse_cli.diagnosis.likelihoods.candidates import OWN
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
 
 _HEAD = """# Candidates
@@ -12,7 +11,7 @@ can hardly tell apart share a group, and the group is decided first. [Diagnosis]
 
 def manual() -> str:
     """All candidates: a table of the groups, then each candidate."""
-    members = dict(sorted((registry() | {each.key: each for each in (DASHPOT, LOSSY_PART)}).items()))
+    members = dict(sorted((registry() | OWN).items()))
     groups: dict[str, list[str]] = {}
     for key, candidate in members.items():
         groups.setdefault(candidate.group, []).append(key)

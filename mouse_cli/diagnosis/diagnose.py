@@ -12,9 +12,10 @@ from mouse_cli.diagnosis.likelihoods.frf.deck import with_damping
 from mouse_cli.diagnosis.likelihoods.frf.identified import with_modes
 from mouse_cli.diagnosis.likelihoods.frf.rank import heard
 from mouse_cli.diagnosis.likelihoods.history.diagnose import diagnose_records
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.numerics import numerics
-from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced, reduced
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.localise.energy_map import energy_map
 from mouse_cli.diagnosis.localise.force import locate
 from mouse_cli.diagnosis.localise.implied_law import implied_law

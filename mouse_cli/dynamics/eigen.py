@@ -6,7 +6,6 @@ import numpy as np
 
 from mouse_cli.dynamics.frequency import frequency_hz
 from mouse_cli.dynamics.krylov import Krylov
-from mouse_cli.model.arrays import Matrix, is_sparse
 
 RIGID = 1e-6  # |lambda| up to this share of the first measured eigenvalue is a rigid-body mode
 _ROUNDED, _LOW = (
@@ -49,26 +48,6 @@ class EigenSolution:
     def rigid(self, reference: float) -> int:
         """Number of rigid-body modes: eigenvalues within RIGID of zero, measured by a `reference` eigenvalue."""
         return int(np.count_nonzero(np.abs(self.eigenvalues) <= RIGID * reference))
-
-
-def eigensolution(K: Matrix, M: Matrix, count: int | None = None, shift: float | None = None) -> EigenSolution:
-    """Lowest `count` modes of symmetric K and positive semidefinite M (all of them for dense matrices).
-
-    Dense matrices go to LAPACK; sparse ones to block Lanczos around a factorisation of K - shift M, shift < 0, which is
-    positive definite although the structure may move as a rigid body. Degrees of freedom without mass follow the others: their
-    own modes, of infinite frequency, are left out.
-
-    Raises IndefiniteError when M has negative eigenvalues, and for sparse matrices when K has eigenvalues below the shift.
-
-    >>> import numpy as np
-    >>> eigensolution(np.array([[2.0, -1.0], [-1.0, 2.0]]), np.eye(2)).eigenvalues.round(12).tolist()
-    [1.0, 3.0]
-    """
-    if is_sparse(K) or is_sparse(M):
-        from mouse_cli.dynamics.solver import EigenSolver
-
-        return EigenSolver().solve(K, M, count or min(20, K.shape[0] - 2), shift)
-    return dense_solution(K, M)
 
 
 def dense_solution(K: np.ndarray, M: np.ndarray) -> EigenSolution:

@@ -7,7 +7,6 @@ Small models are solved line by line as they are. Larger ones are solved in a ba
 what loads and damping do besides, whose error is checked against full solutions at some lines.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -126,7 +125,7 @@ class FrfModel:
 
 
 class Fields:
-    """Motions Y (f, d, l) under every load at s (f,), in the basis of `model`; what sensors read of them, and derivatives."""
+    """Motions Y (f, d, l) under every load at s (f,), in the basis of `model`; and what sensors read of them."""
 
     def __init__(self, model: FrfModel, s: np.ndarray, Y: np.ndarray):
         self.model, self.s, self.Y = model, s, Y
@@ -144,12 +143,6 @@ class Fields:
         """Z^-1 loads (f, n, i) at all degrees of freedom; large."""
         Y = self.of(which)[lines]
         return Y if self.model.V is None else np.matmul(self.model.V.T, Y)
-
-    def slopes(self, change: "Change", left: int = 0, right: int = 1) -> Iterator[tuple[slice, np.ndarray]]:  # noqa: F821
-        """d alpha/dp = -alpha (dZ/dp) alpha (f, o, i, p') for some parameters at a time, and which these are; `frf_slopes`."""
-        from mouse_cli.dynamics.frf_slopes import slopes
-
-        return slopes(self, change, left, right)
 
 
 def kind_factor(power: int, s: np.ndarray) -> np.ndarray:

@@ -72,7 +72,7 @@ def _of_rows(stack: Stack, matrix: Matrix, columns: np.ndarray) -> np.ndarray:
 
 
 def slopes(fields: Fields, change: Change, left: int = 0, right: int = 1) -> Iterator[tuple[slice, np.ndarray]]:
-    """-Y_left' (dZ/dp) Y_right (f, o, i, p') for the parameters of one slice after the other."""
+    """d alpha/dp = -Y_left' (dZ/dp) Y_right (f, o, i, p') for the parameters of one slice after the other."""
     Y_left, Y_right, V = _spanned(fields, left, right)
     projected = change.projected(V)
     f, r, i = Y_right.shape

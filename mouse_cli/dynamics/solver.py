@@ -171,6 +171,24 @@ class EigenSolver:
         raise NotConverged(f"{below} modes lie below {s:.6g} (rad/s)^2, of which only {found} were found")
 
 
+def eigensolution(K: Matrix, M: Matrix, count: int | None = None, shift: float | None = None) -> EigenSolution:
+    """Lowest `count` modes of symmetric K and positive semidefinite M (all of them for dense matrices).
+
+    Dense matrices go to LAPACK; sparse ones to block Lanczos around a factorisation of K - shift M, shift < 0, which is
+    positive definite although the structure may move as a rigid body. Degrees of freedom without mass follow the others: their
+    own modes, of infinite frequency, are left out.
+
+    Raises IndefiniteError when M has negative eigenvalues, and for sparse matrices when K has eigenvalues below the shift.
+
+    >>> import numpy as np
+    >>> eigensolution(np.array([[2.0, -1.0], [-1.0, 2.0]]), np.eye(2)).eigenvalues.round(12).tolist()
+    [1.0, 3.0]
+    """
+    if is_sparse(K) or is_sparse(M):
+        return EigenSolver().solve(K, M, count or min(20, K.shape[0] - 2), shift)
+    return dense_solution(K, M)
+
+
 def _elastic(operator: Operator, sigma: float) -> float:
     """The lowest eigenvalue that is not zero, roughly: from a small space. Below zero when K is indefinite, inf: none found."""
     space = Krylov(operator, (_TRIAL + 1) * BLOCK)

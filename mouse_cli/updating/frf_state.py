@@ -8,7 +8,7 @@ import numpy as np
 from mouse_cli.dynamics.eigen import EigenSolution
 from mouse_cli.dynamics.frf import Dynamics, Fields, FrfModel
 from mouse_cli.dynamics.frf_basis import FINAL, ITERATING, frf_model
-from mouse_cli.dynamics.frf_slopes import Change
+from mouse_cli.dynamics.frf_slopes import Change, slopes
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.observables.frf import FrfObservable
 from mouse_cli.terms.assembly import Assembly
@@ -113,7 +113,7 @@ class FrfState:
     ) -> Iterator[tuple[slice, np.ndarray]]:
         """Derivatives of `receptance` (f, o, i), read of measurement k, by whatever `change` is by: some at a time, gains last."""
         factor = self.setting.gains.factor(k, self.theta)[..., None]
-        for part, values in fields.slopes(change, 2 * k, 2 * k + 1):
+        for part, values in slopes(fields, change, 2 * k, 2 * k + 1):
             yield part, values * factor
         if change.p == len(self.theta):
             yield from self.setting.gains.slopes(k, self.theta, receptance)

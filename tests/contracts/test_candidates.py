@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
-from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.formats import read_deck, write_deck
 from mouse_cli.model.arrays import dense

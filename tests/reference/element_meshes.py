@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from mouse_cli.dynamics.eigen import eigensolution
+from mouse_cli.dynamics.solver import eigensolution
 from mouse_cli.model.arrays import dense
 from mouse_cli.model.mesh import Binding, ElementSet, Mesh
 from mouse_cli.terms.assembly import Assembly

@@ -13,8 +13,8 @@ from scipy.stats import multivariate_normal
 
 from mouse_cli.diagnosis.diagnose import diagnose
 from mouse_cli.diagnosis.likelihoods.modal.accuracy import ERRORS, ways
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
-from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
 from mouse_cli.diagnosis.search import decide
 from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.diagnosis.search.rank import rank

@@ -9,7 +9,7 @@ import pytest
 from mouse_cli.cli.main import _run
 from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, Together, common
 from mouse_cli.diagnosis.likelihoods.configurations.predict import predicted
-from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.formats import read_deck
 

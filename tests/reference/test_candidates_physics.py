@@ -6,8 +6,8 @@ from scipy.linalg import eigh
 from scipy.optimize import brentq
 
 from mouse_cli.diagnosis.effects.fracture import bending
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
-from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble

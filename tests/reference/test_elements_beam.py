@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from element_meshes import BAR, STEEL, XY, beam_line, elements, hertz, matrices, mesh, pairs
 
-from mouse_cli.dynamics.eigen import eigensolution
+from mouse_cli.dynamics.solver import eigensolution
 
 EI, MU = STEEL["E"] * BAR["Iz"], STEEL["density"] * BAR["A"]
 CLAMPED, PINNED = XY, (0, 1)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from element_meshes import BAR, STEEL, XY, beam_line, damping, elements, hertz, matrices, mesh, pairs, rigid
 
-from mouse_cli.dynamics.eigen import eigensolution
+from mouse_cli.dynamics.solver import eigensolution
 from mouse_cli.model.arrays import dense, is_sparse
 from mouse_cli.model.mesh import Mesh, RigidLink
 from mouse_cli.model.structure import Structure

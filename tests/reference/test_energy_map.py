@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from test_locate import cantilever, chain, measured, problem
 
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
-from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
 from mouse_cli.diagnosis.localise.energy_map import energy_map
 from mouse_cli.diagnosis.search.fit import fit
 

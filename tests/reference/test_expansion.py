@@ -6,8 +6,8 @@ from scipy.linalg import cholesky, solve_triangular
 from scipy.sparse import csr_array
 
 from mouse_cli.dynamics.condensation import LooseError
-from mouse_cli.dynamics.eigen import eigensolution
 from mouse_cli.dynamics.expansion import Measured, expansion, registry
+from mouse_cli.dynamics.solver import eigensolution
 
 METHODS = tuple(registry())
 

@@ -8,7 +8,7 @@ from scipy import sparse
 
 from mouse_cli.dynamics.frf import Dynamics, FrfModel
 from mouse_cli.dynamics.frf_basis import WHOLE, frf_model
-from mouse_cli.dynamics.frf_slopes import Change
+from mouse_cli.dynamics.frf_slopes import Change, slopes
 from mouse_cli.dynamics.solver import EigenSolver
 from mouse_cli.model.mesh import Binding
 from mouse_cli.terms.assembly import Assembly
@@ -22,7 +22,7 @@ def spread(model: FrfModel, s: np.ndarray, change: Change) -> tuple[np.ndarray, 
     fields = model.at(s)
     alpha = fields.receptance()
     out = np.zeros((*alpha.shape, change.p), complex)
-    for part, values in fields.slopes(change):
+    for part, values in slopes(fields, change):
         out[..., part] = values
     return alpha, out
 

@@ -20,7 +20,7 @@ from mouse_cli.diagnosis.likelihoods.frf.extend import with_loss
 from mouse_cli.diagnosis.likelihoods.frf.identified import with_modes
 from mouse_cli.diagnosis.likelihoods.frf.lossy import STRUCTURAL, VISCOUS, lossy
 from mouse_cli.diagnosis.likelihoods.frf.model import FrfModel
-from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.dynamics.solver import EigenSolver
 from mouse_cli.formats import read_deck

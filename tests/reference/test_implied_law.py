@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from mouse_cli.diagnosis.effects.change import Change
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
-from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
 from mouse_cli.diagnosis.localise.implied_law import _gram, implied_law
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.diagnosis.search.fit import fit

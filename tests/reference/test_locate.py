@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.localise.force import locate, scores
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter

@@ -5,8 +5,8 @@ import pytest
 from scipy.linalg import eigh
 from test_locate import chain, measured, problem
 
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
-from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.diagnosis.validate.measurements import SHAPE_SD, measurements

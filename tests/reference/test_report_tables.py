@@ -12,7 +12,7 @@ from mpmath import mp
 from scipy.linalg import eigh
 from scipy.optimize import least_squares
 
-from mouse_cli.dynamics.eigen import eigensolution
+from mouse_cli.dynamics.solver import eigensolution
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.problem import Problem, RunOptions

@@ -9,12 +9,12 @@ from scipy.sparse import block_diag, csr_array, diags_array, kron
 
 from mouse_cli._errors import NumericalError
 from mouse_cli.dynamics import memory
-from mouse_cli.dynamics.eigen import IndefiniteError, eigensolution
+from mouse_cli.dynamics.eigen import IndefiniteError
 from mouse_cli.dynamics.factors import Analysis, registry
 from mouse_cli.dynamics.forces import forces
 from mouse_cli.dynamics.pencil import Pencil
 from mouse_cli.dynamics.sensitivity import EXACT, FINAL, modal_partials
-from mouse_cli.dynamics.solver import EigenSolver
+from mouse_cli.dynamics.solver import EigenSolver, eigensolution
 from mouse_cli.model.term import Slopes
 
 BACKENDS = [

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
-from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced, reduced
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unseen
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.diagnosis.search.fit import fit

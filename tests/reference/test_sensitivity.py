@@ -10,9 +10,10 @@ import pytest
 from mpmath import mp
 from scipy.sparse import block_diag, csr_array, diags_array, eye_array
 
-from mouse_cli.dynamics.eigen import EigenSolution, IndefiniteError, clusters, eigensolution
+from mouse_cli.dynamics.eigen import EigenSolution, IndefiniteError, clusters
 from mouse_cli.dynamics.forces import Forces, forces
 from mouse_cli.dynamics.sensitivity import modal_partials
+from mouse_cli.dynamics.solver import eigensolution
 from mouse_cli.model.structure import ListedElements
 from mouse_cli.terms.matrix_entries import MatrixEntries
 

@@ -9,11 +9,10 @@ import pytest
 from mpmath import mp, mpf
 from scipy.sparse import coo_array, csr_array
 
-from mouse_cli.dynamics.eigen import eigensolution
 from mouse_cli.dynamics.forces import forces
 from mouse_cli.dynamics.sensitivity import EXACT, FINAL, modal_partials
 from mouse_cli.dynamics.solver import EXACT as EXACT_SHAPES
-from mouse_cli.dynamics.solver import TOLERANCE, EigenSolver
+from mouse_cli.dynamics.solver import TOLERANCE, EigenSolver, eigensolution
 from mouse_cli.model.term import Slopes
 
 BAND, GROUPS = 3, 4

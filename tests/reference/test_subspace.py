@@ -8,7 +8,8 @@ from scipy.linalg import eigh
 from scipy.sparse import csr_array, diags_array
 from scipy.sparse.linalg import splu
 
-from mouse_cli.diagnosis.likelihoods.modal.reduced import WHOLE, reduced
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.likelihoods.modal.reduced import WHOLE
 from mouse_cli.diagnosis.localise.matching import Matcher, shapes
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter

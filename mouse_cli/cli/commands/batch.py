@@ -60,12 +60,19 @@ def command(
     return exit_code(found)
 
 
+def _of_manifest(path: str) -> list:
+    """Its jobs; what reads YAML is loaded for them alone."""
+    from mouse_cli.batch import manifest
+
+    return manifest.read(path, outside())
+
+
 def _listed(decks: tuple[str, ...], asked: str, changes: dict) -> list:
     """The jobs of names and manifests, each once. Raises DeckError for all that is wrong with them."""
     from dataclasses import replace
 
     from mouse_cli._errors import ERROR, DeckError, Diagnostic, MouseError
-    from mouse_cli.batch.decks import found, is_manifest, manifest_jobs
+    from mouse_cli.batch.decks import found, is_manifest
     from mouse_cli.batch.job import Job, once
 
     jobs, wrong = [], []
@@ -78,7 +85,7 @@ def _listed(decks: tuple[str, ...], asked: str, changes: dict) -> list:
                 jobs.append(Job(path, asked, changes, outside=outside()))
                 continue
             try:
-                jobs += [replace(job, options=job.options | changes) for job in manifest_jobs(path, outside())]
+                jobs += [replace(job, options=job.options | changes) for job in _of_manifest(path)]
             except MouseError as error:
                 wrong += error.diagnostics
     if wrong:

@@ -53,7 +53,7 @@ def _unread(path: str, folder: str) -> tuple:
 def _findings(path: str, how: dict[str, object], stacked: bool) -> tuple:
     """Everything found in one file."""
     from mouse_cli._errors import MouseError
-    from mouse_cli.batch.decks import is_manifest, manifest_jobs
+    from mouse_cli.batch.decks import is_manifest
     from mouse_cli.cli._decks import read_drafts, read_other
     from mouse_cli.formats.assemble import assemble
     from mouse_cli.updating.loop import examine
@@ -61,7 +61,9 @@ def _findings(path: str, how: dict[str, object], stacked: bool) -> tuple:
     found: tuple = ()
     try:
         if is_manifest(path):
-            manifest_jobs(path, outside())
+            from mouse_cli.batch import manifest
+
+            manifest.read(path, outside())
             return found
         other = read_other(path)
         if other is not None:

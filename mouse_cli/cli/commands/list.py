@@ -34,11 +34,9 @@ def _codes() -> Iterator[tuple[str, str]]:
 
 
 def _commands() -> Iterator[tuple[str, str]]:
-    from mouse_cli.cli.main import cli
-
-    context = click.Context(cli)
-    for name in cli.list_commands(context):
-        yield name, cli.get_command(context, name).get_short_help_str(90)
+    context = click.get_current_context().find_root()
+    for name in context.command.list_commands(context):
+        yield name, context.command.get_command(context, name).get_short_help_str(90)
 
 
 def _statuses() -> Iterator[tuple[str, str]]:

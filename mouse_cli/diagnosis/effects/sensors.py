@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.sites.lines import Line
 from mouse_cli.model.arrays import is_sparse
@@ -18,8 +19,6 @@ _MOST = 24  # sensors that are suspected: those that fit worst
 
 def suspects(model: Reduced, most: int = _MOST) -> list[int]:
     """Sensors (from 0) whose shapes the model misses most, the worst first; those of fewer than two modes tell nothing."""
-    from mouse_cli.diagnosis.likelihoods.modal.model import Model
-
     data = model.data
     at = Model(model).point(model.z)
     known = np.flatnonzero(data.has_shape.sum(axis=1) >= 2)
@@ -33,8 +32,6 @@ def suspects(model: Reduced, most: int = _MOST) -> list[int]:
 
 def regressed(model: Reduced, k: int, limits: tuple[float, float]) -> float:
     """The multiple of what the model lets sensor k read that comes nearest to its readings, within limits."""
-    from mouse_cli.diagnosis.search.fit import Model
-
     at, data = Model(model).point(model.z), model.data
     if at is None:
         return 1.0

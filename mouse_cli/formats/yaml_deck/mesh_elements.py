@@ -9,6 +9,7 @@ import numpy as np
 
 from mouse_cli._span import Span
 from mouse_cli.formats.yaml_deck import values as yaml_values
+from mouse_cli.formats.yaml_deck.dofs import dofs
 from mouse_cli.formats.yaml_deck.files import read_below
 from mouse_cli.formats.yaml_deck.ids import ids as read_ids
 from mouse_cli.formats.yaml_deck.keys.structure import ELEMENT
@@ -159,8 +160,6 @@ def _misfit(section: Section, node: Node, kind: ElementType, given: str) -> None
 
 def _dofs(section: Section, node: Node, kind: ElementType, context: Context) -> Joined | None:
     """Degrees of freedom of a matrix model, each of which is a node that moves in one direction."""
-    from mouse_cli.formats.yaml_deck.model import dofs
-
     if not context.labels:
         message = f"{section.what('dofs')} are for matrix models; this structure has nodes"
         return section.document.error("MD407", node, message, "give nodes")

@@ -157,28 +157,3 @@ def _labels(section: Section, order: int) -> tuple[str, ...]:
             document.error("MD226", item, f"label '{label}' is given twice", "give each degree of freedom its own name")
         seen.add(label)
     return tuple(labels)
-
-
-def dofs(document: Document, node: Node, what: str, labels: tuple[str, ...]) -> np.ndarray | None:
-    """Degrees of freedom from 1: a plain number is one, anything else is a label of the model."""
-    nodes = yaml_values.items(document, node, what, KINDS["dofs"].words)
-    if nodes is None:
-        return None
-    place = {label: i for i, label in enumerate(labels, 1)}
-    found = [_dof(document, item, what, place) for item in nodes]
-    return None if None in found else np.array(found, dtype=int)
-
-
-def _dof(document: Document, node: Node, what: str, place: dict[str, int]) -> int | None:
-    if yaml_values.as_number(node) is not None:
-        return yaml_values.whole(document, node, f"a number in {what}")
-    name = yaml_values.text(document, node, f"a value in {what}", "the number or the label of a degree of freedom")
-    if name is None or name in place:
-        return place.get(name)
-    known = f"the labels are {', '.join(list(place)[:12])}" if place else "the model has no labels"
-    return document.error(
-        "MD225",
-        node,
-        f"{what} names '{name[:40]}', which is no label of the model; {known}",
-        "give the number of the degree of freedom, or a label of model.labels",
-    )

@@ -10,7 +10,7 @@ from mouse_cli._errors import ERROR, DeckError, Diagnostic
 from mouse_cli.diagnosis.extend.deck import in_its_units
 from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, SharedRecipe, Together
 from mouse_cli.diagnosis.likelihoods.configurations.predict import predicted, shared_errors
-from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.rank import Ranking, rank

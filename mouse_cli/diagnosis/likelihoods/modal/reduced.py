@@ -17,11 +17,10 @@ from mouse_cli.diagnosis.sites.bars import Bars, bars, motion_of, stiffening
 from mouse_cli.dynamics.contraction import Stack
 from mouse_cli.dynamics.eigen import dense_solution
 from mouse_cli.dynamics.sensing import read
-from mouse_cli.dynamics.solver import EigenSolver
-from mouse_cli.model.arrays import dense
+from mouse_cli.model.arrays import Matrix, dense
 from mouse_cli.model.modal_test import ModalTest, restricted
 from mouse_cli.model.problem import Problem
-from mouse_cli.terms.assembly import Assembly, assembly
+from mouse_cli.terms.assembly import Assembly
 from mouse_cli.terms.constraints import Motion
 from mouse_cli.updating.coordinates import Coordinates
 
@@ -179,7 +178,8 @@ class Reduced:
     def at(self, theta: np.ndarray) -> "Reduced":
         """The same model at other values theta (p,) of its parameters; a large one in the same coordinates and places."""
         if self.V.shape[0] <= WHOLE:
-            return replace(reduced(self.problem, theta), data=self.data)
+            matrices = self.assembly.matrices(theta)
+            return replace(exact(self.problem, self.assembly, *matrices, theta), data=self.data)
         return replace(self, theta=theta, origin=self.theta if self.origin is None else self.origin)
 
     def without(self, keep_modes: np.ndarray) -> "Reduced":
@@ -191,14 +191,8 @@ class Reduced:
         return replace(self, data=Data(test), sensing=self.sensing if sensing is None else sensing)
 
 
-def reduced(problem: Problem, theta: np.ndarray, solver: EigenSolver | None = None) -> Reduced:
-    """The model of `problem` at theta (p,), reduced where it is large; solver: one that may have its modes."""
-    total = assembly(problem)
-    K, M = total.matrices(theta)
-    if K.shape[0] > WHOLE:
-        from mouse_cli.diagnosis.likelihoods.modal.subspace import large
-
-        return large(problem, total, K, M, theta, solver)
+def exact(problem: Problem, total: Assembly, K: Matrix, M: Matrix, theta: np.ndarray) -> Reduced:
+    """The model of K and M (n, n) at theta (p,) in all of its modes."""
     solution = dense_solution(dense(K), dense(M))
     stack = Stack(total.n, total.p, total.slopes(theta))
     V, eigenvalues = solution.shapes, solution.eigenvalues
