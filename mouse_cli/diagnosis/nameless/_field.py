@@ -61,11 +61,6 @@ class Fielded(Reduced):
         own = super().L
         return np.hstack([own, np.zeros((len(own), len(self.of_field)))])
 
-    @property
-    def z(self) -> np.ndarray:
-        """z (k + w,) of theta, without a field."""
-        return np.append(super().z, np.zeros(len(self.of_field)))
-
     def matrices(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """K and M (r, r) at z."""
         found = dict(zip("KM", super().matrices(z), strict=True))
