@@ -13,6 +13,7 @@ from two_masses import linear, record
 
 from mouse_cli._errors import DeckError
 from mouse_cli.cli.main import _run
+from mouse_cli.diagnosis.likelihoods.frf.data import lines
 from mouse_cli.diagnosis.likelihoods.history.uncertain import uncertain
 from mouse_cli.diagnosis.likelihoods.modal.data import Data
 from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
@@ -135,6 +136,26 @@ def test_a_model_that_is_slightly_wrong_is_accepted_with_its_error_of_theory(tmp
     assert strict["verdict"]["kind"] != "nothing-missing" and strict["exit_code"] == 1
     assert strict["innovation"]["p"] < 1e-3 < allowed["innovation"]["p"]
     assert allowed["verdict"]["kind"] == "nothing-missing" and allowed["exit_code"] == 0
+
+
+def test_a_mechanism_is_right_to_the_stated_share(tmp_path):
+    """What a named spring to the ground leaves weighs less the less its theory is believed; no cause at all weighs the same."""
+    source = (DECKS / "ground_spring.yaml").read_text()
+    found = []
+    for i, share in enumerate(("1 %", "20 %")):
+        path = tmp_path / f"spring{i}.yaml"
+        path.write_text(f"{source}\ntheory: {{mechanism: {share}}}\n")
+        found.append({one["physics"]: one["chi2"] for one in asked(str(path))[1]["candidates"]})
+    assert found[1]["ground-spring"] < 0.9 * found[0]["ground-spring"]
+    assert found[1]["none"] == pytest.approx(found[0]["none"], rel=1e-6)
+
+
+def test_functions_are_as_uncertain_as_stated():
+    """Real and imaginary part share the variance of the largest response at a line."""
+    (test,) = read_deck(str(DECKS / "chain_functions.yaml")).frf
+    none, usual, stated = (lines(test, each) for each in (Theory(shape=1e-12), Theory(), STATED))
+    added = [np.sqrt((one.sd**2 - none.sd**2)[one.has]) for one in (usual, stated)]
+    assert added[1] == pytest.approx(added[0] * 0.005 / 0.002, rel=1e-6)
 
 
 def test_links_of_recordings_are_as_uncertain_as_stated(tmp_path):
