@@ -28,9 +28,8 @@ ARRANGEMENTS = (
         "--common-sd",
         metavar="PERCENT",
         type=click.FloatRange(0, 50, min_open=True),
-        default=1.0,
-        show_default=True,
-        help="Of several arrangements: what theory errs in each frequency of all of them alike.",
+        help="Of several arrangements: what theory errs in each frequency of all of them alike. "
+        "[default: theory.configurations of the decks, 1 where they give none]",
     ),
 )
 
@@ -74,15 +73,16 @@ def diagnosed(
     named: Named,
     problems: tuple[Problem, ...],
     unseen: tuple[Problem, ...],
-    common_sd: float,
+    common_sd: float | None,
     say: Callable[[str], None],
     choices: Choices,
 ) -> ArrangementsDiagnosis:
-    """What arrangements lack; common_sd in per cent."""
+    """What arrangements lack; common_sd in per cent, None: as the decks state it."""
     from mouse_cli.diagnosis.likelihoods.configurations.diagnose import Decks, diagnose_arrangements
 
-    fitted = Decks(problems, named.having(named.fitted), common_sd / 100)
-    held = Decks(unseen, named.having(named.unseen), common_sd / 100)
+    shared = problems[0].theory.configurations if common_sd is None else common_sd / 100
+    fitted = Decks(problems, named.having(named.fitted), shared)
+    held = Decks(unseen, named.having(named.unseen), shared)
     return diagnose_arrangements(fitted, held, say, choices)
 
 

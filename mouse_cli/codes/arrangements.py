@@ -4,10 +4,11 @@ from mouse_cli.codes import Code
 
 CODES = {
     "MD690": Code(
-        "arrangements differ in their parameters",
+        "arrangements differ in their parameters or errors of theory",
         "Several decks given to `mouse diagnose` are arrangements of one structure: what they do not share are places, known "
-        "changes and tests. Their parameters must be the same, by name, nominal value, standard deviation and transform.",
-        "Write the same `parameters` and `prior` in every deck.",
+        "changes and tests. Their parameters must be the same, by name, nominal value, standard deviation and transform, and so "
+        "must `theory`.",
+        "Write the same `parameters`, `prior` and `theory` in every deck.",
     ),
     "MD691": Code(
         "an arrangement without measured modes",

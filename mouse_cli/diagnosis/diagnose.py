@@ -109,8 +109,10 @@ def _field(ranking: Ranking, verdict: Verdict) -> Field | None:
 
 
 def _by_modes(problem: Problem) -> Problem:
-    """The deck with its modes alone: where FRFs showed them, they are not to be counted twice."""
-    return replace(problem, frf=())
+    """The deck with its modes alone, where FRFs showed them they are not to be counted twice; and with more error of theory in
+    their sd where the deck allows for more than usual.
+    """
+    return replace(problem, frf=(), test=problem.theory.beyond_default(problem.test))
 
 
 def _thorough(options: RunOptions) -> RunOptions:

@@ -31,8 +31,7 @@ def assemble(draft: Draft) -> Problem:
     """
     draft, unread = replace(draft), draft.has_errors  # the rules set what only the model can tell
     found = model.model(draft)
-    elements = partials.elements(draft)
-    A = partials.partials(draft)
+    elements, A = partials.elements(draft), partials.partials(draft)
     believed = prior.prior(draft)
     geometry = found[0].geometry if found else None
     test, held, frf, recordings, kept = _measured(draft, geometry)
@@ -63,6 +62,7 @@ def assemble(draft: Draft) -> Problem:
         held_records=kept,
         laws=acting,
         modal_damping=draft.modal_damping,
+        theory=draft.theory,
     )
 
 
@@ -76,7 +76,7 @@ def _measured(draft: Draft, geometry: Geometry | None) -> tuple:
 
 def _places(draft: Draft) -> dict[str, Span]:
     """Where the things stand that only a run can judge."""
-    found = {"order": draft.where_order, "estimator": draft.where_estimator}
+    found = {"order": draft.where_order, "estimator": draft.where_estimator, "theory": draft.where_theory}
     if draft.test is not None:
         found |= {f"mode {number}": draft.test.where_number(i) for i, number in enumerate(draft.test.number.tolist())}
     return {key: span for key, span in found.items() if span is not None}

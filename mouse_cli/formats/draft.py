@@ -20,6 +20,7 @@ from mouse_cli.model.geometry import Geometry
 from mouse_cli.model.modal_damping import ModalDamping
 from mouse_cli.model.parameter import Parameter
 from mouse_cli.model.problem import RunOptions, Source
+from mouse_cli.model.theory import Theory
 from mouse_cli.model.units import UNDECLARED, Units
 
 Where = Callable[[int], Span | None]
@@ -101,10 +102,12 @@ class Draft:
     hold_out: HoldOutDraft | None = None
     laws: tuple[LawDraft, ...] = ()
     modal_damping: ModalDamping | None = None
+    theory: Theory = field(default_factory=Theory)
     where_order: Span | None = None
     where_covariance: Span | None = None
     where_total_mass: Span | None = None
     where_estimator: Span | None = None
+    where_theory: Span | None = None
     diagnostics: list[Diagnostic] = field(default_factory=list)
 
     @property

@@ -1,12 +1,13 @@
 """What a diagnosis of one structure in several arrangements found: causes that all share, one after another."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Choices, Explanation, HeldOut, Score
 from mouse_cli.model.groups import leading
 from mouse_cli.model.problem import Problem
+from mouse_cli.model.theory import Theory
 
 
 @dataclass(frozen=True)
@@ -88,6 +89,11 @@ class ArrangementsDiagnosis:
     def problem(self) -> Problem:
         """The deck of the first arrangement."""
         return self.problems[0]
+
+    @property
+    def theory(self) -> Theory:
+        """Errors of theory that were allowed for: those of the decks, with the common sd that was used."""
+        return replace(self.problem.theory, configurations=self.common_sd)
 
     @property
     def kind(self) -> str:

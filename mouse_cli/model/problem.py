@@ -15,6 +15,7 @@ from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.recording import Recording
 from mouse_cli.model.structure import ListedElements, Structure
 from mouse_cli.model.term import Term
+from mouse_cli.model.theory import Theory
 from mouse_cli.model.units import UNDECLARED, Units
 
 RECURSIONS = ("replaced", "anchored")
@@ -76,7 +77,7 @@ class Problem:
     springs; mesh, bindings: what they were made of, for models with geometry. test is None for a deck that only asks for modes; it
     holds what is fitted, and hold_out what is kept from every fit. frf, recordings: frequency response functions and time histories
     of the test. units: of all numbers that are not in s or Hz. laws: local forces that are not linear, which modes do not have.
-    modal_damping: beside that of structure and terms.
+    modal_damping: beside that of structure and terms. theory: by how much the model may be wrong beside what is named.
 
     A problem is changed by `dataclasses.replace`, which makes another one.
 
@@ -108,6 +109,7 @@ class Problem:
     held_records: HeldRecords | None = None
     laws: tuple[LocalLaw, ...] = ()
     modal_damping: ModalDamping | None = None
+    theory: Theory = field(default_factory=Theory)
 
     def place(self, key: str) -> Span:
         """Where `key` (`order`, `estimator`, `mode 3`) stands in the deck; its first line when that is not known."""

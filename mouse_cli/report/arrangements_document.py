@@ -9,6 +9,7 @@ from mouse_cli.model.units import system
 from mouse_cli.report.diagnosis_document import candidate, score, site
 from mouse_cli.report.geometry_document import geometry
 from mouse_cli.report.json_values import plain
+from mouse_cli.report.theory import document as theory
 
 SCHEMA = "mouse.arrangements/1"
 
@@ -34,6 +35,7 @@ def document(found: ArrangementsDiagnosis) -> dict[str, Any]:
             ],
             "shared_errors": [{"mode": e.mode, "value": e.value, "sd": e.sd} for e in found.shared],
             "common_sd": found.common_sd,
+            "theory": theory(found),
             "held_out": None
             if held is None
             else {

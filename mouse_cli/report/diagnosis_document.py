@@ -23,6 +23,7 @@ from mouse_cli.model.units import system
 from mouse_cli.report import result_document as of_result
 from mouse_cli.report.frf_document import damping, frf, held_frf
 from mouse_cli.report.json_values import dof_name, plain
+from mouse_cli.report.theory import document as theory
 
 SCHEMA = "mouse.diagnosis/1"
 _PLACES = 200  # most that are listed
@@ -58,6 +59,7 @@ def document(found: Diagnosis) -> dict[str, Any]:
             "refuted": list(found.refuted),
             "misstated": found.misstated,
             "asked": _asked(found),
+            "theory": theory(found),
             "units": system(problem.units) or None,
             **of_result.drawn(found.extended_result or result),
             "baseline": _update(result),

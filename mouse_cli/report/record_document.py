@@ -12,6 +12,7 @@ from mouse_cli.report import result_document as of_result
 from mouse_cli.report.frf_document import thinned
 from mouse_cli.report.geometry_document import geometry
 from mouse_cli.report.json_values import plain
+from mouse_cli.report.theory import document as theory
 
 _SAMPLES = 500  # of a restoring force
 
@@ -43,6 +44,7 @@ def document(found: RecordDiagnosis) -> dict[str, Any]:
                 "sd": found.sd,
             },
             "next_measurement": [],
+            "theory": theory(found),
             "geometry": geometry(problem),
             "units": system(problem.units) or None,
             "remarks": list(found.remarks),

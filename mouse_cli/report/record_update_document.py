@@ -11,6 +11,7 @@ from mouse_cli.report import record_document as of_records
 from mouse_cli.report import result_document as of_result
 from mouse_cli.report.geometry_document import geometry
 from mouse_cli.report.json_values import plain
+from mouse_cli.report.theory import document as theory
 
 
 def document(found: RecordUpdate) -> dict[str, Any]:
@@ -45,6 +46,7 @@ def document(found: RecordUpdate) -> dict[str, Any]:
                 "trace": of_records.trace(found.trace),
             },
             "restoring_force": of_records.restoring_force(found.surface),
+            "theory": theory(found),
             "geometry": geometry(problem),
             "units": system(problem.units) or None,
             "remarks": list(found.remarks),

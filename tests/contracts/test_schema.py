@@ -16,6 +16,7 @@ from mouse_cli.formats.yaml_deck.kinds import KINDS
 from mouse_cli.formats.yaml_deck.reference import reference, schema
 from mouse_cli.formats.yaml_deck.schema import SECTIONS
 from mouse_cli.model.problem import RunOptions
+from mouse_cli.model.theory import Theory
 
 PACKAGE = Path(mouse_cli.__file__).parent
 DECKS = sorted((PACKAGE.parent / "decks").rglob("*.yaml"))
@@ -46,6 +47,7 @@ DECK = {
             "scale": "unit",
         }
     },
+    "theory": {"frequency": "0.1 %", "shape": 0.005, "configurations": None},
     "run": {
         "recursion": "replaced",
         "confidence": 99,
@@ -95,6 +97,11 @@ MUTATIONS = [
     (["test", "modes", "shapes"], [1, 2]),
     (["test", "modes", "shape_sd"], "small"),
     (["test", "modes", "scale"], "mass"),
+    (["theory"], "1 %"),
+    (["theory", "frequency"], "0.1 percent"),
+    (["theory", "frequency"], -0.001),
+    (["theory", "shape"], 2),
+    (["theory", "mechanisms"], 0.01),
     (["run", "confidence"], 97),
     (["run", "recursion"], "anchord"),
     (["run", "partials"], 2.5),
@@ -163,6 +170,13 @@ def test_run_keys_are_the_run_options():
     for name, key in SECTIONS["run"].keys.items():
         default = getattr(RunOptions(), name)
         assert yaml.safe_load(key.default) == default, name
+
+
+def test_theory_keys_are_the_errors_of_theory():
+    """Each stated default is read as the very number that holds without it."""
+    defaults = {name: key.default for name, key in SECTIONS["theory"].keys.items()}
+    assert yaml_deck.read(yaml.safe_dump(DECK | {"theory": defaults}), "deck.yaml").theory == Theory()
+    assert list(defaults) == [field.name for field in fields(Theory)]
 
 
 def test_every_kind_is_used_and_defined():

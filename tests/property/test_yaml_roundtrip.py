@@ -1,6 +1,7 @@
 """Writing a problem and reading it back changes nothing, whatever the problem."""
 
 import math
+from dataclasses import fields
 
 import numpy as np
 import yaml
@@ -24,6 +25,7 @@ from mouse_cli.model.problem import (
     Source,
 )
 from mouse_cli.model.structure import ListedElements, Structure
+from mouse_cli.model.theory import Theory
 
 finite = st.floats(allow_nan=False, allow_infinity=False, width=64)
 positive = st.floats(min_value=1e-300, max_value=1e300)
@@ -125,7 +127,10 @@ def problems(draw):
     test = draw(st.none() | modal_tests(structure.n))
     if test is not None and not (np.isfinite(test.frequency_hz).any() or np.isfinite(test.shapes).any()):
         test = None
-    return Problem(draw(text), structure, elements, A, parameters, prior, test, run, Source("chain.dat", "cards"))
+    shares = st.floats(0, 1, exclude_min=True)
+    theory = Theory(**{each.name: draw(st.just(each.default) | shares) for each in fields(Theory)})
+    source = Source("chain.dat", "cards")
+    return Problem(draw(text), structure, elements, A, parameters, prior, test, run, source, theory=theory)
 
 
 def same(one, other) -> bool:
@@ -135,6 +140,7 @@ def same(one, other) -> bool:
 def assert_same(one: Problem, other: Problem) -> None:
     """Everything but warnings and places."""
     assert one.title == other.title and one.structure.labels == other.structure.labels and one.run == other.run
+    assert one.theory == other.theory
     assert same(one.structure.K, other.structure.K) and same(one.structure.M, other.structure.M)
     for name in ("is_mass", "row", "col"):
         assert same(getattr(one.elements, name), getattr(other.elements, name))

@@ -37,7 +37,7 @@ def control(tmp_path_factory):
     path, _ = write(tmp_path_factory.mktemp("frf"), case, (7, 0))
     problem, _ = with_modes(read_deck(path))
     base = reduced(problem, problem.prior.mean, EigenSolver())
-    data = FrfData(tuple(lines(test) for test in problem.frf))
+    data = FrfData(tuple(lines(test, problem.theory) for test in problem.frf))
     return case, replace(base, data=data), damping(base), base
 
 

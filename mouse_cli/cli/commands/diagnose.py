@@ -52,7 +52,7 @@ def command(
     causes: int,
     held_out: tuple[str, ...],
     changed: tuple[str, ...],
-    common_sd: float,
+    common_sd: float | None,
     quiet: bool,
     **how: object,
 ) -> int:
@@ -69,7 +69,7 @@ def command(
     for deck in (*named.fitted, *held_out):
         _check_places(deck, output, plot, reports)
     choices = _choices(candidates, without, causes)
-    found = _answer(named, common_sd if arranged else None, choices, quiet, reading(**how))
+    found = _answer(named, arranged, common_sd, choices, quiet, reading(**how))
     files = _revised(found, output)
     for path in reports:
         shape = _FORMS.get(os.path.splitext(path)[1].lower(), "printout")
@@ -82,8 +82,8 @@ def command(
     return found.exit_code
 
 
-def _answer(named: Named, common_sd: float | None, choices, quiet: bool, how: dict[str, object]):
-    """The diagnosis of one deck, or, with a common_sd, of arrangements."""
+def _answer(named: Named, arranged: bool, common_sd: float | None, choices, quiet: bool, how: dict[str, object]):
+    """The diagnosis of one deck, or of arrangements."""
     from mouse_cli.cli._decks import read_problem
     from mouse_cli.cli._terminal import progress, show_diagnostics
     from mouse_cli.diagnosis.diagnose import diagnose
@@ -93,7 +93,7 @@ def _answer(named: Named, common_sd: float | None, choices, quiet: bool, how: di
     if not quiet:
         show_diagnostics(tuple(each for problem in (*problems, *unseen) for each in problem.warnings))
     with progress() as (_, say):
-        if common_sd is None:
+        if not arranged:
             return diagnose(problems[0], say, choices)
         return diagnosed(named, problems, unseen, common_sd, say, choices)
 

@@ -18,7 +18,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.diagnosis.likelihoods.modal.data import THEORY_LOG, THEORY_SHAPE
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.dynamics.frequency import eigenvalue
 
@@ -70,14 +69,14 @@ class Shapes:
 
 def shapes(model: Reduced) -> Shapes:
     """What the test says of shapes: y, weight (s, m) over their standard deviations, 0 where nothing was measured."""
-    test = model.data.test
+    test, theory = model.data.test, model.problem.theory
     has = np.isfinite(test.shapes)
     modes = np.flatnonzero(np.isfinite(test.frequency_hz) & (has.sum(axis=0) >= 2))
     has, hz = has[:, modes], test.frequency_hz[modes]
     y = np.where(has, test.shapes[:, modes], 0.0)
-    sd = np.hypot(test.shape_sd[:, modes], THEORY_SHAPE * np.abs(y).max(axis=0, initial=0.0))
+    sd = np.hypot(test.shape_sd[:, modes], theory.shape * np.abs(y).max(axis=0, initial=0.0))
     weight, at = np.where(has, 1 / np.where(has, sd, 1.0), 0.0), eigenvalue(hz)
-    off = np.hypot(test.frequency_sd_hz[modes] / hz, THEORY_LOG)
+    off = np.hypot(test.frequency_sd_hz[modes] / hz, theory.frequency)
     return Shapes(modes, at, 2 * off * at, y * weight, weight, int(has.sum()) - len(modes))
 
 

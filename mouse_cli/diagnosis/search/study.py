@@ -21,7 +21,6 @@ _TOLD = 0.05  # squared distance of what two places predict, by the data's sd, u
 _SLACK = 1.5  # times the misfit that matters in all coordinates: what matters in few
 _TIED, _TIES = 6.0, 8  # misfit above the best up to which other places are as good, and how many of them are fitted
 _SETTLE, _MOVED = 3, 5e-3  # times that causes are weighed anew, as long as parameters move more than that share
-_THEORY = 0.01  # of what a cause does to frequencies and shapes, by which its theory may be wrong
 _SHIFTS = np.array([-5, -3, -2, -1, 1, 2, 3, 5]) / 50  # of the range of a place
 _FEW = 16  # places and sizes that are looked at in all coordinates
 _COARSE = 24  # coordinates at least for a first look
@@ -193,7 +192,7 @@ def shifted(one: Fit) -> Fit:
 
 def idealised(one: Fit) -> Fit:
     """The fit when the theory of its causes is right to some share of what they do."""
-    loose = one.model.loosened(one.point, _THEORY)
+    loose = one.model.loosened(one.point, one.model.base.problem.theory.mechanism)
     return one if loose is None else fit(loose, one.c, one.point.x[: one.model.k]) or one
 
 

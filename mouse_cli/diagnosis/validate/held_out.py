@@ -10,7 +10,6 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe
-from mouse_cli.diagnosis.likelihoods.modal.data import THEORY_SHAPE
 from mouse_cli.diagnosis.likelihoods.modal.model import Model, Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.search.fit import Fit, fit
@@ -71,7 +70,7 @@ def readings(one: Fit, test: ModalTest) -> Prediction | None:
     sensing = np.asarray(read(test.measured_at, base.V))
     known, scale = np.isfinite(test.shapes), np.abs(np.nan_to_num(base.data.test.shapes)).max(axis=0)
     told = lambda point: (point.a * (sensing @ point.X[: base.r, point.modes]))[known]
-    sd = np.hypot(test.shape_sd, THEORY_SHAPE * scale)[known]
+    sd = np.hypot(test.shape_sd, base.problem.theory.shape * scale)[known]
     J = _sensitivity(one, told)
     if J is None or not known.any():
         return None

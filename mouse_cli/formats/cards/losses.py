@@ -10,6 +10,7 @@ from mouse_cli.formats.cards import layout
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Parameter
 from mouse_cli.model.problem import Problem, RunOptions
+from mouse_cli.model.theory import Theory
 
 MOST = 20  # of one kind are listed one by one
 IN_YAML = "keep the deck in YAML"
@@ -90,21 +91,21 @@ def losses(problem: Problem, lossy: bool = False) -> Losses:
         found.error("MD140", "the deck has no modal test; five of the twelve groups of cards hold one")
     else:
         _test(found, problem.test)
-    if problem.frf or problem.recordings:
-        found.warn(
-            "MD150",
-            "frequency response functions and recordings are not on cards",
-            "keep the YAML deck beside the cards",
-        )
-    if problem.hold_out is not None:
-        found.warn(
-            "MD150",
-            "what the deck holds out is not on cards, which fit the rest",
-            "keep the YAML deck beside the cards",
-        )
+    _besides(found, problem)
     _options(found, problem.run)
     _names(found, problem)
     return found
+
+
+def _besides(found: Losses, problem: Problem) -> None:
+    """What a diagnosis, or a run by other data, has besides."""
+    beyond = {
+        "frequency response functions and recordings are not on cards": problem.frf or problem.recordings,
+        "what the deck holds out is not on cards, which fit the rest": problem.hold_out is not None,
+        "the errors of theory that the deck states are not on cards": problem.theory != Theory(),
+    }
+    for message in (message for message, there in beyond.items() if there):
+        found.warn("MD150", message, "keep the YAML deck beside the cards")
 
 
 def _heading(found: Losses, title: str) -> None:

@@ -75,6 +75,7 @@ def opened(text: str | bytes, path: str, key: str, outside: bool = False) -> Sec
         "laws",
         "run",
         "modal_damping",
+        "theory",
     ):
         if alien in section and alien != key:
             message = f"{alien} stands beside {key}; parts have decks of their own"

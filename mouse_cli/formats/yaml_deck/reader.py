@@ -18,6 +18,7 @@ from mouse_cli.formats.yaml_deck.nodes import compose
 from mouse_cli.formats.yaml_deck.records import records
 from mouse_cli.formats.yaml_deck.run import run_options
 from mouse_cli.formats.yaml_deck.sections import Section
+from mouse_cli.formats.yaml_deck.theory import theory
 from mouse_cli.model.parameter import Parameter
 from mouse_cli.model.problem import Source
 from mouse_cli.model.units import SYSTEMS, UNDECLARED, Units
@@ -35,6 +36,8 @@ def read(text: str | bytes, path: str, outside: bool = False) -> Draft:
     draft = _draft(deck)
     draft.laws = laws(deck)
     draft.modal_damping = modal_damping(deck)
+    draft.theory = theory(deck)
+    draft.where_theory = document.span(deck.nodes["theory"]) if "theory" in deck else None
     draft.diagnostics.extend(document.diagnostics)
     if document.incomplete:
         raise review(draft)

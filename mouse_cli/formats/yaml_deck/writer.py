@@ -7,6 +7,7 @@ from mouse_cli.formats.yaml_deck.kinds import MAX_WHOLE, VERSION
 from mouse_cli.formats.yaml_deck.modal_damping import modal_damping_lines
 from mouse_cli.formats.yaml_deck.nodes import compose
 from mouse_cli.formats.yaml_deck.text import flow, real, word, wrapped
+from mouse_cli.formats.yaml_deck.theory import theory_lines
 from mouse_cli.formats.yaml_deck.writer_laws import laws
 from mouse_cli.formats.yaml_deck.writer_modes import test_lines
 from mouse_cli.formats.yaml_deck.writer_parameters import parameters, prior
@@ -33,7 +34,7 @@ def write(problem: Problem, stem: str = "deck", folder: str | None = None) -> tu
         *laws(problem),
         *parameters(problem, stem, attachments),
     ]
-    lines += [*prior(problem), *test_lines(problem, folder), *_run(problem.run)]
+    lines += [*prior(problem), *test_lines(problem, folder), *theory_lines(problem.theory), *_run(problem.run)]
     return "\n".join(lines) + "\n", attachments
 
 

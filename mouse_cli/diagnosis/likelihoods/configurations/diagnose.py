@@ -27,7 +27,7 @@ _ALL = Choices()
 class Decks:
     """Decks (a,) of arrangements, and which of them have the causes that are sought.
 
-    common_sd: of ln f, of what theory errs in all of them alike.
+    common_sd: of ln f, of what theory errs in all of them alike, as a rule theory.configurations of the decks.
     """
 
     problems: tuple[Problem, ...]
@@ -190,6 +190,16 @@ def _check(problems: tuple[Problem, ...]) -> None:
                     f"its parameters are not those of {first.source.path} ({names}, with their values, sd and transforms)",
                     each.place("parameters"),
                     help="write the same parameters and prior in every arrangement",
+                )
+            )
+        if each.theory != first.theory:
+            raise DeckError(
+                Diagnostic(
+                    "MD690",
+                    ERROR,
+                    f"its errors of theory are not those of {first.source.path}",
+                    each.place("theory"),
+                    help="write the same theory in every arrangement: they are models of one structure",
                 )
             )
 

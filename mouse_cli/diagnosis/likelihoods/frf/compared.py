@@ -50,7 +50,7 @@ def compared(problem: Problem, ranking: Ranking, best: Fit | None) -> Compared:
     if not all(isinstance(one.model, FrfModel) for _, _, one in found):
         known = [(key, name, _by_modes(one, held)) for key, name, one in found]
         return Compared(held_frf=_beside(held, known, held))
-    chosen = tuple(np.flatnonzero(np.isin(test.laplace, lines(test).s)) for test in fitted)
+    chosen = tuple(np.flatnonzero(np.isin(test.laplace, lines(test, problem.theory).s)) for test in fitted)
     fits = tuple(replace(one, lines=own) for one, own in zip(_beside(fitted, found, fitted), chosen, strict=True))
     return Compared(fits, _beside(held, found, fitted), found_damping(found[-1][2]))
 
@@ -63,7 +63,7 @@ def of_functions(one: Fit) -> Fit:
 
 def _by_modes(one: Fit, tests: Tests) -> Fit:
     """A fit of modes with what functions need besides, as it is held likely: damping of the structure, gains."""
-    own, data = one.model.k, FrfData(tuple(lines(test) for test in tests))
+    own, data = one.model.k, FrfData(tuple(lines(test, one.model.base.problem.theory) for test in tests))
     model = FrfModel(replace(one.model.base, data=data), damping(one.model.base), one.recipes)
     x, hessian = np.insert(one.point.x, own, np.zeros(model.k - own)), np.eye(model.k + model.t)
     elastic = np.r_[0:own, model.k : model.k + model.t]

@@ -4,8 +4,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.likelihoods.modal.data import THEORY_SHAPE
 from mouse_cli.model.frf_test import MOST_LINES, FrfTest
+from mouse_cli.model.theory import Theory
 from mouse_cli.observables.frf import observe
 
 _VALUES, _FEW, _MOST = (
@@ -46,12 +46,12 @@ class Lines:
         return np.concatenate([whitened.real, whitened.imag])
 
 
-def lines(test: FrfTest) -> Lines:
+def lines(test: FrfTest, theory: Theory) -> Lines:
     """The lines of `test` that tell most, as a run chooses them, but more of them; with what theory leaves of shapes."""
     most = int(np.clip(_VALUES / (test.H.shape[1] * test.H.shape[2]), _FEW, _MOST))
     seen = observe(replace(test, lines=max(test.lines, most)), "complex")
     H = np.where(seen.have, seen.H, 0.0)
-    sd = np.where(seen.have, np.hypot(seen.sd, THEORY_SHAPE / np.sqrt(2) * _largest(H)), 1.0)
+    sd = np.where(seen.have, np.hypot(seen.sd, theory.shape / np.sqrt(2) * _largest(H)), 1.0)
     return Lines(test, seen.s, H, sd, seen.have, seen.factor, seen.assumed)
 
 

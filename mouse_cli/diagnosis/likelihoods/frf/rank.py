@@ -18,7 +18,6 @@ from mouse_cli.diagnosis.likelihoods.frf.lossy import GROUPS, LAWS, LOSS, SAME, 
 from mouse_cli.diagnosis.likelihoods.frf.lossy_parts import lossy_parts
 from mouse_cli.diagnosis.likelihoods.frf.mesh import of_mesh
 from mouse_cli.diagnosis.likelihoods.frf.model import FrfModel
-from mouse_cli.diagnosis.likelihoods.modal.data import THEORY_LOG
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
@@ -127,7 +126,8 @@ def heard(modal: Ranking) -> Ranking:
     base = modal.baseline.model.base
     if not base.problem.frf:
         return modal
-    judge = Judge(FrfData(tuple(lines(test) for test in base.problem.frf), _theory(modal.baseline)), damping(base))
+    measured = tuple(lines(test, base.problem.theory) for test in base.problem.frf)
+    judge = Judge(FrfData(measured, _theory(modal.baseline)), damping(base))
     quick = judge.thinned()
     none = quick.fitted(modal.baseline)
     if none is None:
@@ -152,7 +152,7 @@ def heard(modal: Ranking) -> Ranking:
 def _theory(one: Fit) -> np.ndarray:
     """sd of ln f (c,) of the lowest modes, by what theory and numerics leave, of the fit `one` of modes."""
     data, modes = one.model.base.data, one.point.modes
-    found = np.full(min(one.model.base.r, int(modes.max()) + 2), THEORY_LOG)
+    found = np.full(min(one.model.base.r, int(modes.max()) + 2), data.allowed.frequency)
     found[modes] = data.theory
     return found
 

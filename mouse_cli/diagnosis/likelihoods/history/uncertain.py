@@ -1,7 +1,8 @@
 """What is uncertain in the linear model of a deck: its parameters, and stiffness and damping of every part they do not reach.
 
 A parameter that is left out of a fit is found again as physics. So each link between two degrees of freedom, and from each to
-the ground, may be STIFFER or softer and damped otherwise, whether or not the deck has a parameter for it.
+the ground, may be stiffer or softer and damped otherwise, by the errors of theory of the deck, whether or not it has a parameter
+for it.
 """
 
 from collections.abc import Callable
@@ -12,10 +13,10 @@ import numpy as np
 from mouse_cli.diagnosis.likelihoods.history.linear import Linear
 from mouse_cli.model.arrays import Matrix, dense
 from mouse_cli.model.problem import Problem
+from mouse_cli.model.theory import Theory
 from mouse_cli.terms.assembly import assembly
 from mouse_cli.updating.coordinates import coordinates
 
-STIFFER, DAMPED = 0.05, 0.5  # sd of the stiffness and of the damping of a link, by their values
 UNDAMPED = 0.01  # damping ratio assumed where the deck has no damping; its sd is as large
 LARGEST = 40  # degrees of freedom that are simulated as they are; larger models by modes
 _MOST_MODES = 60
@@ -89,11 +90,11 @@ def uncertain(problem: Problem, highest_hz: float, at: np.ndarray) -> Uncertain:
         ends = [own(sign * _STEP * np.eye(k)[j]) for sign in (1, -1)]
         for slope, up, down in zip(slopes, *ends, strict=True):
             slope[j] = (up - down) / (2 * _STEP)
-    bare = not any(m is not None for m in found.damping(value(np.zeros(k))))
-    extra = _extra(M, C, K, slopes, bare)
+    sizes = _sizes(problem.theory, not any(m is not None for m in found.damping(value(np.zeros(k)))))
+    extra = _extra(M, C, K, slopes, sizes)
     steady = found.linear and not where.logarithmic.any()
     linear = _linear(own, (M, C, K), slopes, extra, k, steady)
-    return Uncertain(linear, V, value, k, _remarks(bare, len(extra[2])))
+    return Uncertain(linear, V, value, k, _remarks(sizes, len(extra[2])))
 
 
 def _basis(K: Matrix, M: Matrix, highest_hz: float, at: np.ndarray) -> np.ndarray:
@@ -132,10 +133,23 @@ def _viscous(K: np.ndarray, M: np.ndarray, C: np.ndarray | None, D: np.ndarray |
     return found + (weighted * 2 * ratio * w) @ weighted.T
 
 
-def _extra(M, C, K, slopes, bare: bool) -> tuple[np.ndarray, np.ndarray, list[str]]:
+@dataclass(frozen=True)
+class _Sizes:
+    """sd of stiffness and of damping of a link, as shares of them; bare: the deck has no damping, and that of a link is assumed."""
+
+    stiffness: float
+    damping: float
+    bare: bool
+
+
+def _sizes(theory: Theory, bare: bool) -> _Sizes:
+    return _Sizes(theory.link_stiffness, 1.0 if bare else theory.link_damping, bare)
+
+
+def _extra(M, C, K, slopes, by: _Sizes) -> tuple[np.ndarray, np.ndarray, list[str]]:
     """dC, dK (e, n, n) of the links, or of the modes, that the deck's own parameters do not move; and their names."""
     at = links(K)
-    dK, dC = _by_link(at, K, M, C, bare) if at is not None else _by_mode(M, C, K, bare)
+    dK, dC = _by_link(at, K, M, C, by) if at is not None else _by_mode(M, C, K, by)
     found = [(np.zeros_like(K), d, "stiffness") for d in _beyond(dK, slopes[2])]
     # a parameter that moves stiffness, and damping in proportion, leaves the damping alone uncertain
     both = lambda c, k: np.concatenate([c / np.linalg.norm(C), k / np.linalg.norm(K)], axis=-1)
@@ -145,29 +159,27 @@ def _extra(M, C, K, slopes, bare: bool) -> tuple[np.ndarray, np.ndarray, list[st
     return C, K, [f"{name} {i}" for i, (_, _, name) in enumerate(found, 1)]
 
 
-def _by_link(at: Links, K: np.ndarray, M: np.ndarray, C: np.ndarray, bare: bool) -> tuple[list, list]:
+def _by_link(at: Links, K: np.ndarray, M: np.ndarray, C: np.ndarray, by: _Sizes) -> tuple[list, list]:
     w = np.sqrt(np.median(np.diag(K) / np.diag(M)))
     pairs = [np.outer(b, b) for b in at.B.T]
     i, j = (np.array([np.flatnonzero(b)[end] for b in at.B.T]) for end in (0, -1))
     own = np.where(i == j, C.sum(axis=1)[i], -C[i, j])
     usual = 2 * UNDAMPED * at.values / w
-    own = usual if bare else np.where(np.abs(own) > 0.01 * np.abs(usual), own, 0.1 * usual)
-    size = 1.0 if bare else DAMPED
-    return [STIFFER * value * pair for value, pair in zip(at.values, pairs, strict=True)], [
-        size * value * pair for value, pair in zip(own, pairs, strict=True)
+    own = usual if by.bare else np.where(np.abs(own) > 0.01 * np.abs(usual), own, 0.1 * usual)
+    return [by.stiffness * value * pair for value, pair in zip(at.values, pairs, strict=True)], [
+        by.damping * value * pair for value, pair in zip(own, pairs, strict=True)
     ]
 
 
-def _by_mode(M: np.ndarray, C: np.ndarray, K: np.ndarray, bare: bool) -> tuple[list, list]:
+def _by_mode(M: np.ndarray, C: np.ndarray, K: np.ndarray, by: _Sizes) -> tuple[list, list]:
     from scipy.linalg import eigh
 
     values, shapes = eigh(K, M)
     weighted = M @ shapes
     pairs = [np.outer(m, m) for m in weighted.T]
     damped = np.einsum("ij,ik,kj->j", shapes, C, shapes)
-    size = 1.0 if bare else DAMPED
-    return [STIFFER * v * pair for v, pair in zip(values, pairs, strict=True)], [
-        size * c * pair for c, pair in zip(damped, pairs, strict=True)
+    return [by.stiffness * v * pair for v, pair in zip(values, pairs, strict=True)], [
+        by.damping * c * pair for c, pair in zip(damped, pairs, strict=True)
     ]
 
 
@@ -204,13 +216,13 @@ def _linear(own, mean, slopes, extra, k: int, steady: bool) -> Linear:
     return Linear(*mean, matrices, whole, tuple(f"parameter {i + 1}" for i in range(k)) + tuple(names))
 
 
-def _remarks(bare: bool, extra: int) -> tuple[str, ...]:
+def _remarks(by: _Sizes, extra: int) -> tuple[str, ...]:
     said = ()
     if extra:
         said += (
-            f"beside the parameters of the deck, stiffness (sd {100 * STIFFER:g} %) and damping "
-            f"(sd {100 * (1.0 if bare else DAMPED):g} %) of each part that they do not reach were free: {extra} in all",
+            f"beside the parameters of the deck, stiffness (sd {100 * by.stiffness:g} %) and damping "
+            f"(sd {100 * by.damping:g} %) of each part that they do not reach were free: {extra} in all",
         )
-    if bare:
+    if by.bare:
         said += (f"the deck has no damping: {100 * UNDAMPED:g} % of critical was assumed, with as large an sd",)
     return said

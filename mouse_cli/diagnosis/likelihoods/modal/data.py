@@ -7,26 +7,26 @@ import numpy as np
 from mouse_cli.dynamics.correlation import pair
 from mouse_cli.dynamics.frequency import eigenvalue
 from mouse_cli.model.modal_test import ModalTest
-
-THEORY_LOG, THEORY_SHAPE = 4e-4, 2e-3  # what the best theory of a bar leaves, of ln f and of the largest component
+from mouse_cli.model.theory import Theory
 
 
 class Data:
     """m modes at s sensors, q data: ln f of each mode, then its shape, over their standard deviations.
 
-    Those are what the test states and, beside it, what theory itself leaves.
+    Those are what the test states and, beside it, the errors of theory (`allowed`).
 
     The scale a of each shape is profiled: a = f'W y / f'W f (Golub and Pereyra 1973), unless the test states it (`scale: none`).
     """
 
-    def __init__(self, test: ModalTest):
-        self.test, self.m, self.s = test, test.m, test.s
+    def __init__(self, test: ModalTest, allowed: Theory):
+        self.test, self.m, self.s, self.allowed = test, test.m, test.s, allowed
         self.has_frequency = np.isfinite(test.frequency_hz)
         self._log = 0.5 * np.log(np.where(self.has_frequency, eigenvalue(test.frequency_hz), 1.0))
-        self.sd_log = np.hypot(np.where(self.has_frequency, test.frequency_sd_hz / test.frequency_hz, 1.0), THEORY_LOG)
+        stated = np.where(self.has_frequency, test.frequency_sd_hz / test.frequency_hz, 1.0)
+        self.sd_log = np.hypot(stated, allowed.frequency)
         self.has_shape = np.isfinite(test.shapes)
         shapes = np.where(self.has_shape, test.shapes, 0.0)
-        sd = np.hypot(test.shape_sd, THEORY_SHAPE * np.abs(shapes).max(axis=0, initial=0.0))
+        sd = np.hypot(test.shape_sd, allowed.shape * np.abs(shapes).max(axis=0, initial=0.0))
         self._w = np.where(self.has_shape, 1 / np.where(self.has_shape, sd, 1.0), 0.0)
         self._y = shapes * self._w
         self.scaled = test.scale != "none"
@@ -45,11 +45,11 @@ class Data:
 
     @property
     def theory(self) -> np.ndarray:
-        """sd of ln f (m,) beside that of the measurement: what theory and numerics leave; THEORY_LOG where none was measured."""
+        """sd of ln f (m,) beside that of the measurement: what theory and numerics leave; theory alone where none was measured."""
         with np.errstate(invalid="ignore"):
             stated = np.where(self.has_frequency, self.test.frequency_sd_hz / self.test.frequency_hz, 1.0)
-        own = np.sqrt(np.maximum(self.sd_log**2 - stated**2, THEORY_LOG**2))
-        return np.where(self.has_frequency, own, THEORY_LOG)
+        least = self.allowed.frequency
+        return np.where(self.has_frequency, np.sqrt(np.maximum(self.sd_log**2 - stated**2, least**2)), least)
 
     @property
     def dof(self) -> int:

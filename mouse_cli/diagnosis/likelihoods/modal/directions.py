@@ -50,7 +50,7 @@ def directions(
 
 def _partials(problem: Problem, stack: Stack, V: np.ndarray, eigenvalues: np.ndarray) -> np.ndarray:
     """Derivatives (q, p) of the whitened data by the parameters, in the coordinates V."""
-    data = Data(problem.test)
+    data = Data(problem.test, problem.theory)
     seen = np.asarray(read(problem.test.measured_at, V))
     modes = data.pair(eigenvalues, seen)
     _, a = data.residual(eigenvalues[modes], seen[:, modes])

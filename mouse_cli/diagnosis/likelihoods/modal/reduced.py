@@ -188,7 +188,7 @@ class Reduced:
 
     def with_test(self, test: ModalTest, sensing: np.ndarray | None = None) -> "Reduced":
         """The same model for another test, of the same sensors or of `sensing` (s, r)."""
-        return replace(self, data=Data(test), sensing=self.sensing if sensing is None else sensing)
+        return replace(self, data=Data(test, self.problem.theory), sensing=self.sensing if sensing is None else sensing)
 
 
 def exact(problem: Problem, total: Assembly, K: Matrix, M: Matrix, theta: np.ndarray) -> Reduced:
@@ -211,4 +211,5 @@ def built(
     """The model in the coordinates V (n, r), whose parameters move it in the directions `by`."""
     dK, dM = projected(stack, by.values, V)
     seen = np.asarray(read(problem.test.measured_at, V))
-    return Reduced(problem, theta, by.coordinates, by.values, V, eigenvalues, dK, dM, seen, Data(problem.test), total)
+    data = Data(problem.test, problem.theory)
+    return Reduced(problem, theta, by.coordinates, by.values, V, eigenvalues, dK, dM, seen, data, total)

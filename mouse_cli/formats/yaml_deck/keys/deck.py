@@ -22,6 +22,7 @@ SECTIONS = {
             "parameters": Key("list parameter", "what may be revised: one entry is one column of A", "none"),
             "prior": Key("section prior", "how the parameters are correlated before the test", "uncorrelated"),
             "test": Key("section test", "what was measured", "none: the deck asks only for modes"),
+            "theory": Key("section theory", "how wrong the model may be beside what is missing", "the defaults below"),
             "run": Key("section run", "how to run", "the defaults below"),
         },
         needs=(("model",), ("couple",), ("modify",)),

@@ -6,6 +6,7 @@ from mouse_cli.model.arrangements import ArrangementsDiagnosis
 from mouse_cli.report.blocks import Block, Text
 from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._wording import counted, deck_table
+from mouse_cli.report.theory import stated
 
 
 def heading(found: ArrangementsDiagnosis, options: Options) -> Iterator[Block]:
@@ -17,10 +18,9 @@ def heading(found: ArrangementsDiagnosis, options: Options) -> Iterator[Block]:
     yield Text(
         f"{counted(len(found.problems), 'arrangement')} of one structure, {counted(data, 'measured mode')} in all, fitted "
         f"together; {counted(unseen, 'frequency', 'frequencies')} of other arrangements held out. They share "
-        f"{counted(len(first.parameters), 'parameter')} and every cause. What theory errs in a frequency is taken as the same in "
-        f"all arrangements, with a standard deviation of {100 * found.common_sd:.3g} %; what the decks state comes beside it, "
-        "anew in each."
+        f"{counted(len(first.parameters), 'parameter')} and every cause."
     )
+    yield Text(f"{stated(found)} What the decks state of their tests comes in addition, independent in each.")
     yield Text(f"Fitted: {', '.join(each.source.path for each in found.problems)}.")
     if found.changed is not None:
         own = [each.source.path for each, has in zip(found.problems, found.changed, strict=True) if has]

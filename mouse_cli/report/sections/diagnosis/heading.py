@@ -8,6 +8,7 @@ from mouse_cli.report.blocks import Block, Text
 from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._wording import counted, deck_table
 from mouse_cli.report.sections.run.held_out import told
+from mouse_cli.report.theory import stated
 
 
 def heading(found: Diagnosis, options: Options) -> Iterator[Block]:
@@ -21,6 +22,7 @@ def heading(found: Diagnosis, options: Options) -> Iterator[Block]:
         f"{counted(len(problem.parameters), 'parameter')}, which were revised beside each candidate.{held}"
     )
     yield Text(_how(found))
+    yield Text(stated(found))
 
 
 def _how(found: Diagnosis) -> str:

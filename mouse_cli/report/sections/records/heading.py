@@ -7,6 +7,7 @@ from mouse_cli.model.record_update import RecordUpdate
 from mouse_cli.report.blocks import Block, Column, Table, Text
 from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._wording import LEFT, counted, deck_table
+from mouse_cli.report.theory import stated
 
 
 def heading(found: RecordDiagnosis | RecordUpdate, options: Options) -> Iterator[Block]:
@@ -25,6 +26,7 @@ def heading(found: RecordDiagnosis | RecordUpdate, options: Options) -> Iterator
     yield Text(
         "The sd is the floor of the spectrum of the output, and at least 1 % of its rms: no transducer is better."
     )
+    yield Text(stated(found))
 
 
 SECTION = Section("record-heading", 20, "Deck", heading, (RecordDiagnosis, RecordUpdate))
