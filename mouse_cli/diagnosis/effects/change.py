@@ -50,7 +50,7 @@ class Change:
 class Carried:
     """Motion (r, a) of the model with a degrees of freedom of a cause's own; of all n free then (n, a), and K, M times it.
 
-    slopes: of the deck's parameters, d directions, what they add to K and M times that motion (d, n, a), and to K and M of the
+    deck: which of those n the degrees of freedom of the deck are. slopes: of the deck's parameters, d directions, what they add to K and M times that motion (d, n, a), and to K and M of the
     cause (d, r + a, r + a); None where the model has so few coordinates that what they were where it is weighed is near enough.
     """
 
@@ -58,6 +58,7 @@ class Carried:
     whole: np.ndarray
     K: np.ndarray
     M: np.ndarray
+    deck: np.ndarray
     slopes: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray] | None = None
 
 

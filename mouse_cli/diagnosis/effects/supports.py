@@ -80,7 +80,7 @@ def released(model: Reduced, kinds: range) -> Released | None:
     for block in blocks:
         block[: model.r, : model.r] = 0.0
     slopes = _slopes(model, assembly(free), whole) if free.structure.n <= WHOLE + len(s) else None
-    carried = Carried(model.V.T @ (M[f][:, f] @ motion[f]), motion, K @ motion, M @ motion, slopes)
+    carried = Carried(model.V.T @ (M[f][:, f] @ motion[f]), motion, K @ motion, M @ motion, f, slopes)
     return Released(tuple(held), *blocks, free.test.read(motion), np.asarray(K.diagonal())[s], carried)
 
 
@@ -184,10 +184,12 @@ def _part(carried: Carried, which: list[int], r: int) -> Carried:
     """What a part of the supports carries along."""
     own = [getattr(carried, name)[:, which] for name in ("model", "whole", "K", "M")]
     if carried.slopes is None:
-        return Carried(*own)
+        return Carried(*own, carried.deck)
     at = np.concatenate([np.arange(r), r + np.array(which)])
     dK, dM, *of_cause = carried.slopes
-    return Carried(*own, (dK[..., which], dM[..., which], *(each[:, at[:, None], at] for each in of_cause)))
+    return Carried(
+        *own, carried.deck, (dK[..., which], dM[..., which], *(each[:, at[:, None], at] for each in of_cause))
+    )
 
 
 def _range(model: Reduced, resistance: float, turning: bool) -> tuple[float, float]:

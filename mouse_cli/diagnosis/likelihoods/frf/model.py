@@ -68,6 +68,8 @@ class FrfModel:
         self.bounds, self.width, self.own = self.elastic.bounds, self.elastic.width, self.elastic.own
         self._ends = [(self._rows(block.test.outputs), self._rows(block.test.inputs)) for block in base.data.blocks]
         self._sensors = [_same(S[:, : base.r], base.sensing) for S, _ in self._ends]
+        for (S, _), same in zip(self._ends, self._sensors, strict=True):
+            S[same.any(axis=1), base.r :] = 0.0  # what a cause says of the sensors has its own motion in it
 
     @property
     def start(self) -> np.ndarray:
@@ -84,7 +86,7 @@ class FrfModel:
         found[:, : self.base.r] = read(sensing, self.base.V)
         for places, recipe in zip(self.elastic.places, self.recipes, strict=True):
             if recipe.carried is not None:
-                found[:, places[self.base.r :]] = read(sensing, recipe.carried.whole)
+                found[:, places[self.base.r :]] = read(sensing, recipe.carried.whole[recipe.carried.deck])
         return found
 
     def point(self, x: np.ndarray) -> FrfPoint | None:
