@@ -50,8 +50,8 @@ class Change:
 class Carried:
     """Motion (r, a) of the model with a degrees of freedom of a cause's own; of all n free then (n, a), and K, M times it.
 
-    deck: which of those n the degrees of freedom of the deck are. slopes: of the deck's parameters, d directions, what they add to K and M times that motion (d, n, a), and to K and M of the
-    cause (d, r + a, r + a); None where the model has so few coordinates that what they were where it is weighed is near enough.
+    deck: which of those n the degrees of freedom of the deck are. slopes: what the deck's parameters, d directions, add to K and M
+    of the cause (d, r + a, r + a); across(motion (n, b)): to K and M between that motion and this one (d, b, a).
     """
 
     model: np.ndarray
@@ -59,7 +59,8 @@ class Carried:
     K: np.ndarray
     M: np.ndarray
     deck: np.ndarray
-    slopes: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray] | None = None
+    slopes: tuple[np.ndarray, np.ndarray]
+    across: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 
 @dataclass(frozen=True)

@@ -91,20 +91,19 @@ class Model:
     @cached_property
     def following(self) -> tuple[np.ndarray, np.ndarray] | None:
         """What the deck's parameters, along each of d directions, add to K and M (d, size, size) of the causes; None: nothing."""
-        own = [(i, recipe.carried) for i, recipe in enumerate(self.recipes) if recipe.carried and recipe.carried.slopes]
+        own = [(i, recipe.carried) for i, recipe in enumerate(self.recipes) if recipe.carried]
         if not own:
             return None
         K, M = np.zeros((2, self.base.directions.shape[1], self.size, self.size))
         for i, carried in own:
             at = self.places[i]
-            of_K, of_M, *of_cause = carried.slopes
-            for into, slopes in zip((K, M), of_cause, strict=True):
+            for into, slopes in zip((K, M), carried.slopes, strict=True):
                 into[:, at[:, None], at] += slopes
             for j, other in own:
                 if i != j:
-                    across = (slice(None), *np.ix_(self.places[j][self.base.r :], at[self.base.r :]))
-                    K[across] += other.whole.T @ of_K
-                    M[across] += other.whole.T @ of_M
+                    between = (slice(None), *np.ix_(self.places[j][self.base.r :], at[self.base.r :]))
+                    for into, slopes in zip((K, M), carried.across(other.whole), strict=True):
+                        into[between] += slopes
         return K, M
 
     def followed(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
