@@ -257,3 +257,16 @@ test:
     found = eigenvalues(reduced(problem, problem.prior.mean), "gravity", [4.0])
     K = np.array([[300.0, -100.0], [-100.0, 100.0]]) - 4 * np.array([[2 + 2 * 3, -3], [-3, 3]])
     assert found == pytest.approx(eigh(K, np.diag([2.0, 3.0]), eigvals_only=True), rel=1e-9)
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_slopes_at_a_node_are_those_within_the_bar(side):
+    """A hinge at a node belongs to one of two bars: between them matrices jump, and the place has the slope of its own bar."""
+    found = model(Iz=EI)
+    recipe = registry()["crack"].recipes(found, registry()["crack"])[0]
+    there = Model(found, (recipe,))
+    at = lambda s: np.append(found.z, recipe.coordinates(np.array([0.4, s])))
+    end = found.bars.lines[0].inner[9]
+    node = end if side > 0 else np.nextafter(end, 0)
+    slopes = [there.jacobian(there.point(at(s))) for s in (node, node + side * 2e-5)]
+    np.testing.assert_allclose(slopes[0], slopes[1], rtol=0.01, atol=1e-3 * np.abs(slopes[1]).max())

@@ -30,6 +30,11 @@ class Line:
         bar = int(self.members[i])
         return bar, float(np.clip((s - first[i]) / self.bars.length[bar], 0.0, 1.0))
 
+    @property
+    def inner(self) -> np.ndarray:
+        """Distances (c - 1,) at which one bar ends and the next begins: a place is in one of them, and jumps there."""
+        return self.bars.before[self.members[1:]]
+
     def site(self, s: float) -> Site:
         """The place at s."""
         return self.bars.site(*self.at(s))

@@ -196,32 +196,36 @@ class Model:
         return Model(self.base.judged_by(data.loosened(off, moved)), self.recipes)
 
     def derivatives(self, x: np.ndarray) -> Iterator[tuple[int, Change]]:
-        """Recipe and d(change)/dc, by central differences of the matrices, for each coordinate of the causes."""
+        """Recipe and d(change)/dc, by differences of the matrices within their pieces, for each coordinate of the causes."""
         z, c = x[: self.k], x[self.k :]
         changes = self.changes(c)
         for i, (recipe, own) in enumerate(zip(self.recipes, self.own, strict=True)):
             for j in range(own.start, own.stop):
-                sides = np.clip(c[j] + _STEP * self.width[j] * np.array([1, -1]), *self.bounds[j])
-                one, other = (self._with(recipe, c[own], j - own.start, side) for side in sides)
-                yield i, self._difference(z, changes, i, (one, other), sides[0] - sides[1])
+                parts = [(self._with(recipe, c[own], j - own.start, at), weight) for at, weight in self.slope(c, j)]
+                yield i, self._sum(z, changes, i, parts)
+
+    def slope(self, c: np.ndarray, j: int) -> list[tuple[float, float]]:
+        """See `Recipe`: values of coordinate j of the causes, and weights of what is there."""
+        i = next(i for i, own in enumerate(self.own) if own.start <= j < own.stop)
+        return self.recipes[i].slope(j - self.own[i].start, c[j], _STEP * self.width[j])
 
     def _with(self, recipe: Recipe, c: np.ndarray, j: int, value: float) -> Change:
         there = c.copy()
         there[j] = value
         return recipe.change(recipe.values(there))
 
-    def _difference(self, z: np.ndarray, changes: list[Change], i: int, sides: tuple[Change, Change], length: float):
-        """Their difference over `length`, for cause number i beside the other ones."""
-        parts = []
+    def _sum(self, z: np.ndarray, changes: list[Change], i: int, parts: list[tuple[Change, float]]) -> Change:
+        """The sum of `parts`, each times its weight, as cause number i beside the other ones."""
+        found: list[np.ndarray | None] = []
         for name in ("K", "M", "sensing"):
-            a, b = (getattr(side, name) for side in sides)
-            parts.append(None if a is None else (a - b) / length)
-        if sides[0].softening is not None:
-            one, other = (self.softer([*changes[:i], side, *changes[i + 1 :]]) for side in sides)
-            a, b = (self.base.bars.strained(bars, core * self.follow(bars, z)) for bars, core in (one, other))
-            softer = (a - b) / length
-            parts[0] = softer if parts[0] is None else parts[0] + softer
-        return Change(*parts)
+            there = [(getattr(one, name), weight) for one, weight in parts]
+            found.append(None if there[0][0] is None else sum(weight * matrix for matrix, weight in there))
+        if parts[0][0].softening is not None:
+            for one, weight in parts:
+                bars, core = self.softer([*changes[:i], one, *changes[i + 1 :]])
+                softer = weight * self.base.bars.strained(bars, core * self.follow(bars, z))
+                found[0] = softer if found[0] is None else found[0] + softer
+        return Change(*found)
 
 
 def modes_of(K: np.ndarray, M: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
