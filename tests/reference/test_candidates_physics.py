@@ -166,6 +166,20 @@ def test_hinge_of_a_crack_within_an_element():
     assert bending_of(found, "crack", [depth, at]) == pytest.approx(expected, rel=2e-3)  # which gives way in shear, too
 
 
+@pytest.mark.parametrize("supports", ["{1: [TY, RZ]}", "{1: [TY], 41: [TY]}"])
+def test_a_crack_opens_where_the_model_has_no_axial_motion(supports):
+    """The same hinge, and the deck that is written has the same modes; short elements held it shut."""
+    found = model(supports, Iz=EI, plane="directions: [TY, RZ]")
+    height, nu, at, depth = np.sqrt(12 * EI), 0.3, 0.3125, 0.4
+    c = 6 * (1 - nu**2) * height * bending(depth) / EI
+    pinned = {} if "RZ" in supports else {"root": (np.inf, 0.0), "tip": lambda lam: 1e9}
+    expected = Bar([(at, EI, 1.0), (1 - at, EI, 1.0)], [(c, free_joint)], **pinned).eigenvalues(10)
+    cracked = eigenvalues(found, "crack", [depth, at])
+    assert cracked[:3] == pytest.approx(expected, rel=2e-3)
+    deck = registry()["crack"].recipes(found, registry()["crack"])[0].extend(found.problem, np.array([depth, at]))
+    assert reduced(deck, deck.prior.mean).eigenvalues[:3] == pytest.approx(cracked[:3], rel=1e-3)
+
+
 @pytest.mark.parametrize("depth", [0.1, 0.2, 0.3, 0.4, 0.5])
 def test_compliance_of_a_crack_in_bending(depth):
     """Chondros, Dimarogonas and Yao, J. Sound Vib. 215 (1998), Eq. (25): 6 pi (1 - nu^2) h Phi / EI."""
