@@ -1,12 +1,8 @@
 """Most probable parameters of the deck and of causes that are added to it, and the evidence for those causes.
 
 x = [z, c]: the deck's parameters in prior standard deviations, N(0, 1), and coordinates of the causes, uniform in their ranges.
-C = |residual|^2 + |z|^2 is lowered by Levenberg-Marquardt steps within the ranges, one exact eigensolution a step. With
-H = J'J + I_z at the end, Laplace's evidence for d unknowns of widths w is
-
-    ln Z = -C/2 - sum ln w + (d/2) ln 2 pi - 1/2 ln |H + diag(0, 2 pi / w^2)|
-
-where what is added to H keeps an unknown that the data do not feel from being found wider than its range.
+C = |residual|^2 + |z|^2 is lowered by Levenberg-Marquardt steps within the ranges, one exact eigensolution a step; the evidence is
+that of `evidence.laplace` at the end.
 """
 
 from dataclasses import dataclass, field
@@ -15,6 +11,7 @@ from typing import ClassVar
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Recipe
+from mouse_cli.diagnosis.evidence import capped, laplace
 from mouse_cli.diagnosis.likelihoods.modal.model import Model, Point
 
 _SMALL = 1e-4  # change of J, relative to 1 + its share of rounding, that ends the search
@@ -58,7 +55,7 @@ class Fit:
     @property
     def covariance(self) -> np.ndarray:
         """Of x, unknowns that the data do not feel as wide as their range."""
-        return np.linalg.inv(_capped(self.hessian, self.model))
+        return np.linalg.inv(capped(self.hessian, self.model.width))
 
     @property
     def c(self) -> np.ndarray:
@@ -121,21 +118,6 @@ def _step(H, slope, damping, x, lower, upper) -> np.ndarray:
     return step
 
 
-def _capped(H: np.ndarray, model: Model) -> np.ndarray:
-    H = H.copy()
-    at = np.arange(model.k, len(H))
-    H[at, at] += 2 * np.pi / model.width**2
-    return H
-
-
 def _evidence(J: float, H: np.ndarray, model: Model) -> float:
     places = sum(recipe.log_prior for recipe in model.recipes)
-    _, size = np.linalg.slogdet(_capped(H, model))
-    return (
-        -0.5 * J
-        - float(np.log(model.width).sum())
-        + 0.5 * model.t * np.log(2 * np.pi)
-        - 0.5 * size
-        + places
-        - model.base.data.slack
-    )
+    return laplace(J, H, model.width) + places - model.base.data.slack
