@@ -1,6 +1,7 @@
 """What misleads a search for causes: modes that nobody measured, places that are counted otherwise at other parameters."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced, reduced
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unseen
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.diagnosis.search.fit import fit
+from mouse_cli.diagnosis.search.optima import distinct
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
@@ -76,3 +78,67 @@ def test_a_cause_keeps_its_place_where_places_are_counted_otherwise():
     (same,) = study.at(one).own((recipe,))
     assert same.site(np.array([1e3])).text == recipe.site(np.array([1e3])).text
     assert same.number == 3
+
+
+class Curve:
+    """A model of one place c, counted in units of 1/`per`, whose whitened residual is f(c) (q,)."""
+
+    k, t, recipes = 0, 1, ()
+
+    def __init__(self, f, per: float = 1.0):
+        self.f, self.per = f, per
+        self.width, self.bounds = np.array([8.0 * per]), np.array([[-4.0, 4.0]]) * per
+        data = SimpleNamespace(slack=0.0, dof=1000)
+        self.base = SimpleNamespace(z=np.zeros(0), data=data)
+
+    def point(self, x):
+        residual = self.f(x[0] / self.per)
+        return SimpleNamespace(x=x, residual=residual, chi2=float(residual @ residual))
+
+    def jacobian(self, at):
+        h = 1e-6
+        c = at.x[0] / self.per
+        return ((self.f(c - h) - self.f(c + h)) / (2 * h * self.per))[:, None]
+
+    def loosened(self, at, share):
+        return None
+
+
+T = np.linspace(-4, 4, 60)
+
+
+def bump(c: float) -> np.ndarray:
+    """A pulse at 0 less one at c, of large amplitude: pulses that hardly overlap promise little."""
+    return 40 * (np.exp(-0.5 * (T / 0.5) ** 2) - np.exp(-0.5 * ((T - c) / 0.5) ** 2))
+
+
+def test_a_search_that_gains_is_not_given_up():
+    """A full step promises a tenth of what is to be gained, which goes down to nothing."""
+    start = np.array([1.1])
+    first = fit(Curve(bump), start, most=0)
+    one = fit(Curve(bump), start, reach=first.misfit / 50)
+    assert one.misfit < 1e-3
+
+
+def test_a_search_without_hope_is_given_up():
+    """Where the misfit stays far above reach at every step, few are taken."""
+    asked = []
+
+    def flat(c: float) -> np.ndarray:
+        asked.append(c)
+        return np.array([100.0, 0.1 * np.arctan(c - 3)])
+
+    fit(Curve(flat), np.array([-3.0]), reach=50.0)
+    assert len(asked) < 30
+
+
+@pytest.mark.parametrize("per", [1.0, 1e3, 1e-3])
+@pytest.mark.parametrize(
+    ("f", "count"), [(lambda c: np.array([3 * c**2]), 1), (lambda c: np.array([6 * (c**2 - 1)]), 2)]
+)
+def test_an_optimum_counts_once_in_any_units(f, count, per):
+    """A flat valley from either side, and two valleys: descents that end early at 0.6 in the first, at +-1 in the second."""
+    ends = [fit(Curve(f, per), np.array([side * c * per]), most=0) for side, c in ((1, 0.6), (-1, 0.6))]
+    if count == 2:
+        ends = [fit(Curve(f, per), np.array([side * 0.8 * per])) for side in (1, -1)]
+    assert len(distinct(ends)) == count

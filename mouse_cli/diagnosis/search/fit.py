@@ -18,7 +18,8 @@ _SMALL = 1e-4  # change of J, relative to 1 + its share of rounding, that ends t
 MOST = 40
 GATE = 1e-3  # probability of so large a misfit by chance, below which something is missing
 _GIVE_UP = 1e8
-_HOPE = 4.0  # times the gain that a full step promises: what a search may gain at most
+_HOPE = 4.0  # times the gain that a full step promises: what a search may gain at most, unless it gains more
+_LEAST = 3  # steps before a search may be given up
 
 
 @dataclass(frozen=True)
@@ -68,7 +69,8 @@ def fit(
 ) -> Fit | None:
     """The most probable x, from coordinates c (t,) of the causes and z (k,) on; None where the model is not physical there.
 
-    most: steps; reach: a misfit above which no fit matters: the search ends where it will not come so low.
+    most: steps; reach: a misfit above which no fit matters: the search is given up where it will not come so low, neither by what
+    a full step promises nor by going on to gain as it did. Far from an optimum the first alone says little.
     """
     k = model.k
     lower = np.concatenate([np.full(k, -np.inf), model.bounds[:, 0]])
@@ -79,14 +81,17 @@ def fit(
         return None
     J, damping = _cost(at, k), 1e-3
     prior = np.concatenate([np.ones(k), np.zeros(model.t)])
-    for _ in range(most):
+    scale, gained = np.concatenate([np.ones(k), 1 / model.width**2]), np.inf
+    for step_number in range(most):
         T = model.jacobian(at)
         H, slope = T.T @ T + np.diag(prior), T.T @ at.residual - prior * at.x
-        if reach < np.inf and J - _HOPE * float(slope @ _step(H, slope, 1e-6, at.x, lower, upper)) > reach:
-            return Fit(model, at, J, H, _evidence(J, H, model))
+        if step_number >= _LEAST and J - (most - step_number) * gained > reach:
+            promised = float(slope @ _step(H, slope, 1e-6, scale, at.x, lower, upper))
+            if J - _HOPE * promised > reach:
+                return Fit(model, at, J, H, _evidence(J, H, model))
         moved = False
         while damping < _GIVE_UP:
-            step = _step(H, slope, damping, at.x, lower, upper)
+            step = _step(H, slope, damping, scale, at.x, lower, upper)
             there = model.point(np.clip(at.x + step, lower, upper))
             cost = np.inf if there is None else _cost(there, k)
             if cost <= J:
@@ -108,13 +113,13 @@ def _cost(at: Point, k: int) -> float:
     return at.chi2 + float(at.x[:k] @ at.x[:k])
 
 
-def _step(H, slope, damping, x, lower, upper) -> np.ndarray:
-    """Damped step; what stands at a limit and would leave it is held."""
+def _step(H, slope, damping, scale, x, lower, upper) -> np.ndarray:
+    """Damped step; what stands at a limit and would leave it is held. scale: H of unknowns that are as wide as they may be."""
     held = ((x <= lower) & (slope < 0)) | ((x >= upper) & (slope > 0))
     free = ~held
     step = np.zeros(len(x))
     A = H[np.ix_(free, free)]
-    step[free] = np.linalg.solve(A + damping * np.diag(A.diagonal()) + 1e-12 * np.eye(len(A)), slope[free])
+    step[free] = np.linalg.solve(A + damping * np.diag(A.diagonal()) + 1e-12 * np.diag(scale[free]), slope[free])
     return step
 
 

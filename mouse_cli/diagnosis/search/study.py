@@ -13,6 +13,7 @@ from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unseen
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
 from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
+from mouse_cli.diagnosis.search.optima import distinct
 
 _STARTS = 3  # fits of a candidate to the end, from different optima
 _LOOKS, _MOST, _EACH, _BRIEF = 12, 40, 4, 4  # brief descents at least, at most, from one recipe, and their steps
@@ -218,7 +219,7 @@ def best(study: Study, name: str, reach: float = np.inf) -> Fit | None:
 
     reach: misfit above which no fit matters, and is left as it was found.
     """
-    found = _distinct(tried(study, name, None, _STARTS, reach=reach))
+    found = distinct(tried(study, name, None, _STARTS, reach=reach))
     return summed([settled(shifted(one), study) if one.misfit < reach else one for one in found], reach)
 
 
@@ -261,25 +262,9 @@ def summed(found: list[Fit], reach: float = np.inf) -> Fit | None:
     """The best of several optima, its theory taken for as good as it is; those at other places add to its evidence."""
     if not found:
         return None
-    distinct = _distinct(found)
-    total = np.logaddexp.reduce([one.log_evidence for one in distinct])
-    others = tuple((one, float(np.exp(one.log_evidence - total))) for one in distinct[1:])
-    best = idealised(distinct[0]) if distinct[0].misfit < reach else distinct[0]
-    log_evidence = best.log_evidence + float(total - distinct[0].log_evidence) - unseen(best)
+    apart = distinct(found)
+    total = np.logaddexp.reduce([one.log_evidence for one in apart])
+    others = tuple((one, float(np.exp(one.log_evidence - total))) for one in apart[1:])
+    best = idealised(apart[0]) if apart[0].misfit < reach else apart[0]
+    log_evidence = best.log_evidence + float(total - apart[0].log_evidence) - unseen(best)
     return replace(best, log_evidence=log_evidence, elsewhere=others)
-
-
-def _distinct(found: list[Fit]) -> list[Fit]:
-    """The fits in the order of their evidence, one of each optimum."""
-    distinct: list[Fit] = []
-    for one in sorted(found, key=lambda one: -one.log_evidence):
-        if not any(_same(one, other) for other in distinct):
-            distinct.append(one)
-    return distinct
-
-
-def _same(one: Fit, other: Fit) -> bool:
-    if [recipe.number for recipe in one.recipes] != [recipe.number for recipe in other.recipes]:
-        return False
-    sd = np.sqrt(np.abs(np.diag(one.covariance)[one.model.k :]))
-    return bool((np.abs(one.c - other.c) < 2 * sd + 1e-3 * one.model.width).all())
