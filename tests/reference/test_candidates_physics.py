@@ -40,7 +40,8 @@ def model(supports: str = CLAMPED, Iz: float = 1.0, plane: str = "plane: XY", **
 def eigenvalues(found, key: str, values, says: str = "") -> np.ndarray:
     """All eigenvalues with candidate `key` at `values`, in the first of its recipes whose place `says` so."""
     recipes = registry()[key].recipes(found, registry()[key])
-    recipe = next(each for each in recipes if says in each.site(np.array(values, float)).text)
+    fitting = (each for each in recipes if len(each.unknowns) == len(values))
+    recipe = next(each for each in fitting if says in each.site(np.array(values, float)).text)
     return Model(found, (recipe,)).point(np.append(found.z, recipe.coordinates(np.array(values, float)))).eigenvalues
 
 
@@ -141,6 +142,35 @@ def test_oscillator_at_the_end_of_a_cantilever():
 def test_elastic_foundation_lifts_every_eigenvalue_alike():
     k = 300 * EI
     assert bending_of(model(Iz=EI), "foundation", [k]) == pytest.approx(Bar(WHOLE).eigenvalues(9) + k, rel=1e-4)
+
+
+def on_a_bed(k: float, first: float, last: float) -> np.ndarray:
+    """Ritz of a cantilever with x^2 ... x^14 on a bed of k between two places."""
+    nodes, weights = np.polynomial.legendre.leggauss(30)
+    square = np.polynomial.Polynomial([0, 0, 1]).convert(kind=np.polynomial.Legendre, domain=[0, 1])
+    basis = [np.polynomial.Legendre.basis(i, domain=[0, 1]) * square for i in range(13)]
+
+    def integral(a: float, b: float, order: int) -> np.ndarray:
+        u = np.array([p.deriv(order)(a + (b - a) * (nodes + 1) / 2) for p in basis])
+        return (u * weights * (b - a) / 2) @ u.T
+
+    K = EI * integral(0, 1, 2) + k * integral(first, last, 0)
+    return eigh(K, integral(0, 1, 0), eigvals_only=True)[:3]
+
+
+@pytest.mark.parametrize(
+    ("says", "ends"), [("element 1 towards", (0.0, 0.4625)), ("element 40 towards", (0.5375, 1.0))]
+)
+def test_a_bed_from_an_end_on_against_polynomials(says, ends):
+    """Its edge within an element; the deck that is written has the same modes."""
+    found, values = model(Iz=EI), np.array([0.02, 0.4625])
+    expected = on_a_bed(values[0], *ends)
+    assert bending_of(found, "foundation", values, says) == pytest.approx(expected, rel=1e-4)
+    made = registry()["foundation"].recipes(found, registry()["foundation"])
+    recipe = next(each for each in made if len(each.unknowns) == 2 and says in each.site(values).text)
+    deck = recipe.extend(found.problem, values)
+    assert reduced(deck, deck.prior.mean).eigenvalues[:3] == pytest.approx(expected, rel=1e-4)
+    assert np.exp([each.log_prior for each in made]).sum() == pytest.approx(1)
 
 
 @pytest.mark.parametrize(("key", "sign"), [("tension", 1), ("compression", -1)])
