@@ -65,6 +65,8 @@ def run(
     estimator = _estimator(problem)
     try:
         setting, start = begin(problem, notice, solver)
+        if guess is not None:  # modal damping and gains add parameters behind those of the deck
+            guess = np.concatenate([guess, setting.problem.prior.mean[len(guess) :]])
         trace = Trace(
             setting,
             ExceedanceTest(problem.run.confidence, problem.run.convergence),

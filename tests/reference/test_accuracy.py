@@ -11,11 +11,11 @@ from scipy.linalg import eigh
 from scipy.optimize import brentq
 from scipy.stats import multivariate_normal
 
+from mouse_cli.diagnosis import verdict as decide
 from mouse_cli.diagnosis.diagnose import diagnose
 from mouse_cli.diagnosis.likelihoods.modal.accuracy import ERRORS, ways
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
-from mouse_cli.diagnosis import verdict as decide
 from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.diagnosis.search.rank import rank
 from mouse_cli.formats import yaml_deck

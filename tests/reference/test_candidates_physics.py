@@ -40,7 +40,8 @@ def model(supports: str = CLAMPED, Iz: float = 1.0, plane: str = "plane: XY", **
 def eigenvalues(found, key: str, values, says: str = "") -> np.ndarray:
     """All eigenvalues with candidate `key` at `values`, in the first of its recipes whose place `says` so."""
     recipes = registry()[key].recipes(found, registry()[key])
-    recipe = next(each for each in recipes if says in each.site(np.array(values, float)).text)
+    fitting = (each for each in recipes if len(each.unknowns) == len(values))
+    recipe = next(each for each in fitting if says in each.site(np.array(values, float)).text)
     return Model(found, (recipe,)).point(np.append(found.z, recipe.coordinates(np.array(values, float)))).eigenvalues
 
 
@@ -143,6 +144,35 @@ def test_elastic_foundation_lifts_every_eigenvalue_alike():
     assert bending_of(model(Iz=EI), "foundation", [k]) == pytest.approx(Bar(WHOLE).eigenvalues(9) + k, rel=1e-4)
 
 
+def on_a_bed(k: float, first: float, last: float) -> np.ndarray:
+    """Ritz of a cantilever with x^2 ... x^14 on a bed of k between two places."""
+    nodes, weights = np.polynomial.legendre.leggauss(30)
+    square = np.polynomial.Polynomial([0, 0, 1]).convert(kind=np.polynomial.Legendre, domain=[0, 1])
+    basis = [np.polynomial.Legendre.basis(i, domain=[0, 1]) * square for i in range(13)]
+
+    def integral(a: float, b: float, order: int) -> np.ndarray:
+        u = np.array([p.deriv(order)(a + (b - a) * (nodes + 1) / 2) for p in basis])
+        return (u * weights * (b - a) / 2) @ u.T
+
+    K = EI * integral(0, 1, 2) + k * integral(first, last, 0)
+    return eigh(K, integral(0, 1, 0), eigvals_only=True)[:3]
+
+
+@pytest.mark.parametrize(
+    ("says", "ends"), [("element 1 towards", (0.0, 0.4625)), ("element 40 towards", (0.5375, 1.0))]
+)
+def test_a_bed_from_an_end_on_against_polynomials(says, ends):
+    """Its edge within an element; the deck that is written has the same modes."""
+    found, values = model(Iz=EI), np.array([0.02, 0.4625])
+    expected = on_a_bed(values[0], *ends)
+    assert bending_of(found, "foundation", values, says) == pytest.approx(expected, rel=1e-4)
+    made = registry()["foundation"].recipes(found, registry()["foundation"])
+    recipe = next(each for each in made if len(each.unknowns) == 2 and says in each.site(values).text)
+    deck = recipe.extend(found.problem, values)
+    assert reduced(deck, deck.prior.mean).eigenvalues[:3] == pytest.approx(expected, rel=1e-4)
+    assert np.exp([each.log_prior for each in made]).sum() == pytest.approx(1)
+
+
 @pytest.mark.parametrize(("key", "sign"), [("tension", 1), ("compression", -1)])
 def test_axial_force_in_a_bar_on_two_bearings(key, sign):
     T, q = 5.0 * EI, np.pi * np.arange(1, 4)
@@ -164,6 +194,20 @@ def test_hinge_of_a_crack_within_an_element():
     pieces = [(at, EI, 1.0), (1 - at, EI, 1.0)]
     expected = Bar(pieces, [(c, free_joint)]).eigenvalues(9)
     assert bending_of(found, "crack", [depth, at]) == pytest.approx(expected, rel=2e-3)  # which gives way in shear, too
+
+
+@pytest.mark.parametrize("supports", ["{1: [TY, RZ]}", "{1: [TY], 41: [TY]}"])
+def test_a_crack_opens_where_the_model_has_no_axial_motion(supports):
+    """The same hinge, and the deck that is written has the same modes; short elements held it shut."""
+    found = model(supports, Iz=EI, plane="directions: [TY, RZ]")
+    height, nu, at, depth = np.sqrt(12 * EI), 0.3, 0.3125, 0.4
+    c = 6 * (1 - nu**2) * height * bending(depth) / EI
+    pinned = {} if "RZ" in supports else {"root": (np.inf, 0.0), "tip": lambda lam: 1e9}
+    expected = Bar([(at, EI, 1.0), (1 - at, EI, 1.0)], [(c, free_joint)], **pinned).eigenvalues(10)
+    cracked = eigenvalues(found, "crack", [depth, at])
+    assert cracked[:3] == pytest.approx(expected, rel=2e-3)
+    deck = registry()["crack"].recipes(found, registry()["crack"])[0].extend(found.problem, np.array([depth, at]))
+    assert reduced(deck, deck.prior.mean).eigenvalues[:3] == pytest.approx(cracked[:3], rel=1e-3)
 
 
 @pytest.mark.parametrize("depth", [0.1, 0.2, 0.3, 0.4, 0.5])
@@ -257,3 +301,16 @@ test:
     found = eigenvalues(reduced(problem, problem.prior.mean), "gravity", [4.0])
     K = np.array([[300.0, -100.0], [-100.0, 100.0]]) - 4 * np.array([[2 + 2 * 3, -3], [-3, 3]])
     assert found == pytest.approx(eigh(K, np.diag([2.0, 3.0]), eigvals_only=True), rel=1e-9)
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_slopes_at_a_node_are_those_within_the_bar(side):
+    """A hinge at a node belongs to one of two bars: between them matrices jump, and the place has the slope of its own bar."""
+    found = model(Iz=EI)
+    recipe = registry()["crack"].recipes(found, registry()["crack"])[0]
+    there = Model(found, (recipe,))
+    at = lambda s: np.append(found.z, recipe.coordinates(np.array([0.4, s])))
+    end = found.bars.lines[0].inner[9]
+    node = end if side > 0 else np.nextafter(end, 0)
+    slopes = [there.jacobian(there.point(at(s))) for s in (node, node + side * 2e-5)]
+    np.testing.assert_allclose(slopes[0], slopes[1], rtol=0.01, atol=1e-3 * np.abs(slopes[1]).max())

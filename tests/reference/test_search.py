@@ -1,6 +1,7 @@
 """What misleads a search for causes: modes that nobody measured, places that are counted otherwise at other parameters."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,7 +13,8 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unseen
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.diagnosis.search.fit import fit
-from mouse_cli.diagnosis.search.study import Study
+from mouse_cli.diagnosis.search.optima import distinct
+from mouse_cli.diagnosis.search.study import Study, settled, tried
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.problem import Problem
@@ -77,3 +79,119 @@ def test_a_cause_keeps_its_place_where_places_are_counted_otherwise():
     (same,) = study.at(one).own((recipe,))
     assert same.site(np.array([1e3])).text == recipe.site(np.array([1e3])).text
     assert same.number == 3
+
+
+class Curve:
+    """A model of one place c, counted in units of 1/`per`, whose whitened residual is f(c) (q,)."""
+
+    k, t, recipes = 0, 1, ()
+
+    def __init__(self, f, per: float = 1.0):
+        self.f, self.per = f, per
+        self.width, self.bounds = np.array([8.0 * per]), np.array([[-4.0, 4.0]]) * per
+        data = SimpleNamespace(slack=0.0, dof=1000)
+        self.base = SimpleNamespace(z=np.zeros(0), data=data)
+
+    def point(self, x):
+        residual = self.f(x[0] / self.per)
+        return SimpleNamespace(x=x, residual=residual, chi2=float(residual @ residual))
+
+    def jacobian(self, at):
+        h = 1e-6
+        c = at.x[0] / self.per
+        return ((self.f(c - h) - self.f(c + h)) / (2 * h * self.per))[:, None]
+
+    def loosened(self, at, share):
+        return None
+
+
+T = np.linspace(-4, 4, 60)
+
+
+def bump(c: float) -> np.ndarray:
+    """A pulse at 0 less one at c, of large amplitude: pulses that hardly overlap promise little."""
+    return 40 * (np.exp(-0.5 * (T / 0.5) ** 2) - np.exp(-0.5 * ((T - c) / 0.5) ** 2))
+
+
+def test_a_search_that_gains_is_not_given_up():
+    """A full step promises a tenth of what is to be gained, which goes down to nothing."""
+    start = np.array([1.1])
+    first = fit(Curve(bump), start, most=0)
+    one = fit(Curve(bump), start, reach=first.misfit / 50)
+    assert one.misfit < 1e-3
+
+
+def test_a_search_without_hope_is_given_up():
+    """Where the misfit stays far above reach at every step, few are taken."""
+    asked = []
+
+    def flat(c: float) -> np.ndarray:
+        asked.append(c)
+        return np.array([100.0, 0.1 * np.arctan(c - 3)])
+
+    fit(Curve(flat), np.array([-3.0]), reach=50.0)
+    assert len(asked) < 30
+
+
+@pytest.mark.parametrize("per", [1.0, 1e3, 1e-3])
+@pytest.mark.parametrize(
+    ("f", "count"), [(lambda c: np.array([3 * c**2]), 1), (lambda c: np.array([6 * (c**2 - 1)]), 2)]
+)
+def test_an_optimum_counts_once_in_any_units(f, count, per):
+    """A flat valley from either side, and two valleys: descents that end early at 0.6 in the first, at +-1 in the second."""
+    ends = [fit(Curve(f, per), np.array([side * c * per]), most=0) for side, c in ((1, 0.6), (-1, 0.6))]
+    if count == 2:
+        ends = [fit(Curve(f, per), np.array([side * 0.8 * per])) for side in (1, -1)]
+    assert len(distinct(ends)) == count
+
+
+def pair_of_oscillators(lower: float, upper: float) -> Reduced:
+    """Two masses on springs of nearly one stiffness, weakly coupled, as measured with the factors `lower` and `upper` on those."""
+    k, coupling = 1e4 * np.array([1.0, 0.98]), 30.0 * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    lam, X = eigh(np.diag(k * [lower, upper]) + coupling)
+    hz = np.sqrt(lam) / (2 * np.pi)
+    test = ModalTest(np.arange(1, 3), hz, 2e-3 * hz, np.arange(2), X, np.full((2, 2), 0.02))
+    listed = ListedElements(np.zeros(2, bool), np.arange(2), np.arange(2))
+    prior = Gaussian(np.ones(2), np.full(2, 0.05**2))
+    parameters = (Parameter("first", 0.05, 1.0), Parameter("second", 0.05, 1.0))
+    deck = Problem("pair", Structure(np.diag(k) + coupling, np.eye(2)), listed, np.diag(k), parameters, prior, test)
+    return reduced(deck, prior.mean)
+
+
+@pytest.mark.parametrize("factors", [(1.0, 1.0), (1.02, 0.98), (0.98, 1.02)])
+def test_close_modes_that_must_pass_one_another_do(factors):
+    """Paired by shape, frequencies pull them against each other: a descent stopped at a misfit of 355 before they passed."""
+    model = pair_of_oscillators(*factors)
+    one = settled(fit(Model(model), np.zeros(0)), Study(model))
+    assert one.misfit < 1
+    np.testing.assert_allclose(model.parameters(one.point.x), factors, atol=5e-3)
+
+
+def long_chain(place: int, kg: float) -> Reduced:
+    """Sixty masses between two walls as measured with one more on them; the stiffness of all is known to 3 %."""
+    n = 60
+    K = 1e5 * (2 * np.eye(n) - np.eye(n, k=1) - np.eye(n, k=-1))
+    lam, X = eigh(1.02 * K, np.eye(n) + kg * np.diag(np.arange(n) == place))
+    hz, at = np.sqrt(lam[:4]) / (2 * np.pi), np.arange(4, n, 5)
+    shapes = X[at, :4] / np.abs(X[at, :4]).max(axis=0)
+    test = ModalTest(np.arange(1, 5), hz, 1e-3 * hz, at, shapes, np.full(shapes.shape, 0.01))
+    row, col = np.nonzero(np.triu(K))
+    listed = ListedElements(np.zeros(len(row), bool), row, col)
+    prior = Gaussian(np.ones(1), np.array([0.03**2]))
+    parameters = (Parameter("factor", 0.03, 1.0),)
+    return reduced(
+        Problem("long", Structure(K, np.eye(n)), listed, K[row, col][:, None], parameters, prior, test), prior.mean
+    )
+
+
+def test_the_true_place_gets_on_from_behind(monkeypatch):
+    """Few coordinates may see it behind others: here it is the last of six."""
+    study = Study(long_chain(17, 3.0))
+    few = study.coarse
+    assert few is not study
+    found = few.approached("mass", np.zeros(1), ())[:6]
+    behind = [(1e3 * n, i, x) for n, (_, i, x) in enumerate(found[::-1])]
+    monkeypatch.setattr(few, "approached", lambda *given: behind)
+    (best, *_) = sorted(tried(study, "mass", None, 2), key=lambda one: one.misfit)
+    assert "18" in best.recipes[0].site(best.recipes[0].values(best.c)).text
+    assert best.misfit < 5

@@ -50,15 +50,17 @@ class Change:
 class Carried:
     """Motion (r, a) of the model with a degrees of freedom of a cause's own; of all n free then (n, a), and K, M times it.
 
-    slopes: of the deck's parameters, d directions, what they add to K and M times that motion (d, n, a), and to K and M of the
-    cause (d, r + a, r + a); None where the model has so few coordinates that what they were where it is weighed is near enough.
+    deck: which of those n the degrees of freedom of the deck are. slopes: what the deck's parameters, d directions, add to K and M
+    of the cause (d, r + a, r + a); across(motion (n, b)): to K and M between that motion and this one (d, b, a).
     """
 
     model: np.ndarray
     whole: np.ndarray
     K: np.ndarray
     M: np.ndarray
-    slopes: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray] | None = None
+    deck: np.ndarray
+    slopes: tuple[np.ndarray, np.ndarray]
+    across: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 
 @dataclass(frozen=True)
@@ -69,6 +71,7 @@ class Recipe:
     grid (g, t): values to begin from. log_prior: ln of the share of the candidate's prior that this place has. extend(problem,
     values): the deck with the cause in it. number: which of its candidate's recipes it is. carried: how degrees of
     freedom of its own move the model along, which other causes see. law: how its spring loses energy, see `frf/lossy.py`.
+    jumps: coordinates, in order, at which the matrices jump, by number of the unknown; there the piece after it begins.
     """
 
     candidate: Any
@@ -82,6 +85,7 @@ class Recipe:
     number: int = 0
     carried: Carried | None = None
     law: str = ""
+    jumps: dict[int, np.ndarray] = field(default_factory=dict, repr=False)
     _last: dict[bytes, Change] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def at(self, coordinates: np.ndarray) -> Change:
@@ -105,6 +109,20 @@ class Recipe:
     def bounds(self) -> np.ndarray:
         """Ranges (t, 2) of the coordinates."""
         return np.array([u.bounds for u in self.unknowns]).reshape(-1, 2)
+
+    def slope(self, j: int, coordinate: float, step: float) -> list[tuple[float, float]]:
+        """Coordinates of unknown j, and weights of what is there, whose sum is the derivative to second order.
+
+        Central; one-sided, (-3 f0 + 4 f1 - f2) / 2 h, where a step would leave the range or cross a jump.
+        """
+        ends = np.concatenate([[-np.inf], self.jumps.get(j, np.zeros(0)), [np.inf]])
+        i = int(np.searchsorted(ends, coordinate, side="right"))
+        lower, upper = self.unknowns[j].bounds
+        low, high = max(lower, ends[i - 1]), min(upper, np.nextafter(ends[i], -np.inf))
+        if low <= coordinate - step and coordinate + step <= high:
+            return [(coordinate + step, 0.5 / step), (coordinate - step, -0.5 / step)]
+        h = step if coordinate + 2 * step <= high else -step
+        return [(coordinate, -1.5 / h), (coordinate + h, 2 / h), (coordinate + 2 * h, -0.5 / h)]
 
 
 def outer(rows: np.ndarray, core: np.ndarray) -> np.ndarray:

@@ -1,6 +1,7 @@
 """Places along bars where something gives way in bending."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -68,7 +69,8 @@ def places(
 
         prior = float(np.log(line.length / total))
         grid = product(*starts.T, at) if starts.ndim > 1 else product(starts, at)
-        found.append(Recipe(candidate, (*sizes, where), change, grid, site, log_prior=prior, extend=extended))
+        recipe = Recipe(candidate, (*sizes, where), change, grid, site, log_prior=prior, extend=extended)
+        found.append(replace(recipe, jumps={len(sizes): line.inner}))
     return found
 
 

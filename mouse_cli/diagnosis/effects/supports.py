@@ -1,5 +1,6 @@
 """Supports that give way: the motion of each, as a degree of freedom of its own beside those of the reduced model."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -7,7 +8,7 @@ import numpy as np
 from mouse_cli.diagnosis.effects.change import Carried, Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.directions import projected
-from mouse_cli.diagnosis.likelihoods.modal.reduced import WHOLE, Reduced
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.dynamics.contraction import Stack
@@ -62,7 +63,8 @@ def released(model: Reduced, kinds: range) -> Released | None:
     held = _candidates(model, kinds)
     if not held:
         return None
-    free, theta = _without_supports(model.problem), model.theta
+    free = _without_supports(model.problem)
+    theta = model.theta if model.origin is None else model.origin  # where its own K and M are taken
     place = {label: i for i, label in enumerate(free.structure.labels)}
     f = np.array([place[label] for label in model.problem.structure.labels], int)
     names = [f"{model.problem.mesh.node_ids[node]}{DIRECTIONS[d]}" for node, d in held]
@@ -79,23 +81,38 @@ def released(model: Reduced, kinds: range) -> Released | None:
     blocks = [whole.T @ (matrix @ whole) for matrix in (K, M)]
     for block in blocks:
         block[: model.r, : model.r] = 0.0
-    slopes = _slopes(model, assembly(free), whole) if free.structure.n <= WHOLE + len(s) else None
-    carried = Carried(model.V.T @ (M[f][:, f] @ motion[f]), motion, K @ motion, M @ motion, slopes)
+    slopes, stack = _slopes(model, assembly(free), theta, whole)
+    within = model.V.T @ (M[f][:, f] @ motion[f])
+    carried = Carried(within, motion, K @ motion, M @ motion, f, slopes, _across(model, stack, motion))
     return Released(tuple(held), *blocks, free.test.read(motion), np.asarray(K.diagonal())[s], carried)
 
 
-def _slopes(model: Reduced, free: Assembly, whole: np.ndarray) -> tuple[np.ndarray, ...]:
-    """See `Carried`. With all coordinates kept, what is left to the mass of a support beside theirs is a small difference:
+Slopes = tuple[np.ndarray, np.ndarray]
 
-    M of the cause must follow the parameters as that of the model does.
+
+def _slopes(model: Reduced, free: Assembly, theta: np.ndarray, whole: np.ndarray) -> tuple[Slopes, Stack]:
+    """See `Carried`. Its static motion is nearly in the space of the coordinates, and the mass that is left to a support beside
+    theirs a small difference: M of the cause must follow the parameters as that of the model does, else M is indefinite.
     """
-    r = model.r
-    stack = Stack(free.n, free.p, free.slopes(model.theta))
-    matrices = projected(stack, model.directions, np.eye(free.n))
-    of_cause = [whole.T @ each @ whole for each in matrices]
-    for each in of_cause:
-        each[:, :r, :r] = 0.0
-    return (*(each @ whole[:, r:] for each in matrices), *of_cause)
+    stack = Stack(free.n, free.p, free.slopes(theta))
+    found = projected(stack, model.directions, whole)
+    for each in found:
+        each[:, : model.r, : model.r] = 0.0
+    return found, stack
+
+
+def _across(model: Reduced, stack: Stack, motion: np.ndarray) -> Callable[[np.ndarray], Slopes]:
+    """See `Carried`; what was asked for last is kept, as a pair of supports is looked at many times."""
+    kept: list[tuple[np.ndarray, Slopes]] = []
+
+    def across(other: np.ndarray) -> Slopes:
+        if not kept or kept[0][0] is not other:
+            b = other.shape[1]
+            both = projected(stack, model.directions, np.hstack([other, motion]))
+            kept[:] = [(other, tuple(each[:, :b, b:] for each in both))]
+        return kept[0][1]
+
+    return across
 
 
 def _candidates(model: Reduced, kinds: range) -> list[tuple[int, int]]:
@@ -183,11 +200,13 @@ def _recipe(
 def _part(carried: Carried, which: list[int], r: int) -> Carried:
     """What a part of the supports carries along."""
     own = [getattr(carried, name)[:, which] for name in ("model", "whole", "K", "M")]
-    if carried.slopes is None:
-        return Carried(*own)
     at = np.concatenate([np.arange(r), r + np.array(which)])
-    dK, dM, *of_cause = carried.slopes
-    return Carried(*own, (dK[..., which], dM[..., which], *(each[:, at[:, None], at] for each in of_cause)))
+    slopes = tuple(each[:, at[:, None], at] for each in carried.slopes)
+
+    def across(other: np.ndarray) -> Slopes:
+        return tuple(each[..., which] for each in carried.across(other))
+
+    return Carried(*own, carried.deck, slopes, across)
 
 
 def _range(model: Reduced, resistance: float, turning: bool) -> tuple[float, float]:

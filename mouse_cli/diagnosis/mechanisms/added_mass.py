@@ -8,7 +8,7 @@ from mouse_cli.diagnosis.extend.edit import Edit, every_beam
 from mouse_cli.diagnosis.extend.places import beams_within, element_at
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
-from mouse_cli.diagnosis.sites.lines import Line
+from mouse_cli.diagnosis.sites.lines import Line, from_end
 from mouse_cli.diagnosis.sites.preload import runs
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
@@ -47,12 +47,10 @@ def _partly(candidate: Candidate, run: Line, wet: Wet, m: Unknown, back: bool, s
 
     def change(values: np.ndarray) -> Change:
         s = L * (1 - values[1] if back else values[1])
-        return Change(M=values[0] * (wet.sums[-1] - wet.upto(s) if back else wet.upto(s)))
+        return Change(M=values[0] * wet.part(s, back))
 
     def site(values: np.ndarray) -> Site:
-        first, last = (ids[-1], ids[0]) if back else (ids[0], ids[-1])
-        text = f"{values[1]:.2f} of the length from the end at element {first} towards element {last}"
-        return Site("element", tuple(ids.tolist()), None, text)
+        return Site("element", tuple(ids.tolist()), None, from_end(ids, values[1], back))
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         s = L * (1 - values[1] if back else values[1])

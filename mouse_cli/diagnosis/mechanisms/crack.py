@@ -7,21 +7,26 @@ from mouse_cli.diagnosis.effects.fracture import bending, coupling, shearing, st
 from mouse_cli.diagnosis.effects.hinges import places, with_hinge
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.bars import Bars
 from mouse_cli.model.problem import Problem
+
+_STILL = 1e-9  # elongation over bending strain times length below which a bar does not stretch
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """F + 6 (1 - nu^2) h F1 / EI b b' + l/(3 EI) 2 (1 - nu^2) (h/l)^3 F2 on the antisymmetric strain, b = [1, eta, e].
 
-    e: distance of the point about which the crack turns from the axis; what it parts there comes to the elongation.
+    e: distance of the point about which the crack turns from the axis; what it parts there comes to the elongation. A bar that
+    does not stretch in the model has no axial force: it turns about its axis, e = 0, for else the crack were held shut.
     """
     bars, depth = model.bars, Unknown("depth over height", "1", 0.05, 0.7)
+    stretches = None if bars is None else _stretching(bars)
 
     def compliances(bar: int, depth: float) -> tuple[float, float, float, float]:
         """Angle for a unit moment, sliding and parting for unit forces, and e."""
         height = np.sqrt(12 * bars.EI[bar] / bars.E[bar] / bars.A[bar])
         c = (1 - bars.nu[bar] ** 2) * height / bars.EI[bar]
-        turning, both = 6 * c * bending(depth), c * height * coupling(depth)
+        turning, both = 6 * c * bending(depth), c * height * coupling(depth) * stretches[bar]
         parting = c * height**2 * stretching(depth) / 6 - both**2 / turning
         return turning, c * height**2 * shearing(depth) / 6, parting, both / turning
 
@@ -36,6 +41,12 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
         return with_hinge(problem, bars, bar, at, name, 1 / turning, 1 / sliding, 1 / parting, e)
 
     return places(model, candidate, (depth,), added, steps(depth, 3), extend)
+
+
+def _stretching(bars: Bars) -> np.ndarray:
+    """Mask (b,) of the bars whose ends move along them, one against the other."""
+    size = np.abs(bars.strain).max(axis=2)
+    return size[:, 2] > _STILL * bars.length * size[:, :2].max(axis=1)
 
 
 CANDIDATE = Candidate(

@@ -2,20 +2,25 @@
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product, steps
 from mouse_cli.diagnosis.effects.hinges import lines
+from mouse_cli.diagnosis.effects.line_mass import Wet, across, deflections
 from mouse_cli.diagnosis.extend.edit import Edit
-from mouse_cli.diagnosis.extend.places import beams_within
+from mouse_cli.diagnosis.extend.places import beams_within, element_at
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
-from mouse_cli.diagnosis.sites.lines import elements
+from mouse_cli.diagnosis.sites.bars import Bars
+from mouse_cli.diagnosis.sites.lines import Line, elements, from_end
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.elements import _beam as beam
 
+_PART = 0.1  # prior probability that a bed is under a part of a line
+_MOST = 12  # lines that may lie on one from an end on
+
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """K + k times the integral of w w along all bars, along those of one plane, and along each line."""
+    """K + k times the integral of w w along all bars, along those of one plane, and along each line, or it from either end on."""
     found = lines(model)
     if not found:
         return []
@@ -25,10 +30,16 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     if len(found) > 1:
         parts += [([line], (int(bars.plane[line.members[0]]),)) for line in found]
     share = np.where(np.arange(len(parts)) < len(parts) - len(found), 1.0, 1.0 / len(found))
-    return [
-        _recipe(model, candidate, some, planes, float(np.log(one / share.sum())))
+    share *= (1 - _PART) / share.sum()
+    along = [
+        _recipe(model, candidate, some, planes, float(np.log(one)))
         for (some, planes), one in zip(parts, share, strict=True)
     ]
+    ended = [(line, (int(bars.plane[line.members[0]]),)) for line in found]
+    ended += [(line, (0, 1)) for line in found if not bars.plane[line.members[0]] and _bends_both_ways(line)]
+    ended = ended[:_MOST]
+    prior = float(np.log(_PART / (2 * len(ended))))
+    return along + [_partly(candidate, *each, back, prior) for each in ended for back in (False, True)]
 
 
 def _recipe(model: Reduced, candidate: Candidate, some: list, planes: tuple[int, ...], log_prior: float) -> Recipe:
@@ -37,22 +48,12 @@ def _recipe(model: Reduced, candidate: Candidate, some: list, planes: tuple[int,
     members = members[np.isin(bars.plane[members], planes)]
     w, _, _ = beam.shapes(bars.length[members], np.zeros(len(members)))
     K = bars.added(beam.integral(w, bars.length[members]), members)
-    scale = bars.stiffness / max(line.length for line in some) ** 4
-    k = Unknown("stiffness per length", "N/m2", 0.1 * scale, 1e4 * scale)
+    k = _stiffness(bars, max(line.length for line in some))
     ids = tuple(np.unique(bars.ids[members]).tolist())
     site = Site("element", ids, None, f"{elements(ids)}, local {' and '.join('yz'[p] for p in planes)}")
-    properties = tuple(f"k{'yz'[p]}" for p in planes)
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
-        edit = Edit(problem)
-        new = []
-        for s, own in _by_set(beams_within(edit, [line.ends for line in some])).items():
-            options = {
-                key: edit.sets[s].options[key] for key in ("orientation", "offsets") if key in edit.sets[s].options
-            }
-            new += edit.add("foundation", edit.sets[s].nodes[own], dict.fromkeys(properties, values[0]), options)
-        edit.bind(f"foundation of {elements(ids)}", new, properties, unit="N/m2")
-        return edit.done()
+        return _with_bed(Edit(problem), [line.ends for line in some], planes, values[0], elements(ids))
 
     return Recipe(
         candidate,
@@ -63,6 +64,58 @@ def _recipe(model: Reduced, candidate: Candidate, some: list, planes: tuple[int,
         log_prior=log_prior,
         extend=extend,
     )
+
+
+def _partly(candidate: Candidate, line: Line, planes: tuple[int, ...], back: bool, log_prior: float) -> Recipe:
+    """Under a part of a line, from its beginning or (`back`) from its end."""
+    k = _stiffness(line.bars, line.length)
+    covered = Unknown("covered share of the length", "1", 0.05, 0.95, log=False)
+    L, ids = line.length, line.bars.ids[line.members]
+    bed = Wet(line, across if len(planes) > 1 else deflections)
+
+    def edge(values: np.ndarray) -> float:
+        return L * (1 - values[1] if back else values[1])
+
+    def site(values: np.ndarray) -> Site:
+        text = f"{from_end(ids, values[1], back)}, local {' and '.join('yz'[p] for p in planes)}"
+        return Site("element", tuple(ids.tolist()), None, text)
+
+    def extend(problem: Problem, values: np.ndarray) -> Problem:
+        edit, middle = Edit(problem), np.array(line.bars.point(*line.at(edge(values))))
+        ends = (middle, line.ends[1]) if back else (line.ends[0], middle)
+        for end in ends:
+            edit.split(*element_at(edit, end, ends[1] - ends[0]))
+        return _with_bed(edit, [ends], planes, values[0], site(values).text)
+
+    return Recipe(
+        candidate,
+        (k, covered),
+        lambda values: Change(K=values[0] * bed.part(edge(values), back)),
+        product(steps(k, 6), steps(covered, 3)),
+        site,
+        log_prior=log_prior,
+        extend=extend,
+    )
+
+
+def _stiffness(bars: Bars, length: float) -> Unknown:
+    """What a bed under a line of that length may have."""
+    scale = bars.stiffness / length**4
+    return Unknown("stiffness per length", "N/m2", 0.1 * scale, 1e4 * scale)
+
+
+def _bends_both_ways(line: Line) -> bool:
+    return all(len(line.bars.twins[int(line.bars.set[i]), int(line.bars.member[i])]) == 2 for i in line.members)
+
+
+def _with_bed(edit: Edit, segments: list, planes: tuple[int, ...], k: float, where: str) -> Problem:
+    """A bed under all beams of the segments (start, end)."""
+    new, properties = [], tuple(f"k{'yz'[p]}" for p in planes)
+    for s, own in _by_set(beams_within(edit, segments)).items():
+        options = {key: edit.sets[s].options[key] for key in ("orientation", "offsets") if key in edit.sets[s].options}
+        new += edit.add("foundation", edit.sets[s].nodes[own], dict.fromkeys(properties, k), options)
+    edit.bind(f"foundation of {where}", new, properties, unit="N/m2")
+    return edit.done()
 
 
 def _by_set(found: list[tuple[int, int]]) -> dict[int, list[int]]:
@@ -76,7 +129,7 @@ CANDIDATE = Candidate(
     "foundation",
     "an elastic foundation",
     "foundation",
-    "springs per length under bars (soil, cushion, cable bed) that the model does not have: all modes rise by the same square "
-    "of the frequency",
+    "springs per length under bars (soil, cushion, cable bed) that the model does not have, under all of a line or from an end on: "
+    "under all bars alike all modes rise by the same square of the frequency",
     recipes,
 )

@@ -1,12 +1,8 @@
 """Most probable parameters of the deck and of causes that are added to it, and the evidence for those causes.
 
 x = [z, c]: the deck's parameters in prior standard deviations, N(0, 1), and coordinates of the causes, uniform in their ranges.
-C = |residual|^2 + |z|^2 is lowered by Levenberg-Marquardt steps within the ranges, one exact eigensolution a step. With
-H = J'J + I_z at the end, Laplace's evidence for d unknowns of widths w is
-
-    ln Z = -C/2 - sum ln w + (d/2) ln 2 pi - 1/2 ln |H + diag(0, 2 pi / w^2)|
-
-where what is added to H keeps an unknown that the data do not feel from being found wider than its range.
+C = |residual|^2 + |z|^2 is lowered by Levenberg-Marquardt steps within the ranges, one exact eigensolution a step; the evidence is
+that of `evidence.laplace` at the end.
 """
 
 from dataclasses import dataclass, field
@@ -15,12 +11,14 @@ from typing import ClassVar
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Recipe
+from mouse_cli.diagnosis.evidence import capped, laplace
 from mouse_cli.diagnosis.likelihoods.modal.model import Model, Point
 
 _SMALL = 1e-4  # change of J, relative to 1 + its share of rounding, that ends the search
 MOST = 40
 _GIVE_UP = 1e8
-_HOPE = 4.0  # times the gain that a full step promises: what a search may gain at most
+_HOPE = 4.0  # times the gain that a full step promises: what a search may gain at most, unless it gains more
+_LEAST = 3  # steps before a search may be given up
 
 
 @dataclass(frozen=True)
@@ -62,7 +60,7 @@ class Fit:
     @property
     def covariance(self) -> np.ndarray:
         """Of x, unknowns that the data do not feel as wide as their range."""
-        return np.linalg.inv(_capped(self.hessian, self.model))
+        return np.linalg.inv(capped(self.hessian, self.model.width))
 
     @property
     def c(self) -> np.ndarray:
@@ -75,7 +73,8 @@ def fit(
 ) -> Fit | None:
     """The most probable x, from coordinates c (t,) of the causes and z (k,) on; None where the model is not physical there.
 
-    most: steps; reach: a misfit above which no fit matters: the search ends where it will not come so low.
+    most: steps; reach: a misfit above which no fit matters: the search is given up where it will not come so low, neither by what
+    a full step promises nor by going on to gain as it did. Far from an optimum the first alone says little.
     """
     k = model.k
     lower = np.concatenate([np.full(k, -np.inf), model.bounds[:, 0]])
@@ -86,14 +85,17 @@ def fit(
         return None
     J, damping = _cost(at, k), 1e-3
     prior = np.concatenate([np.ones(k), np.zeros(model.t)])
-    for _ in range(most):
+    scale, gained = np.concatenate([np.ones(k), 1 / model.width**2]), np.inf
+    for step_number in range(most):
         T = model.jacobian(at)
         H, slope = T.T @ T + np.diag(prior), T.T @ at.residual - prior * at.x
-        if reach < np.inf and J - _HOPE * float(slope @ _step(H, slope, 1e-6, at.x, lower, upper)) > reach:
-            return Fit(model, at, J, H, _evidence(J, H, model))
+        if step_number >= _LEAST and J - (most - step_number) * gained > reach:
+            promised = float(slope @ _step(H, slope, 1e-6, scale, at.x, lower, upper))
+            if J - _HOPE * promised > reach:
+                return Fit(model, at, J, H, _evidence(J, H, model))
         moved = False
         while damping < _GIVE_UP:
-            step = _step(H, slope, damping, at.x, lower, upper)
+            step = _step(H, slope, damping, scale, at.x, lower, upper)
             there = model.point(np.clip(at.x + step, lower, upper))
             cost = np.inf if there is None else _cost(there, k)
             if cost <= J:
@@ -115,31 +117,16 @@ def _cost(at: Point, k: int) -> float:
     return at.chi2 + float(at.x[:k] @ at.x[:k])
 
 
-def _step(H, slope, damping, x, lower, upper) -> np.ndarray:
-    """Damped step; what stands at a limit and would leave it is held."""
+def _step(H, slope, damping, scale, x, lower, upper) -> np.ndarray:
+    """Damped step; what stands at a limit and would leave it is held. scale: H of unknowns that are as wide as they may be."""
     held = ((x <= lower) & (slope < 0)) | ((x >= upper) & (slope > 0))
     free = ~held
     step = np.zeros(len(x))
     A = H[np.ix_(free, free)]
-    step[free] = np.linalg.solve(A + damping * np.diag(A.diagonal()) + 1e-12 * np.eye(len(A)), slope[free])
+    step[free] = np.linalg.solve(A + damping * np.diag(A.diagonal()) + 1e-12 * np.diag(scale[free]), slope[free])
     return step
-
-
-def _capped(H: np.ndarray, model: Model) -> np.ndarray:
-    H = H.copy()
-    at = np.arange(model.k, len(H))
-    H[at, at] += 2 * np.pi / model.width**2
-    return H
 
 
 def _evidence(J: float, H: np.ndarray, model: Model) -> float:
     places = sum(recipe.log_prior for recipe in model.recipes)
-    _, size = np.linalg.slogdet(_capped(H, model))
-    return (
-        -0.5 * J
-        - float(np.log(model.width).sum())
-        + 0.5 * model.t * np.log(2 * np.pi)
-        - 0.5 * size
-        + places
-        - model.base.data.slack
-    )
+    return laplace(J, H, model.width) + places - model.base.data.slack

@@ -12,16 +12,18 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unseen
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
+from mouse_cli.diagnosis.search.escape import shifted, uncrossed
 from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
+from mouse_cli.diagnosis.search.optima import distinct
 
 _STARTS = 3  # fits of a candidate to the end, from different optima
 _LOOKS, _MOST, _EACH, _BRIEF = 12, 40, 4, 4  # brief descents at least, at most, from one recipe, and their steps
 _APART = 0.08  # of a range: between starts of one recipe
 _TOLD = 0.05  # squared distance of what two places predict, by the data's sd, up to which they are as one
+_WEIGHED = 12  # ends of brief descents that are weighed in all coordinates
 _SLACK = 1.5  # times the misfit that matters in all coordinates: what matters in few
 _TIED, _TIES = 6.0, 8  # misfit above the best up to which other places are as good, and how many of them are fitted
 _SETTLE, _MOVED = 3, 5e-3  # times that causes are weighed anew, as long as parameters move more than that share
-_SHIFTS = np.array([-5, -3, -2, -1, 1, 2, 3, 5]) / 50  # of the range of a place
 _FEW = 16  # places and sizes that are looked at in all coordinates
 _COARSE = 24  # coordinates at least for a first look
 
@@ -166,30 +168,6 @@ def _alike(one: Fit, other: Fit) -> bool:
     return bool(np.sum((one.point.residual - other.point.residual) ** 2) < _TOLD * (1 + 1e-2 * one.misfit))
 
 
-def shifted(one: Fit) -> Fit:
-    """The fit from places nearby: across the end of a finite element the misfit has a step, before which a descent stops."""
-    model = one.model
-    unknowns = [u for recipe in one.recipes for u in recipe.unknowns]
-    for j in (i for i, u in enumerate(unknowns) if not u.log):
-        T = np.delete(model.jacobian(one.point), model.k + j, axis=1)
-        H = T.T @ T + np.diag((np.arange(T.shape[1]) < model.k).astype(float))
-        best, start = one.misfit - 1, None
-        for share in _SHIFTS:
-            c = one.c.copy()
-            c[j] = np.clip(c[j] + share * model.width[j], *model.bounds[j])
-            at = model.point(np.concatenate([one.point.x[: model.k], c]))
-            if at is None:
-                continue
-            pull = T.T @ at.residual - np.where(np.arange(T.shape[1]) < model.k, np.delete(at.x, model.k + j), 0.0)
-            left = at.chi2 + at.x[: model.k] @ at.x[: model.k] - pull @ np.linalg.lstsq(H, pull, rcond=None)[0]
-            if left < best:
-                best, start = left, c
-        again = None if start is None else fit(model, start, one.point.x[: model.k])
-        if again is not None and again.misfit < one.misfit:
-            one = again
-    return one
-
-
 def idealised(one: Fit) -> Fit:
     """The fit when the theory of its causes is right to some share of what they do."""
     loose = one.model.loosened(one.point, one.model.base.problem.theory.mechanism)
@@ -197,7 +175,8 @@ def idealised(one: Fit) -> Fit:
 
 
 def settled(one: Fit, study: Study) -> Fit:
-    """The fit with its causes weighed at the parameters that it found, not at those where the search began."""
+    """The fit with no modes crosswise, and its causes weighed at the parameters that it found, not where the search began."""
+    one = uncrossed(one)
     for _ in range(_SETTLE):
         theta = one.model.base.parameters(one.point.x[: one.model.k])
         before = one.model.base.theta
@@ -217,7 +196,7 @@ def best(study: Study, name: str, reach: float = np.inf) -> Fit | None:
 
     reach: misfit above which no fit matters, and is left as it was found.
     """
-    found = _distinct(tried(study, name, None, _STARTS, reach=reach))
+    found = distinct(tried(study, name, None, _STARTS, reach=reach))
     return summed([settled(shifted(one), study) if one.misfit < reach else one for one in found], reach)
 
 
@@ -234,51 +213,56 @@ def tried(
     first = study if sum(len(recipe.grid) for recipe in study.recipes(name)) <= _FEW else study.coarse
     near_by = first.approached(name, before, others, _SLACK * reach)
     tied = 0 if beside is not None or not near_by else sum(left < near_by[0][0] + _TIED for left, _, _ in near_by)
-    found = [
-        _ended(study, first, others, name, i, x, most, reach) for _, i, x in near_by[: max(count, min(tied, _TIES))]
-    ]
+    count = max(count, min(tied, _TIES))
+    chosen = near_by[:count] if first is study else _weighed(study, others, name, near_by, count)
+    found = [_ended(study, first, others, name, i, x, most, reach) for _, i, x in chosen]
     return [one for one in found if one is not None]
+
+
+def _weighed(study: Study, others: tuple, name: str, near_by: list, count: int) -> list:
+    """The `count` of `near_by` that misfit least in all coordinates, from where they ended or the prior mean; and the first of all.
+
+    In few coordinates the true place may be behind several others. Parameters adapt to first order.
+    """
+    if len(near_by) <= count:
+        return near_by
+    k, left = study.k, []
+    for _, i, (end, *_) in near_by[: _WEIGHED // (2 if others else 1)]:
+        whole = study.with_cause(others, name, i)
+        points = [whole.point(x) for x in (end, np.concatenate([np.zeros(k), end[k:]]))]
+        left.append(min((study.foreseen(at) for at in points if at is not None), default=np.inf))
+    best = np.argsort(left, kind="stable")[:count].tolist()
+    return [near_by[j] for j in (best if 0 in best else [*best, 0])]
 
 
 def _ended(
     study: Study, first: Study, others: tuple, name: str, i: int, starts: list, most: int, reach: float
 ) -> Fit | None:
-    """The fit of recipe i, in the coordinates of `first`, then in all from where the whole misfits least: there, or a start."""
+    """The fit of recipe i, in the coordinates of `first`, then in all from where the whole misfits least.
+
+    That may be there, a start, or the same causes at the prior mean.
+    """
     k, whole = study.k, study.with_cause(others, name, i)
     if first is not study:
         near = fit(first.with_cause(others, name, i), starts[0][k:], starts[0][:k], most, _SLACK * reach)
         starts = starts if near is None else [near.point.x, *starts]
         reach = reach if near is None or near.misfit > reach else np.inf
-    points = [at for at in map(whole.point, starts) if at is not None]
+    plain = [np.concatenate([np.zeros(k), x[k:]]) for x in starts[:1]]
+    points = [at for at in map(whole.point, [*starts, *plain]) if at is not None]
     if not points:
         return None
     x = min(points, key=lambda at: at.chi2 + at.x[:k] @ at.x[:k]).x
-    return fit(whole, x[k:], x[:k], most, reach)
+    one = fit(whole, x[k:], x[:k], most, reach)
+    return one if one is None or (others and one.misfit > reach) else uncrossed(one, most, reach)
 
 
 def summed(found: list[Fit], reach: float = np.inf) -> Fit | None:
     """The best of several optima, its theory taken for as good as it is; those at other places add to its evidence."""
     if not found:
         return None
-    distinct = _distinct(found)
-    total = np.logaddexp.reduce([one.log_evidence for one in distinct])
-    others = tuple((one, float(np.exp(one.log_evidence - total))) for one in distinct[1:])
-    best = idealised(distinct[0]) if distinct[0].misfit < reach else distinct[0]
-    log_evidence = best.log_evidence + float(total - distinct[0].log_evidence) - unseen(best)
+    apart = distinct(found)
+    total = np.logaddexp.reduce([one.log_evidence for one in apart])
+    others = tuple((one, float(np.exp(one.log_evidence - total))) for one in apart[1:])
+    best = idealised(apart[0]) if apart[0].misfit < reach else apart[0]
+    log_evidence = best.log_evidence + float(total - apart[0].log_evidence) - unseen(best)
     return replace(best, log_evidence=log_evidence, elsewhere=others)
-
-
-def _distinct(found: list[Fit]) -> list[Fit]:
-    """The fits in the order of their evidence, one of each optimum."""
-    distinct: list[Fit] = []
-    for one in sorted(found, key=lambda one: -one.log_evidence):
-        if not any(_same(one, other) for other in distinct):
-            distinct.append(one)
-    return distinct
-
-
-def _same(one: Fit, other: Fit) -> bool:
-    if [recipe.number for recipe in one.recipes] != [recipe.number for recipe in other.recipes]:
-        return False
-    sd = np.sqrt(np.abs(np.diag(one.covariance)[one.model.k :]))
-    return bool((np.abs(one.c - other.c) < 2 * sd + 1e-3 * one.model.width).all())

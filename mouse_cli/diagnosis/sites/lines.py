@@ -30,6 +30,11 @@ class Line:
         bar = int(self.members[i])
         return bar, float(np.clip((s - first[i]) / self.bars.length[bar], 0.0, 1.0))
 
+    @property
+    def inner(self) -> np.ndarray:
+        """Distances (c - 1,) at which one bar ends and the next begins: a place is in one of them, and jumps there."""
+        return self.bars.before[self.members[1:]]
+
     def site(self, s: float) -> Site:
         """The place at s."""
         return self.bars.site(*self.at(s))
@@ -88,6 +93,12 @@ def whole(line: Line) -> np.ndarray:
     bars = line.bars
     own = [bars.twins[int(bars.set[i]), int(bars.member[i])] for i in line.members]
     return np.array([i for twins in own for i in twins], int)
+
+
+def from_end(ids: np.ndarray, share: float, back: bool) -> str:
+    """A part of a row of elements `ids` (c,) in words: from its beginning, or (`back`) from its end."""
+    first, last = (ids[-1], ids[0]) if back else (ids[0], ids[-1])
+    return f"{share:.2f} of the length from the end at element {first} towards element {last}"
 
 
 def elements(ids: tuple[int, ...]) -> str:

@@ -68,6 +68,8 @@ class FrfModel:
         self.bounds, self.width, self.own = self.elastic.bounds, self.elastic.width, self.elastic.own
         self._ends = [(self._rows(block.test.outputs), self._rows(block.test.inputs)) for block in base.data.blocks]
         self._sensors = [_same(S[:, : base.r], base.sensing) for S, _ in self._ends]
+        for (S, _), same in zip(self._ends, self._sensors, strict=True):
+            S[same.any(axis=1), base.r :] = 0.0  # what a cause says of the sensors has its own motion in it
 
     @property
     def start(self) -> np.ndarray:
@@ -84,7 +86,7 @@ class FrfModel:
         found[:, : self.base.r] = read(sensing, self.base.V)
         for places, recipe in zip(self.elastic.places, self.recipes, strict=True):
             if recipe.carried is not None:
-                found[:, places[self.base.r :]] = read(sensing, recipe.carried.whole)
+                found[:, places[self.base.r :]] = read(sensing, recipe.carried.whole[recipe.carried.deck])
         return found
 
     def point(self, x: np.ndarray) -> FrfPoint | None:
@@ -177,22 +179,25 @@ class FrfModel:
         return K, M, S
 
     def _of_losses(self, i: int, x: np.ndarray, left: np.ndarray, right: np.ndarray):
-        """j and S Z^-1 d(G' W G)/dx_j Z^-1 B' (f, o, i), by central differences, of every x_j that the losses may follow."""
+        """j and S Z^-1 d(G' W G)/dx_j Z^-1 B' (f, o, i), by differences, of every x_j that the losses may follow."""
         s, (z, own, _, _, c) = self.base.data.blocks[i].s, self.split(x)
         if not len(self.losses.local(s[:1], z, own, c)[0]):
             return
         for j in chain(range(self.lossy), range(self.k, self.k + self.t)):
-            sides, length = [], 0.0
-            for sign in (1, -1):
+            slope = 0.0
+            for place, weight in self._stencil(x, j):
                 there = x.copy()
-                there[j] += sign * _STEP * (self.width[j - self.k] if j >= self.k else 1.0)
-                if j >= self.k:
-                    there[j] = np.clip(there[j], *self.bounds[j - self.k])
+                there[j] = place
                 z, own, _, _, c = self.split(there)
                 G, W = self.losses.local(s, z, own, c)
-                sides.append((left @ G.T) @ W @ (G @ right))
-                length += sign * there[j]
-            yield j, (sides[0] - sides[1]) / length
+                slope = slope + weight * ((left @ G.T) @ W @ (G @ right))
+            yield j, slope
+
+    def _stencil(self, x: np.ndarray, j: int) -> list[tuple[float, float]]:
+        """Values of x_j, and weights of what is there, whose sum is the derivative."""
+        if j >= self.k:
+            return self.elastic.slope(x[self.k :], j - self.k)
+        return [(x[j] + _STEP, 0.5 / _STEP), (x[j] - _STEP, -0.5 / _STEP)]
 
 
 def _between(left: np.ndarray, matrices: np.ndarray, right: np.ndarray) -> np.ndarray:

@@ -91,20 +91,19 @@ class Model:
     @cached_property
     def following(self) -> tuple[np.ndarray, np.ndarray] | None:
         """What the deck's parameters, along each of d directions, add to K and M (d, size, size) of the causes; None: nothing."""
-        own = [(i, recipe.carried) for i, recipe in enumerate(self.recipes) if recipe.carried and recipe.carried.slopes]
+        own = [(i, recipe.carried) for i, recipe in enumerate(self.recipes) if recipe.carried]
         if not own:
             return None
         K, M = np.zeros((2, self.base.directions.shape[1], self.size, self.size))
         for i, carried in own:
             at = self.places[i]
-            of_K, of_M, *of_cause = carried.slopes
-            for into, slopes in zip((K, M), of_cause, strict=True):
+            for into, slopes in zip((K, M), carried.slopes, strict=True):
                 into[:, at[:, None], at] += slopes
             for j, other in own:
                 if i != j:
-                    across = (slice(None), *np.ix_(self.places[j][self.base.r :], at[self.base.r :]))
-                    K[across] += other.whole.T @ of_K
-                    M[across] += other.whole.T @ of_M
+                    between = (slice(None), *np.ix_(self.places[j][self.base.r :], at[self.base.r :]))
+                    for into, slopes in zip((K, M), carried.across(other.whole), strict=True):
+                        into[between] += slopes
         return K, M
 
     def followed(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
@@ -197,32 +196,36 @@ class Model:
         return Model(self.base.judged_by(data.loosened(off, moved)), self.recipes)
 
     def derivatives(self, x: np.ndarray) -> Iterator[tuple[int, Change]]:
-        """Recipe and d(change)/dc, by central differences of the matrices, for each coordinate of the causes."""
+        """Recipe and d(change)/dc, by differences of the matrices within their pieces, for each coordinate of the causes."""
         z, c = x[: self.k], x[self.k :]
         changes = self.changes(c)
         for i, (recipe, own) in enumerate(zip(self.recipes, self.own, strict=True)):
             for j in range(own.start, own.stop):
-                sides = np.clip(c[j] + _STEP * self.width[j] * np.array([1, -1]), *self.bounds[j])
-                one, other = (self._with(recipe, c[own], j - own.start, side) for side in sides)
-                yield i, self._difference(z, changes, i, (one, other), sides[0] - sides[1])
+                parts = [(self._with(recipe, c[own], j - own.start, at), weight) for at, weight in self.slope(c, j)]
+                yield i, self._sum(z, changes, i, parts)
+
+    def slope(self, c: np.ndarray, j: int) -> list[tuple[float, float]]:
+        """See `Recipe`: values of coordinate j of the causes, and weights of what is there."""
+        i = next(i for i, own in enumerate(self.own) if own.start <= j < own.stop)
+        return self.recipes[i].slope(j - self.own[i].start, c[j], _STEP * self.width[j])
 
     def _with(self, recipe: Recipe, c: np.ndarray, j: int, value: float) -> Change:
         there = c.copy()
         there[j] = value
         return recipe.change(recipe.values(there))
 
-    def _difference(self, z: np.ndarray, changes: list[Change], i: int, sides: tuple[Change, Change], length: float):
-        """Their difference over `length`, for cause number i beside the other ones."""
-        parts = []
+    def _sum(self, z: np.ndarray, changes: list[Change], i: int, parts: list[tuple[Change, float]]) -> Change:
+        """The sum of `parts`, each times its weight, as cause number i beside the other ones."""
+        found: list[np.ndarray | None] = []
         for name in ("K", "M", "sensing"):
-            a, b = (getattr(side, name) for side in sides)
-            parts.append(None if a is None else (a - b) / length)
-        if sides[0].softening is not None:
-            one, other = (self.softer([*changes[:i], side, *changes[i + 1 :]]) for side in sides)
-            a, b = (self.base.bars.strained(bars, core * self.follow(bars, z)) for bars, core in (one, other))
-            softer = (a - b) / length
-            parts[0] = softer if parts[0] is None else parts[0] + softer
-        return Change(*parts)
+            there = [(getattr(one, name), weight) for one, weight in parts]
+            found.append(None if there[0][0] is None else sum(weight * matrix for matrix, weight in there))
+        if parts[0][0].softening is not None:
+            for one, weight in parts:
+                bars, core = self.softer([*changes[:i], one, *changes[i + 1 :]])
+                softer = weight * self.base.bars.strained(bars, core * self.follow(bars, z))
+                found[0] = softer if found[0] is None else found[0] + softer
+        return Change(*found)
 
 
 def modes_of(K: np.ndarray, M: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -1,0 +1,26 @@
+"""The evidence for causes, by Laplace's method: likelihood times prior, integrated as a Gaussian about the most probable values.
+
+With x = [z, c], k parameters z ~ N(0, 1) and d coordinates c of causes, uniform in ranges of widths w, C = |residual|^2 + |z|^2 at
+its least and H = J'J + I_z there (Tierney and Kadane 1986; MacKay, Information Theory, Inference and Learning Algorithms, 27),
+
+    ln Z = -C/2 - sum ln w + (d/2) ln 2 pi - 1/2 ln |H + diag(0, 2 pi / w^2)|
+
+but for what the data have by themselves, sum ln(sqrt(2 pi) sd). The prior of z is normalised by the same (2 pi)^(k/2) as its
+integral. What is added to H keeps an unknown that the data do not feel from being found wider than its range: it leaves Z as it is.
+"""
+
+import numpy as np
+
+
+def capped(hessian: np.ndarray, width: np.ndarray) -> np.ndarray:
+    """H (k + d, k + d), the last d unknowns at most as wide as their ranges of `width` (d,)."""
+    found = hessian.copy()
+    at = np.arange(len(hessian) - len(width), len(hessian))
+    found[at, at] += 2 * np.pi / width**2
+    return found
+
+
+def laplace(misfit: float, hessian: np.ndarray, width: np.ndarray) -> float:
+    """ln Z for C = `misfit`, H = `hessian` (k + d, k + d) and widths (d,) of the ranges of the last d unknowns."""
+    _, size = np.linalg.slogdet(capped(hessian, width))
+    return float(-0.5 * misfit - np.log(width).sum() + 0.5 * len(width) * np.log(2 * np.pi) - 0.5 * size)

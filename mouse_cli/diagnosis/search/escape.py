@@ -1,0 +1,73 @@
+"""Ways on from where a descent ends too soon: before the end of a finite element, or with two modes paired crosswise."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.evidence import capped
+from mouse_cli.diagnosis.likelihoods.modal.model import Model, Point
+from mouse_cli.diagnosis.search.fit import GATE, MOST, Fit, fit
+from mouse_cli.updating.chi_square import upper_tail
+
+_SHIFTS = np.array([-5, -3, -2, -1, 1, 2, 3, 5]) / 50  # of the range of a place
+
+
+def shifted(one: Fit) -> Fit:
+    """The fit from places nearby: across the end of a finite element the misfit has a step, before which a descent stops."""
+    model = one.model
+    unknowns = [u for recipe in one.recipes for u in recipe.unknowns]
+    for j in (i for i, u in enumerate(unknowns) if not u.log):
+        T = np.delete(model.jacobian(one.point), model.k + j, axis=1)
+        H = T.T @ T + np.diag((np.arange(T.shape[1]) < model.k).astype(float))
+        best, start = one.misfit - 1, None
+        for share in _SHIFTS:
+            c = one.c.copy()
+            c[j] = np.clip(c[j] + share * model.width[j], *model.bounds[j])
+            at = model.point(np.concatenate([one.point.x[: model.k], c]))
+            if at is None:
+                continue
+            pull = T.T @ at.residual - np.where(np.arange(T.shape[1]) < model.k, np.delete(at.x, model.k + j), 0.0)
+            left = at.chi2 + at.x[: model.k] @ at.x[: model.k] - pull @ np.linalg.lstsq(H, pull, rcond=None)[0]
+            if left < best:
+                best, start = left, c
+        again = None if start is None else fit(model, start, one.point.x[: model.k])
+        if again is not None and again.misfit < one.misfit:
+            one = again
+    return one
+
+
+def uncrossed(one: Fit, most: int = MOST, reach: float = np.inf) -> Fit:
+    """The best fit from elsewhere, if it is better, where modes are paired crosswise and noise would not leave so much.
+
+    Two modes whose frequencies must pass one another do so through shapes that neither has: a descent ends before, or behind, where
+    parameters should not have brought them. It begins again at the prior mean, and where frequencies alone lead from there.
+    """
+    model, k = one.model, one.model.k
+    if upper_tail(one.misfit, max(one.dof, 1)) > GATE or not any(_crossed(*each) for each in model.parts(one.point)):
+        return one
+    mean = model.point(np.concatenate([np.zeros(k), one.c]))
+    starts = [] if mean is None else [mean.x, _across(model, mean)]
+    fits = [fit(model, x[k:], x[:k], most, reach) for x in starts]
+    return min([one, *(each for each in fits if each is not None)], key=lambda each: each.misfit)
+
+
+def _across(model: Model, at: Point) -> np.ndarray:
+    """x after a full step by the data of frequencies alone."""
+    k = model.k
+    rows = np.concatenate([_of_frequencies(each) for each, _ in model.parts(at)])
+    T, residual = model.jacobian(at)[rows], at.residual[rows]
+    H = capped(T.T @ T + np.diag((np.arange(len(at.x)) < k).astype(float)), model.width)
+    x = at.x + np.linalg.solve(H, T.T @ residual - np.where(np.arange(len(at.x)) < k, at.x, 0.0))
+    x[k:] = np.clip(x[k:], *model.bounds.T)
+    return x
+
+
+def _of_frequencies(model: Model) -> np.ndarray:
+    """Mask (q,) of the data of one arrangement that are frequencies."""
+    data = model.base.data
+    return np.arange(int(data.has_frequency.sum() + data.has_shape.sum())) < data.has_frequency.sum()
+
+
+def _crossed(model: Model, at: Point) -> bool:
+    """Whether measured modes are paired in another order than that of their frequencies."""
+    data = model.base.data
+    order = np.argsort(data.test.frequency_hz[data.has_frequency])
+    return bool((np.diff(at.modes[data.has_frequency][order]) < 0).any())

@@ -1,0 +1,48 @@
+"""Which fits are of one optimum: its evidence counts once."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.evidence import capped
+from mouse_cli.diagnosis.search.fit import Fit
+
+_RISE, _BETWEEN = 1.0, (0.25, 0.5, 0.75)  # of the misfit between two fits, and where it is looked for, that parts them
+
+
+def distinct(found: list[Fit]) -> list[Fit]:
+    """The fits in the order of their evidence, one of each optimum."""
+    apart: list[Fit] = []
+    for one in sorted(found, key=lambda one: -one.log_evidence):
+        if not any(_same(one, other) for other in apart):
+            apart.append(one)
+    return apart
+
+
+def _same(one: Fit, other: Fit) -> bool:
+    """Whether both are one optimum: within two standard deviations, or with no rise of the misfit on the way between them.
+
+    Both weighed by what is left over at the better of them. By posterior distances and misfits alone, it is the same in any units.
+    """
+    if [recipe.number for recipe in one.recipes] != [recipe.number for recipe in other.recipes]:
+        return False
+    least = min(one, other, key=lambda each: each.misfit)
+    scale = max(1.0, least.misfit / max(least.dof, 1))
+    apart, k = other.point.x - one.point.x, one.model.k
+    near = min(apart[k:] @ np.linalg.solve(each.covariance[k:, k:], apart[k:]) for each in (one, other))
+    rise = scale * _RISE + max(one.misfit, other.misfit)
+    return bool(near < 4 * scale) or all(_passed(one, apart, share) < rise for share in _BETWEEN)
+
+
+def _passed(one: Fit, apart: np.ndarray, share: float) -> float:
+    """The misfit at a share of the way `apart` from a fit, where the rest adapts by a step across it in the metric of H."""
+    model, k = one.model, one.model.k
+    at = model.point(one.point.x + share * apart)
+    if at is None:
+        return np.inf
+    T = model.jacobian(at)
+    H = capped(T.T @ T + np.diag((np.arange(len(apart)) < k).astype(float)), model.width)
+    pull = T.T @ at.residual - np.where(np.arange(len(apart)) < k, at.x, 0.0)
+    step = np.linalg.solve(H, pull) - apart * (apart @ pull) / (apart @ H @ apart)
+    beside = at.x + step
+    beside[k:] = np.clip(beside[k:], *model.bounds.T)
+    costs = [each.chi2 + float(each.x[:k] @ each.x[:k]) for each in (at, model.point(beside)) if each is not None]
+    return min(costs)

@@ -1,0 +1,96 @@
+"""Functions of a beam whose support turns, against finite elements written here: what they read, and what is named by them."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mouse_cli.diagnosis import diagnose
+from mouse_cli.diagnosis.likelihoods.frf.damping import damping
+from mouse_cli.diagnosis.likelihoods.frf.data import FrfData, lines
+from mouse_cli.diagnosis.likelihoods.frf.identified import with_modes
+from mouse_cli.diagnosis.likelihoods.frf.model import FrfModel
+from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
+from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.formats import read_deck
+from mouse_cli.model.diagnosis import NAMED
+
+ELEMENTS, LENGTH, EI, MASS, ETA = 12, 2.4, 2.1e11 * 1.6e-7, 7850 * 1.2e-3, 0.01  # m, N m2, kg/m, loss factor
+SPRING = 6 * EI / LENGTH  # N m/rad, at the left end
+READ, FORCE = range(2, 12, 2), 5  # nodes from 0
+DECK = f"""mouse: 1
+title: beam on a clamp and a bearing
+model:
+  structure:
+    nodes: {{line: {{from: 1, to: {ELEMENTS + 1}, start: [0, 0], end: [{LENGTH}, 0]}}}}
+    elements:
+      - {{id: 1-{ELEMENTS}, type: beam, nodes: 1-{ELEMENTS + 1}, E: 2.1e11, nu: 0.3, density: 7850, A: 1.2e-3, Iz: 1.6e-7}}
+    supports: {{1: all, {ELEMENTS + 1}: [TX, TY]}}
+    plane: XY
+parameters:
+  - {{name: E, elements: 1-{ELEMENTS}, property: E, sd: 3 %}}
+modal_damping: {{ratio: 0.5 %, sd: 100 %}}
+test:
+  frf: [{{file: measured.npz}}]
+"""
+
+
+def receptance(omega: np.ndarray) -> np.ndarray:
+    """H (f, o): deflections of a beam of Hermite elements for a force; its left end turns against a spring."""
+    l = LENGTH / ELEMENTS
+    k = EI / l**3 * np.array([[12, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]])
+    m = MASS * l / 420 * np.array([[156, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]])
+    unit = np.outer([1, l, 1, l], [1, l, 1, l])
+    K, M = np.zeros((2, 2 * ELEMENTS + 2, 2 * ELEMENTS + 2))
+    for e in range(ELEMENTS):
+        at = slice(2 * e, 2 * e + 4)
+        K[at, at] += k * unit
+        M[at, at] += m * unit
+    K[1, 1] += SPRING
+    free = np.setdiff1d(np.arange(len(K)), [0, 2 * ELEMENTS])
+    K, M = K[np.ix_(free, free)] * (1 + 1j * ETA), M[np.ix_(free, free)]
+    load, rows = (free == 2 * FORCE).astype(float), np.searchsorted(free, 2 * np.array(READ))
+    return np.array([np.linalg.solve(K - w * w * M, load)[rows] for w in omega])
+
+
+@pytest.fixture
+def deck(tmp_path):
+    """A deck of accelerances with 1 % noise, whose model holds the left end."""
+    rng, hz = np.random.default_rng(4), np.linspace(10, 800, 1200)
+    omega = 2 * np.pi * hz
+    H = -receptance(omega) * (omega**2)[:, None]
+    variance = (0.01 * np.abs(H)) ** 2 + 0.002**2 * (np.abs(H) ** 2).mean(axis=0)
+    H = H + np.sqrt(variance / 2) * (rng.standard_normal(H.shape) + 1j * rng.standard_normal(H.shape))
+    names = {"output_names": [f"{n + 1}TY" for n in READ], "input_names": [f"{FORCE + 1}TY"], "kind": "accelerance"}
+    np.savez(
+        tmp_path / "measured.npz", frequency_hz=hz, H=H[:, :, None], variance=variance[:, :, None],
+        **{key: np.array(value) for key, value in names.items()},
+    )  # fmt: skip
+    (tmp_path / "deck.yaml").write_text(DECK)
+    return tmp_path / "deck.yaml"
+
+
+def test_functions_of_a_freed_structure_are_read_where_the_deck_says(deck):
+    """Sensors and force keep their places when a support adds degrees of freedom, and each reads its motion once."""
+    problem, _ = with_modes(read_deck(deck))
+    base = reduced(problem, problem.prior.mean)
+    data = FrfData(tuple(lines(test) for test in problem.frf))
+    candidate = registry()["support-rotation"]
+    recipe = next(each for each in candidate.recipes(base, candidate) if "node 1," in each.site(each.grid[0]).text)
+    own = damping(base)
+    model = FrfModel(replace(base, data=data), own, (recipe,))
+    x = np.zeros(model.k + model.t)
+    x[model.of_deck : model.lossy] = (np.log([ETA, 1e-12, 1e-12]) - own.mean) / own.sd
+    x[model.k :] = recipe.coordinates(np.array([SPRING]))
+    block = data.blocks[0]
+    exact = -receptance(block.omega) * (block.omega**2)[:, None]
+    found = model.point(x).parts[0].H[:, :, 0]
+    assert (np.abs(found - exact).max(axis=0) < 1e-5 * np.abs(exact).max(axis=0)).all()
+
+
+def test_a_support_that_turns_is_named_by_functions(deck):
+    found = diagnose(read_deck(deck))
+    assert (found.kind, found.best.group) == (NAMED, "support")
+    cause = found.best.causes[0]
+    assert cause.site.ids == (1,)
+    assert abs(cause.sizes[0].value - SPRING) < 3 * cause.sizes[0].sd

@@ -1,0 +1,66 @@
+"""A bed under a part of a clamped beam: modes by finite elements written here, the part named with its extent."""
+
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+
+from mouse_cli.diagnosis import diagnose
+from mouse_cli.formats import yaml_deck
+from mouse_cli.formats.assemble import assemble
+from mouse_cli.model.diagnosis import NAMED
+
+LENGTH, EI, MASS, MODES = 2.0, 2.1e11 * 1.0e-8, 7850 * 4.0e-4, 5  # m, N m2, kg/m
+SENSORS = range(3, 29, 2)
+BED = 3000 * EI / LENGTH**4  # N/m2
+
+
+def measured(bed: float, first: float, last: float) -> tuple[np.ndarray, np.ndarray]:
+    """Hz (m,) and deflections (29, m) of inner nodes of 30 elements, each made of four Hermite elements here."""
+    n = 120
+    l = LENGTH / n
+    unit = np.outer([1, l, 1, l], [1, l, 1, l])
+    k = EI / l**3 * unit * np.array([[12, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]])
+    m = l / 420 * unit * np.array([[156, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]])
+    K, M = np.zeros((2, 2 * n + 2, 2 * n + 2))
+    for e in range(n):
+        at = slice(2 * e, 2 * e + 4)
+        K[at, at] += k + bed * m * (first <= (e + 0.5) * l / LENGTH <= last)
+        M[at, at] += MASS * m
+    inner = slice(2, 2 * n)
+    lam, X = eigh(K[inner, inner], M[inner, inner], subset_by_index=[0, MODES - 1])
+    return np.sqrt(lam) / (2 * np.pi), X[6::8]  # node 1 of 30 is the fourth of 120
+
+
+@pytest.mark.parametrize(("first", "last"), [(0.0, 0.45), (0.6, 1.0)])
+def test_a_bed_under_a_part_is_named_with_its_extent(first, last):
+    hz, shapes = measured(BED, first, last)
+    rng = np.random.default_rng(2)
+    shapes = shapes[[n - 2 for n in SENSORS]] / np.abs(shapes).max(axis=0)
+    shapes = shapes + 0.01 * rng.standard_normal(shapes.shape)
+    hz = hz * (1 + 1e-3 * rng.standard_normal(MODES))
+    rows = "\n".join(f"      - [{', '.join(f'{value:.4f}' for value in row)}]" for row in shapes)
+    deck = f"""mouse: 1
+model:
+  structure:
+    nodes: {{line: {{from: 1, to: 31, start: [0, 0], end: [{LENGTH}, 0]}}}}
+    elements:
+      - {{id: 1-30, type: beam, nodes: 1-31, E: 2.1e11, nu: 0.3, density: 7850, A: 4.0e-4, Iz: 1.0e-8}}
+    supports: {{1: all, 31: all}}
+    plane: XY
+parameters:
+  - {{name: E, elements: 1-30, property: E, sd: 3 %}}
+test:
+  modes:
+    frequency: [{", ".join(f"{value:.6f}" for value in hz)}]
+    frequency_sd: 0.1 %
+    dofs: [{", ".join(f"{n}TY" for n in SENSORS)}]
+    shapes:
+{rows}
+    shape_sd: 1 %
+"""
+    found = diagnose(assemble(yaml_deck.read(deck, "beam.yaml")))
+    assert (found.kind, found.best.group) == (NAMED, "foundation")
+    stiffness, covered = found.best.causes[0].sizes
+    assert f"end at element {1 if first == 0 else 30}" in found.best.causes[0].site.text
+    assert abs(covered.value - (last - first)) < 0.04
+    assert abs(stiffness.value - BED) < 3 * stiffness.sd
