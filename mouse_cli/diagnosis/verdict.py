@@ -132,7 +132,7 @@ def decide(ranking: Ranking) -> tuple[str, tuple[str, ...]]:
         return ONE_OF, ()
     if not first.model.base.data.by_shape and any(recipe.own for recipe in first.recipes):
         return ONE_OF, ()  # paired by number, a list of frequencies cannot prove that it holds one mode more
-    if hz := unmeasured_hz(first):
+    if not first.telling and (hz := unmeasured_hz(first)):
         return ONE_OF, (_OWN_MODE.format(", ".join(f"{value:.4g} Hz" for value in hz)),)
     return NAMED, ()
 

@@ -216,7 +216,7 @@ def test_rivals_that_held_out_data_refute_are_struck(against, kind, left, monkey
     score = lambda density: Score(0.01, density, 1.0, np.ones(1), np.ones(1), np.ones(1))
 
     def proof(model, baseline, best):
-        number = names.index(best.recipes[0].candidate.group)
+        number = names.index(best.recipes[0].candidate.group) if best.recipes else 2
         return HeldOut(BY_DECK, ("mode 7",), np.ones(1), score(0.0), score(-10.0 if number < against else 10.0))
 
     monkeypatch.setattr(decide, "held_out", proof)

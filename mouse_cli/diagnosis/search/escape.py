@@ -3,8 +3,9 @@
 import numpy as np
 
 from mouse_cli.diagnosis.evidence import capped
+from mouse_cli.diagnosis.gates import GATE
 from mouse_cli.diagnosis.likelihoods.modal.model import Model, Point
-from mouse_cli.diagnosis.search.fit import GATE, MOST, Fit, fit
+from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
 from mouse_cli.updating.chi_square import upper_tail
 
 _SHIFTS = np.array([-5, -3, -2, -1, 1, 2, 3, 5]) / 50  # of the range of a place
