@@ -266,7 +266,7 @@ class Choices:
     """What a diagnosis was asked to consider. candidates: their keys, None for all; causes: most of them together."""
 
     candidates: tuple[str, ...] | None = None
-    causes: int = 2
+    causes: int = 4
 
 
 @dataclass(frozen=True)

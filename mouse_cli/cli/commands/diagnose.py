@@ -15,7 +15,7 @@ _CONSIDERED = (
         "--candidates", metavar="NAMES", help="Consider these alone, with commas between; see `mouse list candidates`."
     ),
     click.option("--without", metavar="NAMES", help="Consider all but these."),
-    click.option("--causes", type=click.IntRange(1, 2), default=2, show_default=True, help="Most causes together."),
+    click.option("--causes", type=click.IntRange(1, 4), default=4, show_default=True, help="Most causes together."),
 )
 
 

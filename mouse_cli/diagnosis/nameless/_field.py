@@ -79,10 +79,11 @@ class Fielded(Reduced):
         return self
 
 
-def fielded(base: Reduced, field: Smooth) -> Fielded:
-    """`base` with a field in it."""
+def fielded(base: Reduced, field: Smooth, cells: Cells | None) -> Fielded:
+    """`base` with a field in it, in `cells` of its own that are those of the field; None: it does not have it."""
     own = {name: getattr(base, name) for name in Reduced.__dataclass_fields__}
-    return Fielded(**own, nameless=field, of_field=field.cells.summed(field.P))
+    empty = np.zeros((field.P.shape[1], base.r, base.r))
+    return Fielded(**own, nameless=field, of_field=empty if cells is None else cells.summed(field.P))
 
 
 def found(base: Fielded, z: np.ndarray, covariance: np.ndarray, over_named: float, held: HeldOut | None) -> Field:

@@ -1,6 +1,6 @@
 """Every rival without a name fitted to the data, its spread and its correlation length integrated out."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,7 +18,7 @@ _STEPS = 25  # of a fit
 
 def rivals(base: Reduced, start: Fit, kind: type[Model] = Model) -> list[Fit]:
     """The best fit of each kind of field, in the coordinates `base`; its evidence is that of all spreads and lengths together."""
-    fits = [_integrated(base, start, rival, cells, kind) for rival, cells in _sites(base)]
+    fits = [_integrated(base, start, field, kind) for field in _spreads(base)]
     return [one for one in fits if one is not None]
 
 
@@ -38,18 +38,50 @@ def extended(problem: Problem, one: Fit) -> Problem | None:
     return field.cells.extend(problem, field.values(one.point.x[base.deck : one.model.k]), field.spread)
 
 
-def _sites(base: Reduced) -> list[tuple[Nameless, Cells]]:
-    every = [(rival, rival.cells(base)) for rival in registry().values()]
-    return [(rival, cells) for rival, cells in every if cells is not None]
+@dataclass(frozen=True)
+class Spread:
+    """A rival and its cells in every configuration of `base` (a,), None where it does not act."""
+
+    rival: Nameless
+    cells: tuple[Cells | None, ...]
+
+    def over(self, base, spread: float, share: float):
+        """`base` with the field in it, of that spread and length."""
+        field = smooth(self.rival, next(filter(None, self.cells)), spread, share)
+        own = iter(self.cells)
+        return base.each(lambda part, has: fielded(part, field, next(own)))
 
 
-def _integrated(base: Reduced, start: Fit, rival: Nameless, cells: Cells, kind: type[Model]) -> Fit | None:
+def _spreads(base) -> list[Spread]:
+    """Those that have the same cells wherever they act."""
+    found = []
+    for rival in registry().values():
+        cells: list[Cells | None] = []
+
+        def look(part: Reduced, has: bool, rival=rival, cells=cells) -> Reduced:
+            cells.append(rival.cells(part) if has else None)
+            return part
+
+        base.each(look)
+        sizes = {0 if own is None else len(own) for own, has in zip(cells, _having(base), strict=True) if has}
+        if len(sizes) == 1 and sizes != {0}:
+            found.append(Spread(rival, tuple(cells)))
+    return found
+
+
+def _having(base) -> list[bool]:
+    found: list[bool] = []
+    base.each(lambda part, has: found.append(has) or part)
+    return found
+
+
+def _integrated(base, start: Fit, field: Spread, kind: type[Model]) -> Fit | None:
     fits: list[Fit] = []
-    grid = [(spread, share) for share in LENGTHS for spread in rival.spreads]
+    grid = [(spread, share) for share in LENGTHS for spread in field.rival.spreads]
     for spread, share in grid:
-        model = fielded(base, smooth(rival, cells, spread, share))
-        x = np.append(start.point.x[: start.model.k], np.zeros(len(model.of_field)))
-        one = fit(kind(model), np.zeros(0), x, _STEPS)
+        model = field.over(base, spread, share)
+        known = start.point.x[: start.model.k]
+        one = fit(kind(model), np.zeros(0), np.append(known, np.zeros(model.L.shape[1] - len(known))), _STEPS)
         fits += [] if one is None else [one]
     if not fits:
         return None

@@ -29,6 +29,7 @@ _NO_SITE, _UNPHYSICAL = (
     "it has no site in this model",
     "no size of it makes a model whose modes can be paired with the test",
 )
+_TRUSTED = 0.5  # share of the stated accuracies in the leading explanation below which no more than two are sought together
 _IDLE = 0.5  # probability of no mechanism above which what has no name is not asked
 
 
@@ -72,10 +73,12 @@ def rank(
     causes: int = 2,
     hear: Callable[[Ranking], Ranking] = lambda found: found,
     kind: type[Model] = Model,
+    last: bool = True,
 ) -> Ranking:
     """All that the candidates (`known`; None: all) make of the data, at most `causes` of them together.
 
-    hear: what further data make of a ranking, before several are sought and after. kind: see `Study`.
+    hear: what further data make of a ranking, before several are sought and after. kind: see `Study`. last: False where further
+    mechanisms will be sought besides, so that what has no name is no rival yet.
     """
     study = Study(model, known, kind)
     baseline = settled(fit(kind(model), np.zeros(0)), study)
@@ -85,11 +88,11 @@ def rank(
         singles += [] if one is None else [one]
     fits = [baseline, *singles]
     found = hear(ranking(baseline, fits))
-    if dict(found.groups).get("none", 0.0) < _IDLE:
+    if last and dict(found.groups).get("none", 0.0) < _IDLE:
         fits += rivals(model, baseline, kind)
     with_cause = [one for one in found.fits if one.recipes]
     if causes > 1 and with_cause and not adequate(min(with_cause, key=lambda one: one.misfit)):
-        fits += several(study, singles, causes)
+        fits += several(study, singles, causes if found.stated[0] > _TRUSTED else min(causes, 2))
     found = found if len(fits) == 1 + len(singles) else hear(ranking(baseline, fits))
     return replace(found, untried=_untried(study, singles))
 

@@ -47,8 +47,9 @@ def several(study: Study, singles: list[Fit], most: int) -> list[Fit]:
         begun = sorted(growing, key=lambda one: -one.log_evidence)[:_GROWN]
         larger: Found = {}
         for one in begun:
-            for more in _added(study, one, larger):
-                _keep(larger, _exchanged(study, more))
+            _beside(study, one, study.known, larger)
+        for best in _best_of(larger, 1):
+            _keep(larger, _exchanged(study, best))
         growing = [one for one in _finished(study, larger) if material(one, smaller)]
         if not growing:
             break
@@ -89,9 +90,10 @@ def same_kind(study: Study, singles: list[Fit], most: int) -> list[Fit]:
         while len(one.recipes) < most and not adequate(one):
             larger: Found = {}
             _beside(study, one, [name], larger)
-            if not larger:
+            more = [_exchanged(study, each, (name,)) for each in larger.values()]
+            if not more or more[0].log_evidence < one.log_evidence + MATERIAL:
                 break
-            one = _exchanged(study, next(iter(larger.values())), (name,))
+            one = more[0]
             _keep(found, one)
     return _finished(study, found)
 
@@ -151,19 +153,12 @@ def _promising(there: Study, first: Fit, partners: list[str]) -> list[str]:
     return order[:_PARTNERS]
 
 
-def _added(study: Study, one: Fit, others: Found) -> list[Fit]:
-    """The best sets of `one` and any further mechanism."""
-    found: Found = {}
-    _beside(study, one, study.known, found)
-    return _best_of({name: each for name, each in found.items() if name not in others}, _SECOND)
-
-
 def _exchanged(study: Study, one: Fit, names: tuple[str, ...] | None = None) -> Fit:
-    """The set with each mechanism in turn replaced by what fits best beside the others, as long as that gains.
+    """The set with each mechanism in turn replaced by what fits best beside the others, as long as that gains and it leaves too much.
 
     names: candidates that may take a place; None: all.
     """
-    for _ in range(_ROUNDS):
+    for _ in range(_ROUNDS if not adequate(one) else 0):
         before = one.log_evidence
         for i in range(len(one.recipes)):
             rest = _without(one, i)

@@ -40,8 +40,14 @@ class Decks:
         parts = tuple(reduced(each, each.prior.mean) for each in self.problems)
         return Arranged(parts, self.common_sd, self.having)
 
-    def extended(self, recipe: SharedRecipe, coordinates: np.ndarray) -> "Decks":
-        """The same with a cause in them."""
+    def extended(self, one: Fit) -> "Decks":
+        """The same with the mechanisms of a fit in them."""
+        found = self
+        for recipe, own in zip(one.recipes, one.model.own, strict=True):
+            found = found._with(recipe, one.c[own])
+        return found
+
+    def _with(self, recipe: SharedRecipe, coordinates: np.ndarray) -> "Decks":
         if not self.problems:
             return self
         own = len(self.problems[0].parameters)
@@ -71,7 +77,7 @@ def diagnose_arrangements(
     """
     _check((*fitted.problems, *unseen.problems))
     known = None if choices.candidates is None else {key: registry()[key] for key in choices.candidates}
-    first = at = _state(fitted, unseen, known)
+    first = at = _state(fitted, unseen, known, choices.causes)
     turns: list[Turn] = []
     refuted = ""
     while len(turns) < _MOST and not refuted:
@@ -83,8 +89,7 @@ def diagnose_arrangements(
             continue
         turns.append(turn)
         notice(f"{len(turns)}: {turn.best.title}")
-        recipe = best.recipes[0]
-        at = _state(at.fitted.extended(recipe, best.c), at.unseen.extended(recipe, best.c), known)
+        at = _state(at.fitted.extended(best), at.unseen.extended(best), known, choices.causes)
     held = _held_out(unseen.problems, first.before, at.before if turns else None)
     return _told(fitted, at, tuple(turns), held, refuted, choices)
 
@@ -115,9 +120,10 @@ def _told(
     )
 
 
-def _state(fitted: Decks, unseen: Decks, known: dict[str, Candidate] | None) -> State:
-    """What candidates make of decks as they are."""
-    ranking = rank(fitted.arranged, known, 1, kind=Together)
+def _state(fitted: Decks, unseen: Decks, known: dict[str, Candidate] | None, causes: int) -> State:
+    """What candidates make of decks as they are: of what changed together, of what all have one after another."""
+    changed = not all(fitted.having)
+    ranking = rank(fitted.arranged, known, causes if changed else 1, kind=Together, last=changed)
     return State(fitted, unseen, ranking, _predicted(ranking.baseline, unseen))
 
 
@@ -129,9 +135,9 @@ def _turn(at: State) -> tuple[Turn | None, Fit | None]:
     """The next cause, where one is demanded: by what is left, or by evidence that arrangements held out confirm."""
     ranking, best = at.ranking, leader(at.ranking)
     demanded = doubtful(ranking.baseline, False)
-    if best is None or best.recipes[0].extend is None or not (demanded or (at.unseen.problems and sure(ranking))):
+    if best is None or not _has_name(ranking, best) or not (demanded or (at.unseen.problems and sure(ranking))):
         return None, None
-    gain = (best.log_evidence - ranking.baseline.log_evidence) / ranking.noise_scale
+    gain = ranking.log_odds[next(i for i, one in enumerate(ranking.fits) if one is best)]
     held = _predicted(best, at.unseen)
     if at.unseen.problems and held is None:
         return None, None  # what is kept to prove it cannot
@@ -140,6 +146,11 @@ def _turn(at: State) -> tuple[Turn | None, Fit | None]:
     before = explanation(ranking.baseline)
     turn = Turn(ONE_OF, explanations(ranking), ranking.groups, ranking.noise_scale, before, held)
     return replace(turn, kind=NAMED if turn.probability > SURE else ONE_OF), best
+
+
+def _has_name(ranking: Ranking, best: Fit) -> bool:
+    """Whether what leads has a name, and can be put into decks."""
+    return ranking.fits[0].nameless is None and all(recipe.extend is not None for recipe in best.recipes)
 
 
 def _better(at: State, held: Score | None) -> float:

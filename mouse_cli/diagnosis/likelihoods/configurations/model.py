@@ -90,6 +90,16 @@ class Arranged:
         """All tests together."""
         return SharedData(sum(part.data.dof for part in self.parts), all(part.data.by_shape for part in self.parts))
 
+    def each(self, do: Callable[[Reduced, bool], Reduced]) -> "Arranged":
+        """What `do` makes of every configuration, and of whether it has what is sought."""
+        pairs = zip(self.parts, self.having, strict=True)
+        return replace(self, parts=tuple(do(part, has) for part, has in pairs))
+
+    @property
+    def nameless(self):
+        """The field of those that have what is sought; None: there is none."""
+        return getattr(self.parts[0], "nameless", None)
+
     def judged_by(self, data: SharedData) -> "Arranged":
         """Itself: accuracies of arrangements stay as their decks state them."""
         return self

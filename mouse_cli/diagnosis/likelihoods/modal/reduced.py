@@ -171,6 +171,10 @@ class Reduced:
         """What a first look is made with: what `do` makes of it."""
         return do(self)
 
+    def each(self, do: Callable[["Reduced", bool], "Reduced"]) -> "Reduced":
+        """What `do` makes of every configuration, and of whether it has what is sought: this is the only one."""
+        return do(self, True)
+
     def judged_by(self, data: Data) -> "Reduced":
         """The same model for the same test at other accuracies."""
         return replace(self, data=data)
