@@ -154,7 +154,7 @@ def _promising(there: Study, first: Fit, partners: list[str]) -> list[str]:
 
 
 def _exchanged(study: Study, one: Fit, names: tuple[str, ...] | None = None) -> Fit:
-    """The set with each mechanism in turn replaced by what fits best beside the others, as long as that gains and it leaves too much.
+    """The set with each mechanism in turn replaced by what fits best beside the others, while that gains and it leaves too much.
 
     names: candidates that may take a place; None: all.
     """

@@ -15,6 +15,7 @@ from mouse_cli.diagnosis.mechanisms import Candidate, registry
 from mouse_cli.diagnosis.search.escape import shifted, uncrossed
 from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
 from mouse_cli.diagnosis.search.optima import distinct
+from mouse_cli.dynamics.eigen import IndefiniteError
 
 _STARTS = 3  # fits of a candidate to the end, from different optima
 _LOOKS, _MOST, _EACH, _BRIEF = 12, 40, 4, 4  # brief descents at least, at most, from one recipe, and their steps
@@ -132,9 +133,12 @@ class Study:
         return self.kind(self.model, (*self.own(others), self.recipes(name)[number]))
 
     def at(self, one: Fit) -> "Study":
-        """The same at the parameters that a fit found."""
+        """The same at the parameters that a fit found, if these are of a structure."""
         theta = one.model.base.parameters(one.point.x[: self.k])
-        return Study(self.model.at(theta), self.known, self.kind)
+        try:
+            return Study(self.model.at(theta), self.known, self.kind)
+        except IndefiniteError:  # parameters far from their prior, of a fit that explains nothing
+            return self
 
 
 def _lowest(model: Reduced) -> Reduced:
