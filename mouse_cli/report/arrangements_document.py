@@ -80,8 +80,8 @@ def _verdict(found: ArrangementsDiagnosis) -> dict[str, Any]:
 
 
 def _members(turns: Sequence[Turn]) -> dict[str, float]:
-    """Physics within the groups of all turns, and their probability."""
-    ways = product(*(turn.members for turn in turns)) if turns else ()
+    """Physics within the groups of all turns, and their probability where it is more than 1e-6."""
+    ways = product(*([each for each in turn.members if each[1] > 1e-6] for turn in turns)) if turns else ()
     return {" + ".join(physics for physics, _ in way): prod(p for _, p in way) for way in ways}
 
 

@@ -40,6 +40,8 @@ def _along(places: list[Part]) -> Markup:
     """ln of the probability over position, where the places lie on one line; nothing where they do not."""
     at = [_position(each.part("site")) for each in places]
     known = [(p, -(each.number("deficit") or 0.0)) for p, each in zip(at, places, strict=True) if p]
+    if len({len(p) for p, _ in known}) != 1:
+        return Markup("")
     points = np.array([p for p, _ in known], float)
     if len(known) < max(3, 0.5 * len(places)):
         return Markup("")
