@@ -50,12 +50,13 @@ def _step(turn: Turn, explains: bool) -> str:
         inside = within(tried, best)
         return f"{_capital(grouped(tried, best))} ({p}{gain}): {inside}. If it is {best.title}: {at}. {sizes}."
     rivals = [f"{grouped(tried, one)}, {where(one)}" for one in turn.rivals if one.causes]
+    names = f", one of {{{'; '.join(rivals)}}}" if len(rivals) > 1 else f": {''.join(rivals)}"
     none = next((each for name, each in turn.groups if name == "none" and any(not o.causes for o in turn.rivals)), None)
     likely = "Not settled"
     if none is not None:
         likely = f"{'Likely' if none <= _EVEN else 'Possible'}, not proved (probability that nothing is missing {probable(none)})"
     return (
-        f"{likely}, one of {{{'; '.join(rivals)}}} ({gain}). {_capital(best.title)} leads ({with_p(turn.probability)} of its "
+        f"{likely}{names} ({gain}). {_capital(best.title)} leads ({with_p(turn.probability)} of its "
         f"group) and is what the search goes on with: {at}; {sized(best.causes[0])}."
     )
 

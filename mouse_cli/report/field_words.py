@@ -25,7 +25,11 @@ def field_sentences(field: Field) -> tuple[str, ...]:
     """What is missing, and that it has no name."""
     told = f"What is missing has no name in the library. It {ACTS[field.property]}{_most(field)}."
     over = f"Its log evidence is {nats(field.log_evidence_over_named)} above that of everything that has a name."
-    return told, f"{over}{_held(field.held_out)}", "Do not trust the revised parameters, and do not name a mechanism."
+    return (
+        told,
+        " ".join(filter(None, (over, held_words(field.held_out)))),
+        "Do not trust the revised parameters, and do not name a mechanism.",
+    )
 
 
 def factor(field: Field) -> float:
@@ -84,15 +88,15 @@ def _most(field: Field) -> str:
     return f", most of it about {about} ({sized} at {place(largest.site)})"
 
 
-def _held(held: HeldOut | None) -> str:
+def held_words(held: HeldOut | None) -> str:
+    """How the model with the field predicts what no fit has seen; empty without such data."""
     if held is None or held.revised is None:
         return ""
     before, after = held.baseline, held.revised
-    density = f"from {before.log_predictive_density:.1f} to {after.log_predictive_density:.1f}"
-    errors = ""
-    if before.rms_frequency_error == before.rms_frequency_error:
-        errors = (
-            f"the rms frequency error goes from {100 * before.rms_frequency_error:.2g} % to "
-            f"{100 * after.rms_frequency_error:.2g} %, "
-        )
-    return f" With it, held-out data are predicted so: {errors}the log predictive density goes {density}."
+    density = (
+        f"the log predictive density from {before.log_predictive_density:.1f} to {after.log_predictive_density:.1f}"
+    )
+    if before.rms_frequency_error != before.rms_frequency_error:
+        return f"With it {density.replace('from', 'of held-out data goes from', 1)}."
+    errors = f"from {100 * before.rms_frequency_error:.2g} % to {100 * after.rms_frequency_error:.2g} %"
+    return f"With it the rms frequency error of held-out data goes {errors}, and {density}."

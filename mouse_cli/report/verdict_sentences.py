@@ -93,14 +93,15 @@ def _one_of(found: Diagnosis) -> str:
 def _separating(found: Diagnosis) -> str:
     if isinstance(found, RecordDiagnosis):
         return "Another level of excitation tells most laws apart."
+    aim = "to separate them" if len(leaders(found)) > 1 else "to settle it"
     if not found.proposals:
-        return "No measurement can be proposed to separate them."
+        return f"No measurement can be proposed {aim}."
     best = found.proposals[0]
     if not best.promise:
         best = max(found.proposals, key=lambda each: each.separation)
         tried = f"the best, {best.text}, has a predicted separation of {separation(best.separation)}"
         return f"None of the measurements that were tried will settle it; {tried}."
-    return f"Measure this to separate them: {best.text} (predicted separation {separation(best.separation)}, {best.outlook})."
+    return f"Measure this {aim}: {best.text} (predicted separation {separation(best.separation)}, {best.outlook})."
 
 
 def _unknown(found: Diagnosis) -> tuple[str, ...]:

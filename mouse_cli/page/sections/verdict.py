@@ -133,7 +133,7 @@ def _cause(cause: Part, turn: Part) -> str:
 
 
 def _told(document: Part, found: Part) -> str:
-    """The first sentence of the document; documents of version 0.1 have none."""
+    """The first sentence of the document; documents of earlier versions have none."""
     if found.texts("sentences"):
         return found.texts("sentences")[0]
     kind, titles = found.text("kind"), _titles(document, found)

@@ -17,6 +17,7 @@ from mouse_cli.model.diagnosis import (
     elsewhere,
 )
 from mouse_cli.report.blocks import Block, Column, Heading, Table, Text
+from mouse_cli.report.field_words import held_words
 from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._diagnosis_wording import (
     grouped,
@@ -58,7 +59,7 @@ def _where(found: Diagnosis) -> Iterator[Block]:
     elif found.kind == NAMED:
         yield Text(f"{_capital(whereabouts(found.best, units, found.elsewhere))}.{shapes}")
     elif found.kind == ONE_OF:
-        yield Text(f"That depends on what it is.{shapes}")
+        yield Text(f"{'That depends on what it is' if len(leaders(found)) > 1 else 'If it is there, here'}.{shapes}")
         columns = (Column("if it is", align=LEFT), Column("then at", align=LEFT))
         at = lambda one: whereabouts(one, units, elsewhere(found.explanations, one))
         yield Table(columns, tuple((one.title, at(one)) for one in leaders(found)))
@@ -106,11 +107,11 @@ def _what(found: Diagnosis) -> Iterator[Block]:
         yield Text(f"Nothing{chances}. {hidden}.{_open(found)}")
     elif found.kind == NAMED:
         yield Text(
-            f"{_capital(best.title)}, group {best.group}, {with_p(found.probability)} of the group{_inside(found)}. Goodness "
-            f"of fit of the extended model {p_value(best.p)}{_noise(found)}. {conditional}."
+            f"{_capital(grouped(found.explanations, best))}, group {best.group}, {with_p(found.probability)} of the "
+            f"group{_inside(found)}. Goodness of fit of the extended model {p_value(best.p)}{_noise(found)}. {conditional}."
         )
         if found.rest is not None:
-            yield Text(f"That is not all: {remains(found.rest)}. What it is has no name here.")
+            yield Text(f"That is not all: {remains(found.rest)}. It has no name here.")
     elif found.kind == ONE_OF:
         inside = Column("members within the group", align=LEFT)
         columns = (Column("mechanism", align=LEFT), Column("group", align=LEFT), Column("probability"), inside)
@@ -178,7 +179,10 @@ def _how_much(found: Diagnosis) -> Iterator[Block]:
 
 
 def _true(found: Diagnosis) -> Iterator[Block]:
-    held = found.held_out
+    held, field = found.held_out, found.field
+    if field is not None and field.held_out is not None:
+        yield Text(held_words(field.held_out))
+        return
     if held is None:
         yield Text(
             "Not proved: no data were held out from the fits, and there are too few modes to predict each from the others."

@@ -36,7 +36,7 @@ def _where(found: RecordDiagnosis) -> str:
     best = found.best
     if best is None or not best.causes:
         return "No site can be given."
-    return f"No site can be given for certain; the nearest explanation stands {where(best)}."
+    return f"No site can be given. The nearest explanation, which does not suffice, has it here: {where(best)}."
 
 
 def _what(found: RecordDiagnosis) -> str:
