@@ -103,7 +103,10 @@ def test_exit_codes():
         ("named", "on condition that the mechanism is one of those that mouse knows"),
         ("named", "stiffness 393.5 N/m (sd 6.8)"),
         ("named", "The extended model passes."),
-        ("two", "an open crack (element 12, 0.43 m from node 1) and shear flexibility (the whole structure): probability 0.99."),
+        (
+            "two",
+            "an open crack (element 12, 0.43 m from node 1) and shear flexibility (the whole structure): probability 0.99.",
+        ),
         ("two", "depth over height 0.7 (sd 0.02, at the end of the range held possible)"),
         ("two", "No force at a single site makes the measured shapes"),
         ("two", "no full proof: the error falls too little, and too few frequencies lie within the intervals"),
@@ -189,7 +192,9 @@ def test_a_list_of_frequencies_does_not_prove_a_mode_more():
     found = replace(
         found, explanations=(first, *found.explanations[1:]), groups=groups, problem=replace(found.problem, test=test)
     )
-    assert "A hidden oscillator leads with probability 0.97, but a list of frequencies alone does not prove" in _told(found)
+    assert "A hidden oscillator leads with probability 0.97, but a list of frequencies alone does not prove" in _told(
+        found
+    )
 
 
 def test_nothing_missing_is_no_praise_for_an_update_that_failed():
