@@ -17,14 +17,18 @@ from mouse_cli.model.diagnosis import (
     Diagnosis,
     EnergyMap,
     Explanation,
+    Field,
+    FieldValue,
     HeldOut,
     Law,
     Location,
     Place,
     Proposal,
+    Rest,
     Score,
     Site,
     Size,
+    Untried,
 )
 from mouse_cli.model.frf_fit import Damping, FrfFit, Modelled
 from mouse_cli.model.frf_test import FrfTest
@@ -44,6 +48,12 @@ CRACK = Cause(
     "an open crack",
     Site("element", (12,), (0.43, 0.0, 0.0), "element 12, 0.43 m from node 1"),
     (Size("depth over height", "1", 0.7, 0.02, 0.05, 0.7), Size("place", "m", 0.43, 0.004, 0.0, 1.0)),
+)
+SOFT = Cause(
+    "stiffness-loss", "local-stiffness", "a local loss of stiffness", Site("element", (12,), text="element 12"), ()
+)
+MASS = Cause(
+    "mass", "mass", "a lumped mass", Site("node", (7,), (0.7, 0.0, 0.0)), (Size("mass", "kg", 0.2, 0.01, 0, 9),)
 )
 SHEAR = Cause("shear", "shear", "shear flexibility", EVERYWHERE, ())
 
@@ -146,6 +156,44 @@ def unknown() -> Diagnosis:
     )
 
 
+def members() -> Diagnosis:
+    """A group of two members, a rival site of the leading one, and something more that has no name."""
+    crack = explanation(CRACK, ln_z=-28.0, probability=0.69)
+    crack = replace(crack, elsewhere=(((Site("element", (14,), text="element 14, 0.58 m from node 1"),), 0.49),))
+    soft, none = explanation(SOFT, ln_z=-29.0, probability=0.31), explanation(ln_z=-2700.0, probability=0.0, p=0.0)
+    groups = (("local-stiffness", 1.0), ("none", 0.0))
+    return _diagnosis(NAMED, (crack, soft, none), groups, rest=Rest(0.12, 3e-9))
+
+
+def likely() -> Diagnosis:
+    """One mechanism, or none."""
+    one, none = explanation(SPRING, ln_z=-28.0, probability=0.88), explanation(ln_z=-31.0, probability=0.12)
+    return _diagnosis(ONE_OF, (one, none), (("ground-spring", 0.88), ("none", 0.12)))
+
+
+def three() -> Diagnosis:
+    """Three mechanisms, given in another order than that of their groups."""
+    every = explanation(SHEAR, MASS, CRACK, ln_z=-28.0, probability=0.96)
+    none = explanation(ln_z=-2700.0, probability=0.04, p=0.0)
+    return _diagnosis(NAMED, (every, none), (("local-stiffness + mass + shear", 0.96), ("none", 0.04)))
+
+
+def nameless() -> Diagnosis:
+    """No candidate explains the data; a smooth field of stiffness does."""
+    change = -0.23 * np.exp(-(((np.arange(1, 31) - 14.5) / 3.0) ** 2))
+    values = tuple(
+        FieldValue(Site("element", (i,), (0.1 * i, 0.0, 0.0)), float(x), 0.04) for i, x in enumerate(change, 1)
+    )
+    field = Field("stiffness", values, 0.2, 0.4, "m", 19.3, held_out())
+    nothing_there = "no site in this model"
+    untried = (
+        Untried("joint", nothing_there),
+        Untried("items", nothing_there),
+        Untried("shear", "the data do not respond"),
+    )
+    return replace(unknown(), field=field, untried=untried)
+
+
 def bare() -> Diagnosis:
     """No candidate has a meaning for the model, and nothing else was found out."""
     return _diagnosis(UNKNOWN, (), ())
@@ -182,4 +230,8 @@ DIAGNOSES = {
     "unknown": unknown,
     "bare": bare,
     "functions": functions,
+    "members": members,
+    "likely": likely,
+    "three": three,
+    "nameless": nameless,
 }

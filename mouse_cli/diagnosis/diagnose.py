@@ -20,13 +20,13 @@ from mouse_cli.diagnosis.localise.energy_map import energy_map
 from mouse_cli.diagnosis.localise.force import locate
 from mouse_cli.diagnosis.localise.implied_law import implied_law
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
-from mouse_cli.diagnosis.nameless.fit import as_field
+from mouse_cli.diagnosis.nameless.fit import field_of
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.rank import Ranking, group, rank
 from mouse_cli.diagnosis.validate.next_measurement import proposals
 from mouse_cli.diagnosis.verdict import Verdict, explanations, judge, rest
 from mouse_cli.dynamics.solver import EigenSolver
-from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Choices, Diagnosis, Field, Proposal
+from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Choices, Diagnosis, Proposal
 from mouse_cli.model.modal_test import restricted
 from mouse_cli.model.problem import Problem, RunOptions
 from mouse_cli.model.result import Result
@@ -92,20 +92,11 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices) -> Diagnos
         if deck is None
         else run(_by_modes(deck), notice=notice, guess=_values(deck, put), enough=enough),
         choices=choices,
-        field=_field(ranking, verdict),
+        field=verdict.field and field_of(ranking, verdict.field, verdict.field_proof),
         rest=rest(ranking) if kind == NAMED else None,
         untried=ranking.untried,
         **vars(compared(problem, ranking, best if missing else None)),
     )
-
-
-def _field(ranking: Ranking, verdict: Verdict) -> Field | None:
-    """What is missing where it has no name."""
-    if verdict.field is None:
-        return None
-    at = next(i for i, one in enumerate(ranking.fits) if one is verdict.field)
-    named = max(float(ranking.log_odds[i]) for i in ranking.named)
-    return as_field(verdict.field, float(ranking.log_odds[at]) - named, verdict.field_proof)
 
 
 def _by_modes(problem: Problem) -> Problem:

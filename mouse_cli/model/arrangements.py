@@ -1,13 +1,31 @@
 """What a diagnosis of one structure in several arrangements found: causes that all share, one after another."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Choices, Explanation, HeldOut, Score
+from mouse_cli.model.diagnosis import (
+    NAMED,
+    NOTHING,
+    ONE_OF,
+    RIVAL,
+    UNKNOWN,
+    Choices,
+    Explanation,
+    Field,
+    HeldOut,
+    Rest,
+    Score,
+    Site,
+    Untried,
+    elsewhere,
+    members,
+)
 from mouse_cli.model.groups import leading
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.theory import Theory
+
+_EVERY = Choices()
 
 
 @dataclass(frozen=True)
@@ -36,6 +54,16 @@ class Turn:
         return dict(self.groups)[self.best.group]
 
     @property
+    def members(self) -> tuple[tuple[str, float], ...]:
+        """Physics of the group of `best` and the probability of each within it, the largest first."""
+        return members(self.explanations, self.best.group)
+
+    @property
+    def elsewhere(self) -> tuple[tuple[tuple[Site, ...], float], ...]:
+        """Rival sites of `best`, and the probability of each among its sites."""
+        return elsewhere(self.explanations, self.best)
+
+    @property
     def gain(self) -> float:
         """Nats over no further cause, at the noise scale."""
         return (self.best.log_evidence - self.before.log_evidence) / self.noise_scale
@@ -43,8 +71,8 @@ class Turn:
     @property
     def rivals(self) -> tuple[Explanation, ...]:
         """The first of each group that holds more than 5 % of the probability, none among them."""
-        likely = [name for name, p in self.groups if p > RIVAL]
-        return tuple(next(one for one in self.explanations if one.group == name) for name in likely)
+        first = {one.group: one for one in reversed(self.explanations)}
+        return tuple(first[name] for name, p in self.groups if p > RIVAL and name in first)
 
 
 @dataclass(frozen=True)
@@ -64,7 +92,8 @@ class ArrangementsDiagnosis:
     cause that was told. common_sd: of ln f, of theory, the same in all arrangements. turns: causes in the order in which they were
     told. chi2 on dof with probability p: what is left with all of them. values, sd (q,): of the parameters of the extended decks.
     rest: what was tried beside all of them and is not demanded, that without a further cause first. held_out: arrangements that no
-    fit has seen, before the first cause and after the last.
+    fit has seen, before the first cause and after the last. field: physics without a name where the answer is UNKNOWN; untried:
+    candidates left out.
     """
 
     problems: tuple[Problem, ...]
@@ -82,8 +111,10 @@ class ArrangementsDiagnosis:
     rest: tuple[Explanation, ...]
     held_out: HeldOut | None = None
     refuted: str = ""
-    choices: Choices = field(default_factory=Choices)
-    remarks: tuple[str, ...] = field(default=())
+    choices: Choices = _EVERY
+    remarks: tuple[str, ...] = ()
+    field: Field | None = None
+    untried: tuple[Untried, ...] = ()
 
     @property
     def problem(self) -> Problem:
@@ -103,6 +134,13 @@ class ArrangementsDiagnosis:
         if not self.turns:
             return NOTHING
         return NAMED if all(turn.kind == NAMED for turn in self.turns) else ONE_OF
+
+    @property
+    def remaining(self) -> Rest | None:
+        """What remains of the misfit of the model as it is where causes were found and do not explain all; else None."""
+        if self.adequate or not self.turns:
+            return None
+        return Rest(self.chi2 / self.turns[0].before.chi2, self.p)
 
     @property
     def exit_code(self) -> int:

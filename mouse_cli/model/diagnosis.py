@@ -1,33 +1,27 @@
 """What a diagnosis found: where model and test part, what physics would explain it, how much of it, and whether that is true."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from enum import IntEnum
 
 import numpy as np
 
 from mouse_cli.model.frf_fit import Damping, FrfFit
-from mouse_cli.model.groups import joined, leading
+from mouse_cli.model.groups import enumerated, joined, leading, shares
+from mouse_cli.model.localisation import EnergyMap as EnergyMap
+from mouse_cli.model.localisation import Law as Law
+from mouse_cli.model.localisation import Location as Location
+from mouse_cli.model.localisation import Place as Place
 from mouse_cli.model.problem import Problem
+from mouse_cli.model.proposal import HELPS as HELPS
+from mouse_cli.model.proposal import SETTLES as SETTLES
+from mouse_cli.model.proposal import Effort as Effort
+from mouse_cli.model.proposal import Proposal as Proposal
 from mouse_cli.model.result import ChiSquareTest, Result
+from mouse_cli.model.site import EVERYWHERE as EVERYWHERE
+from mouse_cli.model.site import Site as Site
 
 NOTHING, NAMED, ONE_OF, UNKNOWN = "nothing-missing", "named", "one-of", "unknown"
-RIVAL = 0.05  # probability of a group, or share of a place, from which on it is listed beside the leading one
-
-
-@dataclass(frozen=True)
-class Site:
-    """Where a cause acts. kind: `structure`, `node`, `element`, `dof` or `sensor`; ids as the deck names them.
-
-    position (3,): coordinates in m where it is one point; text: in words, such as `element 12, 0.43 of its length`.
-    """
-
-    kind: str
-    ids: tuple[int | str, ...] = ()
-    position: tuple[float, float, float] | None = None
-    text: str = ""
-
-
-EVERYWHERE = Site("structure", text="the whole structure")
+RIVAL = 0.05  # probability of a group, or share of a place, from which on it is listed with the leading one
 
 
 @dataclass(frozen=True)
@@ -59,11 +53,11 @@ class Cause:
 
 @dataclass(frozen=True)
 class Explanation:
-    """No cause, one or two, fitted beside all parameters of the deck.
+    """No cause, one or more, fitted together with all parameters of the deck; causes in the order of `group`, then `physics`.
 
     chi2 on dof: what stays of the data's misfit; p of it; log_evidence: ln of the probability of the data; probability: of this
-    explanation among all that were tried. theta (p,): values of the deck's own parameters. elsewhere: other places (sites of the
-    causes), and the share of each in this probability.
+    explanation among all that were tried. theta (p,): values of the deck's own parameters. elsewhere: rival sites of the same
+    causes, and the share of each in this probability.
     """
 
     causes: tuple[Cause, ...]
@@ -74,6 +68,17 @@ class Explanation:
     theta: np.ndarray
     probability: float = 0.0
     elsewhere: tuple[tuple[tuple[Site, ...], float], ...] = ()
+
+    def __post_init__(self) -> None:
+        order = sorted(range(len(self.causes)), key=lambda i: (self.causes[i].group, self.causes[i].physics))
+        sorts = lambda of: tuple(of[i] for i in order) if len(of) == len(order) else tuple(of)
+        object.__setattr__(self, "causes", sorts(self.causes))
+        object.__setattr__(self, "elsewhere", tuple((sorts(sites), share) for sites, share in self.elsewhere))
+
+    @property
+    def sites(self) -> tuple[Site, ...]:
+        """One a cause."""
+        return tuple(cause.site for cause in self.causes)
 
     @property
     def group(self) -> str:
@@ -88,71 +93,29 @@ class Explanation:
     @property
     def title(self) -> str:
         """Its causes in words."""
-        return " and ".join(cause.title for cause in self.causes) or "nothing"
+        return enumerated([cause.title for cause in self.causes]) or "nothing"
 
 
-@dataclass(frozen=True)
-class Place:
-    """A place where one force that the model lacks could make all measured shapes: score in nats below the best."""
-
-    site: Site
-    channel: str
-    probability: float
-    deficit: float
+def members(explanations: Sequence[Explanation], group: str) -> tuple[tuple[str, float], ...]:
+    """Physics of the explanations of `group` and the probability of each within it, the largest first."""
+    own = [one for one in explanations if one.group == group]
+    total = sum(one.probability for one in own)
+    return shares([one.physics for one in own], [one.probability / total for one in own]) if total > 0 else ()
 
 
-@dataclass(frozen=True)
-class Location:
-    """Resolvent matching: places by probability, those of the 90 % region first; p: whether any single place can be it."""
+def elsewhere(explanations: Sequence[Explanation], best: Explanation) -> tuple[tuple[tuple[Site, ...], float], ...]:
+    """Rival sites of the physics of `best` with more than RIVAL of its probability, the most probable first.
 
-    places: tuple[Place, ...]
-    region: int
-    p: float
-
-    @property
-    def single(self) -> bool:
-        """Whether a force at one place may explain all shapes."""
-        return self.p > 1e-3
-
-
-@dataclass(frozen=True)
-class EnergyMap:
-    """Error in the constitutive relation: where the stiffness of the model and the measured shapes part.
-
-    sites (j,) of elements, nodes or degrees of freedom; share (j,) of the whole that lies there, 1 in all; mode (m,): numbers of
-    the measured modes, error (m,): of each, relative to the strain energy of its shape.
+    Sites of one fit stand in its `elsewhere`; fits of the same physics at other sites are explanations of their own.
     """
-
-    sites: tuple[Site, ...]
-    share: np.ndarray
-    mode: np.ndarray
-    error: np.ndarray
-
-    @property
-    def order(self) -> np.ndarray:
-        """Indices (j,) of the sites, the largest share first."""
-        return np.argsort(-self.share, kind="stable")
-
-    @property
-    def half(self) -> int:
-        """How few sites hold half of the whole."""
-        return int(np.searchsorted(np.cumsum(self.share[self.order]), 0.5)) + 1
-
-
-@dataclass(frozen=True)
-class Law:
-    """The force law that data imply at a place, whatever its form: d = -1/(B' R(lambda) B), R = (K - lambda M)^-1 of the model.
-
-    frequency_hz (m,): measured; stiffness, sd (m,): d there and its standard deviation; fitted (m,): what the cause gives. A
-    spring is constant and positive, a mass is -m lambda, an oscillator has a pole.
-    """
-
-    site: Site
-    unit: str
-    frequency_hz: np.ndarray
-    stiffness: np.ndarray
-    sd: np.ndarray
-    fitted: np.ndarray
+    alike = [one for one in explanations if one.physics == best.physics]
+    total = sum(one.probability for one in alike)
+    found: dict[tuple[Site, ...], float] = {}
+    for one in alike if total > 0 else ():
+        moved = 0.0 if one.sites == best.sites else 1 - sum(share for _, share in one.elsewhere)
+        for sites, share in (*one.elsewhere, (one.sites, moved)):
+            found[sites] = found.get(sites, 0.0) + share * one.probability / total
+    return tuple(sorted(((s, p) for s, p in found.items() if p > RIVAL and s != best.sites), key=lambda item: -item[1]))
 
 
 @dataclass(frozen=True)
@@ -228,39 +191,6 @@ class Untried:
     reason: str
 
 
-class Effort(IntEnum):
-    """What a measurement takes, the least first: the band of the test, a sensor, several, a mass, a hold on the structure."""
-
-    MODES = 1
-    SENSOR = 2
-    SHAPES = 3
-    MASS = 4
-    SUPPORT = 5
-
-
-SETTLES, HELPS = 4.0, 1.0  # nats from which on a measurement will separate two explanations, and may
-
-
-@dataclass(frozen=True)
-class Proposal:
-    """A measurement that would separate two explanations: predicted separation in nats, and the effort."""
-
-    text: str
-    between: tuple[str, str]
-    separation: float
-    effort: Effort = Effort.MODES
-
-    @property
-    def promise(self) -> int:
-        """2: it will settle it; 1: it may; 0: it will not."""
-        return int(self.separation > SETTLES) + int(self.separation >= HELPS)
-
-    @property
-    def outlook(self) -> str:
-        """The same in words."""
-        return ("will not settle it", "may settle it", "will settle it")[self.promise]
-
-
 @dataclass(frozen=True)
 class Choices:
     """What a diagnosis was asked to consider. candidates: their keys, None for all; causes: most of them together."""
@@ -315,6 +245,22 @@ class Diagnosis:
         standing = [pair for pair in self.groups if self.kind != ONE_OF or pair[0] not in self.refuted]
         at = leading(standing, [one.group for one in self.explanations])
         return next(iter(self.explanations), None) if at is None else self.explanations[at]
+
+    @property
+    def leader(self) -> Explanation | None:
+        """The explanation that is named, or that leads its rivals; None where nothing is missing or no name is given."""
+        best = self.best
+        return best if best is not None and best.causes and self.kind in (NAMED, ONE_OF) else None
+
+    @property
+    def members(self) -> tuple[tuple[str, float], ...]:
+        """Physics of the leading group and the probability of each within it, the largest first; empty without a leader."""
+        return () if self.leader is None else members(self.explanations, self.leader.group)
+
+    @property
+    def elsewhere(self) -> tuple[tuple[tuple[Site, ...], float], ...]:
+        """Rival sites of the leader, and the probability of each among its sites; see `elsewhere`."""
+        return () if self.leader is None else elsewhere(self.explanations, self.leader)
 
     @property
     def baseline(self) -> Explanation | None:

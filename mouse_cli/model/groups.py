@@ -1,10 +1,30 @@
-"""Groups of causes that are hard to tell apart: how those of several causes are called, and which of them leads."""
+"""Groups of mechanisms that are hard to tell apart: how those of several are called, and which of them leads."""
 
 from collections.abc import Sequence
 
+TITLES = {  # of groups with more than one member; others are called as their member
+    "axial": "an axial force",
+    "clearance": "a clearance",
+    "friction": "friction",
+    "local-stiffness": "a local loss of stiffness",
+    "sensor": "a faulty sensor",
+    "shear": "shear or rotary inertia",
+    "smooth-stiffness": "a smooth nonlinear stiffness",
+    "support": "a flexible support",
+}
+
+
+def enumerated(words: Sequence[str], last: str = "and") -> str:
+    """Words as a sentence lists them.
+
+    >>> enumerated(["a crack"]), enumerated(["a crack", "a gap"]), enumerated(["a crack", "a gap", "a mass"], "or")
+    ('a crack', 'a crack and a gap', 'a crack, a gap or a mass')
+    """
+    return f" {last} ".join(filter(None, [", ".join(words[:-1]), *words[-1:]]))
+
 
 def joined(groups: Sequence[str]) -> str:
-    """The group of several causes, `none` without any: a support that gives way in two manners is one cause.
+    """The group of several mechanisms, sorted, `none` without any: a support that is flexible in two manners is one mechanism.
 
     >>> joined(["support", "mass", "support"]), joined(["mass", "mass"]), joined([])
     ('mass + support', 'mass + mass', 'none')

@@ -12,12 +12,13 @@ _LEGEND = 130.0
 
 @dataclass(frozen=True)
 class Line:
-    """Points (x, y) with a name and a class for its looks; joined, or each a dot."""
+    """Points (x, y) with a name and a class for its looks; joined, or each a dot, or the outline of a filled band."""
 
     name: str
     looks: str
     points: list[list[float]]
     dots: bool = False
+    filled: bool = False
 
 
 def lines(key: str, title: str, told: str, x: str, y: str, drawn: Sequence[Line], deep: float = float("inf")) -> Markup:
@@ -42,6 +43,8 @@ def lines(key: str, title: str, told: str, x: str, y: str, drawn: Sequence[Line]
 def _drawn(line: Line, at: list[tuple[float, float]]) -> Markup:
     if line.dots:
         return tag("path", d="".join(f"M{_at(x)} {_at(y)}h0" for x, y in at), class_=f"line dots {line.looks}")
+    if line.filled:
+        return tag("polygon", points=" ".join(f"{_at(x)},{_at(y)}" for x, y in at), class_=f"line {line.looks}")
     return tag("polyline", points=" ".join(f"{_at(x)},{_at(y)}" for x, y in at), class_=f"line {line.looks}")
 
 
@@ -82,6 +85,8 @@ def _grid(low: float, high: float, scale, name: str, upward: bool) -> list[Marku
 
 def _named(line: Line, x: float) -> list[Markup]:
     at = [(x + 13, 12.0)] if line.dots else [(x, 12.0), (x + 26, 12.0)]
+    if line.filled:
+        at = [(x, 7.0), (x + 26, 7.0), (x + 26, 17.0), (x, 17.0)]
     return [_drawn(line, at), tag("text", line.name, x=_at(x + 32), y=16)]
 
 

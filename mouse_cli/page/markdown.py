@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from mouse_cli.page.numbers import apart, probable, shown, signed_per_cent
 from mouse_cli.page.sections import verdict
 from mouse_cli.page.sections._words import places
+from mouse_cli.page.sections.field import title, told, words_of
 from mouse_cli.report.reading import Part, updates
 from mouse_cli.report.renderers.markdown import verbatim
 
@@ -25,8 +26,14 @@ def summary(document: Part) -> str:
     blocks = [f"**{escaped(verdict.mark(document)[1])}.** {escaped(verdict.sentence(document))}"]
     if not document.part("verdict"):
         blocks.append(escaped(verdict.form(document)))
-    blocks.append(_listed([*verdict.causes(document), *document.texts("cautions")]))
-    blocks += [*_causes(document), *_frequencies(document), *_parameters(document)]
+    blocks.append(_listed([*verdict.further(document), *document.texts("cautions")]))
+    blocks += [
+        *_field(document),
+        *_causes(document),
+        *_untried(document),
+        *_frequencies(document),
+        *_parameters(document),
+    ]
     blocks += [*_records(document), *_methods(document), *_foreseen(document)]
     remarks = [*document.texts("remarks"), *document.texts("warnings")]
     if remarks:
@@ -58,10 +65,27 @@ def _causes(document: Part) -> Iterator[str]:
         p, title = one.number("probability"), escaped(one.text("title") or one.text("physics"))
         row = (title, verbatim(places(one)), _sizes(one), probable(p))
         (rows if (p or 0.0) >= _COUNTS else others).append(row)
-    heads = ("cause", "place", "size", "probability")
+    heads = ("mechanism", "site", "size", "probability")
     yield _table(heads, rows[:_MOST])
     if others:
         yield from _folds(f"What else was tried: {len(others)}", _table(heads, others[:_MOST]))
+
+
+def _field(document: Part) -> Iterator[str]:
+    """Physics without a name: the values that differ from none by more than two standard deviations."""
+    found = document.part("verdict").part("field")
+    chosen, others = told(found)
+    rows = [(verbatim(name), value, sd) for name, value, sd in map(words_of(found), chosen)]
+    left = f"; {_counted(others, 'site')} with negligible values left out" if others else ""
+    yield from _told(f"{title(found)}{left}", ("site", "value", "sd"), rows, "site", _MOST)
+
+
+def _untried(document: Part) -> Iterator[str]:
+    """Candidates that were left out, folded."""
+    found = document.part("verdict").parts("untried")
+    if found:
+        listed = [f"{each.text('physics')}: {each.text('reason')}" for each in found[:_MOST]]
+        yield from _folds(f"Not tried: {_counted(found, 'candidate')}", _listed(listed))
 
 
 def _sizes(one: Part) -> str:

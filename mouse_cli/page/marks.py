@@ -52,9 +52,7 @@ def named(document: Part) -> list[Named]:
         titles.setdefault(one.text("physics"), one.text("title"))
     title = titles.get(verdict.text("physics"), verdict.text("physics"))
     lead = _leading(causes, verdict)
-    one_of = verdict.text("kind") == "one-of"
-    p = _here(lead) if one_of else verdict.number("probability")
-    found += [Named(site, title, p, True) for site in verdict.parts("sites")]
+    found += [Named(site, title, _here(lead), True) for site in verdict.parts("sites")]
     for cause in verdict.parts("causes"):
         physics = cause.text("physics")
         found.append(Named(cause.part("site"), titles.get(physics, physics), cause.number("probability"), True))

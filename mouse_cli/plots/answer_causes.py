@@ -20,4 +20,4 @@ def draw(document: Part, axes: Any) -> bool:
     return True
 
 
-PLOT = Plot("answer-causes", 40, "Probability of each group of causes", draw, (Part,))
+PLOT = Plot("answer-causes", 40, "Probability of each group of mechanisms", draw, (Part,))

@@ -1,15 +1,20 @@
 """A diagnosis of several arrangements as one JSON document, schema mouse.arrangements/1."""
 
+from collections.abc import Sequence
+from itertools import product
+from math import prod
 from typing import Any
 
 from mouse_cli import __version__
 from mouse_cli.model.arrangements import ArrangementsDiagnosis, Turn
-from mouse_cli.model.diagnosis import ONE_OF
+from mouse_cli.model.diagnosis import ONE_OF, UNKNOWN
 from mouse_cli.model.units import system
-from mouse_cli.report.diagnosis_document import candidate, score, site
+from mouse_cli.report.arrangements_sentences import sentences
+from mouse_cli.report.diagnosis_document import candidate
 from mouse_cli.report.geometry_document import geometry
 from mouse_cli.report.json_values import plain
 from mouse_cli.report.theory import document as theory
+from mouse_cli.report.verdict_document import elsewhere, field, rest, score, site, untried
 
 SCHEMA = "mouse.arrangements/1"
 
@@ -25,9 +30,9 @@ def document(found: ArrangementsDiagnosis) -> dict[str, Any]:
             "sources": [each.source.path for each in found.problems],
             "changed": None if found.changed is None else list(found.changed),
             "exit_code": found.exit_code,
-            "verdict": {"kind": found.kind, "causes": [_told(turn) for turn in found.turns]},
-            "turns": [_turn(turn) for turn in found.turns],
-            "rest": [candidate(found.rest[0], one) for one in found.rest],
+            "verdict": _verdict(found),
+            "turns": [_turn(turn, found.kind != UNKNOWN) for turn in found.turns],
+            "rest": [candidate(found.rest[0], one, found.kind != UNKNOWN) for one in found.rest],
             "residual": {"chi2": found.chi2, "dof": found.dof, "p": found.p},
             "parameters": [
                 {"name": p.name, "unit": p.unit, "prior": p.nominal, "posterior": value, "sd": sd}
@@ -53,8 +58,37 @@ def document(found: ArrangementsDiagnosis) -> dict[str, Any]:
     )
 
 
-def _told(turn: Turn) -> dict[str, Any]:
-    """The cause of a turn, and what else it may be."""
+def _verdict(found: ArrangementsDiagnosis) -> dict[str, Any]:
+    """All mechanisms together with the keys of any diagnosis, in the order of their identification, and each by itself."""
+    explains = found.kind != UNKNOWN
+    turns = found.turns if explains else ()
+    best = [turn.best for turn in turns]
+    sites = [site(cause.site) for one in best for cause in one.causes]
+    return {
+        "kind": found.kind,
+        "sentences": list(sentences(found)),
+        "physics": " + ".join(one.physics for one in best) or None,
+        "group": " + ".join(one.group for one in best) or None,
+        "site": sites[0] if sites else None,
+        "sites": sites,
+        "probability": prod(turn.probability for turn in turns) if turns else None,
+        "members": _members(turns) or None,
+        "elsewhere": elsewhere(turns[0].elsewhere) if len(turns) == 1 else [],
+        "rest": rest(found.remaining),
+        "field": field(found.field),
+        "untried": untried(found.untried),
+        "causes": [_cause(turn, explains) for turn in found.turns],
+    }
+
+
+def _members(turns: Sequence[Turn]) -> dict[str, float]:
+    """Physics within the groups of all turns, and their probability where it is more than 1e-6."""
+    ways = product(*([each for each in turn.members if each[1] > 1e-6] for turn in turns)) if turns else ()
+    return {" + ".join(physics for physics, _ in way): prod(p for _, p in way) for way in ways}
+
+
+def _cause(turn: Turn, explains: bool) -> dict[str, Any]:
+    """The mechanism of a turn, and what else it may be; without probabilities where all together explain nothing."""
     best = turn.best
     rivals = [one.physics for one in turn.rivals if one.group != best.group] if turn.kind == ONE_OF else []
     return {
@@ -62,17 +96,20 @@ def _told(turn: Turn) -> dict[str, Any]:
         "physics": best.physics,
         "group": best.group,
         "site": site(best.causes[0].site),
-        "probability": turn.probability,
+        "sites": [site(cause.site) for cause in best.causes],
+        "probability": turn.probability if explains else None,
+        "members": dict(turn.members) if explains else None,
+        "elsewhere": elsewhere(turn.elsewhere) if explains else [],
         "rivals": rivals,
     }
 
 
-def _turn(turn: Turn) -> dict[str, Any]:
+def _turn(turn: Turn, explains: bool) -> dict[str, Any]:
     before = turn.before
     return {
         "before": {"chi2": before.chi2, "dof": before.dof, "p": before.p},
-        "candidates": [candidate(turn.before, one) for one in turn.explanations],
-        "groups": [{"group": name, "probability": p} for name, p in turn.groups],
+        "candidates": [candidate(turn.before, one, explains) for one in turn.explanations],
+        "groups": [{"group": name, "probability": p if explains else None} for name, p in turn.groups],
         "noise_scale": turn.noise_scale,
         "gain": turn.gain,
         "held_out": None if turn.held is None else score(turn.held),

@@ -4,26 +4,22 @@ from typing import Any
 
 from mouse_cli import __version__
 from mouse_cli.model.diagnosis import (
-    EVERYWHERE,
-    NAMED,
-    ONE_OF,
     UNKNOWN,
     Diagnosis,
     EnergyMap,
     Explanation,
-    HeldOut,
     Law,
     Location,
     Proposal,
-    Score,
     Site,
 )
 from mouse_cli.model.result import Result
 from mouse_cli.model.units import system
 from mouse_cli.report import result_document as of_result
 from mouse_cli.report.frf_document import damping, frf, held_frf
-from mouse_cli.report.json_values import dof_name, plain
+from mouse_cli.report.json_values import plain
 from mouse_cli.report.theory import document as theory
+from mouse_cli.report.verdict_document import held_out, site, verdict
 
 SCHEMA = "mouse.diagnosis/1"
 _PLACES = 200  # most that are listed
@@ -40,9 +36,9 @@ def document(found: Diagnosis) -> dict[str, Any]:
             "title": problem.title.strip(),
             "source": problem.source.path,
             "exit_code": found.exit_code,
-            "verdict": _verdict(found),
-            "candidates": [candidate(found.baseline, one) for one in found.explanations],
-            "groups": [{"group": name, "probability": p} for name, p in found.groups],
+            "verdict": verdict(found),
+            "candidates": candidates(found),
+            "groups": groups(found),
             "noise_scale": found.noise_scale,
             "innovation": of_result.tested(found.innovation),
             "residual": of_result.tested(result.residual),
@@ -50,7 +46,7 @@ def document(found: Diagnosis) -> dict[str, Any]:
             "location": None if found.location is None else _location(found.location),
             "energy": None if found.energy is None else _energy(found.energy),
             "law": None if found.law is None else _law(found.law),
-            "held_out": None if found.held_out is None else _held_out(found.held_out),
+            "held_out": None if found.held_out is None else held_out(found.held_out),
             "frf": frf(found.frf),
             "held_out_frf": held_frf(found.held_frf),
             "damping": damping(found.damping),
@@ -68,23 +64,6 @@ def document(found: Diagnosis) -> dict[str, Any]:
             "warnings": [f"{d.code}: {d.message}" for d in (*problem.warnings, *result.warnings)],
         }
     )
-
-
-def _verdict(found: Diagnosis) -> dict[str, Any]:
-    """physics, group and site of the cause that is named, or that leads its rivals; none of them without a candidate cause."""
-    best = found.best
-    told = best is not None and bool(best.causes) and found.kind in (NAMED, ONE_OF)
-    rivals = [name for name, _ in found.rivals] if found.kind == ONE_OF else []
-    return {
-        "kind": found.kind,
-        "physics": best.physics if told else None,
-        "group": best.group if told else None,
-        "site": site(best.causes[0].site) if told else None,
-        "sites": [site(cause.site) for cause in best.causes] if told else [],
-        "damping": [cause.law or None for cause in best.causes] if told else [],
-        "probability": None if found.kind == UNKNOWN else found.probability,
-        "rivals": rivals,
-    }
 
 
 def _proposal(each: Proposal) -> dict[str, Any]:
@@ -108,8 +87,18 @@ def _asked(found: Diagnosis) -> dict[str, Any]:
     }
 
 
-def candidate(baseline: Explanation | None, one: Explanation) -> dict[str, Any]:
-    """One explanation, beside that without a cause."""
+def candidates(found: Diagnosis) -> list[dict[str, Any]]:
+    """All explanations, the most probable first; without probabilities where none explains the data."""
+    return [candidate(found.baseline, one, found.kind != UNKNOWN) for one in found.explanations]
+
+
+def groups(found: Diagnosis) -> list[dict[str, Any]]:
+    """Groups and their probabilities, likewise."""
+    return [{"group": name, "probability": None if found.kind == UNKNOWN else p} for name, p in found.groups]
+
+
+def candidate(baseline: Explanation | None, one: Explanation, explains: bool = True) -> dict[str, Any]:
+    """One explanation, compared with that without a cause; explains: whether one of them explains the data."""
     sites = [cause.site for cause in one.causes] or [_NOWHERE]
     return {
         "physics": one.physics,
@@ -119,7 +108,7 @@ def candidate(baseline: Explanation | None, one: Explanation) -> dict[str, Any]:
         "sites": [site(each) for each in sites],
         "log_evidence": one.log_evidence,
         "log_evidence_over_none": None if baseline is None else one.log_evidence - baseline.log_evidence,
-        "probability": one.probability,
+        "probability": one.probability if explains else None,
         "elsewhere": [{"sites": [site(each) for each in sites], "share": share} for sites, share in one.elsewhere],
         "parameters": [
             {
@@ -138,13 +127,6 @@ def candidate(baseline: Explanation | None, one: Explanation) -> dict[str, Any]:
         "dof": one.dof,
         "p": one.p,
     }
-
-
-def site(place: Site) -> dict[str, Any]:
-    """A place; ids as decks write them."""
-    ids = [dof_name(i) if isinstance(i, str) else i for i in place.ids]
-    text = place.text or (EVERYWHERE.text if place.kind == EVERYWHERE.kind else "")
-    return {"kind": place.kind, "ids": ids, "position": place.position, "text": text}
 
 
 def _location(location: Location) -> dict[str, Any]:
@@ -179,29 +161,6 @@ def _law(law: Law) -> dict[str, Any]:
         "stiffness": law.stiffness,
         "sd": law.sd,
         "fitted": law.fitted,
-    }
-
-
-def _held_out(held: HeldOut) -> dict[str, Any]:
-    return {
-        "kind": held.kind,
-        "labels": list(held.labels),
-        "measured_hz": held.measured_hz,
-        "baseline": score(held.baseline),
-        "revised": None if held.revised is None else score(held.revised),
-    }
-
-
-def score(found: Score) -> dict[str, Any]:
-    """How well data that no fit has seen were predicted."""
-    return {
-        "rms_frequency_error": found.rms_frequency_error,
-        "log_predictive_density": found.log_predictive_density,
-        "covered": found.covered,
-        "hz": found.frequencies_hz,
-        "sd_hz": found.sd_hz,
-        "mac": found.mac,
-        "rms_shape_error": found.rms_shape_error,
     }
 
 

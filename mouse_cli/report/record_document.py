@@ -13,6 +13,7 @@ from mouse_cli.report.frf_document import thinned
 from mouse_cli.report.geometry_document import geometry
 from mouse_cli.report.json_values import plain
 from mouse_cli.report.theory import document as theory
+from mouse_cli.report.verdict_document import verdict
 
 _SAMPLES = 500  # of a restoring force
 
@@ -27,9 +28,9 @@ def document(found: RecordDiagnosis) -> dict[str, Any]:
             "title": problem.title.strip(),
             "source": problem.source.path,
             "exit_code": found.exit_code,
-            "verdict": of_diagnosis._verdict(found),
-            "candidates": [of_diagnosis.candidate(found.baseline, one) for one in found.explanations],
-            "groups": [{"group": name, "probability": p} for name, p in found.groups],
+            "verdict": verdict(found),
+            "candidates": of_diagnosis.candidates(found),
+            "groups": of_diagnosis.groups(found),
             "noise_scale": found.noise_scale,
             "residual": of_result.tested(found.innovation),
             "noise": None if found.noise is None else vars(found.noise),

@@ -6,12 +6,12 @@ from mouse_cli import __version__
 from mouse_cli.model.diagnosis import Size
 from mouse_cli.model.record_update import RecordUpdate
 from mouse_cli.model.units import system
-from mouse_cli.report import diagnosis_document as of_diagnosis
 from mouse_cli.report import record_document as of_records
 from mouse_cli.report import result_document as of_result
 from mouse_cli.report.geometry_document import geometry
 from mouse_cli.report.json_values import plain
 from mouse_cli.report.theory import document as theory
+from mouse_cli.report.verdict_document import site
 
 
 def document(found: RecordUpdate) -> dict[str, Any]:
@@ -33,7 +33,7 @@ def document(found: RecordUpdate) -> dict[str, Any]:
                 {
                     "physics": one.physics,
                     "title": one.title,
-                    "site": of_diagnosis.site(one.site),
+                    "site": site(one.site),
                     "parameters": [_size(each) for each in one.sizes],
                 }
                 for one in found.laws

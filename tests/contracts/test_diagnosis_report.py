@@ -85,6 +85,10 @@ def test_exit_codes():
         "unknown": 1,
         "bare": 1,
         "functions": 1,
+        "members": 1,
+        "likely": 1,
+        "three": 1,
+        "nameless": 1,
     }
     nothing = DIAGNOSES["nothing"]()
     assert nothing.exit_code == nothing.result.status.exit_code
@@ -94,21 +98,24 @@ def test_exit_codes():
     ("name", "words"),
     [
         ("nothing", "Nothing is missing that this test could show"),
-        ("named", "The model lacks a spring to the ground: degree of freedom 2 (P = 0.98)."),
+        ("named", "The model lacks a spring to the ground: degree of freedom 2 (probability 0.98)."),
         ("named", "all stated variances multiplied by 1.15, which the best fit needs"),
-        ("named", "on condition that the cause is one of those that mouse knows"),
+        ("named", "on condition that the mechanism is one of those that mouse knows"),
         ("named", "stiffness 393.5 N/m (sd 6.8)"),
         ("named", "The extended model passes."),
-        ("two", "an open crack and shear flexibility"),
+        (
+            "two",
+            "an open crack (element 12, 0.43 m from node 1) and shear flexibility (the whole structure): probability 0.99.",
+        ),
         ("two", "depth over height 0.7 (sd 0.02, at the end of the range held possible)"),
-        ("two", "No force at a single place makes the measured shapes"),
+        ("two", "No force at a single site makes the measured shapes"),
         ("two", "no full proof: the error falls too little, and too few frequencies lie within the intervals"),
         (
             "one-of",
             "one of {a spring to the ground; an open crack}. Measure this to separate them: the frequency of mode 5",
         ),
         ("one-of", "predicted separation 5.2, will settle it"),
-        ("one-of", "No cause is probable enough to be named: that takes P = 0.9."),
+        ("one-of", "No mechanism is probable enough to be named: that takes a probability of 0.9."),
         ("one-of", "| an open crack | local-stiffness | 0.30 |"),
         ("one-of", "| nothing | none | 0.10 |"),
         (
@@ -136,8 +143,8 @@ def test_nothing_missing_and_yet_not_excluded():
     open_ = replace(nothing, groups=(("shear", 0.8), ("none", 0.2)))
     assert report.document(nothing)["verdict"]["probability"] == 0.97
     assert report.document(open_)["verdict"]["probability"] == 0.2
-    assert "that there is none has P = 0.20" in " ".join(report.markdown(open_).split())
-    assert "demand no cause" not in report.markdown(nothing)
+    assert "that there is none has probability 0.20" in " ".join(report.markdown(open_).split())
+    assert "demand no mechanism" not in report.markdown(nothing)
 
 
 def _told(found) -> str:
@@ -146,7 +153,7 @@ def _told(found) -> str:
 
 def test_what_a_diagnosis_was_asked_is_echoed():
     found = replace(named(), choices=Choices(("crack", "ground-spring"), 1))
-    assert "of all candidates only crack, ground-spring; one cause at a time. Estimator: bayes" in _told(found)
+    assert "of all candidates only crack, ground-spring; one mechanism at a time. Estimator: bayes" in _told(found)
     asked = report.document(found)["asked"]
     assert (asked["candidates"], asked["causes"], asked["estimator"]) == (["crack", "ground-spring"], 1, "bayes")
     assert report.document(named())["asked"]["candidates"] is None
@@ -162,7 +169,7 @@ def test_other_places_of_the_cause_are_told():
     found = named()
     first = replace(found.best, elsewhere=(((Site("dof", ("3",), text="degree of freedom 3"),), 0.21),))
     found = replace(found, explanations=(first, *found.explanations[1:]))
-    assert "Degree of freedom 2; or, to 21 %, degree of freedom 3." in _told(found)
+    assert "Degree of freedom 2; or at degree of freedom 3 (probability of this site 0.21)." in _told(found)
     (other,) = report.document(found)["candidates"][0]["elsewhere"]
     assert (other["share"], other["sites"][0]["ids"]) == (0.21, [3])
 
@@ -185,7 +192,9 @@ def test_a_list_of_frequencies_does_not_prove_a_mode_more():
     found = replace(
         found, explanations=(first, *found.explanations[1:]), groups=groups, problem=replace(found.problem, test=test)
     )
-    assert "A hidden oscillator leads with P = 0.97, but a list of frequencies alone does not prove" in _told(found)
+    assert "A hidden oscillator leads with probability 0.97, but a list of frequencies alone does not prove" in _told(
+        found
+    )
 
 
 def test_nothing_missing_is_no_praise_for_an_update_that_failed():
@@ -205,7 +214,7 @@ def test_a_faulty_sensor_is_no_fault_of_the_model():
     first = replace(found.best, causes=(cause,))
     swapped = replace(found, explanations=(first, *found.explanations[1:]))
     told = report.printout(swapped)
-    assert "The test is at fault, not the model: two sensors exchanged: sensors 3 and 4 (P = 0.98)." in told
+    assert "The test is at fault, not the model: two sensors exchanged: sensors 3 and 4 (probability 0.98)." in told
 
 
 def test_no_name_without_a_verdict():
@@ -231,6 +240,7 @@ def test_figures(name, tmp_path):
         with open(path, "rb") as file:
             assert file.read(8) == b"\x89PNG\r\n\x1a\n"
     expected = {"named": 6, "two": 5, "one-of": 2, "unknown": 2, "nothing": 3, "bare": 1, "functions": 10}
+    expected |= {"members": 2, "likely": 2, "three": 2, "nameless": 3}
     assert len(written) == expected[name]
     assert len(written) <= len(registry())
 

@@ -77,10 +77,13 @@ def test_mac_matrix_agrees_with_the_run():
 def test_verdicts_in_words():
     told = {name: Reader(made(name)).named("section")[0]["text"] for name in NAMES}
     assert "The model lacks a spring to the ground: degree of freedom 2 (probability > 0.999)." in told["named"]
-    assert "Nothing is missing that this test could show." in told["nothing"]
-    assert "the mass of items that the deck has as massless: items 21, 22 (probability > 0.999)" in told["arrangements"]
-    assert "a spring to the ground: 6TX" in told["arrangements"]
-    assert "does not settle what: a lumped mass; or a local loss of stiffness" in told["one-of"]
+    assert "Nothing is missing that this test could show: the model" in told["nothing"]
+    assert (
+        "The mass of items that the deck has as massless: items 21, 22 (probability > 0.999; log"
+        in told["arrangements"]
+    )
+    assert "A spring to the ground: 6TX" in told["arrangements"]
+    assert "does not settle what: one of {a lumped mass; a local loss of stiffness}." in told["one-of"]
     assert "Not converged" in told["shapes"] and "do not trust the answer" in told["shapes"]
     assert "Answer found and trusted" in told["frequencies"]
 

@@ -22,12 +22,13 @@ def rivals(base: Reduced, start: Fit, kind: type[Model] = Model) -> list[Fit]:
     return [one for one in fits if one is not None]
 
 
-def as_field(one: Fit, log_evidence_over_named: float, held: HeldOut | None) -> Field:
-    """The field of a fit in words and numbers."""
-    base = one.model.base
-    return found(
-        base, one.point.x[: one.model.k], one.covariance[: one.model.k, : one.model.k], log_evidence_over_named, held
-    )
+def field_of(ranking, one: Fit, held: HeldOut | None = None) -> Field:
+    """The field of a fit of a ranking in words and numbers, beside all that has a name there."""
+    odds = {id(each): float(value) for each, value in zip(ranking.fits, ranking.log_odds, strict=True)}
+    named = max(odds[id(ranking.fits[i])] for i in ranking.named)
+    base = one.model.base.first
+    k = one.model.k
+    return found(base, one.point.x[:k], one.covariance[:k, :k], odds[id(one)] - named, held)
 
 
 def extended(problem: Problem, one: Fit) -> Problem | None:

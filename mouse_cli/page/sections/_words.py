@@ -31,7 +31,7 @@ def places(one: Part) -> str:
 
 
 def differences(key: str, title: str, rows: list[tuple[str, float | None, float | None, float | None]]) -> Markup:
-    """Bars of what two models miss of measured frequencies: (label, measured, before, after) each."""
+    """Bars of frequency errors of two models: (label, measured, before, after) each."""
     drawn = []
     for label, measured, before, after in rows[:_MOST_BARS]:
         lengths = apart(before, measured), apart(after, measured)
@@ -46,7 +46,7 @@ def drawn_model(document: Part) -> str:
     """Which model drawings are of."""
     if document.text("schema") == "mouse.modes/1":
         return "the model"
-    return "the model with the cause" if document.part("extended") else "the revised model"
+    return "the extended model" if document.part("extended") else "the revised model"
 
 
 def cut(rows: list) -> str:

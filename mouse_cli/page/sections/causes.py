@@ -1,8 +1,8 @@
-"""Groups of causes and single candidates, with their probabilities."""
+"""Groups of mechanisms and single candidates, with their probabilities, and candidates that were left out."""
 
 from collections.abc import Iterator
 
-from mouse_cli.page.html import Markup
+from mouse_cli.page.html import Markup, tag
 from mouse_cli.page.numbers import probable, shown
 from mouse_cli.page.section import PageSection
 from mouse_cli.page.sections._words import places, shares
@@ -12,30 +12,38 @@ from mouse_cli.report.reading import Part
 _HEADS = (
     "candidate",
     "group",
-    "place",
+    "site",
     "size",
     "probability",
-    "ln evidence over none",
+    "log evidence over none",
     "chi-square",
     "degrees of freedom",
-    "P of more by chance",
+    "p-value",
 )
 
 
 def causes(document: Part) -> Iterator[Markup]:
     """Probabilities of the groups as bars, then every candidate."""
     yield from _judged("", "", document)
-    for number, turn in enumerate(document.parts("turns"), 1):  # of several arrangements: causes told one after another
-        yield from _judged(f"-{number}", f" (turn {number})", turn)
+    for number, turn in enumerate(document.parts("turns"), 1):  # of several configurations: sequential identification
+        yield from _judged(f"-{number}", f" (step {number})", turn)
     yield table("rest", "What else was tried, and is not demanded", _HEADS, map(_row, document.parts("rest")))
+    yield _untried(document.part("verdict").parts("untried"))
+
+
+def _untried(found: list[Part]) -> Markup:
+    """Candidates that were left out and why, folded; empty without any."""
+    rows = [(each.text("physics"), each.text("reason")) for each in found]
+    left = table("untried", "Candidates that were not tried", ("candidate", "reason"), rows)
+    return tag("details", tag("summary", f"Not tried: {len(rows)}"), left) if rows else left
 
 
 def _judged(key: str, which: str, document: Part) -> Iterator[Markup]:
     groups = document.parts("groups")
     rows = [(g.text("group"), probable(g.number("probability")), g.number("probability")) for g in groups]
-    title, told = f"Probability of each group of causes{which}", "Given that the cause is a candidate or nothing."
+    title, told = f"Probability of each group{which}", "Given that what is missing is a candidate or nothing."
     yield shares(f"groups{key}", title, told, rows)
-    caption = f"Candidates, the most probable first{which}"
+    caption = f"Candidates, the leading one first{which}"
     yield table(f"candidates{key}", caption, _HEADS, map(_row, document.parts("candidates")))
 
 
@@ -60,4 +68,4 @@ def _size(size: Part) -> str:
     return f"{size.text('name')} {shown(size.number('value'), 4)}{unit} (sd {shown(size.number('sd'), 2)})"
 
 
-SECTION = PageSection("causes", 20, "Causes", causes)
+SECTION = PageSection("causes", 20, "Mechanisms", causes)

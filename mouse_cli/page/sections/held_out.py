@@ -1,4 +1,4 @@
-"""Is it true: frequencies that no fit has seen, foreseen by the model as it is and with the cause."""
+"""Is it true: frequencies that no fit has seen, predicted by the model as it is and by the extended one."""
 
 from collections.abc import Iterator
 
@@ -9,8 +9,8 @@ from mouse_cli.page.sections._words import differences, paragraphs
 from mouse_cli.page.tables import Cell, table
 from mouse_cli.report.reading import Part
 
-_HEADS = ("frequency", "measured, Hz", "as it is, Hz", "sd", "off", "with the cause, Hz", "sd", "off")
-_MODELS = (("baseline", "the model as it is"), ("revised", "the model with the cause"))
+_HEADS = ("frequency", "measured, Hz", "as it is, Hz", "sd", "off", "extended, Hz", "sd", "off")
+_MODELS = (("baseline", "the model as it is"), ("revised", "the extended model"))
 
 
 def held_out(document: Part) -> Iterator[Markup]:
@@ -20,15 +20,15 @@ def held_out(document: Part) -> Iterator[Markup]:
     if not labels or len(labels) != len(measured):
         return
     yield paragraphs(
-        f"Held out: {held.text('kind') or 'whole arrangements'}.",
+        f"Held out: {held.text('kind') or 'whole configurations'}.",
         *(_score(name, held.part(key)) for key, name in _MODELS),
     )
     columns = [_padded(held.part(key).numbers(what), len(labels)) for key, _ in _MODELS for what in ("hz", "sd_hz")]
     if held.part("revised"):
         rows = list(zip(labels, measured, columns[0], columns[2], strict=True))
-        yield differences("off-held-out", "What is missed of frequencies held out", rows)
+        yield differences("off-held-out", "Frequency error of held-out data", rows)
     body = [_row(label, *values) for label, *values in zip(labels, measured, *columns, strict=True)]
-    yield table("held-out-frequencies", "Frequencies held out, and as they were foreseen", _HEADS, body)
+    yield table("held-out-frequencies", "Frequencies held out, and as they were predicted", _HEADS, body)
 
 
 def _score(name: str, score: Part) -> str:

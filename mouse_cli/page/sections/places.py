@@ -1,4 +1,4 @@
-"""Where: the place posterior by the shapes alone, and where stiffness and shapes disagree."""
+"""Where: localisation by the shapes alone, and where stiffness and shapes disagree."""
 
 from collections.abc import Iterator
 
@@ -24,24 +24,24 @@ def where(document: Part) -> Iterator[Markup]:
 def _posterior(location: Part) -> Iterator[Markup]:
     if not location:
         return
-    single = (
-        "A single place may be it." if location.flag("single") else "No force at a single place makes these shapes."
-    )
+    single = "A single site may be it." if location.flag("single") else "No force at a single site makes these shapes."
     region, tried = shown(location.number("region")), shown(location.number("tried"))
-    yield paragraphs(f"{single} The 90 % region holds {region} of {tried} places.")
+    yield paragraphs(f"{single} The 90 % region holds {region} of {tried} sites.")
     found = location.parts("places")
     yield _along(found)
     rows = [(place(p.part("site")), probable(p.number("probability")), p.number("probability")) for p in found]
     likely = [row for row in rows if (row[2] or 0.0) >= 1e-3] or rows[:5]
-    yield shares("place-posterior", "Probability of each place", "If one force made the measured shapes.", likely)
-    heads = ("place", "motion", "probability", "nats below the best")
-    yield table("places", "Places, the most probable first", heads, map(_row, found))
+    yield shares("place-posterior", "Probability of each site", "If one force made the measured shapes.", likely)
+    heads = ("site", "motion", "probability", "nats below the best")
+    yield table("places", "Sites, the most probable first", heads, map(_row, found))
 
 
 def _along(places: list[Part]) -> Markup:
     """ln of the probability over position, where the places lie on one line; nothing where they do not."""
     at = [_position(each.part("site")) for each in places]
     known = [(p, -(each.number("deficit") or 0.0)) for p, each in zip(at, places, strict=True) if p]
+    if len({len(p) for p, _ in known}) != 1:
+        return Markup("")
     points = np.array([p for p, _ in known], float)
     if len(known) < max(3, 0.5 * len(places)):
         return Markup("")
@@ -55,7 +55,7 @@ def _along(places: list[Part]) -> Markup:
     line = [[x, best[x]] for x in sorted(best)]
     top = max(line, key=lambda point: point[1])
     name = f"{'xyz'[axis]}" if len(points[0]) == 3 else "degree of freedom"
-    title = "ln of the probability of each place, below the best"
+    title = "Log probability of each site, below the best"
     told = f"Over {name}; the best is at {shown(top[0], 4)}."
     drawn = [Line("", "revised", line), Line("", "revised", line, dots=True)]
     return lines("place-along", title, told, name, "nats", drawn, _DEEP)
@@ -82,7 +82,7 @@ def _energy(energy: Part) -> Iterator[Markup]:
         rows.append((place(each.part("site")), Cell(share, "–" if share is None else f"{100 * share:.3g} %")))
     drawn = [(name, cell.words, cell.value) for name, cell in rows[:12]]
     yield shares("energy-shares", "Where stiffness and shapes disagree", "Largest shares of the energy.", drawn)
-    yield table("energy", "Shares of the energy by which stiffness and shapes disagree", ("place", "share"), rows)
+    yield table("energy", "Shares of the energy by which stiffness and shapes disagree", ("site", "share"), rows)
 
 
 SECTION = PageSection("where", 30, "Where", where)

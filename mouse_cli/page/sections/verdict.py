@@ -15,7 +15,7 @@ _FORM = {
     "allows, or are less accurate than they are said to be. Do not trust the revised values.",
     "untested": "Nothing is said of the form of the model: the data leave nothing to test it by, or there is no answer.",
 }
-_UNKNOWN = "Something is missing that no candidate explains. Do not name a cause."
+_UNKNOWN = "Something is missing that no candidate explains. Do not name a mechanism."
 _SEVERAL = {
     "named": "The model lacks this:",
     "one-of": "Something is missing, and the test does not settle all of it:",
@@ -45,12 +45,12 @@ def verdict(document: Part) -> Iterator[Markup]:
     yield tag("p", sentence(document), class_="verdict")
     if not found:
         yield paragraphs(document.text("advice"), form(document))
-    yield listed([*causes(document), *document.texts("cautions")])
+    yield listed([*further(document), *document.texts("cautions")])
     yield paragraphs(_refuted(document), _misstated(document))
     yield table(
         "tests",
         "Tests of the model's form",
-        ("test", "chi-square", "degrees of freedom", "P of more by chance"),
+        ("test", "chi-square", "degrees of freedom", "p-value"),
         _tests(document),
     )
 
@@ -71,7 +71,7 @@ def sentence(document: Part) -> str:
 
 
 def _compared(document: Part) -> str:
-    """Which method foresees best what it was not given; none where nothing was held out."""
+    """Which method predicts best what it was not given; none where nothing was held out."""
     errors: dict[str, float] = {}
     for one in document.parts("methods"):
         kept = [c.number("rms_percent") for c in one.parts("configurations") if not c.flag("fitted")]
@@ -81,7 +81,7 @@ def _compared(document: Part) -> str:
     if not errors:
         return f"{count} methods side by side; nothing was held out to judge them by."
     best = min(errors, key=errors.__getitem__)
-    return f"Of {count} methods {best} foresees best what it was not given: {shown(errors[best], 3)} % rms at most."
+    return f"Of {count} methods {best} predicts best what it was not given: {shown(errors[best], 3)} % rms at most."
 
 
 def _foreseen(document: Part) -> str:
@@ -96,9 +96,11 @@ def form(document: Part) -> str:
     return _FORM.get(document.text("model_form"), "")
 
 
-def causes(document: Part) -> list[str]:
-    """Causes of several arrangements, one sentence each."""
-    return [*map(_cause, document.part("verdict").parts("causes"), document.parts("turns"))]
+def further(document: Part) -> list[str]:
+    """The other sentences of the verdict; of several configurations, in documents without sentences, one a mechanism."""
+    found = document.part("verdict")
+    told = found.texts("sentences")
+    return told[1:] if told else [*map(_cause, found.parts("causes"), document.parts("turns"))]
 
 
 def _run(document: Part) -> str:
@@ -123,7 +125,7 @@ def _misstated(document: Part) -> str:
 
 
 def _cause(cause: Part, turn: Part) -> str:
-    """One of several causes of arrangements: what, where, how probable, and what else it may be."""
+    """One of several mechanisms of configurations: what, where, how probable, and what else it may be."""
     physics, p = cause.text("physics"), probable(cause.number("probability"))
     title = next((o.text("title") for o in turn.parts("candidates") if o.text("physics") == physics), physics)
     rivals = f"; or {', or '.join(cause.labels('rivals'))}" if cause.labels("rivals") else ""
@@ -131,6 +133,9 @@ def _cause(cause: Part, turn: Part) -> str:
 
 
 def _told(document: Part, found: Part) -> str:
+    """The first sentence of the document; documents of earlier versions have none."""
+    if found.texts("sentences"):
+        return found.texts("sentences")[0]
     kind, titles = found.text("kind"), _titles(document, found)
     if kind == "nothing-missing":
         return "Nothing is missing that this test could show."

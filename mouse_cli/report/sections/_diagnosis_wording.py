@@ -1,7 +1,12 @@
 """Words that the sections of a diagnosis share."""
 
-from mouse_cli.model.diagnosis import NAMED, Cause, Diagnosis, Explanation, Site, Size
+from collections.abc import Sequence
+
+from mouse_cli.model.diagnosis import NAMED, Cause, Diagnosis, Explanation, Site, Size, members
+from mouse_cli.model.groups import TITLES, enumerated
 from mouse_cli.model.units import Units
+
+LEAST = 0.005  # probability within a group below which a member is not printed
 
 
 def probable(p: float) -> str:
@@ -16,13 +21,23 @@ def probable(p: float) -> str:
 
 
 def with_p(p: float) -> str:
-    """The same with its letter.
+    """The same with its noun.
 
     >>> with_p(0.98), with_p(0.99999)
-    ('P = 0.98', 'P > 0.999')
+    ('probability 0.98', 'probability > 0.999')
     """
-    shown = probable(p)
-    return f"P {shown}" if shown[:1] in "<>" else f"P = {shown}"
+    return f"probability {probable(p)}"
+
+
+def p_value(p: float) -> str:
+    """A p-value with its letter.
+
+    >>> p_value(0.331), p_value(0.00042), p_value(1e-9), p_value(0.9999)
+    ('p = 0.33', 'p = 0.0004', 'p < 1e-6', 'p > 0.999')
+    """
+    if p > 0.999 or p < 1e-6:
+        return "p > 0.999" if p > 0.999 else "p < 1e-6"
+    return f"p = {p:.2f}" if p >= 0.1 else f"p = {p:.2g}" if p >= 0.01 else f"p = {p:.1g}"
 
 
 def nats(value: float) -> str:
@@ -64,7 +79,7 @@ def likeness(mac: float) -> str:
 
 
 def place(site: Site) -> str:
-    """A place in words.
+    """A site in words.
 
     >>> place(Site("node", (3,), (1.0, 0.0, 0.0))), place(Site("dof", ("12TY",), text="degree of freedom 12TY"))
     ('node 3', 'degree of freedom 12TY')
@@ -72,21 +87,68 @@ def place(site: Site) -> str:
     return site.text or f"{site.kind} {', '.join(map(str, site.ids))}".strip()
 
 
+def _several(texts: Sequence[str]) -> str:
+    """Sites, in whose words there may be commas."""
+    return "; ".join(texts) if len(texts) > 2 else " and ".join(texts)
+
+
 def where(one: Explanation) -> str:
-    """The places of an explanation."""
-    return " and ".join(place(cause.site) for cause in one.causes)
+    """The sites of an explanation."""
+    return _several([place(cause.site) for cause in one.causes])
 
 
-def whereabouts(one: Explanation, units: Units) -> str:
-    """The same with coordinates, and other places that hold a share of the probability.
+def lacking(one: Explanation) -> str:
+    """What and where: each mechanism of an explanation with its site.
+
+    >>> of = lambda key, at: Cause(key, key, f"a {key}", Site("node", (at,)), ())
+    >>> lacking(Explanation((of("mass", 3),), 1, 1, 1, 0, None))
+    'a mass: node 3'
+    >>> lacking(Explanation((of("mass", 3), of("crack", 5), of("gap", 7)), 1, 1, 1, 0, None))
+    'a crack (node 5), a gap (node 7) and a mass (node 3)'
+    """
+    if len(one.causes) == 1:
+        return f"{one.title}: {where(one)}"
+    return enumerated([f"{cause.title} ({place(cause.site)})" for cause in one.causes])
+
+
+def grouped(explanations: Sequence[Explanation], one: Explanation) -> str:
+    """What the group of `one` is called: as `one` where it has no other member that counts."""
+    if not within(explanations, one):
+        return one.title
+    titles = [TITLES.get(cause.group, cause.title) for cause in one.causes]
+    return enumerated([t for i, t in enumerate(titles) if one.causes[i].group != "support" or t not in titles[:i]])
+
+
+def within(explanations: Sequence[Explanation], one: Explanation) -> str:
+    """Members of the group of `one` and the probability of each within it; empty where one holds it all.
+
+    >>> of = lambda key, title, p: Explanation((Cause(key, "local-stiffness", title, Site("node"), ()),), 1, 1, 1, 0, None, p)
+    >>> both = of("crack", "an open crack", 0.6), of("stiffness-loss", "a local loss of stiffness", 0.3)
+    >>> grouped(both, both[0]), within(both, both[0]), within(both[:1], both[0])
+    ('a local loss of stiffness', 'an open crack 0.67, stiffness-loss 0.33', '')
+    """
+    found = [(physics, p) for physics, p in members(explanations, one.group) if p >= LEAST]
+    title = {each.physics: each.title for each in reversed(explanations)}
+    named = lambda physics: physics if title[physics] in TITLES.values() else title[physics]
+    return ", ".join(f"{named(physics)} {probable(p)}" for physics, p in found) if len(found) > 1 else ""
+
+
+def whereabouts(one: Explanation, units: Units, elsewhere: tuple[tuple[tuple[Site, ...], float], ...] = ()) -> str:
+    """The sites with coordinates, and rival sites with the probability of each among the sites of the explanation.
 
     >>> mass = Cause("mass", "mass", "a mass", Site("node", (3,), (1.0, 0.5, 0.0)), ())
-    >>> whereabouts(Explanation((mass,), 1, 1, 1, 0, None, 1.0, (((Site("node", (7,)),), 0.12),)), Units("mm", "t", "N"))
-    'node 3 at (1, 0.5, 0) mm; or, to 12 %, node 7'
+    >>> whereabouts(Explanation((mass,), 1, 1, 1, 0, None), Units("mm", "t", "N"), (((Site("node", (7,)),), 0.12),))
+    'node 3 at (1, 0.5, 0) mm; or at node 7 (probability of this site 0.12)'
     """
-    first = " and ".join(f"{place(cause.site)}{_at(cause.site, units)}" for cause in one.causes)
-    others = [f"; or, to {100 * share:.0f} %, {' and '.join(map(place, sites))}" for sites, share in one.elsewhere]
-    return "".join([first, *others])
+    first = _several([f"{place(cause.site)}{_at(cause.site, units)}" for cause in one.causes])
+    return first + rivals_of_site(elsewhere)
+
+
+def rivals_of_site(elsewhere: tuple[tuple[tuple[Site, ...], float], ...]) -> str:
+    """Rival sites with the probability of each; empty without any."""
+    what = lambda sites: "this site" if len(sites) == 1 else "these sites"
+    told = [f"; or at {_several([*map(place, s)])} (probability of {what(s)} {probable(p)})" for s, p in elsewhere]
+    return "".join(told)
 
 
 def _at(site: Site, units: Units) -> str:

@@ -12,11 +12,12 @@ from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, Share
 from mouse_cli.diagnosis.likelihoods.configurations.predict import predicted, shared_errors
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
+from mouse_cli.diagnosis.nameless.fit import field_of, rivals
 from mouse_cli.diagnosis.search.fit import Fit
-from mouse_cli.diagnosis.search.rank import Ranking, rank
+from mouse_cli.diagnosis.search.rank import Ranking, rank, ranking
 from mouse_cli.diagnosis.verdict import ODDS, SURE, doubtful, explanation, explanations, leader, sure
 from mouse_cli.model.arrangements import ArrangementsDiagnosis, Turn
-from mouse_cli.model.diagnosis import BY_DECK, NAMED, ONE_OF, Choices, HeldOut, Score
+from mouse_cli.model.diagnosis import BY_DECK, NAMED, ONE_OF, Choices, Field, HeldOut, Score
 from mouse_cli.model.problem import Problem
 
 _MOST = 8  # causes that are told one after another
@@ -117,7 +118,19 @@ def _told(
         held_out=held,
         refuted=refuted,
         choices=choices,
+        field=_field(at) if doubtful(last, False) else None,
+        untried=at.ranking.untried,
     )
+
+
+def _field(at: State) -> Field | None:
+    """What is left beside all mechanisms, where it has no name and yet explains the data better than nothing."""
+    baseline, fits = at.ranking.baseline, list(at.ranking.fits)
+    if not any(one.nameless for one in fits):
+        fits += rivals(at.fitted.arranged, baseline, Together)
+    found = ranking(baseline, fits)
+    i = next((i for i, one in enumerate(found.fits) if one.nameless), None)
+    return None if i is None or not found.log_odds[i] > ODDS else field_of(found, found.fits[i])
 
 
 def _state(fitted: Decks, unseen: Decks, known: dict[str, Candidate] | None, causes: int) -> State:

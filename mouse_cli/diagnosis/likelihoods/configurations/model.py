@@ -100,6 +100,11 @@ class Arranged:
         """The field of those that have what is sought; None: there is none."""
         return getattr(self.parts[0], "nameless", None)
 
+    @property
+    def first(self) -> Reduced:
+        """The first configuration that has what is sought."""
+        return self.parts[self.having.index(True)]
+
     def judged_by(self, data: SharedData) -> "Arranged":
         """Itself: accuracies of arrangements stay as their decks state them."""
         return self

@@ -175,6 +175,11 @@ class Reduced:
         """What `do` makes of every configuration, and of whether it has what is sought: this is the only one."""
         return do(self, True)
 
+    @property
+    def first(self) -> "Reduced":
+        """The first configuration: the only one."""
+        return self
+
     def judged_by(self, data: Data) -> "Reduced":
         """The same model for the same test at other accuracies."""
         return replace(self, data=data)

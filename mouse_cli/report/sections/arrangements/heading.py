@@ -16,15 +16,15 @@ def heading(found: ArrangementsDiagnosis, options: Options) -> Iterator[Block]:
     data = sum(each.test.m for each in found.problems)
     unseen = 0 if found.held_out is None else len(found.held_out.labels)
     yield Text(
-        f"{counted(len(found.problems), 'arrangement')} of one structure, {counted(data, 'measured mode')} in all, fitted "
-        f"together; {counted(unseen, 'frequency', 'frequencies')} of other arrangements held out. They share "
-        f"{counted(len(first.parameters), 'parameter')} and every cause."
+        f"{counted(len(found.problems), 'configuration')} of one structure, {counted(data, 'measured mode')} in all, fitted "
+        f"together; {counted(unseen, 'frequency', 'frequencies')} of other configurations held out. They share "
+        f"{counted(len(first.parameters), 'parameter')} and every mechanism."
     )
     yield Text(f"{stated(found)} What the decks state of their tests comes in addition, independent in each.")
     yield Text(f"Fitted: {', '.join(each.source.path for each in found.problems)}.")
     if found.changed is not None:
         own = [each.source.path for each, has in zip(found.problems, found.changed, strict=True) if has]
-        yield Text(f"Causes are sought in what changed alone: {', '.join(own)}.")
+        yield Text(f"Mechanisms are sought in what changed alone: {', '.join(own)}.")
 
 
 SECTION = Section("arrangements-heading", 20, "Decks", heading, (ArrangementsDiagnosis,))

@@ -12,7 +12,7 @@ from mouse_cli.report.sections._wording import LEFT
 _SCORES = (
     Column("model", align=LEFT),
     Column("rms frequency error", "per cent"),
-    Column("ln predictive density"),
+    Column("log predictive density"),
     Column("within 90 % intervals", "per cent"),
 )
 _ROWS = (
@@ -20,7 +20,7 @@ _ROWS = (
     Column("test", "Hz"),
     Column("as it is", "Hz"),
     Column("error", "per cent"),
-    Column("with all causes", "Hz"),
+    Column("with all mechanisms", "Hz"),
     Column("sd", "Hz"),
     Column("error", "per cent"),
 )
@@ -34,7 +34,7 @@ def held_out(found: ArrangementsDiagnosis, options: Options) -> Iterator[Block]:
     after = held.revised
     scores = [("as it is", held.baseline)]
     scores += [(f"with {turn.best.title}", turn.held) for turn in found.turns if turn.held is not None]
-    scores += [] if after is None else [("with all causes, fitted together", after)]
+    scores += [] if after is None else [("with all mechanisms, fitted together", after)]
     yield Table(_SCORES, tuple(_score(name, score) for name, score in scores))
     off = 100 * (held.baseline.frequencies_hz / held.measured_hz - 1)
     columns = [held.measured_hz, held.baseline.frequencies_hz, map(per_cent, off)]
@@ -54,5 +54,5 @@ def _score(name: str, score: Score) -> tuple[Cell, ...]:
 
 
 SECTION = Section(
-    "arrangements-held-out", 80, "Arrangements held out, before and after", held_out, (ArrangementsDiagnosis,)
+    "arrangements-held-out", 80, "Configurations held out, before and after", held_out, (ArrangementsDiagnosis,)
 )

@@ -26,7 +26,7 @@ def parameters(found: ArrangementsDiagnosis, options: Options) -> Iterator[Block
     )
     if rows:
         yield Table(_COLUMNS, rows)
-    yield Text("Errors of theory in ln f that all arrangements share, as far as the data tell:")
+    yield Text("Errors of theory in ln f that all configurations share:")
     yield Table(_ERRORS, tuple((e.mode, f"{100 * e.value:.2f}", f"{100 * e.sd:.2g}") for e in found.shared))
 
 

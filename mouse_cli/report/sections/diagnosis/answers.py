@@ -11,25 +11,29 @@ from mouse_cli.model.diagnosis import (
     ONE_OF,
     UNKNOWN,
     Diagnosis,
-    Explanation,
     HeldOut,
     Location,
     Score,
+    elsewhere,
 )
 from mouse_cli.report.blocks import Block, Column, Heading, Table, Text
+from mouse_cli.report.field_words import held_words
 from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._diagnosis_wording import (
+    grouped,
     leaders,
+    p_value,
     place,
     probable,
-    separation,
     sized,
     standing,
-    where,
     whereabouts,
     with_p,
+    within,
 )
-from mouse_cli.report.sections._wording import LEFT, chance, counted
+from mouse_cli.report.sections._field import field_blocks
+from mouse_cli.report.sections._wording import LEFT, counted
+from mouse_cli.report.verdict_sentences import faulty, remains, sentences
 
 _DEMANDED = 0.5  # probability of no cause below which others stay likely though the data do not demand them
 _FEW = 0.25  # share of all places that may hold half of the energy, for it to point anywhere
@@ -40,71 +44,30 @@ _GAIN, _RATIO, _COVERED = 3.0, 0.7, 0.7  # what a proof takes: nats, ratio of er
 
 def answers(found: Diagnosis, options: Options) -> Iterator[Block]:
     """The verdict and what it stands or falls with, then the answers one by one."""
-    yield Text(_verdict(found))
+    yield Text(" ".join(sentences(found)))
     yield from (Text(text) for text in found.cautions)
     for question, told in (("Where?", _where), ("What?", _what), ("How much?", _how_much), ("Is it true?", _true)):
         yield Heading(question, 2)
         yield from told(found)
 
 
-def _verdict(found: Diagnosis) -> str:
-    best = found.best
-    if found.kind == NOTHING:
-        return _nothing(found)
-    if found.kind == NAMED:
-        begin = "The test is at fault, not the model:" if _faulty(best) else "The model lacks"
-        return f"{begin} {best.title}: {where(best)} ({with_p(found.probability)})."
-    if found.kind == ONE_OF:
-        named = "; ".join(one.title for one in leaders(found))
-        return f"Something is missing, and the test does not settle what: one of {{{named}}}. {_separating(found)}"
-    if found.misstated:
-        return (
-            "Model and test disagree, and the test itself looks at fault. No cause can be told before that is settled."
-        )
-    return (
-        "Something is missing that no candidate explains. Do not trust the revised parameters, and do not name a cause."
-    )
-
-
-def _faulty(best: Explanation) -> bool:
-    """Whether the cause lies in the test alone."""
-    return all(cause.site.kind == "sensor" for cause in best.causes)
-
-
-def _nothing(found: Diagnosis) -> str:
-    status = found.result.status
-    told = "Nothing is missing that this test could show: the model, with its parameters revised, explains the data."
-    if not found.result.residual.dof:
-        told = (
-            "Nothing is missing that this test could show, and it could show little: its parameters can follow all of its data, so "
-            "that only how far they move from the prior speaks of what is missing."
-        )
-    return told if status.exit_code == 0 else f"{told} But its revision is not to be trusted. {status.sentence}"
-
-
-def _separating(found: Diagnosis) -> str:
-    if not found.proposals:
-        return "No measurement can be proposed to separate them."
-    best = found.proposals[0]
-    if not best.promise:
-        best = max(found.proposals, key=lambda each: each.separation)
-        tried = f"the best, {best.text}, has a predicted separation of {separation(best.separation)}"
-        return f"None of the measurements that were tried will settle it; {tried}."
-    return f"Measure this to separate them: {best.text} (predicted separation {separation(best.separation)}, {best.outlook})."
-
-
 def _where(found: Diagnosis) -> Iterator[Block]:
-    shapes = "" if found.kind == NAMED and _faulty(found.best) else f"{_location(found.location)}{_energy(found)}"
+    units = found.problem.units
+    shapes = "" if found.kind == NAMED and faulty(found.best) else f"{_location(found.location)}{_energy(found)}"
     if found.kind == NOTHING:
-        yield Text("Nowhere: model and test part no more than their accuracies let expect.")
+        yield Text("Nowhere: model and test are consistent within their accuracies.")
     elif found.kind == NAMED:
-        yield Text(f"{_capital(whereabouts(found.best, found.problem.units))}.{shapes}")
+        yield Text(f"{_capital(whereabouts(found.best, units, found.elsewhere))}.{shapes}")
     elif found.kind == ONE_OF:
-        yield Text(f"That depends on what it is.{shapes}")
+        yield Text(f"{'That depends on what it is' if len(leaders(found)) > 1 else 'If it is there, here'}.{shapes}")
         columns = (Column("if it is", align=LEFT), Column("then at", align=LEFT))
-        yield Table(columns, tuple((one.title, whereabouts(one, found.problem.units)) for one in leaders(found)))
+        at = lambda one: whereabouts(one, units, elsewhere(found.explanations, one))
+        yield Table(columns, tuple((one.title, at(one)) for one in leaders(found)))
+    elif found.field is not None:
+        yield from field_blocks(found.field, units)
+        yield from map(Text, filter(None, [shapes.strip()]))
     else:
-        yield Text(shapes.strip() or "No place can be given without a cause that explains the data.")
+        yield Text(shapes.strip() or "No site can be given without a mechanism that explains the data.")
 
 
 def _location(location: Location | None) -> str:
@@ -112,11 +75,11 @@ def _location(location: Location | None) -> str:
     if location is None or not location.places:
         return ""
     if not location.single:
-        return " No force at a single place makes the measured shapes; the cause is distributed, or there are several."
-    first, region = location.places[0], counted(location.region, "place")
+        return " No force at a single site makes the measured shapes; what is missing is distributed, or acts at several sites."
+    first, region = location.places[0], counted(location.region, "site")
     return (
         f" If one force made the measured shapes, whatever its law, it would act here: {place(first.site)} "
-        f"({with_p(first.probability)}; the 90 % region holds {region} of {len(location.places)})."
+        f"({with_p(first.probability)} among sites; the 90 % region holds {region} of {len(location.places)})."
     )
 
 
@@ -127,45 +90,60 @@ def _energy(found: Diagnosis) -> str:
         return ""
     most = ", ".join(place(energy.sites[i]) for i in energy.order[: min(energy.half, 3)])
     return (
-        f" Stiffness and shapes disagree most at {most}: {energy.half} of {len(energy.sites)} places hold half of that."
+        f" Stiffness and shapes disagree most at {most}: {energy.half} of {len(energy.sites)} sites hold half of that."
     )
 
 
 def _what(found: Diagnosis) -> Iterator[Block]:
-    best, conditional = found.best, "P holds on condition that the cause is one of those that mouse knows"
+    best, conditional = (
+        found.best,
+        "Probabilities hold on condition that the mechanism is one of those that mouse knows",
+    )
     if found.kind == NOTHING:
         total = found.result.residual
         p = found.baseline.p if found.frf and found.baseline else total.p  # functions alone decide where there are any
-        chances = f": noise alone leaves a larger misfit {chance(p)}" if total.dof else ""
+        chances = f": goodness of fit {p_value(p)}" if total.dof else ""
         hidden = "An effect that moves the data by less than their accuracies stays hidden"
         yield Text(f"Nothing{chances}. {hidden}.{_open(found)}")
     elif found.kind == NAMED:
         yield Text(
-            f"{_capital(best.title)}, group {best.group}, {with_p(found.probability)}. Noise alone leaves a larger misfit than the "
-            f"extended model does {chance(best.p)}{_noise(found)}. {conditional}."
+            f"{_capital(grouped(found.explanations, best))}, group {best.group}, {with_p(found.probability)} of the "
+            f"group{_inside(found)}. Goodness of fit of the extended model {p_value(best.p)}{_noise(found)}. {conditional}."
         )
+        if found.rest is not None:
+            yield Text(f"That is not all: {remains(found.rest)}. It has no name here.")
     elif found.kind == ONE_OF:
-        columns = (Column("cause", align=LEFT), Column("group", align=LEFT), Column("probability"))
-        rows = [(one.title, one.group, probable(dict(found.groups)[one.group])) for one in standing(found)]
+        inside = Column("members within the group", align=LEFT)
+        columns = (Column("mechanism", align=LEFT), Column("group", align=LEFT), Column("probability"), inside)
+        tried, p = found.explanations, dict(found.groups)
+        rows = [(grouped(tried, one), one.group, probable(p[one.group]), within(tried, one)) for one in standing(found)]
         yield Text(_unsettled(found))
-        yield Table(columns, tuple(rows))
+        yield Table(columns, tuple(rows)).without_empty_columns()
         yield Text(f"{conditional}{_noise(found)}.")
     elif best is None or not best.causes or found.groups[0][0] == "none":
         yield Text("No candidate does better than none at all.")
     else:
         yield Text(
-            f"No candidate is adequate. Noise alone leaves a larger misfit than the nearest, {best.title}, does "
-            f"{chance(best.p)}{_noise(found)}; that it is nearest does not make it the cause."
+            f"No candidate is adequate. The nearest, {best.title}, has a goodness of fit of {p_value(best.p)}{_noise(found)}; "
+            "that it is nearest does not make it the cause."
         )
+
+
+def _inside(found: Diagnosis) -> str:
+    """Members of the group of what is named, where there are several that count."""
+    inside = within(found.explanations, found.best)
+    return f", members within it: {inside}" if inside else ""
 
 
 def _unsettled(found: Diagnosis) -> str:
     """Why no name is given."""
     best, measured = found.best, found.problem.test
     if dict(found.groups).get("none", 0.0) > found.probability:
-        return "No cause makes the data much more probable than none does: they may also be less accurate than they are said to be."
+        return (
+            "No mechanism makes the data much more probable than none does: they may also be less accurate than stated."
+        )
     if found.probability < _SURE:
-        return f"No cause is probable enough to be named: that takes P = {_SURE:g}."
+        return f"No mechanism is probable enough to be named: that takes a probability of {_SURE:g}."
     if not np.isfinite(measured.shapes).any() and any(cause.physics == "oscillator" for cause in best.causes):
         return (
             f"{_capital(best.title)} leads with {with_p(found.probability)}, but a list of frequencies alone does not prove "
@@ -179,7 +157,7 @@ def _open(found: Diagnosis) -> str:
     if not found.probability < _DEMANDED:
         return ""
     told = with_p(found.probability)
-    return f" The data demand no cause, and do not rule out those that lead the table either: that there is none has {told}."
+    return f" The data demand no mechanism, and do not rule out those that lead the table either: that there is none has {told}."
 
 
 def _noise(found: Diagnosis) -> str:
@@ -197,11 +175,14 @@ def _how_much(found: Diagnosis) -> Iterator[Block]:
         columns = (Column("if it is", align=LEFT), Column("then of", align=LEFT))
         yield Table(columns, tuple((one.title, "; ".join(map(sized, one.causes))) for one in leaders(found)))
     else:
-        yield Text("Without a cause there is no size.")
+        yield Text("Without a mechanism there is no size.")
 
 
 def _true(found: Diagnosis) -> Iterator[Block]:
-    held = found.held_out
+    held, field = found.held_out, found.field
+    if field is not None and field.held_out is not None:
+        yield Text(held_words(field.held_out))
+        return
     if held is None:
         yield Text(
             "Not proved: no data were held out from the fits, and there are too few modes to predict each from the others."
@@ -210,7 +191,7 @@ def _true(found: Diagnosis) -> Iterator[Block]:
     told = "Each mode, predicted from the others" if held.kind == BY_MODE else "Data that no fit has seen"
     base, after = held.baseline, held.revised
     if after is None or found.kind == NOTHING:
-        yield Text(f"{told}: {' and '.join(_errors(base))}.{_foreseen(found)}")
+        yield Text(f"{told}: {' and '.join(_errors(base))}.{_predicted_frf(found)}")
         return
     number = int(np.isfinite(held.measured_hz).sum())
     extended = {NAMED: "the extended model", ONE_OF: f"{found.best.title}, which leads,"}.get(
@@ -221,17 +202,18 @@ def _true(found: Diagnosis) -> Iterator[Block]:
         lie = f"{round(number * after.covered)} of {counted(number, 'frequency', 'frequencies')}"
         within = f", and {lie} lie within its 90 % intervals"
     yield Text(
-        f"{told}: with {extended} {' and '.join(_errors(base, after))}, the ln predictive density from "
-        f"{base.log_predictive_density:.1f} to {after.log_predictive_density:.1f}{within}. {_proof(found, held)}{_foreseen(found)}"
+        f"{told}: with {extended} {' and '.join(_errors(base, after))}, the log predictive density from "
+        f"{base.log_predictive_density:.1f} to {after.log_predictive_density:.1f}{within}. "
+        f"{_proof(found, held)}{_predicted_frf(found)}"
     )
 
 
-def _foreseen(found: Diagnosis) -> str:
-    """Functions that no fit has seen, over their noise."""
+def _predicted_frf(found: Diagnosis) -> str:
+    """FRFs that no fit has seen, over their noise."""
     told = ""
     for fit in found.held_frf:
         left = " and ".join(f"{fit.rms_sd(model.H):.3g} times their noise ({model.name})" for model in fit.models)
-        told += f" Functions that no fit has seen, {len(fit.test.frequency_hz)} lines: what is left is {left}."
+        told += f" FRFs that no fit has seen, {len(fit.test.frequency_hz)} lines: what is left is {left}."
     return told
 
 
@@ -269,7 +251,7 @@ def _proof(found: Diagnosis, held: HeldOut) -> str:
         if of_frequencies
         else after.rms_shape_error / base.rms_shape_error
     )
-    if not _faulty(found.best) and not ratio < _RATIO:
+    if not faulty(found.best) and not ratio < _RATIO:
         fails.append("the error falls too little")
     if of_frequencies and not after.covered >= _COVERED:
         fails.append("too few frequencies lie within the intervals")
@@ -279,8 +261,8 @@ def _proof(found: Diagnosis, held: HeldOut) -> str:
         return "A better prediction does not make a name of it."
     if held.kind == BY_MODE:
         return (
-            "The extended model passes, but its cause was chosen with all modes: measure the structure with a known change, such "
-            "as an added mass, hold that out in the deck, and ask again."
+            "The extended model passes, but its mechanism was chosen with all modes: measure the structure with a known change, "
+            "such as an added mass, hold that out in the deck, and ask again."
         )
     return (
         "The extended model passes. A better prediction is needed for a name to be right; it does not prove it alone."

@@ -1,4 +1,4 @@
-"""Detection: do model and test part at all, before and after the update of the model as it is?"""
+"""Detection: are model and test consistent, before and after the update of the model as it is?"""
 
 from collections.abc import Iterator
 

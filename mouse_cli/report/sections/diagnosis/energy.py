@@ -1,4 +1,4 @@
-"""The map of energy: where the stiffness of the model and the measured shapes part, for causes that are spread."""
+"""The map of energy: where the stiffness of the model and the measured shapes part, for physics that is distributed."""
 
 from collections.abc import Iterator
 
@@ -17,15 +17,15 @@ def energy(found: Diagnosis, options: Options) -> Iterator[Block]:
     if energy is None:
         return
     shown = energy.order[:_MOST]
-    columns = (Column("place", align=LEFT), Column("share", "per cent"))
+    columns = (Column("site", align=LEFT), Column("share", "per cent"))
     yield Table(columns, tuple((place(energy.sites[i]), f"{100 * energy.share[i]:.3g}") for i in shown))
     errors = ", ".join(
         f"{100 * error:.2g} % in mode {mode}" for mode, error in zip(energy.mode, energy.error, strict=True)
     )
-    holds = "place" + (" holds" if energy.half == 1 else "s hold")
+    holds = "site" + (" holds" if energy.half == 1 else "s hold")
     yield Text(
         f"Of the energy by which stresses and strains disagree when the measured shapes are imposed on the model as it is, "
-        f"{energy.half} {holds} half, of {len(energy.sites)}: few for a local cause, many for one that is spread. It "
+        f"{energy.half} {holds} half, of {len(energy.sites)}: few for a local mechanism, many for a distributed one. It "
         f"shows all that is missing as if it were stiffness. Relative to the strain energy: {errors}."
     )
 

@@ -2,10 +2,11 @@
 
 from collections.abc import Iterator
 
-from mouse_cli.model.diagnosis import Diagnosis, Explanation
+from mouse_cli.model.diagnosis import UNKNOWN, Diagnosis, Explanation
 from mouse_cli.report.blocks import Block, Cell, Column, Heading, Table, Text
 from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._diagnosis_wording import nats, nats_over_none, probable, where
+from mouse_cli.report.sections._field import untried_text
 from mouse_cli.report.sections._wording import LEFT
 
 _LEAST, _MOST = 1e-3, 30  # probability of explanations that are listed, and how many; a few are, however improbable
@@ -13,10 +14,10 @@ _ALWAYS = 8
 _JUDGED = (
     Column("candidate", align=LEFT),
     Column("group", align=LEFT),
-    Column("place", align=LEFT),
-    Column("ln evidence over none"),
+    Column("site", align=LEFT),
+    Column("log evidence over none"),
     Column("probability"),
-    Column("misfit probability"),
+    Column("p-value"),
 )
 _SIZED = (
     Column("candidate", align=LEFT),
@@ -30,30 +31,41 @@ _SIZED = (
 
 
 def evidence(found: Diagnosis, options: Options) -> Iterator[Block]:
-    """One line for each explanation, the most probable first; then the parameters of their causes."""
+    """One line for each explanation, the most probable first; then the parameters of their mechanisms."""
     if not found.explanations:
         yield Text("No candidate has a meaning for this model.")
+        yield from untried_text(found.untried)
         return
     likely = sum(one.probability >= _LEAST for one in found.explanations)
     shown = found.explanations[: min(max(likely, _ALWAYS), _MOST)]
-    yield Table(_JUDGED, tuple(_judged(found, one) for one in shown))
+    yield Table(_JUDGED, tuple(_judged(found, one) for one in shown)).without_empty_columns()
     more = len(found.explanations) - len(shown)
     rest = f" {more} less probable ones are left out; --json has all." if more else ""
     yield Text(
-        "ln evidence is the logarithm of how many times more probable the data are with the candidate than with none, its "
-        "freedom paid for. Probability shares 1 among all that were tried, none included, with equal shares for groups that "
-        "data can hardly tell apart. Misfit probability: that noise alone leaves as much as the candidate leaves, blank where it "
-        "has as many parameters as there are data." + rest
+        "The log evidence is the logarithm of how many times more probable the data are with the candidate than with none (the "
+        f"Bayes factor). {_probability(found)} The p-value is that of the misfit which the candidate leaves, blank where it has as "
+        "many parameters as there are data." + rest
     )
+    yield from untried_text(found.untried)
     rows = tuple(row for one in shown for row in _sized(one))
     if rows:
         yield Heading("Sizes", 2)
         yield Table(_SIZED, rows, keys=2)
 
 
+def _probability(found: Diagnosis) -> str:
+    if found.kind == UNKNOWN:
+        return "No probability is given, as no candidate explains the data."
+    return (
+        "The probability is that of the hypothesis among all that were tried, none included, with equal prior shares for groups "
+        "that data can hardly tell apart."
+    )
+
+
 def _judged(found: Diagnosis, one: Explanation) -> tuple[Cell, ...]:
     misfit = probable(float(one.p)) if one.dof > 0 else None
-    return one.physics, one.group, where(one), nats(nats_over_none(found, one)), probable(one.probability), misfit
+    probability = None if found.kind == UNKNOWN else probable(one.probability)
+    return one.physics, one.group, where(one), nats(nats_over_none(found, one)), probability, misfit
 
 
 def _sized(one: Explanation) -> Iterator[tuple[Cell, ...]]:

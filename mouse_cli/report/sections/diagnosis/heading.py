@@ -28,7 +28,11 @@ def heading(found: Diagnosis, options: Options) -> Iterator[Block]:
 def _how(found: Diagnosis) -> str:
     """What was considered, and in which units."""
     run, asked = found.problem.run, found.choices
-    causes = "one cause at a time" if asked.causes == 1 else "one cause, or two where one is not enough"
+    causes = (
+        "one mechanism at a time"
+        if asked.causes == 1
+        else f"up to {asked.causes} mechanisms together, as the data need"
+    )
     which = "all candidates" if asked.candidates is None else f"of all candidates only {', '.join(asked.candidates)}"
     named = system(found.problem.units)
     units = (

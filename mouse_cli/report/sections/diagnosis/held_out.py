@@ -13,7 +13,7 @@ from mouse_cli.report.sections._wording import LEFT
 _HOW = {
     BY_DECK: "The deck holds these data out: no fit has seen them, and no candidate was chosen by them.",
     BY_MODE: "The deck holds nothing out. Each mode in turn was left out, both models fitted to the others, and it was predicted; "
-    "the cause was chosen with all of them, so that this proves less than data which the deck holds out.",
+    "the mechanism was chosen with all of them, so that this proves less than data which the deck holds out.",
 }
 
 
@@ -46,7 +46,7 @@ def held_out(found: Diagnosis, options: Options) -> Iterator[Block]:
     columns = (
         Column("model", align=LEFT),
         Column("rms frequency error", "per cent"),
-        Column("ln predictive density"),
+        Column("log predictive density"),
         Column("within 90 % intervals", "per cent"),
     )
     scores = (("as it is", held.baseline), (with_cause(found), held.revised))

@@ -2,17 +2,19 @@
 
 from collections.abc import Iterator
 
-from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF
+from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, elsewhere
 from mouse_cli.model.record_diagnosis import AS_IT_IS, WITH_CAUSE, RecordDiagnosis, RecordScore
 from mouse_cli.report.blocks import Block, Heading, Text
 from mouse_cli.report.section import Options, Section
-from mouse_cli.report.sections._diagnosis_wording import leaders, place, sized, where, with_p
-from mouse_cli.report.sections._wording import chance
+from mouse_cli.report.sections._diagnosis_wording import leaders, p_value, rivals_of_site, sized, where, with_p, within
+from mouse_cli.report.sections._field import field_blocks
+from mouse_cli.report.verdict_sentences import remains, sentences
 
 
 def answers(found: RecordDiagnosis, options: Options) -> Iterator[Block]:
     """The verdict, then the answers one by one."""
-    yield Text(_verdict(found))
+    yield Text(" ".join(sentences(found)))
+    yield from field_blocks(found.field, found.problem.units)
     for question, told in (
         ("Where?", _where(found)),
         ("What?", _what(found)),
@@ -23,32 +25,18 @@ def answers(found: RecordDiagnosis, options: Options) -> Iterator[Block]:
         yield Text(told)
 
 
-def _verdict(found: RecordDiagnosis) -> str:
-    if found.kind == NOTHING:
-        told = "Nothing is missing that these records could show: the linear model, with its parameters revised, explains them"
-        return f"{told}{' but for noise of their own' if found.noise else ''}."
-    if found.kind == NAMED:
-        return f"The model lacks {found.best.title}: {where(found.best)} ({with_p(found.probability)})."
-    if found.kind == ONE_OF:
-        each = ", or ".join(f"{one.title} {where(one)}" for one in leaders(found))
-        return (
-            f"Something is missing, and the records do not settle what: {each}. "
-            "Another level of excitation tells most laws apart."
-        )
-    return "Something is missing that no law of the library explains, nor two of them. Do not name a cause."
-
-
 def _where(found: RecordDiagnosis) -> str:
     if found.kind == NOTHING and found.noise:
-        return "Nowhere: no force that follows from the motion of any place explains what is left."
+        return "Nowhere: no force that follows from the motion of any site explains what is left."
     if found.kind == NOTHING:
-        return "Nowhere: model and records part no more than their accuracies let expect."
+        return "Nowhere: model and records are consistent within their accuracies."
     if found.kind in (NAMED, ONE_OF):
-        return "; ".join(_capital(where(one)) for one in leaders(found)) + "."
+        at = lambda one: f"{where(one)}{rivals_of_site(elsewhere(found.explanations, one))}"
+        return "; ".join(_capital(at(one)) for one in leaders(found)) + "."
     best = found.best
     if best is None or not best.causes:
-        return "No place can be given."
-    return f"No place can be given for certain; the nearest explanation stands {place(best.causes[0].site)}."
+        return "No site can be given."
+    return f"No site can be given. The nearest explanation, which does not suffice, has it here: {where(best)}."
 
 
 def _what(found: RecordDiagnosis) -> str:
@@ -57,13 +45,25 @@ def _what(found: RecordDiagnosis) -> str:
     if found.kind == NOTHING and found.noise:
         return f"{left}. {_noise(found)}"
     if found.kind == NOTHING:
-        return f"{left}: by chance it would be more {chance(baseline.p)}, and less than 1.1 times is taken as none."
+        return f"{left}: goodness of fit {p_value(baseline.p)}, and less than 1.1 times is taken as none."
     if best is None or not best.causes:
         return f"{left}; no law was found that leaves less."
     after = f"with {best.title} {best.chi2 / best.dof:.4g} times"
-    gained = f"ln evidence over none {best.log_evidence - baseline.log_evidence:.4g}"
-    told = f"{left}, {after} ({gained}). P holds on condition that the cause is one law of the library, or two, at their places."
+    gained = f"log evidence over none {best.log_evidence - baseline.log_evidence:.4g}"
+    told = f"{left}, {after} ({gained}).{_conditional(found)}"
     return f"{told} {_noise(found)}" if found.noise else told
+
+
+def _conditional(found: RecordDiagnosis) -> str:
+    """What probabilities are of; none is given where no explanation is adequate."""
+    if found.leader is None:
+        return ""
+    inside = within(found.explanations, found.leader)
+    told = (
+        f" Group {found.leader.group}: {with_p(found.probability)}{f', members within it: {inside}' if inside else ''}."
+    )
+    told += f" That is not all: {remains(found.rest)}." if found.rest is not None else ""
+    return f"{told} Probabilities hold on condition that the mechanisms are laws of the library at their sites."
 
 
 def _noise(found: RecordDiagnosis) -> str:
@@ -75,13 +75,13 @@ def _noise(found: RecordDiagnosis) -> str:
         level = "it does not grow with the motion"
     return (
         f"What is left (rms: {sizes}) has a spectrum of its own, and is taken for noise, of disturbing forces, hum or drift: "
-        f"no law at any place takes more than {100 * noise.explained:.2g} % of it, and {level}."
+        f"no law at any site takes more than {100 * noise.explained:.2g} % of it, and {level}."
     )
 
 
 def _how_much(found: RecordDiagnosis) -> str:
     if found.kind not in (NAMED, ONE_OF):
-        return "Nothing to be sized." if found.kind == NOTHING else "Without a cause there is no size."
+        return "Nothing to be sized." if found.kind == NOTHING else "Without a mechanism there is no size."
     return "; ".join(f"{_capital(cause.title)}: {sized(cause)}" for one in leaders(found) for cause in one.causes) + "."
 
 

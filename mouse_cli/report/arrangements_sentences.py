@@ -1,0 +1,65 @@
+"""The verdict on several configurations of a structure in sentences: the same in printout, JSON document and page."""
+
+from mouse_cli.model.arrangements import ArrangementsDiagnosis, Turn
+from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, UNKNOWN
+from mouse_cli.report.field_words import field_sentences
+from mouse_cli.report.sections._diagnosis_wording import (
+    grouped,
+    nats,
+    probable,
+    rivals_of_site,
+    sized,
+    where,
+    with_p,
+    within,
+)
+from mouse_cli.report.verdict_sentences import remains
+
+_VERDICTS = {
+    NOTHING: "Nothing is missing that these configurations could show: the model, with its parameters revised, explains them.",
+    NAMED: "The model lacks what follows, each identified with all before it in the model; what then remains may be noise.",
+    ONE_OF: "The model lacks what follows, each identified with all before it in the model, not all of it settled; what then "
+    "remains may be noise.",
+    UNKNOWN: "More remains than noise, and no candidate explains it. Do not trust the revised parameters.",
+}
+_EVEN = 0.5  # probability of no mechanism up to which one is called likely
+
+
+def sentences(found: ArrangementsDiagnosis) -> tuple[str, ...]:
+    """What was found, then one paragraph a mechanism in the order of its identification."""
+    first = [_VERDICTS[found.kind]]
+    if found.kind == UNKNOWN and found.field is not None:
+        first = list(field_sentences(found.field))
+    elif found.remaining is not None:
+        first.append(f"Of what follows none is proved: with all of it in the model {remains(found.remaining)}.")
+    steps = [f"{number}. {_step(turn, found.kind != UNKNOWN)}" for number, turn in enumerate(found.turns, 1)]
+    return (*first, *steps)
+
+
+def _step(turn: Turn, explains: bool) -> str:
+    """explains: whether all mechanisms together explain the data; without that no probability is given."""
+    best, tried = turn.best, turn.explanations
+    gain = (
+        f"log evidence {nats(turn.gain)} above none; chi-square {turn.before.chi2:.1f} to {best.chi2:.1f} on {best.dof}"
+    )
+    p = f"{with_p(turn.probability)}; " if explains else ""
+    at, sizes = f"{where(best)}{rivals_of_site(turn.elsewhere)}", _capital(sized(best.causes[0]))
+    if turn.kind == NAMED or not explains:
+        if not (explains and within(tried, best)):
+            return f"{_capital(best.title)}: {at} ({p}{gain}). {sizes}."
+        inside = within(tried, best)
+        return f"{_capital(grouped(tried, best))} ({p}{gain}): {inside}. If it is {best.title}: {at}. {sizes}."
+    rivals = [f"{grouped(tried, one)}, {where(one)}" for one in turn.rivals if one.causes]
+    names = f", one of {{{'; '.join(rivals)}}}" if len(rivals) > 1 else f": {''.join(rivals)}"
+    none = next((each for name, each in turn.groups if name == "none" and any(not o.causes for o in turn.rivals)), None)
+    likely = "Not settled"
+    if none is not None:
+        likely = f"{'Likely' if none <= _EVEN else 'Possible'}, not proved (probability that nothing is missing {probable(none)})"
+    return (
+        f"{likely}{names} ({gain}). {_capital(best.title)} leads ({with_p(turn.probability)} of its "
+        f"group) and is what the search goes on with: {at}; {sized(best.causes[0])}."
+    )
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]

@@ -1,0 +1,102 @@
+"""Physics without a name in words: what it acts on, where most of it is, what it gains."""
+
+from collections.abc import Sequence
+
+from mouse_cli.model.diagnosis import BED, FORCE, MASS, STIFFNESS, Field, FieldValue, HeldOut
+from mouse_cli.report.sections._diagnosis_wording import nats, place
+
+ACTS = {
+    STIFFNESS: "acts on the stiffness",
+    MASS: "acts on the mass",
+    BED: "acts as a bed, a stiffness from the structure to the ground",
+    FORCE: "acts as a force at one site, whose law is unknown",
+}
+UNITS = {
+    STIFFNESS: "per cent",
+    MASS: "per cent",
+    BED: "EI/L^4",
+    FORCE: "of the weight",
+}  # of values as they are printed
+_MOST = 0.5  # of the largest value: neighbours above it belong to where most of the field is
+_SHOWN = 2.0  # sd from which on a value is listed by itself
+
+
+def field_sentences(field: Field) -> tuple[str, ...]:
+    """What is missing, and that it has no name."""
+    told = f"What is missing has no name in the library. It {ACTS[field.property]}{_most(field)}."
+    over = f"Its log evidence is {nats(field.log_evidence_over_named)} above that of everything that has a name."
+    return (
+        told,
+        " ".join(filter(None, (over, held_words(field.held_out)))),
+        "Do not trust the revised parameters, and do not name a mechanism.",
+    )
+
+
+def factor(field: Field) -> float:
+    """By which values are multiplied where they are printed."""
+    return 100.0 if UNITS[field.property] == "per cent" else 1.0
+
+
+def amount(field: Field, value: float) -> str:
+    """A value or a standard deviation with its unit.
+
+    >>> amount(Field(STIFFNESS, (), 0.1, 1.0, "m", 9.0), -0.2345), amount(Field(BED, (), 0.1, 1.0, "m", 9.0), 12.345)
+    ('-23 %', '12 EI/L^4')
+    """
+    unit = UNITS[field.property]
+    return f"{factor(field) * value:.2g} {'%' if unit == 'per cent' else unit}"
+
+
+def telling(field: Field) -> list[FieldValue]:
+    """Values that differ from 0 by more than two standard deviations, in their order; the largest where none does."""
+    found = [each for each in field.values if abs(each.value) > _SHOWN * each.sd]
+    return found or sorted(field.values, key=lambda each: -abs(each.value))[:1]
+
+
+def core(values: Sequence[FieldValue]) -> tuple[int, int, int]:
+    """First, largest and last of the neighbours, of one sign, that have more than half of the largest value.
+
+    >>> from mouse_cli.model.site import Site
+    >>> core([FieldValue(Site("element", (i,)), x, 0.01) for i, x in enumerate((0.0, -0.2, -0.3, -0.1, 0.2))])
+    (1, 2, 2)
+    """
+    top = max(range(len(values)), key=lambda i: abs(values[i].value))
+    belongs = lambda i: values[i].value * values[top].value > _MOST * values[top].value ** 2
+    first, last = top, top
+    while first > 0 and belongs(first - 1):
+        first -= 1
+    while last < len(values) - 1 and belongs(last + 1):
+        last += 1
+    return first, top, last
+
+
+def _most(field: Field) -> str:
+    if not field.values:
+        return ""
+    first, top, last = core(field.values)
+    largest = field.values[top]
+    sized = f"{amount(field, largest.value)}, sd {amount(field, largest.sd)}"
+    if field.property == FORCE:
+        return f": {place(largest.site)} ({sized})"
+    begin, end = (field.values[i].site for i in (first, last))
+    if first == last:
+        return f", most of it at {place(begin)} ({sized})"
+    plain = begin.kind == end.kind and all(
+        len(s.ids) == 1 and s.text in ("", f"{s.kind} {s.ids[0]}") for s in (begin, end)
+    )
+    about = f"{begin.kind} {begin.ids[0]} to {end.ids[0]}" if plain else f"{place(begin)} to {place(end)}"
+    return f", most of it about {about} ({sized} at {place(largest.site)})"
+
+
+def held_words(held: HeldOut | None) -> str:
+    """How the model with the field predicts what no fit has seen; empty without such data."""
+    if held is None or held.revised is None:
+        return ""
+    before, after = held.baseline, held.revised
+    density = (
+        f"the log predictive density from {before.log_predictive_density:.1f} to {after.log_predictive_density:.1f}"
+    )
+    if before.rms_frequency_error != before.rms_frequency_error:
+        return f"With it {density.replace('from', 'of held-out data goes from', 1)}."
+    errors = f"from {100 * before.rms_frequency_error:.2g} % to {100 * after.rms_frequency_error:.2g} %"
+    return f"With it the rms frequency error of held-out data goes {errors}, and {density}."

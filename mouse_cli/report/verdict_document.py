@@ -1,0 +1,93 @@
+"""The verdict of a diagnosis in plain Python values: the same keys for every kind of test."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from mouse_cli.model.diagnosis import EVERYWHERE, ONE_OF, UNKNOWN, Diagnosis, Field, HeldOut, Rest, Score, Site, Untried
+from mouse_cli.report.json_values import dof_name
+from mouse_cli.report.verdict_sentences import sentences
+
+Elsewhere = tuple[tuple[tuple[Site, ...], float], ...]
+
+
+def verdict(found: Diagnosis) -> dict[str, Any]:
+    """physics, group and sites of what is named, or leads its rivals, in one order; none of them without a leader."""
+    leader = found.leader
+    causes = () if leader is None else leader.causes
+    return {
+        "kind": found.kind,
+        "sentences": list(sentences(found)),
+        "physics": leader and leader.physics,
+        "group": leader and leader.group,
+        "site": site(causes[0].site) if causes else None,
+        "sites": [site(cause.site) for cause in causes],
+        "damping": [cause.law or None for cause in causes],
+        "probability": None if found.kind == UNKNOWN else found.probability,
+        "members": dict(found.members) or None,
+        "elsewhere": elsewhere(found.elsewhere),
+        "rivals": [name for name, _ in found.rivals] if found.kind == ONE_OF else [],
+        "rest": rest(found.rest),
+        "field": field(found.field),
+        "untried": untried(found.untried),
+    }
+
+
+def elsewhere(found: Elsewhere) -> list[dict[str, Any]]:
+    """Rival sites with the probability of each, given the physics."""
+    return [{"sites": [site(each) for each in sites], "probability": p} for sites, p in found]
+
+
+def rest(found: Rest | None) -> dict[str, Any] | None:
+    """What remains unexplained beside what is named."""
+    return None if found is None else {"share": found.share, "p": found.p}
+
+
+def field(found: Field | None) -> dict[str, Any] | None:
+    """Physics without a name along the structure."""
+    if found is None:
+        return None
+    return {
+        "property": found.property,
+        "sites": [site(each.site) | {"value": each.value, "sd": each.sd} for each in found.values],
+        "spread": found.spread,
+        "length": found.length,
+        "unit": found.unit,
+        "log_evidence_over_named": found.log_evidence_over_named,
+        "held_out": None if found.held_out is None else held_out(found.held_out),
+    }
+
+
+def untried(found: Sequence[Untried]) -> list[dict[str, Any]]:
+    """Candidates left out, each with its reason."""
+    return [{"physics": each.physics, "reason": each.reason} for each in found]
+
+
+def site(place: Site) -> dict[str, Any]:
+    """A site; ids as decks write them."""
+    ids = [dof_name(i) if isinstance(i, str) else i for i in place.ids]
+    text = place.text or (EVERYWHERE.text if place.kind == EVERYWHERE.kind else "")
+    return {"kind": place.kind, "ids": ids, "position": place.position, "text": text}
+
+
+def held_out(held: HeldOut) -> dict[str, Any]:
+    """Data kept from the fits, and how either model predicts them."""
+    return {
+        "kind": held.kind,
+        "labels": list(held.labels),
+        "measured_hz": held.measured_hz,
+        "baseline": score(held.baseline),
+        "revised": None if held.revised is None else score(held.revised),
+    }
+
+
+def score(found: Score) -> dict[str, Any]:
+    """How well data that no fit has seen were predicted."""
+    return {
+        "rms_frequency_error": found.rms_frequency_error,
+        "log_predictive_density": found.log_predictive_density,
+        "covered": found.covered,
+        "hz": found.frequencies_hz,
+        "sd_hz": found.sd_hz,
+        "mac": found.mac,
+        "rms_shape_error": found.rms_shape_error,
+    }

@@ -1,0 +1,116 @@
+"""The verdict of a diagnosis in sentences: the same in printout, JSON document and page, for every kind of test."""
+
+from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, Diagnosis, Explanation, Rest
+from mouse_cli.model.record_diagnosis import RecordDiagnosis
+from mouse_cli.report.field_words import field_sentences
+from mouse_cli.report.sections._diagnosis_wording import (
+    grouped,
+    lacking,
+    leaders,
+    p_value,
+    probable,
+    rivals_of_site,
+    separation,
+    where,
+    with_p,
+    within,
+)
+
+_EVEN = 0.5  # probability of no mechanism up to which one is called likely
+
+
+def sentences(found: Diagnosis) -> tuple[str, ...]:
+    """What was found, the first sentence first."""
+    if found.kind == NOTHING:
+        return (_nothing(found),)
+    if found.kind == NAMED:
+        return _named(found)
+    if found.kind == ONE_OF:
+        return (_one_of(found), _separating(found))
+    return _unknown(found)
+
+
+def faulty(best: Explanation) -> bool:
+    """Whether the fault lies in the test alone."""
+    return all(cause.site.kind == "sensor" for cause in best.causes)
+
+
+def _nothing(found: Diagnosis) -> str:
+    if isinstance(found, RecordDiagnosis):
+        told = "Nothing is missing that these records could show: the linear model, with its parameters revised, explains them"
+        return f"{told}{' but for noise of their own' if found.noise else ''}."
+    status = found.result.status
+    told = "Nothing is missing that this test could show: the model, with its parameters revised, explains the data."
+    if not found.result.residual.dof:
+        told = (
+            "Nothing is missing that this test could show, and it could show little: its parameters can follow all of its data, so "
+            "that only how far they move from the prior speaks of what is missing."
+        )
+    return told if status.exit_code == 0 else f"{told} But its revision is not to be trusted. {status.sentence}"
+
+
+def _named(found: Diagnosis) -> tuple[str, ...]:
+    """Probability of the hypothesis where its group has no other member that counts, else of the group and of each member."""
+    best, inside = found.best, within(found.explanations, found.best)
+    begin = "The test is at fault, not the model:" if faulty(best) else "The model lacks"
+    if not inside:
+        other = (
+            f"It may act elsewhere{rivals_of_site(found.elsewhere).removeprefix('; or')}." if found.elsewhere else ""
+        )
+        p = f" ({with_p(found.probability)})" if len(best.causes) == 1 else f": {with_p(found.probability)}"
+        first = f"{begin} {lacking(best)}{p}{_rest(found.rest)}."
+        return tuple(filter(None, (first, other)))
+    first = f"{begin} {grouped(found.explanations, best)} ({with_p(found.probability)}): {inside}{_rest(found.rest)}."
+    return first, f"If it is {best.title}, it acts here: {where(best)}{rivals_of_site(found.elsewhere)}."
+
+
+def _rest(rest: Rest | None) -> str:
+    return "" if rest is None else f", and something more: {remains(rest)}"
+
+
+def remains(rest: Rest) -> str:
+    """What is left unexplained beside what was named."""
+    return f"{100 * rest.share:.2g} % of the misfit remains, {p_value(rest.p)}"
+
+
+def _one_of(found: Diagnosis) -> str:
+    """Likely, not proved, where it may be that nothing is missing; else one of several."""
+    none, first = dict(found.rivals).get("none"), leaders(found)
+    named = "; ".join(grouped(found.explanations, one) for one in first)
+    test = "the records do" if isinstance(found, RecordDiagnosis) else "the test does"
+    if none is None:
+        return f"Something is missing, and {test} not settle what: one of {{{named}}}."
+    likely = "It is likely, not proved, that" if none <= _EVEN else "It is possible, not likely, that"
+    if len(first) != 1:
+        nothing = f"probability that nothing is: {probable(none)}"
+        return f"{likely} something is missing ({nothing}), and {test} not settle what: one of {{{named}}}."
+    (one,) = first
+    inside, p = within(found.explanations, one), with_p(dict(found.groups)[one.group])
+    what = f"{named if inside else lacking(one)} ({p}; that nothing is missing: {probable(none)})"
+    return f"{likely} the model lacks {what}{f': {inside}' if inside else ''}."
+
+
+def _separating(found: Diagnosis) -> str:
+    if isinstance(found, RecordDiagnosis):
+        return "Another level of excitation tells most laws apart."
+    aim = "to separate them" if len(leaders(found)) > 1 else "to settle it"
+    if not found.proposals:
+        return f"No measurement can be proposed {aim}."
+    best = found.proposals[0]
+    if not best.promise:
+        best = max(found.proposals, key=lambda each: each.separation)
+        tried = f"the best, {best.text}, has a predicted separation of {separation(best.separation)}"
+        return f"None of the measurements that were tried will settle it; {tried}."
+    return f"Measure this {aim}: {best.text} (predicted separation {separation(best.separation)}, {best.outlook})."
+
+
+def _unknown(found: Diagnosis) -> tuple[str, ...]:
+    """No probability is given: none is of a hypothesis that explains the data."""
+    if found.misstated:
+        return (
+            "Model and test disagree, and the test itself looks at fault. No mechanism can be named before that is settled.",
+        )
+    if found.field is not None:
+        return field_sentences(found.field)
+    first = "Something is missing that no candidate explains. Do not trust the revised parameters, and do not name a mechanism."
+    return (first,)
