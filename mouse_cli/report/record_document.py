@@ -26,10 +26,12 @@ def document(found: RecordDiagnosis) -> dict[str, Any]:
             "title": problem.title.strip(),
             "source": problem.source.path,
             "exit_code": found.exit_code,
-            "verdict": of_diagnosis._verdict(found),
+            "verdict": of_diagnosis._verdict(found) | _beside(found),
             "candidates": [of_diagnosis.candidate(found.baseline, one) for one in found.explanations],
             "groups": [{"group": name, "probability": p} for name, p in found.groups],
             "noise_scale": found.noise_scale,
+            "cautions": list(found.cautions),
+            "refuted": list(found.refuted),
             "residual": of_result.tested(found.innovation),
             "noise": None if found.noise is None else vars(found.noise),
             "held_out": {"records": [score(one) for one in found.scores], "trace": trace(found.trace)},
@@ -49,6 +51,14 @@ def document(found: RecordDiagnosis) -> dict[str, Any]:
             "warnings": [f"{d.code}: {d.message}" for d in problem.warnings],
         }
     )
+
+
+def _beside(found: RecordDiagnosis) -> dict[str, Any]:
+    """What a named law leaves, and which candidates could not be tried."""
+    return {
+        "rest": None if found.rest is None else vars(found.rest),
+        "untried": [vars(one) for one in found.untried],
+    }
 
 
 def score(one: RecordScore) -> dict[str, Any]:

@@ -14,7 +14,8 @@ PLAIN = ({},)
 
 @dataclass(frozen=True)
 class Scale:
-    """What a motion is like in a record: stiffness and mass of the structure against it, rms of x and of its velocity.
+    """What a motion is like in a record: force over motion (elastic, or of inertia where nothing holds it) and mass of the
+    structure against it, rms of x and of its velocity.
 
     band: lowest and highest frequency in the record, Hz.
     """

@@ -11,7 +11,10 @@ from mouse_cli.model.recording import MOTIONS, Channel, Recording
 
 FLOOR = 0.01  # of the rms of a channel: no transducer and no theory is more accurate
 HELD = 0.3  # share at the end of each record that is held out where the deck holds nothing out
-_LINES = 32  # spectral lines averaged for the noise floor
+_LINES, _LOWEST = (
+    32,
+    1.41,
+)  # spectral lines averaged for the noise floor; white noise over the lowest tenth of such means
 _FORCES = ("force", "moment")
 _RATE = 30.0  # steps in a period of the highest mode of interest, at least
 
@@ -40,8 +43,9 @@ def records(problem: Problem) -> Records:
             f"{len(fitted) - len(alike)} recordings have other channels or another rate than the first and were left out"
         )
     held = [one for one in held if _alike(one, first)]
-    sd = np.max([_sd(one.samples[:, outputs]) for one in alike], axis=0)
-    make = lambda one: _series(problem, one, inputs, outputs, sd)
+    floor = np.max([_floor(one.samples[:, outputs]) for one in alike], axis=0)
+    sd = np.max([floor, *(FLOOR * one.samples[:, outputs].std(axis=0) for one in alike)], axis=0)
+    make = lambda one: replace(_series(problem, one, inputs, outputs, sd), floor=_floor(one.samples[:, outputs]))
     if held:
         series, kept = [make(one) for one in alike], [make(one) for one in held]
     else:
@@ -96,17 +100,16 @@ def _weights(channel: Channel, n: int) -> np.ndarray:
     return found
 
 
-def _sd(samples: np.ndarray) -> np.ndarray:
-    """Accuracy of channels (t, s): the floor of their spectra, where the structure is quiet, and at least FLOOR of their rms.
+def _floor(samples: np.ndarray) -> np.ndarray:
+    """Noise of channels (t, s): the floor of their spectra, where the structure is quiet.
 
-    The lowest mean of _LINES neighbouring lines, times what the lowest of so many falls short of their level on average.
+    The lowest tenth of means of _LINES neighbouring lines, times what it falls short of the level of white noise on average.
     """
     t = len(samples)
     window = np.hanning(t)[:, None]
     power = np.abs(np.fft.rfft((samples - samples.mean(axis=0)) * window, axis=0)) ** 2 / (window**2).sum()
     groups = power[1 : 1 + (len(power) - 1) // _LINES * _LINES].reshape(-1, _LINES, power.shape[1]).mean(axis=1)
-    floor = np.sqrt(np.quantile(groups, 0.1, axis=0) * 1.2)
-    return np.maximum(floor, FLOOR * samples.std(axis=0))
+    return np.sqrt(np.quantile(groups, 0.1, axis=0) * _LOWEST)
 
 
 def steps(series: Series, highest_hz: float) -> Series:

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF
+from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, Rest
 from mouse_cli.model.record_diagnosis import AS_IT_IS, WITH_CAUSE, RecordDiagnosis, RecordScore
 from mouse_cli.report.blocks import Block, Heading, Text
 from mouse_cli.report.section import Options, Section
@@ -13,6 +13,7 @@ from mouse_cli.report.sections._wording import chance
 def answers(found: RecordDiagnosis, options: Options) -> Iterator[Block]:
     """The verdict, then the answers one by one."""
     yield Text(_verdict(found))
+    yield from (Text(text) for text in found.cautions)
     for question, told in (
         ("Where?", _where(found)),
         ("What?", _what(found)),
@@ -28,7 +29,8 @@ def _verdict(found: RecordDiagnosis) -> str:
         told = "Nothing is missing that these records could show: the linear model, with its parameters revised, explains them"
         return f"{told}{' but for noise of their own' if found.noise else ''}."
     if found.kind == NAMED:
-        return f"The model lacks {found.best.title}: {where(found.best)} ({with_p(found.probability)})."
+        told = f"The model lacks {found.best.title}: {where(found.best)} ({with_p(found.probability)})"
+        return f"{told}{'' if found.rest is None else f', {_more(found.rest)}'}."
     if found.kind == ONE_OF:
         each = ", or ".join(f"{one.title} {where(one)}" for one in leaders(found))
         return (
@@ -36,6 +38,10 @@ def _verdict(found: RecordDiagnosis) -> str:
             "Another level of excitation tells most laws apart."
         )
     return "Something is missing that no law of the library explains, nor two of them. Do not name a cause."
+
+
+def _more(rest: Rest) -> str:
+    return f"and something more remains: {100 * rest.share:.2g} % of the misfit"
 
 
 def _where(found: RecordDiagnosis) -> str:
