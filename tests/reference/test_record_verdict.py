@@ -176,3 +176,20 @@ def test_floor_of_a_spectrum_is_the_sd_of_white_noise():
     rng = np.random.default_rng(1)
     found = np.mean([_floor(rng.standard_normal((4096, 3))) for _ in range(10)], axis=0)
     np.testing.assert_allclose(found, 1.0, rtol=0.03)
+
+
+def test_candidates_have_one_registry_of_names(tmp_path):
+    """Options mean the same for every kind of data; what these data cannot show is refused with what they can."""
+    deck = record(tmp_path, linear)
+    found = answer(deck, "--candidates", "friction,mass")
+    left = {one["physics"]: one["reason"] for one in found["verdict"]["untried"]}
+    assert "cubic" in left and "friction" not in left and "left out" in left["cubic"]
+    assert [one["physics"] for one in answer(deck, "--without", "cubic")["verdict"]["untried"]] == ["cubic"]
+    for options in (("--candidates", "crack"), ("--without", "shear")):
+        done = CliRunner().invoke(cli, ["diagnose", deck, "-q", *options])
+        assert done.exit_code == 2 and "has no meaning for recordings" in done.output and "friction" in done.output
+    modal = str(Path(__file__).parents[2] / "decks" / "ground_spring.yaml")
+    done = CliRunner().invoke(cli, ["diagnose", modal, "-q", "--candidates", "friction"])
+    assert done.exit_code == 2 and "has no meaning for modes" in done.output and "ground-spring" in done.output
+    assert "friction" in CliRunner().invoke(cli, ["list", "candidates"]).output
+    assert "Jenkins" in CliRunner().invoke(cli, ["explain", "friction"]).output

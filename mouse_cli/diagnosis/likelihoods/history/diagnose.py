@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from mouse_cli.diagnosis.likelihoods.history.deck_laws import extended
 from mouse_cli.diagnosis.likelihoods.history.prove import ratio, scores, surface, trace
-from mouse_cli.diagnosis.likelihoods.history.records import records
+from mouse_cli.diagnosis.likelihoods.history.records import named, records
 from mouse_cli.diagnosis.likelihoods.history.search import weighed
 from mouse_cli.diagnosis.likelihoods.history.signs import linearity
 from mouse_cli.diagnosis.likelihoods.history.study import study
@@ -48,14 +48,10 @@ def diagnose_records(problem: Problem, notice: Notice, choices: Choices) -> Diag
         rest=decision.rest,
         refuted=decision.refuted,
         cautions=decision.cautions,
-        untried=untried(searched),
+        untried=untried(searched, own, known),
         remarks=found.remarks + own.model.remarks,
         choices=choices,
-        channels=tuple(channel.sensor or channel.name for channel in found.outputs),
-        units=tuple(channel.unit for channel in found.outputs),
-        inputs=tuple(channel.sensor or channel.name for channel in found.inputs),
-        sd=found.fitted[0].sd,
-        fitted=tuple(one.title for one in found.fitted),
+        **named(found),
         linearity=linearity(own, baseline),
         scores=proof,
         trace=trace(own, baseline, best if kind != NOTHING else None),

@@ -61,6 +61,7 @@ def places(problem: Problem, spectrum: Spectrum, basis: np.ndarray, band: tuple[
         if size < 1e-24 or x == 0:
             continue
         stiffness, mass = (float(B @ matrix @ B) / size**2 for matrix in (model.K, model.M))
-        scale = Scale(max(stiffness, mass * a / x), mass, x, v, band)
+        step = spectrum.series.dt / spectrum.series.factor
+        scale = Scale(max(stiffness, mass * a / x), mass, x, v, band, 2 * mass / step**2)
         found.append(Place(site, B, ground, scale, b))
     return found

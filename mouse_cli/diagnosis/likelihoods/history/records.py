@@ -57,6 +57,17 @@ def records(problem: Problem) -> Records:
     return Records(tuple(series), tuple(kept), channels(outputs), channels(inputs), tuple(said))
 
 
+def named(found: Records) -> dict[str, object]:
+    """What reports say of the records."""
+    return {
+        "channels": tuple(channel.sensor or channel.name for channel in found.outputs),
+        "units": tuple(channel.unit for channel in found.outputs),
+        "sd": found.fitted[0].sd,
+        "inputs": tuple(channel.sensor or channel.name for channel in found.inputs),
+        "fitted": tuple(one.title for one in found.fitted),
+    }
+
+
 def _channels(problem: Problem, record: Recording) -> tuple[list[int], list[int]]:
     """Columns of forces and of motions on degrees of freedom of the model."""
     own = lambda j: bool(record.channels[j].weights)

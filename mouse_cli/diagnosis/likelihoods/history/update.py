@@ -9,7 +9,7 @@ from mouse_cli.diagnosis.likelihoods.history.limits import strained
 from mouse_cli.diagnosis.likelihoods.history.noise import noise
 from mouse_cli.diagnosis.likelihoods.history.polish import Fit, Polish, followed
 from mouse_cli.diagnosis.likelihoods.history.prove import scores, surface, trace
-from mouse_cli.diagnosis.likelihoods.history.records import Records, records
+from mouse_cli.diagnosis.likelihoods.history.records import named, records
 from mouse_cli.diagnosis.likelihoods.history.search import Notice, unlikely, with_noise
 from mouse_cli.diagnosis.likelihoods.history.study import Study, begin, study
 from mouse_cli.diagnosis.likelihoods.history.uncertain import Uncertain
@@ -55,19 +55,8 @@ def update_records(problem: Problem, notice: Notice) -> RecordUpdate:
         trace=trace(own, prior, fit),
         surface=surface(own, fit),
         remarks=found.remarks + own.model.remarks,
-        **_told(found),
+        **named(found),
     )
-
-
-def _told(found: Records) -> dict[str, object]:
-    """What reports say of the records."""
-    return {
-        "channels": tuple(channel.sensor or channel.name for channel in found.outputs),
-        "units": tuple(channel.unit for channel in found.outputs),
-        "sd": found.fitted[0].sd,
-        "inputs": tuple(channel.sensor or channel.name for channel in found.inputs),
-        "fitted": tuple(one.title for one in found.fitted),
-    }
 
 
 def _part(one: LocalLaw, own: Study) -> tuple[Part, np.ndarray]:

@@ -8,9 +8,12 @@ from mouse_cli.diagnosis.gates import FAR_PRIOR, ODDS, PRIOR, SURE
 from mouse_cli.diagnosis.likelihoods.history.hypothesis import Part
 from mouse_cli.diagnosis.likelihoods.history.limits import far, innovation, shift_p, strained
 from mouse_cli.diagnosis.likelihoods.history.polish import Fit
+from mouse_cli.diagnosis.likelihoods.history.regression import allowed
 from mouse_cli.diagnosis.likelihoods.history.search import MATERIAL, Weighed, adequate, close, missing, unlikely
+from mouse_cli.diagnosis.likelihoods.history.study import Study
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Cause, Explanation, Rest, Size, Untried
 from mouse_cli.model.groups import joined, shares
+from mouse_cli.terms.laws import Law, registry
 from mouse_cli.updating.chi_square import upper_tail
 
 _BETTER = 0.7  # ratio of errors on held-out records, noise taken out, that a name takes
@@ -152,9 +155,16 @@ def _sites(one: Fit) -> set[tuple[str, str]]:
     return {(part.law.group, part.place.site.text) for part in one.hypothesis.parts}
 
 
-def untried(found: Weighed) -> tuple[Untried, ...]:
-    """Laws that were fitted and that these records cannot show."""
-    return tuple(Untried(key, reason) for key, reason in found.dropped)
+def untried(found: Weighed, own: Study, known: list[Law] | None) -> tuple[Untried, ...]:
+    """Laws that were left out (`known`: those that were not), have no site in the model, or were fitted and cannot be shown."""
+    every = registry().values()
+    left = [law for law in every if known is not None and law not in known]
+    homeless = [law for law in every if law not in left and not any(allowed(place, [law]) for place in own.places)]
+    return (
+        *(Untried(law.key, "left out by the options of the diagnosis") for law in left),
+        *(Untried(law.key, "no site in this model") for law in homeless if law.key != "iwan"),
+        *(Untried(key, reason) for key, reason in found.dropped),
+    )
 
 
 def explanation(one: Fit, probability: float, theta: np.ndarray) -> Explanation:
