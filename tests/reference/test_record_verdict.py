@@ -193,3 +193,23 @@ def test_candidates_have_one_registry_of_names(tmp_path):
     assert done.exit_code == 2 and "has no meaning for modes" in done.output and "ground-spring" in done.output
     assert "friction" in CliRunner().invoke(cli, ["list", "candidates"]).output
     assert "Jenkins" in CliRunner().invoke(cli, ["explain", "friction"]).output
+
+
+def turning(deck: str) -> str:
+    """The same numbers as two discs on a shaft."""
+    deck = edited(deck, "quantity: acceleration, unit: m/s2", "quantity: angular acceleration, unit: rad/s2")
+    return edited(deck, "quantity: force, unit: N", "quantity: moment, unit: N m")
+
+
+def test_rotations_and_moments_judge_as_check_says(tmp_path):
+    deck = turning(record(tmp_path, linear))
+    checked = CliRunner().invoke(cli, ["check", deck])
+    assert checked.exit_code == 0 and "MD640" not in checked.stderr, checked.output
+    assert answer(deck)["verdict"]["kind"] == "nothing-missing"
+
+
+def test_check_says_that_records_without_force_cannot_judge(tmp_path):
+    deck = edited(record(tmp_path, linear), "quantity: force, unit: N", "quantity: acceleration, unit: m/s2")
+    checked = CliRunner().invoke(cli, ["check", deck])
+    assert checked.exit_code == 0 and "MD640" in checked.stderr
+    assert "MD640" in str(CliRunner().invoke(cli, ["diagnose", deck]).exception)

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mouse_cli._errors import ERROR, DeckError, Diagnostic
+from mouse_cli._errors import ERROR, WARNING, DeckError, Diagnostic
 from mouse_cli.diagnosis.likelihoods.history.series import REACH, Series
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.recording import MOTIONS, Channel, Recording
@@ -16,6 +16,7 @@ _LINES, _LOWEST = (
     1.41,
 )  # spectral lines averaged for the noise floor; white noise over the lowest tenth of such means
 _FORCES = ("force", "moment")
+_ORDERS = MOTIONS | {"rotation": 0, "angular velocity": 1, "angular acceleration": 2}  # how many times differentiated
 _RATE = 30.0  # steps in a period of the highest mode of interest, at least
 
 
@@ -72,13 +73,22 @@ def _channels(problem: Problem, record: Recording) -> tuple[list[int], list[int]
     """Columns of forces and of motions on degrees of freedom of the model."""
     own = lambda j: bool(record.channels[j].weights)
     inputs = [int(j) for j in record.inputs if record.channels[j].quantity in _FORCES and own(j)]
-    outputs = [int(j) for j in record.outputs if record.channels[j].quantity in MOTIONS and own(j)]
-    for what, columns in (("force", inputs), ("displacement, velocity or acceleration", outputs)):
+    outputs = [int(j) for j in record.outputs if record.channels[j].quantity in _ORDERS and own(j)]
+    for what, columns in (("force", inputs), ("motion (displacement, rotation, or their derivatives)", outputs)):
         if not columns:
             message = f"recording '{record.title}' has no channel of {what} at a degree of freedom of the model"
             help = "name it under inputs or outputs with its quantity; simulation needs the measured force"
             raise DeckError([Diagnostic("MD640", ERROR, message, problem.place("recordings"), help=help)])
     return inputs, outputs
+
+
+def cannot_judge(problem: Problem) -> tuple[Diagnostic, ...]:
+    """Why `diagnose` and `run` would refuse the recordings of a deck (MD640), as a warning: `identify` may need no force."""
+    try:
+        _channels(problem, problem.recordings[0])
+    except DeckError as error:
+        return tuple(replace(one, severity=WARNING) for one in error.diagnostics)
+    return ()
 
 
 def _alike(one: Recording, other: Recording) -> bool:
@@ -89,7 +99,7 @@ def _alike(one: Recording, other: Recording) -> bool:
 def _series(problem: Problem, record: Recording, inputs: list[int], outputs: list[int], sd: np.ndarray) -> Series:
     n = problem.structure.n
     rows = lambda columns: np.array([_weights(record.channels[j], n) for j in columns])
-    order = np.array([MOTIONS[record.channels[j].quantity] for j in outputs])
+    order = np.array([_ORDERS[record.channels[j].quantity] for j in outputs])
     samples = record.samples
     return Series(
         record.title,
