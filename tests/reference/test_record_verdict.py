@@ -2,6 +2,7 @@
 
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,11 +15,15 @@ from mouse_cli.cli.main import cli
 from mouse_cli.diagnosis.likelihoods.history.limits import far, hidden, shift_p, shifted
 from mouse_cli.diagnosis.likelihoods.history.prove import ratio
 from mouse_cli.diagnosis.likelihoods.history.records import _floor, records
-from mouse_cli.diagnosis.likelihoods.history.search import missing, unlikely
+from mouse_cli.diagnosis.likelihoods.history.search import Weighed, missing, unlikely
 from mouse_cli.diagnosis.likelihoods.history.study import fitted, study
 from mouse_cli.diagnosis.likelihoods.history.uncertain import UNDAMPED, uncertain
+from mouse_cli.diagnosis.likelihoods.history.verdict import decided, ranked
 from mouse_cli.formats import read_deck
+from mouse_cli.model.diagnosis import Rest
 from mouse_cli.model.record_diagnosis import AS_IT_IS, WITH_CAUSE, RecordScore
+from mouse_cli.report.sections.records.answers import _more
+from mouse_cli.terms.laws import registry
 
 MASSES = """  - {name: m1, nominal: 1.0, sd: 1 %, mass: [[1, 1, 1]]}
   - {name: m2, nominal: 1.0, sd: 1 %, mass: [[2, 2, 1]]}
@@ -142,8 +147,6 @@ def test_an_oscillator_slower_than_its_stretch_is_no_finding(tmp_path):
     problem = read_deck(record(tmp_path, linear))
     own = study(problem, records(problem))
     ground = next(place for place in own.places if place.ground)
-    from mouse_cli.terms.laws import registry
-
     start = own.at(ground).best(registry()["oscillator"], 0)
     one = fitted(own, start)
     one.x[-3:] = np.log([0.05, 3.0, 0.02])
@@ -213,3 +216,42 @@ def test_check_says_that_records_without_force_cannot_judge(tmp_path):
     checked = CliRunner().invoke(cli, ["check", deck])
     assert checked.exit_code == 0 and "MD640" in checked.stderr
     assert "MD640" in str(CliRunner().invoke(cli, ["diagnose", deck]).exception)
+
+
+@pytest.fixture(scope="module")
+def weighed_laws(tmp_path_factory):
+    """A record with a cubic spring; the model as it is, the law, and a rival at the same place."""
+
+    def law(u, v):
+        F = 2e8 * (u[1] - u[0]) ** 3
+        return np.array([-F, F])
+
+    problem = read_deck(record(tmp_path_factory.mktemp("cubic"), law))
+    own = study(problem, records(problem))
+    at = own.at(next(place for place in own.places if not place.ground))
+    return fitted(own, None), *(fitted(own, at.best(registry()[key], 0)) for key in ("cubic", "gap"))
+
+
+def said(ratio: float, *fits):
+    found = Weighed(fits[0], list(fits[1:]))
+    return decided(ranked(found), found, ratio)
+
+
+def test_a_law_that_takes_most_is_named_with_what_remains(weighed_laws):
+    baseline, law, rival = weighed_laws
+    partly = replace(law, misfit=0.1 * baseline.misfit)
+    found = said(0.3, baseline, partly)
+    assert found.kind == "named" and found.rest.share == pytest.approx(0.1, abs=0.03) and found.rest.p < 1e-3
+    assert _more(Rest(0.09, 0.0)) == "and something more remains: 9 % of the misfit"
+    assert said(0.3, baseline, replace(law, misfit=0.6 * baseline.misfit)).kind == "unknown"
+    as_good = replace(rival, misfit=partly.misfit, log_evidence=partly.log_evidence)
+    assert said(0.3, baseline, partly, as_good).kind == "unknown"
+
+
+def test_what_predicts_worse_or_leaves_its_prior_is_no_name(weighed_laws):
+    baseline, law, _ = weighed_laws
+    assert said(0.3, baseline, law).kind == "named" and said(0.3, baseline, law).rest is None
+    worse = said(1.2, baseline, law)
+    assert worse.kind == "unknown" and worse.refuted == ("smooth-stiffness",) and "1.2 times" in worse.cautions[0]
+    distant = said(0.3, baseline, replace(law, x=np.concatenate([[-6.3], law.x[1:]])))
+    assert distant.kind == "unknown" and "k1 is -6.3 prior sd from its mean" in distant.cautions[0]
