@@ -156,14 +156,15 @@ def _sites(one: Fit) -> set[tuple[str, str]]:
 
 
 def untried(found: Weighed, own: Study, known: list[Law] | None) -> tuple[Untried, ...]:
-    """Laws that were left out (`known`: those that were not), have no site in the model, or were fitted and cannot be shown."""
+    """Laws that were left out (`known`: those that were not), have no site in the model, or were fitted and never shown."""
     every = registry().values()
     left = [law for law in every if known is not None and law not in known]
+    shown = {part.law.key for one in found.fits for part in one.hypothesis.parts}
     homeless = [law for law in every if law not in left and not any(allowed(place, [law]) for place in own.places)]
     return (
         *(Untried(law.key, "left out by the options of the diagnosis") for law in left),
         *(Untried(law.key, "no site in this model") for law in homeless if law.key != "iwan"),
-        *(Untried(key, reason) for key, reason in found.dropped),
+        *(Untried(key, reason) for key, reason in found.dropped if key not in shown),
     )
 
 
