@@ -150,11 +150,11 @@ class _Extra:
 
 
 def _extra(M, C, K, slopes, bare: bool, labels: tuple[str, ...]) -> _Extra:
-    """Links, or modes, that the deck's own parameters do not move; where the deck has no damping, that of each mode."""
+    """Links, or modes, that the deck's own parameters do not move; where the deck has no damping, that of both."""
     at, loose = links(K), LOOSE if bare else DAMPED
     stiff, damped = _by_mode(M, C, K)
     if at is not None:
-        stiff, damped = _by_link(at, labels), damped if bare else _dashpots(at, K, M, C, labels)
+        stiff, damped = _by_link(at, labels), (damped if bare else []) + _dashpots(at, K, M, C, labels, bare)
     own = _beyond([d for _, d in stiff], slopes[2])
     found = [(np.zeros_like(K), STIFFER * d, STIFFER, f"stiffness {name}") for name, d in (stiff[i] for i in own)]
     # a parameter that moves stiffness, and damping in proportion, leaves the damping alone uncertain
@@ -175,15 +175,15 @@ def _by_link(at: Links, labels: tuple[str, ...]) -> _Named:
     return found
 
 
-def _dashpots(at: Links, K: np.ndarray, M: np.ndarray, C: np.ndarray, labels: tuple[str, ...]) -> _Named:
-    """Damping of each link, and of what only a dashpot links."""
+def _dashpots(at: Links, K: np.ndarray, M: np.ndarray, C: np.ndarray, labels: tuple[str, ...], bare: bool) -> _Named:
+    """Damping of each link, and of what only a dashpot links; of links alone where damping is assumed."""
     w = np.sqrt(np.median(np.diag(K) / np.diag(M))) or 1.0
     i, j = np.array([np.flatnonzero(b)[[0, -1]] for b in at.B.T], int).reshape(-1, 2).T
     own, usual = np.where(i == j, C.sum(axis=1)[i], -C[i, j]), 2 * UNDAMPED * at.values / w
-    own = np.where(np.abs(own) > 0.01 * np.abs(usual), own, 0.1 * usual)
+    own = usual if bare else np.where(np.abs(own) > 0.01 * np.abs(usual), own, 0.1 * usual)
     found = _by_link(Links(at.B, own), labels)
     alone = links(C)
-    if alone is None:
+    if alone is None or bare:
         return found
     others = _by_link(alone, labels)
     return found + [others[i] for i in _beyond([d for _, d in others], np.array([d for _, d in found]))]
