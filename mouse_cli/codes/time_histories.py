@@ -28,8 +28,8 @@ CODES = {
     ),
     "MD640": Code(
         "recording that cannot be simulated",
-        "Diagnosis by recordings simulates the model under the measured force. A record of the deck has no channel of a force at a "
-        "degree of freedom of the model, or none of a displacement, velocity or acceleration.",
+        "Diagnosis by recordings simulates the model under the measured force. A record of the deck has no channel of a force or "
+        "moment at a degree of freedom of the model, or none of a motion: displacement, rotation or their derivatives.",
         "Name force and responses under inputs and outputs with their quantity and unit; `mouse identify` does without.",
     ),
 }

@@ -2,6 +2,7 @@
 
 from mouse_cli.diagnosis.likelihoods.candidates import OWN
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
+from mouse_cli.terms.laws import Law
 
 _HEAD = """# Candidates
 
@@ -20,11 +21,11 @@ def manual() -> str:
     return "\n\n".join([_HEAD, table, *(f"## {key}\n\n{_told(candidate)}" for key, candidate in members.items())])
 
 
-def about(candidate: Candidate) -> str:
-    """One candidate in plain text."""
+def about(candidate: Candidate | Law) -> str:
+    """One candidate, or law of recordings, in plain text."""
     return f"candidate {candidate.key}, group {candidate.group}\n\n{_told(candidate)}"
 
 
-def _told(candidate: Candidate) -> str:
+def _told(candidate: Candidate | Law) -> str:
     meaning = candidate.meaning.rstrip(".")
     return f"{candidate.title[0].upper()}{candidate.title[1:]}: {meaning}. Group: {candidate.group}."

@@ -21,6 +21,7 @@ from mouse_cli.diagnosis.localise.force import locate
 from mouse_cli.diagnosis.localise.implied_law import implied_law
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
 from mouse_cli.diagnosis.nameless.fit import field_of
+from mouse_cli.diagnosis.names import by_records
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.rank import Ranking, group, rank
 from mouse_cli.diagnosis.validate.next_measurement import proposals
@@ -50,7 +51,7 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choi
     >>> found.kind, found.best.title, found.best.causes[0].site.text
     ('named', 'a spring to the ground', 'degree of freedom 2')
     """
-    if problem.recordings and problem.test is None and not problem.frf:
+    if by_records(problem):
         return diagnose_records(problem, notice, choices)
     return _by_its_modes(problem, notice, choices)
 

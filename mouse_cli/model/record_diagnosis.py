@@ -38,7 +38,7 @@ class RecordScore:
     """Errors of simulations of a record that no fit has seen, rms of each output (s,), in the units of the channels.
 
     short: over horizons of horizon_s from fitted initial states; free: from the beginning of the record to its end, inf where
-    it does not stay finite. signal (s,): rms of the record.
+    it does not stay finite. signal (s,): rms of the record; noise (s,): that part of `short` that is noise of the channels.
     """
 
     title: str
@@ -46,6 +46,7 @@ class RecordScore:
     signal: np.ndarray
     short: dict[str, np.ndarray]
     free: dict[str, np.ndarray]
+    noise: np.ndarray | None = None
 
 
 @dataclass(frozen=True)

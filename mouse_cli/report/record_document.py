@@ -32,6 +32,8 @@ def document(found: RecordDiagnosis) -> dict[str, Any]:
             "candidates": of_diagnosis.candidates(found),
             "groups": of_diagnosis.groups(found),
             "noise_scale": found.noise_scale,
+            "cautions": list(found.cautions),
+            "refuted": list(found.refuted),
             "residual": of_result.tested(found.innovation),
             "noise": None if found.noise is None else vars(found.noise),
             "held_out": {"records": [score(one) for one in found.scores], "trace": trace(found.trace)},

@@ -50,6 +50,16 @@ def _unread(path: str, folder: str) -> tuple:
     return tuple(refused(folder, path, outside())) if folder else ()
 
 
+def _records(problem) -> tuple:
+    """What keeps recordings from judging a deck that has nothing else."""
+    if not problem.recordings:
+        return ()
+    from mouse_cli.diagnosis.likelihoods.history.records import cannot_judge
+    from mouse_cli.diagnosis.names import by_records
+
+    return cannot_judge(problem) if by_records(problem) else ()
+
+
 def _findings(path: str, how: dict[str, object], stacked: bool) -> tuple:
     """Everything found in one file."""
     from mouse_cli._errors import MouseError
@@ -72,6 +82,7 @@ def _findings(path: str, how: dict[str, object], stacked: bool) -> tuple:
             problem = assemble(draft)
             found += problem.warnings
             examine(problem)
+            found += _records(problem)
     except MouseError as error:
         return found + error.diagnostics
     return found

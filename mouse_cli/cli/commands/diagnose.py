@@ -1,6 +1,7 @@
 """mouse diagnose: what the model of a deck lacks."""
 
 import os
+from dataclasses import dataclass
 from textwrap import fill
 
 import click
@@ -68,8 +69,8 @@ def command(
     arranged = several(named, output, plot)
     for deck in (*named.fitted, *held_out):
         _check_places(deck, output, plot, reports)
-    choices = _choices(candidates, without, causes)
-    found = _answer(named, arranged, common_sd, choices, quiet, reading(**how))
+    asked = _Asked(_names(candidates, without), without is not None, causes)
+    found = _answer(named, arranged, common_sd, asked, quiet, reading(**how))
     files = _revised(found, output)
     for path in reports:
         shape = _FORMS.get(os.path.splitext(path)[1].lower(), "printout")
@@ -82,8 +83,29 @@ def command(
     return found.exit_code
 
 
-def _answer(named: Named, arranged: bool, common_sd: float | None, choices, quiet: bool, how: dict[str, object]):
-    """The diagnosis of one deck, or of arrangements."""
+@dataclass(frozen=True)
+class _Asked:
+    """What is to be considered: names (None: all), or all without them; most causes together."""
+
+    names: tuple[str, ...] | None
+    without: bool
+    causes: int
+
+    def of(self, problem):
+        """The same for the data of a deck. Raises click.UsageError for names that have no meaning for them."""
+        from mouse_cli.diagnosis.names import chosen
+        from mouse_cli.model.diagnosis import Choices
+
+        if self.names is None:
+            return Choices(causes=self.causes)
+        try:
+            return Choices(chosen(problem, self.names, self.without), self.causes)
+        except ValueError as reason:
+            raise click.UsageError(str(reason)) from reason
+
+
+def _answer(named: Named, arranged: bool, common_sd: float | None, asked: _Asked, quiet: bool, how: dict[str, object]):
+    """The diagnosis of one deck, or of configurations."""
     from mouse_cli.cli._decks import read_problem
     from mouse_cli.cli._terminal import progress, show_diagnostics
     from mouse_cli.diagnosis.diagnose import diagnose
@@ -92,26 +114,26 @@ def _answer(named: Named, arranged: bool, common_sd: float | None, choices, quie
     unseen = tuple(read_problem(deck, **how) for deck in named.unseen)
     if not quiet:
         show_diagnostics(tuple(each for problem in (*problems, *unseen) for each in problem.warnings))
+    choices = asked.of(problems[0])
     with progress() as (_, say):
         if not arranged:
             return diagnose(problems[0], say, choices)
         return diagnosed(named, problems, unseen, common_sd, say, choices)
 
 
-def _choices(candidates: str | None, without: str | None, causes: int):
-    """What is to be considered. Raises click.UsageError for names that do not exist."""
-    from mouse_cli.diagnosis.mechanisms import registry
-    from mouse_cli.model.diagnosis import Choices
-
+def _names(candidates: str | None, without: str | None) -> tuple[str, ...] | None:
+    """The names that were given, before any deck is read. Raises click.UsageError for those that do not exist."""
     if candidates is None and without is None:
-        return Choices(causes=causes)
+        return None
     if candidates is not None and without is not None:
         raise click.UsageError("--candidates and --without exclude each other")
-    known, given = registry(), [name.strip() for name in (candidates or without or "").split(",")]
+    from mouse_cli.diagnosis.names import known
+
+    given = tuple(name.strip() for name in (candidates or without or "").split(","))
     for name in given:
-        if name not in known:
-            raise click.UsageError(f"there is no candidate '{name}'; there are {', '.join(known)}")
-    return Choices(tuple(name for name in known if (name in given) == (candidates is not None)), causes)
+        if name not in known():
+            raise click.UsageError(f"there is no candidate '{name}'; there are {', '.join(known())}")
+    return given
 
 
 def _check_places(deck: str, output: str | None, plot: str | None, reports: tuple[str, ...]) -> None:

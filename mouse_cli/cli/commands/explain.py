@@ -115,5 +115,6 @@ def _entries() -> Iterator[tuple[str, str]]:
         yield key, f"{key}: {recursion.MEANING}"
     for key, kind in registry().items():
         yield key, about(kind)
-    for key, candidate in discover("mouse_cli.diagnosis.mechanisms", "CANDIDATE").items():
-        yield key, candidate_manual.about(candidate)
+    for package, attribute in (("mouse_cli.diagnosis.mechanisms", "CANDIDATE"), ("mouse_cli.terms.laws", "LAW")):
+        for key, candidate in discover(package, attribute).items():
+            yield key, candidate_manual.about(candidate)

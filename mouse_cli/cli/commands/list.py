@@ -77,9 +77,9 @@ def _elements() -> Iterator[tuple[str, str]]:
 
 
 def _candidates() -> Iterator[tuple[str, str]]:
-    from mouse_cli._registry import discover
+    from mouse_cli.diagnosis.names import known
 
-    for key, candidate in discover("mouse_cli.diagnosis.mechanisms", "CANDIDATE").items():
+    for key, candidate in known().items():
         yield key, f"{candidate.title} ({candidate.group})"
 
 

@@ -29,7 +29,9 @@ _NO_SITE, _UNPHYSICAL = (
     "it has no site in this model",
     "no size of it makes a model whose modes can be paired with the test",
 )
-_TRUSTED = 0.5  # share of the stated accuracies in the leading explanation below which no more than two are sought together
+_TRUSTED = (
+    0.5  # share of the stated accuracies in the leading explanation below which no more than two are sought together
+)
 _IDLE = 0.5  # probability of no mechanism above which what has no name is not asked
 
 

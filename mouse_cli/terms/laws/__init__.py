@@ -14,9 +14,10 @@ PLAIN = ({},)
 
 @dataclass(frozen=True)
 class Scale:
-    """What a motion is like in a record: stiffness and mass of the structure against it, rms of x and of its velocity.
+    """What a motion is like in a record: force over motion (elastic, or of inertia where nothing holds it) and mass of the
+    structure against it, rms of x and of its velocity.
 
-    band: lowest and highest frequency in the record, Hz.
+    band: lowest and highest frequency in the record, Hz. stiffest: contact that steps of a simulation can follow, 2 m / h^2.
     """
 
     stiffness: float
@@ -24,6 +25,7 @@ class Scale:
     x: float
     v: float
     band: tuple[float, float]
+    stiffest: float = 0.0
 
 
 _ANY = Scale(1.0, 1.0, 1.0, 1.0, (1.0, 1.0))  # where ranges do not matter

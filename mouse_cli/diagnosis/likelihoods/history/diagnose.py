@@ -4,11 +4,11 @@ from collections.abc import Callable
 
 from mouse_cli.diagnosis.likelihoods.history.deck_laws import extended
 from mouse_cli.diagnosis.likelihoods.history.prove import ratio, scores, surface, trace
-from mouse_cli.diagnosis.likelihoods.history.records import records
+from mouse_cli.diagnosis.likelihoods.history.records import named, records
 from mouse_cli.diagnosis.likelihoods.history.search import weighed
 from mouse_cli.diagnosis.likelihoods.history.signs import linearity
 from mouse_cli.diagnosis.likelihoods.history.study import study
-from mouse_cli.diagnosis.likelihoods.history.verdict import decided, explanation, ranked
+from mouse_cli.diagnosis.likelihoods.history.verdict import decided, explanation, ranked, untried
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, Choices, Diagnosis
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.record_diagnosis import RecordDiagnosis
@@ -31,7 +31,8 @@ def diagnose_records(problem: Problem, notice: Notice, choices: Choices) -> Diag
     notice("records that no fit has seen")
     best = ranking.best
     proof = scores(own, baseline, best)
-    kind = decided(ranking, searched, ratio(proof))
+    decision = decided(ranking, searched, ratio(proof))
+    kind = decision.kind
     told = best if kind in (NAMED, ONE_OF) else None
     theta = lambda one: own.model.theta(one.x[: own.model.own])
     shown = zip(ranking.fits, ranking.probabilities, strict=True)
@@ -44,13 +45,13 @@ def diagnose_records(problem: Problem, notice: Notice, choices: Choices) -> Diag
         explanations=tuple(explanation(one, float(p), theta(one)) for one, p in shown),
         groups=ranking.groups,
         noise_scale=ranking.noise_scale,
+        rest=decision.rest,
+        refuted=decision.refuted,
+        cautions=decision.cautions,
+        untried=untried(searched, own, known),
         remarks=found.remarks + own.model.remarks,
         choices=choices,
-        channels=tuple(channel.sensor or channel.name for channel in found.outputs),
-        units=tuple(channel.unit for channel in found.outputs),
-        inputs=tuple(channel.sensor or channel.name for channel in found.inputs),
-        sd=found.fitted[0].sd,
-        fitted=tuple(one.title for one in found.fitted),
+        **named(found),
         linearity=linearity(own, baseline),
         scores=proof,
         trace=trace(own, baseline, best if kind != NOTHING else None),

@@ -20,6 +20,12 @@ class Linear:
     slopes: tuple[np.ndarray, np.ndarray, np.ndarray]
     names: tuple[str, ...]
 
+    def sound(self, z: np.ndarray) -> bool:
+        """Whether at z (k,) every motion has inertia, and stiffness unless it has none at the mean."""
+        M, _, K = (one[0] for one in self.matrices(z[None]))
+        least = lambda matrix: float(np.linalg.eigvalsh(matrix)[0])
+        return least(M) > 0 and least(K) >= min(least(self.K), 0.0) - 1e-9 * float(np.abs(self.K).max())
+
     @property
     def k(self) -> int:
         """Number of nuisances."""

@@ -46,17 +46,22 @@ def _named(label: str) -> str:
 
 
 def places(problem: Problem, spectrum: Spectrum, basis: np.ndarray, band: tuple[float, float]) -> list[Place]:
-    """All of them, with the motion that the record has there by the model as it is."""
+    """All of them, with the motion that the record has there.
+
+    Force over motion is elastic or inertial, whichever is more: a mass that nothing holds has no B'KB.
+    """
     series, model = spectrum.series, spectrum.linear
     sensed = (np.abs(basis @ np.hstack([series.inputs, series.sensing.T])) > 1e-9).any(axis=1)
-    u = spectrum.motion
+    u = spectrum.motions(np.zeros((basis.shape[1], 0)))
     found = []
     for site, b, ground in motions(problem, sensed):
         B = basis.T @ b
         size = float(B @ B)
-        x, v = (float(spectrum.history(u @ B * (1j * spectrum.w) ** order).std()) for order in (0, 1))
+        x, v, a = (float(spectrum.history(u @ B * (1j * spectrum.w) ** order).std()) for order in (0, 1, 2))
         if size < 1e-24 or x == 0:
             continue
-        scale = Scale(float(B @ model.K @ B) / size**2, float(B @ model.M @ B) / size**2, x, v, band)
+        stiffness, mass = (float(B @ matrix @ B) / size**2 for matrix in (model.K, model.M))
+        step = spectrum.series.dt / spectrum.series.factor
+        scale = Scale(max(stiffness, mass * a / x), mass, x, v, band, 2 * mass / step**2)
         found.append(Place(site, B, ground, scale, b))
     return found

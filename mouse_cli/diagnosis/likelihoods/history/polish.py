@@ -18,6 +18,7 @@ _STEPS = 25
 _SETTLED = 0.05  # of the cost in nats, at which a step is no more worth its time
 _LEAST = 64  # samples of a horizon
 _PATIENCE, _BEHIND = 3, 2.0  # steps of a fit whose cost is so many times that of a better one
+_HALVED = 10  # times that a start without stiffness is brought nearer to the mean
 _PERTURBED = 1e-4  # of prior or range
 
 
@@ -104,7 +105,7 @@ class Polish:
 
     def _followed(self, x: np.ndarray, states: np.ndarray, internal, steps: int, beat: float) -> Fit | None:
         states = self.h.padded_states(states)
-        x = np.clip(x, *self.h.bounds)
+        x = self._sound(np.clip(x, *self.h.bounds))
         self.internal = internal
         here = self._point(x, states)
         cost, damping = self._cost(here, x, states), _DAMPING
@@ -115,8 +116,9 @@ class Polish:
                 break
             moved, d_states = self._step(here, x, states, damping)
             nx, ns = np.clip(x + moved, *self.h.bounds), states + d_states
-            there = self._point(nx, ns)
-            new = self._cost(there, nx, ns)
+            sound = self.h.linear.sound(self.h.whole(nx[None])[0, : self.h.linear.k])
+            there = self._point(nx, ns) if sound else here
+            new = self._cost(there, nx, ns) if sound else np.inf
             if not np.isfinite(new) or new > cost:
                 damping = max(damping, 1e-6) * _UP
                 if damping > 1e8:
@@ -126,6 +128,15 @@ class Polish:
             if gained < 2 * _SETTLED:
                 break
         return self._fit(here, x, states, cost)
+
+    def _sound(self, x: np.ndarray) -> np.ndarray:
+        """x, its nuisances halved towards their mean until stiffness and mass are definite."""
+        k = 0 if self.h.fixed is not None else self.h.linear.k
+        for _ in range(_HALVED):
+            if not k or self.h.linear.sound(x[:k]):
+                break
+            x = np.concatenate([x[:k] / 2, x[k:]])
+        return x
 
     def _point(self, x: np.ndarray, states: np.ndarray) -> _Point:
         """Simulations at x, at every perturbed x and at every perturbed state, all at once."""

@@ -12,7 +12,7 @@ from mouse_cli.diagnosis.likelihoods.history.free_force import Spectrum
 from mouse_cli.diagnosis.likelihoods.history.polish import Fit, followed, segments
 from mouse_cli.diagnosis.likelihoods.history.records import reduced
 from mouse_cli.diagnosis.likelihoods.history.regression import Regression, stepped
-from mouse_cli.diagnosis.likelihoods.history.series import REACH, Series
+from mouse_cli.diagnosis.likelihoods.history.series import REACH, Series, passed
 from mouse_cli.diagnosis.likelihoods.history.study import Study, begin
 from mouse_cli.diagnosis.likelihoods.history.verdict import titled
 from mouse_cli.dynamics.response import simulate
@@ -25,6 +25,7 @@ from mouse_cli.model.record_diagnosis import (
 )
 
 _SEGMENTS = 12
+_JUDGES = 0.1  # share of the squared error above the noise of the channels, from which on a held-out record judges
 _LONG = 45_000  # samples of a record that is simulated as a whole, at most
 
 
@@ -49,7 +50,8 @@ def _score(study: Study, held: Series, models: dict[str, Fit]) -> RecordScore:
             short[name] = held.sd * np.sqrt((found.residual**2).mean(axis=(1, 2)))
         error = held.measured - free_run(study, held, one, found)
         free[name] = _rms(error[: min(len(held), _LONG)])
-    return RecordScore(held.title, study.length * held.dt, _rms(held.measured), short, free)
+    noise = None if held.floor is None else held.floor * np.sqrt(passed())
+    return RecordScore(held.title, study.length * held.dt, _rms(held.measured), short, free, noise)
 
 
 def _rms(x: np.ndarray) -> np.ndarray:
@@ -89,11 +91,21 @@ def free_run(study: Study, held: Series, one: Fit, found: Fit | None) -> np.ndar
 
 
 def ratio(found: tuple[RecordScore, ...]) -> float:
-    """Error over short horizons with the cause over that without, all held-out records together; nan without any."""
+    """Error over short horizons with the cause over that without, all held-out records together, the noise of the channels taken
+    out of both; nan without any, or where the model as it is leaves nothing but that noise and the cause no more.
+    """
     if not found or WITH_CAUSE not in found[0].short:
         return float("nan")
-    size = lambda name: float(np.sqrt(np.mean([((one.short[name] / one.signal) ** 2).mean() for one in found])))
-    return size(WITH_CAUSE) / size(AS_IT_IS)
+    noise = [0.0 if one.noise is None else one.noise**2 for one in found]
+    mean = lambda values: float(np.mean([(v / one.signal**2).mean() for v, one in zip(values, found, strict=True)]))
+    whole = [mean([one.short[name] ** 2 for one in found]) for name in (WITH_CAUSE, AS_IT_IS)]
+    excess = [
+        mean([np.maximum(one.short[name] ** 2 - n, 0.0) for one, n in zip(found, noise, strict=True)])
+        for name in (WITH_CAUSE, AS_IT_IS)
+    ]
+    if excess[1] > _JUDGES * whole[1]:
+        return float(np.sqrt(excess[0] / excess[1]))
+    return float(np.sqrt(whole[0] / whole[1])) if whole[0] > (1 + _JUDGES) * whole[1] else float("nan")
 
 
 def trace(study: Study, baseline: Fit, best: Fit | None) -> Trace | None:

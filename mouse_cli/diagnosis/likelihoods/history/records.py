@@ -4,15 +4,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mouse_cli._errors import ERROR, DeckError, Diagnostic
+from mouse_cli._errors import ERROR, WARNING, DeckError, Diagnostic
 from mouse_cli.diagnosis.likelihoods.history.series import REACH, Series
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.recording import MOTIONS, Channel, Recording
 
 FLOOR = 0.01  # of the rms of a channel: no transducer and no theory is more accurate
 HELD = 0.3  # share at the end of each record that is held out where the deck holds nothing out
-_LINES = 32  # spectral lines averaged for the noise floor
+_LINES, _LOWEST = (
+    32,
+    1.41,
+)  # spectral lines averaged for the noise floor; white noise over the lowest tenth of such means
 _FORCES = ("force", "moment")
+_ORDERS = MOTIONS | {"rotation": 0, "angular velocity": 1, "angular acceleration": 2}  # how many times differentiated
 _RATE = 30.0  # steps in a period of the highest mode of interest, at least
 
 
@@ -40,8 +44,9 @@ def records(problem: Problem) -> Records:
             f"{len(fitted) - len(alike)} recordings have other channels or another rate than the first and were left out"
         )
     held = [one for one in held if _alike(one, first)]
-    sd = np.max([_sd(one.samples[:, outputs]) for one in alike], axis=0)
-    make = lambda one: _series(problem, one, inputs, outputs, sd)
+    floor = np.max([_floor(one.samples[:, outputs]) for one in alike], axis=0)
+    sd = np.max([floor, *(FLOOR * one.samples[:, outputs].std(axis=0) for one in alike)], axis=0)
+    make = lambda one: replace(_series(problem, one, inputs, outputs, sd), floor=_floor(one.samples[:, outputs]))
     if held:
         series, kept = [make(one) for one in alike], [make(one) for one in held]
     else:
@@ -53,17 +58,37 @@ def records(problem: Problem) -> Records:
     return Records(tuple(series), tuple(kept), channels(outputs), channels(inputs), tuple(said))
 
 
+def named(found: Records) -> dict[str, object]:
+    """What reports say of the records."""
+    return {
+        "channels": tuple(channel.sensor or channel.name for channel in found.outputs),
+        "units": tuple(channel.unit for channel in found.outputs),
+        "sd": found.fitted[0].sd,
+        "inputs": tuple(channel.sensor or channel.name for channel in found.inputs),
+        "fitted": tuple(one.title for one in found.fitted),
+    }
+
+
 def _channels(problem: Problem, record: Recording) -> tuple[list[int], list[int]]:
     """Columns of forces and of motions on degrees of freedom of the model."""
     own = lambda j: bool(record.channels[j].weights)
     inputs = [int(j) for j in record.inputs if record.channels[j].quantity in _FORCES and own(j)]
-    outputs = [int(j) for j in record.outputs if record.channels[j].quantity in MOTIONS and own(j)]
-    for what, columns in (("force", inputs), ("displacement, velocity or acceleration", outputs)):
+    outputs = [int(j) for j in record.outputs if record.channels[j].quantity in _ORDERS and own(j)]
+    for what, columns in (("force", inputs), ("motion (displacement, rotation, or their derivatives)", outputs)):
         if not columns:
             message = f"recording '{record.title}' has no channel of {what} at a degree of freedom of the model"
             help = "name it under inputs or outputs with its quantity; simulation needs the measured force"
             raise DeckError([Diagnostic("MD640", ERROR, message, problem.place("recordings"), help=help)])
     return inputs, outputs
+
+
+def cannot_judge(problem: Problem) -> tuple[Diagnostic, ...]:
+    """Why `diagnose` and `run` would refuse the recordings of a deck (MD640), as a warning: `identify` may need no force."""
+    try:
+        _channels(problem, problem.recordings[0])
+    except DeckError as error:
+        return tuple(replace(one, severity=WARNING) for one in error.diagnostics)
+    return ()
 
 
 def _alike(one: Recording, other: Recording) -> bool:
@@ -74,7 +99,7 @@ def _alike(one: Recording, other: Recording) -> bool:
 def _series(problem: Problem, record: Recording, inputs: list[int], outputs: list[int], sd: np.ndarray) -> Series:
     n = problem.structure.n
     rows = lambda columns: np.array([_weights(record.channels[j], n) for j in columns])
-    order = np.array([MOTIONS[record.channels[j].quantity] for j in outputs])
+    order = np.array([_ORDERS[record.channels[j].quantity] for j in outputs])
     samples = record.samples
     return Series(
         record.title,
@@ -96,17 +121,16 @@ def _weights(channel: Channel, n: int) -> np.ndarray:
     return found
 
 
-def _sd(samples: np.ndarray) -> np.ndarray:
-    """Accuracy of channels (t, s): the floor of their spectra, where the structure is quiet, and at least FLOOR of their rms.
+def _floor(samples: np.ndarray) -> np.ndarray:
+    """Noise of channels (t, s): the floor of their spectra, where the structure is quiet.
 
-    The lowest mean of _LINES neighbouring lines, times what the lowest of so many falls short of their level on average.
+    The lowest tenth of means of _LINES neighbouring lines, times what it falls short of the level of white noise on average.
     """
     t = len(samples)
     window = np.hanning(t)[:, None]
     power = np.abs(np.fft.rfft((samples - samples.mean(axis=0)) * window, axis=0)) ** 2 / (window**2).sum()
     groups = power[1 : 1 + (len(power) - 1) // _LINES * _LINES].reshape(-1, _LINES, power.shape[1]).mean(axis=1)
-    floor = np.sqrt(np.quantile(groups, 0.1, axis=0) * 1.2)
-    return np.maximum(floor, FLOOR * samples.std(axis=0))
+    return np.sqrt(np.quantile(groups, 0.1, axis=0) * _LOWEST)
 
 
 def steps(series: Series, highest_hz: float) -> Series:

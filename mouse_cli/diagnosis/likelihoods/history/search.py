@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mouse_cli.diagnosis.gates import GATE
+from mouse_cli.diagnosis.likelihoods.history.limits import hidden, innovation, strained
 from mouse_cli.diagnosis.likelihoods.history.noise import noise
 from mouse_cli.diagnosis.likelihoods.history.polish import Fit
 from mouse_cli.diagnosis.likelihoods.history.regression import Start, starts
@@ -13,8 +15,9 @@ from mouse_cli.model.record_diagnosis import Noise
 from mouse_cli.terms.laws import Law
 from mouse_cli.terms.laws import registry as laws
 from mouse_cli.updating.chi_square import upper_tail
+from mouse_cli.updating.refusals import not_simulated
 
-GATE, MATERIAL, INADEQUATE = 1e-3, 1.1, 1.5  # probability of a misfit by chance; ratios to the variance expected
+MATERIAL, INADEQUATE = 1.1, 1.5  # ratios to the variance expected
 _POLISHED, _MORE, _AGAIN = 4, 12, 8  # starts that are fitted; where none of them is adequate; of the nearest law again
 _ROUNDS, _SECONDS = 3, 4  # laws beside which a second one is sought, and starts of it that are fitted
 
@@ -26,33 +29,58 @@ class Weighed:
     """The model as it is, and every explanation that was followed to its optimum.
 
     noise: what is left beside the explanation `beside`, where that is more than the accuracy of the channels and yet noise.
+    dropped: keys of laws that were fitted and that the records cannot show, with the reason; they are not among the fits.
     """
 
     baseline: Fit
     fits: list[Fit]
     noise: Noise | None = None
     beside: Fit | None = None
+    dropped: tuple[tuple[str, str], ...] = ()
 
 
 def weighed(study: Study, notice: Notice, known: list[Law] | None = None, causes: int = 2) -> Weighed:
-    """The model as it is, then one law, then, where no single one is adequate and what it leaves is no noise, up to `causes`."""
+    """The model as it is, then one law, then, where no single one is adequate and what it leaves is no noise, up to `causes`.
+
+    Raises NumericalError (MD540) where the model as it is cannot be simulated.
+    """
     notice("the linear model as it is")
     baseline = fitted(study, None)
-    if baseline is None or not missing(baseline):
+    if baseline is None:
+        raise not_simulated(study.problem)
+    if not missing(baseline):
         return Weighed(baseline, [])
-    quiet = noise(study.spectrum, study.base, study.places)
-    if quiet is not None:
+    quiet = noise(study.spectrum, study.base, study.places) if unlikely(baseline) else None
+    if quiet is not None and not strained(baseline, with_noise(baseline, quiet)):
         return Weighed(baseline, [], quiet, baseline)
-    found = _singles(study, notice, known, baseline)
-    best = min([baseline, *found], key=lambda one: one.misfit)
+    dropped: dict[str, str] = {}
+    found = _shown(study, _singles(study, notice, known, baseline), dropped)
+    best = min([baseline, *found], key=innovation)
     if best is baseline or adequate(best):
-        return Weighed(baseline, found)
+        return Weighed(baseline, found, dropped=tuple(dropped.items()))
     quiet = _left(study, best)
     if quiet is None and causes > 1:
-        found += _pairs(study, notice, known, found)
-        best = min(found, key=lambda one: one.misfit)
+        found += _shown(study, _pairs(study, notice, known, found), dropped)
+        best = min(found, key=innovation)
         quiet = None if adequate(best) else _left(study, best)
-    return Weighed(baseline, found, quiet, None if quiet is None else best)
+    return Weighed(baseline, found, quiet, None if quiet is None else best, tuple(dropped.items()))
+
+
+def _shown(study: Study, found: list[Fit], dropped: dict[str, str]) -> list[Fit]:
+    """Fits whose laws the records can show; into `dropped` the others."""
+    horizon, kept = study.length * study.look.dt, []
+    for one in found:
+        unseen = hidden(one, horizon)
+        if unseen is None:
+            kept.append(one)
+        else:
+            dropped[unseen[0]] = unseen[1]
+    return kept
+
+
+def with_noise(one: Fit, quiet: Noise | None) -> float:
+    """Times the stated variance that data are worth beside a fit: what it leaves, by the share of independent samples."""
+    return max(1.0, one.misfit / one.dof) / (1.0 if quiet is None else quiet.effective)
 
 
 def _left(study: Study, one: Fit) -> Noise | None:
@@ -70,7 +98,7 @@ def _singles(study: Study, notice: Notice, known: list[Law] | None, baseline: Fi
         one = fitted(study, start, best.cost if found else np.inf)
         if one is not None:
             found.append(one)
-            best = min(best, one, key=lambda each: each.misfit)
+            best = min(best, one, key=innovation)
     if not adequate(best):
         found += _again(study, best)
     return found + _relatives(study, best, known)
@@ -83,15 +111,15 @@ def _named(start: Start) -> str:
 def _pairs(study: Study, notice: Notice, known: list[Law] | None, singles: list[Fit]) -> list[Fit]:
     """Two laws: a second one beside the best, then beside that second one by itself, as the first may have stood for both."""
     found: list[Fit] = []
-    first = min(singles, key=lambda one: one.misfit)
+    first = min(singles, key=innovation)
     tried = []
     for _ in range(_ROUNDS):
         tried.append(_where(first))
         notice(f"a second law beside {first.hypothesis.law.title}, {first.hypothesis.place.site.text}")
         found += _beside(study, notice, known, first, found)
-        if not found or adequate(min(found, key=lambda one: one.misfit)):
+        if not found or adequate(min(found, key=innovation)):
             break
-        first = _other(study, min(found, key=lambda one: one.misfit), tried)
+        first = _other(study, min(found, key=innovation), tried)
         if first is None:
             break
     return found
@@ -108,7 +136,7 @@ def _beside(study: Study, notice: Notice, known: list[Law] | None, first: Fit, o
     found: list[Fit] = []
     for start in order[:_SECONDS]:
         notice(_named(start))
-        best = min([*others, *found], key=lambda one: one.misfit, default=None)
+        best = min([*others, *found], key=innovation, default=None)
         one = fitted(study, start, np.inf if best is None else best.cost, first)
         found += [] if one is None else [one]
     return found
@@ -173,11 +201,21 @@ def _relatives(study: Study, best: Fit, known: list[Law] | None) -> list[Fit]:
     return [] if one is None else [one]
 
 
-def missing(baseline: Fit) -> bool:
-    """Whether what the model leaves is neither chance nor a trifle."""
+def unlikely(baseline: Fit) -> bool:
+    """Whether what the model leaves of the data is neither chance nor a trifle."""
     return upper_tail(baseline.misfit, max(int(baseline.dof), 1)) < GATE and baseline.misfit > MATERIAL * baseline.dof
 
 
-def adequate(one: Fit) -> bool:
-    """Whether what a fit leaves may be noise."""
+def missing(baseline: Fit) -> bool:
+    """Whether data, or the prior of the parameters that they moved, speak against the model: the innovation's two parts."""
+    return unlikely(baseline) or strained(baseline)
+
+
+def close(one: Fit) -> bool:
+    """Whether what a fit leaves of the data may be noise."""
     return one.misfit <= INADEQUATE * one.dof or upper_tail(one.misfit, max(int(one.dof), 1)) >= GATE
+
+
+def adequate(one: Fit) -> bool:
+    """The same, with parameters where their prior allows them."""
+    return close(one) and not strained(one)

@@ -13,7 +13,8 @@ _EDGE, _WINDOW = 0.42, 6.0  # its edge by the sample rate; parameter of its Kais
 class Series:
     """t samples of one record, dt apart in s. force (t, i), measured (t, s); sd (s,) of the noise; factor: steps in a sample.
 
-    inputs (n, i), sensing (s, n): how they meet the model; order (s,): 0 displacement, 1 velocity, 2 acceleration.
+    inputs (n, i), sensing (s, n): how they meet the model; order (s,): 0 displacement, 1 velocity, 2 acceleration. floor (s,): what
+    the spectrum shows of the noise, where sd is more.
     """
 
     title: str
@@ -26,6 +27,7 @@ class Series:
     order: np.ndarray
     factor: int = 4
     first: int = 0
+    floor: np.ndarray | None = None
 
     def __len__(self) -> int:
         return len(self.measured)

@@ -65,10 +65,11 @@ def study(problem: Problem, found: Records) -> Study:
     at = np.unique(np.hstack([first.inputs, first.sensing.T]), axis=1)
     model = uncertain(problem, min(_ABOVE * high, _BEYOND / first.dt), at)
     hz = _resonances(model)
-    low = min(lowest, 0.5 * float(hz[hz > 1e-3 * hz.max()].min()))
-    make = lambda one: steps(reduced(one, model.basis), min(hz.max(), high))
+    flexible = hz[hz > 1e-3 * max(hz.max(), lowest)]
+    slowest, highest = (flexible.min(), flexible.max()) if len(flexible) else (2 * lowest, high)
+    low = min(lowest, 0.5 * float(slowest))
+    make = lambda one: steps(reduced(one, model.basis), min(highest, high))
     fitted = [make(one) for one in found.fitted]
-    slowest = hz[hz > 1e-3 * hz.max()].min()
     length = int(np.clip(_PERIODS / slowest / fitted[0].dt, _SHORTEST, _LONGEST))
     length = max(64, min(length, min(len(one) for one in fitted) // 3))
     share = max(2, _SEGMENTS // len(fitted))

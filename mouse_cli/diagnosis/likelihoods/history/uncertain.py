@@ -1,8 +1,7 @@
 """What is uncertain in the linear model of a deck: its parameters, and stiffness and damping of every part they do not reach.
 
 A parameter that is left out of a fit is found again as physics. So each link between two degrees of freedom, and from each to
-the ground, may be stiffer or softer and damped otherwise, by the errors of theory of the deck, whether or not it has a parameter
-for it.
+the ground, may be stiffer or softer and damped otherwise, whether or not the deck has a parameter for it.
 """
 
 from collections.abc import Callable
@@ -13,14 +12,14 @@ import numpy as np
 from mouse_cli.diagnosis.likelihoods.history.linear import Linear
 from mouse_cli.model.arrays import Matrix, dense
 from mouse_cli.model.problem import Problem
-from mouse_cli.model.theory import Theory
 from mouse_cli.terms.assembly import assembly
 from mouse_cli.updating.coordinates import coordinates
 
-UNDAMPED = 0.01  # damping ratio assumed where the deck has no damping; its sd is as large
+UNDAMPED, LOOSE = 0.01, 2.0  # damping ratio assumed of each mode where the deck has no damping; its sd, by its value
 LARGEST = 40  # degrees of freedom that are simulated as they are; larger models by modes
 _MOST_MODES = 60
 _MOST_LINKED = 400  # degrees of freedom of a model all of whose links are looked at
+_Named = list[tuple[str, np.ndarray]]  # matrices (n, n) with the names of what they belong to
 _STEP = 1e-4  # of finite differences, in prior sd
 
 
@@ -37,7 +36,7 @@ def links(K: Matrix) -> Links | None:
     from scipy.sparse import coo_array
 
     n, entries = K.shape[0], coo_array(K)
-    least = 1e-9 * np.abs(entries.data).max()
+    least = 1e-9 * np.abs(entries.data).max(initial=0.0)
     own = (entries.row < entries.col) & (np.abs(entries.data) > least)
     pairs = sorted(zip(entries.row[own].tolist(), entries.col[own].tolist(), strict=True))
     ground = np.flatnonzero(np.abs(K.sum(axis=1)) > least)
@@ -78,11 +77,14 @@ def uncertain(problem: Problem, highest_hz: float, at: np.ndarray) -> Uncertain:
     V = _basis(*found.matrices(value(np.zeros(k))), highest_hz, at)
     reduce = lambda matrix: V.T @ (matrix @ V)
 
+    bare = not any(m is not None for m in found.damping(value(np.zeros(k))))
+    usual = _viscous(*(reduce(dense(m)) for m in found.matrices(value(np.zeros(k)))), None, None) if bare else None
+
     def own(z: np.ndarray) -> tuple[np.ndarray, ...]:
         theta = value(z)
         K, M = (reduce(dense(m)) for m in found.matrices(theta))
         C, D = (None if m is None else reduce(dense(m)) for m in found.damping(theta))
-        return M, _viscous(K, M, C, D), K
+        return M, _viscous(K, M, C, D) if usual is None else usual, K
 
     M, C, K = own(np.zeros(k))
     slopes = [np.zeros((k, *K.shape)) for _ in range(3)]
@@ -90,11 +92,11 @@ def uncertain(problem: Problem, highest_hz: float, at: np.ndarray) -> Uncertain:
         ends = [own(sign * _STEP * np.eye(k)[j]) for sign in (1, -1)]
         for slope, up, down in zip(slopes, *ends, strict=True):
             slope[j] = (up - down) / (2 * _STEP)
-    sizes = _sizes(problem.theory, not any(m is not None for m in found.damping(value(np.zeros(k)))))
-    extra = _extra(M, C, K, slopes, sizes)
+    by = problem.theory.link_stiffness, LOOSE if bare else problem.theory.link_damping
+    extra = _extra(M, C, K, slopes, bare, problem.structure.labels, by)
     steady = found.linear and not where.logarithmic.any()
-    linear = _linear(own, (M, C, K), slopes, extra, k, steady)
-    return Uncertain(linear, V, value, k, _remarks(sizes, len(extra[2])))
+    linear = _linear(own, (M, C, K), slopes, extra, _names(problem, k), steady)
+    return Uncertain(linear, V, value, k, _remarks(bare, len(extra.names), by))
 
 
 def _basis(K: Matrix, M: Matrix, highest_hz: float, at: np.ndarray) -> np.ndarray:
@@ -128,101 +130,127 @@ def _viscous(K: np.ndarray, M: np.ndarray, C: np.ndarray | None, D: np.ndarray |
     from scipy.linalg import eigh
 
     values, shapes = eigh(K, M)
-    w, weighted = np.sqrt(np.maximum(values, 1e-12 * values.max())), M @ shapes
+    w, weighted = np.sqrt(np.maximum(values, 1e-12 * (values.max() or 1.0))), M @ shapes
     ratio = UNDAMPED * np.ones(len(w)) if D is None else np.einsum("ij,ik,kj->j", shapes, D, shapes) / w**2 / 2
     return found + (weighted * 2 * ratio * w) @ weighted.T
 
 
 @dataclass(frozen=True)
-class _Sizes:
-    """sd of stiffness and of damping of a link, as shares of them; bare: the deck has no damping, and that of a link is assumed."""
+class _Extra:
+    """dC, dK (e, n, n) of what the deck's own parameters do not move, a step of one sd; share (e,): that sd by the value."""
 
-    stiffness: float
-    damping: float
-    bare: bool
+    dC: np.ndarray
+    dK: np.ndarray
+    share: np.ndarray
+    names: list[str]
+
+    def moved(self, z: np.ndarray) -> np.ndarray:
+        """Steps (P, e) at z (P, e): what is softer or less damped by many sd tends to nothing and never turns negative."""
+        return np.where(z < 0, np.expm1(np.minimum(self.share * z, 0.0)) / self.share, z)
 
 
-def _sizes(theory: Theory, bare: bool) -> _Sizes:
-    return _Sizes(theory.link_stiffness, 1.0 if bare else theory.link_damping, bare)
-
-
-def _extra(M, C, K, slopes, by: _Sizes) -> tuple[np.ndarray, np.ndarray, list[str]]:
-    """dC, dK (e, n, n) of the links, or of the modes, that the deck's own parameters do not move; and their names."""
-    at = links(K)
-    dK, dC = _by_link(at, K, M, C, by) if at is not None else _by_mode(M, C, K, by)
-    found = [(np.zeros_like(K), d, "stiffness") for d in _beyond(dK, slopes[2])]
+def _extra(M, C, K, slopes, bare: bool, labels: tuple[str, ...], by: tuple[float, float]) -> _Extra:
+    """Links, or modes, that the deck's own parameters do not move; where the deck has no damping, that of both."""
+    at, (stiffer, loose) = links(K), by
+    stiff, damped = _by_mode(M, C, K)
+    if at is not None:
+        stiff, damped = _by_link(at, labels), (damped if bare else []) + _dashpots(at, K, M, C, labels, bare)
+    own = _beyond([d for _, d in stiff], slopes[2])
+    found = [(np.zeros_like(K), stiffer * d, stiffer, f"stiffness {name}") for name, d in (stiff[i] for i in own)]
     # a parameter that moves stiffness, and damping in proportion, leaves the damping alone uncertain
-    both = lambda c, k: np.concatenate([c / np.linalg.norm(C), k / np.linalg.norm(K)], axis=-1)
-    free = _beyond([both(d, np.zeros_like(K)) for d in dC], both(slopes[1], slopes[2]))
-    found += [(d[:, : len(K)] * np.linalg.norm(C), np.zeros_like(K), "damping") for d in free]
+    size = [np.linalg.norm(one) or 1.0 for one in (C, K)]
+    both = lambda c, k: np.concatenate([c / size[0], k / size[1]], axis=-1)
+    own = _beyond([both(d, np.zeros_like(K)) for _, d in damped], both(slopes[1], slopes[2]))
+    found += [(loose * d, np.zeros_like(K), loose, f"damping {name}") for name, d in (damped[i] for i in own)]
     C, K = (np.array([one[i] for one in found]).reshape(-1, *K.shape) for i in (0, 1))
-    return C, K, [f"{name} {i}" for i, (_, _, name) in enumerate(found, 1)]
+    return _Extra(C, K, np.array([one[2] for one in found]), [one[3] for one in found])
 
 
-def _by_link(at: Links, K: np.ndarray, M: np.ndarray, C: np.ndarray, by: _Sizes) -> tuple[list, list]:
-    w = np.sqrt(np.median(np.diag(K) / np.diag(M)))
-    pairs = [np.outer(b, b) for b in at.B.T]
-    i, j = (np.array([np.flatnonzero(b)[end] for b in at.B.T]) for end in (0, -1))
-    own = np.where(i == j, C.sum(axis=1)[i], -C[i, j])
-    usual = 2 * UNDAMPED * at.values / w
-    own = usual if by.bare else np.where(np.abs(own) > 0.01 * np.abs(usual), own, 0.1 * usual)
-    return [by.stiffness * value * pair for value, pair in zip(at.values, pairs, strict=True)], [
-        by.damping * value * pair for value, pair in zip(own, pairs, strict=True)
-    ]
+def _by_link(at: Links, labels: tuple[str, ...]) -> _Named:
+    """What each link is worth, by its name."""
+    found = []
+    for value, b in zip(at.values, at.B.T, strict=True):
+        ends = [labels[i] for i in np.flatnonzero(b)]
+        found.append((f"between {' and '.join([*ends, 'the ground'][:2])}", value * np.outer(b, b)))
+    return found
 
 
-def _by_mode(M: np.ndarray, C: np.ndarray, K: np.ndarray, by: _Sizes) -> tuple[list, list]:
+def _dashpots(at: Links, K: np.ndarray, M: np.ndarray, C: np.ndarray, labels: tuple[str, ...], bare: bool) -> _Named:
+    """Damping of each link, and of what only a dashpot links; of links alone where damping is assumed."""
+    w = np.sqrt(np.median(np.diag(K) / np.diag(M))) or 1.0
+    i, j = np.array([np.flatnonzero(b)[[0, -1]] for b in at.B.T], int).reshape(-1, 2).T
+    own, usual = np.where(i == j, C.sum(axis=1)[i], -C[i, j]), 2 * UNDAMPED * at.values / w
+    own = usual if bare else np.where(np.abs(own) > 0.01 * np.abs(usual), own, 0.1 * usual)
+    found = _by_link(Links(at.B, own), labels)
+    alone = links(C)
+    if alone is None or bare:
+        return found
+    others = _by_link(alone, labels)
+    return found + [others[i] for i in _beyond([d for _, d in others], np.array([d for _, d in found]))]
+
+
+def _by_mode(M: np.ndarray, C: np.ndarray, K: np.ndarray) -> tuple[_Named, _Named]:
     from scipy.linalg import eigh
 
     values, shapes = eigh(K, M)
-    weighted = M @ shapes
-    pairs = [np.outer(m, m) for m in weighted.T]
+    pairs = [np.outer(m, m) for m in (M @ shapes).T]
     damped = np.einsum("ij,ik,kj->j", shapes, C, shapes)
-    return [by.stiffness * v * pair for v, pair in zip(values, pairs, strict=True)], [
-        by.damping * c * pair for c, pair in zip(damped, pairs, strict=True)
-    ]
+    named = lambda sizes: [(f"of mode {i}", v * m) for i, (v, m) in enumerate(zip(sizes, pairs, strict=True), 1)]
+    return named(values), named(damped)
 
 
-def _beyond(candidates: list[np.ndarray], known: np.ndarray) -> list[np.ndarray]:
-    """Those of `candidates` that no combination of `known` makes."""
-    columns = known.reshape(len(known), -1).T
+def _beyond(candidates: list[np.ndarray], known: np.ndarray) -> list[int]:
+    """Indices of those of `candidates` that no combination of `known` (k, ...) makes."""
+    columns = known.reshape(len(known), int(np.prod(known.shape[1:]))).T
     norms = np.linalg.norm(columns, axis=0)
     columns = columns[:, norms > 0] / norms[norms > 0]
     found = []
-    for one in candidates:
+    for i, one in enumerate(candidates):
         rest = one.ravel()
         if columns.shape[1]:
             rest = rest - columns @ np.linalg.lstsq(columns, rest, rcond=None)[0]
         if np.linalg.norm(rest) > 1e-6 * np.linalg.norm(one) > 0:
-            found.append(one)
+            found.append(i)
     return found
 
 
-def _linear(own, mean, slopes, extra, k: int, steady: bool) -> Linear:
-    dC, dK, names = extra
-    whole = (
-        np.concatenate([slopes[0], np.zeros_like(dC)]),
-        np.concatenate([slopes[1], dC]),
-        np.concatenate([slopes[2], dK]),
+def _linear(own, mean, slopes, extra: _Extra, names: list[str], steady: bool) -> Linear:
+    k, whole = (
+        len(names),
+        (
+            np.concatenate([slopes[0], np.zeros_like(extra.dC)]),
+            np.concatenate([slopes[1], extra.dC]),
+            np.concatenate([slopes[2], extra.dK]),
+        ),
     )
 
     def matrices(z: np.ndarray):
+        z = np.column_stack([z[:, :k], extra.moved(z[:, k:])])
         if steady:
             return tuple(m + np.einsum("pk,kij->pij", z, d) for m, d in zip(mean, whole, strict=True))
         parts = (np.stack(one) for one in zip(*(own(row[:k]) for row in z), strict=True))
-        moved = (0.0, np.einsum("pk,kij->pij", z[:, k:], dC), np.einsum("pk,kij->pij", z[:, k:], dK))
+        moved = (0.0, np.einsum("pk,kij->pij", z[:, k:], extra.dC), np.einsum("pk,kij->pij", z[:, k:], extra.dK))
         return tuple(part + d for part, d in zip(parts, moved, strict=True))
 
-    return Linear(*mean, matrices, whole, tuple(f"parameter {i + 1}" for i in range(k)) + tuple(names))
+    return Linear(*mean, matrices, whole, (*names, *extra.names))
 
 
-def _remarks(by: _Sizes, extra: int) -> tuple[str, ...]:
+def _names(problem: Problem, k: int) -> list[str]:
+    """Of the deck's own parameters, or of the directions in which their prior lets them move."""
+    own = [one.name for one in problem.parameters]
+    return own if len(own) == k else [f"direction {i} of the parameters" for i in range(1, k + 1)]
+
+
+def _remarks(bare: bool, extra: int, by: tuple[float, float]) -> tuple[str, ...]:
     said = ()
     if extra:
         said += (
-            f"beside the parameters of the deck, stiffness (sd {100 * by.stiffness:g} %) and damping "
-            f"(sd {100 * by.damping:g} %) of each part that they do not reach were free: {extra} in all",
+            f"beside the parameters of the deck, stiffness (sd {100 * by[0]:g} %) and damping "
+            f"(sd {100 * by[1]:g} %) of each part that they do not reach were free: {extra} in all",
         )
-    if by.bare:
-        said += (f"the deck has no damping: {100 * UNDAMPED:g} % of critical was assumed, with as large an sd",)
+    if bare:
+        said += (
+            f"the deck has no damping: {100 * UNDAMPED:g} % of critical was assumed of each mode, "
+            f"with an sd of {100 * UNDAMPED * LOOSE:g} %",
+        )
     return said

@@ -5,11 +5,12 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli.diagnosis.likelihoods.history.hypothesis import Hypothesis, Part, Place
+from mouse_cli.diagnosis.likelihoods.history.limits import strained
 from mouse_cli.diagnosis.likelihoods.history.noise import noise
 from mouse_cli.diagnosis.likelihoods.history.polish import Fit, Polish, followed
 from mouse_cli.diagnosis.likelihoods.history.prove import scores, surface, trace
-from mouse_cli.diagnosis.likelihoods.history.records import Records, records
-from mouse_cli.diagnosis.likelihoods.history.search import Notice, missing
+from mouse_cli.diagnosis.likelihoods.history.records import named, records
+from mouse_cli.diagnosis.likelihoods.history.search import Notice, unlikely, with_noise
 from mouse_cli.diagnosis.likelihoods.history.study import Study, begin, study
 from mouse_cli.diagnosis.likelihoods.history.uncertain import Uncertain
 from mouse_cli.diagnosis.likelihoods.history.verdict import causes
@@ -38,8 +39,8 @@ def update_records(problem: Problem, notice: Notice) -> RecordUpdate:
     if fit is None:
         raise not_simulated(problem)
     notice("records that no fit has seen")
-    left = noise(own.spectrum, fit.hypothesis, own.places, fit.x) if missing(fit) else None
-    scale = max(1.0, fit.misfit / fit.dof) / (left.effective if left else 1.0)
+    left = noise(own.spectrum, fit.hypothesis, own.places, fit.x) if unlikely(fit) else None
+    scale = with_noise(fit, left)
     dof = max(int(fit.dof), 1)
     return RecordUpdate(
         problem=problem,
@@ -48,25 +49,14 @@ def update_records(problem: Problem, notice: Notice) -> RecordUpdate:
         laws=causes(replace(fit, covariance=scale * fit.covariance)),
         residual=ChiSquareTest("residual", fit.misfit, dof, upper_tail(fit.misfit, dof)),
         noise_scale=scale,
-        explained=not missing(fit) or left is not None,
+        explained=not strained(fit, scale) and (not unlikely(fit) or left is not None),
         noise=left,
         scores=scores(own, prior, fit),
         trace=trace(own, prior, fit),
         surface=surface(own, fit),
         remarks=found.remarks + own.model.remarks,
-        **_told(found),
+        **named(found),
     )
-
-
-def _told(found: Records) -> dict[str, object]:
-    """What reports say of the records."""
-    return {
-        "channels": tuple(channel.sensor or channel.name for channel in found.outputs),
-        "units": tuple(channel.unit for channel in found.outputs),
-        "sd": found.fitted[0].sd,
-        "inputs": tuple(channel.sensor or channel.name for channel in found.inputs),
-        "fitted": tuple(one.title for one in found.fitted),
-    }
 
 
 def _part(one: LocalLaw, own: Study) -> tuple[Part, np.ndarray]:

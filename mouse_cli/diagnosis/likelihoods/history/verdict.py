@@ -4,24 +4,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mouse_cli.diagnosis.gates import FAR, ODDS, SURE, prior
 from mouse_cli.diagnosis.likelihoods.history.hypothesis import Part
+from mouse_cli.diagnosis.likelihoods.history.limits import far, innovation, shift_p, strained
 from mouse_cli.diagnosis.likelihoods.history.polish import Fit
-from mouse_cli.diagnosis.likelihoods.history.search import MATERIAL, Weighed, adequate, missing
-from mouse_cli.model.diagnosis import (
-    NAMED,
-    NOTHING,
-    ONE_OF,
-    UNKNOWN,
-    Cause,
-    Explanation,
-    Size,
-)
+from mouse_cli.diagnosis.likelihoods.history.regression import allowed
+from mouse_cli.diagnosis.likelihoods.history.search import MATERIAL, Weighed, adequate, close, missing, unlikely
+from mouse_cli.diagnosis.likelihoods.history.study import Study
+from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Cause, Explanation, Rest, Size, Untried
 from mouse_cli.model.groups import joined, shares
+from mouse_cli.terms.laws import Law, registry
 from mouse_cli.updating.chi_square import upper_tail
 
-_PRIOR = 0.3, 0.6, 0.1  # that nothing is missing, one law, two
-_SURE, _ODDS = 0.9, 3.0  # probability of a group, nats over no cause, that a name takes
-_BETTER = 0.7  # ratio of errors on held-out records that a name takes
+_BETTER = 0.7  # ratio of errors on held-out records, noise taken out, that a name takes
+_WORSE = 1.1  # such a ratio that refutes a law although the records alone do not speak against the model as it is
+_MOST = 0.5  # share of a misfit that a law must take to be named although more than noise remains
+_FAR_OVER = 10 * ODDS  # nats over no cause that such a name takes
 
 
 @dataclass(frozen=True)
@@ -53,42 +51,121 @@ def ranked(found: Weighed) -> Ranking:
     """Probabilities with the noise scale that the best fit needs: more where the noise is coloured, so that samples are not
     independent.
     """
-    baseline, every = found.baseline, [found.baseline, *found.fits]
+    baseline, every = found.baseline, _telling([found.baseline, *found.fits])
     scale = max(1.0, min(one.misfit / one.dof for one in every))
     if found.noise is not None:
         scale /= found.noise.effective
     names = [(len(one.hypothesis.parts), group(one)) for one in every]
     kinds = lambda count: len({name for name in names if name[0] == count})
-    prior = [_PRIOR[name[0]] / kinds(name[0]) / names.count(name) for name in names]
-    weights = np.log(prior) + np.array([one.log_evidence for one in every]) / scale
+    beforehand = [prior(name[0]) / kinds(name[0]) / names.count(name) for name in names]
+    weights = np.log(beforehand) + np.array([one.log_evidence for one in every]) / scale
     order = np.argsort(-weights)
     weights = np.exp(weights - weights.max())
     weights /= weights.sum()
     return Ranking(baseline, tuple(every[i] for i in order), scale, weights[order])
 
 
-def decided(ranking: Ranking, found: Weighed, ratio: float) -> str:
-    """The kind of answer; ratio: error on held-out records with the cause over that without, nan where there are none."""
-    best = ranking.best
+def _telling(every: list[Fit]) -> list[Fit]:
+    """`every` without pairs that neither explain the records nor take most of what the best law alone leaves."""
+    alone = min((_excess(one) for one in every if len(one.hypothesis.parts) == 1), default=np.inf)
+    count = lambda one: len(one.hypothesis.parts)
+    return [one for one in every if count(one) < 2 or adequate(one) or _excess(one) <= _MOST * alone]
+
+
+def _excess(one: Fit) -> float:
+    """Innovation above what chance makes of it."""
+    return max(innovation(one) - one.dof, 0.0)
+
+
+@dataclass(frozen=True)
+class Decision:
+    """kind of answer; rest: what a named law leaves; refuted: groups by held-out records; cautions: sentences."""
+
+    kind: str
+    rest: Rest | None = None
+    refuted: tuple[str, ...] = ()
+    cautions: tuple[str, ...] = ()
+
+
+def decided(ranking: Ranking, found: Weighed, ratio: float) -> Decision:
+    """What may be said; ratio: error on held-out records with the cause over that without, nan where they do not judge."""
+    best, first = ranking.best, ranking.fits[0]
     if not missing(ranking.baseline) or found.beside is found.baseline:
-        return NOTHING
+        return Decision(NOTHING)
+    distant = far(first, ranking.noise_scale)
+    if distant:
+        return Decision(UNKNOWN, cautions=(_distant(distant),))
+    if best is None or ranking.groups[0][0] == "none":
+        return Decision(UNKNOWN)
+    if not unlikely(ranking.baseline) and not ratio > _WORSE:
+        ratio = np.nan  # parameters pushed out of their prior predict as well as what is true
+    if ratio > 1:
+        return Decision(UNKNOWN, None, (group(best),), (_refuted(best, ratio),))
+    rest = None if _settled(ranking, found) else _rest(ranking)
+    named = _sure(ranking) and not ratio > _BETTER
+    if not _settled(ranking, found) and (rest is None or not named):
+        return Decision(UNKNOWN)
+    return Decision(NAMED, rest) if named else Decision(ONE_OF)
+
+
+def _settled(ranking: Ranking, found: Weighed) -> bool:
+    """Whether the leading fit leaves no more than noise, of the channels or of its own, with parameters that may be."""
     first, beside = ranking.fits[0], found.beside
-    settled = adequate(first) or (beside is not None and first.misfit <= MATERIAL * beside.misfit)
-    if best is None or not settled or ranking.groups[0][0] == "none":
-        return UNKNOWN
-    odds = (best.log_evidence - ranking.baseline.log_evidence) / ranking.noise_scale
+    explained = close(first) or (beside is not None and first.misfit <= MATERIAL * beside.misfit)
+    return explained and not strained(first, ranking.noise_scale)
+
+
+def _odds(ranking: Ranking) -> float:
+    return (ranking.best.log_evidence - ranking.baseline.log_evidence) / ranking.noise_scale
+
+
+def _sure(ranking: Ranking) -> bool:
+    """Whether the group of the leading law, at its place, is probable enough for a name."""
+    best = ranking.best
     same = sum(
         p
         for one, p in zip(ranking.fits, ranking.probabilities, strict=True)
         if group(one) == group(best) and _sites(one) == _sites(best)
     )
-    if same < _SURE or odds <= _ODDS or ratio > _BETTER:
-        return ONE_OF
-    return NAMED
+    return same >= SURE and _odds(ranking) > ODDS
+
+
+def _rest(ranking: Ranking) -> Rest | None:
+    """What the leading law leaves where it takes most of the misfit without a rival; None where it may stand for something else."""
+    best, (_, *others) = ranking.best, ranking.groups
+    share = _excess(best) / max(_excess(ranking.baseline), 1e-300)
+    if share > 1 - _MOST or _odds(ranking) <= _FAR_OVER or any(p > RIVAL for _, p in others):
+        return None
+    return Rest(share, min(upper_tail(best.misfit, max(int(best.dof), 1)), shift_p(best, ranking.noise_scale)))
+
+
+def _distant(distant: tuple[str, ...]) -> str:
+    return (
+        f"No fit is believed whose parameters are more than {FAR:g} prior sd from their mean: {'; '.join(distant)}. "
+        "Check the deck there before you look for missing physics, or widen the prior if it was stated too narrow."
+    )
+
+
+def _refuted(best: Fit, ratio: float) -> str:
+    titles = " and ".join(titled(part) for part in best.hypothesis.parts)
+    return f"Refuted by records that no fit has seen, whose error is {ratio:.3g} times that of the model as it is: {titles}."
 
 
 def _sites(one: Fit) -> set[tuple[str, str]]:
     return {(part.law.group, part.place.site.text) for part in one.hypothesis.parts}
+
+
+def untried(found: Weighed, own: Study, known: list[Law] | None) -> tuple[Untried, ...]:
+    """Laws that were left out (`known`: those that were not), have no site in the model, or were fitted and never shown."""
+    every = registry().values()
+    left = [law for law in every if known is not None and law not in known]
+    shown = {part.law.key for one in found.fits for part in one.hypothesis.parts}
+    homeless = [law for law in every if law not in left and not any(allowed(place, [law]) for place in own.places)]
+    return (
+        *(Untried(law.key, "left out by the options of the diagnosis") for law in left),
+        *(Untried(law.key, "no site in this model") for law in homeless if law.key != "iwan"),
+        *(Untried(key, reason) for key, reason in found.dropped if key not in shown),
+    )
 
 
 def explanation(one: Fit, probability: float, theta: np.ndarray) -> Explanation:

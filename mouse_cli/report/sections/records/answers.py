@@ -15,6 +15,7 @@ def answers(found: RecordDiagnosis, options: Options) -> Iterator[Block]:
     """The verdict, then the answers one by one."""
     yield Text(" ".join(sentences(found)))
     yield from field_blocks(found.field, found.problem.units)
+    yield from (Text(text) for text in found.cautions)
     for question, told in (
         ("Where?", _where(found)),
         ("What?", _what(found)),

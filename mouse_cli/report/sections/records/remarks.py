@@ -12,6 +12,8 @@ def remarks(found: RecordDiagnosis | RecordUpdate, options: Options) -> Iterator
     """One paragraph each."""
     for text in found.remarks:
         yield Text(f"{text[:1].upper()}{text[1:]}.")
+    for each in getattr(found, "untried", ()):
+        yield Text(f"Not considered: {each.physics} ({each.reason}).")
     for remark in found.problem.warnings:
         place = f" ({remark.span})" if remark.span else ""
         yield Text(f"{remark.code}{place}: {remark.message}.")

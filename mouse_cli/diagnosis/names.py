@@ -1,0 +1,37 @@
+"""The names of all that a diagnosis considers: mechanisms, which modes and FRFs show, and laws, which recordings show."""
+
+from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.mechanisms import registry as mechanisms
+from mouse_cli.model.problem import Problem
+from mouse_cli.terms.laws import Law
+from mouse_cli.terms.laws import registry as laws
+
+
+def by_records(problem: Problem) -> bool:
+    """Whether a deck is judged by its recordings: it has no modes and no FRFs."""
+    return bool(problem.recordings) and problem.test is None and not problem.frf
+
+
+def known() -> dict[str, Candidate | Law]:
+    """Everything that has a name, by key; what both kinds of data show as the mechanism."""
+    return dict(sorted((laws() | mechanisms()).items()))
+
+
+def considered(problem: Problem) -> dict[str, Candidate | Law]:
+    """Those that the data of a deck can show."""
+    return laws() if by_records(problem) else mechanisms()
+
+
+def chosen(problem: Problem, given: tuple[str, ...], without: bool) -> tuple[str, ...]:
+    """Keys that are considered for a deck: those `given`, or all but these.
+
+    Raises ValueError for a name without meaning for the data of the deck, and where nothing is left.
+    """
+    own, data = considered(problem), "recordings" if by_records(problem) else "modes and frequency response functions"
+    for name in given:
+        if name not in own:
+            raise ValueError(f"candidate '{name}' has no meaning for {data}; these have: {', '.join(own)}")
+    found = tuple(name for name in own if (name in given) != without)
+    if not found:
+        raise ValueError(f"no candidate is left; of {data} there are {', '.join(own)}")
+    return found

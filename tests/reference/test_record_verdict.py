@@ -1,0 +1,262 @@
+"""What a diagnosis by recordings may say: priors, held-out records and what a law leaves, judged as of every other test."""
+
+import json
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from scipy.integrate import solve_ivp
+from two_masses import linear, record
+
+from mouse_cli.cli.main import cli
+from mouse_cli.diagnosis.likelihoods.history.limits import far, hidden, shift_p, shifted
+from mouse_cli.diagnosis.likelihoods.history.prove import ratio
+from mouse_cli.diagnosis.likelihoods.history.records import _floor, records
+from mouse_cli.diagnosis.likelihoods.history.search import Weighed, missing, unlikely
+from mouse_cli.diagnosis.likelihoods.history.study import fitted, study
+from mouse_cli.diagnosis.likelihoods.history.uncertain import UNDAMPED, uncertain
+from mouse_cli.diagnosis.likelihoods.history.verdict import decided, ranked
+from mouse_cli.formats import read_deck
+from mouse_cli.model.diagnosis import Rest
+from mouse_cli.model.record_diagnosis import AS_IT_IS, WITH_CAUSE, RecordScore
+from mouse_cli.report.sections.records.answers import _more
+from mouse_cli.terms.laws import registry
+
+MASSES = """  - {name: m1, nominal: 1.0, sd: 1 %, mass: [[1, 1, 1]]}
+  - {name: m2, nominal: 1.0, sd: 1 %, mass: [[2, 2, 1]]}
+test:"""
+
+
+def softer(u, v):
+    """The upper spring, 3e4 N/m, has lost 30 % of its stiffness."""
+    return 0.3 * 3e4 * (u[1] - u[0]) * np.array([1.0, -1.0])
+
+
+def edited(deck: str, pattern: str, by: str) -> str:
+    path = Path(deck)
+    path.write_text(re.sub(pattern, by, path.read_text()))
+    return deck
+
+
+def without_damping(deck: str) -> str:
+    return edited(deck, r"  damping:.*\n", "")
+
+
+def answer(deck: str, *options: str) -> dict:
+    done = CliRunner().invoke(cli, ["diagnose", deck, "--json", "-q", *options])
+    assert done.exit_code in (0, 1), done.output
+    return json.loads(done.stdout)
+
+
+def test_parameters_pushed_out_of_their_prior_are_no_sound_model(tmp_path):
+    """They fit the records to the noise: the misfit of the data alone sees nothing."""
+    deck = edited(record(tmp_path, softer), "test:", MASSES)
+    problem = read_deck(deck)
+    own = study(problem, records(problem))
+    baseline = fitted(own, None)
+    assert not unlikely(baseline) and missing(baseline) and shift_p(baseline) < 1e-3
+    assert far(baseline, 1.0)[0].startswith("k2 is -") and far(baseline, 1.0)[0].endswith("prior sd from its mean")
+    assert np.abs(shifted(baseline, 100.0)).max() < np.abs(shifted(baseline)).max()
+    found = answer(deck)
+    assert (found["verdict"]["kind"], found["verdict"]["physics"]) == ("named", "spring")
+    assert found["verdict"]["site"]["ids"] == [1, 2]
+    size = found["candidates"][0]["parameters"][0]
+    assert abs(size["value"] - 9000) < 3 * size["sd"]
+
+
+def damped(u, v):
+    """A dashpot between the masses: damping that modes alone do not have."""
+    return 8.0 * (v[1] - v[0]) * np.array([-1.0, 1.0])
+
+
+@pytest.mark.parametrize("law, kind", [(linear, "nothing-missing"), (damped, "nothing-missing"), (softer, "named")])
+def test_a_deck_without_damping_is_judged_by_its_stiffness(tmp_path, law, kind):
+    few = ("--causes", "1", "--candidates", "spring,dashpot,cubic,oscillator")
+    assert answer(without_damping(record(tmp_path, law)), *few)["verdict"]["kind"] == kind
+
+
+def test_assumed_damping_does_not_follow_the_stiffness(tmp_path):
+    problem = read_deck(without_damping(record(tmp_path, linear)))
+    model = uncertain(problem, 100.0, np.eye(2))
+    z = np.zeros((2, model.linear.k))
+    z[1, 0] = -8.0  # 40 % off the first spring
+    _, C, K = model.linear.matrices(z)
+    np.testing.assert_array_equal(C[0], C[1])
+    assert K[1, 0, 0] < K[0, 0, 0] and model.linear.sound(z[1])
+    modal = np.linalg.eigvals(np.linalg.solve(np.eye(2), K[0]))
+    np.testing.assert_allclose(np.linalg.eigvals(C[0]).sum(), 2 * UNDAMPED * np.sqrt(modal).sum(), rtol=1e-9)
+
+
+def test_stiffness_and_damping_stay_positive_at_any_distance(tmp_path):
+    problem = read_deck(without_damping(record(tmp_path, linear)))
+    linear_model = uncertain(problem, 100.0, np.eye(2)).linear
+    z = np.zeros(linear_model.k)
+    z[[i for i, name in enumerate(linear_model.names) if "mode" in name]] = -50.0
+    _, C, _ = linear_model.matrices(z[None])
+    assert np.linalg.eigvalsh(C[0]).min() > -1e-9
+    z[0] = -61.9  # sd of 5 %: a spring that pushes
+    assert not linear_model.sound(z)
+
+
+def test_a_deck_without_parameters_is_diagnosed(tmp_path):
+    deck = edited(record(tmp_path, linear), r"parameters:\n(  - .*\n)+", "")
+    assert answer(deck)["verdict"]["kind"] == "nothing-missing"
+
+
+DRIVE = """mouse: 1
+model:
+  stiffness: {order: 1, entries: []}
+  mass: {diagonal: [10]}
+  damping: {order: 1, entries: [[1, 1, 20]]}
+test:
+  recordings:
+    - file: r.npz
+      sample_rate: 256
+      inputs: [{sensor: 1, channel: f, quantity: force, unit: N}]
+      outputs: [{sensor: 1, channel: v, quantity: velocity, unit: m/s}]
+"""
+
+
+def drive(folder: Path, slip: float) -> str:
+    """A mass that nothing holds, with dry friction."""
+    rng, t = np.random.default_rng(5), np.arange(3072) / 256
+    lines = np.fft.rfftfreq(len(t), 1 / 256)
+    f = np.fft.irfft(
+        np.where((lines > 0.3) & (lines < 8), np.exp(2j * np.pi * rng.uniform(size=len(lines))), 0), len(t)
+    )
+    f *= 30 / f.std()
+    rhs = lambda s, y: [(np.interp(s, t, f) - 20 * y[0] - slip * np.tanh(y[0] / 1e-3)) / 10]
+    v = solve_ivp(rhs, (0, t[-1]), [0.0], method="LSODA", t_eval=t, rtol=1e-8, atol=1e-10, max_step=2e-3).y[0]
+    np.savez(folder / "r.npz", f=f, v=v + 0.01 * v.std() * rng.standard_normal(len(t)))
+    (folder / "deck.yaml").write_text(DRIVE)
+    return str(folder / "deck.yaml")
+
+
+def test_dry_friction_of_a_mass_that_nothing_holds(tmp_path):
+    found = answer(drive(tmp_path, 8.0), "--causes", "1", "--candidates", "friction,oscillator,cubic,dashpot")
+    verdict, leader = found["verdict"], found["candidates"][0]
+    assert (verdict["kind"], verdict["group"], verdict["site"]["ids"]) == ("named", "friction", [1])
+    slip = next(one["value"] for one in leader["parameters"] if one["name"] == "slip force")
+    assert slip == pytest.approx(8.0, rel=0.1)
+    assert verdict["rest"] is None or verdict["rest"]["share"] < 0.1
+
+
+def test_a_free_mass_lacks_nothing(tmp_path):
+    assert answer(drive(tmp_path, 0.0))["verdict"]["kind"] == "nothing-missing"
+
+
+def test_an_oscillator_slower_than_its_stretch_is_no_finding(tmp_path):
+    problem = read_deck(record(tmp_path, linear))
+    own = study(problem, records(problem))
+    ground = next(place for place in own.places if place.ground)
+    start = own.at(ground).best(registry()["oscillator"], 0)
+    one = fitted(own, start)
+    one.x[-3:] = np.log([0.05, 3.0, 0.02])
+    assert hidden(one, 1.0) is None
+    assert "longer than the stretch" in hidden(one, 0.3)[1]
+    one.x[-3] = one.hypothesis.bounds[1][-3]
+    assert "end of the range" in hidden(one, 1.0)[1]
+
+
+def test_noise_of_channels_is_no_error_of_a_model():
+    """5 % of noise in both: the law takes nine tenths of the rest."""
+    of = lambda with_, without: ratio(
+        (
+            RecordScore(
+                "r",
+                1.0,
+                np.ones(1),
+                {AS_IT_IS: np.hypot(0.05, [without]), WITH_CAUSE: np.hypot(0.05, [with_])},
+                {},
+                np.full(1, 0.05),
+            ),
+        )
+    )
+    assert of(0.004, 0.04) == pytest.approx(0.1, rel=1e-6)
+    assert np.isnan(of(0.001, 0.002))
+    assert of(0.06, 0.03) == pytest.approx(2.0, rel=1e-6)
+
+
+def test_floor_of_a_spectrum_is_the_sd_of_white_noise():
+    rng = np.random.default_rng(1)
+    found = np.mean([_floor(rng.standard_normal((4096, 3))) for _ in range(10)], axis=0)
+    np.testing.assert_allclose(found, 1.0, rtol=0.03)
+
+
+def test_candidates_have_one_registry_of_names(tmp_path):
+    """Options mean the same for every kind of data; what these data cannot show is refused with what they can."""
+    deck = record(tmp_path, linear)
+    found = answer(deck, "--candidates", "friction,mass")
+    left = {one["physics"]: one["reason"] for one in found["verdict"]["untried"]}
+    assert "cubic" in left and "friction" not in left and "left out" in left["cubic"]
+    assert [one["physics"] for one in answer(deck, "--without", "cubic")["verdict"]["untried"]] == ["cubic"]
+    for options in (("--candidates", "crack"), ("--without", "shear")):
+        done = CliRunner().invoke(cli, ["diagnose", deck, "-q", *options])
+        assert done.exit_code == 2 and "has no meaning for recordings" in done.output and "friction" in done.output
+    modal = str(Path(__file__).parents[2] / "decks" / "ground_spring.yaml")
+    done = CliRunner().invoke(cli, ["diagnose", modal, "-q", "--candidates", "friction"])
+    assert done.exit_code == 2 and "has no meaning for modes" in done.output and "ground-spring" in done.output
+    assert "friction" in CliRunner().invoke(cli, ["list", "candidates"]).output
+    assert "Jenkins" in CliRunner().invoke(cli, ["explain", "friction"]).output
+
+
+def turning(deck: str) -> str:
+    """The same numbers as two discs on a shaft."""
+    deck = edited(deck, "quantity: acceleration, unit: m/s2", "quantity: angular acceleration, unit: rad/s2")
+    return edited(deck, "quantity: force, unit: N", "quantity: moment, unit: N m")
+
+
+def test_rotations_and_moments_judge_as_check_says(tmp_path):
+    deck = turning(record(tmp_path, linear))
+    checked = CliRunner().invoke(cli, ["check", deck])
+    assert checked.exit_code == 0 and "MD640" not in checked.stderr, checked.output
+    assert answer(deck)["verdict"]["kind"] == "nothing-missing"
+
+
+def test_check_says_that_records_without_force_cannot_judge(tmp_path):
+    deck = edited(record(tmp_path, linear), "quantity: force, unit: N", "quantity: acceleration, unit: m/s2")
+    checked = CliRunner().invoke(cli, ["check", deck])
+    assert checked.exit_code == 0 and "MD640" in checked.stderr
+    assert "MD640" in str(CliRunner().invoke(cli, ["diagnose", deck]).exception)
+
+
+@pytest.fixture(scope="module")
+def weighed_laws(tmp_path_factory):
+    """A record with a cubic spring; the model as it is, the law, and a rival at the same place."""
+
+    def law(u, v):
+        F = 2e8 * (u[1] - u[0]) ** 3
+        return np.array([-F, F])
+
+    problem = read_deck(record(tmp_path_factory.mktemp("cubic"), law))
+    own = study(problem, records(problem))
+    at = own.at(next(place for place in own.places if not place.ground))
+    return fitted(own, None), *(fitted(own, at.best(registry()[key], 0)) for key in ("cubic", "gap"))
+
+
+def said(ratio: float, *fits):
+    found = Weighed(fits[0], list(fits[1:]))
+    return decided(ranked(found), found, ratio)
+
+
+def test_a_law_that_takes_most_is_named_with_what_remains(weighed_laws):
+    baseline, law, rival = weighed_laws
+    partly = replace(law, misfit=0.1 * baseline.misfit)
+    found = said(0.3, baseline, partly)
+    assert found.kind == "named" and found.rest.share == pytest.approx(0.1, abs=0.03) and found.rest.p < 1e-3
+    assert _more(Rest(0.09, 0.0)) == "and something more remains: 9 % of the misfit"
+    assert said(0.3, baseline, replace(law, misfit=0.6 * baseline.misfit)).kind == "unknown"
+    as_good = replace(rival, misfit=partly.misfit, log_evidence=partly.log_evidence)
+    assert said(0.3, baseline, partly, as_good).kind == "unknown"
+
+
+def test_what_predicts_worse_or_leaves_its_prior_is_no_name(weighed_laws):
+    baseline, law, _ = weighed_laws
+    assert said(0.3, baseline, law).kind == "named" and said(0.3, baseline, law).rest is None
+    worse = said(1.2, baseline, law)
+    assert worse.kind == "unknown" and worse.refuted == ("smooth-stiffness",) and "1.2 times" in worse.cautions[0]
+    distant = said(0.3, baseline, replace(law, x=np.concatenate([[-6.3], law.x[1:]])))
+    assert distant.kind == "unknown" and "k1 is -6.3 prior sd from its mean" in distant.cautions[0]
