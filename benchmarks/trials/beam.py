@@ -12,6 +12,12 @@ MATERIALS = ((2.1e11, 7850.0), (7.0e10, 2700.0), (1.1e11, 4430.0))
 BOUNDARIES = ("cantilever", "clamped", "pinned", "free")
 FIRST = {"cantilever": 1.8751, "clamped": 4.7300, "pinned": np.pi, "free": 4.7300}  # beta L
 KAPPA = 5 / 6
+FREE = {  # nodes of the deck that move
+    "cantilever": range(2, ELEMENTS + 2),
+    "clamped": range(2, ELEMENTS + 1),
+    "pinned": range(2, ELEMENTS + 1),
+    "free": range(1, ELEMENTS + 2),
+}
 
 
 def beam(
@@ -19,55 +25,64 @@ def beam(
 ) -> Blank:
     """A beam. masses: of how many point masses the deck knows; layer: (from, to, factor), a stretch that is stiffer in both."""
     boundary = boundary or str(rng.choice(BOUNDARIES[:3]))
-    E, density = MATERIALS[rng.integers(3)]
-    L = round(rng.uniform(0.5, 3.0), 2)
-    h = round(L / (rng.uniform(12, 22) if thick else rng.uniform(120, 250)), 6)
-    b = round(h * rng.uniform(0.5, 3.0), 6)
+    E, density, L, b, h = _numbers(rng, thick)
     EI, line = E * b * h**3 / 12, density * b * h
     fine = 8 if thick else 4
-    points = np.column_stack([np.linspace(0, L, fine * ELEMENTS + 1), np.zeros(fine * ELEMENTS + 1)])
-    index = np.arange(len(points))
-    truth = Bars(points, np.column_stack([index[:-1], index[1:]]), points[:-1, 0])
-    truth.EI[:], truth.EA[:], truth.m[:] = EI, E * b * h, line
-    if thick:
-        truth.GA[:], truth.rotary[:] = KAPPA * E / 2.6 * b * h, density * b * h**3 / 12
+    truth = _body(L, fine, thick, (E, density, b, h))
     at = truth.along / L
-    for start, stop, factor in [layer] if layer else []:
-        truth.EI[(at > start) & (at < stop)] *= factor
-    lines, known = _parameters(rng, truth, at, density)
+    if layer:
+        truth.EI[(at > layer[0]) & (at < layer[1])] *= layer[2]
+    lines, known = _parameters(rng, truth, at)
+    free = FREE[boundary]
     kg = [float(f"{line * L * rng.uniform(0.03, 0.08):.4g}") for _ in range(masses)]
-    where = [int(n) for n in np.linspace(3, ELEMENTS, masses).round()] if masses else []
+    where = [int(n) for n in np.linspace(3, free[-1] - 1, masses).round()] if masses else []
     for n, one in zip(where, kg, strict=True):
         truth.weight({3 * fine * n + 1: 1.0}, one)
     _support(truth, boundary, fine * ELEMENTS)
-    free = range(1, ELEMENTS + 2)
-    if boundary != "free":
-        free = range(2, ELEMENTS + (2 if boundary == "cantilever" else 1))
-    first = FIRST[boundary] ** 2 * np.sqrt(EI / line) / L**2
     return Blank(
-        family="beam",
-        truth=truth,
-        model=_deck(L, (E, density, b, h), boundary, list(zip(where, kg, strict=True)), layer, lines),
+        "beam",
+        truth,
+        _deck(L, (E, density, b, h), boundary, list(zip(where, kg, strict=True)), layer, lines),
         sensors=[(f"{n}TY", 3 * fine * (n - 1) + 1) for n in free],
         nodes={str(n): (L * (n - 1) / ELEMENTS, 0.0, 0.0) for n in range(1, ELEMENTS + 2)},
         elements={str(n): (L * (n - 0.5) / ELEMENTS, 0.0, 0.0) for n in range(1, ELEMENTS + 1)},
         span=L,
         weight=line * L,
-        first=float(first),
+        first=float(FIRST[boundary] ** 2 * np.sqrt(EI / line) / L**2),
         stiffness=EI / L**3,
         EI=EI,
         line_mass=line,
         rigid=2 * (boundary == "free"),
-        lines=[Line(index, index[:-1], points)],
+        lines=[Line(np.arange(len(truth.points)), np.arange(len(truth.ends)), truth.points)],
         feet={"cantilever": [0], "free": []}.get(boundary, [0, fine * ELEMENTS]),
         masses=[(fine * n, one) for n, one in zip(where, kg, strict=True)],
-        places={i: (float(x), 0.0) for i, x in enumerate(points[:, 0])},
+        places={i: (float(x), 0.0) for i, x in enumerate(truth.points[:, 0])},
         parameters=known,
         kind=boundary,
     )
 
 
-def _parameters(rng: np.random.Generator, truth: Bars, at: np.ndarray, density: float) -> tuple[list[str], dict]:
+def _numbers(rng: np.random.Generator, thick: bool) -> tuple[float, float, float, float, float]:
+    """E, density, length, width and depth."""
+    E, density = MATERIALS[rng.integers(3)]
+    L = round(rng.uniform(0.5, 3.0), 2)
+    h = round(L / (rng.uniform(12, 22) if thick else rng.uniform(120, 250)), 6)
+    return E, density, L, round(h * rng.uniform(0.5, 3.0), 6), h
+
+
+def _body(L: float, fine: int, thick: bool, numbers: tuple[float, float, float, float]) -> Bars:
+    """The beam as its deck has it, after Timoshenko where it is thick; `fine` elements to one of the deck."""
+    E, density, b, h = numbers
+    points = np.column_stack([np.linspace(0, L, fine * ELEMENTS + 1), np.zeros(fine * ELEMENTS + 1)])
+    index = np.arange(len(points))
+    truth = Bars(points, np.column_stack([index[:-1], index[1:]]), points[:-1, 0])
+    truth.EI[:], truth.EA[:], truth.m[:] = E * b * h**3 / 12, E * b * h, density * b * h
+    if thick:
+        truth.GA[:], truth.rotary[:] = KAPPA * E / 2.6 * b * h, density * b * h**3 / 12
+    return truth
+
+
+def _parameters(rng: np.random.Generator, truth: Bars, at: np.ndarray) -> tuple[list[str], dict]:
     """Entries of the deck, and the factors by which the structure differs, drawn from the priors stated there."""
     known = {"density": spread(rng, 0.02)}
     lines = ["  - {name: density, material: metal, property: density, sd: 2 %, transform: log}"]

@@ -24,28 +24,15 @@ def frame(rng: np.random.Generator, bays: int = 0, thick: bool = False) -> Blank
     truth = _bars(points, lines)
     A, I = d * d, d**4 / 12
     known = {name: spread(rng, sd) for name, sd in PRIORS.items()}
-    truth.EI[:], truth.EA[:], truth.m[:] = E * I, E * A, density * A * known["density"]
-    if thick:
-        truth.GA[:], truth.rotary[:] = 5 / 6 * E / 2.6 * A, density * I * known["density"]
-    for number, line in enumerate(lines):
-        factor = known["E columns" if number < posts else "E beams"]
-        for one in (truth.EI, truth.EA, truth.GA):
-            one[line.elements] *= factor
+    _properties(truth, [line.elements for line in lines[:posts]], (E, density, d), known, thick)
     coarse, order = _mesh(members, PIECES)
     feet = [i for i, (_, y) in enumerate(points) if y < 1e-9]
     truth.held = {3 * i + k for i in feet for k in range(3)}
-    place = {tuple(np.round(p, 7)): i for i, p in enumerate(points)}
-    sensors = [
-        (f"{n}T{'XY'[k]}", 3 * place[tuple(np.round(coarse[n - 1], 7))] + k)
-        for number, line in enumerate(order)
-        for n in (line.nodes[1:-1] + 1 if number >= posts else line.nodes[1:] + 1)
-        for k in (int(number >= posts),)
-    ]
     return Blank(
         family="frame",
         truth=truth,
         model=_deck(coarse, order, posts, (d, E, density)),
-        sensors=sensors,
+        sensors=_sensors(points, coarse, order, posts),
         nodes={str(n): (float(x), float(y), 0.0) for n, (x, y) in enumerate(coarse, 1)},
         elements=_middles(order),
         span=float(max(bays * W, storeys * H)),
@@ -60,6 +47,31 @@ def frame(rng: np.random.Generator, bays: int = 0, thick: bool = False) -> Blank
         places={i: (float(x), float(y)) for i, (x, y) in enumerate(points)},
         parameters=known,
     )
+
+
+def _properties(truth: Bars, posts: list[np.ndarray], numbers: tuple, known: dict[str, float], thick: bool) -> None:
+    """Stiffness and mass of all members, at the true values of the parameters."""
+    E, density, d = numbers
+    A, I = d * d, d**4 / 12
+    truth.EI[:], truth.EA[:], truth.m[:] = E * I, E * A, density * A * known["density"]
+    if thick:
+        truth.GA[:], truth.rotary[:] = 5 / 6 * E / 2.6 * A, density * I * known["density"]
+    upright = np.zeros(len(truth.length), dtype=bool)
+    upright[np.concatenate(posts)] = True
+    factor = np.where(upright, known["E columns"], known["E beams"])[:, None]
+    for field in (truth.EI, truth.EA, truth.GA):
+        field *= factor
+
+
+def _sensors(points: np.ndarray, coarse: np.ndarray, order: list[Line], posts: int) -> list[tuple[str, int]]:
+    """Across the members: x on posts, y on beams."""
+    place = {tuple(np.round(p, 7)): i for i, p in enumerate(points)}
+    return [
+        (f"{n}T{'XY'[k]}", 3 * place[tuple(np.round(coarse[n - 1], 7))] + k)
+        for number, line in enumerate(order)
+        for n in (line.nodes[1:-1] + 1 if number >= posts else line.nodes[1:] + 1)
+        for k in (int(number >= posts),)
+    ]
 
 
 def _mesh(members: list[tuple[float, ...]], pieces: int) -> tuple[np.ndarray, list[Line]]:
