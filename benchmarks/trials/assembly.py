@@ -23,6 +23,11 @@ class Assembly:
         """K + k b b', b by degree of freedom."""
         self.springs.append((b, k))
 
+    def stiffen(self, springs: list[int], factor: float) -> None:
+        """Multiplies the stiffness of springs."""
+        for i in springs:
+            self.springs[i] = (self.springs[i][0], self.springs[i][1] * factor)
+
     def weight(self, b: dict[int, float], kg: float) -> None:
         """M + kg b b'."""
         self.weights.append((b, kg))

@@ -37,6 +37,11 @@ class Bars(Assembly):
         step = self.length[:, None] * GAUSS
         return first + np.stack([step * self.cosine[:, None], step * self.sine[:, None]], axis=2)
 
+    def scale(self, names: tuple[str, ...], own: np.ndarray, factor: float) -> None:
+        """Multiplies fields of the elements or Gauss points `own`, a mask."""
+        for name in names:
+            getattr(self, name)[own] *= factor
+
     def hinge(self, element: int, end: int, k: float) -> None:
         """The end (0 or 1) of an element turns against its point, with k in N m/rad."""
         point = int(self.dofs[element, 3 * end + 2])

@@ -1,11 +1,12 @@
 """Straight beams: decks of 30 elements after Euler and Bernoulli; truths of 120 or 240."""
 
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
 
 from benchmarks.trials.bars import Bars
-from benchmarks.trials.case import Blank, Line, spread
+from benchmarks.trials.case import Blank, Line, Prior, drawn
 
 ELEMENTS = 30
 MATERIALS = ((2.1e11, 7850.0), (7.0e10, 2700.0), (1.1e11, 4430.0))
@@ -32,7 +33,7 @@ def beam(
     at = truth.along / L
     if layer:
         truth.EI[(at > layer[0]) & (at < layer[1])] *= layer[2]
-    lines, known = _parameters(rng, truth, at)
+    lines, priors = _parameters(rng, truth, at)
     free = FREE[boundary]
     kg = [float(f"{line * L * rng.uniform(0.03, 0.08):.4g}") for _ in range(masses)]
     where = [int(n) for n in np.linspace(3, free[-1] - 1, masses).round()] if masses else []
@@ -57,7 +58,8 @@ def beam(
         feet={"cantilever": [0], "free": []}.get(boundary, [0, fine * ELEMENTS]),
         masses=[(fine * n, one) for n, one in zip(where, kg, strict=True)],
         places={i: (float(x), 0.0) for i, x in enumerate(truth.points[:, 0])},
-        parameters=known,
+        parameters=drawn(rng, priors),
+        priors=priors,
         kind=boundary,
     )
 
@@ -82,25 +84,19 @@ def _body(L: float, fine: int, thick: bool, numbers: tuple[float, float, float, 
     return truth
 
 
-def _parameters(rng: np.random.Generator, truth: Bars, at: np.ndarray) -> tuple[list[str], dict]:
-    """Entries of the deck, and the factors by which the structure differs, drawn from the priors stated there."""
-    known = {"density": spread(rng, 0.02)}
-    lines = ["  - {name: density, material: metal, property: density, sd: 2 %, transform: log}"]
+def _parameters(rng: np.random.Generator, truth: Bars, at: np.ndarray) -> tuple[list[str], dict[str, Prior]]:
+    """Entries of the deck, and their priors."""
+    entry = "  - {{name: {}, {}, property: {}, sd: {:g} %, transform: log}}"
+    priors = {"density": Prior(0.02, partial(truth.scale, ("m", "rotary"), at > 0))}
+    lines = [entry.format("density", "material: metal", "density", 2)]
     if rng.integers(2):
-        known["E"] = spread(rng, 0.05)
-        lines.append("  - {name: E, material: metal, property: E, sd: 5 %, transform: log}")
-        truth.EI *= known["E"]
-        truth.GA *= known["E"]
-    else:
-        half = ELEMENTS // 2
-        for name, ids, own in (("E left", f"1-{half}", at < 0.5), ("E right", f"{half + 1}-{ELEMENTS}", at >= 0.5)):
-            known[name] = spread(rng, 0.04)
-            lines.append(f"  - {{name: {name}, elements: {ids}, property: E, sd: 4 %, transform: log}}")
-            truth.EI[own] *= known[name]
-            truth.GA[own] *= known[name]
-    truth.m *= known["density"]
-    truth.rotary *= known["density"]
-    return lines, known
+        priors["E"] = Prior(0.05, partial(truth.scale, ("EI", "GA"), at > 0))
+        return [*lines, entry.format("E", "material: metal", "E", 5)], priors
+    half = ELEMENTS // 2
+    for name, ids, own in (("E left", f"1-{half}", at < 0.5), ("E right", f"{half + 1}-{ELEMENTS}", at >= 0.5)):
+        priors[name] = Prior(0.04, partial(truth.scale, ("EI", "GA"), own))
+        lines.append(entry.format(name, f"elements: {ids}", "E", 4))
+    return lines, priors
 
 
 def _support(truth: Bars, boundary: str, last: int) -> None:

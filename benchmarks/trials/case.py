@@ -1,5 +1,6 @@
 """What a trial is: a structure that has a model, what the model lacks of it, and what was measured."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -29,6 +30,14 @@ class Mechanism:
     also: tuple[tuple[str, str], ...] = ()
     properties: tuple[str, ...] = ()
     regions: tuple[tuple[tuple[float, ...], tuple[float, ...]], ...] = ()
+
+
+@dataclass(frozen=True)
+class Prior:
+    """Standard deviation of the logarithm of a parameter of the deck, and what multiplies it in the truth."""
+
+    sd: float
+    scale: Callable[[float], None]
 
 
 @dataclass
@@ -62,7 +71,7 @@ class Blank:
 
     truth: K and M; model: the deck up to its test; sensors: label and degree of freedom of all that may be measured; nodes and
     elements: coordinates by their numbers in the deck; stiffness (N/m), first (rad/s), weight (kg): scales; parameters: true values
-    over those of the deck; deviations: in prior sd.
+    over those of the deck; priors: of the same.
     """
 
     family: str
@@ -84,6 +93,7 @@ class Blank:
     places: dict[int, tuple[float, float]] = field(default_factory=dict)  # coordinates of the nodes of the truth
     elements: dict[str, tuple[float, ...]] = field(default_factory=dict)
     parameters: dict[str, float] = field(default_factory=dict)
+    priors: dict[str, Prior] = field(default_factory=dict)
     files: dict[str, str] = field(default_factory=dict)
     tuned: list[tuple[dict[int, float], np.ndarray]] = field(default_factory=list)  # springs that differ mode by mode
     kind: str = ""
@@ -91,6 +101,14 @@ class Blank:
     def near(self) -> float:
         """Tolerance of a site."""
         return NEAR * self.span
+
+
+def drawn(rng: np.random.Generator, priors: dict[str, Prior]) -> dict[str, float]:
+    """The true parameters over those of the deck, drawn from their priors and put into the truth."""
+    factors = {name: spread(rng, prior.sd) for name, prior in priors.items()}
+    for name, factor in factors.items():
+        priors[name].scale(factor)
+    return factors
 
 
 def spread(rng: np.random.Generator, sd: float) -> float:

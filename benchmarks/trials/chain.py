@@ -1,9 +1,11 @@
 """Chains of masses: as bare matrices, and as storeys, which are springs and masses with numbers of their own."""
 
+from functools import partial
+
 import numpy as np
 
 from benchmarks.trials.assembly import Assembly
-from benchmarks.trials.case import Blank, spread
+from benchmarks.trials.case import Blank, Prior, drawn
 
 STIFFNESS_SD, MASS_SD = 0.07, 0.02
 GROUPS = 3  # of springs that share a parameter
@@ -16,11 +18,11 @@ def chain(rng: np.random.Generator, storeys: bool = False) -> Blank:
     k = [float(f"{k0 * rng.uniform(0.7, 1.3):.5g}") for _ in range(n)]
     m = [float(f"{m0 * rng.uniform(0.7, 1.3):.5g}") for _ in range(n)]
     groups = [[int(i) for i in one] for one in np.array_split(np.arange(n), GROUPS)]
-    known = {f"k{g}": spread(rng, STIFFNESS_SD) for g in range(1, GROUPS + 1)} | {"m": spread(rng, MASS_SD)}
-    truth = Assembly(np.zeros((n, n)), np.diag(m) * known["m"])
-    for g, own in enumerate(groups, 1):
-        for i in own:
-            truth.spring(link(i, i + 1), k[i] * known[f"k{g}"])
+    truth = Assembly(np.zeros((n, n)), np.diag(m))
+    for i in range(n):
+        truth.spring(link(i, i + 1), k[i])
+    priors = {f"k{g}": Prior(STIFFNESS_SD, partial(truth.stiffen, own)) for g, own in enumerate(groups, 1)}
+    priors["m"] = Prior(MASS_SD, lambda factor: np.multiply(truth.base[1], factor, out=truth.base[1]))
     return Blank(
         family="storeys" if storeys else "chain",
         truth=truth,
@@ -35,7 +37,8 @@ def chain(rng: np.random.Generator, storeys: bool = False) -> Blank:
         stiffness=k0,
         masses=[(i, m[i]) for i in range(n)] if storeys else [],
         places={i: _place(i + 1, storeys)[:2] for i in range(n)},
-        parameters=known,
+        parameters=drawn(rng, priors),
+        priors=priors,
     )
 
 

@@ -1,14 +1,14 @@
 """Plane frames of one or two storeys and one or two bays: decks of ten elements in a member, truths of thirty."""
 
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
 
 from benchmarks.trials.bars import Bars
-from benchmarks.trials.case import Blank, Line, spread
+from benchmarks.trials.case import Blank, Line, Prior, drawn
 
 PIECES, FINE = 10, 3
-PRIORS = {"E columns": 0.05, "E beams": 0.05, "density": 0.02}
 
 
 def frame(rng: np.random.Generator, bays: int = 0, thick: bool = False) -> Blank:
@@ -23,8 +23,10 @@ def frame(rng: np.random.Generator, bays: int = 0, thick: bool = False) -> Blank
     points, lines = _mesh(members, PIECES * FINE)
     truth = _bars(points, lines)
     A, I = d * d, d**4 / 12
-    known = {name: spread(rng, sd) for name, sd in PRIORS.items()}
-    _properties(truth, [line.elements for line in lines[:posts]], (E, density, d), known, thick)
+    truth.EI[:], truth.EA[:], truth.m[:] = E * I, E * A, density * A
+    if thick:
+        truth.GA[:], truth.rotary[:] = 5 / 6 * E / 2.6 * A, density * I
+    priors = _priors(truth, lines[:posts])
     coarse, order = _mesh(members, PIECES)
     feet = [i for i, (_, y) in enumerate(points) if y < 1e-9]
     truth.held = {3 * i + k for i in feet for k in range(3)}
@@ -45,22 +47,21 @@ def frame(rng: np.random.Generator, bays: int = 0, thick: bool = False) -> Blank
         feet=feet,
         corners=[(n, end) for n, line in enumerate(lines) for end in (0, 1) if line.point(end)[1] > 0],
         places={i: (float(x), float(y)) for i, (x, y) in enumerate(points)},
-        parameters=known,
+        parameters=drawn(rng, priors),
+        priors=priors,
     )
 
 
-def _properties(truth: Bars, posts: list[np.ndarray], numbers: tuple, known: dict[str, float], thick: bool) -> None:
-    """Stiffness and mass of all members, at the true values of the parameters."""
-    E, density, d = numbers
-    A, I = d * d, d**4 / 12
-    truth.EI[:], truth.EA[:], truth.m[:] = E * I, E * A, density * A * known["density"]
-    if thick:
-        truth.GA[:], truth.rotary[:] = 5 / 6 * E / 2.6 * A, density * I * known["density"]
+def _priors(truth: Bars, posts: list[Line]) -> dict[str, Prior]:
+    """Parameters of the deck."""
     upright = np.zeros(len(truth.length), dtype=bool)
-    upright[np.concatenate(posts)] = True
-    factor = np.where(upright, known["E columns"], known["E beams"])[:, None]
-    for field in (truth.EI, truth.EA, truth.GA):
-        field *= factor
+    upright[np.concatenate([line.elements for line in posts])] = True
+    stiff = ("EI", "EA", "GA")
+    return {
+        "E columns": Prior(0.05, partial(truth.scale, stiff, upright)),
+        "E beams": Prior(0.05, partial(truth.scale, stiff, ~upright)),
+        "density": Prior(0.02, partial(truth.scale, ("m", "rotary"), upright | ~upright)),
+    }
 
 
 def _sensors(points: np.ndarray, coarse: np.ndarray, order: list[Line], posts: int) -> list[tuple[str, int]]:

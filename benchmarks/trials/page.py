@@ -53,8 +53,9 @@ def _head(results: list[Scored], seal: Seal, cases: int) -> str:
     return (
         f"`python -m benchmarks.trials` made {cases} decks from {seed}, whose truths mouse did not compute, and sealed the truths "
         f"before `mouse diagnose` saw a deck: SHA-256 `{seal.truths}`, salt `{seal.salt}`. {len(results)} decks have an answer.\n\n"
-        f"Qualities: {qualities}. A right answer names all mechanisms within {100 * NEAR:g} % of the span. A mechanism changes its "
-        f"test by a chi-square of at least {FELT:g} before parameters make up for it; what remains after that may be little.\n"
+        f"Qualities: {qualities}. A right answer names all mechanisms within {100 * NEAR:g} % of the span. Cases were taken only "
+        "if a model without one of the mechanisms, its parameters fitted to frequencies and shapes without noise, misses them by a "
+        f"chi-square above {FELT:g}.\n"
     )
 
 
@@ -159,7 +160,10 @@ def _listed(results: list[Scored], outcomes: tuple[str, ...]) -> str:
         what = f"{truth['class']}: {truth['family']}, {truth['what']}" + _places(truth)
         said = one.said.replace("|", "/")
         lines.append(f"| {one.name} | {what} | {truth['quality']} | {said} | {one.outcome} | {one.trial.felt:.0f} |")
-    return "\n".join(lines) + "\n\n`felt`: chi-square by which the least of the mechanisms changes the test.\n"
+    return (
+        "\n".join(lines)
+        + "\n\n`felt`: chi-square that the least of the mechanisms leaves to a model without it whose parameters were fitted.\n"
+    )
 
 
 def _places(truth: dict) -> str:

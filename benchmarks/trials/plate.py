@@ -7,7 +7,7 @@ Guyan, as test analysis models are.
 import numpy as np
 
 from benchmarks.trials.assembly import Assembly
-from benchmarks.trials.case import Blank, spread
+from benchmarks.trials.case import Blank, Prior, drawn
 
 COLUMNS, ROWS = 10, 8  # elements of deck and truth
 NU = 0.3
@@ -55,9 +55,12 @@ def plate(rng: np.random.Generator) -> Blank:
     b, h = round(a * rng.uniform(0.55, 0.85), 3), round(a / rng.uniform(90, 140), 5)
     E, density = (2.1e11, 7850.0) if rng.integers(2) else (7.0e10, 2700.0)
     D, area = E * h**3 / 12 / (1 - NU**2), density * h
-    known = {"stiffness": spread(rng, STIFFNESS_SD), "mass": spread(rng, MASS_SD)}
     K, M = matrices(a, b, COLUMNS, ROWS)
-    truth = Assembly(D * known["stiffness"] * K, area * known["mass"] * M)
+    truth = Assembly(D * K, area * M)
+    priors = {
+        "stiffness": Prior(STIFFNESS_SD, lambda factor: np.multiply(truth.base[0], factor, out=truth.base[0])),
+        "mass": Prior(MASS_SD, lambda factor: np.multiply(truth.base[1], factor, out=truth.base[1])),
+    }
     truth.held = set(clamped_edge(ROWS))
     points = [(i, j) for i in range(1, COLUMNS + 1) for j in range(ROWS + 1)]
     where = {n: (a * i / COLUMNS, b * j / ROWS, 0.0) for n, (i, j) in enumerate(points, 1)}
@@ -73,7 +76,8 @@ def plate(rng: np.random.Generator) -> Blank:
         first=float(3.5 / a**2 * np.sqrt(D / area)),
         stiffness=float(D * b / a**3),
         places={dof: where[n][:2] for n, dof in enumerate(w, 1)},
-        parameters=known,
+        parameters=drawn(rng, priors),
+        priors=priors,
         files=_files(D * K, area * M, w, where),
     )
 

@@ -111,7 +111,7 @@ def _gap(one: tuple[str, str, tuple[float, ...] | None], mechanism: dict) -> flo
 
 
 def _named(told: Told, truth: dict) -> tuple[str, float]:
-    """Outcome of a name, and the largest error of its sites over the span, of what is named truly."""
+    """Outcome of a name, and the largest error of its sites over the span, of what is named truly and acts at a place."""
     mechanisms = truth["mechanisms"]
     if not told:  # nothing but an error of the test
         return (MISSED if mechanisms else RIGHT), np.nan
@@ -124,7 +124,8 @@ def _named(told: Told, truth: dict) -> tuple[str, float]:
         return WRONG, np.nan
     excess = lambda way: max(_gap(one, own) - own["reach"] for one, own in way)
     best = min(ways, key=excess)
-    gaps = [_gap(one, own) / truth["span"] for one, own in best if own["at"] is not None]
+    local = lambda own: own["at"] is not None and own["reach"] <= REGION * truth["span"]
+    gaps = [_gap(one, own) / truth["span"] for one, own in best if local(own)]
     outcome = MISPLACED if any(own["at"] and _gap(one, own) > own["reach"] for one, own in best) else RIGHT
     if outcome == RIGHT and len(told) < len(mechanisms):
         outcome = PART

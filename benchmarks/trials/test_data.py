@@ -85,13 +85,13 @@ def measured(rng: np.random.Generator, blank: Blank, truth: Truth, quality: Qual
     return Test(quality, own, numbers, frequency[order], readings[:, order], held)
 
 
-def shift(before: Truth, after: Truth, quality: Quality) -> float:
-    """chi-square by which frequencies and shapes differ, over the stated noise; modes go by their order."""
-    m = min(len(before.frequency), len(after.frequency))
+def difference(before: Truth, after: Truth, quality: Quality, m: int) -> np.ndarray:
+    """Frequencies and shapes of m modes of `after` less those of `before`, over the stated noise; modes go by their order."""
     f = (after.frequency[:m] / before.frequency[:m] - 1) / quality.frequency_sd
     signs = np.sign((before.shapes[:, :m] * after.shapes[:, :m]).sum(axis=0))
     x = (after.shapes[:, :m] - signs * before.shapes[:, :m]) / quality.shape_sd
-    return float(f @ f + (x**2).mean(axis=0).sum() * min(quality.sensors, len(x)))
+    share = min(quality.sensors, len(x)) / len(x)  # of the places that have a sensor
+    return np.concatenate([f, np.sqrt(share) * x.ravel()])
 
 
 def section(blank: Blank, test: Test) -> str:

@@ -8,12 +8,16 @@ import numpy as np
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
+from benchmarks.trials import draw
 from benchmarks.trials import seal as sealing
 from benchmarks.trials.__main__ import main
 from benchmarks.trials.calibration import calibration_error, table
+from benchmarks.trials.case import Blank, Mechanism
 from benchmarks.trials.draw import trials
-from benchmarks.trials.kinds import CLASSES, kinds
+from benchmarks.trials.frame import frame
+from benchmarks.trials.kinds import CLASSES, Kind, kinds
 from benchmarks.trials.scoring import scored
+from benchmarks.trials.test_data import QUALITIES, difference, measured, truth_of
 from mouse_cli.formats import read_deck
 
 SMALL = ["single/chain/mass"]
@@ -62,8 +66,6 @@ def test_a_deck_that_was_changed_is_refused(folder):
 
 def test_a_truth_that_is_made_otherwise_is_refused(folder, monkeypatch):
     """Somebody who has seen an answer changes how truths are made."""
-    from benchmarks.trials import draw
-
     monkeypatch.setattr(draw.Trial, "truth", lambda self: {"mechanisms": []})
     with pytest.raises(sealing.BrokenSeal, match="truths"):
         sealing.opened(folder)
@@ -80,15 +82,16 @@ def test_a_seed_may_be_withheld(tmp_path):
 
 
 def test_decks_are_sound_and_say_nothing(tmp_path):
-    """Every kind once: its deck is read without an error, and neither it nor its name has a word of what is missing."""
-    names = [kind.name for kind in kinds() if not kind.error]
-    for i, name in enumerate(names):
-        (one,) = trials(i, 1, [name.replace("[", "?")])
-        deck = sealing.write(tmp_path, f"d{i}", one)
-        problem = read_deck(deck)
-        assert problem.test.m + len(problem.hold_out.modes if problem.hold_out else ()) == len(one.test.frequency)
-        assert not any(own.kind in deck.read_text() for own in one.mechanisms if own.kind not in ("mass",))
+    """Every kind once: its deck is read without an error, and has no word of what is missing; names are names of one kind."""
+    names = [kind.name for kind in kinds()]
     assert len(names) == len(set(names))
+    for kind in (kind for kind in kinds() if not kind.error):
+        blank, mechanisms = kind.made(7)
+        test = measured(np.random.default_rng(1), blank, truth_of(blank, 5), QUALITIES["B"], 1, "")
+        deck = sealing.write(tmp_path, "deck", draw.Trial(kind.name, "B", blank, mechanisms, test, "", 0.0))
+        problem = read_deck(deck)
+        assert problem.test.m == 4 and len(problem.hold_out.modes) == 1
+        assert not any(own.kind in deck.read_text() for own in mechanisms if own.kind != "mass")
 
 
 def test_the_seed_alone_decides():
@@ -99,6 +102,19 @@ def test_the_seed_alone_decides():
 def test_all_classes_are_drawn():
     plan = {name.split("/")[0] for name in (one.kind for one in trials(1, 12, ["*/chain/*", "*/storeys/*"]))}
     assert plan == set(CLASSES)
+
+
+def test_what_parameters_make_up_for_is_not_felt():
+    """A modulus 2 sd off costs its prior about 4, and the test thousands before the parameters are fitted."""
+
+    def off(blank: Blank, rng: np.random.Generator) -> Mechanism:
+        blank.priors["E columns"].scale(np.exp(2 * blank.priors["E columns"].sd))
+        return Mechanism("a modulus")
+
+    kind = Kind("single/frame/modulus", frame, (off,))
+    after = truth_of(kind.made(5)[0], 5)
+    raw = difference(truth_of(kind.made(5, 0)[0], 5), after, QUALITIES["A"], 5)
+    assert draw._felt(kind, 5, 0, after, "A") < 12 < 3000 < raw @ raw
 
 
 def verdict(kind: str, physics: str, group: str, *at: float, **more: object) -> dict:

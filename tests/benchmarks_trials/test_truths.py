@@ -11,7 +11,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 from benchmarks.blind import verify
-from benchmarks.trials import beam, chain, frame, outside, plate
+from benchmarks.trials import beam, case, frame, outside, plate
 from benchmarks.trials.assembly import Assembly
 from benchmarks.trials.bars import Bars
 from benchmarks.trials.case import Blank
@@ -189,8 +189,7 @@ def predicted(path: Path, blank: Blank) -> np.ndarray:
 
 def nominal(kind: Kind, folder: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[Path, Blank, np.ndarray]:
     """Deck, structure and frequencies of a kind whose parameters are as its deck has them."""
-    for module in (beam, frame, chain, plate):
-        monkeypatch.setattr(module, "spread", lambda rng, sd: 1.0)
+    monkeypatch.setattr(case, "spread", lambda rng, sd: 1.0)
     blank, mechanisms = kind.made(11)
     truth = truth_of(blank, 5)
     test = measured(np.random.default_rng(1), blank, truth, QUALITIES["A"], 0, "")
