@@ -84,6 +84,9 @@ def _alarms(results: list[Scored]) -> str:
             )
     named = [one for one in results if np.isfinite(one.probability)]
     wrong = sum(one.outcome in (WRONG, MISPLACED) for one in named)
+    suspected = Counter((one.truth["error"] or "none", one.suspected) for one in results if one.suspected)
+    pairs = ", ".join(f"{said} where there was {error}: {n}" for (error, said), n in suspected.most_common())
+    lines += [f"Errors of the test that answers suspect: {pairs}.\n"] if pairs else []
     return "\n".join([*lines, f"Of {len(named)} names, {wrong} were wrong or misplaced.\n"])
 
 
@@ -129,10 +132,14 @@ def _outside(results: list[Scored]) -> str:
     kinds = Counter("named" if np.isfinite(one.probability) else one.said.split()[0].strip(",") for one in own)
     share = lambda i: [one.field[i] for one in own if one.field[i] is not None]
     counts = ", ".join(f"{kind} {n}" for kind, n in kinds.most_common())
+    accepted = sorted(
+        {f"{name} for {m['kind']}" for one in own for m in one.truth["mechanisms"] for name, _ in m["also"]}
+    )
+    names = f" Names accepted as true, declared beforehand: {', '.join(accepted)}." if accepted else ""
     return (
         f"{len(own)} decks: {counts or 'none'}. Of fields without a name, {sum(share(0))} of {len(share(0))} have a property "
         f"of what is missing, {sum(share(1))} of {len(share(1))} are largest within {100 * REGION:g} % of the span of where it "
-        "acts most.\n"
+        f"acts most.{names}\n"
     )
 
 
@@ -154,16 +161,16 @@ def _listed(results: list[Scored], outcomes: tuple[str, ...]) -> str:
     own = [one for one in results if one.outcome in outcomes]
     if not own:
         return "None.\n"
-    lines = ["| deck | truth | quality | answer | outcome | felt |", "|---|---|---|---|---|---|"]
+    lines = ["| deck | truth | quality | answer | outcome | chi-square left |", "|---|---|---|---|---|---|"]
     for one in sorted(own, key=lambda one: (one.truth["class"], one.name)):
         truth = one.truth
         what = f"{truth['class']}: {truth['family']}, {truth['what']}" + _places(truth)
         said = one.said.replace("|", "/")
         lines.append(f"| {one.name} | {what} | {truth['quality']} | {said} | {one.outcome} | {one.trial.felt:.0f} |")
-    return (
-        "\n".join(lines)
-        + "\n\n`felt`: chi-square that the least of the mechanisms leaves to a model without it whose parameters were fitted.\n"
+    note = (
+        "Chi-square left: what the least of the mechanisms leaves to a model without it whose parameters were fitted."
     )
+    return "\n".join(lines) + f"\n\n{note}\n"
 
 
 def _places(truth: dict) -> str:

@@ -28,7 +28,7 @@ class Scored:
     alarm: on a control, anything but nothing missing, or one of several with none among them; probability: that of the name, and
     `true` whether its groups are those of the truth; rivals: (probability, whether true) of each group of a one-of; field: of
     physics without a name, (property right, region right), None where not scored; gain: rms error of held-out frequencies in %,
-    of the baseline and of the revised model.
+    of the baseline and of the revised model; suspected: error of the test that the answer suspects.
     """
 
     name: str
@@ -43,6 +43,7 @@ class Scored:
     rivals: list[tuple[float, bool]] = field(default_factory=list)
     field: tuple[bool | None, bool | None] = (None, None)
     gain: tuple[float, float] | None = None
+    suspected: str = ""
 
     @property
     def truth(self) -> dict:
@@ -73,6 +74,7 @@ def scored(name: str, trial: Trial, document: dict) -> Scored:
         rivals=_rivals(document, truth) if kind == "one-of" else [],
         field=_field(verdict, truth) if kind == "unknown" else (None, None),
         gain=_gain(document),
+        suspected=document.get("misstated") or "",
     )
 
 
