@@ -18,7 +18,10 @@ _SMALL = 1e-4  # change of J, relative to 1 + its share of rounding, that ends t
 MOST = 40
 _GIVE_UP = 1e8
 _HOPE = 4.0  # times the gain that a full step promises: what a search may gain at most, unless it gains more
-_LEAST = 3  # steps before a search may be given up
+_LEAST, _AHEAD = (
+    3,
+    8,
+)  # steps before a search may be given up (of a brief one half), and that may gain as the last one did
 
 
 @dataclass(frozen=True)
@@ -89,7 +92,7 @@ def fit(
     for step_number in range(most):
         T = model.jacobian(at)
         H, slope = T.T @ T + np.diag(prior), T.T @ at.residual - prior * at.x
-        if step_number >= _LEAST and J - (most - step_number) * gained > reach:
+        if step_number >= min(_LEAST, most // 2) and J - min(_AHEAD, most - step_number) * gained > reach:
             promised = float(slope @ _step(H, slope, 1e-6, scale, at.x, lower, upper))
             if J - _HOPE * promised > reach:
                 return Fit(model, at, J, H, _evidence(J, H, model))

@@ -87,7 +87,7 @@ class Study:
     def approached(
         self, name: str, before: np.ndarray, beside: tuple[Recipe, ...], reach: float = np.inf
     ) -> list[tuple[float, int, list[np.ndarray]]]:
-        """Misfit, number of the recipe, x at the end and at the start of brief descents, the best first, no two alike.
+        """Misfit - 2 ln prior, number of the recipe, x at the end and the start of brief descents, the best first, no two alike.
 
         reach: misfit from which on none need go on. What a first look finds best may be beside the true place many times
         over, and the true one at a wrong size.
@@ -99,11 +99,11 @@ class Study:
             return [(0.0, i, [x]) for i, x in chosen]
         descents = [(i, x, fit(trials[i], x[self.k :], x[: self.k], _BRIEF, reach)) for i, x in chosen]
         led: list[tuple[int, np.ndarray, Fit]] = []
-        for i, x, one in sorted((d for d in descents if d[2] is not None), key=lambda item: item[2].misfit):
+        for i, x, one in sorted((d for d in descents if d[2] is not None), key=lambda item: _cost(item[2])):
             if not any(_alike(one, other) for _, _, other in led):
                 led.append((i, x, one))
         kept = {id(end) for _, end in _spread([(i, one.point.x) for i, _, one in led], trials, most)}
-        return [(one.misfit, i, [one.point.x, x]) for i, x, one in led if id(one.point.x) in kept]
+        return [(_cost(one), i, [one.point.x, x]) for i, x, one in led if id(one.point.x) in kept]
 
     @cached_property
     def _adapted(self) -> tuple[np.ndarray, np.ndarray]:
@@ -165,6 +165,11 @@ def _spread(starts: list[tuple[int, np.ndarray]], trials: dict[int, Model], most
         if len(found) == most:
             break
     return found
+
+
+def _cost(one: Fit) -> float:
+    """C - 2 ln prior of the places: one of little prior has to misfit so much less."""
+    return one.misfit - 2 * sum(recipe.log_prior for recipe in one.recipes)
 
 
 def _alike(one: Fit, other: Fit) -> bool:
@@ -234,7 +239,8 @@ def _weighed(study: Study, others: tuple, name: str, near_by: list, count: int) 
     for _, i, (end, *_) in near_by[: _WEIGHED // (2 if others else 1)]:
         whole = study.with_cause(others, name, i)
         points = [whole.point(x) for x in (end, np.concatenate([np.zeros(k), end[k:]]))]
-        left.append(min((study.foreseen(at) for at in points if at is not None), default=np.inf))
+        cost = min((study.foreseen(at) for at in points if at is not None), default=np.inf)
+        left.append(cost - 2 * whole.recipes[-1].log_prior)
     best = np.argsort(left, kind="stable")[:count].tolist()
     return [near_by[j] for j in (best if 0 in best else [*best, 0])]
 
