@@ -1,7 +1,7 @@
 """The parts of a structure over which a field is spread: elements of a mesh, springs and masses of a model of matrices."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -9,6 +9,8 @@ from mouse_cli.diagnosis.effects.losses import matrices_of
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.model.diagnosis import Site
+from mouse_cli.model.geometry import DIRECTIONS
+from mouse_cli.model.parameter import Parameter
 from mouse_cli.model.problem import Problem
 
 FEWEST = 3  # cells that make a field
@@ -71,29 +73,25 @@ def of_elements(model: Reduced, into: str, properties: tuple[str, ...]) -> Cells
 
     def extend(problem: Problem, values: np.ndarray, spread: float) -> Problem:
         edit = Edit(problem)
-        for site, value in zip(found.sites, values, strict=True):
+        for site, value in zip(cells.sites, values, strict=True):
             element = edit.element(site.ids[0])
             own = edit.sets[element[0]]
             bound = tuple(p for p in _proportional(own.type, properties) if p in own.properties)
             edit.bind(f"{into} of {site.text}", [element], bound, factor=max(1 + float(value), 1e-3))
-        edit.parameters = [replaced(parameter, spread) for parameter in edit.parameters]
+        edit.parameters = [_known_to(parameter, spread) for parameter in edit.parameters]
         return edit.done()
 
-    found = _felt(model, Cells(tuple(sites), np.array(at).reshape(-1, 3), "m", tuple(blocks), into, extend))
-    return found
+    cells = _felt(model, Cells(tuple(sites), np.array(at).reshape(-1, 3), "m", tuple(blocks), into, extend))
+    return cells
 
 
 def _proportional(kind: str, properties: tuple[str, ...]) -> tuple[str, ...]:
     """Properties of elements of one kind that a stiffness or a mass is proportional to, all of them together."""
-    from mouse_cli.model.geometry import DIRECTIONS
-
     return DIRECTIONS if "E" in properties and kind in ("spring", "storey", "joint") else properties
 
 
-def replaced(parameter, spread: float):
+def _known_to(parameter: Parameter, spread: float) -> Parameter:
     """A parameter of a field: known to the spread of the field beforehand."""
-    from dataclasses import replace
-
     return replace(parameter, sd=spread * abs(parameter.nominal))
 
 

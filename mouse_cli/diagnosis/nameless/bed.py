@@ -1,5 +1,7 @@
 """A bed of springs to the ground whose stiffness varies smoothly along the structure."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from mouse_cli.diagnosis.extend.edit import Edit
@@ -7,7 +9,7 @@ from mouse_cli.diagnosis.extend.matrices import of_matrices, with_shares
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import lowest, total_mass
 from mouse_cli.diagnosis.nameless import Nameless
-from mouse_cli.diagnosis.nameless._cells import FEWEST, Cells, of_rows, replaced
+from mouse_cli.diagnosis.nameless._cells import FEWEST, Cells, of_rows
 from mouse_cli.diagnosis.sites.points import named_dof, wanted
 from mouse_cli.model.diagnosis import BED
 from mouse_cli.model.problem import Problem
@@ -38,8 +40,8 @@ def _under_bars(model: Reduced) -> Cells | None:
             own, name = edit.sets[element[0]], f"k{'yz'[bars.plane[i]]}"
             options = {k: own.options[k] for k in ("orientation", "offsets") if k in own.options}
             new = edit.add("foundation", own.nodes[[element[1]]], {name: value * unit}, options)
-            edit.bind(f"bed of {sites[i].text}", new, (name,), factor=1.0)
-            edit.parameters[-1] = replaced(edit.parameters[-1], spread / max(abs(float(value)), 1e-3 * spread))
+            edit.bind(f"bed of {sites[i].text}", new, (name,), unit="N/m2")
+            edit.parameters[-1] = replace(edit.parameters[-1], sd=spread * unit, transform="identity")
         return edit.done()
 
     return Cells(sites, at, "m", tuple(zip(bars.ends, parts, strict=True)), "K", extend)
