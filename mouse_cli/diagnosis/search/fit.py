@@ -80,10 +80,8 @@ def fit(
     a full step promises nor by going on to gain as it did. Far from an optimum the first alone says little.
     """
     k = model.k
-    lower = np.concatenate([np.full(k, -np.inf), model.bounds[:, 0]])
-    upper = np.concatenate([np.full(k, np.inf), model.bounds[:, 1]])
-    x = np.concatenate([model.base.z if z is None else z, c])
-    at = model.point(np.clip(x, lower, upper))
+    lower, upper = np.hstack([np.full((2, k), [[-np.inf], [np.inf]]), model.bounds.T])
+    at = model.point(np.clip(np.concatenate([model.base.z if z is None else z, c]), lower, upper))
     if at is None:
         return None
     J, damping = _cost(at, k), 1e-3
@@ -92,10 +90,9 @@ def fit(
     for step_number in range(most):
         T = model.jacobian(at)
         H, slope = T.T @ T + np.diag(prior), T.T @ at.residual - prior * at.x
-        if step_number >= min(_LEAST, most // 2) and J - min(_AHEAD, most - step_number) * gained > reach:
-            promised = float(slope @ _step(H, slope, 1e-6, scale, at.x, lower, upper))
-            if J - _HOPE * promised > reach:
-                return Fit(model, at, J, H, _evidence(J, H, model))
+        hope = min(_AHEAD, most - step_number) * gained if step_number >= min(_LEAST, most // 2) else np.inf
+        if J - max(hope, _HOPE * float(slope @ _step(H, slope, 1e-6, scale, at.x, lower, upper))) > reach:
+            return Fit(model, at, J, H, _evidence(J, H, model))
         moved = False
         while damping < _GIVE_UP:
             step = _step(H, slope, damping, scale, at.x, lower, upper)
