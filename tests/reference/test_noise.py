@@ -1,5 +1,7 @@
 """Noise larger than stated, integrated out: the closed form against numerical integration of what it is said to be."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from scipy.integrate import quad
@@ -17,7 +19,7 @@ def integrated(misfit: float, dof: float) -> float:
     edges = np.append(edges, edges[-1] + 40 / a)
     total = sum(
         quad(lambda t: np.exp(exponent(t) - top), a, b, epsabs=0, epsrel=1e-11, limit=200)[0]
-        for a, b in zip(edges[:-1], edges[1:], strict=True)
+        for a, b in pairwise(edges)
     )
     return float(np.log(3.0) + top + np.log(total))
 
