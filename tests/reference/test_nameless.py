@@ -1,5 +1,7 @@
 """Physics without a name: truths that no mechanism of the library makes, by finite elements and chains written here."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from hermite_beams import COARSE, LENGTH, Truth, deck
@@ -11,7 +13,7 @@ from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.diagnosis.nameless import registry as nameless
 from mouse_cli.diagnosis.nameless._field import LENGTHS, smooth
 from mouse_cli.diagnosis.nameless.fit import rivals
-from mouse_cli.diagnosis.search.rank import rank
+from mouse_cli.diagnosis.search.rank import _log_prior, rank
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.model.diagnosis import BED, MASS, NAMED, NOTHING, STIFFNESS, UNKNOWN, Choices
@@ -186,6 +188,14 @@ def test_its_covariance_is_that_of_a_smooth_field(share):
     assert field.length == pytest.approx(length)
     assert np.trace(exact - field.P @ field.P.T) < 0.005 * np.trace(exact)
     assert np.abs(exact - field.P @ field.P.T).max() < 0.02 * 0.01 + 0.005 * np.trace(exact)
+
+
+def test_rivals_without_a_name_share_their_prior():
+    """0.1 of all together, however many there are."""
+    fits = [SimpleNamespace(recipes=(), nameless=SimpleNamespace(rival=one)) for one in nameless().values()]
+    fits.append(SimpleNamespace(recipes=(), nameless=None))
+    assert sum(np.exp(_log_prior(one, fits)) for one in fits[:-1]) == pytest.approx(0.1)
+    assert np.exp(_log_prior(fits[-1], fits)) == pytest.approx(0.3)
 
 
 def test_its_evidence_is_the_mean_over_spreads_and_lengths():

@@ -2,12 +2,15 @@
 
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from hermite_beams import LENGTH, MASS, Truth, deck
 
 from mouse_cli.diagnosis import diagnose
+from mouse_cli.diagnosis.gates import log_prior
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.diagnosis.search.rank import _log_prior
 from mouse_cli.diagnosis.search.several import MATERIAL, adequate, key, material, same_kind
 from mouse_cli.diagnosis.search.study import Study, best
 from mouse_cli.formats import yaml_deck
@@ -100,6 +103,35 @@ def test_what_is_not_needed_is_material_to_nothing():
     assert material(of(-30.0, "mass", "mass"), [one, other])
     assert not material(of(-49.0, "mass", "mass"), [one, other])  # a second of one kind, on one of it
     assert material(of(-90.0, "shear", "taper"), [one, other])
+
+
+def single(candidate: str, group: str):
+    """A fit of one mechanism of that group."""
+    recipe = SimpleNamespace(candidate=SimpleNamespace(key=candidate, group=group))
+    return SimpleNamespace(recipes=(recipe,), nameless=None)
+
+
+def joint(*fits):
+    return SimpleNamespace(recipes=tuple(one.recipes[0] for one in fits), nameless=None)
+
+
+def test_a_set_of_sites_is_counted_once():
+    """Three masses at sites of equal prior: 3! orders are one set; a mass and two springs: 2!."""
+    mass, spring = single("mass", "mass"), single("ground-spring", "ground-spring")
+    same, mixed, apart = joint(mass, mass, mass), joint(mass, spring, spring), joint(mass, spring)
+    fits = [mass, spring, same, mixed, apart]
+    of_three = log_prior(3, 2)
+    assert _log_prior(same, fits) == pytest.approx(of_three + np.log(6))
+    assert _log_prior(mixed, fits) == pytest.approx(of_three + np.log(2))
+    assert _log_prior(apart, fits) == pytest.approx(log_prior(2, 2))
+
+
+def test_members_of_a_group_share_its_prior():
+    """A crack and a softer stretch are hard to tell apart: together they are as probable as a mass beforehand."""
+    crack, soft, mass = single("crack", "local"), single("stiffness-loss", "local"), single("mass", "mass")
+    p = [np.exp(_log_prior(one, [crack, soft, mass])) for one in (crack, soft, mass)]
+    assert p[0] == pytest.approx(p[1]) and p[0] + p[1] == pytest.approx(p[2])
+    assert sum(p) == pytest.approx(0.6)
 
 
 def test_adequate_is_a_p_value_of_a_twentieth():
