@@ -94,9 +94,14 @@ MUTANTS = (
         ),
         refuted_and_yet_named=("if gain >= -ODDS:", "if True:", "test_held_out_data_strike_a_name"),
         nameless_named=(
-            'if first.nameless or name == "none":',
-            'if name == "none":',
+            "    if first.nameless:\n        best",
+            "    if False:\n        best",
             "test_what_leads_without_a_name_is_unknown_with_a_field",
+        ),
+        nameless_beats_an_equal=(
+            "return ONE_OF if rival else UNKNOWN, ()",
+            "return UNKNOWN, ()",
+            "test_a_name_stays_beside_what_has_none",
         ),
         nameless_takes_the_place=(
             "        if other.nameless:\n            continue\n",

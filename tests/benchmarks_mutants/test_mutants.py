@@ -5,8 +5,7 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[2]
-sys.path.insert(0, str(ROOT))
+sys.path.insert(0, str(Path(__file__).parents[2]))
 from benchmarks.mutants import __main__ as mutants
 from benchmarks.mutants.faults import MUTANTS, Mutant
 
@@ -33,10 +32,10 @@ def test_tests_that_do_not_run_kill_nothing(monkeypatch):
 @pytest.mark.parametrize("one", MUTANTS, ids=lambda one: one.name)
 def test_every_fault_has_its_place_and_its_tests(one):
     """Its text stands once in its file, and its tests are there."""
-    assert (ROOT / "mouse_cli" / "diagnosis" / one.file).read_text().count(one.old) == 1 and one.old != one.new
+    assert (mutants.ROOT / "mouse_cli" / "diagnosis" / one.file).read_text().count(one.old) == 1 and one.old != one.new
     for test in one.tests:
         path, name = test.split("[")[0].split("::")
-        assert f"def {name}(" in (ROOT / path).read_text()
+        assert f"def {name}(" in (mutants.ROOT / path).read_text()
 
 
 def test_names_are_apart():

@@ -216,6 +216,15 @@ def test_what_leads_without_a_name_is_unknown_with_a_field(proofs):
     assert (found.kind, found.field, found.best) == (UNKNOWN, field, SPRING)
 
 
+@pytest.mark.parametrize(("named", "kind"), [(0.11, ONE_OF), (0.09, UNKNOWN)])
+def test_a_name_stays_beside_what_has_none(proofs, named, kind):
+    """As a rival of more than a tenth; unless it leaves too much."""
+    field = made_up(nameless="field-bed")
+    p = (0.995 - named, named, 0.005)
+    assert judged(field, SPRING, BARE, p=p).kind == kind
+    assert judged(field, made_up("mass", misfit=60.0), BARE, p=p).kind == UNKNOWN
+
+
 def test_a_field_that_gains_little_is_not_told(proofs):
     field, bare = made_up(nameless="field-bed"), made_up(misfit=90.0)
     told = lambda odds: judged(bare, field, p=(0.6, 0.4), odds=(0.0, odds)).field
