@@ -68,13 +68,17 @@ MUTANTS = (
     ),
     *_of(
         "gates.py",
-        _GATES,
+        _SEVERAL,
         prior_of_more=("0.6, 1 / 7", "0.6, 1 / 6", "test_priors_of_numbers_of_mechanisms"),
         prior_without_repetition=(
             "comb(max(groups, 1) + count - 1, count)",
             "comb(max(groups, 1), count)",
             "test_all_sets_of_groups_share_it",
         ),
+    ),
+    *_of(
+        "gates.py",
+        _GATES,
         gate_demanded=("0.1, 0.02", "0.1, 0.03", "test_demanded_and_likely"),
         gate_likely=("0.1, 0.02", "0.05, 0.02", "test_demanded_and_likely"),
         gate_far=("FAR = 5.0", "FAR = 8.0", "test_a_parameter_far_from_its_prior_takes_the_name"),

@@ -7,7 +7,7 @@ import pytest
 from hermite_beams import LENGTH, MASS, Truth, deck
 
 from mouse_cli.diagnosis import diagnose
-from mouse_cli.diagnosis.gates import log_prior
+from mouse_cli.diagnosis.gates import log_prior, prior
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.diagnosis.search.rank import _log_prior
@@ -132,6 +132,20 @@ def test_members_of_a_group_share_its_prior():
     p = [np.exp(_log_prior(one, [crack, soft, mass])) for one in (crack, soft, mass)]
     assert p[0] == pytest.approx(p[1]) and p[0] + p[1] == pytest.approx(p[2])
     assert sum(p) == pytest.approx(0.6)
+
+
+def test_priors_of_numbers_of_mechanisms():
+    """0.3 for none; what remains falls by seven with each further one, and sums to it."""
+    assert prior(0) == 0.3
+    assert sum(prior(count) for count in range(1, 40)) == pytest.approx(0.7, abs=1e-12)
+    assert prior(2) / prior(3) == pytest.approx(7.0)
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_all_sets_of_groups_share_it(count):
+    """Multisets of 1, 2 and 3 of five groups: 5, 15, 35."""
+    sets = {1: 5, 2: 15, 3: 35}[count]
+    assert np.exp(log_prior(count, 5)) * sets == pytest.approx(prior(count))
 
 
 def test_adequate_is_a_p_value_of_a_twentieth():

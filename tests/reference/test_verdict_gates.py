@@ -238,23 +238,6 @@ def test_the_rest_is_a_share_of_the_misfit_of_the_model_as_it_is():
     assert rest(ranked(made_up("mass", misfit=44.0), made_up(misfit=200.0), p=(0.99, 0.01))) is None
 
 
-# --- priors
-
-
-def test_priors_of_numbers_of_mechanisms():
-    """0.3 for none; what remains falls by seven with each further one, and sums to it."""
-    assert gates.prior(0) == 0.3
-    assert sum(gates.prior(count) for count in range(1, 40)) == pytest.approx(0.7, abs=1e-12)
-    assert gates.prior(2) / gates.prior(3) == pytest.approx(7.0)
-
-
-@pytest.mark.parametrize("count", [1, 2, 3])
-def test_all_sets_of_groups_share_it(count):
-    """Multisets of 1, 2 and 3 of five groups: 5, 15, 35."""
-    sets = {1: 5, 2: 15, 3: 35}[count]
-    assert np.exp(gates.log_prior(count, 5)) * sets == pytest.approx(gates.prior(count))
-
-
 # --- chains of unit masses between two walls
 
 N, UNIT = 5, 1e5
