@@ -216,6 +216,15 @@ def test_what_leads_without_a_name_is_unknown_with_a_field(proofs):
     assert (found.kind, found.field, found.best) == (UNKNOWN, field, SPRING)
 
 
+@pytest.mark.parametrize(("named", "kind"), [(0.11, ONE_OF), (0.09, UNKNOWN)])
+def test_a_name_stays_beside_what_has_none(proofs, named, kind):
+    """As a rival of more than a tenth; unless it leaves too much."""
+    field = made_up(nameless="field-bed")
+    p = (0.995 - named, named, 0.005)
+    assert judged(field, SPRING, BARE, p=p).kind == kind
+    assert judged(field, made_up("mass", misfit=60.0), BARE, p=p).kind == UNKNOWN
+
+
 def test_a_field_that_gains_little_is_not_told(proofs):
     field, bare = made_up(nameless="field-bed"), made_up(misfit=90.0)
     told = lambda odds: judged(bare, field, p=(0.6, 0.4), odds=(0.0, odds)).field
@@ -227,23 +236,6 @@ def test_the_rest_is_a_share_of_the_misfit_of_the_model_as_it_is():
     found = rest(ranked(made_up("mass", misfit=80.0), made_up(misfit=200.0), p=(0.99, 0.01)))
     assert found.share == pytest.approx(60 / 180) and found.p < 1e-6
     assert rest(ranked(made_up("mass", misfit=44.0), made_up(misfit=200.0), p=(0.99, 0.01))) is None
-
-
-# --- priors
-
-
-def test_priors_of_numbers_of_mechanisms():
-    """0.3 for none; what remains falls by seven with each further one, and sums to it."""
-    assert gates.prior(0) == 0.3
-    assert sum(gates.prior(count) for count in range(1, 40)) == pytest.approx(0.7, abs=1e-12)
-    assert gates.prior(2) / gates.prior(3) == pytest.approx(7.0)
-
-
-@pytest.mark.parametrize("count", [1, 2, 3])
-def test_all_sets_of_groups_share_it(count):
-    """Multisets of 1, 2 and 3 of five groups: 5, 15, 35."""
-    sets = {1: 5, 2: 15, 3: 35}[count]
-    assert np.exp(gates.log_prior(count, 5)) * sets == pytest.approx(gates.prior(count))
 
 
 # --- chains of unit masses between two walls

@@ -2,13 +2,15 @@
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.losses import listed_springs
+from mouse_cli.diagnosis.effects.losses import Listed, listed_springs
 from mouse_cli.diagnosis.extend.matrices import of_matrices, with_shares
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.nameless import Nameless
 from mouse_cli.diagnosis.nameless._cells import FEWEST, Cells, of_elements
 from mouse_cli.model.diagnosis import STIFFNESS, Site
 from mouse_cli.model.problem import Problem
+
+_SUM = 1e-6  # of its size, that a part has beyond sums of others, below which it is one
 
 
 def cells(model: Reduced) -> Cells | None:
@@ -17,7 +19,7 @@ def cells(model: Reduced) -> Cells | None:
 
 
 def _springs(model: Reduced) -> Cells | None:
-    listed = listed_springs(model)
+    listed = _apart(listed_springs(model))
     if len(listed) < FEWEST:
         return None
     sites = tuple(Site("dof", (), None, text) for text, _, _ in listed)
@@ -30,6 +32,19 @@ def _springs(model: Reduced) -> Cells | None:
         return with_shares(problem, "stiffness", shares, spread)
 
     return Cells(sites, at, "degrees of freedom", blocks, "K", extend)
+
+
+def _apart(listed: list[Listed]) -> list[Listed]:
+    """Those that are no sum of others before them: a group of springs that are cells themselves would change them twice."""
+    basis, kept = np.zeros((0, listed[0][2].size if listed else 0)), []
+    for each in listed:
+        own = each[2].ravel() / np.linalg.norm(each[2])
+        left = own - basis.T @ (basis @ own)
+        left -= basis.T @ (basis @ left)
+        if np.linalg.norm(left) > _SUM:
+            basis = np.vstack([basis, left / np.linalg.norm(left)])
+            kept.append(each)
+    return kept
 
 
 NAMELESS = Nameless(

@@ -1,0 +1,153 @@
+"""Several mechanisms at once, truths by finite elements written here: all of them named, with their sites, and none too many."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from hermite_beams import LENGTH, MASS, Truth, deck
+
+from mouse_cli.diagnosis import diagnose
+from mouse_cli.diagnosis.gates import log_prior, prior
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.diagnosis.search.rank import _log_prior
+from mouse_cli.diagnosis.search.several import MATERIAL, adequate, key, material, same_kind
+from mouse_cli.diagnosis.search.study import Study, best
+from mouse_cli.formats import yaml_deck
+from mouse_cli.formats.assemble import assemble
+from mouse_cli.model.diagnosis import NAMED, Choices
+
+LOCAL = ("mass", "ground-spring", "stiffness-loss")
+PLACES = (6, 10, 15, 19, 24, 28)  # of 30 elements, where point masses of 0.1 of the beam stand
+ATTACHED = "".join(
+    f"      - {{id: {i}, type: mass, nodes: {n + 1}, mass: {0.1 * MASS * LENGTH}}}\n" for i, n in enumerate(PLACES, 101)
+)
+
+
+def problem(truth: Truth, more: str = "", free: bool = False):
+    return assemble(yaml_deck.read(deck(truth, free, modes=6, held=1, more=more), "beam.yaml"))
+
+
+def without(gone: tuple[int, ...]):
+    """A cantilever whose deck has six masses, of which those `gone` (from 0) are not there."""
+    return problem(Truth(masses=tuple((n / 30, 0.1) for i, n in enumerate(PLACES) if i not in gone)), ATTACHED)
+
+
+@pytest.mark.parametrize("gone", [(1, 4), (0, 2, 5), (0, 2, 3, 5)])
+def test_masses_that_are_gone_are_named_one_by_one(gone):
+    """Two, three and four of six: beside one alone even errors of the test look better than what it states."""
+    found = diagnose(without(gone), choices=Choices(("mass-loss", "mass", "ground-spring")))
+    assert found.kind == NAMED and not found.cautions
+    assert found.best.physics == " + ".join(["mass-loss"] * len(gone))
+    assert {cause.site.ids for cause in found.best.causes} == {(101 + i,) for i in gone}
+    assert all(cause.sizes[0].value > 0.9 for cause in found.best.causes)
+    assert found.held_out.revised.rms_frequency_error < 0.3 * found.held_out.baseline.rms_frequency_error
+    assert found.extended_result.status.key == "converged" and not found.extended_result.rejected
+    assert len(found.extended.parameters) == 2 + len(gone)
+
+
+def test_no_more_than_may_be_sought():
+    found = diagnose(without((0, 2, 5)), choices=Choices(("mass-loss", "ground-spring"), causes=2))
+    assert max(len(one.causes) for one in found.explanations) == 2
+
+
+def near(cause, x: float) -> bool:
+    """Whether a cause stands at x / L, to a fiftieth."""
+    return abs(cause.site.position[0] / LENGTH - x) < 0.02
+
+
+@pytest.mark.parametrize("free", [False, True])
+def test_a_spring_a_mass_and_a_softer_stretch(free):
+    softer = lambda x: 0.7 if abs(x - 0.3) < 0.05 else 1.0
+    truth = Truth(softer, springs=((0.55, 40.0),), masses=((0.8, 0.05),))
+    found = diagnose(problem(truth, free=free), choices=Choices(LOCAL))
+    assert (found.kind, found.best.physics) == (NAMED, "ground-spring + stiffness-loss + mass")
+    spring, loss, mass = found.best.causes
+    assert near(spring, 0.55) and near(mass, 0.8) and near(loss, 0.3)
+    assert abs(mass.sizes[0].value - 0.05 * MASS * LENGTH) < 3 * mass.sizes[0].sd
+
+
+@pytest.mark.parametrize("free", [False, True])
+def test_a_third_is_not_named_where_there_are_two(free):
+    found = diagnose(problem(Truth(springs=((0.55, 40.0),), masses=((0.8, 0.05),)), free=free), choices=Choices(LOCAL))
+    assert (found.kind, found.best.physics) == (NAMED, "ground-spring + mass")
+    assert not any(len(one.causes) > 2 for one in found.explanations)
+
+
+def test_several_of_one_kind_and_as_many_as_are_needed():
+    """Three of six are gone, four may be: the fourth is not added."""
+    beam = without((0, 2, 5))
+    study = Study(reduced(beam, beam.prior.mean), {"mass-loss": registry()["mass-loss"]})
+    single = best(study, "mass-loss")
+    sets = same_kind(study, [single], 4)
+    last = max(sets, key=lambda one: one.log_evidence)
+    assert key(last) == ("mass-loss",) * 3 and adequate(last)
+    assert {recipe.site(recipe.grid[0]).ids[0] for recipe in last.recipes} == {101, 103, 106}
+    assert max(len(one.recipes) for one in sets) == 3
+    assert max(len(one.recipes) for one in same_kind(study, [single], 2)) == 2
+
+
+def of(log_evidence: float, *names: str):
+    """A fit of mechanisms of those keys."""
+    recipes = tuple(SimpleNamespace(candidate=SimpleNamespace(key=name)) for name in names)
+    return SimpleNamespace(recipes=recipes, log_evidence=log_evidence)
+
+
+def test_what_is_not_needed_is_material_to_nothing():
+    """Each set has to gain on the best of its parts, however many; sets that are none of its parts do not count."""
+    one, other, apart = of(-50.0, "mass"), of(-40.0, "crack"), of(-1.0, "taper")
+    assert material(of(-40.0 + MATERIAL + 0.1, "crack", "mass"), [one, other, apart])
+    assert not material(of(-40.0 + MATERIAL - 0.1, "crack", "mass"), [one, other, apart])
+    pair = of(-20.0, "crack", "mass")
+    assert not material(of(-20.0 + MATERIAL - 0.1, "crack", "mass", "mass"), [one, other, pair])
+    assert material(of(-30.0, "mass", "mass"), [one, other])
+    assert not material(of(-49.0, "mass", "mass"), [one, other])  # a second of one kind, on one of it
+    assert material(of(-90.0, "shear", "taper"), [one, other])
+
+
+def single(candidate: str, group: str):
+    """A fit of one mechanism of that group."""
+    recipe = SimpleNamespace(candidate=SimpleNamespace(key=candidate, group=group))
+    return SimpleNamespace(recipes=(recipe,), nameless=None)
+
+
+def joint(*fits):
+    return SimpleNamespace(recipes=tuple(one.recipes[0] for one in fits), nameless=None)
+
+
+def test_a_set_of_sites_is_counted_once():
+    """Three masses at sites of equal prior: 3! orders are one set; a mass and two springs: 2!."""
+    mass, spring = single("mass", "mass"), single("ground-spring", "ground-spring")
+    same, mixed, apart = joint(mass, mass, mass), joint(mass, spring, spring), joint(mass, spring)
+    fits = [mass, spring, same, mixed, apart]
+    of_three = log_prior(3, 2)
+    assert _log_prior(same, fits) == pytest.approx(of_three + np.log(6))
+    assert _log_prior(mixed, fits) == pytest.approx(of_three + np.log(2))
+    assert _log_prior(apart, fits) == pytest.approx(log_prior(2, 2))
+
+
+def test_members_of_a_group_share_its_prior():
+    """A crack and a softer stretch are hard to tell apart: together they are as probable as a mass beforehand."""
+    crack, soft, mass = single("crack", "local"), single("stiffness-loss", "local"), single("mass", "mass")
+    p = [np.exp(_log_prior(one, [crack, soft, mass])) for one in (crack, soft, mass)]
+    assert p[0] == pytest.approx(p[1]) and p[0] + p[1] == pytest.approx(p[2])
+    assert sum(p) == pytest.approx(0.6)
+
+
+def test_priors_of_numbers_of_mechanisms():
+    """0.3 for none; what remains falls by seven with each further one, and sums to it."""
+    assert prior(0) == 0.3
+    assert sum(prior(count) for count in range(1, 40)) == pytest.approx(0.7, abs=1e-12)
+    assert prior(2) / prior(3) == pytest.approx(7.0)
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_all_sets_of_groups_share_it(count):
+    """Multisets of 1, 2 and 3 of five groups: 5, 15, 35."""
+    sets = {1: 5, 2: 15, 3: 35}[count]
+    assert np.exp(log_prior(count, 5)) * sets == pytest.approx(prior(count))
+
+
+def test_adequate_is_a_p_value_of_a_twentieth():
+    """The 95 % point of chi-squared on 20 degrees of freedom is 31.41 (tables)."""
+    assert adequate(SimpleNamespace(misfit=31.40, dof=20)) and not adequate(SimpleNamespace(misfit=31.42, dof=20))
