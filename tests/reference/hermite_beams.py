@@ -49,7 +49,9 @@ class Truth:
         return np.sqrt(lam) / (2 * np.pi), shapes[::2]
 
 
-def deck(truth: Truth, free: bool = False, sensors: int = 14, modes: int = 5, held: int = 2, seed: int = 1, more: str = "") -> str:
+def deck(
+    truth: Truth, free: bool = False, sensors: int = 14, modes: int = 5, held: int = 2, seed: int = 1, more: str = ""
+) -> str:
     """A uniform beam and the test of `truth`: frequencies to 0.1 %, shapes to 1 %, the last `held` modes held out.
 
     more: further lines of the structure.

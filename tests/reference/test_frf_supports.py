@@ -74,7 +74,7 @@ def test_functions_of_a_freed_structure_are_read_where_the_deck_says(deck):
     """Sensors and force keep their places when a support adds degrees of freedom, and each reads its motion once."""
     problem, _ = with_modes(read_deck(deck))
     base = reduced(problem, problem.prior.mean)
-    data = FrfData(tuple(lines(test) for test in problem.frf))
+    data = FrfData(tuple(lines(test, problem.theory) for test in problem.frf))
     candidate = registry()["support-rotation"]
     recipe = next(each for each in candidate.recipes(base, candidate) if "node 1," in each.site(each.grid[0]).text)
     own = damping(base)
