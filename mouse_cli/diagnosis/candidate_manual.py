@@ -12,10 +12,11 @@ What `mouse diagnose` can name. Each is fitted beside all parameters of the deck
 can hardly tell apart share a group, and the group is decided first. [Diagnosis](../explanation/diagnosis.md) explains how."""
 _NAMELESS = """## Rivals without a name
 
-Changes of the model made of smooth random fields, one kind a row: what the library has no name for looks more like one of these than like
-the nearest candidate. They compete with all candidates by evidence and are never named; where one leads and no mechanism is a rival,
-the answer is `unknown` with the values of the field. [Diagnosis](../explanation/diagnosis.md#rivals-without-a-name) explains how. `--candidates` and `--without` do not concern
-them."""
+Changes of the model made of smooth random fields, one kind a row: what the library has no name for looks more like one of these
+than like the nearest candidate. They compete with all candidates by evidence and are never named; where one leads and no mechanism
+is a rival, the answer is `unknown` with the values of the field. [Diagnosis](../explanation/diagnosis.md#rivals-without-a-name)
+explains how. `--candidates` and `--without` do not concern them.
+"""
 
 
 def manual() -> str:

@@ -159,9 +159,10 @@ class FieldValue:
 
 @dataclass(frozen=True)
 class Field:
-    """Physics that has no name: a smooth change of `property` (STIFFNESS, MASS, BED) along the structure, or a FORCE at one site.
+    """Physics that has no name: a smooth change of `property` (STIFFNESS, MASS, BED) along the structure, or a spring (FORCE).
 
-    spread: sd of its values; length: over which they are correlated, in m or in steps from site to site (`unit`), 0 for a force.
+    Values of a FORCE are the motion along which that one spring acts, of no sign of its own.
+    spread: sd of its values; length: over which they are correlated, in m or in steps from site to site (`unit`).
     log_evidence_over_named: by which it leads everything that has a name; held_out: how the model with it predicts what no fit
     has seen.
     """

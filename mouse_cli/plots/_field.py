@@ -11,7 +11,7 @@ UNITS = {
     "stiffness": "change of stiffness, per cent",
     "mass": "change of mass, per cent",
     "bed": "bed stiffness, EI/L^4",
-    "force": "force, of the weight",
+    "force": "motion of the spring",
 }
 
 

@@ -9,13 +9,13 @@ ACTS = {
     STIFFNESS: "acts on the stiffness",
     MASS: "acts on the mass",
     BED: "acts as a bed, a stiffness from the structure to the ground",
-    FORCE: "acts as a force at one site, whose law is unknown",
+    FORCE: "acts as one spring along a motion of the whole structure",
 }
 UNITS = {
     STIFFNESS: "per cent",
     MASS: "per cent",
     BED: "EI/L^4",
-    FORCE: "of the weight",
+    FORCE: "of that motion",
 }  # of values as they are printed
 _MOST = 0.5  # of the largest value: neighbours above it belong to where most of the field is
 _SHOWN = 2.0  # sd from which on a value is listed by itself
@@ -76,8 +76,6 @@ def _most(field: Field) -> str:
     first, top, last = core(field.values)
     largest = field.values[top]
     sized = f"{amount(field, largest.value)}, sd {amount(field, largest.sd)}"
-    if field.property == FORCE:
-        return f": {place(largest.site)} ({sized})"
     begin, end = (field.values[i].site for i in (first, last))
     if first == last:
         return f", most of it at {place(begin)} ({sized})"

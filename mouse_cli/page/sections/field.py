@@ -14,7 +14,7 @@ from mouse_cli.report.reading import Part
 
 _SHOWN = 2.0  # sd from which on a value is listed by itself
 _THIN = 0.05  # of the length: how far sites may lie off the line
-_UNITS = {"stiffness": "%", "mass": "%", "bed": "EI/L^4", "force": "of the weight"}
+_UNITS = {"stiffness": "%", "mass": "%", "bed": "EI/L^4", "force": "of that motion"}
 
 
 def field(document: Part) -> Iterator[Markup]:

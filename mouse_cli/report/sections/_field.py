@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
-from mouse_cli.model.diagnosis import FORCE, Field, Untried
+from mouse_cli.model.diagnosis import Field, Untried
 from mouse_cli.model.units import Units
 from mouse_cli.report.blocks import Block, Column, Table, Text
 from mouse_cli.report.field_words import UNITS, factor, telling
@@ -10,7 +10,7 @@ from mouse_cli.report.sections._diagnosis_wording import place
 from mouse_cli.report.sections._wording import LEFT, counted
 
 _MOST = 40  # rows
-_NAMES = {"stiffness": "change of stiffness", "mass": "change of mass", "bed": "bed stiffness", "force": "force"}
+_NAMES = {"stiffness": "change of stiffness", "mass": "change of mass", "bed": "bed stiffness", "force": "motion"}
 
 
 def field_blocks(field: Field | None, units: Units) -> Iterator[Block]:
@@ -20,14 +20,12 @@ def field_blocks(field: Field | None, units: Units) -> Iterator[Block]:
     yield field_table(field)
     few, count = len(_shown(field)), len(field.values)
     told = [f"{counted(count - few, 'site')} with negligible values (below two sd) left out."] if few < count else []
-    if field.property != FORCE:
-        unit = units.of("m") if field.unit == "m" else field.unit
-        spread = f"{factor(field) * field.spread:.2g} {UNITS[field.property]}"
-        told.append(
-            f"The values scatter along the structure with sd {spread} and are correlated over {field.length:.2g} {unit}."
-        )
-    if told:
-        yield Text(" ".join(told))
+    unit = units.of("m") if field.unit == "m" else field.unit
+    spread = f"{factor(field) * field.spread:.2g} {UNITS[field.property]}"
+    told.append(
+        f"The values scatter along the structure with sd {spread} and are correlated over {field.length:.2g} {unit}."
+    )
+    yield Text(" ".join(told))
 
 
 def field_table(field: Field) -> Table:
