@@ -1,0 +1,158 @@
+"""Explanations of modes and functions, judged anew by recordings: each at its sites, its linear model simulated."""
+
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from mouse_cli.diagnosis.likelihoods.history.noise import noise
+from mouse_cli.diagnosis.likelihoods.history.polish import Fit as Simulated
+from mouse_cli.diagnosis.likelihoods.history.posterior import Posterior, expanded, modelled, posterior
+from mouse_cli.diagnosis.likelihoods.history.records import cannot_judge, records
+from mouse_cli.diagnosis.likelihoods.history.search import close, unlikely, with_noise
+from mouse_cli.diagnosis.likelihoods.history.study import Study, alike, fitted, study
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.search.fit import Fit
+from mouse_cli.diagnosis.search.rank import Ranking, ranking
+from mouse_cli.model.groups import enumerated
+
+_REACH = 60.0  # nats by which all else may speak against an explanation that recordings judge still
+_SINGLES = 3  # single mechanisms that are judged in any case
+_ELSEWHERE, _SHARE = 6, 0.01  # other sites of an explanation that are judged, and the share of it that they hold at least
+_AWAY = 1.0  # nats by which the expansion of what modes say may be wrong where recordings lead
+
+
+@dataclass(frozen=True)
+class Judged(Ranking):
+    """A ranking by recordings too, or one that they could not judge; remarks: which of both, in sentences."""
+
+    remarks: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Seen:
+    """An explanation at one site, `one`, as recordings see it; whole: at all sites; share: of its evidence that this one holds."""
+
+    whole: Fit
+    one: Fit
+    share: float
+    known: Posterior
+    record: Simulated
+
+    @property
+    def log_evidence(self) -> float:
+        """ln Z(records | all else)."""
+        return self.record.log_evidence + self.known.gained
+
+    @property
+    def x(self) -> np.ndarray:
+        """Where recordings leave x (k + t,)."""
+        return self.known.x(self.record.x[: len(self.known.mean)])
+
+    @property
+    def view(self) -> Fit:
+        """`one` with its parameters and sizes where recordings leave them, known as they make them; itself where modes have none."""
+        root, d = self.known.root, len(self.known.mean)
+        at = self.one.model.point(self.x)
+        hessian = np.linalg.inv(root @ self.record.covariance[:d, :d] @ root.T)
+        return self.one if at is None else replace(self.one, point=at, hessian=hessian)
+
+
+def heard(found: Ranking) -> Ranking:
+    """The ranking `found` judged anew by the recordings of the deck; `found` itself where there are none."""
+    problem = found.baseline.model.base.problem
+    if not problem.recordings:
+        return found
+    if refused := cannot_judge(problem):
+        return _with(found, f"recordings did not judge: {refused[0].message}")
+    measured = records(problem)
+    known = posterior(found.baseline)
+    own = study(problem, measured, partial(modelled, known))
+    first = _seen(own, found.baseline, found.baseline, 1.0, own)
+    if first is None:
+        return _with(found, "recordings did not judge: the model as it is cannot be simulated under their forces")
+    seen = [first, *_judged(own, found)]
+    best = max(seen, key=lambda each: each.log_evidence)
+    left = noise(own.spectrum, best.record.hypothesis, own.places, best.record.x) if unlikely(best.record) else None
+    if left is None and not close(best.record):
+        return _with(found, _MORE.format(best.record.misfit / best.record.dof))
+    fits, views = _weighed(seen, with_noise(best.record, left))
+    again = ranking(found.baseline, [found.baseline, *fits])
+    shown = tuple(
+        one if one is found.baseline else replace(views[id(one)], log_evidence=one.log_evidence, elsewhere=one.elsewhere)
+        for one in again.fits
+    )
+    said = _JUDGED.format(enumerated([f"'{one.title}'" for one in measured.fitted]))
+    return _with(replace(again, fits=shown), said, *measured.remarks, *own.model.remarks)
+
+
+_MORE = (
+    "the recordings ask for more than a linear mechanism: the best leaves {:.3g} times the variance of their noise, and they did "
+    "not judge; diagnose them alone"
+)
+_JUDGED = "recordings judged too, beside all else that was measured: {}"
+
+
+def _with(found: Ranking, *said: str) -> Judged:
+    return Judged(**{name: getattr(found, name) for name in Ranking.__dataclass_fields__}, remarks=said)
+
+
+def _judged(own: Study, found: Ranking) -> list[Seen]:
+    """What recordings make of each promising explanation at each of its sites."""
+    trials = [(whole, *site) for whole in _promising(found) for site in _sites(whole)]
+    seen = (_seen(own, *trial) for trial in trials)
+    return [each for each in seen if each is not None]
+
+
+def _promising(found: Ranking) -> list[Fit]:
+    """Explanations that all else leaves possible; the best of single mechanisms whatever it says of them."""
+    best = found.fits[0].log_evidence / found.noise_scale
+    others = [one for one in found.fits if one is not found.baseline and isinstance(one.model, Model)]
+    near = [one for one in others if one.log_evidence / found.noise_scale > best - _REACH]
+    singles = [one for one in others if len(one.recipes) == 1 and not any(one is other for other in near)]
+    return near + singles[:_SINGLES]
+
+
+def _sites(one: Fit) -> list[tuple[Fit, float]]:
+    """An explanation at its leading sites, and the share of its evidence that each holds."""
+    others = [(other, share) for other, share in one.elsewhere[:_ELSEWHERE] if share > _SHARE]
+    return [(one, max(1 - sum(share for _, share in one.elsewhere), _SHARE)), *others]
+
+
+def _seen(own: Study, whole: Fit, one: Fit, share: float, its: Study | None = None) -> Seen | None:
+    """What recordings make of a fit; its: its study, where there is one. None where no simulation stays finite."""
+    known = posterior(one)
+    record = fitted(its or alike(own, partial(modelled, known)), None)
+    if record is None:
+        return None
+    found = Seen(whole, one, share, known, record)
+    if getattr(one, "frf", None) is not None:
+        return found
+    there = expanded(known, found.x)
+    if there is None or abs(_cost(there, found.x) - _cost(known, found.x)) < 2 * _AWAY:
+        return found
+    record = fitted(alike(own, partial(modelled, there)), None)
+    return found if record is None else Seen(whole, one, share, there, record)
+
+
+def _cost(known: Posterior, x: np.ndarray) -> float:
+    """-2 ln of what modes say of x, but for a constant of the fit."""
+    return float((x - known.mean) @ known.H @ (x - known.mean)) - 2 * known.gained - np.linalg.slogdet(known.H)[1]
+
+
+def _weighed(seen: list[Seen], scale: float) -> tuple[list[Fit], dict[int, Fit]]:
+    """The explanations with the evidence of recordings, each led by its best site, and by id what recordings make of it.
+
+    scale: times the stated variance that recordings are worth.
+    """
+    first, wholes = seen[0], {id(each.whole): each.whole for each in seen[1:]}
+    fits, views = [], {}
+    for key, whole in wholes.items():
+        sites = [each for each in seen[1:] if id(each.whole) == key]
+        shares = [np.log(each.share) + (each.log_evidence - first.log_evidence) / scale for each in sites]
+        total, order = np.logaddexp.reduce(shares), np.argsort(shares)[::-1]
+        elsewhere = tuple((sites[i].one, float(np.exp(shares[i] - total))) for i in order[1:])
+        best = sites[order[0]]
+        fits.append(replace(best.one, log_evidence=float(whole.log_evidence + total), elsewhere=elsewhere))
+        views[id(fits[-1])] = best.view
+    return fits, views
