@@ -10,9 +10,9 @@ from mouse_cli.diagnosis.extend.deck import extended
 from mouse_cli.diagnosis.likelihoods.frf.compared import compared
 from mouse_cli.diagnosis.likelihoods.frf.deck import with_damping
 from mouse_cli.diagnosis.likelihoods.frf.identified import with_modes
-from mouse_cli.diagnosis.likelihoods.frf.rank import heard as by_functions
+from mouse_cli.diagnosis.likelihoods.frf.rank import heard
 from mouse_cli.diagnosis.likelihoods.history.diagnose import diagnose_records
-from mouse_cli.diagnosis.likelihoods.history.rank import heard as by_recordings
+from mouse_cli.diagnosis.likelihoods.history.rank import Hearing
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.numerics import numerics
@@ -66,7 +66,8 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices) -> Diagnos
     model, told = _model(problem, solver)
     enough = 0.0 if model.places is None else ENOUGH
     result, remarks = _update(problem, kept, notice, _guess(model), enough, solver)
-    ranking = rank(model, _known(choices), choices.causes, lambda found: by_recordings(by_functions(found)))
+    recordings = Hearing()
+    ranking = rank(model, _known(choices), choices.causes, lambda found: recordings(heard(found)))
     verdict, as_it_is = judge(ranking, result.rejected and given.test is not None, model), ranking.baseline
     kind, best, missing = verdict.kind, verdict.best, verdict.kind != NOTHING
     location = locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None

@@ -51,7 +51,9 @@ def measured(K: np.ndarray, seed: int = 3) -> tuple[np.ndarray, dict[str, np.nda
     lines = np.fft.rfftfreq(t, 1 / RATE)
     force = np.fft.irfft(np.where((lines > 2) & (lines < 60), np.exp(2j * np.pi * rng.uniform(size=len(lines))), 0), t)
     force *= 20 * np.minimum(np.arange(t) / RATE / 0.3, 1) / force.std()
-    fine = np.fft.irfft(np.pad(np.fft.rfft(force), (0, 7 * len(lines))), 8 * t) * 8  # between samples as the band has it
+    fine = (
+        np.fft.irfft(np.pad(np.fft.rfft(force), (0, 7 * len(lines))), 8 * t) * 8
+    )  # between samples as the band has it
     C, load = LOSS * chain(np.full(N, STIFFNESS)), np.eye(N)[-1]
     A = np.block([[np.zeros((N, N)), np.eye(N)], [-K, -C]])
     whole = np.zeros((2 * N + 2, 2 * N + 2))
@@ -74,7 +76,9 @@ def answer(folder: Path, K: np.ndarray, modes: bool = True, record: bool = True)
     nominal = chain(np.full(N, STIFFNESS))
     entries = lambda matrix: [[int(i) + 1, int(j) + 1, float(matrix[i, j])] for i, j in np.argwhere(np.triu(matrix))]
     units = [entries(chain(np.eye(N)[i])) for i in range(N)]
-    lines = [f"  - {{name: k{i + 1}, nominal: {STIFFNESS}, sd: 5 %, stiffness: {unit}}}" for i, unit in enumerate(units)]
+    lines = [
+        f"  - {{name: k{i + 1}, nominal: {STIFFNESS}, sd: 5 %, stiffness: {unit}}}" for i, unit in enumerate(units)
+    ]
     text = DECK.format(entries=entries(nominal), damping=entries(LOSS * nominal), parameters="\n".join(lines))
     text += MODES.format(modes=", ".join(f"{f:.5f}" for f in hz)) if modes else ""
     text += RECORD.format(rate=RATE) if record else ""

@@ -65,7 +65,7 @@ def expanded(first: Posterior, x: np.ndarray) -> Posterior | None:
 
 def modelled(known: Posterior, problem: Problem, highest_hz: float, at: np.ndarray) -> Uncertain:
     """The model of a fit of modes, what modes leave of its x uncertain, and what they do not reach; see `uncertain`."""
-    base, mean, root = known.one.model.base, known.mean, known.root
+    base, mean = known.one.model.base, known.mean
     G, A = _coordinates(known.one)
     matrices = lambda x: tuple(G.T @ matrix @ G for matrix in _matrices(known.one, x))
     W = basis_of(*matrices(mean)[:2], highest_hz, A.T @ at)

@@ -18,7 +18,11 @@ from mouse_cli.model.groups import enumerated
 
 _REACH = 60.0  # nats by which all else may speak against an explanation that recordings judge still
 _SINGLES = 3  # single mechanisms that are judged in any case
-_ELSEWHERE, _SHARE = 6, 0.01  # other sites of an explanation that are judged, and the share of it that they hold at least
+_ELSEWHERE, _SHARE = (
+    6,
+    0.01,
+)  # other sites of an explanation that are judged, and the share of it that they hold at least
+_BEHIND = 2.0  # times the cost of a better one, from which on what modes say is not expanded anew
 _AWAY = 1.0  # nats by which the expansion of what modes say may be wrong where recordings lead
 
 
@@ -51,57 +55,88 @@ class Seen:
 
     @property
     def view(self) -> Fit:
-        """`one` with its parameters and sizes where recordings leave them, known as they make them; itself where modes have none."""
+        """`one` with its parameters and sizes where recordings leave them, and as sure; itself where modes have no model there."""
         root, d = self.known.root, len(self.known.mean)
         at = self.one.model.point(self.x)
         hessian = np.linalg.inv(root @ self.record.covariance[:d, :d] @ root.T)
         return self.one if at is None else replace(self.one, point=at, hessian=hessian)
 
 
-def heard(found: Ranking) -> Ranking:
-    """The ranking `found` judged anew by the recordings of the deck; `found` itself where there are none."""
-    problem = found.baseline.model.base.problem
-    if not problem.recordings:
-        return found
-    if refused := cannot_judge(problem):
-        return _with(found, f"recordings did not judge: {refused[0].message}")
-    measured = records(problem)
-    known = posterior(found.baseline)
-    own = study(problem, measured, partial(modelled, known))
-    first = _seen(own, found.baseline, found.baseline, 1.0, own)
-    if first is None:
-        return _with(found, "recordings did not judge: the model as it is cannot be simulated under their forces")
-    seen = [first, *_judged(own, found)]
-    best = max(seen, key=lambda each: each.log_evidence)
-    left = noise(own.spectrum, best.record.hypothesis, own.places, best.record.x) if unlikely(best.record) else None
-    if left is None and not close(best.record):
-        return _with(found, _MORE.format(best.record.misfit / best.record.dof))
-    fits, views = _weighed(seen, with_noise(best.record, left))
+class Hearing:
+    """What recordings make of rankings of one deck; a fit that was judged once is not simulated again."""
+
+    def __init__(self) -> None:
+        self._own: tuple[Fit, Study] | None = None
+        self._seen: dict[
+            tuple[int, int], tuple[Fit, Fit, Seen | None]
+        ] = {}  # with the fits, so that no id is used again
+        self._best = np.inf
+
+    def __call__(self, found: Ranking) -> Ranking:
+        """The ranking `found` judged anew by the recordings of the deck; `found` itself where there are none."""
+        problem, none = found.baseline.model.base.problem, found.baseline
+        if not problem.recordings:
+            return found
+        if refused := cannot_judge(problem):
+            return _with(found, f"recordings did not judge: {refused[0].message}")
+        own = self._study(none)
+        seen = [self._at(own, *trial) for trial in (*_trials(found), (none, none, 1.0))]
+        *others, first = seen
+        if first is None:
+            return _with(found, "recordings did not judge: the model as it is cannot be simulated under their forces")
+        seen = [first, *(each for each in others if each is not None)]
+        best = max(seen, key=lambda each: each.log_evidence).record
+        left = noise(own.spectrum, best.hypothesis, own.places, best.x) if unlikely(best) else None
+        if left is None and not close(best):
+            return _with(found, _MORE.format(best.misfit / best.dof))
+        said = _JUDGED.format(len(own.records.fitted), enumerated([f"'{one.title}'" for one in own.records.fitted]))
+        return _with(_anew(found, seen, with_noise(best, left)), said, *own.records.remarks, *own.model.remarks)
+
+    def _study(self, none: Fit) -> Study:
+        """That of the model as it is."""
+        if self._own is None or self._own[0] is not none:
+            problem = none.model.base.problem
+            self._own = none, study(problem, records(problem), partial(modelled, posterior(none)))
+            self._seen, self._best = {}, np.inf
+        return self._own[1]
+
+    def _at(self, own: Study, whole: Fit, one: Fit, share: float) -> Seen | None:
+        """What recordings make of a fit at one site; no fit far behind another is followed to its end."""
+        key = id(whole), id(one)
+        if key not in self._seen:
+            found = seen(own, whole, one, share, self._best)
+            self._seen[key] = whole, one, found
+            self._best = min(self._best, np.inf if found is None else found.record.cost)
+        return self._seen[key][2]
+
+
+def _anew(found: Ranking, seen: list[Seen], scale: float) -> Ranking:
+    """The ranking by the evidence of recordings too, each explanation where they leave it."""
+    fits, views = _weighed(seen, scale)
     again = ranking(found.baseline, [found.baseline, *fits])
     shown = tuple(
-        one if one is found.baseline else replace(views[id(one)], log_evidence=one.log_evidence, elsewhere=one.elsewhere)
+        one
+        if one is found.baseline
+        else replace(views[id(one)], log_evidence=one.log_evidence, elsewhere=one.elsewhere)
         for one in again.fits
     )
-    said = _JUDGED.format(enumerated([f"'{one.title}'" for one in measured.fitted]))
-    return _with(replace(again, fits=shown), said, *measured.remarks, *own.model.remarks)
+    return replace(again, fits=shown)
 
 
 _MORE = (
     "the recordings ask for more than a linear mechanism: the best leaves {:.3g} times the variance of their noise, and they did "
     "not judge; diagnose them alone"
 )
-_JUDGED = "recordings judged too, beside all else that was measured: {}"
+_JUDGED = "recordings judged too, beside all else that was measured, {} in all: {}"
 
 
 def _with(found: Ranking, *said: str) -> Judged:
     return Judged(**{name: getattr(found, name) for name in Ranking.__dataclass_fields__}, remarks=said)
 
 
-def _judged(own: Study, found: Ranking) -> list[Seen]:
-    """What recordings make of each promising explanation at each of its sites."""
-    trials = [(whole, *site) for whole in _promising(found) for site in _sites(whole)]
-    seen = (_seen(own, *trial) for trial in trials)
-    return [each for each in seen if each is not None]
+def _trials(found: Ranking) -> list[tuple[Fit, Fit, float]]:
+    """Each promising explanation, at each of its sites, and the share of its evidence that the site holds."""
+    return [(whole, *site) for whole in _promising(found) for site in _sites(whole)]
 
 
 def _promising(found: Ranking) -> list[Fit]:
@@ -119,19 +154,19 @@ def _sites(one: Fit) -> list[tuple[Fit, float]]:
     return [(one, max(1 - sum(share for _, share in one.elsewhere), _SHARE)), *others]
 
 
-def _seen(own: Study, whole: Fit, one: Fit, share: float, its: Study | None = None) -> Seen | None:
-    """What recordings make of a fit; its: its study, where there is one. None where no simulation stays finite."""
+def seen(own: Study, whole: Fit, one: Fit, share: float, beat: float = np.inf) -> Seen | None:
+    """What recordings make of a fit `one` of modes; beat: the cost of a better one. None where no simulation stays finite."""
     known = posterior(one)
-    record = fitted(its or alike(own, partial(modelled, known)), None)
+    record = fitted(alike(own, partial(modelled, known)), None, beat)
     if record is None:
         return None
     found = Seen(whole, one, share, known, record)
-    if getattr(one, "frf", None) is not None:
+    if getattr(one, "frf", None) is not None or record.cost > _BEHIND * beat:
         return found
     there = expanded(known, found.x)
     if there is None or abs(_cost(there, found.x) - _cost(known, found.x)) < 2 * _AWAY:
         return found
-    record = fitted(alike(own, partial(modelled, there)), None)
+    record = fitted(alike(own, partial(modelled, there)), None, beat)
     return found if record is None else Seen(whole, one, share, there, record)
 
 

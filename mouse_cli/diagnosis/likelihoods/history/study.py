@@ -95,7 +95,9 @@ def alike(own: Study, of: Modelled) -> Study:
     found = Study(own.problem, own.records, model, base, seen(own.look), data, own.band, own.length)
     begun = own.at(own.places[0]).spread
     found.spread = found.at(found.places[0]).spread.copy()
-    if own.problem.structure.n <= LARGEST:  # further degrees of freedom are those of a mechanism, behind those of the deck
+    if (
+        own.problem.structure.n <= LARGEST
+    ):  # further degrees of freedom are those of a mechanism, behind those of the deck
         for into, known in zip(np.split(found.spread, 2), np.split(begun, 2), strict=True):
             into[: len(known)] = known
     return found
