@@ -117,7 +117,11 @@ def sure(ranking: Ranking) -> bool:
 def decide(ranking: Ranking) -> tuple[str, tuple[str, ...]]:
     """The kind of answer when something is missing, by the gates of adequacy, probability and odds; and why no name is given."""
     first, (name, probability) = ranking.fits[0], ranking.groups[0]
-    if first.nameless or name == "none":
+    if first.nameless:
+        best = leader(ranking)
+        rival = best is not None and dict(ranking.groups)[group(best)] > 1 - SURE and explains(best)
+        return ONE_OF if rival else UNKNOWN, ()
+    if name == "none":
         return UNKNOWN, ()
     if not explains(first) or first.strained:
         return UNKNOWN, ()

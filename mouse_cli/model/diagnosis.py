@@ -270,9 +270,16 @@ class Diagnosis:
     @property
     def rivals(self) -> tuple[tuple[str, float], ...]:
         """Groups that hold more than 5 % of the probability, and it, the leading one first; never one alone of several."""
-        least = 2 if self.kind == ONE_OF else 0
-        standing = [pair for pair in self.groups if pair[0] not in self.refuted]
+        least = (1 if self.nameless > RIVAL else 2) if self.kind == ONE_OF else 0
+        named = {one.group for one in self.explanations}
+        standing = [pair for pair in self.groups if pair[0] in named and pair[0] not in self.refuted]
         return tuple((name, p) for i, (name, p) in enumerate(standing) if p > RIVAL or i < least)
+
+    @property
+    def nameless(self) -> float:
+        """Probability of changes of the model that have no name."""
+        named = {one.group for one in self.explanations}
+        return float(sum(p for name, p in self.groups if name not in named))
 
     @property
     def probability(self) -> float:

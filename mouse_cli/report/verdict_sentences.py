@@ -1,6 +1,6 @@
 """The verdict of a diagnosis in sentences: the same in printout, JSON document and page, for every kind of test."""
 
-from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, Diagnosis, Explanation, Rest
+from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, Diagnosis, Explanation, Rest
 from mouse_cli.model.record_diagnosis import RecordDiagnosis
 from mouse_cli.report.field_words import field_sentences
 from mouse_cli.report.sections._diagnosis_wording import (
@@ -76,7 +76,7 @@ def remains(rest: Rest) -> str:
 def _one_of(found: Diagnosis) -> str:
     """Likely, not proved, where it may be that nothing is missing; else one of several."""
     none, first = dict(found.rivals).get("none"), leaders(found)
-    named = "; ".join(grouped(found.explanations, one) for one in first)
+    named = "; ".join([*(grouped(found.explanations, one) for one in first), *_nameless(found)])
     test = "the records do" if isinstance(found, RecordDiagnosis) else "the test does"
     if none is None:
         return f"Something is missing, and {test} not settle what: one of {{{named}}}."
@@ -88,6 +88,11 @@ def _one_of(found: Diagnosis) -> str:
     inside, p = within(found.explanations, one), with_p(dict(found.groups)[one.group])
     what = f"{named if inside else lacking(one)} ({p}; that nothing is missing: {probable(none)})"
     return f"{likely} the model lacks {what}{f': {inside}' if inside else ''}."
+
+
+def _nameless(found: Diagnosis) -> tuple[str, ...]:
+    """What has no name, where it is a rival."""
+    return (f"a change that has no name ({with_p(found.nameless)})",) if found.nameless > RIVAL else ()
 
 
 def _separating(found: Diagnosis) -> str:

@@ -154,7 +154,7 @@ def test_candidates_that_are_considered(told):
     [
         (("--candidates", "shear", "--without", "mass"), "exclude each other"),
         (("--candidates", "sheer"), "there is no candidate 'sheer'"),
-        (("--causes", "3"), "--causes"),
+        (("--causes", "5"), "--causes"),
     ],
 )
 def test_candidates_that_cannot_be(told, options, word):

@@ -83,7 +83,8 @@ def test_verdicts_in_words():
         in told["arrangements"]
     )
     assert "A spring to the ground: 6TX" in told["arrangements"]
-    assert "does not settle what: one of {a lumped mass; a local loss of stiffness}." in told["one-of"]
+    rivals = re.search(r"and the test does not settle what: one of {(.*?)}\.", told["one-of"])
+    assert {"a lumped mass", "a local loss of stiffness"} <= set(rivals[1].split("; "))
     assert "Not converged" in told["shapes"] and "do not trust the answer" in told["shapes"]
     assert "Answer found and trusted" in told["frequencies"]
 

@@ -220,6 +220,18 @@ def test_candidates():
         assert candidate.meaning.rstrip(".") in _told("explain", key)
 
 
+def test_rivals_without_a_name():
+    """Every rival without a name has its section in the reference, its line in the list and its explanation, with its property."""
+    page, listed = _page("candidates.md"), _told("list", "nameless")
+    for key, rival in discover("mouse_cli.diagnosis.nameless", "NAMELESS").items():
+        told = _told("explain", key)
+        assert f"\n### {key}\n" in page
+        assert f"| [{key}](#{key}) | {rival.title} | `{rival.property}` |" in page
+        assert re.search(rf"^{key} +{rival.title}", listed, re.MULTILINE)
+        for part in (rival.meaning.rstrip("."), *(f"{spread:g}" for spread in rival.spreads)):
+            assert part in told and part in page
+
+
 CLOSE_AND_REVERSED = """\
 mouse: 1
 model: {stiffness: {order: 6, entries: [[1,1,2],[1,2,-1],[2,2,2],[2,3,-1],[3,3,1],[4,4,2.02],[4,5,-1.01],[5,5,2.02],

@@ -9,8 +9,8 @@ from scipy.linalg import eigh
 from scipy.stats import multivariate_normal
 
 from mouse_cli.diagnosis.evidence import laplace
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
-from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
 from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.model.modal_test import ModalTest

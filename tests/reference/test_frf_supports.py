@@ -10,7 +10,7 @@ from mouse_cli.diagnosis.likelihoods.frf.damping import damping
 from mouse_cli.diagnosis.likelihoods.frf.data import FrfData, lines
 from mouse_cli.diagnosis.likelihoods.frf.identified import with_modes
 from mouse_cli.diagnosis.likelihoods.frf.model import FrfModel
-from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.formats import read_deck
 from mouse_cli.model.diagnosis import NAMED

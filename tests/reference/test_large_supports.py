@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
-from mouse_cli.diagnosis.likelihoods.modal.reduced import WHOLE, reduced
+from mouse_cli.diagnosis.likelihoods.modal.reduced import WHOLE
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble

@@ -22,7 +22,7 @@ from mouse_cli.diagnosis.likelihoods.history.verdict import decided, ranked
 from mouse_cli.formats import read_deck
 from mouse_cli.model.diagnosis import Rest
 from mouse_cli.model.record_diagnosis import AS_IT_IS, WITH_CAUSE, RecordScore
-from mouse_cli.report.sections.records.answers import _more
+from mouse_cli.report.verdict_sentences import remains
 from mouse_cli.terms.laws import registry
 
 MASSES = """  - {name: m1, nominal: 1.0, sd: 1 %, mass: [[1, 1, 1]]}
@@ -247,7 +247,7 @@ def test_a_law_that_takes_most_is_named_with_what_remains(weighed_laws):
     partly = replace(law, misfit=0.1 * baseline.misfit)
     found = said(0.3, baseline, partly)
     assert found.kind == "named" and found.rest.share == pytest.approx(0.1, abs=0.03) and found.rest.p < 1e-3
-    assert _more(Rest(0.09, 0.0)) == "and something more remains: 9 % of the misfit"
+    assert remains(Rest(0.09, 0.0)) == "9 % of the misfit remains, p < 1e-6"
     assert said(0.3, baseline, replace(law, misfit=0.6 * baseline.misfit)).kind == "unknown"
     as_good = replace(rival, misfit=partly.misfit, log_evidence=partly.log_evidence)
     assert said(0.3, baseline, partly, as_good).kind == "unknown"

@@ -15,8 +15,8 @@ from mouse_cli._errors import DeckError
 from mouse_cli.cli.main import _run
 from mouse_cli.diagnosis.likelihoods.frf.data import lines
 from mouse_cli.diagnosis.likelihoods.history.uncertain import uncertain
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.data import Data
-from mouse_cli.diagnosis.likelihoods.modal.reduced import reduced
 from mouse_cli.formats import read_deck, write_deck
 from mouse_cli.formats.cards.losses import losses
 from mouse_cli.model.theory import Theory

@@ -94,6 +94,7 @@ def _entries() -> Iterator[tuple[str, str]]:
     from mouse_cli._registry import discover
     from mouse_cli.codes import catalogue
     from mouse_cli.diagnosis import candidate_manual
+    from mouse_cli.diagnosis.nameless import registry as rivals
     from mouse_cli.methods import manual as method_manual
     from mouse_cli.methods import registry as methods
     from mouse_cli.terms.element_manual import about
@@ -118,3 +119,5 @@ def _entries() -> Iterator[tuple[str, str]]:
     for package, attribute in (("mouse_cli.diagnosis.mechanisms", "CANDIDATE"), ("mouse_cli.terms.laws", "LAW")):
         for key, candidate in discover(package, attribute).items():
             yield key, candidate_manual.about(candidate)
+    for key, rival in rivals().items():
+        yield key, candidate_manual.about_nameless(rival)

@@ -83,6 +83,13 @@ def _candidates() -> Iterator[tuple[str, str]]:
         yield key, f"{candidate.title} ({candidate.group})"
 
 
+def _nameless() -> Iterator[tuple[str, str]]:
+    from mouse_cli.diagnosis.nameless import registry
+
+    for key, rival in registry().items():
+        yield key, f"{rival.title} ({rival.property})"
+
+
 def _plots() -> Iterator[tuple[str, str]]:
     from mouse_cli.plots import registry
 
@@ -106,6 +113,7 @@ KINDS: dict[str, Callable[[], Iterator[tuple[str, str]]]] = {
     "expansions": _expansions,
     "groups": _groups,
     "methods": _methods,
+    "nameless": _nameless,
     "plots": _plots,
     "recursions": _recursions,
     "reductions": _reductions,

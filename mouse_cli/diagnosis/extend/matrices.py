@@ -52,6 +52,14 @@ def with_shares(problem: Problem, what: str, shares: list[tuple[str, float, Entr
     return problem
 
 
+def with_tie(problem: Problem, dofs: np.ndarray, b: np.ndarray, sign: int) -> Problem:
+    """The deck with K + sign a b b' over the degrees of freedom `dofs` (c,), and a = 1, its amount, a parameter."""
+    row, col = np.triu_indices(len(dofs))
+    low, high = np.minimum(dofs[row], dofs[col]), np.maximum(dofs[row], dofs[col])
+    amount = Parameter("amount of the spring along its motion", 1.0, 1.0, "1", transform="log")
+    return with_entries(problem, amount, K=(low, high, sign * b[row] * b[col]))
+
+
 def _spread(A: Matrix, old: np.ndarray, e: int, at: np.ndarray, value: np.ndarray) -> Matrix:
     """A (e, p) with its former rows at `old`, and `value` at the rows `at` of its last column."""
     if not is_sparse(A):

@@ -21,8 +21,9 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
 
 CANDIDATE = Candidate(
     "stiffness-loss",
-    "a local loss of stiffness",
+    "a softer stretch or element",
     "local-stiffness",
-    "a stretch of a bar, or another element, that is softer than the model says: damage, a weaker section, another material",
+    "a stretch of a bar, another element or a spring that is softer than the model says: damage, a weaker section, another "
+    "material",
     recipes,
 )

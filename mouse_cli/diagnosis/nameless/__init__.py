@@ -13,9 +13,10 @@ from mouse_cli.diagnosis.nameless._cells import Cells
 
 @dataclass(frozen=True)
 class Nameless:
-    """key; title: in words; property: STIFFNESS, MASS or BED; meaning: what it is, for the manual.
+    """key; title: in words; property: STIFFNESS, MASS, BED or FORCE; meaning: what it is, for the manual.
 
     cells(model): what it changes; None where there are fewer than three. spreads: sd of the field that are integrated over.
+    signs: of a change of rank one, K + sign b b' with the field b; empty: K or M change in proportion to the field.
     """
 
     key: str
@@ -24,6 +25,7 @@ class Nameless:
     meaning: str
     spreads: tuple[float, ...]
     cells: Callable[[Reduced], Cells | None]
+    signs: tuple[int, ...] = ()
 
 
 def registry() -> dict[str, Nameless]:

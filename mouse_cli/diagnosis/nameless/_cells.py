@@ -24,7 +24,8 @@ Block = tuple[np.ndarray, np.ndarray]  # rows (c, r) of motion in the coordinate
 class Cells:
     """c cells: sites; at (c, d): where they are, distances in `unit`; blocks: K or M of each, of the nominal model, or per unit.
 
-    into: `K` or `M`, the matrix that they change. extend(problem, values (c,), spread): the deck with the field in it.
+    into: `K` or `M`, the matrix that they change. extend(problem, values (c,), spread): the deck with the field in it;
+    of a change of rank one also its sign.
     """
 
     sites: tuple[Site, ...]
@@ -32,7 +33,7 @@ class Cells:
     unit: str
     blocks: tuple[Block, ...]
     into: str
-    extend: Callable[[Problem, np.ndarray, float], Problem] | None = None
+    extend: Callable[..., Problem] | None = None
 
     def __len__(self) -> int:
         return len(self.sites)

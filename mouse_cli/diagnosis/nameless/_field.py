@@ -20,27 +20,31 @@ _KEPT, _MOST = 0.995, 16  # share of the variance that is kept, and eigenvectors
 
 @dataclass(frozen=True)
 class Smooth:
-    """A field of one kind: rival; cells; P (c, w), its spread in it; spread s; length l in the unit of the cells."""
+    """A field of one kind: rival; cells; P (c, w), its spread in it; spread s; length l in the unit of the cells.
+
+    sign: of a change of rank one; 0: the change is in proportion to the field.
+    """
 
     rival: Nameless
     cells: Cells
     P: np.ndarray
     spread: float
     length: float
+    sign: int = 0
 
     def values(self, w: np.ndarray) -> np.ndarray:
         """Relative changes (c,) at w (w,)."""
         return self.P @ w
 
 
-def smooth(rival: Nameless, cells: Cells, spread: float, share: float) -> Smooth:
+def smooth(rival: Nameless, cells: Cells, spread: float, share: float, sign: int = 0) -> Smooth:
     """The field of that spread, correlated over that share of the extent of its cells."""
     apart = np.linalg.norm(cells.at[:, None] - cells.at[None], axis=2)
     length = share * float(apart.max())
     size, U = np.linalg.eigh(np.exp(-0.5 * (apart / length) ** 2))
     size, U = np.maximum(size[::-1], 0.0), U[:, ::-1]
     kept = min(_MOST, int(np.searchsorted(np.cumsum(size) / size.sum(), _KEPT)) + 1)
-    return Smooth(rival, cells, spread * U[:, :kept] * np.sqrt(size[:kept]), spread, length)
+    return Smooth(rival, cells, spread * U[:, :kept] * np.sqrt(size[:kept]), spread, length, sign)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,6 +77,10 @@ class Fielded(Reduced):
         found = dict(zip("KM", super().slopes(z), strict=True))
         found[self.nameless.cells.into][self.deck :] = self.of_field
         return found["K"], found["M"]
+
+    def bare(self, z: np.ndarray) -> np.ndarray:
+        """z (k + w,) without the field."""
+        return np.append(z[: self.deck], np.zeros(len(z) - self.deck))
 
     def at(self, theta: np.ndarray) -> "Fielded":
         """Itself: a field is of the model as it is."""

@@ -1,6 +1,7 @@
 """Every rival without a name fitted to the data, its spread and its correlation length integrated out."""
 
 from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 
@@ -9,11 +10,13 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.nameless import Nameless, registry
 from mouse_cli.diagnosis.nameless._cells import Cells
 from mouse_cli.diagnosis.nameless._field import LENGTHS, fielded, found, smooth
+from mouse_cli.diagnosis.nameless._tied import tied
 from mouse_cli.diagnosis.search.fit import Fit, fit
+from mouse_cli.diagnosis.search.study import idealised
 from mouse_cli.model.diagnosis import Field, HeldOut
 from mouse_cli.model.problem import Problem
 
-_STEPS = 25  # of a fit
+_STEPS, _TRIED = 25, 3  # of a fit; starts of a change of rank one
 
 
 def rivals(base: Reduced, start: Fit, kind: type[Model] = Model) -> list[Fit]:
@@ -36,7 +39,8 @@ def extended(problem: Problem, one: Fit) -> Problem | None:
     base, field = one.model.base, one.nameless
     if field.cells.extend is None:
         return None
-    return field.cells.extend(problem, field.values(one.point.x[base.deck : one.model.k]), field.spread)
+    values = field.values(one.point.x[base.deck : one.model.k])
+    return field.cells.extend(problem, values, field.spread, *((field.sign,) if field.sign else ()))
 
 
 @dataclass(frozen=True)
@@ -46,11 +50,16 @@ class Spread:
     rival: Nameless
     cells: tuple[Cells | None, ...]
 
-    def over(self, base, spread: float, share: float):
-        """`base` with the field in it, of that spread and length."""
-        field = smooth(self.rival, next(filter(None, self.cells)), spread, share)
-        own = iter(self.cells)
-        return base.each(lambda part, has: fielded(part, field, next(own)))
+    def over(self, base, spread: float, share: float, sign: int):
+        """`base` with the field in it, of that spread and length; sign: of a change of rank one, else 0."""
+        field, own = smooth(self.rival, next(filter(None, self.cells)), spread, share, sign), iter(self.cells)
+        put = tied if sign else fielded
+        return base.each(lambda part, has: put(part, field, next(own)))
+
+    @property
+    def grid(self) -> list[tuple[float, float, int]]:
+        """Spreads, correlation lengths and signs that are integrated over."""
+        return list(product(self.rival.spreads, LENGTHS, self.rival.signs or (0,)))
 
 
 def _spreads(base) -> list[Spread]:
@@ -78,14 +87,24 @@ def _having(base) -> list[bool]:
 
 def _integrated(base, start: Fit, field: Spread, kind: type[Model]) -> Fit | None:
     fits: list[Fit] = []
-    grid = [(spread, share) for share in LENGTHS for spread in field.rival.spreads]
-    for spread, share in grid:
-        model = field.over(base, spread, share)
-        known = start.point.x[: start.model.k]
-        one = fit(kind(model), np.zeros(0), np.append(known, np.zeros(model.L.shape[1] - len(known))), _STEPS)
-        fits += [] if one is None else [one]
+    for spread, share, sign in field.grid:
+        model = kind(field.over(base, spread, share, sign))
+        found = [fit(model, np.zeros(0), x, _STEPS) for x in _starts(model, start, sign)]
+        fits += sorted((one for one in found if one is not None), key=lambda one: -one.log_evidence)[:1]
     if not fits:
         return None
     best = max(fits, key=lambda one: one.log_evidence)
-    total = np.logaddexp.reduce([one.log_evidence for one in fits]) - np.log(len(grid))
-    return replace(best, log_evidence=float(total))
+    total = np.logaddexp.reduce([one.log_evidence for one in fits]) - np.log(len(field.grid))
+    twice = np.log(2) if field.rival.signs else 0.0  # b and -b are the same
+    ideal = idealised(best)  # its theory is no better than that of what has a name
+    return replace(ideal, log_evidence=float(total + twice + ideal.log_evidence - best.log_evidence))
+
+
+def _starts(model: Model, start: Fit, sign: int) -> list[np.ndarray]:
+    """Where to begin: without the field; of a change of rank one, which has no slope there, from the best of its components."""
+    known = start.point.x[: start.model.k]
+    count = model.base.L.shape[1] - len(known)
+    if not sign:
+        return [np.append(known, np.zeros(count))]
+    points = [model.point(np.append(known, w)) for w in np.eye(count)]
+    return [at.x for at in sorted((at for at in points if at is not None), key=lambda at: at.chi2)[:_TRIED]]

@@ -29,9 +29,8 @@ _NO_SITE, _UNPHYSICAL = (
     "it has no site in this model",
     "no size of it makes a model whose modes can be paired with the test",
 )
-_TRUSTED = (
-    0.5  # share of the stated accuracies in the leading explanation below which no more than two are sought together
-)
+_TRUSTED = 0.5  # share of the stated accuracies in the leading explanation below which errors of the test may be all
+_LOUD = 4.0  # noise scale from which on no error of the test is all, and as many are sought as beside a test that is trusted
 _IDLE = 0.5  # probability of no mechanism above which what has no name is not asked
 
 
@@ -94,7 +93,8 @@ def rank(
         fits += rivals(model, baseline, kind)
     with_cause = [one for one in found.fits if one.recipes]
     if causes > 1 and with_cause and not adequate(min(with_cause, key=lambda one: one.misfit)):
-        fits += several(study, singles, causes if found.stated[0] > _TRUSTED else min(causes, 2))
+        trusted = found.stated[0] > _TRUSTED or found.noise_scale > _LOUD
+        fits += several(study, singles, causes if trusted else min(causes, 2))
     found = found if len(fits) == 1 + len(singles) else hear(ranking(baseline, fits))
     return replace(found, untried=_untried(study, singles))
 

@@ -186,7 +186,7 @@ class Model:
 
     def loosened(self, at: "Point", share: float) -> "Model | None":
         """The same, its data allowed that share of what the causes do at a point; None where there is no model without them."""
-        bare = Model(self.base).point(at.x[: self.k])
+        bare = Model(self.base).point(self.base.bare(at.x[: self.k]))
         if bare is None:
             return None
         data = self.base.data

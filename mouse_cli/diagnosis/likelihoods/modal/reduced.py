@@ -150,6 +150,10 @@ class Reduced:
             rows[d] = factor @ self.V[dofs] if len(dofs) else 0.0
         return rows
 
+    def bare(self, z: np.ndarray) -> np.ndarray:
+        """z (k,) of the model as it is: without a field, where there is one."""
+        return z
+
     def within(self, Q: np.ndarray) -> "Reduced":
         """The same model in fewer coordinates, combinations Q (r, c) of its own with Q'Q = I."""
         eigenvalues, W = np.linalg.eigh((Q.T * self.eigenvalues) @ Q)

@@ -1,0 +1,301 @@
+"""The gates between evidence and an answer: rankings made up here, each on one side of a gate, and small chains."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+
+from mouse_cli.diagnosis import gates
+from mouse_cli.diagnosis import verdict as decided
+from mouse_cli.diagnosis.diagnose import diagnose
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.search.fit import fit
+from mouse_cli.diagnosis.search.rank import Ranking
+from mouse_cli.diagnosis.search.study import Study
+from mouse_cli.diagnosis.verdict import decide, far_parameters, judge, rest
+from mouse_cli.formats import yaml_deck
+from mouse_cli.formats.assemble import assemble
+from mouse_cli.model.diagnosis import BY_DECK, NAMED, NOTHING, ONE_OF, UNKNOWN, Diagnosis, HeldOut, Score
+from mouse_cli.model.modal_test import ModalTest
+from mouse_cli.model.parameter import Gaussian, Parameter
+from mouse_cli.model.problem import Problem
+from mouse_cli.model.structure import ListedElements, Structure
+
+
+def made_up(*groups: str, misfit: float = 20.0, dof: int = 20, z=(0.3, -0.4), nameless: str = "", **more):
+    """A fit of mechanisms of those groups; parameters E and density at z prior standard deviations of 2 and 0.1."""
+    named = tuple(SimpleNamespace(name=name) for name in ("E", "density"))
+    data = SimpleNamespace(by_shape=more.pop("by_shape", True))
+    base = SimpleNamespace(L=np.diag([2.0, 0.1]), data=data, problem=SimpleNamespace(parameters=named))
+    candidates = [SimpleNamespace(group=name, key=name, title=name) for name in groups]
+    recipes = tuple(SimpleNamespace(candidate=each, own=more.get("own", 0)) for each in candidates)
+    field = SimpleNamespace(rival=SimpleNamespace(key=nameless)) if nameless else None
+    own = {"strained": False, "telling": False, "bearable": 1.5} | more
+    model = SimpleNamespace(base=base, k=2)
+    point = SimpleNamespace(x=np.asarray(z, float))
+    return SimpleNamespace(misfit=misfit, dof=dof, recipes=recipes, nameless=field, model=model, point=point, **own)
+
+
+def ranked(*fits, p, odds=None, stated: float = 1.0, baseline=None) -> Ranking:
+    """The fits in that order, of those probabilities; log odds over the model as it is from them, if not given."""
+    p = np.array(p)
+    bare = [i for i, one in enumerate(fits) if not one.recipes and not one.nameless]
+    baseline = fits[bare[0]] if bare else baseline
+    odds = np.log(p / p[bare[0]]) if odds is None else np.array(odds)
+    return Ranking(baseline, tuple(fits), 1.0, p, (), np.full(len(fits), stated), odds)
+
+
+@pytest.fixture
+def proofs(monkeypatch):
+    """Nats that a group gains on data the deck holds out, by its name; without any, nothing is held out."""
+    gains: dict[str, float] = {}
+    score = lambda density: Score(0.01, density, 1.0, np.ones(1), np.ones(1), np.ones(1))
+
+    def proof(model, baseline, best):
+        if not gains:
+            return None
+        more = None if best is None else score(gains.get(decided.group(best), 0.0))
+        return HeldOut(BY_DECK, ("mode 7",), np.ones(1), score(0.0), more)
+
+    monkeypatch.setattr(decided, "held_out", proof)
+    monkeypatch.setattr(decided, "unmeasured_hz", lambda one: ())
+    return gains
+
+
+SPRING, BARE = made_up("ground-spring"), made_up(misfit=25.0)
+
+
+def judged(*fits, rejected: bool = False, **given):
+    return judge(ranked(*fits, **given), rejected, None)
+
+
+# --- whether something is missing
+
+
+def test_a_model_of_one_in_a_hundred_lacks_something(proofs):
+    """Adequate by its misfit, and yet improbable beside a mechanism."""
+    found = judged(SPRING, BARE, p=(0.99, 0.01))
+    assert (found.kind, found.best) == (NAMED, SPRING)
+
+
+def test_a_model_of_one_in_twenty_may_lack_nothing(proofs):
+    """One of several, the model as it is among them; and that is no pass."""
+    ranking = ranked(SPRING, BARE, p=(0.95, 0.05))
+    found = judge(ranking, False, None)
+    assert found.kind == ONE_OF and found.best is SPRING
+    answer = Diagnosis(None, found.kind, None, None, groups=ranking.groups)
+    assert [name for name, _ in answer.rivals] == ["ground-spring", "none"]
+    assert answer.exit_code == 1
+
+
+@pytest.mark.parametrize(("none", "kind"), [(0.019, NAMED), (0.021, ONE_OF), (0.099, ONE_OF), (0.11, NOTHING)])
+def test_demanded_and_likely(proofs, none, kind):
+    assert judged(SPRING, BARE, p=(1 - none, none)).kind == kind
+
+
+def test_probability_of_none_counts_over_all_mechanisms(proofs):
+    """Two that cannot be told apart: something is missing, and it is one of them."""
+    other = made_up("mass")
+    assert judged(SPRING, other, BARE, p=(0.5, 0.49, 0.01)).kind == ONE_OF
+
+
+def test_held_out_data_confirm_what_is_likely(proofs):
+    likely = {"p": (0.95, 0.05), "odds": (4.0, 0.0)}
+    proofs["ground-spring"] = 4.0
+    assert judged(SPRING, BARE, **likely).kind == NAMED
+    proofs["ground-spring"] = 2.0
+    assert judged(SPRING, BARE, **likely).kind == ONE_OF
+
+
+def test_held_out_data_refute_what_is_likely(proofs):
+    """They speak against the mechanism, and nothing else says that anything is missing."""
+    proofs["ground-spring"] = -4.0
+    assert judged(SPRING, BARE, p=(0.95, 0.05)).kind == NOTHING
+
+
+def test_held_out_data_strike_a_name(proofs):
+    """The next rival that they do not refute takes its place, among others; a rival without a name does not."""
+    proofs.update({"ground-spring": -4.0, "mass": 0.0, "field-bed": 9.0})
+    fits = (SPRING, made_up(nameless="field-bed"), made_up("mass"), BARE)
+    found = judged(*fits, p=(0.91, 0.06, 0.02, 0.01), rejected=True)
+    assert found.kind == UNKNOWN and found.refuted == ("ground-spring",)  # the mass is no rival: 2 %
+    found = judged(*fits, p=(0.70, 0.08, 0.21, 0.01), rejected=True)
+    assert (found.kind, found.best, found.refuted) == (ONE_OF, fits[2], ("ground-spring",))
+
+
+@pytest.mark.parametrize(("misfit", "kind"), [(40.0, NOTHING), (70.0, UNKNOWN)])
+def test_what_an_update_leaves(proofs, misfit, kind):
+    """On 20 degrees of freedom: p = 0.005 and 2e-7. Without a mechanism that leads there is no name."""
+    bare = made_up(misfit=misfit)
+    assert judged(bare, made_up("mass", misfit=misfit - 1), p=(0.8, 0.2)).kind == kind
+
+
+def test_what_the_update_itself_rejects_lacks_something(proofs):
+    assert judged(BARE, SPRING, p=(0.5, 0.5), rejected=True).kind == UNKNOWN
+    assert judged(made_up(strained=True), SPRING, p=(0.5, 0.5)).kind == UNKNOWN
+
+
+def test_a_test_that_is_not_believed_is_no_reason(proofs):
+    """Errors of the test explain the data better than what the deck states: no mechanism follows from that."""
+    assert judged(SPRING, BARE, p=(0.99, 0.01), stated=0.4).kind == NOTHING
+
+
+# --- whether it has a name
+
+
+def kind_of(first, *others, p=(0.97, 0.01), **given) -> str:
+    return decide(ranked(first, *others, BARE, p=p, **given))[0]
+
+
+def test_a_plain_case_has_one(proofs):
+    assert kind_of(SPRING) == NAMED
+
+
+@pytest.mark.parametrize(("sure", "kind"), [(0.91, NAMED), (0.89, ONE_OF)])
+def test_a_name_is_sure(proofs, sure, kind):
+    assert kind_of(SPRING, made_up("mass"), p=(sure, 0.995 - sure, 0.005)) == kind
+
+
+@pytest.mark.parametrize(("odds", "kind"), [(3.1, NAMED), (2.9, ONE_OF)])
+def test_a_name_has_its_odds(proofs, odds, kind):
+    assert kind_of(SPRING, odds=(odds, 0.0)) == kind
+
+
+def test_one_mechanism_may_leave_more_than_several(proofs):
+    """p = 0.005 of 40 on 20: enough for one, not for two. 28 on 20 is 1.4 times its expectation: next to noise."""
+    one, two = made_up("mass", misfit=40.0), made_up("mass", "ground-spring", misfit=40.0)
+    assert (kind_of(one), kind_of(two)) == (NAMED, UNKNOWN)
+    assert kind_of(made_up("mass", "ground-spring", misfit=30.0)) == NAMED
+    many = {"misfit": 2800.0, "dof": 2000}
+    assert (kind_of(made_up("mass", **many)), kind_of(made_up("mass", misfit=3100.0, dof=2000))) == (NAMED, UNKNOWN)
+
+
+def test_a_parameter_far_from_its_prior_takes_the_name(proofs):
+    """By more than five of its prior sd, whatever its unit; the caution says which."""
+    assert kind_of(made_up("mass", z=(0.0, -4.9))) == NAMED
+    far = made_up("mass", z=(0.0, -5.1))
+    kind, reasons = decide(ranked(far, BARE, p=(0.99, 0.01)))
+    assert kind == UNKNOWN and "'density'" in reasons[0] and "'E'" not in reasons[0]
+    found = judged(far, BARE, p=(0.99, 0.01))
+    assert (found.kind, found.reasons) == (UNKNOWN, reasons)
+
+
+def test_a_fixed_parameter_is_not_far():
+    one = made_up("mass", z=(7.0, 0.0))
+    one.model.base.L[0, 0] = 0.0
+    assert far_parameters(one) == ""
+
+
+def test_a_strained_fit_has_none(proofs):
+    assert kind_of(made_up("mass", strained=True)) == UNKNOWN
+
+
+def test_a_test_that_is_not_believed_gives_none(proofs):
+    """Unless no mechanism at all is impossible whatever errors the test has."""
+    assert kind_of(SPRING, stated=0.4) == UNKNOWN
+    assert kind_of(SPRING, p=(1 - 1e-7, 1e-7), stated=0.4) == NAMED
+
+
+def test_a_mode_of_its_own_is_seen_first(proofs, monkeypatch):
+    monkeypatch.setattr(decided, "unmeasured_hz", lambda one: (12.3412,))
+    kind, reasons = decide(ranked(SPRING, BARE, p=(0.99, 0.01)))
+    assert kind == ONE_OF and "12.34 Hz" in reasons[0]
+    assert kind_of(made_up("mass", telling=True)) == NAMED  # functions cover the band
+
+
+def test_a_list_of_frequencies_proves_no_mode_more(proofs):
+    assert kind_of(made_up("oscillator", own=1, by_shape=False)) == ONE_OF
+    assert kind_of(made_up("oscillator", own=1)) == NAMED
+
+
+def test_what_leads_without_a_name_is_unknown_with_a_field(proofs):
+    field = made_up(nameless="field-bed")
+    found = judged(field, SPRING, BARE, p=(0.9, 0.095, 0.005))
+    assert (found.kind, found.field, found.best) == (UNKNOWN, field, SPRING)
+
+
+def test_a_field_that_gains_little_is_not_told(proofs):
+    field, bare = made_up(nameless="field-bed"), made_up(misfit=90.0)
+    told = lambda odds: judged(bare, field, p=(0.6, 0.4), odds=(0.0, odds)).field
+    assert told(2.9) is None and told(3.1) is field
+
+
+def test_the_rest_is_a_share_of_the_misfit_of_the_model_as_it_is():
+    """80 on 20 of 200 on 20; nothing where p is no less than 0.001."""
+    found = rest(ranked(made_up("mass", misfit=80.0), made_up(misfit=200.0), p=(0.99, 0.01)))
+    assert found.share == pytest.approx(60 / 180) and found.p < 1e-6
+    assert rest(ranked(made_up("mass", misfit=44.0), made_up(misfit=200.0), p=(0.99, 0.01))) is None
+
+
+# --- priors
+
+
+def test_priors_of_numbers_of_mechanisms():
+    """0.3 for none; what remains falls by seven with each further one, and sums to it."""
+    assert gates.prior(0) == 0.3
+    assert sum(gates.prior(count) for count in range(1, 40)) == pytest.approx(0.7, abs=1e-12)
+    assert gates.prior(2) / gates.prior(3) == pytest.approx(7.0)
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_all_sets_of_groups_share_it(count):
+    """Multisets of 1, 2 and 3 of five groups: 5, 15, 35."""
+    sets = {1: 5, 2: 15, 3: 35}[count]
+    assert np.exp(gates.log_prior(count, 5)) * sets == pytest.approx(gates.prior(count))
+
+
+# --- chains of unit masses between two walls
+
+N, UNIT = 5, 1e5
+K = UNIT * (2 * np.eye(N) - np.eye(N, k=1) - np.eye(N, k=-1))
+
+
+def problem(numbers, hz: np.ndarray, shapes: np.ndarray) -> Problem:
+    """The chain with a common factor of 5 %, frequencies to 0.1 %, shapes to 1 %."""
+    test = ModalTest(np.array(numbers), hz, 1e-3 * hz, np.arange(N), shapes, np.full(shapes.shape, 0.01))
+    row, col = np.nonzero(np.triu(K))
+    listed = ListedElements(np.zeros(len(row), bool), row, col)
+    prior = Gaussian(np.ones(1), np.array([0.05**2]))
+    return Problem(
+        "chain", Structure(K, np.eye(N)), listed, K[row, col][:, None], (Parameter("all", 0.05, 1.0),), prior, test
+    )
+
+
+def test_a_mode_that_was_not_measured_is_told_with_its_frequency():
+    """An oscillator of 0.8 kg on the second mass; the test has the modes of all six masses but the one of the oscillator."""
+    kg, hz = 0.8, 40.0
+    arm = np.array([0, 1, 0, 0, 0, -1.0])
+    M = np.diag([1, 1, 1, 1, 1, kg])
+    lam, X = eigh(np.pad(K, (0, 1)) + kg * (2 * np.pi * hz) ** 2 * np.outer(arm, arm), M)
+    of_it = int(np.argmax(np.abs(X[5])))
+    kept = [i for i in range(4) if i != of_it]
+    found = np.sqrt(lam) / (2 * np.pi)
+    assert found[of_it] < found[kept[-1]]
+    shapes = X[:N, kept] / np.abs(X[:N, kept]).max(axis=0)
+    model = reduced(problem([1, 2, 3], found[kept], shapes), np.ones(1))
+    recipe = Study(model).recipes("oscillator")[1]
+    one = fit(Model(model, (recipe,)), recipe.coordinates(np.array([kg, hz])))
+    baseline = fit(Model(model), np.zeros(0))
+    assert one.misfit < 0.01
+    kind, reasons = decide(ranked(one, baseline, p=(1 - 1e-9, 1e-9)))
+    assert kind == ONE_OF and f"{found[of_it]:.4g} Hz" in reasons[0]
+
+
+def test_two_frequencies_that_anything_fits():
+    """A spring of 4e4 N/m at mass 1: no degree of freedom is left to a mechanism, and the noise is as stated."""
+    lam, _ = eigh(K + 0.4 * UNIT * np.diag([1.0, 0, 0, 0, 0]))
+    rows = [f"[{i + 1}, {j + 1}, {K[i, j]}]" for i in range(N) for j in range(i, N) if K[i, j]]
+    deck = f"""mouse: 1
+model: {{stiffness: {{order: {N}, entries: [{", ".join(rows)}]}}, mass: {{identity: {N}}}}}
+parameters: [{{name: all, nominal: 1, sd: 1 %, stiffness: [{", ".join(rows)}]}}]
+test: {{modes: {{frequency: [{", ".join(f"{f:.8g}" for f in np.sqrt(lam[:2]) / (2 * np.pi))}], frequency_sd: 0.1 %}}}}
+"""
+    found = diagnose(assemble(yaml_deck.read(deck, "chain.yaml")))
+    assert found.noise_scale == 1.0 and dict(found.groups)["none"] < gates.LIKELY
+    assert found.kind in (NAMED, ONE_OF)
+    if found.kind == ONE_OF:
+        assert "ground-spring" in dict(found.rivals)
+    spring = next(one for one in found.explanations if one.physics == "ground-spring")
+    assert spring.causes[0].site.text in ("degree of freedom 1", "degree of freedom 5")
