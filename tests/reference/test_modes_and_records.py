@@ -87,3 +87,25 @@ def answer(folder: Path, K: np.ndarray, modes: bool = True, record: bool = True)
     assert done.exception is None or isinstance(done.exception, SystemExit), done.exc_info
     assert done.exit_code in (0, 1), done.output
     return json.loads(done.stdout)
+
+
+SPRINGS = STIFFNESS * np.array([1.02, 0.97, 1.03, 0.99, 1.01])
+GROUND = 6000.0  # N/m, from the third mass
+
+
+def test_a_record_tells_the_place_that_two_frequencies_leave_open(tmp_path):
+    truth = chain(SPRINGS)
+    truth[2, 2] += GROUND
+    (tmp_path / "few").mkdir()
+    few, both = answer(tmp_path / "few", truth, record=False), answer(tmp_path, truth)
+    assert few["verdict"]["kind"] == "one-of"
+    verdict, size = both["verdict"], both["candidates"][0]["parameters"][0]
+    assert (verdict["kind"], verdict["physics"], verdict["site"]["ids"]) == ("named", "ground-spring", [3])
+    assert abs(size["value"] - GROUND) < 4 * size["sd"] + 0.01 * GROUND and size["sd"] < 0.02 * GROUND
+    assert any("recordings judged too" in text and "1 in all" in text for text in both["remarks"])
+
+
+def test_modes_and_a_record_of_the_model_as_it_is_lack_nothing(tmp_path):
+    found = answer(tmp_path, chain(SPRINGS))
+    assert (found["verdict"]["kind"], found["exit_code"]) == ("nothing-missing", 0)
+    assert any("recordings judged too" in text for text in found["remarks"])
