@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import product
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from mouse_cli.diagnosis.likelihoods.history.records import cannot_judge, record
 from mouse_cli.diagnosis.likelihoods.history.search import close, unlikely, with_noise
 from mouse_cli.diagnosis.likelihoods.history.study import Study, alike, fitted, study
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
-from mouse_cli.diagnosis.search.fit import Fit
+from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.rank import Ranking, ranking
 from mouse_cli.model.groups import enumerated
 
@@ -22,6 +23,7 @@ _ELSEWHERE, _SHARE = (
     6,
     0.01,
 )  # other sites of an explanation that are judged, and the share of it that they hold at least
+_CLIMBED, _LEAST = 2, -300.0  # explanations that are moved to sites nearby; ln of the share that such a site may hold
 _BEHIND = 2.0  # times the cost of a better one, from which on what modes say is not expanded anew
 _AWAY = 1.0  # nats by which the expansion of what modes say may be wrong where recordings lead
 
@@ -70,6 +72,7 @@ class Hearing:
         self._seen: dict[
             tuple[int, int], tuple[Fit, Fit, Seen | None]
         ] = {}  # with the fits, so that no id is used again
+        self._near: dict[int, tuple[Seen, list[Seen]]] = {}
         self._best = np.inf
 
     def __call__(self, found: Ranking) -> Ranking:
@@ -80,11 +83,12 @@ class Hearing:
         if refused := cannot_judge(problem):
             return _with(found, f"recordings did not judge: {refused[0].message}")
         own = self._study(none)
-        seen = [self._at(own, *trial) for trial in (*_trials(found), (none, none, 1.0))]
-        *others, first = seen
+        others = [each for trial in _trials(found) if (each := self._at(own, *trial)) is not None]
+        first = self._at(own, none, none, 1.0)
         if first is None:
             return _with(found, "recordings did not judge: the model as it is cannot be simulated under their forces")
-        seen = [first, *(each for each in others if each is not None)]
+        leading = sorted((each for each in others if not each.one.nameless), key=lambda each: -each.log_evidence)
+        seen = [first, *others, *(more for each in leading[:_CLIMBED] for more in self._climbed(own, each, others))]
         best = max(seen, key=lambda each: each.log_evidence).record
         left = noise(own.spectrum, best.hypothesis, own.places, best.x) if unlikely(best) else None
         if left is None and not close(best):
@@ -97,7 +101,7 @@ class Hearing:
         if self._own is None or self._own[0] is not none:
             problem = none.model.base.problem
             self._own = none, study(problem, records(problem), partial(modelled, posterior(none)))
-            self._seen, self._best = {}, np.inf
+            self._seen, self._near, self._best = {}, {}, np.inf
         return self._own[1]
 
     def _at(self, own: Study, whole: Fit, one: Fit, share: float) -> Seen | None:
@@ -108,6 +112,40 @@ class Hearing:
             self._seen[key] = whole, one, found
             self._best = min(self._best, np.inf if found is None else found.record.cost)
         return self._seen[key][2]
+
+    def _climbed(self, own: Study, at: Seen, judged: list[Seen]) -> list[Seen]:
+        """Sites from that of `at` on, each mechanism moved to the next one as long as recordings gain by it."""
+        if id(at) in self._near:
+            return self._near[id(at)][1]
+        found, known = [], {_place(each.one): each for each in judged}
+        for i, step in product(range(len(at.one.recipes)), (1, -1)):
+            best = max([at, *found], key=lambda each: each.log_evidence)
+            while (one := _moved(best.one, i, step)) is not None:
+                there = known.get(_place(one))
+                if there is None:
+                    share = float(np.exp(max(one.log_evidence - at.whole.log_evidence, _LEAST)))
+                    there = seen(own, at.whole, one, share, self._best)
+                    found += [] if there is None else [there]
+                if there is None or there.log_evidence <= best.log_evidence:
+                    break
+                known[_place(one)] = best = there
+        self._near[id(at)] = at, found
+        return found
+
+
+def _place(one: Fit) -> tuple[tuple[str, int], ...]:
+    """Keys of mechanisms, and numbers of their sites."""
+    return tuple((recipe.candidate.key, recipe.number) for recipe in one.recipes)
+
+
+def _moved(one: Fit, i: int, step: int) -> Fit | None:
+    """The explanation of modes with mechanism i at the next of its sites in their order; None at their end."""
+    recipe = one.recipes[i]
+    sites, at = one.model.base.recipes(recipe.candidate), recipe.number + step
+    if not 0 <= at < len(sites) or len(sites[at].unknowns) != len(recipe.unknowns) or not isinstance(one.model, Model):
+        return None
+    there = (*one.recipes[:i], replace(sites[at], number=at), *one.recipes[i + 1 :])
+    return fit(Model(one.model.base, there), one.c, one.point.x[: one.model.k])
 
 
 def _anew(found: Ranking, seen: list[Seen], scale: float) -> Ranking:
