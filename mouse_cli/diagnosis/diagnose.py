@@ -66,8 +66,7 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices) -> Diagnos
     model, told = _model(problem, solver)
     enough = 0.0 if model.places is None else ENOUGH
     result, remarks = _update(problem, kept, notice, _guess(model), enough, solver)
-    recordings = Hearing()
-    ranking = rank(model, _known(choices), choices.causes, lambda found: recordings(heard(found)))
+    ranking = rank(model, _known(choices), choices.causes, _hear())
     verdict, as_it_is = judge(ranking, result.rejected and given.test is not None, model), ranking.baseline
     kind, best, missing = verdict.kind, verdict.best, verdict.kind != NOTHING
     location = locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None
@@ -100,6 +99,12 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices) -> Diagnos
         untried=ranking.untried,
         **vars(compared(problem, ranking, best if missing else None)),
     )
+
+
+def _hear() -> Callable[[Ranking], Ranking]:
+    """What functions, then recordings make of a ranking by modes."""
+    recordings = Hearing()
+    return lambda found: recordings(heard(found))
 
 
 def _by_modes(problem: Problem) -> Problem:
