@@ -155,7 +155,7 @@ def test_imports_make_no_circle():
 
 KINDS_OF_DATA = {"frf", "history", "configurations"}
 KNOW_KINDS_OF_DATA = {  # debts, to be emptied: what of diagnosis/ asks for a kind of data beside likelihoods/
-    "diagnose.py": {"frf.compared", "frf.deck", "frf.identified", "frf.rank", "history.diagnose"},
+    "diagnose.py": {"frf.compared", "frf.deck", "frf.identified", "frf.rank", "history.diagnose", "history.rank"},
 }
 
 

@@ -12,6 +12,7 @@ from mouse_cli.diagnosis.likelihoods.frf.deck import with_damping
 from mouse_cli.diagnosis.likelihoods.frf.identified import with_modes
 from mouse_cli.diagnosis.likelihoods.frf.rank import heard
 from mouse_cli.diagnosis.likelihoods.history.diagnose import diagnose_records
+from mouse_cli.diagnosis.likelihoods.history.rank import Hearing
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.numerics import numerics
@@ -65,7 +66,7 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices) -> Diagnos
     model, told = _model(problem, solver)
     enough = 0.0 if model.places is None else ENOUGH
     result, remarks = _update(problem, kept, notice, _guess(model), enough, solver)
-    ranking = rank(model, _known(choices), choices.causes, heard)
+    ranking = rank(model, _known(choices), choices.causes, _hear())
     verdict, as_it_is = judge(ranking, result.rejected and given.test is not None, model), ranking.baseline
     kind, best, missing = verdict.kind, verdict.best, verdict.kind != NOTHING
     location = locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None
@@ -87,7 +88,7 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices) -> Diagnos
         cautions=cautions(ranking, verdict, location),
         misstated=misstated(ranking) if missing else None,
         proposals=_proposals(ranking, verdict),
-        remarks=doubts + remarks + told + (() if deck is None else _coarse(deck)),
+        remarks=doubts + remarks + told + getattr(ranking, "remarks", ()) + (() if deck is None else _coarse(deck)),
         extended=deck and with_damping(replace(deck, test=given.test and deck.test), problem, put),
         extended_result=deck and run(_by_modes(deck), notice=notice, guess=_values(deck, put), enough=enough),
         choices=choices,
@@ -96,6 +97,12 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices) -> Diagnos
         untried=ranking.untried,
         **vars(compared(problem, ranking, best if missing else None)),
     )
+
+
+def _hear() -> Callable[[Ranking], Ranking]:
+    """What functions, then recordings make of a ranking by modes."""
+    recordings = Hearing()
+    return lambda found: recordings(heard(found))
 
 
 def _by_modes(problem: Problem) -> Problem:

@@ -1,6 +1,7 @@
 """What all fits of a deck by its recordings share, and one fit."""
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,8 +13,10 @@ from mouse_cli.diagnosis.likelihoods.history.polish import Fit, Segments, follow
 from mouse_cli.diagnosis.likelihoods.history.records import Records, reduced, steps
 from mouse_cli.diagnosis.likelihoods.history.regression import Regression, Start
 from mouse_cli.diagnosis.likelihoods.history.series import REACH, Series
-from mouse_cli.diagnosis.likelihoods.history.uncertain import Uncertain, uncertain
+from mouse_cli.diagnosis.likelihoods.history.uncertain import LARGEST, Uncertain, uncertain
 from mouse_cli.model.problem import Problem
+
+Modelled = Callable[[Problem, float, np.ndarray], Uncertain]
 
 OFFSET = 0.3  # sd of the offset of a force channel, by its rms
 _SAMPLES = 8192  # of a record that the closed form looks at
@@ -27,7 +30,7 @@ _ABOVE, _BEYOND = (
 
 @dataclass
 class Study:
-    """Everything that fits of one deck share."""
+    """Everything that fits of one deck share. spread (2m,): sd of initial states before the test; None: what the record shows."""
 
     problem: Problem
     records: Records
@@ -37,6 +40,7 @@ class Study:
     data: list[Segments]
     band: tuple[float, float]
     length: int
+    spread: np.ndarray | None = None
 
     def __post_init__(self) -> None:
         self.spectrum = Spectrum(self.look, self.model.linear)
@@ -58,12 +62,11 @@ class Study:
         return Regression(spectrum, base.placed(place), x)
 
 
-def study(problem: Problem, found: Records) -> Study:
-    """What the fits of a deck begin from."""
+def study(problem: Problem, found: Records, of: Modelled = uncertain) -> Study:
+    """What the fits of a deck begin from; of: its model, see `uncertain`."""
     first = found.fitted[0]
     lowest, high = _occupied(first)
-    at = np.unique(np.hstack([first.inputs, first.sensing.T]), axis=1)
-    model = uncertain(problem, min(_ABOVE * high, _BEYOND / first.dt), at)
+    model = of(problem, *_needed(first, high))
     hz = _resonances(model)
     flexible = hz[hz > 1e-3 * max(hz.max(), lowest)]
     slowest, highest = (flexible.min(), flexible.max()) if len(flexible) else (2 * lowest, high)
@@ -79,6 +82,30 @@ def study(problem: Problem, found: Records) -> Study:
     loudest = max(fitted, key=lambda one: float((one.measured / one.sd).std()))
     look = loudest.part(0, min(len(loudest), _SAMPLES))
     return Study(problem, found, model, base, look, data, (low, high), length)
+
+
+def alike(own: Study, of: Modelled) -> Study:
+    """The same stretches of the same records, judged by another model: as accurate, and begun within the same spread."""
+    first = own.records.fitted[0]
+    model = of(own.problem, *_needed(first, _occupied(first)[1]))
+    there = reduced(first, model.basis)
+    seen = lambda one: replace(one, inputs=there.inputs, sensing=there.sensing)
+    data = [replace(part, series=seen(part.series)) for part in own.data]
+    base = Hypothesis(model.linear, own.base.offset, acting(own.problem, model.basis))
+    found = Study(own.problem, own.records, model, base, seen(own.look), data, own.band, own.length)
+    begun = own.at(own.places[0]).spread
+    found.spread = found.at(found.places[0]).spread.copy()
+    if (
+        own.problem.structure.n <= LARGEST
+    ):  # further degrees of freedom are those of a mechanism, behind those of the deck
+        for into, known in zip(np.split(found.spread, 2), np.split(begun, 2), strict=True):
+            into[: len(known)] = known
+    return found
+
+
+def _needed(first: Series, high: float) -> tuple[float, np.ndarray]:
+    """Frequency (Hz) up to which a model is to be true for a record, and motions (n, q) of its sensors and forces."""
+    return min(_ABOVE * high, _BEYOND / first.dt), np.unique(np.hstack([first.inputs, first.sensing.T]), axis=1)
 
 
 def _resonances(model: Uncertain) -> np.ndarray:
@@ -105,7 +132,7 @@ def fitted(study: Study, start: Start | None, beat: float = np.inf, first: Fit |
     place = hypothesis.place or study.places[0]
     x = np.zeros(len(study.base.mean)) if start is None else start.x
     look = {id(data): study.at(place, _own(study, data), first) for data in study.data}
-    spread = look[id(study.data[0])].spread
+    spread = look[id(study.data[0])].spread if study.spread is None else study.spread
     states, internal = begin(hypothesis, x, study.data, [look[id(data)] for data in study.data])
     return followed(hypothesis, study.data, spread, x, states, internal, beat)
 

@@ -20,6 +20,7 @@ LARGEST = 40  # degrees of freedom that are simulated as they are; larger models
 _MOST_MODES = 60
 _MOST_LINKED = 400  # degrees of freedom of a model all of whose links are looked at
 _Named = list[tuple[str, np.ndarray]]  # matrices (n, n) with the names of what they belong to
+Own = Callable[[np.ndarray], tuple[np.ndarray, ...]]  # M, C, K at the nuisances
 _STEP = 1e-4  # of finite differences, in prior sd
 
 
@@ -68,24 +69,37 @@ class Uncertain:
 
 
 def uncertain(problem: Problem, highest_hz: float, at: np.ndarray) -> Uncertain:
-    """The model of a deck, and all that is uncertain in it; see `_basis` for `highest_hz` and `at` (n, q)."""
+    """The model of a deck, and all that is uncertain in it; see `basis_of` for `highest_hz` and `at` (n, q)."""
     found = assembly(problem)
     where = coordinates(problem, found)
     L = np.diag(where.L) if where.L.ndim == 1 else where.L
     k = L.shape[1]
     value = lambda z: where.value(where.mean + L @ z)
-    V = _basis(*found.matrices(value(np.zeros(k))), highest_hz, at)
+    V = basis_of(*found.matrices(value(np.zeros(k))), highest_hz, at)
     reduce = lambda matrix: V.T @ (matrix @ V)
 
     bare = not any(m is not None for m in found.damping(value(np.zeros(k))))
-    usual = _viscous(*(reduce(dense(m)) for m in found.matrices(value(np.zeros(k)))), None, None) if bare else None
+    usual = viscous(*(reduce(dense(m)) for m in found.matrices(value(np.zeros(k)))), None, None) if bare else None
 
     def own(z: np.ndarray) -> tuple[np.ndarray, ...]:
         theta = value(z)
         K, M = (reduce(dense(m)) for m in found.matrices(theta))
         C, D = (None if m is None else reduce(dense(m)) for m in found.damping(theta))
-        return M, _viscous(K, M, C, D) if usual is None else usual, K
+        return M, viscous(K, M, C, D) if usual is None else usual, K
 
+    steady = found.linear and not where.logarithmic.any()
+    linear, said = completed(problem, own, _names(problem, k), bare, steady, problem.structure.labels)
+    return Uncertain(linear, V, value, k, said)
+
+
+def completed(
+    problem: Problem, own: Own, names: list[str], bare: bool, steady: bool, labels: tuple[str, ...]
+) -> tuple[Linear, tuple[str, ...]]:
+    """The linear model whose named nuisances z (k,) make M, C, K = own(z), and what they do not reach; what to say of it.
+
+    bare: its damping is assumed; steady: own is linear in z; labels: of its degrees of freedom.
+    """
+    k = len(names)
     M, C, K = own(np.zeros(k))
     slopes = [np.zeros((k, *K.shape)) for _ in range(3)]
     for j in range(k):
@@ -93,13 +107,11 @@ def uncertain(problem: Problem, highest_hz: float, at: np.ndarray) -> Uncertain:
         for slope, up, down in zip(slopes, *ends, strict=True):
             slope[j] = (up - down) / (2 * _STEP)
     by = problem.theory.link_stiffness, LOOSE if bare else problem.theory.link_damping
-    extra = _extra(M, C, K, slopes, bare, problem.structure.labels, by)
-    steady = found.linear and not where.logarithmic.any()
-    linear = _linear(own, (M, C, K), slopes, extra, _names(problem, k), steady)
-    return Uncertain(linear, V, value, k, _remarks(bare, len(extra.names), by))
+    extra = _extra(M, C, K, slopes, bare, labels, by)
+    return _linear(own, (M, C, K), slopes, extra, names, steady), _remarks(bare, len(extra.names), by)
 
 
-def _basis(K: Matrix, M: Matrix, highest_hz: float, at: np.ndarray) -> np.ndarray:
+def basis_of(K: Matrix, M: Matrix, highest_hz: float, at: np.ndarray) -> np.ndarray:
     """The degrees of freedom themselves; of a larger model the modes up to `highest_hz`, and what the others add by their static
     flexibility at the motions `at` (n, q), those of sensors and forces.
     """
@@ -122,7 +134,7 @@ def _basis(K: Matrix, M: Matrix, highest_hz: float, at: np.ndarray) -> np.ndarra
     return V @ eigh(V.T @ (K @ V), V.T @ (M @ V))[1]
 
 
-def _viscous(K: np.ndarray, M: np.ndarray, C: np.ndarray | None, D: np.ndarray | None) -> np.ndarray:
+def viscous(K: np.ndarray, M: np.ndarray, C: np.ndarray | None, D: np.ndarray | None) -> np.ndarray:
     """C; structural damping as the viscous one that damps each mode as much; UNDAMPED where the deck has none."""
     found = np.zeros_like(K) if C is None else C
     if C is not None and D is None:
