@@ -44,7 +44,7 @@ MUTANTS = (
     *_of(
         "noise.py",
         _NOISE,
-        noise_rate=("RATE = 3.0", "RATE = 2.0", "test_it_is_the_integral_over_the_scale"),
+        noise_rate=("RATE = 6.0", "RATE = 3.0", "test_it_is_the_integral_over_the_scale"),
         noise_no_series=(
             "share < 1e-200",
             "share < 0.0",
@@ -62,7 +62,7 @@ MUTANTS = (
         ),
         noise_negative_dof=(
             "return max(1.0, misfit / (max(dof, 0) + RATE))",
-            "return max(1.0, misfit / (dof + RATE + 2))",
+            "return max(1.0, misfit / (dof + RATE + 1))",
             "test_more_than_all_degrees_of_freedom_is_none",
         ),
     ),

@@ -18,13 +18,13 @@ def test_one_is_killed(capsys):
 
 
 def test_one_that_changes_nothing_is_alive(monkeypatch, capsys):
-    monkeypatch.setattr(mutants, "MUTANTS", (Mutant("same", "noise.py", "RATE = 3.0", "RATE = 6.0 / 2", TEST),))
+    monkeypatch.setattr(mutants, "MUTANTS", (Mutant("same", "noise.py", "RATE = 6.0", "RATE = 12.0 / 2", TEST),))
     assert mutants.main(["--unchecked"]) == 1
     assert "ALIVE" in capsys.readouterr().out
 
 
 def test_tests_that_do_not_run_kill_nothing(monkeypatch):
-    monkeypatch.setattr(mutants, "MUTANTS", (Mutant("broken", "noise.py", "RATE = 3.0", "RATE = (", TEST),))
+    monkeypatch.setattr(mutants, "MUTANTS", (Mutant("broken", "noise.py", "RATE = 6.0", "RATE = (", TEST),))
     with pytest.raises(SystemExit, match="did not run"):
         mutants.main(["--unchecked"])
 

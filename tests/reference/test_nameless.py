@@ -151,6 +151,48 @@ def test_a_field_over_the_masses_of_a_chain():
     assert runs(found)
 
 
+def building(k: np.ndarray, m: np.ndarray) -> str:
+    """The same as a shear building of storeys and floors that are masses."""
+    text = chain(k, m)
+    structure = f"""mouse: 1
+model:
+  structure:
+    nodes: {{line: {{from: 0, to: {N}, start: [0, 0, 0], end: [0, 0, {N}]}}}}
+    elements:
+      - {{id: 1-{N}, type: storey, nodes: 0-{N}, TX: 1000}}
+      - {{id: 101-{100 + N}, type: mass, nodes: 1-{N}, mass: 1}}
+    supports: {{0: all}}
+    directions: [TX]
+parameters:
+  - {{name: all, elements: 1-{N}, property: TX, sd: 3 %}}
+"""
+    sensors = ", ".join(f"{i + 1}TX" for i in range(N))
+    return structure + text[text.index("test:") :].replace(", ".join(str(i + 1) for i in range(N)), sensors)
+
+
+def test_a_field_over_storeys():
+    """As in the chain; a mode shape of a building has one direction, and so have its storeys."""
+    dip = 0.2 * np.sin(np.arange(N) / 1.7)
+    problem = assemble(yaml_deck.read(building(1000 * (1 + dip), np.ones(N)), "building.yaml"))
+    found = diagnose(problem, choices=Choices(("stiffness-loss", "mass", "ground-spring"), causes=1))
+    assert (found.kind, found.field.property) == (UNKNOWN, STIFFNESS)
+    value = {each.site.ids[0]: (each.value, each.sd) for each in found.field.values}
+    assert sorted(value) == list(range(1, N + 1))
+    assert all(abs(value[i + 1][0] - dip[i]) < 3 * value[i + 1][1] for i in range(N))
+    assert runs(found)
+
+
+def test_a_floor_without_two_of_its_masses_has_names():
+    """A building that lacks the masses of two floors, which a field of mass does not take."""
+    m = np.ones(N)
+    m[[2, 6]] = 0.5
+    problem = assemble(yaml_deck.read(building(np.full(N, 1000.0), m), "building.yaml"))
+    found = diagnose(problem, choices=Choices(("mass-loss", "stiffness-loss", "ground-spring")))
+    assert (found.kind, found.best.physics) == (NAMED, "mass-loss + mass-loss")
+    assert {cause.site.ids for cause in found.best.causes} == {(103,), (107,)}
+    assert all(abs(cause.sizes[0].value - 0.5) < 3 * cause.sizes[0].sd for cause in found.best.causes)
+
+
 def small():
     """Two masses on two springs, fewer cells than a field takes."""
     deck = """mouse: 1

@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from mouse_cli.diagnosis.noise import RATE, log_density, scale
+from mouse_cli.diagnosis.noise import log_density, scale
+
+RATE = 6.0  # of ln s, before the test: s is 2 or more in 1 of 64
 
 
 def integrated(misfit: float, dof: float) -> float:
-    """ln of the integral over t = ln s >= 0 of 3 exp(-3 t) exp(-d t) exp(-m exp(-2 t) / 2), about its peak."""
-    a = dof + 3.0
+    """ln of the integral over t = ln s >= 0 of 6 exp(-6 t) exp(-d t) exp(-m exp(-2 t) / 2), about its peak."""
+    a = dof + RATE
     exponent = lambda t: -a * t - 0.5 * misfit * np.exp(-2 * t)
     peak = max(0.0, 0.5 * np.log(max(misfit, 1e-300) / a))
     top, width = exponent(peak), 1 / np.sqrt(2 * a) if peak else min(1.0, 1 / abs(misfit - a)) if misfit != a else 1.0
@@ -21,7 +23,7 @@ def integrated(misfit: float, dof: float) -> float:
         quad(lambda t: np.exp(exponent(t) - top), a, b, epsabs=0, epsrel=1e-11, limit=200)[0]
         for a, b in pairwise(edges)
     )
-    return float(np.log(3.0) + top + np.log(total))
+    return float(np.log(RATE) + top + np.log(total))
 
 
 @pytest.mark.parametrize("dof", [0, 1, 3, 20, 150, 2000])
@@ -31,9 +33,9 @@ def test_it_is_the_integral_over_the_scale(misfit, dof):
 
 
 def test_without_misfit_or_degrees_of_freedom():
-    """No misfit: 3 / (d + 3). No degree of freedom: what is left may be left for nothing."""
+    """No misfit: 6 / (d + 6). No degree of freedom: what is left may be left for nothing."""
     for dof in (0, 1, 50):
-        assert float(log_density(np.zeros(1), dof)[0]) == pytest.approx(np.log(3 / (dof + 3)), abs=1e-12)
+        assert float(log_density(np.zeros(1), dof)[0]) == pytest.approx(np.log(6 / (dof + 6)), abs=1e-12)
     assert float(log_density(np.zeros(1), -2)[0]) == 0.0
 
 
@@ -58,4 +60,4 @@ def test_the_scale_is_where_the_integrand_is_largest(misfit, dof):
 
 
 def test_more_than_all_degrees_of_freedom_is_none():
-    assert scale(12.0, -4) == scale(12.0, 0) == 4.0
+    assert scale(12.0, -4) == scale(12.0, 0) == 2.0

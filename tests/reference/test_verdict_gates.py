@@ -17,7 +17,19 @@ from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.diagnosis.verdict import decide, far_parameters, judge, rest
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
-from mouse_cli.model.diagnosis import BY_DECK, NAMED, NOTHING, ONE_OF, UNKNOWN, Diagnosis, HeldOut, Score
+from mouse_cli.model.diagnosis import (
+    BY_DECK,
+    NAMED,
+    NOTHING,
+    ONE_OF,
+    UNKNOWN,
+    Cause,
+    Diagnosis,
+    Explanation,
+    HeldOut,
+    Score,
+    Site,
+)
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.problem import Problem
@@ -85,7 +97,9 @@ def test_a_model_of_one_in_twenty_may_lack_nothing(proofs):
     ranking = ranked(SPRING, BARE, p=(0.95, 0.05))
     found = judge(ranking, False, None)
     assert found.kind == ONE_OF and found.best is SPRING
-    answer = Diagnosis(None, found.kind, None, None, groups=ranking.groups)
+    spring = Cause("ground-spring", "ground-spring", "a spring", Site("dof", (2,)), ())
+    told = tuple(Explanation(causes, 20.0, 20, 0.5, 0.0, np.zeros(2)) for causes in ((spring,), ()))
+    answer = Diagnosis(None, found.kind, None, None, told, ranking.groups)
     assert [name for name, _ in answer.rivals] == ["ground-spring", "none"]
     assert answer.exit_code == 1
 
