@@ -90,9 +90,7 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices) -> Diagnos
         proposals=_proposals(ranking, verdict),
         remarks=doubts + remarks + told + getattr(ranking, "remarks", ()) + (() if deck is None else _coarse(deck)),
         extended=deck and with_damping(replace(deck, test=given.test and deck.test), problem, put),
-        extended_result=None
-        if deck is None
-        else run(_by_modes(deck), notice=notice, guess=_values(deck, put), enough=enough),
+        extended_result=deck and run(_by_modes(deck), notice=notice, guess=_values(deck, put), enough=enough),
         choices=choices,
         field=verdict.field and field_of(ranking, verdict.field, verdict.field_proof),
         rest=rest(ranking) if kind == NAMED else None,
