@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from hermite_beams import LENGTH, MASS, Truth, deck
+from hermite_beams import EI, LENGTH, MASS, Truth, deck
 
 from mouse_cli.diagnosis import diagnose
 from mouse_cli.diagnosis.gates import log_prior, prior
@@ -151,3 +151,16 @@ def test_all_sets_of_groups_share_it(count):
 def test_adequate_is_a_p_value_of_a_twentieth():
     """The 95 % point of chi-squared on 20 degrees of freedom is 31.41 (tables)."""
     assert adequate(SimpleNamespace(misfit=31.40, dof=20)) and not adequate(SimpleNamespace(misfit=31.42, dof=20))
+
+
+def test_three_flexible_feet_that_differ_are_told_from_three_alike():
+    """All alike lead as one mechanism, beside which none of them can be flexible once more: the set begins from each by itself."""
+    truth = Truth(springs=((4 / 30, 600.0), (0.5, 1500.0), (26 / 30, 4000.0)))
+    held = "    supports: {5: [TY], 16: [TY], 27: [TY]}\n"
+    found = diagnose(problem(truth, held, free=True), choices=Choices(("support-translation", "mass")))
+    own = sorted(found.best.causes, key=lambda cause: cause.site.ids)
+    assert found.kind == NAMED and [cause.site.ids for cause in own] == [(5,), (16,), (27,)]
+    unit = EI / LENGTH**3
+    for cause, (_, stiffness) in zip(own, truth.springs, strict=True):
+        (size,) = cause.sizes
+        assert abs(size.value - stiffness * unit) < max(4 * size.sd, 0.02 * stiffness * unit)

@@ -86,16 +86,34 @@ def same_kind(study: Study, singles: list[Fit], most: int) -> list[Fit]:
     order = sorted(singles, key=lambda one: -one.log_evidence)
     kinds = [one for one in order if len(study.recipes(one.recipes[0].candidate.key)) > 1 and one.c.size][:_ALIKE]
     for one in kinds:
-        name = one.recipes[0].candidate.key
-        while len(one.recipes) < most and not adequate(one):
-            larger: Found = {}
-            _beside(study, one, [name], larger)
-            more = [_exchanged(study, each, (name,)) for each in larger.values()]
-            if not more or more[0].log_evidence < one.log_evidence + MATERIAL:
-                break
-            one = more[0]
-            _keep(found, one)
+        if not _grown(study, one, most, found) and not adequate(one):
+            for other in _elsewhere(study, one):  # beside all feet of a frame no foot of it can be flexible once more
+                _grown(study, other, most, found)
     return _finished(study, found)
+
+
+def _grown(study: Study, one: Fit, most: int, found: Found) -> bool:
+    """Into `found` sets of the kind of `one` that grow from it; whether there are any."""
+    name, grew = one.recipes[0].candidate.key, False
+    while len(one.recipes) < most and not adequate(one):
+        larger: Found = {}
+        _beside(study, one, [name], larger)
+        more = [_exchanged(study, each, (name,)) for each in larger.values()]
+        if not more or more[0].log_evidence < one.log_evidence + MATERIAL:
+            break
+        one, grew = more[0], True
+        _keep(found, one)
+    return grew
+
+
+def _elsewhere(study: Study, one: Fit) -> list[Fit]:
+    """The same kind in the recipes that are next best by themselves, in few steps."""
+    (recipe,) = one.recipes
+    name, fits = recipe.candidate.key, {}
+    for number, x in study.starts(name, np.zeros(study.k), ()):
+        if number != recipe.number and number not in fits and len(fits) < _SECOND:
+            fits[number] = fit(study.with_cause((), name, number), x[study.k :], x[: study.k], _QUICK)
+    return [each for each in fits.values() if each is not None]
 
 
 def material(one: Fit, smaller: list[Fit]) -> bool:
