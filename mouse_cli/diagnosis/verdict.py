@@ -94,7 +94,7 @@ def _next_rival(ranking: Ranking, model: Reduced, best: Fit, proof: HeldOut, rea
 
 
 def _unknown(ranking: Ranking, model: Reduced, best: Fit | None, proof, struck: tuple, reasons: tuple) -> Verdict:
-    """No name; what has none is given where it explains the data."""
+    """No name; what has none is given where its odds over the model as it is are enough for one."""
     at = next((i for i, one in enumerate(ranking.fits) if one.nameless), None)
     field = None if at is None else ranking.fits[at]
     if field is None or not ranking.log_odds[at] > ODDS:
@@ -126,10 +126,7 @@ def decide(ranking: Ranking) -> tuple[str, tuple[str, ...]]:
     if not explains(first) or first.strained:
         return UNKNOWN, ()
     if ranking.stated[0] < _BELIEVED and dict(ranking.groups).get("none", 0.0) > _STANDS:
-        return (
-            UNKNOWN,
-            (),
-        )  # the test is not as accurate as it is said to be, and what is missing besides cannot be told
+        return UNKNOWN, ()  # the test is not as accurate as it is stated, and what is missing besides cannot be told
     if far := far_parameters(first):
         return UNKNOWN, (_FAR.format(far),)
     if probability < SURE or not ranking.log_odds[0] > ODDS:

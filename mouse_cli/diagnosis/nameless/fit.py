@@ -67,21 +67,17 @@ def _spreads(base) -> list[Spread]:
     found = []
     for rival in registry().values():
         cells: list[Cells | None] = []
+        sizes: set[int] = set()
 
-        def look(part: Reduced, has: bool, rival=rival, cells=cells) -> Reduced:
-            cells.append(rival.cells(part) if has else None)
+        def look(part: Reduced, has: bool, rival=rival, cells=cells, sizes=sizes) -> Reduced:
+            own = rival.cells(part) if has else None
+            cells.append(own)
+            sizes |= {len(own) if own else 0} if has else set()
             return part
 
         base.each(look)
-        sizes = {0 if own is None else len(own) for own, has in zip(cells, _having(base), strict=True) if has}
         if len(sizes) == 1 and sizes != {0}:
             found.append(Spread(rival, tuple(cells)))
-    return found
-
-
-def _having(base) -> list[bool]:
-    found: list[bool] = []
-    base.each(lambda part, has: found.append(has) or part)
     return found
 
 

@@ -19,12 +19,11 @@ from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.nameless.fit import rivals
 from mouse_cli.diagnosis.noise import scale
 from mouse_cli.diagnosis.search.fit import Fit, fit
-from mouse_cli.diagnosis.search.several import adequate, several
+from mouse_cli.diagnosis.search.several import adequate, reach, several
 from mouse_cli.diagnosis.search.study import Study, best, settled
 from mouse_cli.model.diagnosis import Untried
 from mouse_cli.model.groups import joined, shares
 
-_FAR = 200.0  # misfit above the best one, by the noise scale, from which on a fit is no rival
 _NO_SITE, _UNPHYSICAL = (
     "it has no site in this model",
     "no size of it makes a model whose modes can be paired with the test",
@@ -85,7 +84,7 @@ def rank(
     baseline = settled(fit(kind(model), np.zeros(0)), study)
     singles: list[Fit] = []
     for name in study.promising():
-        one = best(study, name, _reach([baseline, *singles]))
+        one = best(study, name, reach([baseline, *singles]))
         singles += [] if one is None else [one]
     fits = [baseline, *singles]
     found = hear(ranking(baseline, fits))
@@ -104,12 +103,6 @@ def _untried(study: Study, singles: list[Fit]) -> tuple[Untried, ...]:
     tried = {one.recipes[0].candidate.key for one in singles}
     reason = lambda name: _UNPHYSICAL if study.recipes(name) else _NO_SITE
     return tuple(Untried(name, reason(name)) for name in study.known if name not in tried)
-
-
-def _reach(found: list[Fit]) -> float:
-    """Misfit above which a fit can be no rival of the best of `found`."""
-    least = min(found, key=lambda one: one.misfit)
-    return least.misfit + _FAR * max(1.0, least.misfit / max(least.dof, 1))
 
 
 def ranking(baseline: Fit, fits: list[Fit]) -> Ranking:

@@ -137,7 +137,7 @@ def _keep(found: Found, one: Fit) -> None:
         found[key(one)] = one
 
 
-def _reach(found: Iterable[Fit]) -> float:
+def reach(found: Iterable[Fit]) -> float:
     """Misfit above which a fit can be no rival of the best of `found`."""
     least = min(found, key=lambda one: one.misfit)
     return least.misfit + _FAR * max(1.0, least.misfit / max(least.dof, 1))
@@ -157,7 +157,7 @@ def _beside(study: Study, first: Fit, partners: Iterable[str], found: Found) -> 
     """Into `found` what `first` and the best of `partners` make together, where it is better than what is there."""
     there = study.at(first)
     for name in _promising(there, first, list(partners)):
-        for more in tried(there, name, first, _SECOND, _QUICK, _reach([first, *found.values()])):
+        for more in tried(there, name, first, _SECOND, _QUICK, reach([first, *found.values()])):
             _keep(found, more)
 
 
