@@ -7,7 +7,7 @@
 assembly.py, bars.py, plate.py   finite elements in numpy; tests compare them with closed forms and scikit-fem
 case.py                          what a structure and a mechanism are
 beam.py, frame.py, chain.py      the other structures, and their decks
-library.py, outside.py           mechanisms that the library has, and physics that it has not
+library.py, outside/             mechanisms that the library has, and physics that it has not
 kinds.py, draw.py                all kinds of trials; from a seed to trials
 test_data.py                     sensors and noise
 seal.py, answer.py               decks and the seal; answers

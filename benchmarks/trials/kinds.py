@@ -6,16 +6,17 @@ from functools import partial
 
 import numpy as np
 
-from benchmarks.trials import library, outside
+from benchmarks.trials import library
 from benchmarks.trials.beam import beam
 from benchmarks.trials.case import Blank, Mechanism
 from benchmarks.trials.chain import chain
 from benchmarks.trials.frame import frame
 from benchmarks.trials.library import Draw
+from benchmarks.trials.outside import fields, links
 from benchmarks.trials.plate import plate
 
 Maker = Callable[[np.random.Generator], Blank]
-CLASSES = {"single": 0.35, "several": 0.20, "outside": 0.25, "control": 0.12, "misstated": 0.08}  # shares of the cases
+CLASSES = {"single": 0.28, "several": 0.16, "outside": 0.22, "control": 0.26, "misstated": 0.08}  # shares of the cases
 CLAMPED = ("cantilever", "clamped")
 SUPPORTED = ("cantilever", "clamped", "pinned")
 HELD = ("clamped", "pinned")  # both ends: where axial forces build up
@@ -57,7 +58,7 @@ def _beam(*boundaries: str, **options: object) -> Maker:
 
 storeys, portal = partial(chain, storeys=True), partial(frame, bays=2)
 laden: Maker = lambda rng: beam(rng, masses=int(rng.integers(*POINT_MASSES)))
-layered = _beam(layer=outside.LAYER)
+layered = _beam(layer=fields.LAYER)
 
 
 def any_end(rng: np.random.Generator) -> Blank:
@@ -134,28 +135,38 @@ GROUPS: dict[str, tuple[Maker, Callable]] = {
     "frame/three feet": (portal, flexible_feet),
 }
 OUTSIDE: dict[str, tuple[Maker, tuple[Draw, ...]]] = {
-    "beam/half bed": (_beam(), (outside.half_bed,)),
-    "beam/wavy stiffness": (any_end, (outside.wavy_stiffness,)),
-    "beam/wavy mass": (any_end, (outside.wavy_mass,)),
-    "beam/outrigger": (_beam(), (outside.outrigger,)),
-    "beam/distant spring": (_beam(), (outside.distant,)),
-    "beam/axial gradient": (_beam(*HELD), (outside.graded_axial,)),
-    "beam/soft foot": (_beam(*CLAMPED), (outside.soft_foot,)),
-    "beam/slipping layers": (layered, (outside.slipping,)),
-    "beam/amplitude": (_beam(*CLAMPED), (outside.amplitude,)),
-    "frame/outrigger": (frame, (outside.outrigger,)),
-    "frame/distant spring": (frame, (outside.distant,)),
-    "frame/soft foot": (frame, (outside.soft_foot,)),
-    "frame/amplitude": (frame, (outside.amplitude,)),
-    "chain/rocking soil": (chain, (outside.rocking,)),
-    "storeys/rocking soil": (storeys, (outside.rocking,)),
-    "storeys/eccentric masses": (storeys, (outside.eccentric,)),
-    "chain/distant spring": (chain, (outside.distant,)),
-    "plate/distant spring": (plate, (outside.distant,)),
-    "beam/wavy stiffness + outrigger": (_beam(), (outside.wavy_stiffness, outside.outrigger)),
-    "beam/half bed + distant spring": (_beam(), (outside.half_bed, outside.distant)),
-    "frame/soft foot + distant spring": (frame, (outside.soft_foot, outside.distant)),
-    "storeys/rocking soil + distant spring": (storeys, (outside.distant, outside.rocking)),
+    "beam/half bed": (_beam(), (fields.half_bed,)),
+    "beam/wavy stiffness": (any_end, (fields.wavy_stiffness,)),
+    "beam/wavy mass": (any_end, (fields.wavy_mass,)),
+    "beam/outrigger": (_beam(), (links.outrigger,)),
+    "beam/distant spring": (_beam(), (links.distant,)),
+    "beam/axial gradient": (_beam(*HELD), (fields.graded_axial,)),
+    "beam/soft foot": (_beam(*CLAMPED), (fields.soft_foot,)),
+    "beam/slipping layers": (layered, (fields.slipping,)),
+    "beam/amplitude": (_beam(*CLAMPED), (links.amplitude,)),
+    "beam/elastomer": (_beam(), (links.elastomer,)),
+    "beam/arch": (_beam(*HELD), (links.arch,)),
+    "beam/warm": (_beam(*SUPPORTED, "free"), (fields.warm,)),
+    "beam/corroded": (_beam(), (fields.corroded,)),
+    "frame/elastomer": (frame, (links.elastomer,)),
+    "storeys/overall bending": (storeys, (links.overall_bending,)),
+    "frame/outrigger": (frame, (links.outrigger,)),
+    "frame/distant spring": (frame, (links.distant,)),
+    "frame/soft foot": (frame, (fields.soft_foot,)),
+    "frame/amplitude": (frame, (links.amplitude,)),
+    "chain/rocking soil": (chain, (links.rocking,)),
+    "storeys/rocking soil": (storeys, (links.rocking,)),
+    "storeys/eccentric masses": (storeys, (links.eccentric,)),
+    "chain/distant spring": (chain, (links.distant,)),
+    "plate/distant spring": (plate, (links.distant,)),
+    "beam/wavy stiffness + outrigger": (_beam(), (fields.wavy_stiffness, links.outrigger)),
+    "beam/half bed + distant spring": (_beam(), (fields.half_bed, links.distant)),
+    "frame/soft foot + distant spring": (frame, (fields.soft_foot, links.distant)),
+    "storeys/rocking soil + distant spring": (storeys, (links.distant, links.rocking)),
+}
+OUTSIDE_GROUPS: dict[str, tuple[Maker, Callable]] = {
+    "beam/attached beam": (_beam(), links.attached_beam),
+    "frame/every corner": (frame, links.every_corner),
 }
 CONTROLS: dict[str, Maker] = {
     "beam/none": any_end,
@@ -175,6 +186,7 @@ def kinds() -> list[Kind]:
     found += [Kind(f"several/{name}", blank, draws) for name, (blank, draws) in SEVERAL.items()]
     found += [Kind(f"several/{name}", blank, several=own, near=True) for name, (blank, own) in GROUPS.items()]
     found += [Kind(f"outside/{name}", blank, draws, near=True) for name, (blank, draws) in OUTSIDE.items()]
+    found += [Kind(f"outside/{name}", blank, several=own, near=True) for name, (blank, own) in OUTSIDE_GROUPS.items()]
     found += [Kind(f"control/{name}", blank) for name, blank in CONTROLS.items()]
     for error in ERRORS:
         found += [

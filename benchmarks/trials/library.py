@@ -72,8 +72,15 @@ def hinge(blank: Blank, rng: np.random.Generator) -> Mechanism:
 def joint(blank: Blank, rng: np.random.Generator) -> Mechanism:
     """An end of a member that turns against its corner."""
     number, end = blank.corners[int(rng.integers(len(blank.corners)))]
+    return joint_at(blank, number, end, rng)
+
+
+def joint_at(
+    blank: Blank, number: int, end: int, rng: np.random.Generator, low: float = 0.03, high: float = 0.4
+) -> Mechanism:
+    """The end (0 or 1) of member `number` turns; its spring's compliance is that of `low` to `high` of the member."""
     line = blank.lines[number]
-    k = blank.EI / (line.length * log_uniform(rng, 0.03, 0.4))
+    k = blank.EI / (line.length * log_uniform(rng, low, high))
     blank.truth.hinge(int(line.elements[-end]), end, k)
     return Mechanism("joint", "joint", "local-stiffness", line.point(end), blank.near(), k)
 

@@ -23,7 +23,7 @@ def page(results: list[Scored], seal: Seal, cases: int) -> str:
         _head(results, seal, cases),
         "## Answers\n",
         _counts("class", results, lambda one: one.truth["class"], CLASSES),
-        _counts("quality", results, lambda one: one.truth["quality"], QUALITIES),
+        _counts("class, quality", results, _class_and_quality, [f"{c}, {q}" for c in CLASSES for q in QUALITIES]),
         _counts("structure", results, lambda one: one.truth["family"]),
         _alarms(results),
         "## Calibration\n",
@@ -68,6 +68,10 @@ def _counts(title: str, results: list[Scored], key: Callable[[Scored], str], ord
         count = Counter(one.outcome for one in own)
         lines += [f"| {value} | " + " | ".join(str(count[o]) for o in OUTCOMES) + f" | {len(own)} |"] if own else []
     return "\n".join(lines) + "\n"
+
+
+def _class_and_quality(one: Scored) -> str:
+    return f"{one.truth['class']}, {one.truth['quality']}"
 
 
 def _alarms(results: list[Scored]) -> str:
@@ -132,6 +136,8 @@ def _outside(results: list[Scored]) -> str:
     kinds = Counter("named" if np.isfinite(one.probability) else one.said.split()[0].strip(",") for one in own)
     share = lambda i: [one.field[i] for one in own if one.field[i] is not None]
     counts = ", ".join(f"{kind} {n}" for kind, n in kinds.most_common())
+    gains = [one.gain for one in own if one.gain]
+    halved = sum(after <= before / 2 for before, after in gains)
     accepted = sorted(
         {f"{name} for {m['kind']}" for one in own for m in one.truth["mechanisms"] for name, _ in m["also"]}
     )
@@ -139,7 +145,8 @@ def _outside(results: list[Scored]) -> str:
     return (
         f"{len(own)} decks: {counts or 'none'}. Of fields without a name, {sum(share(0))} of {len(share(0))} have a property "
         f"of what is missing, {sum(share(1))} of {len(share(1))} are largest within {100 * REGION:g} % of the span of where it "
-        f"acts most.{names}\n"
+        f"acts most. What was held out is predicted with at most half of the error in {halved} of {len(gains)}, by the answer's "
+        f"model, named or not.{names}\n"
     )
 
 

@@ -11,12 +11,13 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 from benchmarks.blind import verify
-from benchmarks.trials import beam, case, frame, outside, plate
+from benchmarks.trials import beam, case, chain, frame, plate
 from benchmarks.trials.assembly import Assembly
 from benchmarks.trials.bars import Bars
 from benchmarks.trials.case import Blank
 from benchmarks.trials.draw import Trial
 from benchmarks.trials.kinds import Kind, kinds
+from benchmarks.trials.outside import fields, links
 from benchmarks.trials.seal import write
 from benchmarks.trials.test_data import QUALITIES, measured, truth_of
 
@@ -169,16 +170,38 @@ def test_bar_agrees_with_calculix():
 def test_slipping_layers_lie_between_bonded_and_loose():
     first = []
     for size in (None, 1e-9, 1e9):
-        blank = beam.beam(np.random.default_rng(3), "pinned", layer=outside.LAYER)
+        blank = beam.beam(np.random.default_rng(3), "pinned", layer=fields.LAYER)
         if size is not None:
-            log_uniform, outside.log_uniform = outside.log_uniform, lambda rng, low, high, size=size: size
+            log_uniform, fields.log_uniform = fields.log_uniform, lambda rng, low, high, size=size: size
             try:
-                outside.slipping(blank, np.random.default_rng(1))
+                fields.slipping(blank, np.random.default_rng(1))
             finally:
-                outside.log_uniform = log_uniform
+                fields.log_uniform = log_uniform
         first.append(blank.truth.modes(1)[0][0])
     bonded, loose, stiff = first
     assert stiff == pytest.approx(bonded, rel=1e-3) and loose < 0.85 * bonded
+
+
+def test_a_shallow_arch_gains_in_its_first_mode_alone():
+    """Pinned, of rise a: omega_1^2 rises by EA a^2 pi^4 / (2 m L^4), as the thrust does no work in the other modes."""
+    blank = beam.beam(np.random.default_rng(3), "pinned")
+    truth, L, before = blank.truth, blank.span, omegas(blank.truth, 4)
+    a = links.arch(blank, np.random.default_rng(1)).size
+    gain = truth.EA.mean() * a**2 * np.pi**4 / (2 * truth.m.mean() * L**4)
+    expected = np.sort(np.concatenate([[before[0] ** 2 + gain], before[1:] ** 2]))
+    assert omegas(truth, 4) ** 2 == pytest.approx(expected, rel=1e-3) and gain > 0.1 * before[0] ** 2
+
+
+def test_overall_bending_of_one_storey_under_a_static_force():
+    """u = P / k + P / (4 k_turn): the floor turns by half the lever of the force."""
+    blank = chain.chain(np.random.default_rng(3), storeys=True)
+    blank.truth.springs, blank.places = blank.truth.springs[:1], {0: (0.0, 1.0)}
+    truth, (_, k) = blank.truth, blank.truth.springs[0]
+    truth.base = tuple(one[:1, :1] for one in truth.base)
+    truth.n = 1
+    turn = links.overall_bending(blank, np.random.default_rng(1)).size
+    flexibility = np.linalg.inv(truth.matrices()[0])[0, 0]
+    assert flexibility == pytest.approx(1 / k + 1 / (4 * turn), rel=1e-12)
 
 
 def predicted(path: Path, blank: Blank) -> np.ndarray:

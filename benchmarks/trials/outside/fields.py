@@ -1,26 +1,14 @@
-"""Physics that the library has no name for, put into a truth; `also` declares beforehand which names are as true."""
+"""What varies along a structure: stiffness, mass, bed, axial force, the bond of layers."""
 
 from itertools import pairwise
 
 import numpy as np
 
 from benchmarks.trials.case import Blank, Mechanism
-from benchmarks.trials.library import log_uniform, somewhere
+from benchmarks.trials.library import log_uniform
+from benchmarks.trials.outside.places import BED, LOCAL, SOFT, Box, stretch
 
-Box = tuple[tuple[float, ...], tuple[float, ...]]
-# names (physics, group) that are as true where they are declared, at the site of the mechanism
-BED, SOFT, FOOT = ("foundation", "foundation"), ("stiffness-loss", "local-stiffness"), ("support-rotation", "support")
-LOCAL = ("stiffness", "force")  # properties of nameless fields that describe what acts at places
-
-
-def stretch(blank: Blank, start: float, stop: float) -> tuple[Box, ...]:
-    """Part of a beam, by its length."""
-    return (((start * blank.span, 0.0), (stop * blank.span, 0.0)),)
-
-
-def around(*points: tuple[float, ...]) -> tuple[Box, ...]:
-    """Places as boxes of no size."""
-    return tuple((tuple(p), tuple(p)) for p in points)
+LAYER = (0.3, 0.7, 2.0)  # from, to, EI over that of one layer
 
 
 def half_bed(blank: Blank, rng: np.random.Generator) -> Mechanism:
@@ -59,49 +47,25 @@ def wavy_mass(blank: Blank, rng: np.random.Generator) -> Mechanism:
     return Mechanism("wavy mass", size=size, properties=("mass",), regions=boxes)
 
 
-def rocking(blank: Blank, rng: np.random.Generator) -> Mechanism:
-    """Soil under a chain of storeys that turns: every storey feels u_i - u_(i-1) - phi, k phi^2 / 2 in the soil."""
-    truth = blank.truth
-    phi, n = truth.new_dof(), len(blank.places)
-    truth.springs = [(b | {phi: -1.0}, k) for b, k in truth.springs]
-    k = blank.stiffness * n**2 * log_uniform(rng, 0.3, 3.0)
-    truth.spring({phi: 1.0}, k)
-    return Mechanism("rocking soil", size=k, properties=LOCAL)
+def warm(blank: Blank, rng: np.random.Generator) -> Mechanism:
+    """E that falls linearly along a beam, warm at one end; its mass does not."""
+    slope = float(rng.choice([-1, 1])) * rng.uniform(0.08, 0.25)
+    factor = 1 + slope * (2 * blank.truth.along / blank.span - 1)
+    blank.truth.EI *= factor
+    ends = stretch(blank, 0.0, 0.2) + stretch(blank, 0.8, 1.0)
+    return Mechanism("gradient of stiffness", size=slope, properties=("stiffness",), regions=ends)
 
 
-def outrigger(blank: Blank, rng: np.random.Generator) -> Mechanism:
-    """A place of a member is tied against turning by an arm."""
-    _, node, at = somewhere(blank, rng)
-    k = blank.EI / blank.lines[0].length * log_uniform(rng, 0.5, 8.0)
-    blank.truth.spring({3 * node + 2: 1.0}, k)
-    return Mechanism("outrigger", size=k, properties=LOCAL, regions=around(at))
-
-
-def distant(blank: Blank, rng: np.random.Generator) -> Mechanism:
-    """A spring between two distant places, which feels their difference."""
-    for _ in range(100):
-        (a, _, p), (b, _, q) = somewhere(blank, rng), somewhere(blank, rng)
-        if np.hypot(*np.subtract(p, q)) > 0.3 * blank.span and (not blank.lines or a % 3 == b % 3):
-            break
-    k = blank.weight * blank.first**2 * log_uniform(rng, 0.2, 3.0) * (1.0 if blank.lines else 0.1)
-    blank.truth.spring({a: 1.0, b: -1.0}, k)
-    return Mechanism("spring between distant places", size=k, properties=LOCAL, regions=around(p, q))
-
-
-def eccentric(blank: Blank, rng: np.random.Generator) -> Mechanism:
-    """Storeys that twist, as their masses are off the axis: u_i + e theta_i moves, and springs turn too."""
-    truth, n = blank.truth, len(blank.places)
-    radius, arm = rng.uniform(0.35, 0.5), rng.uniform(0.05, 0.2)  # of inertia, and of the mass, in widths
-    stiff = (radius * rng.uniform(1.2, 1.8)) ** 2
-    turns = [truth.new_dof() for _ in range(n)]
-    for b, k in list(truth.springs):
-        truth.spring({turns[dof]: c for dof, c in b.items()}, k * stiff)
-    for i in range(n):
-        kg = truth.base[1][i, i]
-        truth.base[1][i, i] = 0.0
-        truth.weight({i: 1.0, turns[i]: arm}, kg)
-        truth.weight({turns[i]: 1.0}, kg * radius**2)
-    return Mechanism("eccentric masses", size=arm, also=(("offset", "offset"),), properties=("mass",))
+def corroded(blank: Blank, rng: np.random.Generator) -> Mechanism:
+    """A long stretch of a beam that has lost depth, most in its middle: EI goes with its cube, mass with itself."""
+    depth, width = rng.uniform(0.06, 0.18), rng.uniform(0.3, 0.6)
+    middle = rng.uniform(width / 2, 1 - width / 2)
+    lost = depth * np.clip(1 - (2 * (blank.truth.along / blank.span - middle) / width) ** 2, 0, 1)
+    blank.truth.EI *= (1 - lost) ** 3
+    blank.truth.m *= 1 - lost
+    reach, at = max(blank.near(), 0.5 * width * blank.span), (float(middle * blank.span), 0.0)
+    region = stretch(blank, middle - width / 4, middle + width / 4)
+    return Mechanism("corrosion", "", "", at, reach, depth, (SOFT,), ("stiffness", "mass"), region)
 
 
 def graded_axial(blank: Blank, rng: np.random.Generator) -> Mechanism:
@@ -148,18 +112,3 @@ def slipping(blank: Blank, rng: np.random.Generator) -> Mechanism:
     at = line.point((start + stop) / 2)
     region = stretch(blank, start, stop)
     return Mechanism("slipping layers", "", "", at, length / 2, float(k), (SOFT,), ("stiffness",), region)
-
-
-LAYER = (0.3, 0.7, 2.0)  # from, to, EI over that of one layer
-
-
-def amplitude(blank: Blank, rng: np.random.Generator) -> Mechanism:
-    """A clamp that turns more the more it is loaded: each mode, tested at an amplitude of its own, has its own spring."""
-    nodes = [node for node in blank.feet if 3 * node + 2 in blank.truth.held]
-    node = int(rng.choice(nodes))
-    k = blank.EI / (blank.lines[0].length * log_uniform(rng, 0.03, 0.15))
-    softened = k * np.exp(rng.uniform(np.log(0.3), 0.0, 8))
-    blank.truth.held.discard(3 * node + 2)
-    blank.tuned.append(({3 * node + 2: 1.0}, softened))
-    at = blank.places[node]
-    return Mechanism("support softened by amplitude", "", "", at, blank.near(), k, (FOOT,), LOCAL, around(at))
