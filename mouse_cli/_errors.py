@@ -7,7 +7,7 @@ from mouse_cli._span import Span
 from mouse_cli._texts import line
 
 ERROR, WARNING = "error", "warning"
-_WIDEST = 160  # columns of a line that are shown
+_WIDEST, _BEFORE = 160, 60  # columns of a line that are shown, and of them before a place that is farther to the right
 RULER = (  # above a card
     "         1         2         3         4         5         6         7         8",
     "12345678901234567890123456789012345678901234567890123456789012345678901234567890",
@@ -84,6 +84,19 @@ class WrittenError(MouseError):
     """An output could not be written; whatever stood there before is untouched."""
 
 
+def fault(error: BaseException, what: str = "") -> Diagnostic:
+    """The finding MD903 of an exception that no check foresaw: its kind and where it was raised; what: the deck it is about."""
+    at, place = error.__traceback__, ""
+    while at is not None:
+        code = at.tb_frame.f_code
+        if "mouse_cli" in code.co_filename:
+            place = f" ({code.co_filename.rpartition('mouse_cli')[2].lstrip('/')}, line {at.tb_lineno})"
+        at = at.tb_next
+    told = f"{what and what + ': '}{type(error).__name__}: {error}".split("\n")[0][:200] + place
+    help = "this is a fault of mouse: report it with the deck; with MOUSE_TRACEBACK=1 set, Python's account is printed"
+    return Diagnostic("MD903", ERROR, told, help=help)
+
+
 def frame(diagnostic: Diagnostic) -> str:
     """Headline, the offending line (a card under its column ruler) with a caret under the whole field, note and help."""
     span = diagnostic.span
@@ -91,9 +104,10 @@ def frame(diagnostic: Diagnostic) -> str:
     lines = [line(diagnostic.headline)]
     if span and span.text:
         lines += [f"{gutter} |  {row}" for row in RULER if span.card]
+        begin = span.column - _BEFORE if span.column + len(gutter) + 4 > _WIDEST else 0
         caret = "^" * max(1, min(span.width, len(span.text) + 1 - span.column))
-        lines.append(f"{span.line} |  {_printable(span.text)}"[:_WIDEST].rstrip())
-        lines.append(f"{gutter} |  {' ' * (span.column - 1)}{caret}"[:_WIDEST])
+        lines.append(f"{span.line} |  {_printable(span.text[begin : begin + _WIDEST])}"[:_WIDEST].rstrip())
+        lines.append(f"{gutter} |  {' ' * (span.column - 1 - begin)}{caret}"[:_WIDEST])
     lines += [
         f"{gutter} = {name}: {line(text)}"
         for name, text in (("note", diagnostic.note), ("help", diagnostic.help))

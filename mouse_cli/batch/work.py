@@ -3,7 +3,7 @@
 import time
 from typing import Any
 
-from mouse_cli._errors import ERROR, DeckError, Diagnostic, MouseError
+from mouse_cli._errors import ERROR, DeckError, Diagnostic, MouseError, fault
 from mouse_cli.batch import record
 from mouse_cli.batch.changes import CHANGES, changed, edited
 from mouse_cli.batch.job import CHECK, DIAGNOSE, Job
@@ -123,5 +123,4 @@ def _unforeseen(job: Job, error: BaseException) -> Diagnostic:
         return Diagnostic("MD910", ERROR, f"{job.deck}: broken off at its limit of time", help=help)
     if isinstance(error, MemoryError):
         return Diagnostic("MD512", ERROR, f"{job.deck}: not enough memory for a model of this size")
-    told = f"{type(error).__name__}: {error}".split("\n")[0][:200]
-    return Diagnostic("MD903", ERROR, f"{job.deck}: {told}", help="this is a fault of mouse: report it with the deck")
+    return fault(error, job.deck)

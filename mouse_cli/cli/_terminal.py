@@ -2,6 +2,7 @@
 
 import os
 import sys
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 
@@ -13,16 +14,28 @@ from mouse_cli._texts import shown
 from mouse_cli.model.result import Cycle
 
 _COLOURS = {ERROR: "red", "warning": "yellow"}
+_MOST = 20  # findings of one code that are shown
 
 
 def show_diagnostics(diagnostics: Iterable[Diagnostic], brief: bool = False) -> None:
-    """Print diagnostics to standard error, each with the line it is about; `brief`: the headline alone."""
-    for diagnostic in diagnostics:
+    """Print diagnostics to standard error, each with the line it is about, errors first; `brief`: the headline alone.
+
+    Of one code the first 20 are shown, and the others counted.
+    """
+    found = sorted(diagnostics, key=lambda each: each.severity != ERROR)
+    told: Counter[str] = Counter()
+    for diagnostic in found:
+        told[diagnostic.code] += 1
+        if told[diagnostic.code] > _MOST:
+            continue
         text = on_line(diagnostic.headline) if brief else frame(diagnostic)
         mark = f"{diagnostic.severity}[{diagnostic.code}]"
         if _coloured(sys.stderr):
             text = text.replace(mark, click.style(mark, fg=_COLOURS[diagnostic.severity], bold=True), 1)
         click.echo(text, err=True)
+    for code, count in told.items():
+        if count > _MOST:
+            click.echo(f"... and {count - _MOST} more of {code}: `mouse explain {code}`", err=True)
 
 
 def _coloured(stream) -> bool:

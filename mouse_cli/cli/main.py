@@ -88,6 +88,14 @@ def _run(arguments: list[str] | None) -> int:
     except MemoryError:
         click.echo("mouse: error[MD512]: not enough memory for a model of this size", err=True)
         return 5
+    except Exception as error:  # the last resort: whatever no check foresaw
+        if "MOUSE_TRACEBACK" in os.environ:
+            raise
+        from mouse_cli._errors import fault
+        from mouse_cli.cli._terminal import show_diagnostics
+
+        show_diagnostics([fault(error)])
+        return 5
 
 
 def _close_stdout() -> None:

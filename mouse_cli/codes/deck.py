@@ -9,7 +9,11 @@ CODES = {
         "are listed elements, columns of A are properties; both count from 1.",
         "Correct the index, or the order of the model.",
     ),
-    "MD302": Code("not a finite number", "A value is infinite or not a number.", "Give a finite number."),
+    "MD302": Code(
+        "not a finite number",
+        "A value is infinite, not a number, or so large that no products can be made of it (1e150 and more).",
+        "Give a finite number.",
+    ),
     "MD303": Code(
         "element given twice",
         "K and M are symmetric, so that (i,j) and (j,i) are one place. Two equal values are harmless and only warned of; two "

@@ -62,6 +62,12 @@ CODES = {
         "Some combination of the properties changes none of the forces of the measured modes.",
         "Tie like elements together, measure more modes, or hold some of the properties.",
     ),
+    "MD570": Code(
+        "method without an answer",
+        "The linear algebra of the method fails on the numbers of this deck: values that span too many powers of ten, shapes that "
+        "are zero or alike.",
+        "Correct the values, or choose another of `mouse list methods`.",
+    ),
     "MD568": Code(
         "measured modes not reproduced",
         "The updated model misses a mode that it was fitted to by more than three standard deviations of its frequency.",

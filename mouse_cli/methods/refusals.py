@@ -45,6 +45,13 @@ def not_expanded(problem: Problem, how: str, reason: str) -> NumericalError:
     return NumericalError(Diagnostic("MD514", ERROR, message, problem.place("order"), help=help))
 
 
+def no_answer(problem: Problem, key: str, reason: str) -> NumericalError:
+    """The error for numbers of which the method makes no matrices."""
+    message = f"'{key}' finds no answer: {reason}"
+    help = "see whether the values of the deck span too many powers of ten, or modes are measured as zero"
+    return NumericalError(Diagnostic("MD570", ERROR, message, problem.place("order"), help=help))
+
+
 def alike(problem: Problem) -> NumericalError:
     """The error for shapes that are dependent once they are expanded and freed of rigid motion."""
     message = "the measured shapes, expanded, are no independent shapes of an elastic structure"

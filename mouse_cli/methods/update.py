@@ -31,8 +31,10 @@ def update(problem: Problem, key: str, how: str = EXPANSION, notice: Notice = la
     chosen = method(key)
     given = _given(problem, chosen, how, notice)
     notice(f"{chosen.title}: updating")
-    found = chosen.update(given)
-    return _judged(given, chosen, found)
+    try:
+        return _judged(given, chosen, chosen.update(given))
+    except np.linalg.LinAlgError as reason:
+        raise refusals.no_answer(problem, key, str(reason)) from None
 
 
 def compare(

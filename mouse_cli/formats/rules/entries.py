@@ -5,6 +5,7 @@ import numpy as np
 from mouse_cli.formats.draft import Draft, Entries
 
 MOST = 20  # findings of one list that are told one by one
+LARGEST = 1e150  # of a value: products of larger ones are beyond all floating-point numbers
 
 
 def inside(draft: Draft, entries: Entries, rows: int, cols: int, what: str) -> np.ndarray:
@@ -21,11 +22,11 @@ def inside(draft: Draft, entries: Entries, rows: int, cols: int, what: str) -> n
 
 
 def finite(draft: Draft, entries: Entries, name: str) -> None:
-    """Note MD302 for each value that is infinite or not a number."""
-    for i in np.flatnonzero(~np.isfinite(entries.values))[:MOST]:
+    """Note MD302 for each value that is infinite, not a number, or larger than any of which products can be made."""
+    for i in np.flatnonzero(~(np.abs(entries.values) < LARGEST))[:MOST]:
         draft.error(
             "MD302",
-            f"{name}({entries.rows[i]},{entries.cols[i]}) is {entries.values[i]}, not a finite number",
+            f"{name}({entries.rows[i]},{entries.cols[i]}) is {entries.values[i]}, not a finite number below {LARGEST:g}",
             entries.where(int(i)),
             help="give a finite number",
         )

@@ -1,10 +1,9 @@
 """Rules for the parameters and what is believed of them before the test."""
 
-import math
-
 import numpy as np
 
 from mouse_cli.formats.draft import Draft
+from mouse_cli.formats.rules.entries import LARGEST
 from mouse_cli.model.parameter import Gaussian, Parameter
 
 
@@ -24,7 +23,7 @@ def prior(draft: Draft) -> Gaussian | None:
     mean = np.array([p.nominal for p in draft.parameters])
     cov = draft.covariance
     if cov is None:
-        return Gaussian(mean, np.array([p.sd**2 for p in draft.parameters]))
+        return Gaussian(mean, np.array([p.sd * p.sd for p in draft.parameters]))
     _semidefinite(draft, cov)
     return Gaussian(mean, cov)
 
@@ -32,16 +31,16 @@ def prior(draft: Draft) -> Gaussian | None:
 def _one(draft: Draft, parameter: Parameter) -> None:
     """One parameter: its standard deviation, its limits and its transform."""
     name, where = parameter.name, parameter.span
-    if not (math.isfinite(parameter.sd) and parameter.sd >= 0):
+    if not 0 <= parameter.sd < LARGEST:
         draft.error(
             "MD311",
-            f"standard deviation of {name} is {parameter.sd:.8g}; it must be positive, or 0 to hold it",
+            f"standard deviation of {name} is {parameter.sd:.8g}; it must be positive and below {LARGEST:g}, or 0 to hold it",
             where,
             help="give the standard deviation of the property",
         )
     elif parameter.sd == 0:
         draft.warn("MD312", f"{name} has no standard deviation: it stays at its prior value", where)
-    if not math.isfinite(parameter.nominal):
+    if not abs(parameter.nominal) < LARGEST:
         draft.error("MD302", f"nominal value of {name} is {parameter.nominal}", where, help="give a finite number")
     if not parameter.lower <= parameter.nominal <= parameter.upper or parameter.lower == parameter.upper:
         draft.error(

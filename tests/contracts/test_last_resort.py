@@ -1,0 +1,73 @@
+"""What no check foresaw ends in one finding, and findings without number end in few lines."""
+
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mouse_cli._errors import Diagnostic, frame
+from mouse_cli._span import Span
+from mouse_cli.cli.main import _run
+from mouse_cli.methods import equation_error
+
+DECKS = Path(__file__).resolve().parents[2] / "decks"
+ENTRY = "mouse: 1\nmodel: {{stiffness: {{order: 2, entries: [{}]}}, mass: {{diagonal: [1.0, 1.0]}}}}\n"
+
+
+def test_a_fault_of_mouse_is_one_finding(capsys, monkeypatch):
+    """Whatever is raised, where it was, what to send, exit 5; the account of Python for those who want it."""
+    monkeypatch.setattr("mouse_cli.cli.commands.run.command.callback", lambda **given: [][1])
+    deck = str(DECKS / "sound_chain.yaml")
+    assert _run(["run", deck]) == 5
+    said = capsys.readouterr().err
+    assert "error[MD903]: IndexError" in said and "report it with the deck" in said and "Traceback" not in said
+    monkeypatch.setenv("MOUSE_TRACEBACK", "1")
+    with pytest.raises(IndexError):
+        _run(["run", deck])
+
+
+def test_a_method_whose_algebra_fails_gives_no_answer(capsys, monkeypatch):
+    def fails(*given: object) -> None:
+        raise np.linalg.LinAlgError("Eigenvalues did not converge")
+
+    monkeypatch.setattr(equation_error, "least_error", fails)
+    assert _run(["compare", str(DECKS / "sound_chain.yaml"), "--method", "equation-error"]) == 5
+    assert "MD570" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "change, code",
+    [
+        ("sd: 1.0e+200", "MD311"),
+        ("sd: 5, stiffness: [[1, 2, -1.0e+300]]", "MD302"),
+        ("sd: 5, nominal: 1.0e+300", "MD302"),
+    ],
+)
+def test_numbers_of_which_no_products_can_be_made(capsys, tmp_path, change, code):
+    deck = tmp_path / "deck.yaml"
+    own = {"nominal": "100", "stiffness": "[[1, 1, 1]]"}
+    rest = ", ".join(f"{key}: {value}" for key, value in own.items() if f"{key}:" not in change)
+    text = ENTRY.format("[1, 1, 100.0], [2, 2, 100.0]") + f"parameters: [{{name: k, {change}, {rest}}}]\n"
+    deck.write_text(text + "test: {modes: {frequency: [1.6], frequency_sd: 1 %}}\n")
+    assert _run(["run", str(deck)]) == 4
+    said = capsys.readouterr()
+    assert f"error[{code}]" in said.err and "1e+150" in said.err + "1e+150" * (code == "MD302") and not said.out
+
+
+def test_many_findings_of_one_kind_are_counted(capsys, tmp_path):
+    """Messages do not grow with the file, and twenty thousand entries in one line are read in seconds."""
+    deck, begun = tmp_path / "deck.yaml", time.process_time()
+    deck.write_text(ENTRY.format(", ".join(f"[1, 1, {i}.0]" for i in range(1, 20_001))))
+    assert _run(["check", str(deck)]) == 4
+    said = capsys.readouterr().err
+    assert said.count("[MD303]") == 20 and "... and 19979 more of MD303" in said and len(said) < 20_000
+    assert time.process_time() - begun < 30
+
+
+def test_the_place_is_shown_however_far_to_the_right():
+    text = " ".join(str(i) for i in range(100_000))
+    column = text.index(" 77777 ") + 2
+    shown = frame(Diagnostic("MD303", "error", "twice", Span("deck.yaml", 2, column, 5, text))).splitlines()
+    caret = shown[2].index("^")
+    assert shown[1][caret : caret + 5] == "77777" and shown[2].count("^") == 5 and max(map(len, shown)) <= 160
