@@ -90,7 +90,8 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices) -> Diagnos
         proposals=_proposals(ranking, verdict),
         remarks=doubts + remarks + told + getattr(ranking, "remarks", ()) + (() if deck is None else _coarse(deck)),
         extended=deck and with_damping(replace(deck, test=given.test and deck.test), problem, put),
-        extended_result=deck and run(_by_modes(deck), notice=notice, guess=_values(deck, put), enough=enough),
+        extended_result=deck
+        and run(_by_modes(deck), notice=notice, guess=_values(deck, put), enough=enough, search=False),
         choices=choices,
         field=verdict.field and field_of(ranking, verdict.field, verdict.field_proof),
         rest=rest(ranking) if kind == NAMED else None,
@@ -144,10 +145,10 @@ def _update(
     """The update of the model as it is, by those modes (mask `kept`) that have to do with it; what to say of the others."""
     problem, lost = _by_modes(problem), ", ".join(str(number) for number in problem.test.number[~kept])
     if kept.all() or not kept.any():
-        return run(problem, notice=notice, guess=guess, enough=enough, solver=solver), ()
+        return run(problem, notice=notice, guess=guess, enough=enough, solver=solver, search=False), ()
     told = f"no mode of the model is like measured mode {lost}: the update of the model as it is goes without"
     own = replace(problem, test=restricted(problem.test, kept))
-    return run(own, notice=notice, guess=guess, enough=enough, solver=solver), (told,)
+    return run(own, notice=notice, guess=guess, enough=enough, solver=solver, search=False), (told,)
 
 
 def _model(problem: Problem, solver: EigenSolver) -> tuple[Reduced, tuple[str, ...]]:

@@ -27,6 +27,7 @@ class ChiSquareTest:
 
 
 REJECT = 1e-3  # gate of the model-form tests
+DOUBT = 0.05  # share of the posterior that another mode may hold at most beside an answer that is to be used
 UNTRUSTED, NO_ANSWER = 1, 5  # exit codes of runs whose answer is not to be used, and of those that broke off
 
 
@@ -82,6 +83,34 @@ class Snapshot:
 
 
 @dataclass(frozen=True)
+class Alternative:
+    """Another mode of the posterior: values theta (p,) with their sd (p,), J there, and its share of the posterior."""
+
+    theta: np.ndarray
+    sd: np.ndarray
+    cost: float
+    share: float
+
+
+@dataclass(frozen=True)
+class Alternatives:
+    """Other modes of the posterior, the highest first, when the answer itself has `share`.
+
+    deciding: a measurement at which the two highest differ most: (number of the measured mode, degree of freedom from 0, component
+    of its shape at the answer, at the other), the largest component being 1; None where none tells them apart.
+    """
+
+    share: float
+    others: tuple[Alternative, ...]
+    deciding: tuple[int, int, float, float] | None = None
+
+    @property
+    def doubtful(self) -> bool:
+        """Whether another one holds more of the posterior than may be left unsaid."""
+        return any(each.share > DOUBT for each in self.others)
+
+
+@dataclass(frozen=True)
 class Result:
     """The answer of `run`.
 
@@ -91,7 +120,7 @@ class Result:
     B (q, e), T (q, p): partials at the revised model, only when asked for. innovation: before the cycles; residual and
     prior_shift: after them. partials_error: estimated relative error of the final T; 0 where it is rounding alone. frf, held_frf:
     before and after, one for each measurement of frequency response functions that was fitted, or held out. conditioning: None for
-    problems too large for it.
+    problems too large for it. alternatives: other values that fit as well, None where none were found or sought.
 
     >>> import mouse_cli
     >>> result = mouse_cli.run(mouse_cli.read_deck("decks/ground_spring.yaml"))
@@ -128,6 +157,7 @@ class Result:
     frf: tuple[FrfFit, ...] = ()
     held_frf: tuple[FrfFit, ...] = ()
     conditioning: Conditioning | None = None
+    alternatives: Alternatives | None = None
 
     @property
     def rejected(self) -> bool:
@@ -144,7 +174,8 @@ class Result:
     @property
     def exit_code(self) -> int:
         """0: converged and the model explains the data; 1: do not trust it; 5: no answer."""
-        return self.status.exit_code or int(self.rejected)
+        ambiguous = self.alternatives is not None and self.alternatives.doubtful
+        return self.status.exit_code or int(self.rejected or ambiguous)
 
 
 @dataclass(frozen=True)

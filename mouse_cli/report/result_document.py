@@ -41,6 +41,7 @@ def document(result: Result) -> dict[str, Any]:
             "cycles": [_cycle(cycle) for cycle in result.cycles],
             "parameters": parameters(result),
             "covariance": _covariance(result),
+            **({"alternatives": _alternatives(result)} if result.alternatives else {}),
             **_matrices(result),
             "rigid_modes": result.rigid_modes,
             "eigenvalues": result.revised.eigenvalues,
@@ -139,6 +140,25 @@ def modes(result: Result) -> list[dict[str, Any]]:
             }
         )
     return found
+
+
+def _alternatives(result: Result) -> dict[str, Any]:
+    """Other modes of the posterior beside the answer, and what would decide."""
+    found = result.alternatives
+    names = [parameter.name for parameter in result.problem.parameters]
+    others = [
+        {"share": each.share, "cost": each.cost, "parameters": _named(names, each.theta), "sd": _named(names, each.sd)}
+        for each in found.others
+    ]
+    telling = None
+    if found.deciding is not None:
+        mode, dof, here, there = found.deciding
+        telling = {"mode": mode, "dof": dof_name(result.problem.structure.labels[dof]), "answer": here, "other": there}
+    return {"share": found.share, "others": others, "deciding": telling}
+
+
+def _named(names: list[str], values: np.ndarray) -> dict[str, float]:
+    return dict(zip(names, values.tolist(), strict=True))
 
 
 def _judged(result: Result) -> dict[str, Any]:

@@ -22,11 +22,11 @@ from mouse_cli.model.arrays import is_sparse
 from mouse_cli.model.conditioning import Conditioning
 from mouse_cli.model.modal_test import restricted
 from mouse_cli.model.problem import MOST_COVARIANCE, Problem
-from mouse_cli.model.result import ChiSquareTest, Result, Snapshot, Status
+from mouse_cli.model.result import Alternative, Alternatives, ChiSquareTest, Result, Snapshot, Status
 from mouse_cli.observables.modal import UnrelatedShapes, observe
 from mouse_cli.terms.assembly import assembly as assemble
 from mouse_cli.terms.modal_damping import with_modal_damping
-from mouse_cli.updating import anchored, model_form, normality, refusals, replaced
+from mouse_cli.updating import alternatives, anchored, model_form, normality, refusals, replaced
 from mouse_cli.updating.convergence import ExceedanceTest
 from mouse_cli.updating.coordinates import coordinates
 from mouse_cli.updating.frf_fit import fits
@@ -34,10 +34,12 @@ from mouse_cli.updating.frf_gains import with_gains
 from mouse_cli.updating.frf_setting import begin as begin_frf
 from mouse_cli.updating.frf_setting import with_test
 from mouse_cli.updating.frf_start import start as frf_start
+from mouse_cli.updating.posterior import Laplace, laplace
 from mouse_cli.updating.remarks import remarks
 from mouse_cli.updating.state import Setting, State, paired, reference_eigenvalue, solve
 from mouse_cli.updating.trace import Progress, Trace
 
+_HIGHER = 1e-3  # of J, by which another mode of the posterior is higher than where a run ended
 RECURSIONS = {"replaced": replaced, "anchored": anchored}
 
 
@@ -48,14 +50,15 @@ def run(
     guess: np.ndarray | None = None,
     enough: float = 0.0,
     solver: EigenSolver | None = None,
+    search: bool = True,
 ) -> Result:
     """Revise the model of `problem` by its test.
 
     progress is called with each Cycle as it ends, notice with a sentence as each phase of a large model begins. guess (p,):
     values of the parameters near the answer, where the anchored recursion goes first; the prior stays. enough: the share of its
-    cost that a step must promise and gain, else the anchored recursion ends. solver: one that solved this model before. Raises
-    DeckError for a deck whose test cannot belong to its model (a rigid-body mode named as measured, shapes that are
-    unrelated), NumericalError where no eigensolution exists.
+    cost that a step must promise and gain, else the anchored recursion ends. solver: one that solved this model before. search:
+    look for other modes of the posterior. Raises DeckError for a deck whose test cannot belong to its model (a rigid-body mode
+    named as measured, shapes that are unrelated), NumericalError where no eigensolution exists.
 
     >>> import mouse_cli
     >>> result = mouse_cli.run(mouse_cli.read_deck("decks/sound_chain.yaml"))
@@ -75,7 +78,7 @@ def run(
             guess=guess,
             enough=enough,
         )
-        return _run(trace, estimator)
+        return _run(trace, estimator, search)
     except np.linalg.LinAlgError as reason:
         raise refusals.unphysical(problem, f"{reason} (values beyond what can be computed with)") from None
 
@@ -126,16 +129,47 @@ def _estimator(problem: Problem) -> Estimator:
         raise refusals.unknown_estimator(problem, str(reason)) from None
 
 
-def _run(trace: Trace, estimator: Estimator) -> Result:
+def _run(trace: Trace, estimator: Estimator, search: bool) -> Result:
     """`run`, once the prior model is solved."""
     setting, start = trace.setting, trace.state
     innovation = model_form.innovation(setting, start)
     if setting.frf is not None and setting.frf.observables and setting.problem.run.recursion == "anchored":
         trace.guess = frf_start(setting, trace.guess)
     status = RECURSIONS[setting.problem.run.recursion].recur(trace, estimator)
+    found = _elsewhere(trace, status, estimator) if search else []
+    if found and found[0].cost < laplace(setting, trace.state).cost - _HIGHER:  # it ended on a saddle, or a lower mode
+        trace = Trace(setting, trace.test, trace.progress, start, guess=found[0].state.theta, enough=trace.enough)
+        status = RECURSIONS[setting.problem.run.recursion].recur(trace, estimator)
     result = _result(trace, start, status, estimator, innovation)
+    if len(found) > 1:
+        result = replace(result, alternatives=_alternatives(found))
     doubt = normality.remark(result, setting, trace.state, estimator)
     return replace(result, warnings=(*remarks(result), *doubt))
+
+
+def _elsewhere(trace: Trace, status: Status, estimator: Estimator) -> list[Laplace]:
+    """All modes of the posterior that are found, the highest first; none where the run has no posterior of which this is a mode."""
+    setting, run = trace.setting, trace.setting.problem.run
+    posed = run.recursion == "anchored" and estimator.uses_prior and estimator.weighted and setting.frf is None
+    if not posed or status.exit_code or not len(setting.y) or not setting.coordinates.L.size:
+        return []
+    if is_sparse(setting.problem.structure.K) or _at_limit(setting, trace.state.u).any():
+        return []
+    return alternatives.alternatives(setting, laplace(setting, trace.state))
+
+
+def _alternatives(found: list[Laplace]) -> Alternatives:
+    """What a result says of the modes `found`, of which the first is the answer."""
+    share = alternatives.shares(found)
+    others = tuple(
+        Alternative(each.state.theta, np.sqrt(np.diag(each.covariance)), each.cost, float(own))
+        for each, own in zip(found[1:], share[1:], strict=True)
+    )
+    telling = alternatives.deciding(found)
+    if telling is not None:
+        mode, dof, values = telling
+        telling = (int(found[0].setting.problem.test.number[mode]), dof, float(values[0]), float(values[1]))
+    return Alternatives(float(share[0]), others, telling)
 
 
 def _result(trace: Trace, start: State, status: Status, estimator: Estimator, innovation: ChiSquareTest) -> Result:

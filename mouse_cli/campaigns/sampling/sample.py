@@ -29,7 +29,7 @@ def sample(problem: Problem, choices: Sampling, say: Callable[[str], None] = lam
     """
     ensemble.package()
     problem = _posed(problem)
-    result = run(problem, notice=say)
+    result = run(problem, notice=say, search=False)
     setting, _ = begin(problem)
     if not setting.coordinates.L.size or not len(setting.y) or not result.status.answered:
         raise NumericalError(_nothing(problem, result))

@@ -10,7 +10,7 @@ import click
 _FACT = re.compile(r"\{\w+\}")  # what a status fills in when it is reached
 _EXIT = """\
 0    answer found and trusted: converged, and the model explains the data
-1    finished, but do not trust it: not converged, or the data show physics that the model lacks
+1    finished, but do not trust it: not converged, other values fit as well, or the model lacks physics
 2    wrong command line
 3    batch: a job missed what its manifest expects
 4    a deck was rejected (diagnostics printed, nothing written)

@@ -28,6 +28,12 @@ def verdict(result: Result, options: Options) -> Iterator[Block]:
             "computes them to rounding."
         )
     yield Text(_conclusion(result))
+    if result.alternatives is not None and result.alternatives.doubtful:
+        most = max(each.share for each in result.alternatives.others)
+        yield Text(
+            f"These values are not the only ones that fit: others hold {100 * most:.0f} per cent of the posterior. Do not use them "
+            "before a measurement has decided."
+        )
     remarks = (*result.problem.warnings, *result.warnings)
     if remarks:
         yield Heading("Warnings", 2)
