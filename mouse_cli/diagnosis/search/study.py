@@ -13,7 +13,7 @@ from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unseen
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
 from mouse_cli.diagnosis.search.escape import shifted, uncrossed
-from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
+from mouse_cli.diagnosis.search.fit import MOST, End, Fit, descended, fit
 from mouse_cli.diagnosis.search.optima import distinct
 from mouse_cli.dynamics.eigen import IndefiniteError
 
@@ -39,7 +39,7 @@ class Study:
         self.model, self.k, self.kind = model, model.L.shape[1], kind
         self.known = registry() if known is None else known
         self._made: dict[str, list[Recipe]] = {}
-        self._looked: dict[str, list[tuple[float, int, np.ndarray]]] = {}
+        self._looked: dict[tuple, list[tuple[float, int, np.ndarray]]] = {}
 
     def recipes(self, name: str) -> list[Recipe]:
         """What candidate `name` can do, and where; made when first asked for."""
@@ -69,10 +69,11 @@ class Study:
         return [(number, x) for _, number, x in self.looks(name, before, beside)]
 
     def looks(self, name: str, before: np.ndarray, beside: tuple[Recipe, ...]) -> list[tuple[float, int, np.ndarray]]:
-        """The same, with the misfits that are to be expected; kept where nothing is beside."""
-        if not beside and name in self._looked:
-            return self._looked[name]
+        """The same, with the misfits that are to be expected; kept, for what looks best is where descents begin."""
         others, found = self.own(beside), []
+        key = (name, before.tobytes(), *((each.candidate.key, each.number) for each in others))
+        if key in self._looked:
+            return self._looked[key]
         for recipe in self.recipes(name):
             trial = self.kind(self.model, (*others, recipe))
             for values in recipe.grid:
@@ -80,8 +81,7 @@ class Study:
                 if at is not None:
                     found.append((self.foreseen(at), recipe.number, at.x))
         found.sort(key=lambda item: item[0])
-        if not beside:
-            self._looked[name] = found
+        self._looked[key] = found
         return found
 
     def approached(
@@ -97,8 +97,8 @@ class Study:
         chosen = _spread(self.starts(name, before, beside), trials, most)
         if len(chosen) < 2:
             return [(0.0, i, [x]) for i, x in chosen]
-        descents = [(i, x, fit(trials[i], x[self.k :], x[: self.k], _BRIEF, reach)) for i, x in chosen]
-        led: list[tuple[int, np.ndarray, Fit]] = []
+        descents = [(i, x, descended(trials[i], x[self.k :], x[: self.k], _BRIEF, reach)) for i, x in chosen]
+        led: list[tuple[int, np.ndarray, End]] = []
         for i, x, one in sorted((d for d in descents if d[2] is not None), key=lambda item: _cost(item[2])):
             if not any(_alike(one, other) for _, _, other in led):
                 led.append((i, x, one))
@@ -167,12 +167,12 @@ def _spread(starts: list[tuple[int, np.ndarray]], trials: dict[int, Model], most
     return found
 
 
-def _cost(one: Fit) -> float:
+def _cost(one: End) -> float:
     """C - 2 ln prior of the places: one of little prior has to misfit so much less."""
     return one.misfit - 2 * sum(recipe.log_prior for recipe in one.recipes)
 
 
-def _alike(one: Fit, other: Fit) -> bool:
+def _alike(one: End, other: End) -> bool:
     """Whether both predict the same, as two nodes through the thickness of a plate do."""
     return bool(np.sum((one.point.residual - other.point.residual) ** 2) < _TOLD * (1 + 1e-2 * one.misfit))
 
@@ -254,7 +254,7 @@ def _ended(
     """
     k, whole = study.k, study.with_cause(others, name, i)
     if first is not study:
-        near = fit(first.with_cause(others, name, i), starts[0][k:], starts[0][:k], most, _SLACK * reach)
+        near = descended(first.with_cause(others, name, i), starts[0][k:], starts[0][:k], most, _SLACK * reach)
         starts = starts if near is None else [near.point.x, *starts]
         reach = reach if near is None or near.misfit > reach else np.inf
     plain = [np.concatenate([np.zeros(k), x[k:]]) for x in starts[:1]]
