@@ -21,7 +21,7 @@ _HOPE = 4.0  # times the gain that a full step promises: what a search may gain 
 _LEAST, _AHEAD = (
     3,
     8,
-)  # steps before a search may be given up (of a brief one half), and that may gain as the last one did
+)  # steps before a search may be given up (of a brief one a third), and that may gain as the last one did
 
 
 @dataclass(frozen=True)
@@ -107,7 +107,7 @@ def descended(
     for step_number in range(most):
         T = model.jacobian(at)
         H, slope = T.T @ T + np.diag(prior), T.T @ at.residual - prior * at.x
-        hope = min(_AHEAD, most - step_number) * gained if step_number >= min(_LEAST, most // 2) else np.inf
+        hope = min(_AHEAD, most - step_number) * gained if step_number >= min(_LEAST, most // 3) else np.inf
         if J - hope > reach and J - _HOPE * float(slope @ _step(H, slope, 1e-6, scale, at.x, lower, upper)) > reach:
             break
         moved = False
