@@ -90,7 +90,7 @@ def rank(
     fits = [baseline, *singles]
     found = hear(ranking(baseline, fits))
     if last and dict(found.groups).get("none", 0.0) < _IDLE:
-        fits += rivals(model, baseline, kind)
+        fits += rivals(model, baseline, kind, within(fits))
     with_cause = [one for one in found.fits if one.recipes]
     if causes > 1 and with_cause and not adequate(min(with_cause, key=lambda one: one.misfit)):
         trusted = found.stated[0] > _TRUSTED or found.noise_scale > _LOUD

@@ -165,10 +165,9 @@ class Model:
     def _by_deck(self, at: "Point") -> Pushed:
         """What the deck's parameters do to the measured modes."""
         r, X, m = self.base.r, at.X, at.modes
-        dK, dM = self.base.slopes(at.x[: self.k])
-        moved = dM @ X[:r, m]
+        stiff, moved = self.base.moved(at.x[: self.k], X[:r, m])
         forces, inertia = np.zeros((self.k, self.size, len(m))), np.einsum("prm,rm->pm", moved, X[:r, m])
-        forces[:, :r] = dK @ X[:r, m] - moved * at.eigenvalues[m] + self._following(at)
+        forces[:, :r] = stiff - moved * at.eigenvalues[m] + self._following(at)
         if (followed := self.followed(at.x[: self.k])) is not None:
             moved = followed[1] @ X[:, m]
             forces += followed[0] @ X[:, m] - moved * at.eigenvalues[m]
