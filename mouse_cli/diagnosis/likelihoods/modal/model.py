@@ -58,7 +58,7 @@ class Model:
         parts = [change.softening for change in changes if change.softening is not None]
         if not parts:
             return np.zeros(0, int), np.zeros((0, 3, 3))
-        if len(parts) == 1 and len(parts[0].bars) == 1:
+        if len(parts) == 1:
             return parts[0].bars, self.base.bars.lost(parts[0].bars, parts[0].added)
         bars, at = np.unique(np.concatenate([part.bars for part in parts]), return_inverse=True)
         total = np.zeros((len(bars), 3, 3))
