@@ -12,7 +12,7 @@ from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.diagnosis.nameless import registry as nameless
 from mouse_cli.diagnosis.nameless._field import LENGTHS, smooth
-from mouse_cli.diagnosis.nameless.fit import rivals
+from mouse_cli.diagnosis.nameless.fit import _spreads, rivals
 from mouse_cli.diagnosis.search.rank import _log_prior, rank
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
@@ -252,3 +252,19 @@ def test_its_evidence_is_the_mean_over_spreads_and_lengths():
         own = one.model.base.data.slack
         best = -0.5 * one.misfit - 0.5 * np.linalg.slogdet(one.hessian)[1] - own
         assert best - np.log(count) - 1e-6 <= one.log_evidence <= best + 1e-6
+
+
+@pytest.mark.parametrize("key", ["field-stiffness", "field-mass", "field-bed", "force"])
+def test_what_a_field_moves_is_what_differences_of_its_matrices_do(key):
+    """Central differences of K and M, times a motion, along the deck's parameters and the field."""
+    problem = assemble(yaml_deck.read(deck(Truth(), True), "beam.yaml"))
+    (field,) = (each for each in _spreads(reduced(problem, problem.prior.mean)) if each.rival.key == key)
+    base = field.over(reduced(problem, problem.prior.mean), *field.grid[0])
+    random, h = np.random.default_rng(0), 1e-5
+    z, u = random.normal(size=base.L.shape[1]) / 3, random.normal(size=(base.r, 3))
+    for j, found in enumerate(zip(*base.moved(z, u), strict=True)):
+        step = h * (np.arange(len(z)) == j)
+        ends = [base.matrices(z + side * step) for side in (1, -1)]
+        for own, above, below in zip(found, *ends, strict=True):
+            true = (above - below) @ u / (2 * h)
+            assert np.abs(own - true).max() <= 1e-5 * max(np.abs(above @ u).max(), np.abs(true).max())

@@ -12,8 +12,9 @@ from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unseen
 from mouse_cli.diagnosis.mechanisms import registry
-from mouse_cli.diagnosis.search.fit import fit
+from mouse_cli.diagnosis.search.fit import descended, fit
 from mouse_cli.diagnosis.search.optima import distinct
+from mouse_cli.diagnosis.search.several import _promised
 from mouse_cli.diagnosis.search.study import Study, settled, tried
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
@@ -195,3 +196,31 @@ def test_the_true_place_gets_on_from_behind(monkeypatch):
     (best, *_) = sorted(tried(study, "mass", None, 2), key=lambda one: one.misfit)
     assert "18" in best.recipes[0].site(best.recipes[0].values(best.c)).text
     assert best.misfit < 5
+
+
+def test_what_is_looked_at_beside_a_cause_is_looked_at_once(monkeypatch):
+    """The best look tells which partner is tried, and where its descents begin."""
+    study = Study(long_chain(17, 3.0))
+    first, seen = tried(study, "mass", None, 1)[0], []
+    monkeypatch.setattr(Model, "point", lambda self, x, own=Model.point: seen.append(x) or own(self, x))
+    looks = study.looks("ground-spring", first.point.x, first.recipes)
+    count = len(seen)
+    assert count >= len(looks) > 0
+    assert study.looks("ground-spring", first.point.x, first.recipes) is looks and len(seen) == count
+
+
+def test_a_brief_descent_ends_where_a_fit_of_as_many_steps_does():
+    """It is not weighed, which takes the derivatives at its end, but is the same search."""
+    model = chain(1)
+    recipe = Study(model).recipes("oscillator")[1]
+    trial, c = Model(model, (recipe,)), recipe.coordinates(recipe.grid[0])
+    end, one = descended(trial, c, most=4), fit(trial, c, most=4)
+    assert end.misfit == one.misfit and np.array_equal(end.point.x, one.point.x)
+    assert not hasattr(end, "log_evidence")
+
+
+def test_what_promises_nothing_grows_no_further():
+    """Of 1000 nats, 900 with a second: if each of two more, and an exchange of each, gained as much, 900 * 0.9^6 would be left."""
+    of = lambda misfit, count: SimpleNamespace(misfit=misfit, recipes=(None,) * count)
+    assert _promised(of(1000.0, 1), of(900.0, 2), 4) == pytest.approx(900 * 0.9**6)
+    assert _promised(of(1000.0, 1), of(1100.0, 2), 4) == 1100.0

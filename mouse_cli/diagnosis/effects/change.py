@@ -13,7 +13,7 @@ from mouse_cli.model.unknown import Unknown
 
 @dataclass(frozen=True)
 class Softening:
-    """Bars (c,) that give way, each by what is added to its flexibility (c, 3, 3), or to that in bending alone (c, 2, 2).
+    """Bars (c,), none twice, that give way by what is added to their flexibility (c, 3, 3), or to that in bending alone (c, 2, 2).
 
     Several causes add up in one bar.
     """

@@ -78,6 +78,12 @@ class Fielded(Reduced):
         found[self.nameless.cells.into][self.deck :] = self.of_field
         return found["K"], found["M"]
 
+    def moved(self, z: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """dK/dz u and dM/dz u (k + w, r, m) for motion u (r, m)."""
+        found = dict(zip("KM", super().moved(z, u), strict=True))
+        found[self.nameless.cells.into][self.deck :] = self.of_field @ u
+        return found["K"], found["M"]
+
     def bare(self, z: np.ndarray) -> np.ndarray:
         """z (k + w,) without the field."""
         return np.append(z[: self.deck], np.zeros(len(z) - self.deck))

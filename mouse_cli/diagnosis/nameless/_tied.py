@@ -30,6 +30,13 @@ class Tied(Fielded):
         dK[self.deck :] = self.nameless.sign * (half + np.swapaxes(half, 1, 2))
         return dK, dM
 
+    def moved(self, z: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """dK/dz u and dM/dz u (k + w, r, m) for motion u (r, m)."""
+        dK, dM = Reduced.moved(self, z, u)
+        b, R = z[self.deck :] @ self.of_field, self.of_field
+        dK[self.deck :] = self.nameless.sign * (R[:, :, None] * (b @ u) + b[:, None] * (R @ u)[:, None])
+        return dK, dM
+
 
 def tied(base: Reduced, field: Smooth, cells: Cells | None) -> Tied:
     """`base` with such a spring along the rows of motion of `cells`; None: it does not have it."""

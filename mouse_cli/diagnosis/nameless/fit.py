@@ -12,6 +12,7 @@ from mouse_cli.diagnosis.nameless._cells import Cells
 from mouse_cli.diagnosis.nameless._field import LENGTHS, fielded, found, smooth
 from mouse_cli.diagnosis.nameless._tied import tied
 from mouse_cli.diagnosis.search.fit import Fit, fit
+from mouse_cli.diagnosis.search.optima import NEAR, within
 from mouse_cli.diagnosis.search.study import idealised
 from mouse_cli.model.diagnosis import Field, HeldOut
 from mouse_cli.model.problem import Problem
@@ -19,9 +20,12 @@ from mouse_cli.model.problem import Problem
 _STEPS, _TRIED = 25, 3  # of a fit; starts of a change of rank one
 
 
-def rivals(base: Reduced, start: Fit, kind: type[Model] = Model) -> list[Fit]:
-    """The best fit of each kind of field, in the coordinates `base`; its evidence is that of all spreads and lengths together."""
-    fits = [_integrated(base, start, field, kind) for field in _spreads(base)]
+def rivals(base: Reduced, start: Fit, kind: type[Model] = Model, reach: float = np.inf) -> list[Fit]:
+    """The best fit of each kind of field, in the coordinates `base`; its evidence is that of all spreads and lengths together.
+
+    reach: misfit above which no fit matters.
+    """
+    fits = [_integrated(base, start, field, kind, reach) for field in _spreads(base)]
     return [one for one in fits if one is not None]
 
 
@@ -81,12 +85,15 @@ def _spreads(base) -> list[Spread]:
     return found
 
 
-def _integrated(base, start: Fit, field: Spread, kind: type[Model]) -> Fit | None:
+def _integrated(base, start: Fit, field: Spread, kind: type[Model], reach: float) -> Fit | None:
     fits: list[Fit] = []
     for spread, share, sign in field.grid:
         model = kind(field.over(base, spread, share, sign))
-        found = [fit(model, np.zeros(0), x, _STEPS) for x in _starts(model, start, sign)]
-        fits += sorted((one for one in found if one is not None), key=lambda one: -one.log_evidence)[:1]
+        found: list[Fit] = []
+        for x in _starts(model, start, sign):
+            one = fit(model, np.zeros(0), x, _STEPS, min(reach, within(found, NEAR)) if found else reach)
+            found += [] if one is None else [one]
+        fits += sorted(found, key=lambda one: -one.log_evidence)[:1]
     if not fits:
         return None
     best = max(fits, key=lambda one: one.log_evidence)

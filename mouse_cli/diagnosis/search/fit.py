@@ -21,19 +21,35 @@ _HOPE = 4.0  # times the gain that a full step promises: what a search may gain 
 _LEAST, _AHEAD = (
     3,
     8,
-)  # steps before a search may be given up (of a brief one half), and that may gain as the last one did
+)  # steps before a search may be given up (of a brief one a third), and that may gain as the last one did
 
 
 @dataclass(frozen=True)
-class Fit:
-    """The end of a search. misfit = chi2 + |z|^2; covariance (k + t, k + t) of x; log_evidence.
-
-    elsewhere: the same causes at other places, and their share in the evidence.
-    """
+class End:
+    """Where a search ended. misfit = chi2 + |z|^2."""
 
     model: Model
     point: Point
     misfit: float
+
+    @property
+    def recipes(self) -> tuple[Recipe, ...]:
+        """The causes."""
+        return self.model.recipes
+
+    @property
+    def c(self) -> np.ndarray:
+        """Coordinates of the causes."""
+        return self.point.x[self.model.k :]
+
+
+@dataclass(frozen=True)
+class Fit(End):
+    """The end of a search, weighed. hessian (k + t, k + t) of half the misfit by x; log_evidence.
+
+    elsewhere: the same causes at other places, and their share in the evidence.
+    """
+
     hessian: np.ndarray = field(repr=False)
     log_evidence: float
     elsewhere: tuple[tuple["Fit", float], ...] = ()
@@ -51,11 +67,6 @@ class Fit:
         return getattr(self.model.base, "nameless", None)
 
     @property
-    def recipes(self) -> tuple[Recipe, ...]:
-        """The causes."""
-        return self.model.recipes
-
-    @property
     def dof(self) -> int:
         """Degrees of freedom that the misfit has when the model is right."""
         return self.model.base.data.dof - self.model.t
@@ -65,15 +76,22 @@ class Fit:
         """Of x, unknowns that the data do not feel as wide as their range."""
         return np.linalg.inv(capped(self.hessian, self.model.width))
 
-    @property
-    def c(self) -> np.ndarray:
-        """Coordinates of the causes."""
-        return self.point.x[self.model.k :]
-
 
 def fit(
     model: Model, c: np.ndarray, z: np.ndarray | None = None, most: int = MOST, reach: float = np.inf
 ) -> Fit | None:
+    """The most probable x, weighed; see `descended`."""
+    end = descended(model, c, z, most, reach)
+    if end is None:
+        return None
+    T = model.jacobian(end.point)
+    H = T.T @ T + np.diag(_prior(model))
+    return Fit(model, end.point, end.misfit, H, _evidence(end.misfit, H, model))
+
+
+def descended(
+    model: Model, c: np.ndarray, z: np.ndarray | None = None, most: int = MOST, reach: float = np.inf
+) -> End | None:
     """The most probable x, from coordinates c (t,) of the causes and z (k,) on; None where the model is not physical there.
 
     most: steps; reach: a misfit above which no fit matters: the search is given up where it will not come so low, neither by what
@@ -84,15 +102,14 @@ def fit(
     at = model.point(np.clip(np.concatenate([model.base.z if z is None else z, c]), lower, upper))
     if at is None:
         return None
-    J, damping = _cost(at, k), 1e-3
-    prior = np.concatenate([np.ones(k), np.zeros(model.t)])
+    J, damping, prior = _cost(at, k), 1e-3, _prior(model)
     scale, gained = np.concatenate([np.ones(k), 1 / model.width**2]), np.inf
     for step_number in range(most):
         T = model.jacobian(at)
         H, slope = T.T @ T + np.diag(prior), T.T @ at.residual - prior * at.x
-        hope = min(_AHEAD, most - step_number) * gained if step_number >= min(_LEAST, most // 2) else np.inf
-        if J - max(hope, _HOPE * float(slope @ _step(H, slope, 1e-6, scale, at.x, lower, upper))) > reach:
-            return Fit(model, at, J, H, _evidence(J, H, model))
+        hope = min(_AHEAD, most - step_number) * gained if step_number >= min(_LEAST, most // 3) else np.inf
+        if J - hope > reach and J - _HOPE * float(slope @ _step(H, slope, 1e-6, scale, at.x, lower, upper)) > reach:
+            break
         moved = False
         while damping < _GIVE_UP:
             step = _step(H, slope, damping, scale, at.x, lower, upper)
@@ -108,9 +125,12 @@ def fit(
         damping = max(damping / 8, 1e-9)
         if gained < _SMALL * (1 + 1e-3 * J):
             break
-    T = model.jacobian(at)
-    H = T.T @ T + np.diag(prior)
-    return Fit(model, at, J, H, _evidence(J, H, model))
+    return End(model, at, J)
+
+
+def _prior(model: Model) -> np.ndarray:
+    """What the prior adds to the diagonal of H (k + t,)."""
+    return np.concatenate([np.ones(model.k), np.zeros(model.t)])
 
 
 def _cost(at: Point, k: int) -> float:

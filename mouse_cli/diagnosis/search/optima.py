@@ -1,4 +1,6 @@
-"""Which fits are of one optimum: its evidence counts once."""
+"""Which fits are of one optimum, whose evidence counts once, and from which misfit on a fit is no rival."""
+
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -6,6 +8,14 @@ from mouse_cli.diagnosis.evidence import capped
 from mouse_cli.diagnosis.search.fit import Fit
 
 _RISE, _BETWEEN = 1.0, (0.25, 0.5, 0.75)  # of the misfit between two fits, and where it is looked for, that parts them
+FAR = 200.0  # misfit above the best one, by its degrees of freedom, from which on a fit is no rival
+NEAR = 40.0  # the same of fits of the same causes at other places, of which the best alone is kept
+
+
+def within(found: Iterable[Fit], far: float = FAR) -> float:
+    """Misfit above which a fit can be no rival of the best of `found`."""
+    least = min(found, key=lambda one: one.misfit)
+    return least.misfit + far * max(1.0, least.misfit / max(least.dof, 1))
 
 
 def distinct(found: list[Fit]) -> list[Fit]:

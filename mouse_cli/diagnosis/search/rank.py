@@ -19,7 +19,8 @@ from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.nameless.fit import rivals
 from mouse_cli.diagnosis.noise import scale
 from mouse_cli.diagnosis.search.fit import Fit, fit
-from mouse_cli.diagnosis.search.several import adequate, reach, several
+from mouse_cli.diagnosis.search.optima import within
+from mouse_cli.diagnosis.search.several import adequate, several
 from mouse_cli.diagnosis.search.study import Study, best, settled
 from mouse_cli.model.diagnosis import Untried
 from mouse_cli.model.groups import joined, shares
@@ -84,12 +85,12 @@ def rank(
     baseline = settled(fit(kind(model), np.zeros(0)), study)
     singles: list[Fit] = []
     for name in study.promising():
-        one = best(study, name, reach([baseline, *singles]))
+        one = best(study, name, within([baseline, *singles]))
         singles += [] if one is None else [one]
     fits = [baseline, *singles]
     found = hear(ranking(baseline, fits))
     if last and dict(found.groups).get("none", 0.0) < _IDLE:
-        fits += rivals(model, baseline, kind)
+        fits += rivals(model, baseline, kind, within(fits))
     with_cause = [one for one in found.fits if one.recipes]
     if causes > 1 and with_cause and not adequate(min(with_cause, key=lambda one: one.misfit)):
         trusted = found.stated[0] > _TRUSTED or found.noise_scale > _LOUD

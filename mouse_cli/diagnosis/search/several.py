@@ -11,6 +11,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.search.escape import shifted
 from mouse_cli.diagnosis.search.fit import Fit, fit
+from mouse_cli.diagnosis.search.optima import NEAR, within
 from mouse_cli.diagnosis.search.study import Study, settled, summed, tried
 from mouse_cli.updating.chi_square import upper_tail
 
@@ -21,7 +22,6 @@ _PARTNERS = 6  # candidates that a first look finds best beside others, which al
 _GROWN, _ALIKE = 2, 5  # sets that grow further; kinds of which several are tried
 _ROUNDS = 2  # of exchanges
 _ADEQUATE = 0.05  # p-value of the misfit below which a further mechanism is sought
-_FAR = 200.0  # misfit above the best one, by its degrees of freedom, from which on a fit is no rival
 MATERIAL = 3.0  # log evidence that each further mechanism must gain
 
 Found = dict[tuple[str, ...], Fit]  # the best fit of each set of candidates
@@ -41,7 +41,7 @@ def several(study: Study, singles: list[Fit], most: int) -> list[Fit]:
     """Sets of two mechanisms, and of more up to `most` as long as the best set leaves more than noise and gains."""
     found = pairs(study, singles)
     smaller, growing = singles + found, found
-    alike = same_kind(study, singles, most) if most > 2 or not any(map(adequate, found)) else []
+    alike = same_kind(study, singles, most, within(smaller)) if most > 2 or not any(map(adequate, found)) else []
     count = 3
     while count <= most and not any(adequate(one) for one in growing):
         begun = sorted(growing, key=lambda one: -one.log_evidence)[:_GROWN]
@@ -80,30 +80,37 @@ def pairs(study: Study, singles: list[Fit]) -> list[Fit]:
     return [two for two in _finished(study, found) if material(two, singles)]
 
 
-def same_kind(study: Study, singles: list[Fit], most: int) -> list[Fit]:
-    """Two and more of one kind at different sites, each moved in turn to where it fits best."""
+def same_kind(study: Study, singles: list[Fit], most: int, reach: float = np.inf) -> list[Fit]:
+    """Two and more of one kind at different sites, each moved in turn to where it fits best; reach: misfit that matters."""
     found: Found = {}
     order = sorted(singles, key=lambda one: -one.log_evidence)
     kinds = [one for one in order if len(study.recipes(one.recipes[0].candidate.key)) > 1 and one.c.size][:_ALIKE]
     for one in kinds:
-        if not _grown(study, one, most, found) and not adequate(one):
+        if not _grown(study, one, most, found, reach) and not adequate(one):
             for other in _elsewhere(study, one):  # beside all feet of a frame no foot of it can be flexible once more
-                _grown(study, other, most, found)
+                _grown(study, other, most, found, reach)
     return _finished(study, found)
 
 
-def _grown(study: Study, one: Fit, most: int, found: Found) -> bool:
+def _grown(study: Study, one: Fit, most: int, found: Found, reach: float) -> bool:
     """Into `found` sets of the kind of `one` that grow from it; whether there are any."""
     name, grew = one.recipes[0].candidate.key, False
     while len(one.recipes) < most and not adequate(one):
         larger: Found = {}
         _beside(study, one, [name], larger)
+        if not any(_promised(one, each, most) < reach for each in larger.values()):
+            break
         more = [_exchanged(study, each, (name,)) for each in larger.values()]
         if not more or more[0].log_evidence < one.log_evidence + MATERIAL:
             break
         one, grew = more[0], True
         _keep(found, one)
     return grew
+
+
+def _promised(one: Fit, larger: Fit, most: int) -> float:
+    """The misfit if every further one up to `most`, and every exchange, gained as the last one did."""
+    return larger.misfit * min(1.0, larger.misfit / one.misfit) ** (2 * (most - len(one.recipes)))
 
 
 def _elsewhere(study: Study, one: Fit) -> list[Fit]:
@@ -137,12 +144,6 @@ def _keep(found: Found, one: Fit) -> None:
         found[key(one)] = one
 
 
-def reach(found: Iterable[Fit]) -> float:
-    """Misfit above which a fit can be no rival of the best of `found`."""
-    least = min(found, key=lambda one: one.misfit)
-    return least.misfit + _FAR * max(1.0, least.misfit / max(least.dof, 1))
-
-
 def _swap(study: Study, two: Fit, found: Found) -> None:
     """Into `found` the same mechanisms with either replaced by what is hard to tell from it, begun from the pair itself."""
     for i, recipe in enumerate(two.recipes):
@@ -155,9 +156,11 @@ def _swap(study: Study, two: Fit, found: Found) -> None:
 
 def _beside(study: Study, first: Fit, partners: Iterable[str], found: Found) -> None:
     """Into `found` what `first` and the best of `partners` make together, where it is better than what is there."""
-    there = study.at(first)
+    there = study.about(first)
     for name in _promising(there, first, list(partners)):
-        for more in tried(there, name, first, _SECOND, _QUICK, reach([first, *found.values()])):
+        same = found.get(tuple(sorted((*key(first), name))))
+        reach = min(within([first, *found.values()]), np.inf if same is None else within([same], NEAR))
+        for more in tried(there, name, first, _SECOND, _QUICK, reach):
             _keep(found, more)
 
 

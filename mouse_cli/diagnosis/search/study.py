@@ -13,18 +13,18 @@ from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unseen
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
 from mouse_cli.diagnosis.search.escape import shifted, uncrossed
-from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
-from mouse_cli.diagnosis.search.optima import distinct
+from mouse_cli.diagnosis.search.fit import MOST, End, Fit, descended, fit
+from mouse_cli.diagnosis.search.optima import NEAR, distinct, within
+from mouse_cli.diagnosis.search.starts import cost, leading, spread
 from mouse_cli.dynamics.eigen import IndefiniteError
 
 _STARTS = 3  # fits of a candidate to the end, from different optima
-_LOOKS, _MOST, _EACH, _BRIEF = 12, 40, 4, 4  # brief descents at least, at most, from one recipe, and their steps
-_APART = 0.08  # of a range: between starts of one recipe
-_TOLD = 0.05  # squared distance of what two places predict, by the data's sd, up to which they are as one
+_LOOKS, _MOST, _BRIEF = 12, 40, 4  # brief descents at least, at most, and their steps
 _WEIGHED = 12  # ends of brief descents that are weighed in all coordinates
 _SLACK = 1.5  # times the misfit that matters in all coordinates: what matters in few
 _TIED, _TIES = 6.0, 8  # misfit above the best up to which other places are as good, and how many of them are fitted
 _SETTLE, _MOVED = 3, 5e-3  # times that causes are weighed anew, as long as parameters move more than that share
+_ABOUT = 4  # studies at other parameters that are kept
 _FEW = 16  # places and sizes that are looked at in all coordinates
 _COARSE = 24  # coordinates at least for a first look
 
@@ -39,7 +39,8 @@ class Study:
         self.model, self.k, self.kind = model, model.L.shape[1], kind
         self.known = registry() if known is None else known
         self._made: dict[str, list[Recipe]] = {}
-        self._looked: dict[str, list[tuple[float, int, np.ndarray]]] = {}
+        self._about: list[Study] = [self]
+        self._looked: dict[tuple, list[tuple[float, int, np.ndarray]]] = {}
 
     def recipes(self, name: str) -> list[Recipe]:
         """What candidate `name` can do, and where; made when first asked for."""
@@ -69,10 +70,11 @@ class Study:
         return [(number, x) for _, number, x in self.looks(name, before, beside)]
 
     def looks(self, name: str, before: np.ndarray, beside: tuple[Recipe, ...]) -> list[tuple[float, int, np.ndarray]]:
-        """The same, with the misfits that are to be expected; kept where nothing is beside."""
-        if not beside and name in self._looked:
-            return self._looked[name]
+        """The same, with the misfits that are to be expected; kept, for what looks best is where descents begin."""
         others, found = self.own(beside), []
+        key = (name, before.tobytes(), *((each.candidate.key, each.number) for each in others))
+        if key in self._looked:
+            return self._looked[key]
         for recipe in self.recipes(name):
             trial = self.kind(self.model, (*others, recipe))
             for values in recipe.grid:
@@ -80,8 +82,7 @@ class Study:
                 if at is not None:
                     found.append((self.foreseen(at), recipe.number, at.x))
         found.sort(key=lambda item: item[0])
-        if not beside:
-            self._looked[name] = found
+        self._looked[key] = found
         return found
 
     def approached(
@@ -94,16 +95,17 @@ class Study:
         """
         trials = {i: self.with_cause(beside, name, i) for i in range(len(self.recipes(name)))}
         most = min(max(_LOOKS, len(trials)), _MOST) // (2 if beside else 1)  # a partner is tried beside many
-        chosen = _spread(self.starts(name, before, beside), trials, most)
+        chosen = spread(self.starts(name, before, beside), trials, most)
         if len(chosen) < 2:
             return [(0.0, i, [x]) for i, x in chosen]
-        descents = [(i, x, fit(trials[i], x[self.k :], x[: self.k], _BRIEF, reach)) for i, x in chosen]
-        led: list[tuple[int, np.ndarray, Fit]] = []
-        for i, x, one in sorted((d for d in descents if d[2] is not None), key=lambda item: _cost(item[2])):
-            if not any(_alike(one, other) for _, _, other in led):
-                led.append((i, x, one))
-        kept = {id(end) for _, end in _spread([(i, one.point.x) for i, _, one in led], trials, most)}
-        return [(_cost(one), i, [one.point.x, x]) for i, x, one in led if id(one.point.x) in kept]
+        led: list[tuple[int, np.ndarray, End]] = []
+        for i, x in chosen:  # so many are weighed at most, and one that cannot be among these is given up
+            last = cost(led[_weighed_beside(beside) - 1][2]) if len(led) >= _weighed_beside(beside) else np.inf
+            limit = last + 2 * sum(recipe.log_prior for recipe in trials[i].recipes)
+            end = descended(trials[i], x[self.k :], x[: self.k], _BRIEF, min(reach, limit))
+            led = led if end is None else leading(led, (i, x, end))
+        kept = {id(end) for _, end in spread([(i, one.point.x) for i, _, one in led], trials, most)}
+        return [(cost(one), i, [one.point.x, x]) for i, x, one in led if id(one.point.x) in kept]
 
     @cached_property
     def _adapted(self) -> tuple[np.ndarray, np.ndarray]:
@@ -140,6 +142,15 @@ class Study:
         except IndefiniteError:  # parameters far from their prior, of a fit that explains nothing
             return self
 
+    def about(self, one: Fit) -> "Study":
+        """The same, or one of the last there were, at parameters from which those of a fit differ by no more than a trifle."""
+        theta = one.model.base.parameters(one.point.x[: self.k])
+        for study in self._about:
+            if np.all(np.abs(theta - study.model.theta) <= _MOVED * np.abs(study.model.theta)):
+                return study
+        self._about = [self, self.at(one), *self._about[1:_ABOUT]]
+        return self._about[1]
+
 
 def _lowest(model: Reduced) -> Reduced:
     """A model in its lowest coordinates, and those by which ends of lines give way; itself where there are no more."""
@@ -153,28 +164,9 @@ def _lowest(model: Reduced) -> Reduced:
     return model.within(Q)
 
 
-def _spread(starts: list[tuple[int, np.ndarray]], trials: dict[int, Model], most: int) -> list[tuple[int, np.ndarray]]:
-    """The first `most` of `starts` (number of recipe, x), without such as are close to an earlier one of the same recipe."""
-    taken: dict[int, list[np.ndarray]] = {}
-    found = []
-    for number, x in starts:
-        trial, own = trials[number], taken.setdefault(number, [])
-        at = x[trial.k :] / trial.width
-        if len(own) < max(_EACH, most // len(trials)) and all(np.abs(at - other).max() > _APART for other in own):
-            own.append(at), found.append((number, x))
-        if len(found) == most:
-            break
-    return found
-
-
-def _cost(one: Fit) -> float:
-    """C - 2 ln prior of the places: one of little prior has to misfit so much less."""
-    return one.misfit - 2 * sum(recipe.log_prior for recipe in one.recipes)
-
-
-def _alike(one: Fit, other: Fit) -> bool:
-    """Whether both predict the same, as two nodes through the thickness of a plate do."""
-    return bool(np.sum((one.point.residual - other.point.residual) ** 2) < _TOLD * (1 + 1e-2 * one.misfit))
+def _weighed_beside(others: tuple) -> int:
+    """How many ends of brief descents are weighed in all coordinates, beside causes there already."""
+    return _WEIGHED // (2 if others else 1)
 
 
 def idealised(one: Fit) -> Fit:
@@ -224,8 +216,12 @@ def tried(
     tied = 0 if beside is not None or not near_by else sum(left < near_by[0][0] + _TIED for left, _, _ in near_by)
     count = max(count, min(tied, _TIES))
     chosen = near_by[:count] if first is study else _weighed(study, others, name, near_by, count)
-    found = [_ended(study, first, others, name, i, x, most, reach) for _, i, x in chosen]
-    return [one for one in found if one is not None]
+    found: list[Fit] = []
+    for _, i, x in chosen:
+        least = min(reach, within(found, NEAR)) if found and others else reach  # beside others the best alone is kept
+        one = _ended(study, first, others, name, i, x, most, least)
+        found += [] if one is None else [one]
+    return found
 
 
 def _weighed(study: Study, others: tuple, name: str, near_by: list, count: int) -> list:
@@ -236,7 +232,7 @@ def _weighed(study: Study, others: tuple, name: str, near_by: list, count: int) 
     if len(near_by) <= count:
         return near_by
     k, left = study.k, []
-    for _, i, (end, *_) in near_by[: _WEIGHED // (2 if others else 1)]:
+    for _, i, (end, *_) in near_by[: _weighed_beside(others)]:
         whole = study.with_cause(others, name, i)
         points = [whole.point(x) for x in (end, np.concatenate([np.zeros(k), end[k:]]))]
         cost = min((study.foreseen(at) for at in points if at is not None), default=np.inf)
@@ -254,7 +250,7 @@ def _ended(
     """
     k, whole = study.k, study.with_cause(others, name, i)
     if first is not study:
-        near = fit(first.with_cause(others, name, i), starts[0][k:], starts[0][:k], most, _SLACK * reach)
+        near = descended(first.with_cause(others, name, i), starts[0][k:], starts[0][:k], most, _SLACK * reach)
         starts = starts if near is None else [near.point.x, *starts]
         reach = reach if near is None or near.misfit > reach else np.inf
     plain = [np.concatenate([np.zeros(k), x[k:]]) for x in starts[:1]]

@@ -87,8 +87,12 @@ class Bars:
 
     def lost(self, bars: np.ndarray, added: np.ndarray) -> np.ndarray:
         """Change (c, 3, 3) of the stiffness of `bars` (c,) when `added` comes to their flexibility."""
-        F = self.flexibility[bars]
-        return np.linalg.inv(F + added) - np.linalg.inv(F)
+        return np.linalg.inv(self.flexibility[bars] + added) - self._rigidity[bars]
+
+    @cached_property
+    def _rigidity(self) -> np.ndarray:
+        """F^-1 (b, 3, 3)."""
+        return np.linalg.inv(self.flexibility)
 
     def strained(self, bars: np.ndarray, core: np.ndarray) -> np.ndarray:
         """Matrix (r, r) of stiffnesses `core` (c, 3, 3) on the natural strains of `bars` (c,)."""

@@ -12,6 +12,11 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 
 _STEP = 1e-5  # of a range, for derivatives of matrices
 
+Pushed = tuple[np.ndarray, np.ndarray, np.ndarray]  # (p, size, m) (dK - lambda dM) x, (p, m) x'dM x, (p, s, m) dS x
+Parts = list[tuple[Change, float]]  # changes and their weights, whose sum is a derivative
+Softer = tuple[np.ndarray, np.ndarray]  # bars (c,), and what their stiffness gains (c, 3, 3)
+Stencil = tuple[int, Parts, list[Softer]]  # number of a recipe, and the derivative of what it does
+
 
 class Model:
     """A reduced model with causes: what it predicts at x, and by which derivatives."""
@@ -53,6 +58,8 @@ class Model:
         parts = [change.softening for change in changes if change.softening is not None]
         if not parts:
             return np.zeros(0, int), np.zeros((0, 3, 3))
+        if len(parts) == 1:
+            return parts[0].bars, self.base.bars.lost(parts[0].bars, parts[0].added)
         bars, at = np.unique(np.concatenate([part.bars for part in parts]), return_inverse=True)
         total = np.zeros((len(bars), 3, 3))
         np.add.at(total, at, np.concatenate([part.added for part in parts]))
@@ -68,11 +75,10 @@ class Model:
         S = np.zeros((self.base.sensing.shape[0], self.size))
         for i, change in parts:
             at, G = self.places[i], self._carried(i)
+            block = (slice(len(at)),) * 2 if at[-1] == len(at) - 1 else np.ix_(at, at)
             for into, matrix in ((K, change.K), (M, change.M)):
-                if matrix is not None and G is not None:
-                    into += G.T @ matrix @ G
-                elif matrix is not None:
-                    into[at[:, None], at] += matrix
+                if matrix is not None:
+                    into[block if G is None else ...] += matrix if G is None else G.T @ matrix @ G
             if change.sensing is not None and G is not None:
                 S += change.sensing @ G
             elif change.sensing is not None:
@@ -145,29 +151,49 @@ class Model:
 
     def jacobian(self, at: "Point") -> np.ndarray:
         """d(prediction)/dx (q, k + t), whitened."""
-        r, X, m = self.base.r, at.X, at.modes
-        dK, dM = self.base.slopes(at.x[: self.k])
-        inertia = dM @ X[:r, m]
-        forces = dK @ X[:r, m] - inertia * at.eigenvalues[m] + self._following(at)
-        G = [np.swapaxes(forces, 1, 2) @ X[:r]]  # (k, m, modes)
-        own = [np.einsum("prm,rm->pm", inertia, X[:r, m])]
-        if (followed := self.followed(at.x[: self.k])) is not None:
-            carried = followed[1] @ X[:, m]
-            G[0] += np.swapaxes(followed[0] @ X[:, m] - carried * at.eigenvalues[m], 1, 2) @ X
-            own[0] += np.einsum("prm,rm->pm", carried, X[:, m])
-        sensed = np.zeros((self.k, at.seen.shape[0], len(m)))
-        for i, change in self.derivatives(at.x):
-            K, M, S = self.summed([(i, change)])
-            moved = M @ X[:, m]
-            G.append(((K @ X[:, m] - moved * at.eigenvalues[m]).T @ X)[None])
-            own.append(np.einsum("rm,rm->m", moved, X[:, m])[None])
-            sensed = np.concatenate([sensed, (S @ X[:, m])[None]])
-        G, own = np.concatenate(G), np.concatenate(own)
+        X, m = at.X, at.modes
+        forces, inertia, sensed = (
+            np.concatenate(pair) for pair in zip(self._by_deck(at), self._by_causes(at), strict=True)
+        )
+        G = (np.swapaxes(forces, 1, 2).reshape(-1, self.size) @ X).reshape(len(forces), len(m), self.size)
         apart = at.eigenvalues[m][:, None] - at.eigenvalues
         apart[np.abs(apart) < 1e-9 * np.abs(at.eigenvalues[m])[:, None]] = np.inf
         d_lambda = G[:, np.arange(len(m)), m]
-        d_seen = np.einsum("sj,pmj->psm", at.seen, G / apart) - 0.5 * own[:, None] * at.seen[:, m] + sensed
+        d_seen = np.swapaxes((G / apart) @ at.seen.T, 1, 2) - 0.5 * inertia[:, None] * at.seen[:, m] + sensed
         return self.base.data.jacobian(at.eigenvalues[m], at.seen[:, m], at.a, d_lambda.T, np.moveaxis(d_seen, 0, -1))
+
+    def _by_deck(self, at: "Point") -> Pushed:
+        """What the deck's parameters do to the measured modes."""
+        r, X, m = self.base.r, at.X, at.modes
+        stiff, moved = self.base.moved(at.x[: self.k], X[:r, m])
+        forces, inertia = np.zeros((self.k, self.size, len(m))), np.einsum("prm,rm->pm", moved, X[:r, m])
+        forces[:, :r] = stiff - moved * at.eigenvalues[m] + self._following(at)
+        if (followed := self.followed(at.x[: self.k])) is not None:
+            moved = followed[1] @ X[:, m]
+            forces += followed[0] @ X[:, m] - moved * at.eigenvalues[m]
+            inertia += np.einsum("prm,rm->pm", moved, X[:, m])
+        return forces, inertia, np.zeros((self.k, len(at.seen), len(m)))
+
+    def _by_causes(self, at: "Point") -> Pushed:
+        """What the coordinates of the causes do to them: matrices meet the shapes one by one, and are never summed."""
+        r, X, eigenvalues = self.base.r, at.X[:, at.modes], at.eigenvalues[at.modes]
+        forces, inertia = np.zeros((self.t, *X.shape)), np.zeros((self.t, X.shape[1]))
+        sensed = np.zeros((self.t, len(at.seen), X.shape[1]))
+        for j, (i, parts, softer) in enumerate(self.stencils(at.x)):
+            G, own = self._carried(i), self.places[i]
+            u = X[own] if G is None else G @ X
+            K, M, S = (_applied(parts, name, u) for name in ("K", "M", "sensing"))
+            push = (0.0 if K is None else K) - (0.0 if M is None else M * eigenvalues)
+            if G is not None:
+                forces[j] = G.T @ push if np.ndim(push) else 0.0
+            else:
+                forces[j, own] = push
+            inertia[j] = 0.0 if M is None else np.einsum("rm,rm->m", M, u)
+            sensed[j] = 0.0 if S is None else S
+            for bars, core in softer:
+                rows = self.base.bars.strain[bars].reshape(-1, r)
+                forces[j, :r] += rows.T @ (core @ (rows @ X[:r]).reshape(len(bars), 3, -1)).reshape(len(rows), -1)
+        return forces, inertia, sensed
 
     def _following(self, at: "Point") -> np.ndarray | float:
         """Forces (k, r, m) on the measured modes by what softens bars, as it follows their stiffness."""
@@ -196,13 +222,25 @@ class Model:
         return Model(self.base.judged_by(data.loosened(off, moved)), self.recipes)
 
     def derivatives(self, x: np.ndarray) -> Iterator[tuple[int, Change]]:
-        """Recipe and d(change)/dc, by differences of the matrices within their pieces, for each coordinate of the causes."""
+        """Recipe and d(change)/dc, for each coordinate of the causes."""
+        for i, parts, softer in self.stencils(x):
+            found = {}
+            for name in ("K", "M", "sensing"):
+                there = [(getattr(one, name), weight) for one, weight in parts]
+                found[name] = None if there[0][0] is None else sum(weight * matrix for matrix, weight in there)
+            for bars, core in softer:
+                K = self.base.bars.strained(bars, core)
+                found["K"] = K if found["K"] is None else found["K"] + K
+            yield i, Change(**found)
+
+    def stencils(self, x: np.ndarray) -> Iterator[Stencil]:
+        """d(change)/dc for each coordinate of the causes, by differences of the matrices within their pieces."""
         z, c = x[: self.k], x[self.k :]
         changes = self.changes(c)
         for i, (recipe, own) in enumerate(zip(self.recipes, self.own, strict=True)):
             for j in range(own.start, own.stop):
                 parts = [(self._with(recipe, c[own], j - own.start, at), weight) for at, weight in self.slope(c, j)]
-                yield i, self._sum(z, changes, i, parts)
+                yield i, parts, self._softened(z, changes, i, parts)
 
     def slope(self, c: np.ndarray, j: int) -> list[tuple[float, float]]:
         """See `Recipe`: values of coordinate j of the causes, and weights of what is there."""
@@ -214,18 +252,24 @@ class Model:
         there[j] = value
         return recipe.change(recipe.values(there))
 
-    def _sum(self, z: np.ndarray, changes: list[Change], i: int, parts: list[tuple[Change, float]]) -> Change:
-        """The sum of `parts`, each times its weight, as cause number i beside the other ones."""
-        found: list[np.ndarray | None] = []
-        for name in ("K", "M", "sensing"):
-            there = [(getattr(one, name), weight) for one, weight in parts]
-            found.append(None if there[0][0] is None else sum(weight * matrix for matrix, weight in there))
-        if parts[0][0].softening is not None:
-            for one, weight in parts:
-                bars, core = self.softer([*changes[:i], one, *changes[i + 1 :]])
-                softer = weight * self.base.bars.strained(bars, core * self.follow(bars, z))
-                found[0] = softer if found[0] is None else found[0] + softer
-        return Change(*found)
+    def _softened(self, z: np.ndarray, changes: list[Change], i: int, parts: Parts) -> list[Softer]:
+        """Bars and what `parts` do to their stiffness, each times its weight, as cause number i beside the other ones."""
+        if parts[0][0].softening is None:
+            return []
+        found = []
+        for one, weight in parts:
+            bars, core = self.softer([*changes[:i], one, *changes[i + 1 :]])
+            if found and np.array_equal(bars, found[-1][0]):
+                found[-1] = bars, found[-1][1] + weight * core
+            else:
+                found.append((bars, weight * core))
+        return [(bars, core * self.follow(bars, z)) for bars, core in found]
+
+
+def _applied(parts: Parts, name: str, u: np.ndarray) -> np.ndarray | None:
+    """The sum of matrices `name` of `parts`, each times its weight, times u; None where they have none."""
+    there = [(getattr(one, name), weight) for one, weight in parts]
+    return None if there[0][0] is None else sum(weight * (matrix @ u) for matrix, weight in there)
 
 
 def modes_of(K: np.ndarray, M: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

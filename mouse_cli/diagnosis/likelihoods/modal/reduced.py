@@ -97,6 +97,11 @@ class Reduced:
         shape = len(by), self.r, self.r
         return tuple((by @ d.reshape(len(d), self.r**2)).reshape(shape) for d in (self.dK, self.dM))
 
+    def moved(self, z: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """dK/dz u and dM/dz u (k, r, m) for motion u (r, m)."""
+        by = self.rates(z)
+        return tuple(np.tensordot(by, d @ u, 1) for d in (self.dK, self.dM))
+
     @cached_property
     def _along(self) -> np.ndarray:
         """From changes of the parameters to steps in the directions (k, p)."""
