@@ -14,6 +14,9 @@ NAMELESS = 0.1
 SURE = 0.9
 """Posterior probability of a group from which on it is named."""
 
+SAME_SITE = 0.05
+"""Distance, over the span of the structure, up to which mechanisms of one group in two explanations are one mechanism."""
+
 ODDS = 3.0
 """Log of the odds over no mechanism, noise larger than stated integrated out, that a name takes."""
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mouse_cli.diagnosis.companions import Shared, shared
 from mouse_cli.diagnosis.gates import DEMANDED, FAR, GATE, LIKELY, ODDS, SEVERAL, SURE
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unmeasured_hz
@@ -18,6 +19,7 @@ from mouse_cli.model.diagnosis import (
     RIVAL,
     UNKNOWN,
     Cause,
+    Certain,
     Explanation,
     HeldOut,
     Rest,
@@ -43,6 +45,7 @@ class Verdict:
 
     refuted: groups that held-out data speak against. field: the leading rival without a name where the answer is UNKNOWN, with
     field_proof, how it predicts what was held out. reasons: what forbids a name that evidence alone would give, in sentences.
+    certain: what of `best` is named, where its companions are open.
     """
 
     kind: str
@@ -52,6 +55,7 @@ class Verdict:
     field: Fit | None = None
     field_proof: HeldOut | None = None
     reasons: tuple[str, ...] = ()
+    certain: Shared | None = None
 
 
 def judge(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
@@ -75,7 +79,8 @@ def judge(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
     if kind == UNKNOWN or best is None:
         return _unknown(ranking, model, best, proof, (), reasons)
     if gain >= -ODDS:
-        return Verdict(kind, best, proof, reasons=reasons)
+        open_ = kind == NAMED and ranking.groups[0][1] < SURE
+        return Verdict(kind, best, proof, reasons=reasons, certain=shared(ranking, best) if open_ else None)
     return _next_rival(ranking, model, best, proof, reasons)
 
 
@@ -129,7 +134,7 @@ def decide(ranking: Ranking) -> tuple[str, tuple[str, ...]]:
         return UNKNOWN, ()  # the test is not as accurate as it is stated, and what is missing besides cannot be told
     if far := far_parameters(first):
         return UNKNOWN, (_FAR.format(far),)
-    if probability < SURE or not ranking.log_odds[0] > ODDS:
+    if not ranking.log_odds[0] > ODDS or (probability < SURE and shared(ranking, leader(ranking)) is None):
         return ONE_OF, ()
     if not first.model.base.data.by_shape and any(recipe.own for recipe in first.recipes):
         return ONE_OF, ()  # paired by number, a list of frequencies cannot prove that it holds one mode more
@@ -184,14 +189,26 @@ def explanations(ranking: Ranking) -> tuple[Explanation, ...]:
 
 def explanation(one: Fit, probability: float = 0.0) -> Explanation:
     """A fit as the report gives it."""
-    sd, units = np.sqrt(np.abs(np.diag(one.covariance)))[one.model.k :], one.model.base.problem.units
-    causes = tuple(
-        _cause(recipe, one.c[own], sd[own], units) for recipe, own in zip(one.recipes, one.model.own, strict=True)
-    )
+    causes = _causes(one)
     theta = one.model.base.parameters(one.point.x[: one.model.k])
     p = upper_tail(one.misfit, max(one.dof, 1))
     elsewhere = tuple((_sites(other), share) for other, share in one.elsewhere if share > RIVAL)
     return Explanation(causes, one.misfit, one.dof, p, one.log_evidence, theta, probability, elsewhere)
+
+
+def certain(one: Fit, found: Shared) -> Certain:
+    """What is certain of a fit, in words and numbers, in the order of `Explanation`."""
+    causes = _causes(one)
+    chosen = sorted((causes[i] for i in found.which), key=lambda cause: (cause.group, cause.physics))
+    return Certain(tuple(chosen), found.probability, found.members, found.companions)
+
+
+def _causes(one: Fit) -> tuple[Cause, ...]:
+    """The mechanisms of a fit, in its order."""
+    sd, units = np.sqrt(np.abs(np.diag(one.covariance)))[one.model.k :], one.model.base.problem.units
+    return tuple(
+        _cause(recipe, one.c[own], sd[own], units) for recipe, own in zip(one.recipes, one.model.own, strict=True)
+    )
 
 
 def _sites(one: Fit) -> tuple[Site, ...]:
