@@ -4,11 +4,14 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change
+from mouse_cli.diagnosis.effects.change import Change, Softening
 from mouse_cli.diagnosis.search.rank import Ranking
 from mouse_cli.model.diagnosis import EVERYWHERE, Site
 
 BEAM = SimpleNamespace(geometry=SimpleNamespace(coordinates=np.array([[0.0, 0, 0], [1, 0, 0]])))
+
+
+BARS = SimpleNamespace(nodes=np.array([[i, i + 1] for i in range(10)]))  # ten, end to end
 
 
 def made_up(*groups: str, misfit: float = 20.0, dof: int = 20, z=(0.3, -0.4), nameless: str = "", **more):
@@ -16,7 +19,7 @@ def made_up(*groups: str, misfit: float = 20.0, dof: int = 20, z=(0.3, -0.4), na
     named = tuple(SimpleNamespace(name=name) for name in ("E", "density"))
     data = SimpleNamespace(by_shape=more.pop("by_shape", True))
     problem = SimpleNamespace(parameters=named, structure=BEAM)
-    base = SimpleNamespace(L=np.diag([2.0, 0.1]), data=data, problem=problem)
+    base = SimpleNamespace(L=np.diag([2.0, 0.1]), data=data, problem=problem, first=SimpleNamespace(bars=BARS))
     recipes = tuple(_recipe(name, more.get("own", 0)) for name in groups)
     field = SimpleNamespace(rival=SimpleNamespace(key=nameless)) if nameless else None
     own = {"strained": False, "telling": False, "bearable": 1.5, "elsewhere": (), "c": np.zeros(len(groups))} | more
@@ -26,13 +29,23 @@ def made_up(*groups: str, misfit: float = 20.0, dof: int = 20, z=(0.3, -0.4), na
 
 
 def _recipe(name: str, own: int):
-    """A mechanism that changes nothing; its physics is called as its group."""
-    group, _, x = name.partition("@")
+    """A mechanism whose physics is called as its group, `group@x`, `group@x:first-last` of bars."""
+    group, _, place = name.partition("@")
+    x, _, bars = place.partition(":")
     site = Site("node", (), (float(x), 0.0, 0.0)) if x else EVERYWHERE
     candidate = SimpleNamespace(group=group, key=group, title=group)
     return SimpleNamespace(
-        candidate=candidate, own=own, values=lambda c: c, site=lambda values: site, at=lambda c: Change()
+        candidate=candidate, own=own, values=lambda c: c, site=lambda values: site, at=lambda c: _change(group, bars)
     )
+
+
+def _change(group: str, bars: str) -> Change:
+    """What it does: to bars first-last where they are given, else as its group does."""
+    if bars:
+        first, last = map(int, bars.split("-"))
+        own = np.arange(first, last + 1)
+        return Change(softening=Softening(own, np.zeros((len(own), 2, 2))))
+    return {"mass": Change(M=np.eye(1)), "ground-spring": Change(K=np.eye(1))}.get(group, Change())
 
 
 def ranked(*fits, p, odds=None, stated: float = 1.0, baseline=None) -> Ranking:

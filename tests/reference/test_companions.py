@@ -8,6 +8,7 @@ from mouse_cli.diagnosis.companions import shared
 from mouse_cli.diagnosis.verdict import decide
 from mouse_cli.model.diagnosis import NAMED, ONE_OF
 
+
 @pytest.fixture(autouse=True)
 def _without_modes(monkeypatch):
     """Fits made up here have no modes that could be unmeasured."""

@@ -18,6 +18,7 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.nameless.fit import rivals
 from mouse_cli.diagnosis.noise import scale
+from mouse_cli.diagnosis.search.disguised import disguised
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.several import adequate, reach, several
 from mouse_cli.diagnosis.search.study import Study, best, settled
@@ -59,12 +60,17 @@ class Ranking:
     @property
     def named(self) -> list[int]:
         """Indices of the fits that have a name, or are of no mechanism."""
-        return [i for i, one in enumerate(self.fits) if one.nameless is None]
+        return [i for i, one in enumerate(self.fits) if unnamed(one) is None]
 
 
 def group(one: Fit) -> str:
     """Groups of the mechanisms of a fit; the key of a rival that has no name."""
-    return one.nameless.rival.key if one.nameless else joined([recipe.candidate.group for recipe in one.recipes])
+    return unnamed(one) or joined([recipe.candidate.group for recipe in one.recipes])
+
+
+def unnamed(one: Fit) -> str | None:
+    """Key of the rival without a name that a fit is, openly or in disguise; None: it has a name, or is of no mechanism."""
+    return one.nameless.rival.key if one.nameless else disguised(one)
 
 
 def rank(
@@ -130,7 +136,7 @@ def _log_prior(one: Fit, fits: list[Fit]) -> float:
 
     Sites of several of one kind are a set, which the product of their own priors counts in every order.
     """
-    alike = sum(group(each) == group(one) and len(each.recipes) == len(one.recipes) for each in fits)
+    alike = sum(len(each.recipes) == len(one.recipes) and group(each) == group(one) for each in fits)
     if one.nameless:
         return float(np.log(gates.NAMELESS / sum(each.nameless is not None for each in fits)))
     groups = {group(each) for each in fits if len(each.recipes) == 1}
