@@ -65,7 +65,11 @@ class Ranking:
 
 def group(one: Fit) -> str:
     """Groups of the mechanisms of a fit; the key of a rival that has no name."""
-    return unnamed(one) or joined([recipe.candidate.group for recipe in one.recipes])
+    return unnamed(one) or _joined(one)
+
+
+def _joined(one: Fit) -> str:
+    return joined([recipe.candidate.group for recipe in one.recipes])
 
 
 def unnamed(one: Fit) -> str | None:
@@ -136,9 +140,11 @@ def _log_prior(one: Fit, fits: list[Fit]) -> float:
 
     Sites of several of one kind are a set, which the product of their own priors counts in every order.
     """
-    alike = sum(len(each.recipes) == len(one.recipes) and group(each) == group(one) for each in fits)
     if one.nameless:
         return float(np.log(gates.NAMELESS / sum(each.nameless is not None for each in fits)))
-    groups = {group(each) for each in fits if len(each.recipes) == 1}
+    alike = sum(
+        not each.nameless and len(each.recipes) == len(one.recipes) and _joined(each) == _joined(one) for each in fits
+    )
+    groups = {_joined(each) for each in fits if len(each.recipes) == 1}
     orders = sum(lgamma(count + 1) for count in Counter(recipe.candidate.key for recipe in one.recipes).values())
     return gates.log_prior(len(one.recipes), len(groups)) - float(np.log(alike)) + orders
