@@ -168,8 +168,8 @@ MUTANTS = (
             "test_rivals_without_a_name_share_their_prior",
         ),
         nameless_never_asked=(
-            "< _IDLE:",
-            "< 0.0:",
+            "< _IDLE):",
+            "< 0.0):",
             "test_a_field_over_the_masses_of_a_chain",
         ),
     ),

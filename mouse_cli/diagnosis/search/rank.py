@@ -24,6 +24,7 @@ from mouse_cli.diagnosis.search.several import adequate, reach, several
 from mouse_cli.diagnosis.search.study import Study, best, settled
 from mouse_cli.model.diagnosis import Untried
 from mouse_cli.model.groups import joined, shares
+from mouse_cli.updating.chi_square import upper_tail
 
 _NO_SITE, _UNPHYSICAL = (
     "it has no site in this model",
@@ -31,7 +32,9 @@ _NO_SITE, _UNPHYSICAL = (
 )
 _TRUSTED = 0.5  # share of the stated accuracies in the leading explanation below which errors of the test may be all
 _LOUD = 4.0  # noise scale from which on no error of the test is all, and as many are sought as beside a test that is trusted
-_IDLE = 0.5  # probability of no mechanism above which what has no name is not asked
+_IDLE = (
+    0.5  # probability of no mechanism above which what has no name is not asked where that leaves no more than chance
+)
 
 
 @dataclass(frozen=True)
@@ -98,7 +101,8 @@ def rank(
         singles += [] if one is None else [one]
     fits = [baseline, *singles]
     found = hear(ranking(baseline, fits))
-    if last and dict(found.groups).get("none", 0.0) < _IDLE:
+    doubtful = upper_tail(baseline.misfit, max(baseline.dof, 1)) < gates.GATE
+    if last and (doubtful or dict(found.groups).get("none", 0.0) < _IDLE):
         fits += rivals(model, baseline, kind)
     with_cause = [one for one in found.fits if one.recipes]
     if causes > 1 and with_cause and not adequate(min(with_cause, key=lambda one: one.misfit)):
