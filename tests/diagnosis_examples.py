@@ -14,6 +14,7 @@ from mouse_cli.model.diagnosis import (
     ONE_OF,
     UNKNOWN,
     Cause,
+    Certain,
     Diagnosis,
     EnergyMap,
     Explanation,
@@ -178,6 +179,24 @@ def three() -> Diagnosis:
     return _diagnosis(NAMED, (every, none), (("local-stiffness + mass + shear", 0.96), ("none", 0.04)))
 
 
+def companions() -> Diagnosis:
+    """A crack in every explanation; alone, or with shear or a mass beside it."""
+    with_shear, alone = (
+        explanation(CRACK, SHEAR, ln_z=-28.0, probability=0.5),
+        explanation(CRACK, ln_z=-29.0, probability=0.3),
+    )
+    with_mass, none = explanation(CRACK, MASS, ln_z=-30.0, probability=0.15), explanation(ln_z=-90.0, probability=0.0)
+    groups = (
+        ("local-stiffness + shear", 0.5),
+        ("local-stiffness", 0.3),
+        ("local-stiffness + mass", 0.15),
+        ("none", 0.0),
+    )
+    beside = (("shear", 0.5 / 0.95), ("none", 0.3 / 0.95), ("mass", 0.15 / 0.95))
+    certain = Certain((CRACK,), 0.95, (("crack", 1.0),), beside)
+    return _diagnosis(NAMED, (with_shear, alone, with_mass, none), groups, certain=certain)
+
+
 def nameless() -> Diagnosis:
     """No candidate explains the data; a smooth field of stiffness does."""
     change = -0.23 * np.exp(-(((np.arange(1, 31) - 14.5) / 3.0) ** 2))
@@ -233,5 +252,6 @@ DIAGNOSES = {
     "members": members,
     "likely": likely,
     "three": three,
+    "companions": companions,
     "nameless": nameless,
 }

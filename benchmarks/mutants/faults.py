@@ -81,6 +81,7 @@ MUTANTS = (
         _GATES,
         gate_demanded=("0.1, 0.02", "0.1, 0.03", "test_demanded_and_likely"),
         gate_likely=("0.1, 0.02", "0.05, 0.02", "test_demanded_and_likely"),
+        gate_sure=("SURE = 0.95", "SURE = 0.9", "test_a_name_is_sure"),
         gate_far=("FAR = 5.0", "FAR = 8.0", "test_a_parameter_far_from_its_prior_takes_the_name"),
     ),
     *_of(
@@ -92,13 +93,13 @@ MUTANTS = (
             "test_one_mechanism_may_leave_more_than_several",
         ),
         sure_or_odds=(
-            "probability < SURE or not",
-            "probability < SURE and not",
+            "> ODDS or (probability < SURE",
+            "> ODDS and (probability < SURE",
             "test_a_name_is_sure test_a_name_has_its_odds",
         ),
-        refuted_and_yet_named=("if gain >= -ODDS:", "if True:", "test_held_out_data_strike_a_name"),
+        refuted_and_yet_named=("if gain < -ODDS:", "if False:", "test_held_out_data_strike_a_name"),
         nameless_named=(
-            "    if first.nameless:\n        best",
+            "    if unnamed(first):\n        best",
             "    if False:\n        best",
             "test_what_leads_without_a_name_is_unknown_with_a_field",
         ),
@@ -108,7 +109,7 @@ MUTANTS = (
             "test_a_name_stays_beside_what_has_none",
         ),
         nameless_takes_the_place=(
-            "        if other.nameless:\n            continue\n",
+            "        if unnamed(other):\n            continue\n",
             "",
             "test_held_out_data_strike_a_name",
         ),
@@ -120,12 +121,22 @@ MUTANTS = (
         own_mode_overlooked=(
             "if not first.telling and (hz",
             "if first.telling and (hz",
-            "test_a_mode_of_its_own_is_seen_first test_a_mode_that_was_not_measured_is_told_with_its_frequency",
+            "test_a_mode_of_its_own_is_seen_first",
         ),
         not_believed_and_yet_missing=(
             "(believed and none < DEMANDED)",
             "none < DEMANDED",
             "test_a_test_that_is_not_believed_is_no_reason",
+        ),
+        fields_predict_nothing=(
+            "return 1.0 if more <= ODDS",
+            "return 1.0 if True",
+            "test_held_out_data_turn_the_odds_of_a_field",
+        ),
+        prediction_counts_for_nothing=(
+            "if asked and not likely and _predicts",
+            "if False and _predicts",
+            "test_what_predicts_is_likely",
         ),
         likely_is_missing=(
             "if not demanded and gain <= ODDS:",
@@ -157,8 +168,8 @@ MUTANTS = (
             "test_rivals_without_a_name_share_their_prior",
         ),
         nameless_never_asked=(
-            "< _IDLE:",
-            "< 0.0:",
+            "< _IDLE):",
+            "< 0.0):",
             "test_a_field_over_the_masses_of_a_chain",
         ),
     ),

@@ -26,7 +26,7 @@ from mouse_cli.diagnosis.names import by_records
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.rank import Ranking, group, rank
 from mouse_cli.diagnosis.validate.next_measurement import proposals
-from mouse_cli.diagnosis.verdict import Verdict, explanations, judge, rest
+from mouse_cli.diagnosis.verdict import Verdict, certain, explanations, judge, rest
 from mouse_cli.dynamics.solver import EigenSolver
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Choices, Diagnosis, Proposal
 from mouse_cli.model.modal_test import restricted
@@ -77,9 +77,6 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices) -> Diagnos
         kind=kind,
         result=result,
         innovation=result.innovation,
-        explanations=explanations(ranking),
-        groups=ranking.groups,
-        noise_scale=ranking.noise_scale,
         location=location,
         energy=energy_map(as_it_is) if missing else None,
         law=None if best is None else implied_law(best),
@@ -95,9 +92,16 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices) -> Diagnos
         choices=choices,
         field=verdict.field and field_of(ranking, verdict.field, verdict.field_proof),
         rest=rest(ranking) if kind == NAMED else None,
-        untried=ranking.untried,
+        certain=verdict.certain and certain(best, verdict.certain),
+        **_tried(ranking),
         **vars(compared(problem, ranking, best if missing else None)),
     )
+
+
+def _tried(ranking: Ranking) -> dict[str, object]:
+    """What was tried, and how probable it is."""
+    told = {name: getattr(ranking, name) for name in ("groups", "noise_scale", "untried")}
+    return told | {"explanations": explanations(ranking)}
 
 
 def _hear() -> Callable[[Ranking], Ranking]:

@@ -11,8 +11,14 @@ ONE, MORE = 0.6, 1 / 7
 NAMELESS = 0.1
 """Prior weight of a change without a name, about that of a pair."""
 
-SURE = 0.9
-"""Posterior probability of a group from which on it is named."""
+SURE = 0.95
+"""Posterior probability of a group from which on it is named: no rival is left that would have to be listed."""
+
+STAYS = 0.1
+"""Posterior probability of a group above which it stays a rival of what leads without a name."""
+
+SAME_SITE = 0.05
+"""Distance, over the span of the structure, up to which mechanisms of one group in two explanations are one mechanism."""
 
 ODDS = 3.0
 """Log of the odds over no mechanism, noise larger than stated integrated out, that a name takes."""

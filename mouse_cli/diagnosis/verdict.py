@@ -4,11 +4,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.gates import DEMANDED, FAR, GATE, LIKELY, ODDS, SEVERAL, SURE
+from mouse_cli.diagnosis.companions import Shared, shared
+from mouse_cli.diagnosis.gates import DEMANDED, FAR, GATE, LIKELY, ODDS, SEVERAL, STAYS, SURE
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unmeasured_hz
 from mouse_cli.diagnosis.search.fit import Fit
-from mouse_cli.diagnosis.search.rank import Ranking, group
+from mouse_cli.diagnosis.search.rank import Ranking, group, unnamed
 from mouse_cli.diagnosis.validate.held_out import held_out
 from mouse_cli.model.diagnosis import (
     BY_DECK,
@@ -18,6 +19,7 @@ from mouse_cli.model.diagnosis import (
     RIVAL,
     UNKNOWN,
     Cause,
+    Certain,
     Explanation,
     HeldOut,
     Rest,
@@ -43,6 +45,7 @@ class Verdict:
 
     refuted: groups that held-out data speak against. field: the leading rival without a name where the answer is UNKNOWN, with
     field_proof, how it predicts what was held out. reasons: what forbids a name that evidence alone would give, in sentences.
+    certain: what of `best` is named, where its companions are open.
     """
 
     kind: str
@@ -52,6 +55,7 @@ class Verdict:
     field: Fit | None = None
     field_proof: HeldOut | None = None
     reasons: tuple[str, ...] = ()
+    certain: Shared | None = None
 
 
 def judge(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
@@ -59,24 +63,60 @@ def judge(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
 
     Something is missing where the update leaves too much, where the model as it is is improbable (DEMANDED), or where some
     mechanism is sure and what the deck holds out confirms it. Where none of that holds and yet the model as it is is not probable
-    (LIKELY), a mechanism is likely, not proved: one of several, the model as it is among them.
+    (LIKELY), or a mechanism predicts what was held out, if only mode by mode, it is likely, not proved: one of several, the model
+    as it is among them.
     """
     baseline, best, none = ranking.baseline, leader(ranking), dict(ranking.groups).get("none", 0.0)
     believed = ranking.stated[0] >= _BELIEVED
     demanded = doubtful(baseline, rejected) or (baseline.telling and none < GATE) or (believed and none < DEMANDED)
     likely = best is not None and believed and none <= LIKELY
-    proof = held_out(model, baseline, best if demanded or likely else None)
+    asked = demanded or likely or (believed and best is not None and _odds(ranking, best) > 0)
+    proof = held_out(model, baseline, best if asked else None)
     gain = _gain(proof)
     if not demanded and not (likely and gain > -ODDS):
+        if asked and not likely and _predicts(ranking, proof):
+            return Verdict(ONE_OF, best, proof)
         return Verdict(NOTHING, None, None if proof is None else replace(proof, revised=None))
     kind, reasons = decide(ranking)
     if not demanded and gain <= ODDS:
         kind = ONE_OF
     if kind == UNKNOWN or best is None:
         return _unknown(ranking, model, best, proof, (), reasons)
-    if gain >= -ODDS:
-        return Verdict(kind, best, proof, reasons=reasons)
-    return _next_rival(ranking, model, best, proof, reasons)
+    if gain < -ODDS:
+        return _next_rival(ranking, model, best, proof, reasons)
+    stands = _against_field(ranking, model, best, gain)
+    if stands < STAYS:
+        return _unknown(ranking, model, best, proof, (), (*reasons, _OVERTAKEN.format(group(best))))
+    kind = ONE_OF if stands < SURE else kind
+    open_ = kind == NAMED and ranking.groups[0][1] < SURE
+    return Verdict(kind, best, proof, reasons=reasons, certain=shared(ranking, best) if open_ else None)
+
+
+def _odds(ranking: Ranking, one: Fit) -> float:
+    """ln of how much better a fit predicts the data than the model as it is."""
+    return float(next(odds for odds, each in zip(ranking.log_odds, ranking.fits, strict=True) if each is one))
+
+
+def _predicts(ranking: Ranking, proof: HeldOut | None) -> bool:
+    """Whether what was held out, by the deck or mode by mode, is predicted better with the mechanism by more than chance.
+
+    It is the best of all that were tried, so that ODDS are asked of it for each of them.
+    """
+    if proof is None or proof.revised is None:
+        return False
+    gain = proof.revised.log_predictive_density - proof.baseline.log_predictive_density
+    return gain / ranking.noise_scale > ODDS + float(np.log(len(ranking.named)))
+
+
+def _against_field(ranking: Ranking, model: Reduced, best: Fit, gain: float) -> float:
+    """Probability of a name against the leading field where the data that the deck holds out speak for that; else 1.
+
+    Both have their probabilities given the data that were fitted; what they predict of the others multiplies these.
+    """
+    field, p = next((one for one in ranking.fits if one.nameless), None), dict(ranking.groups)
+    more = _gain(held_out(model, ranking.baseline, field)) - gain if field is not None and gain else 0.0
+    kept = p[group(best)] * np.exp(-max(more, 0.0))
+    return 1.0 if more <= ODDS else float(kept / (kept + p[group(field)]))
 
 
 def _next_rival(ranking: Ranking, model: Reduced, best: Fit, proof: HeldOut, reasons: tuple[str, ...]) -> Verdict:
@@ -84,7 +124,7 @@ def _next_rival(ranking: Ranking, model: Reduced, best: Fit, proof: HeldOut, rea
     struck = [group(best)]
     for name in (name for name, p in ranking.groups if p > RIVAL and name not in ("none", *struck)):
         other = next(one for one in ranking.fits if group(one) == name)
-        if other.nameless:
+        if unnamed(other):
             continue
         again = held_out(model, ranking.baseline, other)
         if not _gain(again) < -ODDS:
@@ -117,9 +157,9 @@ def sure(ranking: Ranking) -> bool:
 def decide(ranking: Ranking) -> tuple[str, tuple[str, ...]]:
     """The kind of answer when something is missing, by the gates of adequacy, probability and odds; and why no name is given."""
     first, (name, probability) = ranking.fits[0], ranking.groups[0]
-    if first.nameless:
+    if unnamed(first):
         best = leader(ranking)
-        rival = best is not None and dict(ranking.groups)[group(best)] > 1 - SURE and explains(best)
+        rival = best is not None and dict(ranking.groups)[group(best)] > STAYS and explains(best)
         return ONE_OF if rival else UNKNOWN, ()
     if name == "none":
         return UNKNOWN, ()
@@ -129,7 +169,7 @@ def decide(ranking: Ranking) -> tuple[str, tuple[str, ...]]:
         return UNKNOWN, ()  # the test is not as accurate as it is stated, and what is missing besides cannot be told
     if far := far_parameters(first):
         return UNKNOWN, (_FAR.format(far),)
-    if probability < SURE or not ranking.log_odds[0] > ODDS:
+    if not ranking.log_odds[0] > ODDS or (probability < SURE and shared(ranking, leader(ranking)) is None):
         return ONE_OF, ()
     if not first.model.base.data.by_shape and any(recipe.own for recipe in first.recipes):
         return ONE_OF, ()  # paired by number, a list of frequencies cannot prove that it holds one mode more
@@ -141,6 +181,10 @@ def decide(ranking: Ranking) -> tuple[str, tuple[str, ...]]:
 _FAR = (
     "With this mechanism {} of the deck would have to be wrong by more than 5 of its prior standard deviations: either the prior "
     "is much too narrow, or the physics is another."
+)
+_OVERTAKEN = (
+    "By the data that were fitted, {} leads what has no name. The data held out reverse that: it predicts them so much worse that "
+    "it is the less probable of the two."
 )
 _OWN_MODE = (
     "This mechanism has a mode of its own at {}, within the measured band, which the test does not have: look for it there; as "
@@ -184,14 +228,26 @@ def explanations(ranking: Ranking) -> tuple[Explanation, ...]:
 
 def explanation(one: Fit, probability: float = 0.0) -> Explanation:
     """A fit as the report gives it."""
-    sd, units = np.sqrt(np.abs(np.diag(one.covariance)))[one.model.k :], one.model.base.problem.units
-    causes = tuple(
-        _cause(recipe, one.c[own], sd[own], units) for recipe, own in zip(one.recipes, one.model.own, strict=True)
-    )
+    causes = _causes(one)
     theta = one.model.base.parameters(one.point.x[: one.model.k])
     p = upper_tail(one.misfit, max(one.dof, 1))
     elsewhere = tuple((_sites(other), share) for other, share in one.elsewhere if share > RIVAL)
     return Explanation(causes, one.misfit, one.dof, p, one.log_evidence, theta, probability, elsewhere)
+
+
+def certain(one: Fit, found: Shared) -> Certain:
+    """What is certain of a fit, in words and numbers, in the order of `Explanation`."""
+    causes = _causes(one)
+    chosen = sorted((causes[i] for i in found.which), key=lambda cause: (cause.group, cause.physics))
+    return Certain(tuple(chosen), found.probability, found.members, found.companions)
+
+
+def _causes(one: Fit) -> tuple[Cause, ...]:
+    """The mechanisms of a fit, in its order."""
+    sd, units = np.sqrt(np.abs(np.diag(one.covariance)))[one.model.k :], one.model.base.problem.units
+    return tuple(
+        _cause(recipe, one.c[own], sd[own], units) for recipe, own in zip(one.recipes, one.model.own, strict=True)
+    )
 
 
 def _sites(one: Fit) -> tuple[Site, ...]:

@@ -1,16 +1,26 @@
 """What a diagnosis found: where model and test part, what physics would explain it, how much of it, and whether that is true."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mouse_cli.model.field import BED as BED
+from mouse_cli.model.field import FORCE as FORCE
+from mouse_cli.model.field import MASS as MASS
+from mouse_cli.model.field import STIFFNESS as STIFFNESS
+from mouse_cli.model.field import Field as Field
+from mouse_cli.model.field import FieldValue as FieldValue
 from mouse_cli.model.frf_fit import Damping, FrfFit
 from mouse_cli.model.groups import enumerated, joined, leading, shares
 from mouse_cli.model.localisation import EnergyMap as EnergyMap
 from mouse_cli.model.localisation import Law as Law
 from mouse_cli.model.localisation import Location as Location
 from mouse_cli.model.localisation import Place as Place
+from mouse_cli.model.prediction import BY_DECK as BY_DECK
+from mouse_cli.model.prediction import BY_MODE as BY_MODE
+from mouse_cli.model.prediction import HeldOut as HeldOut
+from mouse_cli.model.prediction import Score as Score
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.proposal import HELPS as HELPS
 from mouse_cli.model.proposal import SETTLES as SETTLES
@@ -119,69 +129,25 @@ def elsewhere(explanations: Sequence[Explanation], best: Explanation) -> tuple[t
 
 
 @dataclass(frozen=True)
-class Score:
-    """How well data that no fit has seen were predicted; rms_shape_error: at sensors held out, over the largest component."""
-
-    rms_frequency_error: float
-    log_predictive_density: float
-    covered: float
-    frequencies_hz: np.ndarray
-    sd_hz: np.ndarray
-    mac: np.ndarray
-    rms_shape_error: float = float("nan")
-
-
-BY_DECK, BY_MODE = "held out by the deck", "each mode from the others"
-
-
-@dataclass(frozen=True)
-class HeldOut:
-    """Data kept from every fit, BY_DECK or BY_MODE. labels, measured_hz (h,); baseline, revised: how either model predicts them."""
-
-    kind: str
-    labels: tuple[str, ...]
-    measured_hz: np.ndarray
-    baseline: Score
-    revised: Score | None
-
-
-STIFFNESS, MASS, BED, FORCE = "stiffness", "mass", "bed", "force"  # of what kind physics without a name is
-
-
-@dataclass(frozen=True)
-class FieldValue:
-    """A field at a site: value and sd, relative to what the model has there; of a bed in units of EI / L^4."""
-
-    site: Site
-    value: float
-    sd: float
-
-
-@dataclass(frozen=True)
-class Field:
-    """Physics that has no name: a smooth change of `property` (STIFFNESS, MASS, BED) along the structure, or a spring (FORCE).
-
-    Values of a FORCE are the motion along which that one spring acts, of no sign of its own.
-    spread: sd of its values; length: over which they are correlated, in m or in steps from site to site (`unit`).
-    log_evidence_over_named: by which it leads everything that has a name; held_out: how the model with it predicts what no fit
-    has seen.
-    """
-
-    property: str
-    values: tuple[FieldValue, ...]
-    spread: float
-    length: float
-    unit: str
-    log_evidence_over_named: float
-    held_out: HeldOut | None = None
-
-
-@dataclass(frozen=True)
 class Rest:
     """What remains unexplained with the mechanisms that are named: share of the misfit of the model as it is, p-value of it."""
 
     share: float
     p: float
+
+
+@dataclass(frozen=True)
+class Certain:
+    """Mechanisms that most explanations share while what acts beside them is open.
+
+    causes: as the leading of those has them; probability: of all that have them; members, companions: physics of theirs, and
+    groups of what else acts (`none`: nothing), each with its probability given them.
+    """
+
+    causes: tuple[Cause, ...]
+    probability: float
+    members: tuple[tuple[str, float], ...]
+    companions: tuple[tuple[str, float], ...]
 
 
 @dataclass(frozen=True)
@@ -211,7 +177,8 @@ class Diagnosis:
     `gains`, `places` or `drift`. location, energy: what shapes alone say of the place.
     extended: the deck with the cause in it, and its update. frf, held_frf: functions of the model as it is, and with the cause
     where there is one, beside those fitted and those held out; damping: of the structure, as functions show it. field: physics
-    without a name where the answer is UNKNOWN; rest: what a named mechanism leaves unexplained; untried: candidates left out.
+    without a name where the answer is UNKNOWN; rest: what a named mechanism leaves unexplained; untried: candidates left out;
+    certain: what is named where its companions are open.
     """
 
     problem: Problem
@@ -239,10 +206,16 @@ class Diagnosis:
     field: Field | None = None
     rest: Rest | None = None
     untried: tuple[Untried, ...] = ()
+    certain: Certain | None = None
 
     @property
     def best(self) -> Explanation | None:
-        """The leading explanation of the leading group, one with a cause where there is any."""
+        """The leading explanation of the leading group, one with a cause where there is any; of it, what is certain."""
+        one = self._leading
+        return one if one is None or self.certain is None else replace(one, causes=self.certain.causes, elsewhere=())
+
+    @property
+    def _leading(self) -> Explanation | None:
         standing = [pair for pair in self.groups if self.kind != ONE_OF or pair[0] not in self.refuted]
         at = leading(standing, [one.group for one in self.explanations])
         return next(iter(self.explanations), None) if at is None else self.explanations[at]
@@ -256,12 +229,15 @@ class Diagnosis:
     @property
     def members(self) -> tuple[tuple[str, float], ...]:
         """Physics of the leading group and the probability of each within it, the largest first; empty without a leader."""
+        if self.certain is not None:
+            return self.certain.members
         return () if self.leader is None else members(self.explanations, self.leader.group)
 
     @property
     def elsewhere(self) -> tuple[tuple[tuple[Site, ...], float], ...]:
         """Rival sites of the leader, and the probability of each among its sites; see `elsewhere`."""
-        return () if self.leader is None else elsewhere(self.explanations, self.leader)
+        named = self.leader if self.certain is None else None
+        return () if named is None else elsewhere(self.explanations, named)
 
     @property
     def baseline(self) -> Explanation | None:
@@ -285,6 +261,8 @@ class Diagnosis:
     @property
     def probability(self) -> float:
         """Of the group of `best`, or of no cause where nothing is missing; NaN where nothing was compared."""
+        if self.certain is not None:
+            return self.certain.probability
         best = self.best
         group = "none" if self.kind == NOTHING or best is None else best.group
         return dict(self.groups).get(group, float("nan"))

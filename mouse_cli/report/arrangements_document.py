@@ -74,6 +74,7 @@ def _verdict(found: ArrangementsDiagnosis) -> dict[str, Any]:
         "probability": prod(turn.probability for turn in turns) if turns else None,
         "members": _members(turns) or None,
         "elsewhere": elsewhere(turns[0].elsewhere) if len(turns) == 1 else [],
+        "companions": [],
         "rest": rest(found.remaining),
         "field": field(found.field),
         "untried": untried(found.untried),

@@ -24,12 +24,17 @@ def verdict(found: Diagnosis) -> dict[str, Any]:
         "damping": [cause.law or None for cause in causes],
         "probability": None if found.kind == UNKNOWN else found.probability,
         "members": dict(found.members) or None,
+        "companions": [] if found.certain is None else [_share(*each) for each in found.certain.companions],
         "elsewhere": elsewhere(found.elsewhere),
         "rivals": [name for name, _ in found.rivals] if found.kind == ONE_OF else [],
         "rest": rest(found.rest),
         "field": field(found.field),
         "untried": untried(found.untried),
     }
+
+
+def _share(group: str, p: float) -> dict[str, Any]:
+    return {"group": group, "probability": p}
 
 
 def elsewhere(found: Elsewhere) -> list[dict[str, Any]]:

@@ -4,7 +4,10 @@ from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, Diagnosis, 
 from mouse_cli.model.record_diagnosis import RecordDiagnosis
 from mouse_cli.report.field_words import field_sentences
 from mouse_cli.report.sections._diagnosis_wording import (
+    called,
+    companions,
     grouped,
+    inside,
     lacking,
     leaders,
     p_value,
@@ -51,17 +54,22 @@ def _nothing(found: Diagnosis) -> str:
 
 def _named(found: Diagnosis) -> tuple[str, ...]:
     """Probability of the hypothesis where its group has no other member that counts, else of the group and of each member."""
-    best, inside = found.best, within(found.explanations, found.best)
+    best, members = found.best, inside(found)
     begin = "The test is at fault, not the model:" if faulty(best) else "The model lacks"
-    if not inside:
+    if not members:
         other = (
             f"It may act elsewhere{rivals_of_site(found.elsewhere).removeprefix('; or')}." if found.elsewhere else ""
         )
         p = f" ({with_p(found.probability)})" if len(best.causes) == 1 else f": {with_p(found.probability)}"
         first = f"{begin} {lacking(best)}{p}{_rest(found.rest)}."
-        return tuple(filter(None, (first, other)))
-    first = f"{begin} {grouped(found.explanations, best)} ({with_p(found.probability)}): {inside}{_rest(found.rest)}."
-    return first, f"If it is {best.title}, it acts here: {where(best)}{rivals_of_site(found.elsewhere)}."
+        return tuple(filter(None, (first, other, _companions(found))))
+    first = f"{begin} {called(found)} ({with_p(found.probability)}): {members}{_rest(found.rest)}."
+    at = f"If it is {best.title}, it acts here: {where(best)}{rivals_of_site(found.elsewhere)}."
+    return tuple(filter(None, (first, at, _companions(found))))
+
+
+def _companions(found: Diagnosis) -> str:
+    return f"What acts beside it is open: {companions(found)}." if found.certain else ""
 
 
 def _rest(rest: Rest | None) -> str:

@@ -88,6 +88,7 @@ def test_exit_codes():
         "members": 1,
         "likely": 1,
         "three": 1,
+        "companions": 1,
         "nameless": 1,
     }
     nothing = DIAGNOSES["nothing"]()
@@ -240,7 +241,7 @@ def test_figures(name, tmp_path):
         with open(path, "rb") as file:
             assert file.read(8) == b"\x89PNG\r\n\x1a\n"
     expected = {"named": 6, "two": 5, "one-of": 2, "unknown": 2, "nothing": 3, "bare": 1, "functions": 10}
-    expected |= {"members": 2, "likely": 2, "three": 2, "nameless": 3}
+    expected |= {"members": 2, "likely": 2, "three": 2, "companions": 2, "nameless": 3}
     assert len(written) == expected[name]
     assert len(written) <= len(registry())
 

@@ -17,20 +17,8 @@ from mouse_cli.page import Part, page, summary
 from mouse_cli.report.section import Options, blocks
 from mouse_cli.report.verdict_sentences import sentences
 
-KEYS = {
-    "kind",
-    "sentences",
-    "physics",
-    "group",
-    "site",
-    "sites",
-    "probability",
-    "members",
-    "elsewhere",
-    "rest",
-    "field",
-    "untried",
-}
+KEYS = {"kind", "sentences", "physics", "group", "site", "sites", "probability", "members"}
+KEYS |= {"companions", "elsewhere", "rest", "field", "untried"}
 
 
 def configurations(kind: str = NAMED, adequate: bool = True, **more) -> ArrangementsDiagnosis:
@@ -186,6 +174,25 @@ def test_likely_is_not_proved():
     assert sentences(other)[0].startswith("It is possible, not likely, that the model lacks a spring to the ground")
     several = words(DIAGNOSES["one-of"]())
     assert "It is likely, not proved, that something is missing (probability that nothing is: 0.10)" in several
+
+
+def test_what_is_certain_is_named_while_its_companion_is_open():
+    """Everywhere the crack and its probability alone; what acts beside it with probabilities of its own."""
+    found = DIAGNOSES["companions"]()
+    verdict = report.document(found)["verdict"]
+    assert (verdict["physics"], verdict["group"], verdict["probability"]) == ("crack", "local-stiffness", 0.95)
+    assert [site["ids"] for site in verdict["sites"]] == [[12]] and verdict["members"] == {"crack": 1.0}
+    beside = {each["group"]: each["probability"] for each in verdict["companions"]}
+    assert list(beside) == ["shear", "none", "mass"] and sum(beside.values()) == pytest.approx(1.0)
+    assert verdict["sentences"] == [
+        "The model lacks an open crack: element 12, 0.43 m from node 1 (probability 0.95).",
+        "What acts beside it is open: shear or rotary inertia 0.53, nothing 0.32, a lumped mass 0.16.",
+    ]
+    told = words(found)
+    assert "An open crack, group local-stiffness, probability 0.95 of the group." in told
+    assert "The extended deck has the likeliest companion in it too." in told
+    assert "An open crack: depth over height 0.7" in told and "An open crack and" not in told
+    assert report.document(DIAGNOSES["named"]())["verdict"]["companions"] == []
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 4])

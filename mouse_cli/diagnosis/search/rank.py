@@ -18,12 +18,14 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.nameless.fit import rivals
 from mouse_cli.diagnosis.noise import scale
+from mouse_cli.diagnosis.search.disguised import disguised
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.optima import within
 from mouse_cli.diagnosis.search.several import adequate, several
 from mouse_cli.diagnosis.search.study import Study, best, settled
 from mouse_cli.model.diagnosis import Untried
 from mouse_cli.model.groups import joined, shares
+from mouse_cli.updating.chi_square import upper_tail
 
 _NO_SITE, _UNPHYSICAL = (
     "it has no site in this model",
@@ -31,7 +33,9 @@ _NO_SITE, _UNPHYSICAL = (
 )
 _TRUSTED = 0.5  # share of the stated accuracies in the leading explanation below which errors of the test may be all
 _LOUD = 4.0  # noise scale from which on no error of the test is all, and as many are sought as beside a test that is trusted
-_IDLE = 0.5  # probability of no mechanism above which what has no name is not asked
+_IDLE = (
+    0.5  # probability of no mechanism above which what has no name is not asked where that leaves no more than chance
+)
 
 
 @dataclass(frozen=True)
@@ -60,12 +64,21 @@ class Ranking:
     @property
     def named(self) -> list[int]:
         """Indices of the fits that have a name, or are of no mechanism."""
-        return [i for i, one in enumerate(self.fits) if one.nameless is None]
+        return [i for i, one in enumerate(self.fits) if unnamed(one) is None]
 
 
 def group(one: Fit) -> str:
     """Groups of the mechanisms of a fit; the key of a rival that has no name."""
-    return one.nameless.rival.key if one.nameless else joined([recipe.candidate.group for recipe in one.recipes])
+    return unnamed(one) or _joined(one)
+
+
+def _joined(one: Fit) -> str:
+    return joined([recipe.candidate.group for recipe in one.recipes])
+
+
+def unnamed(one: Fit) -> str | None:
+    """Key of the rival without a name that a fit is, openly or in disguise; None: it has a name, or is of no mechanism."""
+    return one.nameless.rival.key if one.nameless else disguised(one)
 
 
 def rank(
@@ -89,7 +102,8 @@ def rank(
         singles += [] if one is None else [one]
     fits = [baseline, *singles]
     found = hear(ranking(baseline, fits))
-    if last and dict(found.groups).get("none", 0.0) < _IDLE:
+    doubtful = upper_tail(baseline.misfit, max(baseline.dof, 1)) < gates.GATE
+    if last and (doubtful or dict(found.groups).get("none", 0.0) < _IDLE):
         fits += rivals(model, baseline, kind, within(fits))
     with_cause = [one for one in found.fits if one.recipes]
     if causes > 1 and with_cause and not adequate(min(with_cause, key=lambda one: one.misfit)):
@@ -131,9 +145,11 @@ def _log_prior(one: Fit, fits: list[Fit]) -> float:
 
     Sites of several of one kind are a set, which the product of their own priors counts in every order.
     """
-    alike = sum(group(each) == group(one) and len(each.recipes) == len(one.recipes) for each in fits)
     if one.nameless:
         return float(np.log(gates.NAMELESS / sum(each.nameless is not None for each in fits)))
-    groups = {group(each) for each in fits if len(each.recipes) == 1}
+    alike = sum(
+        not each.nameless and len(each.recipes) == len(one.recipes) and _joined(each) == _joined(one) for each in fits
+    )
+    groups = {_joined(each) for each in fits if len(each.recipes) == 1}
     orders = sum(lgamma(count + 1) for count in Counter(recipe.candidate.key for recipe in one.recipes).values())
     return gates.log_prior(len(one.recipes), len(groups)) - float(np.log(alike)) + orders

@@ -113,10 +113,25 @@ def lacking(one: Explanation) -> str:
 
 def grouped(explanations: Sequence[Explanation], one: Explanation) -> str:
     """What the group of `one` is called: as `one` where it has no other member that counts."""
-    if not within(explanations, one):
-        return one.title
+    return _in_groups(one) if within(explanations, one) else one.title
+
+
+def called(found: Diagnosis) -> str:
+    """The same of what is named."""
+    return _in_groups(found.best) if inside(found) else found.best.title
+
+
+def _in_groups(one: Explanation) -> str:
     titles = [TITLES.get(cause.group, cause.title) for cause in one.causes]
     return enumerated([t for i, t in enumerate(titles) if one.causes[i].group != "support" or t not in titles[:i]])
+
+
+def companions(found: Diagnosis) -> str:
+    """Groups of what may act beside what is certain, and the probability of each."""
+    title = {cause.group: cause.title for one in reversed(found.explanations) for cause in one.causes}
+    of = lambda group: TITLES.get(group, title[group]) if group != "none" else "nothing"
+    words = lambda groups: enumerated([of(each) for each in groups.split(" + ")])
+    return ", ".join(f"{words(groups)} {probable(p)}" for groups, p in found.certain.companions if p >= LEAST)
 
 
 def within(explanations: Sequence[Explanation], one: Explanation) -> str:
@@ -127,10 +142,22 @@ def within(explanations: Sequence[Explanation], one: Explanation) -> str:
     >>> grouped(both, both[0]), within(both, both[0]), within(both[:1], both[0])
     ('a local loss of stiffness', 'an open crack 0.67, a softer stretch or element 0.33', '')
     """
-    found = [(physics, p) for physics, p in members(explanations, one.group) if p >= LEAST]
-    title = {each.physics: each.title for each in reversed(explanations)}
-    named = lambda physics: physics if title[physics] in TITLES.values() else title[physics]
-    return ", ".join(f"{named(physics)} {probable(p)}" for physics, p in found) if len(found) > 1 else ""
+    return _members(explanations, members(explanations, one.group))
+
+
+def inside(found: Diagnosis) -> str:
+    """The same of what is named."""
+    if found.certain is None:
+        return within(found.explanations, found.best)
+    return _members(found.explanations, found.certain.members)
+
+
+def _members(explanations: Sequence[Explanation], listed: Sequence[tuple[str, float]]) -> str:
+    found = [(physics, p) for physics, p in listed if p >= LEAST]
+    title = {cause.physics: cause.title for each in explanations for cause in each.causes}
+    named = lambda key: key if title[key] in TITLES.values() else title[key]
+    words = lambda physics: enumerated([named(key) for key in physics.split(" + ")])
+    return ", ".join(f"{words(physics)} {probable(p)}" for physics, p in found) if len(found) > 1 else ""
 
 
 def whereabouts(one: Explanation, units: Units, elsewhere: tuple[tuple[tuple[Site, ...], float], ...] = ()) -> str:

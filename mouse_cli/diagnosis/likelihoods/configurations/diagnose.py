@@ -14,7 +14,7 @@ from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
 from mouse_cli.diagnosis.nameless.fit import field_of, rivals
 from mouse_cli.diagnosis.search.fit import Fit
-from mouse_cli.diagnosis.search.rank import Ranking, rank, ranking
+from mouse_cli.diagnosis.search.rank import Ranking, rank, ranking, unnamed
 from mouse_cli.diagnosis.verdict import ODDS, SURE, doubtful, explanation, explanations, leader, sure
 from mouse_cli.model.arrangements import ArrangementsDiagnosis, Turn
 from mouse_cli.model.diagnosis import BY_DECK, NAMED, ONE_OF, Choices, Field, HeldOut, Score
@@ -163,7 +163,7 @@ def _turn(at: State) -> tuple[Turn | None, Fit | None]:
 
 def _has_name(ranking: Ranking, best: Fit) -> bool:
     """Whether what leads has a name, and can be put into decks."""
-    return ranking.fits[0].nameless is None and all(recipe.extend is not None for recipe in best.recipes)
+    return unnamed(ranking.fits[0]) is None and all(recipe.extend is not None for recipe in best.recipes)
 
 
 def _better(at: State, held: Score | None) -> float:

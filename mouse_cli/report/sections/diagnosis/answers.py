@@ -20,7 +20,10 @@ from mouse_cli.report.blocks import Block, Column, Heading, Table, Text
 from mouse_cli.report.field_words import held_words
 from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._diagnosis_wording import (
+    called,
+    companions,
     grouped,
+    inside,
     leaders,
     p_value,
     place,
@@ -107,14 +110,16 @@ def _what(found: Diagnosis) -> Iterator[Block]:
         yield Text(f"Nothing{chances}. {hidden}.{_open(found)}")
     elif found.kind == NAMED:
         yield Text(
-            f"{_capital(grouped(found.explanations, best))}, group {best.group}, {with_p(found.probability)} of the "
-            f"group{_inside(found)}. Goodness of fit of the extended model {p_value(best.p)}{_noise(found)}. {conditional}."
+            f"{_capital(called(found))}, group {best.group}, {with_p(found.probability)} of the group{_inside(found)}. "
+            f"Goodness of fit of the extended model {p_value(best.p)}{_noise(found)}. {conditional}."
         )
+        if found.certain is not None:
+            yield Text(_beside(found))
         if found.rest is not None:
             yield Text(f"That is not all: {remains(found.rest)}. It has no name here.")
     elif found.kind == ONE_OF:
-        inside = Column("members within the group", align=LEFT)
-        columns = (Column("mechanism", align=LEFT), Column("group", align=LEFT), Column("probability"), inside)
+        members = Column("members within the group", align=LEFT)
+        columns = (Column("mechanism", align=LEFT), Column("group", align=LEFT), Column("probability"), members)
         tried, p = found.explanations, dict(found.groups)
         rows = [(grouped(tried, one), one.group, probable(p[one.group]), within(tried, one)) for one in standing(found)]
         yield Text(_unsettled(found))
@@ -131,8 +136,15 @@ def _what(found: Diagnosis) -> Iterator[Block]:
 
 def _inside(found: Diagnosis) -> str:
     """Members of the group of what is named, where there are several that count."""
-    inside = within(found.explanations, found.best)
-    return f", members within it: {inside}" if inside else ""
+    members = inside(found)
+    return f", members within it: {members}" if members else ""
+
+
+def _beside(found: Diagnosis) -> str:
+    """What is in the extended deck beside what is named."""
+    also = found.certain.companions[0][0]
+    extended = "" if also == "none" else " The extended deck has the likeliest companion in it too."
+    return f"Probabilities of what acts beside it: {companions(found)}.{extended}"
 
 
 def _unsettled(found: Diagnosis) -> str:

@@ -1,0 +1,96 @@
+"""What most explanations share: mechanisms that are certain while what acts beside them is open.
+
+"Crack and gravity", "crack and tension" and "crack" are three groups and one crack. Explanations exclude one another, so that the
+probability of a mechanism is the sum of those of all explanations that have its group at its site.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+from mouse_cli.diagnosis.gates import SAME_SITE, SURE
+from mouse_cli.diagnosis.likelihoods.modal.scales import span
+from mouse_cli.diagnosis.search.fit import Fit
+from mouse_cli.diagnosis.search.rank import Ranking
+from mouse_cli.model.groups import joined, shares
+from mouse_cli.model.site import Site
+
+Mechanism = tuple[str, str, Site]  # physics, group, site
+
+
+@dataclass(frozen=True)
+class Shared:
+    """Mechanisms of a fit, by number, that other explanations have too; probability of all that have them.
+
+    members, companions: physics of theirs, and groups of what else acts, each with its probability given them.
+    """
+
+    which: tuple[int, ...]
+    probability: float
+    members: tuple[tuple[str, float], ...]
+    companions: tuple[tuple[str, float], ...]
+
+
+def shared(ranking: Ranking, first: Fit) -> Shared | None:
+    """The most mechanisms of `first` whose summed probability is SURE; None where none has it."""
+    own, every = _mechanisms(first), list(_explanations(ranking))
+    reach = SAME_SITE * span(first.model.base)
+    for count in range(len(own), 0, -1):
+        found = [_summed(which, own, every, reach) for which in combinations(range(len(own)), count)]
+        best = max(found, key=lambda one: one.probability)
+        if best.probability >= SURE:
+            return best
+    return None
+
+
+def _summed(which: tuple[int, ...], own: list[Mechanism], every, reach: float) -> Shared:
+    physics, beside, weights = [], [], []
+    for p, mechanisms in every:
+        at = _matched([own[i] for i in which], mechanisms, reach)
+        if at is not None:
+            physics.append(" + ".join(name for name, _, _ in sorted(mechanisms[i] for i in at)))
+            beside.append(joined([group for i, (_, group, _) in enumerate(mechanisms) if i not in at]))
+            weights.append(p)
+    total = sum(weights)
+    given = [p / total for p in weights] if total > 0 else weights
+    return Shared(which, total, shares(physics, given), shares(beside, given))
+
+
+def _explanations(ranking: Ranking) -> Iterator[tuple[float, list[Mechanism]]]:
+    """Probability and mechanisms of all fits that have a name, each at all of its sites."""
+    for i in ranking.named:
+        one, p = ranking.fits[i], float(ranking.probabilities[i])
+        for other, share in one.elsewhere:
+            yield p * share, _mechanisms(other)
+        yield p * (1 - sum(share for _, share in one.elsewhere)), _mechanisms(one)
+
+
+def _mechanisms(one: Fit) -> list[Mechanism]:
+    return [
+        (recipe.candidate.key, recipe.candidate.group, recipe.site(recipe.values(one.c[own])))
+        for recipe, own in zip(one.recipes, one.model.own, strict=True)
+    ]
+
+
+def _matched(wanted: Sequence[Mechanism], among: Sequence[Mechanism], reach: float) -> tuple[int, ...] | None:
+    """Numbers of those `among` that are the ones wanted, each one once, the nearest first; None where one is not there."""
+    taken: tuple[int, ...] = ()
+    for _, group, site in wanted:
+        gaps = [
+            (gap(site, other), i)
+            for i, (_, its, other) in enumerate(among)
+            if its == group and i not in taken and gap(site, other) <= reach
+        ]
+        if not gaps:
+            return None
+        taken += (min(gaps)[1],)
+    return taken
+
+
+def gap(one: Site, other: Site) -> float:
+    """Distance between two sites in m; without coordinates 0 where they are the same."""
+    if one.position is None or other.position is None:
+        return 0.0 if (one.kind, one.ids) == (other.kind, other.ids) else float("inf")
+    return float(np.linalg.norm(np.subtract(one.position, other.position)))

@@ -1,0 +1,36 @@
+"""Physics that has no name: where it acts, and how much of it."""
+
+from dataclasses import dataclass
+
+from mouse_cli.model.prediction import HeldOut
+from mouse_cli.model.site import Site
+
+STIFFNESS, MASS, BED, FORCE = "stiffness", "mass", "bed", "force"  # of what kind physics without a name is
+
+
+@dataclass(frozen=True)
+class FieldValue:
+    """A field at a site: value and sd, relative to what the model has there; of a bed in units of EI / L^4."""
+
+    site: Site
+    value: float
+    sd: float
+
+
+@dataclass(frozen=True)
+class Field:
+    """Physics that has no name: a smooth change of `property` (STIFFNESS, MASS, BED) along the structure, or a spring (FORCE).
+
+    Values of a FORCE are the motion along which that one spring acts, of no sign of its own.
+    spread: sd of its values; length: over which they are correlated, in m or in steps from site to site (`unit`).
+    log_evidence_over_named: by which it leads everything that has a name; held_out: how the model with it predicts what no fit
+    has seen.
+    """
+
+    property: str
+    values: tuple[FieldValue, ...]
+    spread: float
+    length: float
+    unit: str
+    log_evidence_over_named: float
+    held_out: HeldOut | None = None

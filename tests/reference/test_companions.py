@@ -1,0 +1,69 @@
+"""Mechanisms that most explanations share: rankings made up here."""
+
+import pytest
+from made_up_rankings import made_up, ranked
+
+from mouse_cli.diagnosis import verdict as decided
+from mouse_cli.diagnosis.companions import shared
+from mouse_cli.diagnosis.verdict import decide
+from mouse_cli.model.diagnosis import NAMED, ONE_OF
+
+
+@pytest.fixture(autouse=True)
+def _without_modes(monkeypatch):
+    """Fits made up here have no modes that could be unmeasured."""
+    monkeypatch.setattr(decided, "unmeasured_hz", lambda one: ())
+
+
+BARE = made_up(misfit=25.0)
+
+
+def found(*fits, p):
+    return shared(ranked(*fits, BARE, p=p), fits[0])
+
+
+def test_a_crack_that_all_share_is_certain_and_its_companion_open():
+    """No group has 0.9, the crack has 0.98: at 0.40, 0.41 and 0.42 m it is one crack."""
+    fits = made_up("crack@0.40", "gravity"), made_up("axial", "crack@0.41"), made_up("crack@0.42")
+    one = found(*fits, p=(0.46, 0.3, 0.22, 0.02))
+    assert one.which == (0,) and one.probability == pytest.approx(0.98)
+    assert dict(one.members) == {"crack": 1.0}
+    assert [name for name, _ in one.companions] == ["gravity", "axial", "none"]
+    assert dict(one.companions)["none"] == pytest.approx(0.22 / 0.98)
+    assert decide(ranked(*fits, BARE, p=(0.46, 0.3, 0.22, 0.02)))[0] == NAMED
+
+
+def test_cracks_elsewhere_are_not_the_same():
+    """Neither another fit that has it 0.1 of the span away, nor the share of a fit that stands at a rival site."""
+    fits = made_up("crack@0.40", "gravity"), made_up("axial", "crack@0.50"), made_up("crack@0.42")
+    assert found(*fits, p=(0.46, 0.3, 0.22, 0.02)) is None
+    assert decide(ranked(*fits, BARE, p=(0.46, 0.3, 0.22, 0.02)))[0] == ONE_OF
+    alone = made_up("crack@0.42", elsewhere=((made_up("crack@0.9"), 0.5),))
+    one = found(made_up("crack@0.40", "gravity"), alone, p=(0.75, 0.22, 0.03))
+    assert one is None
+    assert found(made_up("crack@0.40", "gravity"), made_up("crack@0.42"), p=(0.75, 0.22, 0.03)) is not None
+
+
+def test_as_many_as_are_certain_are_named():
+    """Crack and mass in all; one crack is not two."""
+    fits = made_up("crack@0.4", "mass@0.7", "axial"), made_up("crack@0.4", "mass@0.7")
+    one = found(*fits, p=(0.6, 0.37, 0.03))
+    assert one.which == (0, 1) and [name for name, _ in one.companions] == ["axial", "none"]
+    twice = made_up("crack@0.4", "crack@0.4"), made_up("crack@0.4")
+    assert len(found(*twice, p=(0.6, 0.37, 0.03)).which) == 1
+
+
+def test_what_has_no_name_does_not_share():
+    fits = made_up("crack@0.4", "gravity"), made_up(nameless="field-bed"), made_up("crack@0.4")
+    assert found(*fits, p=(0.45, 0.2, 0.32, 0.03)) is None
+
+
+def test_a_certain_mechanism_has_to_explain():
+    """What leads leaves too much: no name, whatever is shared."""
+    fits = made_up("crack@0.4", "gravity", misfit=60.0), made_up("crack@0.4", "axial", misfit=60.0)
+    assert decide(ranked(*fits, BARE, p=(0.6, 0.37, 0.03)))[0] not in (NAMED, ONE_OF)
+
+
+def test_sites_without_coordinates_are_the_same_by_their_numbers():
+    one, other = made_up("mass", "axial"), made_up("mass")
+    assert found(one, other, p=(0.6, 0.37, 0.03)).probability == pytest.approx(0.97)
