@@ -8,7 +8,7 @@ import numpy as np
 
 from mouse_cli._errors import ERROR, DeckError, Diagnostic
 from mouse_cli.diagnosis.extend.deck import in_its_units
-from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, SharedRecipe, Together
+from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, SharedRecipe, Together, lowest_of
 from mouse_cli.diagnosis.likelihoods.configurations.predict import predicted, shared_errors
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
@@ -38,7 +38,7 @@ class Decks:
     @cached_property
     def arranged(self) -> Arranged:
         """As one model."""
-        parts = tuple(reduced(each, each.prior.mean) for each in self.problems)
+        parts = tuple(lowest_of(reduced(each, each.prior.mean)) for each in self.problems)
         return Arranged(parts, self.common_sd, self.having)
 
     def extended(self, one: Fit) -> "Decks":
