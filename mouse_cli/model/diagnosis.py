@@ -7,6 +7,7 @@ import numpy as np
 
 from mouse_cli.model.field import BED as BED
 from mouse_cli.model.field import FORCE as FORCE
+from mouse_cli.model.field import LAW as LAW
 from mouse_cli.model.field import MASS as MASS
 from mouse_cli.model.field import STIFFNESS as STIFFNESS
 from mouse_cli.model.field import Field as Field

@@ -12,6 +12,7 @@ UNITS = {
     "mass": "change of mass, per cent",
     "bed": "bed stiffness, EI/L^4",
     "force": "motion of the spring",
+    "law": "stiffness over the static stiffness there",
 }
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from mouse_cli.model.diagnosis import BED, FORCE, MASS, STIFFNESS, Field, FieldValue, HeldOut
+from mouse_cli.model.diagnosis import BED, FORCE, LAW, MASS, STIFFNESS, Field, FieldValue, HeldOut
 from mouse_cli.report.sections._diagnosis_wording import nats, place
 
 ACTS = {
@@ -10,12 +10,14 @@ ACTS = {
     MASS: "acts on the mass",
     BED: "acts as a bed, a stiffness from the structure to the ground",
     FORCE: "acts as one spring along a motion of the whole structure",
+    LAW: "acts at one place, by a law that is in no library",
 }
 UNITS = {
     STIFFNESS: "per cent",
     MASS: "per cent",
     BED: "EI/L^4",
     FORCE: "of that motion",
+    LAW: "of the static stiffness there",
 }  # of values as they are printed
 _MOST = 0.5  # of the largest value: neighbours above it belong to where most of the field is
 _SHOWN = 2.0  # sd from which on a value is listed by itself
@@ -23,7 +25,8 @@ _SHOWN = 2.0  # sd from which on a value is listed by itself
 
 def field_sentences(field: Field) -> tuple[str, ...]:
     """What is missing, and that it has no name."""
-    told = f"What is missing has no name in the library. It {ACTS[field.property]}{_most(field)}."
+    acts = _law(field) if field.property == LAW else f"It {ACTS[field.property]}{_most(field)}"
+    told = f"What is missing has no name in the library. {acts}."
     over = f"Its log evidence is {nats(field.log_evidence_over_named)} above that of everything that has a name."
     return (
         told,
@@ -68,6 +71,13 @@ def core(values: Sequence[FieldValue]) -> tuple[int, int, int]:
     while last < len(values) - 1 and belongs(last + 1):
         last += 1
     return first, top, last
+
+
+def _law(field: Field) -> str:
+    """Where a law acts, and its values at the frequencies of the modes that tell."""
+    where = field.values[0].site.text.rpartition(", mode ")[0]
+    each = [f"{v.value:.3g} (sd {v.sd:.2g}) in mode {v.site.text.rpartition(', mode ')[2]}" for v in telling(field)]
+    return f"It acts at {where}, by a law that is in no library: {', '.join(each)}, {UNITS[LAW]}"
 
 
 def _most(field: Field) -> str:

@@ -43,13 +43,6 @@ def bare_deck(title: str, places: np.ndarray, frequency: np.ndarray) -> str:
     return BARE.format(title=title, nodes=nodes, frequency=np.round(frequency, 3).tolist(), **about)
 
 
-@pytest.fixture
-def beam(tmp_path):
-    if not MEASURED.exists():
-        pytest.skip("the measured data are not beside the project")
-    return Beam(tmp_path)
-
-
 def asked(beam, *arguments: str) -> dict:
     """What `mouse diagnose` says of decks in the folder of `beam`."""
     out = beam.folder / "told.json"
@@ -57,15 +50,23 @@ def asked(beam, *arguments: str) -> dict:
     return json.loads(out.read_text())
 
 
-def test_a_bare_beam_tells_its_masses_and_its_clamp_and_then_which_mass_went(beam):
-    """Both in one test: the decks that the first diagnosis writes are what changed in the second."""
+@pytest.fixture(scope="module")
+def bare(tmp_path_factory):
+    """The beam, what several layouts of it lack, and the folder of the decks with that in them."""
+    if not MEASURED.exists():
+        pytest.skip("the measured data are not beside the project")
+    beam = Beam(tmp_path_factory.mktemp("beam"))
     for layout in (*SEEN, *UNSEEN):
         path = beam.folder / f"layout{layout}.yaml"
         path.write_text(bare_deck(f"layout {layout}", beam.places[layout - 1], beam.measured["healthy"][layout - 1]))
     folder = beam.folder / "revised"
     held = [part for k in UNSEEN for part in ("--held-out", str(beam.folder / f"layout{k}.yaml"))]
     fitted = [str(beam.folder / f"layout{k}.yaml") for k in SEEN]
-    found = asked(beam, *fitted, *held, "-o", str(folder))
+    return beam, asked(beam, *fitted, *held, "-o", str(folder)), folder
+
+
+def test_a_bare_beam_tells_its_masses_and_its_clamp(bare):
+    _, found, _ = bare
     masses, clamp, *_ = found["verdict"]["causes"]
     assert (masses["physics"], masses["kind"], masses["site"]["ids"]) == ("items", "named", list(range(41, 47)))
     assert (clamp["group"], clamp["kind"]) == ("support", "named")
@@ -77,10 +78,11 @@ def test_a_bare_beam_tells_its_masses_and_its_clamp_and_then_which_mass_went(bea
     assert after["rms_frequency_error"] < 0.7 * before["rms_frequency_error"]
     assert after["covered"] > 0.8
     assert found["residual"]["p"] > 0.05
-    which_mass_went(beam, folder)
 
 
-def which_mass_went(beam, folder):
+def test_and_then_which_mass_went(bare):
+    """The decks that the first diagnosis wrote are what changed."""
+    beam, _, folder = bare
     for layout in SEEN:
         text = (folder / f"layout{layout}.yaml").read_text()
         hz = np.round(beam.measured["damaged"][layout - 1], 3).tolist()

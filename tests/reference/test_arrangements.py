@@ -185,3 +185,11 @@ def test_what_has_no_meaning_for_arrangements_is_refused(tmp_path, monkeypatch, 
     for name in ("one", "two", "three"):
         deck(tmp_path, name, PLACES[0], frequencies(PLACES[0]), 1)
     assert _run(["diagnose", "one.yaml", "three.yaml", *arguments]) == 2
+
+
+def test_a_step_that_leaves_too_much_is_no_name(tmp_path):
+    """Items and a spring to the ground where only springs may be named: with one in the model far more is left than noise."""
+    decks = [deck(tmp_path, f"n{i}", p, frequencies(p, ITEM, 3e4), i) for i, p in enumerate(PLACES[:6])]
+    _, found = asked(tmp_path, *decks, "--candidates", "ground-spring")
+    assert found["verdict"]["kind"] == "unknown"
+    assert found["turns"] and all(cause["kind"] != "named" for cause in found["verdict"]["causes"])

@@ -14,8 +14,11 @@ SENSORS = range(3, 29, 2)
 BED = 3000 * EI / LENGTH**4  # N/m2
 
 
-def measured(bed: float, first: float, last: float) -> tuple[np.ndarray, np.ndarray]:
-    """Hz (m,) and deflections (29, m) of inner nodes of 30 elements, each made of four Hermite elements here."""
+def measured(bed: float, first: float, last: float, more: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+    """Hz (m,) and deflections (29, m) of inner nodes of 30 elements, each made of four Hermite elements here.
+
+    bed (N/m2) and `more` mass (kg/m) between two shares of the length.
+    """
     n = 120
     l = LENGTH / n
     unit = np.outer([1, l, 1, l], [1, l, 1, l])
@@ -23,17 +26,16 @@ def measured(bed: float, first: float, last: float) -> tuple[np.ndarray, np.ndar
     m = l / 420 * unit * np.array([[156, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]])
     K, M = np.zeros((2, 2 * n + 2, 2 * n + 2))
     for e in range(n):
-        at = slice(2 * e, 2 * e + 4)
-        K[at, at] += k + bed * m * (first <= (e + 0.5) * l / LENGTH <= last)
-        M[at, at] += MASS * m
+        at, within = slice(2 * e, 2 * e + 4), first <= (e + 0.5) * l / LENGTH <= last
+        K[at, at] += k + bed * m * within
+        M[at, at] += (MASS + more * within) * m
     inner = slice(2, 2 * n)
     lam, X = eigh(K[inner, inner], M[inner, inner], subset_by_index=[0, MODES - 1])
     return np.sqrt(lam) / (2 * np.pi), X[6::8]  # node 1 of 30 is the fourth of 120
 
 
-@pytest.mark.parametrize(("first", "last"), [(0.0, 0.45), (0.6, 1.0)])
-def test_a_bed_under_a_part_is_named_with_its_extent(first, last):
-    hz, shapes = measured(BED, first, last)
+def diagnosed(hz: np.ndarray, shapes: np.ndarray):
+    """What mouse says of a clamped beam that has nothing of it."""
     rng = np.random.default_rng(2)
     shapes = shapes[[n - 2 for n in SENSORS]] / np.abs(shapes).max(axis=0)
     shapes = shapes + 0.01 * rng.standard_normal(shapes.shape)
@@ -58,9 +60,41 @@ test:
 {rows}
     shape_sd: 1 %
 """
-    found = diagnose(assemble(yaml_deck.read(deck, "beam.yaml")))
+    return diagnose(assemble(yaml_deck.read(deck, "beam.yaml")))
+
+
+@pytest.mark.parametrize(("first", "last"), [(0.0, 0.45), (0.6, 1.0)])
+def test_a_bed_under_a_part_is_named_with_its_extent(first, last):
+    found = diagnosed(*measured(BED, first, last))
     assert (found.kind, found.best.group) == (NAMED, "foundation")
     stiffness, covered = found.best.causes[0].sizes
     assert f"end at element {1 if first == 0 else 30}" in found.best.causes[0].site.text
     assert abs(covered.value - (last - first)) < 0.04
     assert abs(stiffness.value - BED) < 3 * stiffness.sd
+
+
+@pytest.mark.parametrize(("first", "last"), [(0.3, 0.65), (0.15, 0.4)])
+def test_a_bed_between_two_places_is_named_with_both(first, last):
+    found = diagnosed(*measured(BED, first, last))
+    assert (found.kind, found.best.group) == (NAMED, "foundation")
+    stiffness, covered, before = found.best.causes[0].sizes
+    assert abs(covered.value - (last - first)) < 0.04
+    assert abs(before.value * (1 - covered.value) - first) < 0.02
+    assert abs(found.best.causes[0].site.position[0] / LENGTH - (first + last) / 2) < 0.02
+    assert abs(stiffness.value - BED) < 3 * stiffness.sd
+    assert found.extended_result.status.key == "converged" and not found.extended_result.rejected
+
+
+def test_a_bed_under_all_stays_under_all():
+    """Neither an end nor two places where it would begin are asked for."""
+    found = diagnosed(*measured(BED, 0.0, 1.0))
+    assert (found.kind, found.best.group, len(found.best.causes[0].sizes)) == (NAMED, "foundation", 1)
+
+
+def test_mass_between_two_places_is_named_with_both():
+    found = diagnosed(*measured(0.0, 0.25, 0.55, 0.3 * MASS))
+    assert (found.kind, found.best.group) == (NAMED, "added-mass")
+    mass, covered, _ = found.best.causes[0].sizes
+    assert abs(covered.value - 0.3) < 0.04
+    assert abs(found.best.causes[0].site.position[0] / LENGTH - 0.4) < 0.02
+    assert abs(mass.value - 0.3 * MASS) < 3 * mass.sd

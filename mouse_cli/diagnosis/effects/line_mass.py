@@ -56,3 +56,7 @@ class Wet:
     def part(self, s: float, back: bool) -> np.ndarray:
         """Matrix (r, r) of the part before s, or (`back`) behind it."""
         return self.sums[-1] - self.upto(s) if back else self.upto(s)
+
+    def between(self, first: float, last: float) -> np.ndarray:
+        """Matrix (r, r) of the part between two places."""
+        return self.upto(last) - self.upto(first)

@@ -63,6 +63,12 @@ def beams_within(edit: Edit, segments: Iterable[tuple[np.ndarray, np.ndarray]]) 
     return found
 
 
+def split(edit: Edit, ends: tuple[np.ndarray, np.ndarray]) -> None:
+    """Splits the beams in which a segment begins and ends."""
+    for end in ends:
+        edit.split(*element_at(edit, end, ends[1] - ends[0]))
+
+
 def hinge(
     edit: Edit,
     element: tuple[int, int],

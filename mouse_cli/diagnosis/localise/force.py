@@ -58,7 +58,7 @@ def locate(model: Reduced) -> Location:
     chi2 = found.matches.cost - np.where(gain < _TRUSTED, gain, 0.0)
     least, dof = float(chi2.min()), max(found.measured.dof, 1)
     score = -0.5 * (chi2 + found.matches.volume()) / max(1.0, least / dof)
-    weighed = score + _log_prior(found.channels)
+    weighed = score + log_prior(found.channels)
     probability = np.exp(weighed - weighed.max())
     probability /= probability.sum()
     order = np.argsort(-weighed, kind="stable")
@@ -131,7 +131,7 @@ def _better(one: Matches | None, other: Matches | None, places: np.ndarray | sli
     return one
 
 
-def _log_prior(ways: list[Channel]) -> np.ndarray:
+def log_prior(ways: list[Channel]) -> np.ndarray:
     """ln of what is held likely before the test (j,): of each channel, times the share of it that a place stands for."""
     total: dict[str, float] = {}
     for one in ways:

@@ -5,19 +5,21 @@ import numpy as np
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product, steps
 from mouse_cli.diagnosis.effects.line_mass import Wet
 from mouse_cli.diagnosis.extend.edit import Edit, every_beam
-from mouse_cli.diagnosis.extend.places import beams_within, element_at
+from mouse_cli.diagnosis.extend.places import beams_within, split
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.intervals import Interval
 from mouse_cli.diagnosis.sites.lines import Line, from_end
 from mouse_cli.diagnosis.sites.preload import runs
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 
-_MOST = 12  # rows of bars that may be covered from an end
+_PART, _BETWEEN = 0.5, 0.1  # prior probability that a row is covered in part; of those, that neither end of it is
+_MOST = 12  # rows of bars that may be covered in part
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """M + m times the integral of u'u over all bars, or over a row of them from either end on."""
+    """M + m times the integral of u'u over all bars, or over a row of them from either end on, or between two places."""
     found = runs(model, "nonstructural_mass")
     if not found:
         return []
@@ -31,12 +33,14 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
         (m,),
         lambda values: Change(M=values[0] * total),
         steps(m, 4)[:, None],
-        log_prior=float(np.log(0.5)),
+        log_prior=float(np.log(1 - _PART)),
         extend=lambda problem, values: _with_mass(problem, values[0], None, "all beams"),
     )
     ended = list(wet.items())[:_MOST] if len(found) == len(bars.runs) else []
-    share = 0.5 / (2 * max(len(ended), 1))
-    partly = [_partly(candidate, found[i], part, m, back, share) for i, part in ended for back in (False, True)]
+    share = _PART / max(len(ended), 1)
+    one, both = 0.5 * (1 - _BETWEEN) * share, _BETWEEN * share
+    partly = [_partly(candidate, found[i], part, m, back, one) for i, part in ended for back in (False, True)]
+    partly += [_between(candidate, found[i], part, m, both) for i, part in ended]
     return [everywhere, *partly] if len(found) == len(bars.runs) else []
 
 
@@ -62,13 +66,30 @@ def _partly(candidate: Candidate, run: Line, wet: Wet, m: Unknown, back: bool, s
     return Recipe(candidate, (m, covered), change, grid, site, log_prior=float(np.log(share)), extend=extend)
 
 
+def _between(candidate: Candidate, run: Line, wet: Wet, m: Unknown, share: float) -> Recipe:
+    """Over a row between any two places."""
+    interval = Interval(run)
+
+    def extend(problem: Problem, values: np.ndarray) -> Problem:
+        return _with_mass(problem, values[0], interval.points(*values[1:]), interval.site(*values[1:]).text)
+
+    return Recipe(
+        candidate,
+        (m, *interval.unknowns),
+        lambda values: Change(M=values[0] * wet.between(*interval.ends(*values[1:]))),
+        product(steps(m, 3), *interval.grid),
+        lambda values: interval.site(*values[1:]),
+        log_prior=float(np.log(share)),
+        extend=extend,
+    )
+
+
 def _with_mass(problem: Problem, m: float, ends: tuple | None, where: str) -> Problem:
     edit = Edit(problem)
     if ends is None:
         beams = every_beam(edit)
     else:
-        for end in ends:
-            edit.split(*element_at(edit, end, ends[1] - ends[0]))
+        split(edit, ends)
         beams = beams_within(edit, [ends])
     edit.put(beams, "nonstructural_mass", np.array([edit.values(e, "nonstructural_mass") for e in beams]) + m)
     edit.bind(f"added mass of {where}", beams, ("nonstructural_mass",), unit="kg/m")
@@ -79,7 +100,7 @@ CANDIDATE = Candidate(
     "added-mass",
     "added mass along bars",
     "added-mass",
-    "mass per length that the model does not know (liquid that moves along, ice, cladding), on all bars or from an end on; on all "
-    "bars alike it is what a larger density would be",
+    "mass per length that the model does not know (liquid that moves along, ice, cladding), on all bars, from an end on or "
+    "between two places; on all bars alike it is what a larger density would be",
     recipes,
 )

@@ -6,21 +6,22 @@ from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product,
 from mouse_cli.diagnosis.effects.hinges import lines
 from mouse_cli.diagnosis.effects.line_mass import Wet, across, deflections
 from mouse_cli.diagnosis.extend.edit import Edit
-from mouse_cli.diagnosis.extend.places import beams_within, element_at
+from mouse_cli.diagnosis.extend.places import beams_within, split
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import Bars
+from mouse_cli.diagnosis.sites.intervals import Interval
 from mouse_cli.diagnosis.sites.lines import Line, elements, from_end
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.elements import _beam as beam
 
-_PART = 0.1  # prior probability that a bed is under a part of a line
-_MOST = 12  # lines that may lie on one from an end on
+_PART = 0.1  # prior probability that a bed ends where no line does; of both ends of it, its square
+_MOST = 12  # lines that may lie on one in part
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """K + k times the integral of w w along all bars, along those of one plane, and along each line, or it from either end on."""
+    """K + k times the integral of w w along all bars, along those of one plane, and along each line, or parts of it."""
     found = lines(model)
     if not found:
         return []
@@ -38,8 +39,9 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     ended = [(line, (int(bars.plane[line.members[0]]),)) for line in found]
     ended += [(line, (0, 1)) for line in found if not bars.plane[line.members[0]] and _bends_both_ways(line)]
     ended = ended[:_MOST]
-    prior = float(np.log(_PART / (2 * len(ended))))
-    return along + [_partly(candidate, *each, back, prior) for each in ended for back in (False, True)]
+    one, both = (float(np.log(part / len(ended))) for part in (_PART * (1 - _PART) / 2, _PART**2))
+    partly = [_partly(candidate, *each, back, one) for each in ended for back in (False, True)]
+    return along + partly + [_between(candidate, *each, both) for each in ended]
 
 
 def _recipe(model: Reduced, candidate: Candidate, some: list, planes: tuple[int, ...], log_prior: float) -> Recipe:
@@ -83,8 +85,7 @@ def _partly(candidate: Candidate, line: Line, planes: tuple[int, ...], back: boo
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         edit, middle = Edit(problem), np.array(line.bars.point(*line.at(edge(values))))
         ends = (middle, line.ends[1]) if back else (line.ends[0], middle)
-        for end in ends:
-            edit.split(*element_at(edit, end, ends[1] - ends[0]))
+        split(edit, ends)
         return _with_bed(edit, [ends], planes, values[0], site(values).text)
 
     return Recipe(
@@ -92,6 +93,30 @@ def _partly(candidate: Candidate, line: Line, planes: tuple[int, ...], back: boo
         (k, covered),
         lambda values: Change(K=values[0] * bed.part(edge(values), back)),
         product(steps(k, 6), steps(covered, 3)),
+        site,
+        log_prior=log_prior,
+        extend=extend,
+    )
+
+
+def _between(candidate: Candidate, line: Line, planes: tuple[int, ...], log_prior: float) -> Recipe:
+    """Between any two places of a line."""
+    k, interval = _stiffness(line.bars, line.length), Interval(line)
+    bed = Wet(line, across if len(planes) > 1 else deflections)
+
+    def site(values: np.ndarray) -> Site:
+        return interval.site(*values[1:], f", local {' and '.join('yz'[p] for p in planes)}")
+
+    def extend(problem: Problem, values: np.ndarray) -> Problem:
+        edit, ends = Edit(problem), interval.points(*values[1:])
+        split(edit, ends)
+        return _with_bed(edit, [ends], planes, values[0], site(values).text)
+
+    return Recipe(
+        candidate,
+        (k, *interval.unknowns),
+        lambda values: Change(K=values[0] * bed.between(*interval.ends(*values[1:]))),
+        product(steps(k, 4), *interval.grid),
         site,
         log_prior=log_prior,
         extend=extend,
@@ -129,7 +154,7 @@ CANDIDATE = Candidate(
     "foundation",
     "an elastic foundation",
     "foundation",
-    "springs per length under bars (soil, cushion, cable bed) that the model does not have, under all of a line or from an end on: "
-    "under all bars alike all modes rise by the same square of the frequency",
+    "springs per length under bars (soil, cushion, cable bed) that the model does not have, under all of a line, from an end on or "
+    "between two places: under all bars alike all modes rise by the same square of the frequency",
     recipes,
 )

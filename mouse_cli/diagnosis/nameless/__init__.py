@@ -1,4 +1,4 @@
-"""Rivals without a name: smooth random changes of the model that compete, by evidence, with every mechanism that has one.
+"""Rivals without a name: random changes of the model that compete, by evidence, with every mechanism that has one.
 
 One module = one rival, found by `registry`: of what it is a change, and its cells, the parts of the structure that it changes.
 """
@@ -13,7 +13,7 @@ from mouse_cli.diagnosis.nameless._cells import Cells
 
 @dataclass(frozen=True)
 class Nameless:
-    """key; title: in words; property: STIFFNESS, MASS, BED or FORCE; meaning: what it is, for the manual.
+    """key; title: in words; property: STIFFNESS, MASS, BED, FORCE or LAW; meaning: what it is, for the manual.
 
     cells(model): what it changes; None where there are fewer than three. spreads: sd of the field that are integrated over.
     signs: of a change of rank one, K + sign b b' with the field b; empty: K or M change in proportion to the field.

@@ -1,13 +1,14 @@
 """The parts of a structure over which a field is spread: elements of a mesh, springs and masses of a model of matrices."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from mouse_cli.diagnosis.effects.losses import matrices_of
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.nameless._correlated import extent, leading, spacing
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.parameter import Parameter
@@ -34,9 +35,21 @@ class Cells:
     blocks: tuple[Block, ...]
     into: str
     extend: Callable[..., Problem] | None = None
+    _fields: dict[float, tuple[float, np.ndarray]] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def __len__(self) -> int:
         return len(self.sites)
+
+    def correlated(self, share: float) -> tuple[float, np.ndarray]:
+        """Length over which a field is correlated, and its leading vectors P (c, w) for a spread of one.
+
+        `share` of the extent, but no less than the distance to the next cell: neighbours would be as good as independent, and
+        nothing smooth about the field.
+        """
+        if share not in self._fields:
+            length = max(share * extent(self.at), spacing(self.at))
+            self._fields[share] = length, leading(self.at, length)
+        return self._fields[share]
 
     def summed(self, weights: np.ndarray) -> np.ndarray:
         """sum over cells of weights (c, w) times u' B u: (w, r, r)."""
@@ -82,7 +95,7 @@ def of_elements(model: Reduced, into: str, properties: tuple[str, ...]) -> Cells
         edit.parameters = [_known_to(parameter, spread) for parameter in edit.parameters]
         return edit.done()
 
-    cells = _felt(model, Cells(tuple(sites), np.array(at).reshape(-1, 3), "m", tuple(blocks), into, extend))
+    cells = felt(model, Cells(tuple(sites), np.array(at).reshape(-1, 3), "m", tuple(blocks), into, extend))
     return cells
 
 
@@ -96,7 +109,7 @@ def _known_to(parameter: Parameter, spread: float) -> Parameter:
     return replace(parameter, sd=spread * abs(parameter.nominal))
 
 
-def _felt(model: Reduced, cells: Cells) -> Cells | None:
+def felt(model: Reduced, cells: Cells) -> Cells | None:
     """Those with a part in the lowest modes; None where there are too few."""
     count = min(model.r, int(model.data.test.number.max()) + 2)
     energy = np.array([np.abs(np.einsum("cr,cd,dr->r", u[:, :count], B, u[:, :count])).max() for u, B in cells.blocks])
@@ -111,4 +124,4 @@ def of_rows(
     if len(sites) < FEWEST:
         return None
     blocks = tuple((row[None], np.array([[size]])) for row, size in zip(rows, sizes, strict=True))
-    return _felt(model, Cells(tuple(sites), at, unit, blocks, into, extend))
+    return felt(model, Cells(tuple(sites), at, unit, blocks, into, extend))

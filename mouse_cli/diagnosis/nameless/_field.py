@@ -15,7 +15,6 @@ from mouse_cli.diagnosis.nameless._cells import Cells
 from mouse_cli.model.diagnosis import Field, FieldValue, HeldOut
 
 LENGTHS = (0.08, 0.2, 0.5)  # correlation lengths, of the extent of the cells
-_KEPT, _MOST = 0.995, 16  # share of the variance that is kept, and eigenvectors at most
 
 
 @dataclass(frozen=True)
@@ -39,12 +38,8 @@ class Smooth:
 
 def smooth(rival: Nameless, cells: Cells, spread: float, share: float, sign: int = 0) -> Smooth:
     """The field of that spread, correlated over that share of the extent of its cells."""
-    apart = np.linalg.norm(cells.at[:, None] - cells.at[None], axis=2)
-    length = share * float(apart.max())
-    size, U = np.linalg.eigh(np.exp(-0.5 * (apart / length) ** 2))
-    size, U = np.maximum(size[::-1], 0.0), U[:, ::-1]
-    kept = min(_MOST, int(np.searchsorted(np.cumsum(size) / size.sum(), _KEPT)) + 1)
-    return Smooth(rival, cells, spread * U[:, :kept] * np.sqrt(size[:kept]), spread, length, sign)
+    length, P = cells.correlated(share)
+    return Smooth(rival, cells, spread * P, spread, length, sign)
 
 
 @dataclass(frozen=True, kw_only=True)

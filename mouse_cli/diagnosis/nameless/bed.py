@@ -10,6 +10,7 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import lowest, total_mass
 from mouse_cli.diagnosis.nameless import Nameless
 from mouse_cli.diagnosis.nameless._cells import FEWEST, Cells, of_rows
+from mouse_cli.diagnosis.nameless._groups import places
 from mouse_cli.diagnosis.sites.points import named_dof, wanted
 from mouse_cli.model.diagnosis import BED
 from mouse_cli.model.problem import Problem
@@ -60,8 +61,8 @@ def _at_dofs(model: Reduced) -> Cells | None:
                   for site, i, v in zip(sites, own, values, strict=True)]  # fmt: skip
         return with_shares(problem, "bed", shares, spread)
 
-    at, sizes = own[:, None].astype(float), np.full(len(own), unit)
-    return of_rows(model, sites, at, "degrees of freedom", model.V[own], sizes, "K", extend)
+    (at, metres), sizes = places(structure), np.full(len(own), unit)
+    return of_rows(model, sites, at[own], metres, model.V[own], sizes, "K", extend)
 
 
 NAMELESS = Nameless(

@@ -11,6 +11,7 @@ from mouse_cli.diagnosis.nameless import Nameless, registry
 from mouse_cli.diagnosis.nameless._cells import Cells
 from mouse_cli.diagnosis.nameless._field import LENGTHS, fielded, found, smooth
 from mouse_cli.diagnosis.nameless._tied import tied
+from mouse_cli.diagnosis.nameless.local import best_law
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.optima import NEAR, within
 from mouse_cli.diagnosis.search.study import idealised
@@ -26,7 +27,8 @@ def rivals(base: Reduced, start: Fit, kind: type[Model] = Model, reach: float = 
     reach: misfit above which no fit matters.
     """
     fits = [_integrated(base, start, field, kind, reach) for field in _spreads(base)]
-    return [one for one in fits if one is not None]
+    law = best_law(base) if kind is Model else None
+    return [one for one in (*fits, law) if one is not None]
 
 
 def field_of(ranking, one: Fit, held: HeldOut | None = None) -> Field:

@@ -6,18 +6,17 @@ from mouse_cli.diagnosis.extend.matrices import of_matrices, with_shares
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.nameless import Nameless
 from mouse_cli.diagnosis.nameless._cells import Cells, of_elements, of_rows
+from mouse_cli.diagnosis.nameless._groups import of_groups, places
 from mouse_cli.diagnosis.sites.points import named_dof, wanted
 from mouse_cli.model.diagnosis import MASS
 from mouse_cli.model.problem import Problem
 
 
 def cells(model: Reduced) -> Cells | None:
-    """M + sum v_e M_e over elements, or over the diagonal of a mass matrix."""
-    return (
-        _diagonal(model)
-        if of_matrices(model.problem)
-        else of_elements(model, "M", ("density", "nonstructural_mass", "mass"))
-    )
+    """M + sum v_e M_e over elements; of a model of matrices over its groups, or over the diagonal of its mass matrix."""
+    if not of_matrices(model.problem):
+        return of_elements(model, "M", ("density", "nonstructural_mass", "mass"))
+    return of_groups(model, "M") or _diagonal(model)
 
 
 def _diagonal(model: Reduced) -> Cells | None:
@@ -31,8 +30,8 @@ def _diagonal(model: Reduced) -> Cells | None:
                   for site, i, v in zip(sites, own, values, strict=True)]  # fmt: skip
         return with_shares(problem, "mass", shares, spread)
 
-    at = own[:, None].astype(float)
-    return of_rows(model, sites, at, "degrees of freedom", model.V[own], mass[own], "M", extend)
+    at, unit = places(model.problem.structure)
+    return of_rows(model, sites, at[own], unit, model.V[own], mass[own], "M", extend)
 
 
 NAMELESS = Nameless(

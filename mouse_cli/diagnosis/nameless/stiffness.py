@@ -7,6 +7,7 @@ from mouse_cli.diagnosis.extend.matrices import of_matrices, with_shares
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.nameless import Nameless
 from mouse_cli.diagnosis.nameless._cells import FEWEST, Cells, of_elements
+from mouse_cli.diagnosis.nameless._groups import of_groups
 from mouse_cli.model.diagnosis import STIFFNESS, Site
 from mouse_cli.model.problem import Problem
 
@@ -14,8 +15,18 @@ _SUM = 1e-6  # of its size, that a part has beyond sums of others, below which i
 
 
 def cells(model: Reduced) -> Cells | None:
-    """K + sum v_e K_e over elements, or over the springs and groups that a model of matrices shows."""
-    return _springs(model) if of_matrices(model.problem) else of_elements(model, "K", ("E", "G"))
+    """K + sum v_e K_e over elements; of a model of matrices over its springs, of a continuum over its groups."""
+    if not of_matrices(model.problem):
+        return of_elements(model, "K", ("E", "G"))
+    return of_groups(model, "K") if _continuum(model) else _springs(model)
+
+
+def _continuum(model: Reduced) -> bool:
+    """Whether K couples as bending, plates and solids do, some degrees of freedom with k_ij > 0: none of that is a spring."""
+    from scipy.sparse import coo_array
+
+    K = coo_array(model.assembly.matrices(model.theta)[0])
+    return bool((K.data[K.row != K.col] > _SUM * K.data.max(initial=0.0)).any())
 
 
 def _springs(model: Reduced) -> Cells | None:

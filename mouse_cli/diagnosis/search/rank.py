@@ -25,7 +25,6 @@ from mouse_cli.diagnosis.search.several import adequate, several
 from mouse_cli.diagnosis.search.study import Study, best, settled
 from mouse_cli.model.diagnosis import Untried
 from mouse_cli.model.groups import joined, shares
-from mouse_cli.updating.chi_square import upper_tail
 
 _NO_SITE, _UNPHYSICAL = (
     "it has no site in this model",
@@ -102,8 +101,7 @@ def rank(
         singles += [] if one is None else [one]
     fits = [baseline, *singles]
     found = hear(ranking(baseline, fits))
-    doubtful = upper_tail(baseline.misfit, max(baseline.dof, 1)) < gates.GATE
-    if last and (doubtful or dict(found.groups).get("none", 0.0) < _IDLE):
+    if last and (dict(found.groups).get("none", 0.0) < _IDLE or not adequate(baseline, gates.GATE)):
         fits += rivals(model, baseline, kind, within(fits))
     with_cause = [one for one in found.fits if one.recipes]
     if causes > 1 and with_cause and not adequate(min(with_cause, key=lambda one: one.misfit)):

@@ -6,10 +6,9 @@ from functools import cached_property
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Recipe
-from mouse_cli.diagnosis.effects.hinges import ends
+from mouse_cli.diagnosis.likelihoods.modal.lowest import lowest
 from mouse_cli.diagnosis.likelihoods.modal.model import Model, Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unseen
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
 from mouse_cli.diagnosis.search.escape import shifted, uncrossed
@@ -154,14 +153,7 @@ class Study:
 
 def _lowest(model: Reduced) -> Reduced:
     """A model in its lowest coordinates, and those by which ends of lines give way; itself where there are no more."""
-    least = max(_COARSE, 4 * model.data.m + 8, int(model.data.test.number.max()) + 12)
-    if least >= model.r:
-        return model
-    bent = ends(model)[:, least:] / (model.eigenvalues[least:] + lowest(model))
-    bent = bent[: model.r - least]
-    Q = np.eye(model.r)[:, : least + len(bent)]
-    Q[least:, least:] = np.linalg.qr(bent.T)[0]
-    return model.within(Q)
+    return lowest(model, max(_COARSE, 4 * model.data.m + 8, int(model.data.test.number.max()) + 12))
 
 
 def _weighed_beside(others: tuple) -> int:

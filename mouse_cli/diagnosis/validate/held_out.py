@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe
-from mouse_cli.diagnosis.likelihoods.modal.model import Model, Point
+from mouse_cli.diagnosis.likelihoods.modal.model import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.dynamics.correlation import mac
@@ -41,7 +41,7 @@ class Prediction:
 
 def predict(one: Fit, base: Reduced, fixed: tuple[Recipe, ...] = ()) -> Prediction | None:
     """What the model of `one` says of the test of `base`; fixed: changes of the structure that are known."""
-    model = Model(base, (*one.recipes, *fixed))
+    model = type(one.model)(base, (*one.recipes, *fixed))
     at = model.point(one.point.x)
     if at is None:
         return None
@@ -176,7 +176,7 @@ def cross_validated(model: Reduced, baseline: Fit, best: Fit | None) -> HeldOut 
                 continue
             base = one.model.base
             rest, left = base.without(~own), base.with_test(restricted(test, own))
-            again = fit(Model(rest, one.recipes), one.c, one.point.x[: one.model.k])
+            again = fit(type(one.model)(rest, one.recipes), one.c, one.point.x[: one.model.k])
             part = None if again is None else predict(again, left)
             if part is None:
                 return None

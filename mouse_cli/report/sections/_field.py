@@ -10,7 +10,13 @@ from mouse_cli.report.sections._diagnosis_wording import place
 from mouse_cli.report.sections._wording import LEFT, counted
 
 _MOST = 40  # rows
-_NAMES = {"stiffness": "change of stiffness", "mass": "change of mass", "bed": "bed stiffness", "force": "motion"}
+_NAMES = {
+    "stiffness": "change of stiffness",
+    "mass": "change of mass",
+    "bed": "bed stiffness",
+    "force": "motion",
+    "law": "stiffness",
+}
 
 
 def field_blocks(field: Field | None, units: Units) -> Iterator[Block]:
@@ -22,9 +28,8 @@ def field_blocks(field: Field | None, units: Units) -> Iterator[Block]:
     told = [f"{counted(count - few, 'site')} with negligible values (below two sd) left out."] if few < count else []
     unit = units.of("m") if field.unit == "m" else field.unit
     spread = f"{factor(field) * field.spread:.2g} {UNITS[field.property]}"
-    told.append(
-        f"The values scatter along the structure with sd {spread} and are correlated over {field.length:.2g} {unit}."
-    )
+    along = f" along the structure with sd {spread} and are correlated over {field.length:.2g} {unit}"
+    told.append(f"The values scatter{along if field.length else f' from mode to mode with sd {spread}'}.")
     yield Text(" ".join(told))
 
 

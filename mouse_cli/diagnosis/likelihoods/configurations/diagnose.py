@@ -8,14 +8,24 @@ import numpy as np
 
 from mouse_cli._errors import ERROR, DeckError, Diagnostic
 from mouse_cli.diagnosis.extend.deck import in_its_units
-from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, SharedRecipe, Together
+from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, SharedRecipe, Together, lowest_of
 from mouse_cli.diagnosis.likelihoods.configurations.predict import predicted, shared_errors
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
 from mouse_cli.diagnosis.nameless.fit import field_of, rivals
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.rank import Ranking, rank, ranking, unnamed
-from mouse_cli.diagnosis.verdict import ODDS, SURE, doubtful, explanation, explanations, leader, sure
+from mouse_cli.diagnosis.verdict import (
+    ODDS,
+    SURE,
+    doubtful,
+    explains,
+    explanation,
+    explanations,
+    far_parameters,
+    leader,
+    sure,
+)
 from mouse_cli.model.arrangements import ArrangementsDiagnosis, Turn
 from mouse_cli.model.diagnosis import BY_DECK, NAMED, ONE_OF, Choices, Field, HeldOut, Score
 from mouse_cli.model.problem import Problem
@@ -38,7 +48,7 @@ class Decks:
     @cached_property
     def arranged(self) -> Arranged:
         """As one model."""
-        parts = tuple(reduced(each, each.prior.mean) for each in self.problems)
+        parts = tuple(lowest_of(reduced(each, each.prior.mean)) for each in self.problems)
         return Arranged(parts, self.common_sd, self.having)
 
     def extended(self, one: Fit) -> "Decks":
@@ -101,6 +111,9 @@ def _told(
     """The answer, from the decks `fitted` as they were and the state `at` in which the search ended."""
     last, tried = at.ranking.baseline, explanations(at.ranking)
     told = next(one for one in tried if not one.causes)
+    adequate = not doubtful(last, False)
+    if not adequate and not explains(last):  # a step that leaves too much, and all after it, is no name
+        turns = tuple(replace(turn, kind=ONE_OF) for turn in turns)
     return ArrangementsDiagnosis(
         problems=fitted.problems,
         changed=None if all(fitted.having) else fitted.having,
@@ -110,7 +123,7 @@ def _told(
         chi2=last.misfit,
         dof=last.dof,
         p=told.p,
-        adequate=not doubtful(last, False),
+        adequate=adequate,
         values=told.theta,
         sd=_sd(last),
         shared=shared_errors(last),
@@ -118,7 +131,7 @@ def _told(
         held_out=held,
         refuted=refuted,
         choices=choices,
-        field=_field(at) if doubtful(last, False) else None,
+        field=None if adequate else _field(at),
         untried=at.ranking.untried,
     )
 
@@ -158,7 +171,7 @@ def _turn(at: State) -> tuple[Turn | None, Fit | None]:
         return None, None
     before = explanation(ranking.baseline)
     turn = Turn(ONE_OF, explanations(ranking), ranking.groups, ranking.noise_scale, before, held)
-    return replace(turn, kind=NAMED if turn.probability > SURE else ONE_OF), best
+    return replace(turn, kind=NAMED if turn.probability > SURE and not far_parameters(best) else ONE_OF), best
 
 
 def _has_name(ranking: Ranking, best: Fit) -> bool:

@@ -15,12 +15,14 @@ from functools import cached_property
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe
+from mouse_cli.diagnosis.likelihoods.modal.lowest import lowest
 from mouse_cli.diagnosis.likelihoods.modal.model import Model, Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.further import with_parameters
 
+_COORDINATES, _TIMES = 36, 6  # coordinates of a configuration at least, and of the number of its highest measured mode
 _LOOKED, _BESIDE = 4, 2  # arrangements that a first look is made at: with what is sought, and without
 
 
@@ -136,7 +138,7 @@ class Arranged:
 
     def at(self, theta: np.ndarray) -> "Arranged":
         """The same at other values theta (p,) of the parameters."""
-        return replace(self, parts=tuple(part.at(theta) for part in self.parts))
+        return replace(self, parts=tuple(lowest_of(part.at(theta)) for part in self.parts))
 
     @cached_property
     def common(self) -> np.ndarray:
@@ -151,6 +153,14 @@ class Arranged:
         by = (1 - 1 / np.sqrt(1 + size)) / np.maximum(size, 1e-300)
         along = self.common.T @ values
         return values - self.common @ (by * along.T).T
+
+
+def lowest_of(part: Reduced) -> Reduced:
+    """A configuration in its lowest coordinates, and those by which ends of lines give way: every fit solves all configurations.
+
+    What the coordinates left out would add to a change of the highest measured mode n goes with (n / r)^4 of it.
+    """
+    return lowest(part, max(_COORDINATES, _TIMES * int(part.data.test.number.max())))
 
 
 def common(part: Reduced, modes: np.ndarray, sd: float) -> np.ndarray:

@@ -79,12 +79,12 @@ class Reduced:
 
     def step(self, z: np.ndarray) -> np.ndarray:
         """How far (d,) the parameters at z are along each direction from where V was taken."""
-        return self._along @ (self.parameters(z) - (self.theta if self.origin is None else self.origin))
+        return self.along @ (self.parameters(z) - (self.theta if self.origin is None else self.origin))
 
     def rates(self, z: np.ndarray) -> np.ndarray:
         """Its derivatives (k, d)."""
         by = self.coordinates.slope(self.coordinates.mean + self.L @ z)[:, None] * self.L
-        return (self._along @ by).T
+        return (self.along @ by).T
 
     @cached_property
     def _at(self) -> dict[bytes, tuple[np.ndarray, np.ndarray]]:
@@ -103,7 +103,7 @@ class Reduced:
         return tuple(np.tensordot(by, d @ u, 1) for d in (self.dK, self.dM))
 
     @cached_property
-    def _along(self) -> np.ndarray:
+    def along(self) -> np.ndarray:
         """From changes of the parameters to steps in the directions (k, p)."""
         return np.linalg.pinv(self.directions)
 

@@ -1,0 +1,54 @@
+"""A part of a line of bars between two places, neither of which need be an end of it."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Unknown, steps
+from mouse_cli.diagnosis.sites.lines import Line
+from mouse_cli.diagnosis.sites.stretches import covered
+from mouse_cli.model.diagnosis import Site
+
+_NARROWEST, _WIDEST = 0.1, 0.95  # of the line: what is narrower acts at a point, what is wider on all of it
+_WIDTHS, _PLACES = 2, 4  # to begin from
+
+
+@dataclass(frozen=True)
+class Interval:
+    """Of `line`, by two unknowns: the covered share of its length, and how much of what is left is before it: 0 at one end, 1 at
+    the other. So the interval never leaves the line, and where it reaches an end either unknown still moves the other end.
+    """
+
+    line: Line
+    unknowns: ClassVar[tuple[Unknown, Unknown]] = (
+        Unknown("covered share of the length", "1", _NARROWEST, _WIDEST, log=False),
+        Unknown("share before it of what is not covered", "1", 0.0, 1.0, log=False),
+    )
+
+    @property
+    def grid(self) -> tuple[np.ndarray, np.ndarray]:
+        """Values of both to begin from."""
+        covered, before = self.unknowns
+        return steps(covered, _WIDTHS), steps(before, _PLACES)
+
+    def ends(self, share: float, before: float) -> tuple[float, float]:
+        """Distances (m) of both ends along the line."""
+        first = before * (1 - share) * self.line.length
+        return float(first), float(first + share * self.line.length)
+
+    def points(self, share: float, before: float) -> tuple[np.ndarray, np.ndarray]:
+        """Coordinates (3,) of both ends."""
+        first, last = self.ends(share, before)
+        return np.array(self.line.bars.point(*self.line.at(first))), np.array(self.line.bars.point(*self.line.at(last)))
+
+    def site(self, share: float, before: float, more: str = "") -> Site:
+        """Its elements, where its middle is, and it in words, with `more` behind."""
+        first, last = self.ends(share, before)
+        bars, L = self.line.bars, self.line.length
+        touched, _, _ = covered(self.line, first, last)
+        here = self.line.site((first + last) / 2)
+        ids = np.unique(bars.ids[touched]).tolist()
+        a, b = bars.ids[self.line.members[[0, -1]]]
+        where = f"{first / L:.2f} to {last / L:.2f} of the length from the end at element {a} towards element {b}"
+        return Site("element", tuple(ids), here.position, where + more)
