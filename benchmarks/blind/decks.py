@@ -68,5 +68,6 @@ def answer(case: Case, truth: dict[str, np.ndarray], words: tuple) -> dict:
         "altered",
         "sensor_fault",
         "numbers",
+        "sizes",
     )
     return {k: getattr(case, k) for k in kept} | {"frequency": truth["frequency"].tolist(), "words": list(words)}

@@ -5,7 +5,7 @@ import pytest
 from scipy.linalg import eigh
 from scipy.optimize import brentq
 
-from mouse_cli.diagnosis.effects.fracture import bending
+from mouse_cli.diagnosis.effects.fracture import factors
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.mechanisms import registry
@@ -190,7 +190,7 @@ def test_clamp_that_turns_and_clamp_that_shifts(k):
 def test_hinge_of_a_crack_within_an_element():
     found = model(Iz=EI)
     height, nu, at, depth = np.sqrt(12 * EI), 0.3, 0.3125, 0.4
-    c = 6 * (1 - nu**2) * height * bending(depth) / EI
+    c = 6 * (1 - nu**2) * height * factors(depth).turning / EI
     pieces = [(at, EI, 1.0), (1 - at, EI, 1.0)]
     expected = Bar(pieces, [(c, free_joint)]).eigenvalues(9)
     assert bending_of(found, "crack", [depth, at]) == pytest.approx(expected, rel=2e-3)  # which gives way in shear, too
@@ -201,7 +201,7 @@ def test_a_crack_opens_where_the_model_has_no_axial_motion(supports):
     """The same hinge, and the deck that is written has the same modes; short elements held it shut."""
     found = model(supports, Iz=EI, plane="directions: [TY, RZ]")
     height, nu, at, depth = np.sqrt(12 * EI), 0.3, 0.3125, 0.4
-    c = 6 * (1 - nu**2) * height * bending(depth) / EI
+    c = 6 * (1 - nu**2) * height * factors(depth).turning / EI
     pinned = {} if "RZ" in supports else {"root": (np.inf, 0.0), "tip": lambda lam: 1e9}
     expected = Bar([(at, EI, 1.0), (1 - at, EI, 1.0)], [(c, free_joint)], **pinned).eigenvalues(10)
     cracked = eigenvalues(found, "crack", [depth, at])
@@ -215,7 +215,7 @@ def test_compliance_of_a_crack_in_bending(depth):
     """Chondros, Dimarogonas and Yao, J. Sound Vib. 215 (1998), Eq. (25): 6 pi (1 - nu^2) h Phi / EI."""
     powers = [0.6272, -1.04533, 4.5948, -9.9736, 20.2948, -33.0351, 47.1063, -40.7556, 19.6]
     phi = sum(c * depth ** (i + 2) for i, c in enumerate(powers))
-    assert bending(depth) == pytest.approx(np.pi * phi, rel=0.03)
+    assert factors(depth).turning == pytest.approx(np.pi * phi, rel=0.03)
 
 
 def test_stretch_that_is_softer_with_ends_inside_elements():
