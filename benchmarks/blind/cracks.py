@@ -1,7 +1,7 @@
 """Bars with one edge crack, at nodes of the deck and between them: truths are Hermite elements with springs across the crack.
 
 A node of the truth stands at the crack; its two sides are joined by the compliance of Tada, Paris and Irwin, integrated here. Half
-of the decks have bending alone. `python -m benchmarks.blind.crack_sizes` asks whether the depths that are told hold.
+of the decks have bending alone. `python -m benchmarks.blind.crack_sizes` asks whether intervals hold the depths.
 """
 
 from collections.abc import Iterator
