@@ -1,7 +1,7 @@
 """How often 90 % intervals hold the depth and the place of a crack that is known to be there: fits alone, no search, no rivals.
 
-Begun at the true place and depth; `python -m benchmarks.blind --cases 'crack-*'` asks whether it is found at all. `--sharp` states no
-errors of theory, which these decks have not: what the sd of sizes are then is what noise alone makes of them.
+Begun at the true place and depth; `python -m benchmarks.blind --cases 'crack-*'` asks whether it is found at all. `--sharp` states
+no errors of theory, which these decks have not: what the sd of sizes are then is what noise alone makes of them.
 """
 
 import argparse
@@ -46,7 +46,9 @@ def table(found: np.ndarray) -> str:
     for i, name in enumerate(("depth", "place")):
         z, sd = found[:, 0, i], found[:, 1, i]
         held = int((np.abs(z) <= Z90).sum())
-        lines.append(f"{name:8}{held:>10}{len(z):>6}{z.mean():>9.2f}{np.sqrt(np.mean(z**2)):>8.2f}{np.median(sd):>11.5f}")
+        lines.append(
+            f"{name:8}{held:>10}{len(z):>6}{z.mean():>9.2f}{np.sqrt(np.mean(z**2)):>8.2f}{np.median(sd):>11.5f}"
+        )
     return "\n".join(lines)
 
 
