@@ -118,7 +118,7 @@ def test_scores_of_controls_and_of_causes_without_a_name():
 
 
 def test_a_cracked_cantilever_has_the_frequencies_of_its_closed_form():
-    """Roots of the exact solution of two pieces with a rotational spring of the crack between them; it slides by next to nothing."""
+    """Roots of the exact solution of two pieces, the rotational spring of the crack between them; it slides by next to nothing."""
     case = next(case for case in cracks.cases("development", 1, 40) if case.inputs["held"] == [["TX", "TY", "RZ"], []])
     inputs = case.inputs | {"axial": False}
     EI, L, a = inputs["E"] * inputs["I"], inputs["L"], inputs["place"]

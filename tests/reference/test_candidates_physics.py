@@ -314,3 +314,18 @@ def test_slopes_at_a_node_are_those_within_the_bar(side):
     node = end if side > 0 else np.nextafter(end, 0)
     slopes = [there.jacobian(there.point(at(s))) for s in (node, node + side * 2e-5)]
     np.testing.assert_allclose(slopes[0], slopes[1], rtol=0.01, atol=1e-3 * np.abs(slopes[1]).max())
+
+
+@pytest.mark.parametrize("key", ["mass", "ground-spring", "oscillator"])
+def test_slopes_of_what_sits_at_a_place_are_alike_on_both_sides_of_a_node(key):
+    """What they act on, the deflection of a bar, has a continuous slope: central differences there straddle nothing."""
+    found = model(Iz=EI)
+    says = "TY" if key != "mass" else ""
+    recipe = next(r for r in registry()[key].recipes(found, registry()[key]) if says in r.site(r.grid[0]).text)
+    there = Model(found, (recipe,))
+    assert recipe.unknowns[-1].name == "place" and not recipe.jumps
+    sizes = [np.sqrt(each.lower * each.upper) for each in recipe.unknowns[:-1]]
+    at = lambda s: there.point(np.append(found.z, recipe.coordinates(np.array([*sizes, s]))))
+    slopes = [there.jacobian(at(0.25 + side * 1e-4))[:, -1] for side in (-1, 0, 1)]
+    for slope in (slopes[0], slopes[2]):
+        np.testing.assert_allclose(slopes[1], slope, rtol=0.01, atol=1e-3 * np.abs(slope).max())
