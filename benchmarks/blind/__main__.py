@@ -12,7 +12,7 @@ from fnmatch import fnmatch
 from itertools import chain
 from pathlib import Path
 
-from benchmarks.blind import beams, chains, frames, plate
+from benchmarks.blind import beams, chains, cracks, frames, plate
 from benchmarks.blind.calculix import cached
 from benchmarks.blind.case import SPLITS, Case
 from benchmarks.blind.decks import answer, name_of, write
@@ -21,7 +21,13 @@ from benchmarks.blind.scoring import scored, tables
 from benchmarks.blind.test_data import CONFIGS, MISSTATED, measured
 from benchmarks.blind.verify import verify
 
-FAMILIES = {"beam": beams.cases, "chain": chains.cases, "frame": frames.cases, "plate": plate.cases}
+FAMILIES = {
+    "beam": beams.cases,
+    "chain": chains.cases,
+    "frame": frames.cases,
+    "plate": plate.cases,
+    "crack": cracks.cases,
+}
 HOME = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "mouse-blind-truths"
 
 

@@ -20,8 +20,13 @@ def write(folder: Path, name: str, case: Case, test: Measured, config: Config) -
     for file, text in case.files.items():
         if not (folder / file).exists():
             (folder / file).write_text(text)
-    path.write_text(f"mouse: 1\ntitle: {name}\n\n{case.model}\n{_test(case, test, config)}")
+    path.write_text(as_text(name, case, test, config))
     return path
+
+
+def as_text(name: str, case: Case, test: Measured, config: Config) -> str:
+    """The deck as YAML."""
+    return f"mouse: 1\ntitle: {name}\n\n{case.model}\n{_test(case, test, config)}"
 
 
 def _test(case: Case, test: Measured, config: Config) -> str:
@@ -68,5 +73,6 @@ def answer(case: Case, truth: dict[str, np.ndarray], words: tuple) -> dict:
         "altered",
         "sensor_fault",
         "numbers",
+        "sizes",
     )
     return {k: getattr(case, k) for k in kept} | {"frequency": truth["frequency"].tolist(), "words": list(words)}

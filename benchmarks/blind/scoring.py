@@ -10,6 +10,7 @@ RIGHT, WRONG, ABSTAINED, MISSED, REFUSED = "right", "wrong", "abstained", "misse
 OUTCOMES = (RIGHT, WRONG, ABSTAINED, MISSED, REFUSED)
 NEAR = 0.05  # of the span
 BINS = (0.0, 0.5, 0.7, 0.8, 0.9, 0.97, 1.0)
+Z90 = 1.645  # sd on either side of 90 % of a normal density
 RULE_OF_THREE = 0.05  # 1 - confidence of the bound beside counts of nothing
 
 
@@ -17,7 +18,7 @@ RULE_OF_THREE = 0.05  # 1 - confidence of the bound beside counts of nothing
 class Scored:
     """One deck. said: group or kind; error: of the place, by span, nan without one; probability: of the group that leads.
 
-    misstated: error of the test that was suspected.
+    misstated: error of the test that was suspected. sizes: true value, that told and its sd, of those that the answer knows.
     """
 
     answer: dict
@@ -29,6 +30,7 @@ class Scored:
     seconds: float
     gains: dict[str, tuple[float, float]]
     misstated: str = ""
+    sizes: tuple[tuple[float, float, float], ...] = ()
 
 
 def scored(answer: dict, found: dict) -> Scored:
@@ -53,6 +55,7 @@ def scored(answer: dict, found: dict) -> Scored:
         found["seconds"],
         _gains(found),
         found.get("misstated") or "",
+        _sizes(answer, found),
     )
 
 
@@ -85,6 +88,15 @@ def _error(answer: dict, places: list[list[float]]) -> float:
     return float(max(gaps) / answer["span"])
 
 
+def _sizes(answer: dict, found: dict) -> tuple[tuple[float, float, float], ...]:
+    """By the first explanation that has a size of that name."""
+    told = []
+    for name, true in answer.get("sizes", {}).items():
+        own = (p for each in found["candidates"] for p in each["parameters"] if p["name"] == name)
+        told += [(true, p["value"], p["sd"]) for p in [next(own, None)] if p]
+    return tuple(told)
+
+
 def _gains(found: dict) -> dict[str, tuple[float, float]]:
     """Error of the updated baseline and of the extended model, %, on modes held out and on the altered configuration."""
     held = found.get("held_out") or {}
@@ -105,6 +117,7 @@ def tables(results: list[Scored]) -> str:
     parts = [
         confusion(results),
         locations(results),
+        sizes(results),
         reliability(results),
         alarms(results),
         gains(results),
@@ -154,6 +167,20 @@ def locations(results: list[Scored]) -> str:
     return (
         f"place of what was named, % of the span: median {100 * np.median(errors):.2f}, "
         f"95 % {100 * np.quantile(errors, 0.95):.2f} ({len(errors)} cases)"
+    )
+
+
+def sizes(results: list[Scored]) -> str:
+    """Errors of sizes by their sd, and sd by the size, of what was named rightly in group."""
+    known = [size for one in results if one.outcome == RIGHT for size in one.sizes]
+    if not known:
+        return ""
+    true, told, sd = np.array(known).T
+    z = (told - true) / sd
+    within = [f"{(np.abs(z) < limit).sum()} within {limit:g} sd" for limit in (Z90, 3.0)]
+    return (
+        f"sizes of {len(z)}: {', '.join(within)}, mean of errors {z.mean():.2f} sd, their rms {np.sqrt(np.mean(z**2)):.2f} sd; "
+        f"largest sd {100 * (sd / told).max():.1f} % of the size"
     )
 
 

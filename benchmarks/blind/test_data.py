@@ -18,7 +18,12 @@ class Config:
     shape_sd: float
 
 
-CONFIGS = {"A": Config(14, 0.001, 0.01), "B": Config(8, 0.002, 0.01), "D": Config(8, 0.005, 0.03)}
+CONFIGS = {
+    "A": Config(14, 0.001, 0.01),
+    "B": Config(8, 0.002, 0.01),
+    "D": Config(8, 0.005, 0.03),
+    "P": Config(14, 0.0002, 0.005),
+}
 MISSTATED = (
     "understated",
     "gains",

@@ -14,6 +14,7 @@ from mouse_cli.terms.constraints import Links, Motion, links
 from mouse_cli.terms.element_matrices import ElementMatrices
 from mouse_cli.terms.element_term import ElementTerm
 from mouse_cli.terms.elements import ElementType, Layout, registry
+from mouse_cli.terms.elements._beam import span
 from mouse_cli.terms.faults import Disconnected, Loose, Remark, Unoriented, ZeroLength, unheld
 from mouse_cli.terms.gravity import axial_forces
 from mouse_cli.terms.mechanisms import search
@@ -21,6 +22,7 @@ from mouse_cli.terms.mechanisms import search
 LARGEST_DENSE = 500  # degrees of freedom
 _LABEL = re.compile(r"(\d+)-?([TR][XYZ])")
 _HELD = 1e-16  # a diagonal stiffness below this share of the largest of the element is rounding of its direction
+_ALONG = 1e-9  # share of the motion of a node that is along an element, from which on it counts
 
 
 @dataclass(frozen=True)
@@ -54,6 +56,9 @@ def built(mesh: Mesh, bindings: tuple[Binding, ...] = (), base: Structure | None
     free = links(mesh, max(0, int(places.max(initial=-1)) + 1 - 6 * len(mesh.node_ids)))
     sets = [_matrices(i, kind, at, mesh, bindings) for i, (kind, at) in enumerate(zip(kinds, layouts, strict=True))]
     motion, remarks = _numbered(mesh, sets, free, places)
+    for i in (i for i, kind in enumerate(kinds) if kind.opens):
+        layouts[i] = replace(layouts[i], stretches=_stretching(layouts[i], _dofs(mesh.elements[i]), motion))
+        sets[i] = _matrices(i, kinds[i], layouts[i], mesh, bindings)
     structure = _structure(mesh, base, motion, places)
     terms = [ElementTerm(m, _dofs(m.elements), motion) for m in sets]
     K = _nominal_stiffness(structure, terms)
@@ -100,6 +105,12 @@ def _layout(kind: ElementType, elements: ElementSet, mesh: Mesh) -> Layout:
             if parallel.any():
                 raise Unoriented(tuple(elements.ids[parallel].tolist()))
     return layout
+
+
+def _stretching(layout: Layout, dofs: np.ndarray, motion: Motion) -> np.ndarray:
+    """Mask (e,) of two-node elements whose ends the model lets move along them; dofs (e, 12)."""
+    along = np.abs(span(layout).motion[:, (0, 6)]) > _ALONG
+    return (along & (motion.counts[dofs] > 0)[:, None]).any(axis=(1, 2))
 
 
 def _offsets(options: dict) -> np.ndarray:

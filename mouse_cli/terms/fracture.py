@@ -1,4 +1,6 @@
-"""Compliance of an edge crack of depth a in a bar of height h, plane strain, of s = a/h: F1 in bending, F2 in shear, F3 in tension.
+"""Compliance of an edge crack of depth a in a bar of height h, plane strain, of s = a/h: in bending, shear and tension.
+
+F1 is that in bending, F2 in shear, F3 in tension, and F12 of bending and tension together.
 
 F = integral of pi s Y(s)^2 ds, or of the product of two, Y the stress intensity factor in units of stress times sqrt(pi a) (Tada,
 Paris and Irwin, The Stress Analysis of Cracks Handbook): bending stress 6 M / (b h^2), mean stress N / (b h), mean shear stress
@@ -6,6 +8,7 @@ V / (b h). Depths (...,) may be complex, for derivatives by a complex step.
 """
 
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
@@ -33,21 +36,27 @@ def _sliding(s: np.ndarray) -> np.ndarray:
     return (1.122 - 0.561 * s + 0.085 * s**2 + 0.180 * s**3) / np.sqrt(1 - s)
 
 
-def bending(depth: np.ndarray) -> np.ndarray:
-    """F1: the angle of the crack under a moment M is 6 (1 - nu^2) h F1 / EI times M."""
-    return _integral(_opening, _opening, depth)
+class Compliance(NamedTuple):
+    """What a crack adds: its angle for a moment, sliding for a force across and parting for one along the bar, at the axis.
+
+    both: parting for a moment, and angle for a force along the bar: open on one side, the crack turns about a point off the axis.
+    """
+
+    turning: np.ndarray
+    sliding: np.ndarray
+    parting: np.ndarray
+    both: np.ndarray
 
 
-def coupling(depth: np.ndarray) -> np.ndarray:
-    """F12: under a moment M the two sides part at the axis by (1 - nu^2) h^2 F12 / EI times M, being open on one side."""
-    return _integral(_opening, _stretching, depth)
+def factors(depth: np.ndarray) -> Compliance:
+    """F1, F2, F3 and F12 in the places of what they make."""
+    pairs = (_opening, _opening), (_sliding, _sliding), (_stretching, _stretching), (_opening, _stretching)
+    return Compliance(*(_integral(*pair, depth) for pair in pairs))
 
 
-def stretching(depth: np.ndarray) -> np.ndarray:
-    """F3: they part by (1 - nu^2) h^3 F3 / (6 EI) times N under a tension N."""
-    return _integral(_stretching, _stretching, depth)
-
-
-def shearing(depth: np.ndarray) -> np.ndarray:
-    """F2: the sliding of the crack under a force V is (1 - nu^2) h^3 F2 / (6 EI) times V."""
-    return _integral(_sliding, _sliding, depth)
+def compliance(of: Compliance, height: np.ndarray, EI: np.ndarray, nu: np.ndarray) -> Compliance:
+    """6 c F1, c h^2 F2 / 6, c h^2 F3 / 6 and c h F12 with c = (1 - nu^2) h / EI, for the `factors` of a depth."""
+    c = (1 - nu**2) * height / EI
+    return Compliance(
+        6 * c * of.turning, c * height**2 * of.sliding / 6, c * height**2 * of.parting / 6, c * height * of.both
+    )

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
-from benchmarks.blind import beams, chains, decks, frames, plate, scoring, verify
+from benchmarks.blind import beams, chains, crack_sizes, cracks, decks, frames, plate, scoring, verify
 from benchmarks.blind.test_data import CONFIGS, measured
 from mouse_cli.formats import read_deck
 
@@ -115,3 +115,46 @@ def test_scores_of_controls_and_of_causes_without_a_name():
     ]
     table = scoring.tables([scoring.scored(one, _said("nothing-missing")) for one in (control, ANSWER, outside)])
     assert "controls: 0 of 1 not said to lack nothing" in table
+
+
+def test_a_cracked_cantilever_has_the_frequencies_of_its_closed_form():
+    """Roots of the exact solution of two pieces, the rotational spring of the crack between them; it slides by next to nothing."""
+    case = next(case for case in cracks.cases("development", 1, 40) if case.inputs["held"] == [["TX", "TY", "RZ"], []])
+    inputs = case.inputs | {"axial": False}
+    EI, L, a = inputs["E"] * inputs["I"], inputs["L"], inputs["place"]
+    c = cracks.compliance(inputs["depth"], inputs["height"], EI)[2, 2]
+
+    def condition(omega: float) -> float:
+        k = (inputs["density"] * inputs["A"] * omega**2 / EI) ** 0.25
+        rows = lambda x: np.array(
+            [
+                [np.sin(k * x), np.cos(k * x), np.sinh(k * x), np.cosh(k * x)],
+                [np.cos(k * x), -np.sin(k * x), np.cosh(k * x), np.sinh(k * x)],
+                [-np.sin(k * x), -np.cos(k * x), np.sinh(k * x), np.cosh(k * x)],
+                [-np.cos(k * x), np.sin(k * x), np.cosh(k * x), np.sinh(k * x)],
+            ]
+        )
+        A = np.zeros((8, 8))
+        A[:2, :4], A[2:4, 4:] = rows(0.0)[:2], rows(L)[2:]
+        A[4:, :4], A[4:, 4:] = rows(a), -rows(a)
+        A[5, :4] += c * EI * k * rows(a)[2]
+        return float(np.linalg.det(A))
+
+    for hz in cracks.modes(inputs)[0][:4]:
+        below, above = (condition(2 * np.pi * hz * (1 + side * 3e-4)) for side in (-1, 1))
+        assert below * above < 0
+
+
+def test_sizes_of_cracks_are_within_their_errors():
+    """Three fits of the 200 of `python -m benchmarks.blind.crack_sizes`, and its table."""
+    found = np.array([crack_sizes.errors(case, "A", 1) for case in cracks.cases("development", 1, 3)])
+    assert np.abs(found[:, 0]).max() < 4 and (found[:, 1] > 0).all()
+    assert "depth" in crack_sizes.table(found)
+
+
+def test_sizes_are_scored_by_their_sd():
+    own = {"name": "depth over height", "value": 0.3, "sd": 0.01}
+    found = _said("named", "local-stiffness") | {"candidates": [{"parameters": [own]}]}
+    one = scoring.scored(ANSWER | {"sizes": {"depth over height": 0.325}}, found)
+    assert one.sizes == ((0.325, 0.3, 0.01),)
+    assert "0 within 1.645 sd, 1 within 3 sd, mean of errors -2.50 sd" in scoring.sizes([one])

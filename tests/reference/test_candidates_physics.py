@@ -5,7 +5,7 @@ import pytest
 from scipy.linalg import eigh
 from scipy.optimize import brentq
 
-from mouse_cli.diagnosis.effects.fracture import bending
+from mouse_cli.diagnosis.effects.fracture import factors
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.mechanisms import registry
@@ -190,7 +190,7 @@ def test_clamp_that_turns_and_clamp_that_shifts(k):
 def test_hinge_of_a_crack_within_an_element():
     found = model(Iz=EI)
     height, nu, at, depth = np.sqrt(12 * EI), 0.3, 0.3125, 0.4
-    c = 6 * (1 - nu**2) * height * bending(depth) / EI
+    c = 6 * (1 - nu**2) * height * factors(depth).turning / EI
     pieces = [(at, EI, 1.0), (1 - at, EI, 1.0)]
     expected = Bar(pieces, [(c, free_joint)]).eigenvalues(9)
     assert bending_of(found, "crack", [depth, at]) == pytest.approx(expected, rel=2e-3)  # which gives way in shear, too
@@ -201,7 +201,7 @@ def test_a_crack_opens_where_the_model_has_no_axial_motion(supports):
     """The same hinge, and the deck that is written has the same modes; short elements held it shut."""
     found = model(supports, Iz=EI, plane="directions: [TY, RZ]")
     height, nu, at, depth = np.sqrt(12 * EI), 0.3, 0.3125, 0.4
-    c = 6 * (1 - nu**2) * height * bending(depth) / EI
+    c = 6 * (1 - nu**2) * height * factors(depth).turning / EI
     pinned = {} if "RZ" in supports else {"root": (np.inf, 0.0), "tip": lambda lam: 1e9}
     expected = Bar([(at, EI, 1.0), (1 - at, EI, 1.0)], [(c, free_joint)], **pinned).eigenvalues(10)
     cracked = eigenvalues(found, "crack", [depth, at])
@@ -215,7 +215,7 @@ def test_compliance_of_a_crack_in_bending(depth):
     """Chondros, Dimarogonas and Yao, J. Sound Vib. 215 (1998), Eq. (25): 6 pi (1 - nu^2) h Phi / EI."""
     powers = [0.6272, -1.04533, 4.5948, -9.9736, 20.2948, -33.0351, 47.1063, -40.7556, 19.6]
     phi = sum(c * depth ** (i + 2) for i, c in enumerate(powers))
-    assert bending(depth) == pytest.approx(np.pi * phi, rel=0.03)
+    assert factors(depth).turning == pytest.approx(np.pi * phi, rel=0.03)
 
 
 def test_stretch_that_is_softer_with_ends_inside_elements():
@@ -314,3 +314,18 @@ def test_slopes_at_a_node_are_those_within_the_bar(side):
     node = end if side > 0 else np.nextafter(end, 0)
     slopes = [there.jacobian(there.point(at(s))) for s in (node, node + side * 2e-5)]
     np.testing.assert_allclose(slopes[0], slopes[1], rtol=0.01, atol=1e-3 * np.abs(slopes[1]).max())
+
+
+@pytest.mark.parametrize("key", ["mass", "ground-spring", "oscillator"])
+def test_slopes_of_what_sits_at_a_place_are_alike_on_both_sides_of_a_node(key):
+    """What they act on, the deflection of a bar, has a continuous slope: central differences there straddle nothing."""
+    found = model(Iz=EI)
+    says = "TY" if key != "mass" else ""
+    recipe = next(r for r in registry()[key].recipes(found, registry()[key]) if says in r.site(r.grid[0]).text)
+    there = Model(found, (recipe,))
+    assert recipe.unknowns[-1].name == "place" and not recipe.jumps
+    sizes = [np.sqrt(each.lower * each.upper) for each in recipe.unknowns[:-1]]
+    at = lambda s: there.point(np.append(found.z, recipe.coordinates(np.array([*sizes, s]))))
+    slopes = [there.jacobian(at(0.25 + side * 1e-4))[:, -1] for side in (-1, 0, 1)]
+    for slope in (slopes[0], slopes[2]):
+        np.testing.assert_allclose(slopes[1], slope, rtol=0.01, atol=1e-3 * np.abs(slope).max())

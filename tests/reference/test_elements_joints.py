@@ -6,7 +6,6 @@ import pytest
 from element_meshes import elements, mesh
 
 from mouse_cli.model.arrays import dense
-from mouse_cli.terms import fracture
 from mouse_cli.terms.assembly import Assembly
 from mouse_cli.terms.build import built
 
@@ -30,35 +29,48 @@ def tip(K: np.ndarray, load: int) -> np.ndarray:
     return np.linalg.solve(K[6:, 6:], np.eye(6)[load])
 
 
+def _integrals(depth: float) -> tuple[float, float, float, float]:
+    """F1, F2, F3, F12: integrals of pi s Y_i Y_j (Tada, Paris and Irwin)."""
+    t = lambda s: mpmath.pi * s / 2
+    root = lambda s: mpmath.sqrt(mpmath.tan(t(s)) / t(s)) / mpmath.cos(t(s))
+    bent = lambda s: root(s) * (0.923 + 0.199 * (1 - mpmath.sin(t(s))) ** 4)
+    drawn = lambda s: root(s) * (0.752 + 2.02 * s + 0.37 * (1 - mpmath.sin(t(s))) ** 3)
+    shorn = lambda s: (1.122 - 0.561 * s + 0.085 * s**2 + 0.180 * s**3) / mpmath.sqrt(1 - s)
+    pairs = (bent, bent), (shorn, shorn), (drawn, drawn), (bent, drawn)
+    return tuple(float(mpmath.quad(lambda s, f=f, g=g: mpmath.pi * s * f(s) * g(s), [0, depth])) for f, g in pairs)
+
+
 @pytest.mark.parametrize("depth", [0.1, 0.35, 0.6])
 def test_cracked_cantilever(depth):
-    """Deflection under a force at the tip: l^3/3EI, the turning of the crack at midspan, (l/2)^2 times, and its sliding."""
+    """Deflection under a force at the tip: l^3/3EI, the turning of the crack at midspan, (l/2)^2 times, and its sliding.
+
+    Open on one side, it also parts: along the bar under the force across, l/2 times, and across it under a force along.
+    """
     K = stiffness(
         "cracked_beam", [[0, 0, 0], [LENGTH, 0, 0]],
         E=E, nu=NU, A=A, Iy=I, Iz=I, J=I, depth=depth, height=HEIGHT,
     )  # fmt: skip
-    y = lambda s: mpmath.sqrt(mpmath.tan(mpmath.pi * s / 2) / (mpmath.pi * s / 2)) * (
-        0.923 + 0.199 * (1 - mpmath.sin(mpmath.pi * s / 2)) ** 4
-    ) / mpmath.cos(mpmath.pi * s / 2)  # fmt: skip
-    z = lambda s: (1.122 - 0.561 * s + 0.085 * s**2 + 0.180 * s**3) / mpmath.sqrt(1 - s)
-    F1, F2 = (float(mpmath.quad(lambda s, f=f: mpmath.pi * s * f(s) ** 2, [0, depth])) for f in (y, z))
-    turning = 6 * (1 - NU**2) * HEIGHT * F1 / (E * I)
-    sliding = (1 - NU**2) * HEIGHT**3 * F2 / (6 * E * I)
+    F1, F2, F3, F12 = _integrals(depth)
+    c = (1 - NU**2) * HEIGHT / (E * I)
+    turning, sliding, parting, both = 6 * c * F1, c * HEIGHT**2 * F2 / 6, c * HEIGHT**2 * F3 / 6, c * HEIGHT * F12
     sound = LENGTH**3 / (3 * E * I)
     assert tip(K, 1)[1] == pytest.approx(sound + (LENGTH / 2) ** 2 * turning + sliding, rel=1e-10)
     assert tip(K, 2)[2] == pytest.approx(sound, rel=1e-10), "the crack does not open in the other plane"
-    assert tip(K, 0)[0] == pytest.approx(LENGTH / (E * A), rel=1e-10)
+    assert tip(K, 0)[0] == pytest.approx(LENGTH / (E * A) + parting, rel=1e-10)
+    assert tip(K, 1)[0] == pytest.approx(LENGTH / 2 * both, rel=1e-8)
+    assert tip(K, 0)[1] == pytest.approx(LENGTH / 2 * both, rel=1e-8)
 
 
 @pytest.mark.parametrize("depth", [0.2, 0.5])
 def test_the_two_stiffnesses_of_the_cracked_element(depth):
-    """k_thth as lecture 21-1 prints it, and k_ww with the 2 that it lacks: k_thth - k_ww/4 is bending alone (see docs)."""
+    """Free of axial force: k_thth as lecture 21-1 prints it, and k_ww with the 2 that it lacks (see docs)."""
     K = stiffness(
         "cracked_beam", [[0, 0, 0], [LENGTH, 0, 0]],
         E=E, nu=NU, A=A, Iy=I, Iz=I, J=I, depth=depth, height=HEIGHT,
     )  # fmt: skip
+    K = K - np.outer(K[:, 6], K[6]) / K[6, 6]  # the second end moves along the bar
     alpha, strain = HEIGHT / LENGTH, 1 - NU**2
-    F1, F2 = float(fracture.bending(depth)), float(fracture.shearing(depth))
+    F1, F2, _, _ = _integrals(depth)
     printed = (4 + strain * (18 * alpha * F1 + 2 * alpha**3 * F2)) / (
         (1 + 6 * strain * alpha * F1) * (1 + 2 * strain * alpha**3 * F2)
     )

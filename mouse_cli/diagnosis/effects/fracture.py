@@ -1,4 +1,4 @@
-"""Compliances of an edge crack (`terms.fracture`) one depth at a time, kept: a search asks for the same depth for every bar."""
+"""Factors of an edge crack (`terms.fracture`) one depth at a time, kept: a search asks for the same depth for every bar."""
 
 from functools import cache
 
@@ -6,24 +6,6 @@ from mouse_cli.terms import fracture
 
 
 @cache
-def bending(depth: float) -> float:
-    """F1."""
-    return float(fracture.bending(depth))
-
-
-@cache
-def coupling(depth: float) -> float:
-    """F12."""
-    return float(fracture.coupling(depth))
-
-
-@cache
-def stretching(depth: float) -> float:
-    """F3."""
-    return float(fracture.stretching(depth))
-
-
-@cache
-def shearing(depth: float) -> float:
-    """F2."""
-    return float(fracture.shearing(depth))
+def factors(depth: float) -> fracture.Compliance:
+    """F1, F2, F3 and F12 in the places of what they make."""
+    return fracture.Compliance(*map(float, fracture.factors(depth)))

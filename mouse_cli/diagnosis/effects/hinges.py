@@ -47,7 +47,7 @@ def places(
     starts: np.ndarray,
     extend: Callable[[Problem, int, float, np.ndarray], Problem],
 ) -> list[Recipe]:
-    """A recipe for each line of bars: `added` (bar, share of its length, values of `sizes`) comes to the flexibility (2, 2).
+    """A recipe for each line of bars: `added` (bar, share of its length, values of `sizes`) comes to the flexibility (3, 3).
 
     extend(problem, bar, share, values): the deck with that in it.
     """
@@ -59,7 +59,7 @@ def places(
 
         def change(values: np.ndarray, line=line) -> Change:
             bar, share = line.at(values[-1])
-            return Change(softening=Softening(np.array([bar]), added(bar, share, values[:-1])[None]))
+            return hinged(model.bars, bar, share, added(bar, share, values[:-1]))
 
         def site(values: np.ndarray, line=line):
             return line.site(values[-1])
@@ -72,6 +72,15 @@ def places(
         recipe = Recipe(candidate, (*sizes, where), change, grid, site, log_prior=prior, extend=extended)
         found.append(replace(recipe, jumps={len(sizes): line.inner}))
     return found
+
+
+def hinged(bars: Bars, bar: int, share: float, added: np.ndarray) -> Change:
+    """What a hinge does at a share of a bar: `added` (3, 3) comes to its flexibility, and its shapes have a kink and a gap there.
+
+    These are what its moments and force do at the hinge: `added` of the angle between the ends, and of the elongation.
+    """
+    angle, _, gap = added @ np.linalg.solve(bars.flexibility[bar] + added, bars.strain[bar])
+    return Change(M=bars.jumped(bar, share, angle, gap), softening=Softening(np.array([bar]), added[None]))
 
 
 def with_hinge(

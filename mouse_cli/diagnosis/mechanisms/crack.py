@@ -3,21 +3,23 @@
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Recipe, Unknown, steps
-from mouse_cli.diagnosis.effects.fracture import bending, coupling, shearing, stretching
+from mouse_cli.diagnosis.effects.fracture import factors
 from mouse_cli.diagnosis.effects.hinges import places, with_hinge
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import Bars
 from mouse_cli.model.problem import Problem
+from mouse_cli.terms.fracture import compliance
 
 _STILL = 1e-9  # elongation over bending strain times length below which a bar does not stretch
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """F + 6 (1 - nu^2) h F1 / EI b b' + l/(3 EI) 2 (1 - nu^2) (h/l)^3 F2 on the antisymmetric strain, b = [1, eta, e].
+    """F + c_turning b b' + (4 / l^2) c_sliding on the antisymmetric strain + what it parts besides, b = [1, eta, e].
 
-    e: distance of the point about which the crack turns from the axis; what it parts there comes to the elongation. A bar that
-    does not stretch in the model has no axial force: it turns about its axis, e = 0, for else the crack were held shut.
+    The compliances are those of the element `cracked_beam`. e: distance of the point about which the crack turns from the axis;
+    what it parts there comes to the elongation. A bar that does not stretch in the model has no axial force: it turns about its
+    axis, e = 0, for else the crack were held shut.
     """
     bars, depth = model.bars, Unknown("depth over height", "1", 0.05, 0.7)
     stretches = None if bars is None else _stretching(bars)
@@ -25,10 +27,9 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     def compliances(bar: int, depth: float) -> tuple[float, float, float, float]:
         """Angle for a unit moment, sliding and parting for unit forces, and e."""
         height = np.sqrt(12 * bars.EI[bar] / bars.E[bar] / bars.A[bar])
-        c = (1 - bars.nu[bar] ** 2) * height / bars.EI[bar]
-        turning, both = 6 * c * bending(depth), c * height * coupling(depth) * stretches[bar]
-        parting = c * height**2 * stretching(depth) / 6 - both**2 / turning
-        return turning, c * height**2 * shearing(depth) / 6, parting, both / turning
+        c = compliance(factors(depth), height, bars.EI[bar], bars.nu[bar])
+        e = c.both / c.turning * stretches[bar]
+        return c.turning, c.sliding, c.parting - e**2 * c.turning, e
 
     def added(bar: int, at: float, values: np.ndarray) -> np.ndarray:
         turning, sliding, parting, e = compliances(bar, values[0])

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Softening, Unknown, steps
-from mouse_cli.diagnosis.effects.hinges import with_hinge
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.effects.hinges import hinged, with_hinge
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import Bars
@@ -75,13 +75,13 @@ def _recipe(model: Reduced, candidate: Candidate, bar: int, end: int, count: int
     line = bars.lines[bars.line[bar]]
     scale = bars.EI[bar] / line.length
     k = Unknown("stiffness of the joint", "N m/rad", scale / 0.5, scale / 3e-4)
-    b, at = np.array([1.0, 2.0 * end - 1]), np.array([bar])
+    b = np.array([1.0, 2.0 * end - 1, 0.0])
     node = int(model.problem.mesh.node_ids[bars.nodes[bar, end]])
     position = bars.point(bar, float(end))
     site = Site("node", (node,), position, f"element {bars.ids[bar]} at node {node}, local {'yz'[bars.plane[bar]]}")
 
     def change(values: np.ndarray) -> Change:
-        return Change(softening=Softening(at, np.outer(b, b)[None] / values[0]))
+        return hinged(bars, bar, float(end), np.outer(b, b) / values[0])
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         return with_hinge(problem, bars, bar, float(end), f"joint of {site.text}", values[0])

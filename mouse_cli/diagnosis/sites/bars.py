@@ -104,6 +104,16 @@ class Bars:
         rows = self.ends[bars]
         return rows.reshape(-1, rows.shape[-1]).T @ (blocks @ rows).reshape(-1, rows.shape[-1])
 
+    def jumped(self, bar: int, at: float, angle: np.ndarray, gap: np.ndarray) -> np.ndarray:
+        """Change of M (r, r) where a bar is kinked and parted at a share of its length, by `angle` and `gap` (r,)."""
+        found = np.zeros((2, len(angle), len(angle)))
+        parts = (angle, self.ends[bar], beam.kinked), (gap, self.axial[bar], beam.parted)
+        for M, (jump, ends, inertia) in zip(found, parts, strict=True):
+            across, own = inertia(self.length[[bar]], at)
+            crossed = np.outer(across[0] @ ends, jump)
+            M += crossed + crossed.T + own[0] * np.outer(jump, jump)
+        return self.line_mass[bar] * (found[0] + found[1])
+
     def deflection(self, bar: int, at: float) -> np.ndarray:
         """w (r,) at the share `at` of the length of one bar."""
         x, l = at, self.length[bar]

@@ -17,12 +17,14 @@ WORD, VECTOR, AXES, END_VECTORS, END_DIRECTIONS = "word", "vector", "axes", "end
 class Layout:
     """Where e elements of k nodes each are: coordinates (e, k, 3) in m, and the options of their set.
 
-    axial (e,): tension in N that gravity causes (see `Mesh.gravity`); it stiffens beside the property `preload`.
+    axial (e,): tension in N that gravity causes (see `Mesh.gravity`); it stiffens beside the property `preload`. stretches (e,):
+    whether the ends of an element may move along it in the model, None: all may; for types that `opens` marks.
     """
 
     coordinates: np.ndarray
     options: dict[str, Any] = field(default_factory=dict)
     axial: np.ndarray | None = None
+    stretches: np.ndarray | None = None
     _kept: dict[str, Any] = field(default_factory=dict, repr=False, compare=False)
 
     def __len__(self) -> int:
@@ -30,7 +32,8 @@ class Layout:
 
     def of(self, members: np.ndarray) -> "Layout":
         """The layout of some of the elements."""
-        return Layout(self.coordinates[members], self.options, None if self.axial is None else self.axial[members])
+        axial, stretches = (None if given is None else given[members] for given in (self.axial, self.stretches))
+        return Layout(self.coordinates[members], self.options, axial, stretches)
 
     def once(self, key: str, make: Callable[["Layout"], Any]) -> Any:
         """make(layout), computed at the first call: what follows from geometry and options alone."""
@@ -86,7 +89,7 @@ class ElementType:
     property values but with 0): derivatives by a property are taken by complex steps, exact to rounding (Squire and Trapp
     1998). `axial(layout, properties, displacements (e, 6 k))` is the tension (e,), for elements that carry load along their axis.
     reach: whether the element has a length, so that its nodes must not coincide. stacked: under gravity it carries the weight
-    of everything beyond it, seen from the supports.
+    of everything beyond it, seen from the supports. opens: what it does in bending depends on whether it may stretch.
     """
 
     key: str
@@ -99,6 +102,7 @@ class ElementType:
     axial: Callable[[Layout, Properties, np.ndarray], np.ndarray] | None = None
     reach: bool = False
     stacked: bool = False
+    opens: bool = False
 
     def __post_init__(self) -> None:
         damping = {name: DAMPING[name] for name in self.damping}

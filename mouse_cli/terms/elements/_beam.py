@@ -116,6 +116,32 @@ def integral(shape: np.ndarray, value: np.ndarray) -> np.ndarray:
     return value[:, None, None] * (shape.transpose(0, 2, 1) @ (WEIGHTS[:, None] * shape))
 
 
+def kinked(length: np.ndarray, share: float) -> tuple[np.ndarray, np.ndarray]:
+    """Integrals over the length of N psi (e, 4) and psi^2 (e,): inertia of a bar that is kinked at a share of its length.
+
+    Its deflection is N q + psi times the angle of the kink, N the cubic shapes, psi(x) = (x - a)_+ - (l - a) N_3 - N_4, which
+    neither moves nor turns the ends. Exact for the degree that there is, on either side of a = share l.
+    """
+    x, weights = _halves(share)
+    N = np.stack([1 - 3 * x**2 + 2 * x**3, x - 2 * x**2 + x**3, 3 * x**2 - 2 * x**3, x**3 - x**2])
+    psi = np.maximum(x - share, 0.0) - (1 - share) * N[2] - N[3]
+    both = length[:, None] ** np.array([2, 3, 2, 3]) * (N @ (weights * psi))
+    return both, length**3 * float(psi**2 @ weights)
+
+
+def parted(length: np.ndarray, share: float) -> tuple[np.ndarray, np.ndarray]:
+    """The same (e, 2), (e,) of a bar that is parted there: along it, it moves by N u + chi times the gap, chi = H(x - a) - x/l."""
+    x, weights = _halves(share)
+    chi = (x > share) - x
+    return length[:, None] * (np.stack([1 - x, x]) @ (weights * chi)), length * float(chi**2 @ weights)
+
+
+def _halves(share: float) -> tuple[np.ndarray, np.ndarray]:
+    """Points and weights on either side of a share of the length."""
+    x = np.concatenate([share * POINTS, share + (1 - share) * POINTS])
+    return x, np.concatenate([share * WEIGHTS, (1 - share) * WEIGHTS])
+
+
 def condensation(K: np.ndarray, releases: dict | None) -> np.ndarray | None:
     """Local motion (e, 12, 12) of ends of which some directions carry no load: u_c = -Kcc^-1 Kcr u_r; None without releases.
 

@@ -18,10 +18,13 @@ def unseen(one: Fit) -> float:
 
 
 def unmeasured_hz(one: Fit) -> tuple[float, ...]:
-    """Frequencies (Hz) of visible modes within the measured band that the mechanisms make and that nobody measured."""
+    """Frequencies (Hz) of visible modes within the measured band that the mechanisms make and that nobody measured.
+
+    A mode that the model has as it is, unseen, and that a mechanism makes visible, is none: `unseen` weighs it, no more.
+    """
     found: list[float] = []
     for own, bare in _pairs(one):
-        more = int((own[1] > 1).sum() - (bare[1] > 1).sum())
+        more = min(int((own[1] > 1).sum() - (bare[1] > 1).sum()), len(own[0]) - len(bare[0]))
         order = np.argsort(-own[1])[: max(more, 0)]
         found += [float(hz) for hz in own[0][order]]
     return tuple(sorted(found))
