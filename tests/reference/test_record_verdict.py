@@ -78,6 +78,14 @@ def test_a_deck_without_damping_is_judged_by_its_stiffness(tmp_path, law, kind):
     assert answer(without_damping(record(tmp_path, law)), *few)["verdict"]["kind"] == kind
 
 
+@pytest.mark.parametrize("missing_spring, physics", [(0.0, None), (4000.0, "spring")])
+def test_damping_that_a_deck_leaves_out_has_no_name(tmp_path, missing_spring, physics):
+    """The deck damps in proportion to stiffness alone; the structure in proportion to mass too, 1.5 % of the first mode."""
+    law = lambda u, v: 3.0 * v + np.array([0.0, missing_spring * u[1]])
+    found = answer(record(tmp_path, law))["verdict"]
+    assert (found["kind"], found["physics"]) == ("named" if physics else "nothing-missing", physics)
+
+
 def test_assumed_damping_does_not_follow_the_stiffness(tmp_path):
     problem = read_deck(without_damping(record(tmp_path, linear)))
     model = uncertain(problem, 100.0, np.eye(2))

@@ -7,7 +7,7 @@ from mouse_cli.diagnosis.likelihoods.history.prove import ratio, scores, surface
 from mouse_cli.diagnosis.likelihoods.history.records import named, records
 from mouse_cli.diagnosis.likelihoods.history.search import weighed
 from mouse_cli.diagnosis.likelihoods.history.signs import linearity
-from mouse_cli.diagnosis.likelihoods.history.study import study
+from mouse_cli.diagnosis.likelihoods.history.study import Study, study
 from mouse_cli.diagnosis.likelihoods.history.verdict import decided, explanation, ranked, untried
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, Choices, Diagnosis
 from mouse_cli.model.problem import Problem
@@ -19,10 +19,13 @@ from mouse_cli.updating.chi_square import upper_tail
 Notice = Callable[[str], None]
 
 
-def diagnose_records(problem: Problem, notice: Notice, choices: Choices) -> Diagnosis:
-    """What the model of `problem` lacks, judged by its recordings. Raises DeckError (MD640) for records that cannot judge."""
-    found = records(problem)
-    own = study(problem, found)
+def diagnose_records(problem: Problem, notice: Notice, choices: Choices, own: Study | None = None) -> Diagnosis:
+    """What the model of `problem` lacks, judged by its recordings; own: what their fits share, where modes judged first.
+
+    Raises DeckError (MD640) for records that cannot judge.
+    """
+    own = study(problem, records(problem)) if own is None else own
+    found = own.records
     known = (
         None if choices.candidates is None else [law for key, law in registry().items() if key in choices.candidates]
     )
