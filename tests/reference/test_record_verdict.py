@@ -12,18 +12,19 @@ from scipy.integrate import solve_ivp
 from two_masses import linear, record
 
 from mouse_cli.cli.main import cli
-from mouse_cli.diagnosis.likelihoods.history.limits import far, hidden, shift_p, shifted
-from mouse_cli.diagnosis.likelihoods.history.prove import ratio
-from mouse_cli.diagnosis.likelihoods.history.records import _floor, records
-from mouse_cli.diagnosis.likelihoods.history.search import Weighed, missing, unlikely
-from mouse_cli.diagnosis.likelihoods.history.study import fitted, study
-from mouse_cli.diagnosis.likelihoods.history.uncertain import UNDAMPED, uncertain
+from mouse_cli.diagnosis.likelihoods.history.limits import far, hidden
+from mouse_cli.diagnosis.likelihoods.history.search import Weighed
 from mouse_cli.diagnosis.likelihoods.history.verdict import decided, ranked
 from mouse_cli.formats import read_deck
 from mouse_cli.model.diagnosis import Rest
 from mouse_cli.model.record_diagnosis import AS_IT_IS, WITH_CAUSE, RecordScore
 from mouse_cli.report.verdict_sentences import remains
 from mouse_cli.terms.laws import registry
+from mouse_cli.updating.recordings.adequacy import missing, shift_p, shifted, unlikely
+from mouse_cli.updating.recordings.records import _floor, records
+from mouse_cli.updating.recordings.study import fitted, study
+from mouse_cli.updating.recordings.uncertain import UNDAMPED, uncertain
+from mouse_cli.updating.recordings.validation import ratio
 
 MASSES = """  - {name: m1, nominal: 1.0, sd: 1 %, mass: [[1, 1, 1]]}
   - {name: m2, nominal: 1.0, sd: 1 %, mass: [[2, 2, 1]]}

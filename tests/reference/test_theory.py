@@ -14,13 +14,13 @@ from two_masses import linear, record
 from mouse_cli._errors import DeckError
 from mouse_cli.cli.main import _run
 from mouse_cli.diagnosis.likelihoods.frf.data import lines
-from mouse_cli.diagnosis.likelihoods.history.uncertain import uncertain
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.data import Data
 from mouse_cli.formats import read_deck, write_deck
 from mouse_cli.formats.cards.losses import losses
 from mouse_cli.model.theory import Theory
 from mouse_cli.page import page, read
+from mouse_cli.updating.recordings.uncertain import uncertain
 
 DECKS = Path(__file__).resolve().parents[2] / "decks"
 N, K, MASS = 8, 2.0e5, 1.0

@@ -56,6 +56,11 @@ class Fit:
         return self.model.recipes
 
     @property
+    def data(self):
+        """The test that it is fitted to."""
+        return self.model.base.data
+
+    @property
     def dof(self) -> int:
         """Degrees of freedom that the misfit has when the model is right."""
         return self.model.base.data.dof - self.model.t

@@ -6,16 +6,16 @@ from itertools import product
 
 import numpy as np
 
-from mouse_cli.diagnosis.likelihoods.history.noise import noise
-from mouse_cli.diagnosis.likelihoods.history.polish import Fit as Simulated
 from mouse_cli.diagnosis.likelihoods.history.posterior import Posterior, expanded, modelled, posterior
-from mouse_cli.diagnosis.likelihoods.history.records import cannot_judge, records
-from mouse_cli.diagnosis.likelihoods.history.search import close, unlikely, with_noise
-from mouse_cli.diagnosis.likelihoods.history.study import Study, alike, fitted, study
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.rank import Ranking, ranking
 from mouse_cli.model.groups import enumerated
+from mouse_cli.updating.recordings.adequacy import close, unlikely, with_noise
+from mouse_cli.updating.recordings.noise import noise
+from mouse_cli.updating.recordings.polish import Fit as Simulated
+from mouse_cli.updating.recordings.records import cannot_judge, records
+from mouse_cli.updating.recordings.study import Study, alike, fitted, study
 
 _REACH = 60.0  # nats by which all else may speak against an explanation that recordings judge still
 _SINGLES = 3  # single mechanisms that are judged in any case

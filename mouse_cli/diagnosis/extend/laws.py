@@ -4,24 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.likelihoods.history.hypothesis import Acting, Part
-from mouse_cli.diagnosis.likelihoods.history.linear_causes import with_linear
-from mouse_cli.diagnosis.likelihoods.history.polish import Fit
+from mouse_cli.diagnosis.extend.linear_laws import with_linear
 from mouse_cli.model.local_law import LocalLaw
 from mouse_cli.model.problem import Problem
-from mouse_cli.terms.laws import registry
-
-
-def acting(problem: Problem, basis: np.ndarray) -> tuple[Acting, ...]:
-    """The laws of a deck, in the coordinates of a basis (n, m)."""
-    return tuple(_acting(one, basis) for one in problem.laws)
-
-
-def _acting(one: LocalLaw, basis: np.ndarray) -> Acting:
-    law = registry()[one.law]
-    B = basis[one.dofs[-1]] - (basis[one.dofs[0]] if len(one.dofs) > 1 else 0.0)
-    p = np.array([one.values[size.name] for size in law.parameters])
-    return Acting(B, law, law.variants[law.words.index(one.variant)], p)
+from mouse_cli.updating.recordings.hypothesis import Part
+from mouse_cli.updating.recordings.polish import Fit
 
 
 def extended(problem: Problem, best: Fit) -> Problem | None:

@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mouse_cli._errors import ERROR, WARNING, DeckError, Diagnostic
-from mouse_cli.diagnosis.likelihoods.history.series import REACH, Series
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.recording import MOTIONS, Channel, Recording
+from mouse_cli.updating.recordings.series import REACH, Series
 
 FLOOR = 0.01  # of the rms of a channel: no transducer and no theory is more accurate
 HELD = 0.3  # share at the end of each record that is held out where the deck holds nothing out

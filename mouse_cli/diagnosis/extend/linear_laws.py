@@ -7,10 +7,10 @@ import numpy as np
 
 from mouse_cli.diagnosis.extend.edit import Edit, moved_channels
 from mouse_cli.diagnosis.extend.matrices import Entries, of_matrices, with_degree_of_freedom, with_entries
-from mouse_cli.diagnosis.likelihoods.history.hypothesis import Part
 from mouse_cli.model.arrays import dense
 from mouse_cli.model.parameter import Parameter
 from mouse_cli.model.problem import Problem
+from mouse_cli.updating.recordings.hypothesis import Part
 
 
 def with_linear(problem: Problem, part: Part, p: np.ndarray) -> Problem | None:

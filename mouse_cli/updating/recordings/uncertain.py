@@ -9,11 +9,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.diagnosis.likelihoods.history.linear import Linear
 from mouse_cli.model.arrays import Matrix, dense
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
 from mouse_cli.updating.coordinates import coordinates
+from mouse_cli.updating.recordings.linear import Linear
 
 UNDAMPED, LOOSE = 0.01, 2.0  # damping ratio assumed of each mode where the deck has no damping; its sd, by its value
 LEFT_OUT = (
