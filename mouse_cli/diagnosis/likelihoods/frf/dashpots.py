@@ -3,7 +3,7 @@
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
-from mouse_cli.diagnosis.likelihoods.frf.extend import with_dashpot
+from mouse_cli.diagnosis.extend.points import with_dashpot
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import lowest, total_mass
 from mouse_cli.diagnosis.mechanisms import Candidate

@@ -4,7 +4,6 @@ from collections.abc import Callable
 
 from mouse_cli.diagnosis.extend.laws import extended
 from mouse_cli.diagnosis.likelihoods.history.search import weighed
-from mouse_cli.diagnosis.likelihoods.history.signs import linearity
 from mouse_cli.diagnosis.likelihoods.history.verdict import decided, explanations, ranked, untried
 from mouse_cli.diagnosis.verdict import leader
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, Choices, Diagnosis
@@ -14,6 +13,7 @@ from mouse_cli.model.result import ChiSquareTest
 from mouse_cli.terms.laws import registry
 from mouse_cli.updating.chi_square import upper_tail
 from mouse_cli.updating.recordings.records import named, records
+from mouse_cli.updating.recordings.signs import linearity
 from mouse_cli.updating.recordings.study import Study, study
 from mouse_cli.updating.recordings.validation import ratio, scores, surface, trace
 
