@@ -12,9 +12,8 @@ from scipy.integrate import solve_ivp
 from two_masses import linear, record
 
 from mouse_cli.cli.main import cli
-from mouse_cli.diagnosis.likelihoods.history.limits import far, hidden
-from mouse_cli.diagnosis.likelihoods.history.search import Weighed
-from mouse_cli.diagnosis.likelihoods.history.verdict import decided, ranked
+from mouse_cli.diagnosis.likelihoods.history.search import Weighed, hidden
+from mouse_cli.diagnosis.likelihoods.history.verdict import decided, far, ranked
 from mouse_cli.formats import read_deck
 from mouse_cli.model.diagnosis import Rest
 from mouse_cli.model.record_diagnosis import AS_IT_IS, WITH_CAUSE, RecordScore

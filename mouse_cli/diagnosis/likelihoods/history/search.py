@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.diagnosis.likelihoods.history.limits import hidden
 from mouse_cli.model.record_diagnosis import Noise
 from mouse_cli.terms.laws import Law
 from mouse_cli.terms.laws import registry as laws
@@ -17,6 +16,7 @@ from mouse_cli.updating.recordings.study import Study, fitted
 from mouse_cli.updating.refusals import not_simulated
 
 _POLISHED, _MORE, _AGAIN = 4, 12, 8  # starts that are fitted; where none of them is adequate; of the nearest law again
+_END = 0.01  # of the logarithm of a range, from its end
 _ROUNDS, _SECONDS = 3, 4  # laws beside which a second one is sought, and starts of it that are fitted
 
 Notice = Callable[[str], None]
@@ -74,6 +74,29 @@ def _shown(study: Study, found: list[Fit], dropped: dict[str, str]) -> list[Fit]
         else:
             dropped[unseen[0]] = unseen[1]
     return kept
+
+
+def hidden(one: Fit, horizon_s: float) -> tuple[str, str] | None:
+    """Key and reason of a law whose own mode is no finding: slower than the stretch it is judged on, or at the end of its range.
+
+    Within a stretch such a mode is a free force, that may stand for anything.
+    """
+    for part, p in one.hypothesis.sizes(one.x[None]):
+        if not part.extra:
+            continue
+        frequency = next((v for u, v in zip(part.unknowns, p[:, 0], strict=True) if u.unit == "Hz"), np.inf)
+        if frequency * horizon_s < 1:
+            slow = f"its period, {1 / frequency:.3g} s, is longer than the stretch of {horizon_s:.3g} s it is judged on"
+            return part.law.key, f"{part.place.site.text}: {slow}"
+        for size, value in zip(part.unknowns, p[:, 0], strict=True):
+            reach = _END * np.log(size.upper / size.lower)
+            low = size.unit != "1" and np.log(value / size.lower) < reach
+            if low or np.log(size.upper / value) < reach:
+                return (
+                    part.law.key,
+                    f"{part.place.site.text}: its {size.name} ends at the end of the range held possible",
+                )
+    return None
 
 
 def _left(study: Study, one: Fit) -> Noise | None:

@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mouse_cli.diagnosis.gates import FAR, ODDS, SURE
-from mouse_cli.diagnosis.likelihoods.history.limits import far
 from mouse_cli.diagnosis.likelihoods.history.search import Weighed
 from mouse_cli.diagnosis.search.rank import Ranking, group, ranking
 from mouse_cli.diagnosis.verdict import leader
@@ -19,6 +18,7 @@ from mouse_cli.updating.recordings.adequacy import (
     innovation,
     missing,
     shift_p,
+    shifted,
     strained,
     unlikely,
 )
@@ -119,6 +119,14 @@ def _rest(ranking: Ranking) -> Rest | None:
     if share > 1 - _MOST or _odds(ranking) <= _FAR_OVER or any(p > RIVAL for _, p in others):
         return None
     return Rest(share, min(upper_tail(best.misfit, max(int(best.dof), 1)), shift_p(best, ranking.noise_scale)))
+
+
+def far(one: Fit, scale: float) -> tuple[str, ...]:
+    """The nuisances beyond FAR, in words, the furthest first."""
+    z = shifted(one, scale)
+    names = (*one.hypothesis.linear.names, *(f"offset of force {i + 1}" for i in range(len(one.hypothesis.offset))))
+    order = np.argsort(-np.abs(z))
+    return tuple(f"{names[i]} is {z[i]:+.1f} prior sd from its mean" for i in order if abs(z[i]) > FAR)
 
 
 def _distant(distant: tuple[str, ...]) -> str:
