@@ -96,7 +96,7 @@ def _problem(job: Job, data: bytes) -> Problem:
 
 def _run(problem: Problem):
     if problem.by_recordings:
-        from mouse_cli.diagnosis.likelihoods.history.update import update_records
+        from mouse_cli.updating.recordings.update import update_records
 
         return update_records(problem, lambda text: None)
     from mouse_cli.updating import run

@@ -54,11 +54,16 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choi
     """
     if by_records(problem):
         return diagnose_records(problem, notice, choices)
-    return _by_its_modes(problem, notice, choices)
+    recordings = Hearing()
+    found = _by_its_modes(problem, notice, choices, recordings)
+    if found.kind != NOTHING or recordings.unexplained is None:
+        return found
+    by_laws = diagnose_records(problem, notice, choices, recordings.unexplained)
+    return replace(by_laws, remarks=found.remarks + by_laws.remarks)
 
 
-def _by_its_modes(problem: Problem, notice: Notice, choices: Choices) -> Diagnosis:
-    """The same by measured modes, or those that measured functions show."""
+def _by_its_modes(problem: Problem, notice: Notice, choices: Choices, recordings: Hearing) -> Diagnosis:
+    """The same by measured modes, or those that measured functions show, then by recordings beside them."""
     given = replace(problem, run=_thorough(problem.run))
     problem, doubts = with_modes(given)
     solver = EigenSolver(notice, sensors=0 if problem.test is None else problem.test.s)
@@ -66,7 +71,7 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices) -> Diagnos
     model, told = _model(problem, solver)
     enough = 0.0 if model.places is None else ENOUGH
     result, remarks = _update(problem, kept, notice, _guess(model), enough, solver)
-    ranking = rank(model, _known(choices), choices.causes, _hear())
+    ranking = rank(model, _known(choices), choices.causes, lambda found: recordings(heard(found)))
     verdict, as_it_is = judge(ranking, result.rejected and given.test is not None, model), ranking.baseline
     kind, best, missing = verdict.kind, verdict.best, verdict.kind != NOTHING
     location = locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None
@@ -102,12 +107,6 @@ def _tried(ranking: Ranking) -> dict[str, object]:
     """What was tried, and how probable it is."""
     told = {name: getattr(ranking, name) for name in ("groups", "noise_scale", "untried")}
     return told | {"explanations": explanations(ranking)}
-
-
-def _hear() -> Callable[[Ranking], Ranking]:
-    """What functions, then recordings make of a ranking by modes."""
-    recordings = Hearing()
-    return lambda found: recordings(heard(found))
 
 
 def _by_modes(problem: Problem) -> Problem:

@@ -49,8 +49,8 @@ class Theory:
     )
     link_damping: float = _share(
         0.5,
-        "sd of the damping of each part that no parameter reaches, as a share of it, for recordings; 100 % where the deck has no "
-        "damping",
+        "sd of the damping of each part and mode that no parameter reaches, as a share of it, for recordings; of a mode at least "
+        "1 % of critical, and 2 % where the deck has no damping",
         "judgement: damping is seldom known better than to a factor of about 1.5",
     )
 

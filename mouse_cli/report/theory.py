@@ -16,7 +16,7 @@ _WORDS = {
     "mechanism": "{} of what a mechanism does to them",
     "configurations": "{} of each frequency in all configurations alike",
     "link_stiffness": "{} of the stiffness of each part that no parameter of the deck reaches",
-    "link_damping": "{} of its damping, 100 % where the deck has no damping",
+    "link_damping": "{} of its damping, of a mode at least 1 % of critical, 2 % where the deck has no damping",
 }
 _OF_FRF = "{} of the largest component of each shape, and of the largest response at each line"
 

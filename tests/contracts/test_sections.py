@@ -82,6 +82,7 @@ def test_order() -> None:
         "modes",
         "comparison",
         "properties",
+        "alternatives",
         "covariance",
         "conditioning",
         "before-after",

@@ -44,6 +44,7 @@ def test_every_deck_names_its_source_and_ends_as_the_readme_says(path):
         "chain_functions",
         "cracked_bar",
         "cracked_bar_functions",
+        "twin_springs",  # other values fit as well
         "tube_frame",  # rigid joints, where those of the test give way
     }
     result = run(read_deck(path))

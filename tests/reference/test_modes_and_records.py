@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 from click.testing import CliRunner
 from scipy.linalg import eigh, expm
+from two_masses import K, linear, record
 
 from mouse_cli.cli.main import cli
 
@@ -109,3 +110,30 @@ def test_modes_and_a_record_of_the_model_as_it_is_lack_nothing(tmp_path):
     found = answer(tmp_path, chain(SPRINGS))
     assert (found["verdict"]["kind"], found["exit_code"]) == ("nothing-missing", 0)
     assert any("recordings judged too" in text for text in found["remarks"])
+
+
+def with_modes(deck: str) -> dict:
+    """What is said of a deck of `two_masses` that has the frequencies of its structure too, stiffness 1.02 K and masses of 1 kg."""
+    hz, path = np.sqrt(eigh(1.02 * K, eigvals_only=True)) / 2 / np.pi, Path(deck)
+    path.write_text(path.read_text() + MODES.format(modes=", ".join(f"{f:.5f}" for f in hz)))
+    done = CliRunner().invoke(cli, ["diagnose", deck, "--json", "-q"])
+    assert done.exit_code in (0, 1), done.output
+    return json.loads(done.stdout)
+
+
+def test_a_law_shows_in_a_record_beside_sound_modes(tmp_path):
+    """A clearance that is open in the modes, at low level: no mode shows it, and no linear mechanism explains the record."""
+
+    def law(u, v):
+        F = 3e4 * (u[1] - u[0] - np.clip(u[1] - u[0], -1.5e-3, 1.5e-3))
+        return np.array([-F, F])
+
+    found = with_modes(record(tmp_path, law))
+    verdict = found["verdict"]
+    assert (verdict["kind"], verdict["physics"], found["exit_code"]) == ("named", "gap", 1)
+    assert verdict["site"]["ids"] == [1, 2] and any("more than a linear mechanism" in text for text in found["remarks"])
+
+
+def test_a_linear_record_beside_sound_modes_lacks_nothing(tmp_path):
+    found = with_modes(record(tmp_path, linear))
+    assert (found["verdict"]["kind"], found["exit_code"]) == ("nothing-missing", 0)

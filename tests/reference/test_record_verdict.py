@@ -12,18 +12,18 @@ from scipy.integrate import solve_ivp
 from two_masses import linear, record
 
 from mouse_cli.cli.main import cli
-from mouse_cli.diagnosis.likelihoods.history.limits import far, hidden, shift_p, shifted
-from mouse_cli.diagnosis.likelihoods.history.prove import ratio
-from mouse_cli.diagnosis.likelihoods.history.records import _floor, records
-from mouse_cli.diagnosis.likelihoods.history.search import Weighed, missing, unlikely
-from mouse_cli.diagnosis.likelihoods.history.study import fitted, study
-from mouse_cli.diagnosis.likelihoods.history.uncertain import UNDAMPED, uncertain
-from mouse_cli.diagnosis.likelihoods.history.verdict import decided, ranked
+from mouse_cli.diagnosis.likelihoods.history.search import Weighed, hidden
+from mouse_cli.diagnosis.likelihoods.history.verdict import decided, far, ranked
 from mouse_cli.formats import read_deck
 from mouse_cli.model.diagnosis import Rest
 from mouse_cli.model.record_diagnosis import AS_IT_IS, WITH_CAUSE, RecordScore
 from mouse_cli.report.verdict_sentences import remains
 from mouse_cli.terms.laws import registry
+from mouse_cli.updating.recordings.adequacy import missing, shift_p, shifted, unlikely
+from mouse_cli.updating.recordings.records import _floor, records
+from mouse_cli.updating.recordings.study import fitted, study
+from mouse_cli.updating.recordings.uncertain import UNDAMPED, uncertain
+from mouse_cli.updating.recordings.validation import ratio
 
 MASSES = """  - {name: m1, nominal: 1.0, sd: 1 %, mass: [[1, 1, 1]]}
   - {name: m2, nominal: 1.0, sd: 1 %, mass: [[2, 2, 1]]}
@@ -76,6 +76,14 @@ def damped(u, v):
 def test_a_deck_without_damping_is_judged_by_its_stiffness(tmp_path, law, kind):
     few = ("--causes", "1", "--candidates", "spring,dashpot,cubic,oscillator")
     assert answer(without_damping(record(tmp_path, law)), *few)["verdict"]["kind"] == kind
+
+
+@pytest.mark.parametrize("missing_spring, physics", [(0.0, None), (4000.0, "spring")])
+def test_damping_that_a_deck_leaves_out_has_no_name(tmp_path, missing_spring, physics):
+    """The deck damps in proportion to stiffness alone; the structure in proportion to mass too, 1.5 % of the first mode."""
+    law = lambda u, v: 3.0 * v + np.array([0.0, missing_spring * u[1]])
+    found = answer(record(tmp_path, law))["verdict"]
+    assert (found["kind"], found["physics"]) == ("named" if physics else "nothing-missing", physics)
 
 
 def test_assumed_damping_does_not_follow_the_stiffness(tmp_path):

@@ -54,8 +54,8 @@ def _records(problem) -> tuple:
     """What keeps recordings from judging a deck that has nothing else."""
     if not problem.recordings:
         return ()
-    from mouse_cli.diagnosis.likelihoods.history.records import cannot_judge
     from mouse_cli.diagnosis.names import by_records
+    from mouse_cli.updating.recordings.records import cannot_judge
 
     return cannot_judge(problem) if by_records(problem) else ()
 

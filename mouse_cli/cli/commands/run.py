@@ -69,7 +69,7 @@ def _run(problems: Iterable, quiet: bool) -> list:
 
 def _by_recordings(problem, say: Callable[[str], None]):
     """The update by recordings, loaded where a deck has some: a small card deck must not wait for it."""
-    from mouse_cli.diagnosis.likelihoods.history.update import update_records
+    from mouse_cli.updating.recordings.update import update_records
 
     return update_records(problem, say)
 

@@ -1,9 +1,12 @@
 """Sensors that read something else than the deck says, and decks whose sensors read what they do."""
 
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
+from mouse_cli.diagnosis.effects.change import Change, Recipe
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.sites.lines import Line
@@ -77,6 +80,16 @@ def readings(test: ModalTest, n: int) -> np.ndarray:
     if test.sensing is not None:
         return csr_array(test.sensing)
     return csr_array((np.ones(test.s), (np.arange(test.s), test.dofs)), shape=(test.s, n))
+
+
+def misread(
+    model: Reduced, candidate: Any, rows: dict[int, np.ndarray], log_prior: float, extend: Callable[[Problem], Problem]
+) -> Recipe:
+    """Sensors that read `rows` (r,) instead, by a fault without a size."""
+    sensing, where = changed(model, rows), site(model.problem, *rows)
+    nothing = np.zeros((1, 0))
+    change = lambda values: Change(sensing=sensing)
+    return Recipe(candidate, (), change, nothing, lambda values: where, 0, log_prior, lambda deck, values: extend(deck))
 
 
 def with_readings(problem: Problem, rows: dict[int, np.ndarray]) -> Problem:

@@ -1,8 +1,10 @@
 """Matrices of bars after Timoshenko, as changes of those after Euler and Bernoulli."""
 
+from typing import Any
+
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Softening
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Softening, Unknown, steps
 from mouse_cli.diagnosis.extend.edit import Edit, every_beam
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.sites.bars import Bars
@@ -59,6 +61,21 @@ def _mass(bars: Bars, phi: np.ndarray) -> np.ndarray:
     count = len(phi)
     w, _, _ = beam.shapes(np.tile(bars.length, count), phi.ravel())
     return beam.integral(w, np.tile(bars.line_mass * bars.length, count)).reshape(count, len(bars), 4, 4)
+
+
+def sheared(model: Reduced, candidate: Any, turning: bool) -> list[Recipe]:
+    """All bars with phi = 12 EI / (kappa G A l^2), from E / (kappa G); turning: with the inertia of their sections too."""
+    if not slender(model):
+        return []
+    ratio = Unknown("E / (kappa G)", "1", *shear_range(model.bars))
+
+    def change(values: np.ndarray) -> Change:
+        return shear(model, values[0], turning)
+
+    def extend(problem: Problem, values: np.ndarray) -> Problem:
+        return with_shear(problem, values[0], turning)
+
+    return [Recipe(candidate, (ratio,), change, steps(ratio, 8)[:, None], extend=extend)]
 
 
 def with_shear(problem: Problem, ratio: float, turning: bool) -> Problem:

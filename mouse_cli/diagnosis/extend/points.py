@@ -1,9 +1,12 @@
-"""Masses, springs and oscillators at the places of `points`, as elements of the deck."""
+"""Masses, springs, dashpots and oscillators as elements of the deck, at the places of `points` or of a law."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mouse_cli.diagnosis.extend.edit import Edit
-from mouse_cli.diagnosis.extend.matrices import of_matrices, with_degree_of_freedom, with_entries
+from mouse_cli.diagnosis.extend.matrices import Entries, of_matrices, plus, with_degree_of_freedom, with_entries
 from mouse_cli.diagnosis.extend.places import node_at
 from mouse_cli.diagnosis.sites.points import Points
 from mouse_cli.model.geometry import DIRECTIONS
@@ -11,53 +14,111 @@ from mouse_cli.model.parameter import Parameter
 from mouse_cli.model.problem import Problem
 
 
+@dataclass(frozen=True)
+class Ends:
+    """What an element acts on, one motion against the ground or two against each other: `dofs` of a model of matrices; of a mesh
+    `nodes`, indices, along `direction`, TX to RZ.
+    """
+
+    dofs: tuple[int, ...]
+    nodes: Callable[[Edit], list[int]]
+    direction: str
+
+    def unit(self, sign: float = 1.0) -> Entries:
+        """A unit of what acts between them."""
+        low, high = min(self.dofs), max(self.dofs)
+        if low == high:
+            return np.array([low]), np.array([low]), np.array([sign])
+        return np.array([low, low, high]), np.array([low, high, high]), sign * np.array([1.0, -1.0, 1.0])
+
+
 def found(name: str, value: float, unit: str) -> Parameter:
     """A new parameter at the value that was found: positive, its logarithm known to 1."""
     return Parameter(name, value, value, unit, transform="log")
 
 
+def add_spring(problem: Problem, ends: Ends, name: str, k: float, sign: float = 1.0) -> Problem:
+    """A spring k (N/m), or one that is lost."""
+    if of_matrices(problem):
+        return with_entries(problem, found(name, k, "N/m"), K=ends.unit(sign))
+    return _element(problem, "spring", ends, name, sign * k, "N/m")
+
+
+def add_dashpot(problem: Problem, ends: Ends, name: str, c: float) -> Problem:
+    """A dashpot c (N s/m); in a model of matrices it is part of the damping matrix, and no parameter."""
+    if of_matrices(problem):
+        return _damped(problem, ends, c)
+    return _element(problem, "dashpot", ends, name, c, "N s/m")
+
+
+def add_mass(problem: Problem, dofs: tuple[int, ...], node: Callable[[Edit], int], name: str, m: float) -> Problem:
+    """A mass m (kg) at degrees of freedom of a model of matrices, or at a node of a mesh."""
+    if of_matrices(problem):
+        at = np.array(dofs)
+        return with_entries(problem, found(name, m, "kg"), M=(at, at, np.ones(len(at))))
+    edit = Edit(problem)
+    edit.bind(name, edit.add("mass", [[node(edit)]], {"mass": m}), ("mass",), unit="kg")
+    return edit.done()
+
+
+def add_oscillator(problem: Problem, ends: Ends, names: tuple[str, str], m: float, k: float, c: float = 0.0) -> Problem:
+    """A mass m (kg) on a spring k (N/m) and a dashpot c (N s/m); names: of mass and spring."""
+    if of_matrices(problem):
+        own = problem.structure.n
+        deck = with_degree_of_freedom(problem, _free_label(problem))
+        deck = add_mass(deck, (own,), lambda edit: own, names[0], m)
+        pair = replace(ends, dofs=(ends.dofs[0], own))
+        deck = add_spring(deck, pair, names[1], k)
+        return _damped(deck, pair, c) if c else deck
+    edit = Edit(problem)
+    (node,) = ends.nodes(edit)
+    free = edit.node(edit.coordinates[node])
+    edit.bind(names[0], edit.add("mass", [[free]], {"mass": m}), ("mass",), unit="kg")
+    edit.bind(names[1], edit.add("spring", [[node, free]], {ends.direction: k}), (ends.direction,), unit="N/m")
+    if c:
+        edit.add("dashpot", [[node, free]], {ends.direction: c})
+    return edit.done()
+
+
+def _element(problem: Problem, kind: str, ends: Ends, name: str, value: float, unit: str) -> Problem:
+    edit = Edit(problem)
+    edit.bind(name, edit.add(kind, [ends.nodes(edit)], {ends.direction: value}), (ends.direction,), unit=unit)
+    return edit.done()
+
+
+def _damped(problem: Problem, ends: Ends, c: float) -> Problem:
+    structure = problem.structure
+    C = 0 * structure.K if structure.C is None else structure.C
+    return replace(problem, structure=replace(structure, C=plus(C, ends.unit(), c)))
+
+
 def with_spring(problem: Problem, point: Points, at: np.ndarray, k: float) -> Problem:
     """A spring k (N/m) from the place to the ground."""
-    site = point.site(at)
-    name = f"ground spring at {site.text}"
-    if of_matrices(problem):
-        dof = np.array(point.dofs)
-        return with_entries(problem, found(name, k, "N/m"), K=(dof, dof, np.ones(1)))
-    edit = Edit(problem)
-    spring = edit.add("spring", [[node_at(edit, site)]], {DIRECTIONS[point.dofs[0]]: k})
-    edit.bind(name, spring, (DIRECTIONS[point.dofs[0]],), unit="N/m")
-    return edit.done()
+    return add_spring(problem, _ends(problem, point, at), f"ground spring at {point.site(at).text}", k)
+
+
+def with_dashpot(problem: Problem, point: Points, at: np.ndarray, c: float) -> Problem:
+    """A dashpot c (N s/m) from the place to the ground."""
+    return add_dashpot(problem, _ends(problem, point, at), f"dashpot at {point.site(at).text}", c)
 
 
 def with_mass(problem: Problem, point: Points, at: np.ndarray, m: float) -> Problem:
     """A mass m (kg) at the place."""
     site = point.site(at)
-    name = f"mass at {site.text}"
-    if of_matrices(problem):
-        dofs = np.array(point.dofs)
-        return with_entries(problem, found(name, m, "kg"), M=(dofs, dofs, np.ones(len(dofs))))
-    edit = Edit(problem)
-    edit.bind(name, edit.add("mass", [[node_at(edit, site)]], {"mass": m}), ("mass",), unit="kg")
-    return edit.done()
+    return add_mass(problem, point.dofs, lambda edit: node_at(edit, site), f"mass at {site.text}", m)
 
 
 def with_oscillator(problem: Problem, point: Points, at: np.ndarray, m: float, k: float) -> Problem:
     """A mass m (kg) on a spring k (N/m) that the place carries."""
+    text = point.site(at).text
+    names = f"hidden mass at {text}", f"spring of the mass at {text}"
+    return add_oscillator(problem, _ends(problem, point, at), names, m, k)
+
+
+def _ends(problem: Problem, point: Points, at: np.ndarray) -> Ends:
     site = point.site(at)
-    names = f"hidden mass at {site.text}", f"spring of the mass at {site.text}"
-    if of_matrices(problem):
-        n, dof = problem.structure.n, point.dofs[0]
-        deck = with_degree_of_freedom(problem, _free_label(problem))
-        own = np.array([n])
-        deck = with_entries(deck, found(names[0], m, "kg"), M=(own, own, np.ones(1)))
-        spring = np.array([dof, dof, n]), np.array([dof, n, n]), np.array([1.0, -1.0, 1.0])
-        return with_entries(deck, found(names[1], k, "N/m"), K=spring)
-    edit, direction = Edit(problem), DIRECTIONS[point.dofs[0]]
-    node = node_at(edit, site)
-    free = edit.node(edit.coordinates[node])
-    edit.bind(names[0], edit.add("mass", [[free]], {"mass": m}), ("mass",), unit="kg")
-    edit.bind(names[1], edit.add("spring", [[node, free]], {direction: k}), (direction,), unit="N/m")
-    return edit.done()
+    direction = "" if of_matrices(problem) else DIRECTIONS[point.dofs[0]]
+    return Ends(point.dofs[:1], lambda edit: [node_at(edit, site)], direction)
 
 
 def _free_label(problem: Problem) -> str:

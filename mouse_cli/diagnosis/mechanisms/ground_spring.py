@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown
 from mouse_cli.diagnosis.extend.points import with_spring
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import lowest, total_mass
 from mouse_cli.diagnosis.mechanisms import Candidate
-from mouse_cli.diagnosis.sites.points import Points, directions, placed
+from mouse_cli.diagnosis.sites.points import directions, sized
 
-_ALONG, _AT = 6, 18  # stiffnesses to begin from: along a line each helps its neighbours, at one place nothing else does
+_STARTS = 6, 18  # stiffnesses to begin from, along a line and at one place
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
@@ -20,11 +20,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     def change(sizes: np.ndarray, B: np.ndarray) -> Change:
         return Change(K=sizes[0] * B.T @ B)
 
-    def at(point: Points) -> Recipe:
-        starts = steps(k, _ALONG if point.unknown else _AT)
-        return placed(candidate, point, (k,), (starts,), change, with_spring)
-
-    return [at(point) for point in directions(model)]
+    return sized(candidate, directions(model), k, _STARTS, change, with_spring)
 
 
 CANDIDATE = Candidate(

@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown
 from mouse_cli.diagnosis.extend.points import with_mass
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import total_mass
 from mouse_cli.diagnosis.mechanisms import Candidate
-from mouse_cli.diagnosis.sites.points import Points, all_motions, placed
+from mouse_cli.diagnosis.sites.points import all_motions, sized
 
-_ALONG, _AT = 4, 8  # masses to begin from, along a line and at one place
+_STARTS = 4, 8  # masses to begin from, along a line and at one place
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
@@ -20,11 +20,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     def change(sizes: np.ndarray, B: np.ndarray) -> Change:
         return Change(M=sizes[0] * B.T @ B)
 
-    def at(point: Points) -> Recipe:
-        starts = steps(m, _ALONG if point.unknown else _AT)
-        return placed(candidate, point, (m,), (starts,), change, with_mass)
-
-    return [at(point) for point in all_motions(model)]
+    return sized(candidate, all_motions(model), m, _STARTS, change, with_mass)
 
 
 CANDIDATE = Candidate(

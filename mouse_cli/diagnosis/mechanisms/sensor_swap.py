@@ -4,38 +4,21 @@ from itertools import combinations
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe
-from mouse_cli.diagnosis.effects.sensors import changed, exchanged, site, suspects
+from mouse_cli.diagnosis.effects.change import Recipe
+from mouse_cli.diagnosis.effects.sensors import exchanged, misread, suspects
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
-from mouse_cli.model.problem import Problem
 
 _WORST = 5  # sensors among which pairs are tried
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """y_s <-> y_t for pairs of the sensors that fit worst; the prior is that of all pairs."""
-    s = model.data.test.s
+    s, y = model.data.test.s, model.sensing
     prior = -float(np.log(max(s * (s - 1) / 2, 1)))
-    return [_recipe(model, candidate, i, j, prior) for i, j in combinations(suspects(model, _WORST), 2)]
-
-
-def _recipe(model: Reduced, candidate: Candidate, i: int, j: int, prior: float) -> Recipe:
-    sensing = changed(model, {i: model.sensing[j], j: model.sensing[i]})
-    where = site(model.problem, i, j)
-
-    def extend(problem: Problem, values: np.ndarray) -> Problem:
-        return exchanged(problem, i, j)
-
-    return Recipe(
-        candidate,
-        (),
-        lambda values: Change(sensing=sensing),
-        np.zeros((1, 0)),
-        lambda values: where,
-        log_prior=prior,
-        extend=extend,
-    )
+    corrected = lambda i, j: lambda problem: exchanged(problem, i, j)
+    pairs = combinations(suspects(model, _WORST), 2)
+    return [misread(model, candidate, {i: y[j], j: y[i]}, prior, corrected(i, j)) for i, j in pairs]
 
 
 CANDIDATE = Candidate(

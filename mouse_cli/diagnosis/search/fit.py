@@ -67,6 +67,11 @@ class Fit(End):
         return getattr(self.model.base, "nameless", None)
 
     @property
+    def data(self):
+        """The test that it is fitted to."""
+        return self.model.base.data
+
+    @property
     def dof(self) -> int:
         """Degrees of freedom that the misfit has when the model is right."""
         return self.model.base.data.dof - self.model.t

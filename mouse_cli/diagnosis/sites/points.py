@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product, steps
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.sites.lines import Line, elements
 from mouse_cli.model.diagnosis import Site
@@ -77,6 +77,21 @@ def placed(
         float(np.log(point.share)),
         lambda problem, values: extend(problem, point, values[t:], *values[:t]),
     )
+
+
+def sized(
+    candidate: Any,
+    points: list[Points],
+    size: Unknown,
+    starts: tuple[int, int],
+    change: Callable[[np.ndarray, np.ndarray], Change],
+    extend: Callable[..., Problem],
+) -> list[Recipe]:
+    """What has one size, at each of `points`; starts: how many sizes to begin from along a line, where each start helps its
+    neighbours, and at a single place.
+    """
+    many = lambda point: steps(size, starts[0] if point.unknown else starts[1])
+    return [placed(candidate, point, (size,), (many(point),), change, extend) for point in points]
 
 
 def _shared(found: list[Points]) -> list[Points]:

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
-from mouse_cli.diagnosis.likelihoods.frf.extend import with_dashpot
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown
+from mouse_cli.diagnosis.extend.points import with_dashpot
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import lowest, total_mass
 from mouse_cli.diagnosis.mechanisms import Candidate
-from mouse_cli.diagnosis.sites.points import directions, placed
+from mouse_cli.diagnosis.sites.points import directions, sized
 
 _SIZES = 10
 
@@ -20,10 +20,7 @@ def dashpots(model: Reduced) -> list[Recipe]:
     def change(sizes: np.ndarray, B: np.ndarray) -> Change:
         return Change(C=sizes[0] * B.T @ B)
 
-    def at(point) -> Recipe:
-        return placed(DASHPOT, point, (c,), (steps(c, _SIZES),), change, with_dashpot)
-
-    return [at(point) for point in directions(model)]
+    return sized(DASHPOT, directions(model), c, (_SIZES, _SIZES), change, with_dashpot)
 
 
 DASHPOT = Candidate(

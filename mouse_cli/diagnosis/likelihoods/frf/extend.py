@@ -1,4 +1,4 @@
-"""Losses and dashpots as elements of the deck, or in its matrices."""
+"""Losses as properties of elements of the deck, or in its matrices."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -6,12 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli.diagnosis.extend.edit import Edit
-from mouse_cli.diagnosis.extend.matrices import bordered, of_matrices, plus
-from mouse_cli.diagnosis.extend.places import node_at
-from mouse_cli.diagnosis.extend.points import found
-from mouse_cli.diagnosis.sites.points import Points
+from mouse_cli.diagnosis.extend.matrices import bordered, of_matrices
 from mouse_cli.model.arrays import Matrix
-from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.elements import DAMPING
 
@@ -74,19 +70,6 @@ def _with_matrix(deck: Problem, matrix: str, more: Matrix) -> Problem:
     """`more` in `matrix`, C or D, of the deck."""
     old = getattr(deck.structure, matrix)
     return replace(deck, structure=replace(deck.structure, **{matrix: more if old is None else old + more}))
-
-
-def with_dashpot(problem: Problem, point: Points, at: np.ndarray, c: float) -> Problem:
-    """A dashpot c (N s/m) from the place to the ground."""
-    site = point.site(at)
-    if of_matrices(problem):
-        at_place = np.array([point.dofs[0]])
-        return _with_matrix(problem, "C", plus(0 * problem.structure.K, (at_place, at_place, np.ones(1)), c))
-    edit, direction = Edit(problem), DIRECTIONS[point.dofs[0]]
-    dashpot = edit.add("dashpot", [[node_at(edit, site)]], {direction: c})
-    name = f"dashpot at {site.text}"
-    edit.bind(name, dashpot, (direction,), unit=found(name, c, "N s/m").unit)
-    return edit.done()
 
 
 def _less(new: Matrix, old: Matrix) -> Matrix:

@@ -2,52 +2,51 @@
 
 from collections.abc import Callable
 
-from mouse_cli.diagnosis.likelihoods.history.deck_laws import extended
-from mouse_cli.diagnosis.likelihoods.history.prove import ratio, scores, surface, trace
-from mouse_cli.diagnosis.likelihoods.history.records import named, records
+from mouse_cli.diagnosis.extend.laws import extended
 from mouse_cli.diagnosis.likelihoods.history.search import weighed
-from mouse_cli.diagnosis.likelihoods.history.signs import linearity
-from mouse_cli.diagnosis.likelihoods.history.study import study
-from mouse_cli.diagnosis.likelihoods.history.verdict import decided, explanation, ranked, untried
+from mouse_cli.diagnosis.likelihoods.history.verdict import decided, explanations, ranked, untried
+from mouse_cli.diagnosis.verdict import leader
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, Choices, Diagnosis
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.record_diagnosis import RecordDiagnosis
 from mouse_cli.model.result import ChiSquareTest
 from mouse_cli.terms.laws import registry
 from mouse_cli.updating.chi_square import upper_tail
+from mouse_cli.updating.recordings.records import named, records
+from mouse_cli.updating.recordings.signs import linearity
+from mouse_cli.updating.recordings.study import Study, study
+from mouse_cli.updating.recordings.validation import ratio, scores, surface, trace
 
 Notice = Callable[[str], None]
 
 
-def diagnose_records(problem: Problem, notice: Notice, choices: Choices) -> Diagnosis:
-    """What the model of `problem` lacks, judged by its recordings. Raises DeckError (MD640) for records that cannot judge."""
-    found = records(problem)
-    own = study(problem, found)
+def diagnose_records(problem: Problem, notice: Notice, choices: Choices, own: Study | None = None) -> Diagnosis:
+    """What the model of `problem` lacks, judged by its recordings; own: what their fits share, where modes judged first.
+
+    Raises DeckError (MD640) for records that cannot judge.
+    """
+    own = study(problem, records(problem)) if own is None else own
+    found = own.records
     known = (
         None if choices.candidates is None else [law for key, law in registry().items() if key in choices.candidates]
     )
     searched = weighed(own, notice, known, choices.causes)
     baseline, ranking = searched.baseline, ranked(searched)
     notice("records that no fit has seen")
-    best = ranking.best
+    best = leader(ranking)
     proof = scores(own, baseline, best)
     decision = decided(ranking, searched, ratio(proof))
     kind = decision.kind
     told = best if kind in (NAMED, ONE_OF) else None
-    theta = lambda one: own.model.theta(one.x[: own.model.own])
-    shown = zip(ranking.fits, ranking.probabilities, strict=True)
     dof = max(int(baseline.dof), 1)
     return RecordDiagnosis(
         problem=problem,
-        kind=kind,
         result=None,
         innovation=ChiSquareTest("residual", baseline.misfit, dof, upper_tail(baseline.misfit, dof)),
-        explanations=tuple(explanation(one, float(p), theta(one)) for one, p in shown),
+        explanations=explanations(ranking, own.model),
         groups=ranking.groups,
         noise_scale=ranking.noise_scale,
-        rest=decision.rest,
-        refuted=decision.refuted,
-        cautions=decision.cautions,
+        **vars(decision),
         untried=untried(searched, own, known),
         remarks=found.remarks + own.model.remarks,
         choices=choices,

@@ -15,10 +15,10 @@ from functools import lru_cache
 import numpy as np
 
 from mouse_cli.diagnosis.evidence import capped
-from mouse_cli.diagnosis.likelihoods.history.uncertain import LARGEST, Uncertain, basis_of, completed, viscous
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.model.arrays import dense
 from mouse_cli.model.problem import Problem
+from mouse_cli.updating.recordings.uncertain import LARGEST, Uncertain, basis_of, completed, viscous
 
 
 @dataclass(frozen=True)

@@ -6,16 +6,16 @@ from itertools import product
 
 import numpy as np
 
-from mouse_cli.diagnosis.likelihoods.history.noise import noise
-from mouse_cli.diagnosis.likelihoods.history.polish import Fit as Simulated
 from mouse_cli.diagnosis.likelihoods.history.posterior import Posterior, expanded, modelled, posterior
-from mouse_cli.diagnosis.likelihoods.history.records import cannot_judge, records
-from mouse_cli.diagnosis.likelihoods.history.search import close, unlikely, with_noise
-from mouse_cli.diagnosis.likelihoods.history.study import Study, alike, fitted, study
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.rank import Ranking, ranking
 from mouse_cli.model.groups import enumerated
+from mouse_cli.updating.recordings.adequacy import close, unlikely, with_noise
+from mouse_cli.updating.recordings.noise import noise
+from mouse_cli.updating.recordings.polish import Fit as Simulated
+from mouse_cli.updating.recordings.records import cannot_judge, records
+from mouse_cli.updating.recordings.study import Study, alike, fitted, study
 
 _REACH = 60.0  # nats by which all else may speak against an explanation that recordings judge still
 _SINGLES = 3  # single mechanisms that are judged in any case
@@ -65,7 +65,12 @@ class Seen:
 
 
 class Hearing:
-    """What recordings make of rankings of one deck; a fit that was judged once is not simulated again."""
+    """What recordings make of rankings of one deck; a fit that was judged once is not simulated again.
+
+    unexplained: what fits of the recordings share where these ask for more than any linear mechanism, what modes know their prior.
+    """
+
+    unexplained: Study | None = None
 
     def __init__(self) -> None:
         self._own: tuple[Fit, Study] | None = None
@@ -78,6 +83,7 @@ class Hearing:
     def __call__(self, found: Ranking) -> Ranking:
         """The ranking `found` judged anew by the recordings of the deck; `found` itself where there are none."""
         problem, none = found.baseline.model.base.problem, found.baseline
+        self.unexplained = None
         if not problem.recordings:
             return found
         if refused := cannot_judge(problem):
@@ -92,6 +98,7 @@ class Hearing:
         best = max(seen, key=lambda each: each.log_evidence).record
         left = noise(own.spectrum, best.hypothesis, own.places, best.x) if unlikely(best) else None
         if left is None and not close(best):
+            self.unexplained = own
             return _with(found, _MORE.format(best.misfit / best.dof))
         said = _JUDGED.format(len(own.records.fitted), enumerated([f"'{one.title}'" for one in own.records.fitted]))
         return _with(_anew(found, seen, with_noise(best, left)), said, *own.records.remarks, *own.model.remarks)
@@ -163,7 +170,7 @@ def _anew(found: Ranking, seen: list[Seen], scale: float) -> Ranking:
 
 _MORE = (
     "the recordings ask for more than a linear mechanism: the best leaves {:.3g} times the variance of their noise, and they did "
-    "not judge; diagnose them alone"
+    "not judge between linear mechanisms"
 )
 _JUDGED = "recordings judged too, beside all else that was measured, {} in all: {}"
 

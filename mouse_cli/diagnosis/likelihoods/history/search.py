@@ -5,20 +5,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.diagnosis.gates import GATE
-from mouse_cli.diagnosis.likelihoods.history.limits import hidden, innovation, strained
-from mouse_cli.diagnosis.likelihoods.history.noise import noise
-from mouse_cli.diagnosis.likelihoods.history.polish import Fit
-from mouse_cli.diagnosis.likelihoods.history.regression import Start, starts
-from mouse_cli.diagnosis.likelihoods.history.study import Study, fitted
 from mouse_cli.model.record_diagnosis import Noise
 from mouse_cli.terms.laws import Law
 from mouse_cli.terms.laws import registry as laws
-from mouse_cli.updating.chi_square import upper_tail
+from mouse_cli.updating.recordings.adequacy import adequate, innovation, missing, strained, unlikely, with_noise
+from mouse_cli.updating.recordings.noise import noise
+from mouse_cli.updating.recordings.polish import Fit
+from mouse_cli.updating.recordings.regression import Start, starts
+from mouse_cli.updating.recordings.study import Study, fitted
 from mouse_cli.updating.refusals import not_simulated
 
-MATERIAL, INADEQUATE = 1.1, 1.5  # ratios to the variance expected
 _POLISHED, _MORE, _AGAIN = 4, 12, 8  # starts that are fitted; where none of them is adequate; of the nearest law again
+_END = 0.01  # of the logarithm of a range, from its end
 _ROUNDS, _SECONDS = 3, 4  # laws beside which a second one is sought, and starts of it that are fitted
 
 Notice = Callable[[str], None]
@@ -78,9 +76,27 @@ def _shown(study: Study, found: list[Fit], dropped: dict[str, str]) -> list[Fit]
     return kept
 
 
-def with_noise(one: Fit, quiet: Noise | None) -> float:
-    """Times the stated variance that data are worth beside a fit: what it leaves, by the share of independent samples."""
-    return max(1.0, one.misfit / one.dof) / (1.0 if quiet is None else quiet.effective)
+def hidden(one: Fit, horizon_s: float) -> tuple[str, str] | None:
+    """Key and reason of a law whose own mode is no finding: slower than the stretch it is judged on, or at the end of its range.
+
+    Within a stretch such a mode is a free force, that may stand for anything.
+    """
+    for part, p in one.hypothesis.sizes(one.x[None]):
+        if not part.extra:
+            continue
+        frequency = next((v for u, v in zip(part.unknowns, p[:, 0], strict=True) if u.unit == "Hz"), np.inf)
+        if frequency * horizon_s < 1:
+            slow = f"its period, {1 / frequency:.3g} s, is longer than the stretch of {horizon_s:.3g} s it is judged on"
+            return part.law.key, f"{part.place.site.text}: {slow}"
+        for size, value in zip(part.unknowns, p[:, 0], strict=True):
+            reach = _END * np.log(size.upper / size.lower)
+            low = size.unit != "1" and np.log(value / size.lower) < reach
+            if low or np.log(size.upper / value) < reach:
+                return (
+                    part.law.key,
+                    f"{part.place.site.text}: its {size.name} ends at the end of the range held possible",
+                )
+    return None
 
 
 def _left(study: Study, one: Fit) -> Noise | None:
@@ -199,23 +215,3 @@ def _relatives(study: Study, best: Fit, known: list[Law] | None) -> list[Fit]:
     x = np.concatenate([best.x[:-2], np.log([1.3 * slip, 1.3 * kt, 0.6, 1.0])])
     one = fitted(study, Start(hypothesis, x, 0.0))
     return [] if one is None else [one]
-
-
-def unlikely(baseline: Fit) -> bool:
-    """Whether what the model leaves of the data is neither chance nor a trifle."""
-    return upper_tail(baseline.misfit, max(int(baseline.dof), 1)) < GATE and baseline.misfit > MATERIAL * baseline.dof
-
-
-def missing(baseline: Fit) -> bool:
-    """Whether data, or the prior of the parameters that they moved, speak against the model: the innovation's two parts."""
-    return unlikely(baseline) or strained(baseline)
-
-
-def close(one: Fit) -> bool:
-    """Whether what a fit leaves of the data may be noise."""
-    return one.misfit <= INADEQUATE * one.dof or upper_tail(one.misfit, max(int(one.dof), 1)) >= GATE
-
-
-def adequate(one: Fit) -> bool:
-    """The same, with parameters where their prior allows them."""
-    return close(one) and not strained(one)

@@ -1,20 +1,31 @@
 """What may be said: probabilities of laws and places, and the gates of adequacy, probability and odds."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.gates import FAR, ODDS, SURE, prior
-from mouse_cli.diagnosis.likelihoods.history.hypothesis import Part
-from mouse_cli.diagnosis.likelihoods.history.limits import far, innovation, shift_p, strained
-from mouse_cli.diagnosis.likelihoods.history.polish import Fit
-from mouse_cli.diagnosis.likelihoods.history.regression import allowed
-from mouse_cli.diagnosis.likelihoods.history.search import MATERIAL, Weighed, adequate, close, missing, unlikely
-from mouse_cli.diagnosis.likelihoods.history.study import Study
-from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Cause, Explanation, Rest, Size, Untried
-from mouse_cli.model.groups import joined, shares
+from mouse_cli.diagnosis.gates import FAR, ODDS, SURE
+from mouse_cli.diagnosis.likelihoods.history.search import Weighed
+from mouse_cli.diagnosis.search.rank import Ranking, group, ranking
+from mouse_cli.diagnosis.verdict import leader
+from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Explanation, Rest, Untried
 from mouse_cli.terms.laws import Law, registry
 from mouse_cli.updating.chi_square import upper_tail
+from mouse_cli.updating.recordings.adequacy import (
+    MATERIAL,
+    adequate,
+    close,
+    innovation,
+    missing,
+    shift_p,
+    shifted,
+    strained,
+    unlikely,
+)
+from mouse_cli.updating.recordings.polish import Fit
+from mouse_cli.updating.recordings.regression import allowed
+from mouse_cli.updating.recordings.study import Study
+from mouse_cli.updating.recordings.uncertain import Uncertain
 
 _BETTER = 0.7  # ratio of errors on held-out records, noise taken out, that a name takes
 _WORSE = 1.1  # such a ratio that refutes a law although the records alone do not speak against the model as it is
@@ -22,47 +33,17 @@ _MOST = 0.5  # share of a misfit that a law must take to be named although more 
 _FAR_OVER = 10 * ODDS  # nats over no cause that such a name takes
 
 
-@dataclass(frozen=True)
-class Ranking:
-    """fits most probable first, the model as it is among them; probabilities (f,); noise_scale: s2; groups with theirs."""
-
-    baseline: Fit
-    fits: tuple[Fit, ...]
-    noise_scale: float
-    probabilities: np.ndarray
-
-    @property
-    def groups(self) -> tuple[tuple[str, float], ...]:
-        """The largest first; `none` among them."""
-        return shares([group(one) for one in self.fits], self.probabilities)
-
-    @property
-    def best(self) -> Fit | None:
-        """The most probable fit with a law."""
-        return next((one for one in self.fits if one.hypothesis.law), None)
-
-
-def group(one: Fit) -> str:
-    """Groups of its laws, `none` without."""
-    return joined([part.law.group for part in one.hypothesis.parts])
-
-
 def ranked(found: Weighed) -> Ranking:
-    """Probabilities with the noise scale that the best fit needs: more where the noise is coloured, so that samples are not
-    independent.
-    """
-    baseline, every = found.baseline, _telling([found.baseline, *found.fits])
-    scale = max(1.0, min(one.misfit / one.dof for one in every))
-    if found.noise is not None:
-        scale /= found.noise.effective
-    names = [(len(one.hypothesis.parts), group(one)) for one in every]
-    kinds = lambda count: len({name for name in names if name[0] == count})
-    beforehand = [prior(name[0]) / kinds(name[0]) / names.count(name) for name in names]
-    weights = np.log(beforehand) + np.array([one.log_evidence for one in every]) / scale
-    order = np.argsort(-weights)
-    weights = np.exp(weights - weights.max())
-    weights /= weights.sum()
-    return Ranking(baseline, tuple(every[i] for i in order), scale, weights[order])
+    """Probabilities as of every kind of test; coloured noise counts by the share of its samples that are independent."""
+    every = _telling([found.baseline, *found.fits])
+    share = 1.0 if found.noise is None else found.noise.effective
+    less = lambda one: replace(
+        one, misfit=share * one.misfit, dof=share * one.dof, log_evidence=share * one.log_evidence
+    )
+    views = [less(one) for one in every]
+    again, whole = ranking(views[0], views), {id(view): one for view, one in zip(views, every, strict=True)}
+    fits = tuple(whole[id(view)] for view in again.fits)
+    return replace(again, baseline=found.baseline, fits=fits, noise_scale=again.noise_scale / share)
 
 
 def _telling(every: list[Fit]) -> list[Fit]:
@@ -89,7 +70,7 @@ class Decision:
 
 def decided(ranking: Ranking, found: Weighed, ratio: float) -> Decision:
     """What may be said; ratio: error on held-out records with the cause over that without, nan where they do not judge."""
-    best, first = ranking.best, ranking.fits[0]
+    best, first = leader(ranking), ranking.fits[0]
     if not missing(ranking.baseline) or found.beside is found.baseline:
         return Decision(NOTHING)
     distant = far(first, ranking.noise_scale)
@@ -116,12 +97,13 @@ def _settled(ranking: Ranking, found: Weighed) -> bool:
 
 
 def _odds(ranking: Ranking) -> float:
-    return (ranking.best.log_evidence - ranking.baseline.log_evidence) / ranking.noise_scale
+    best = leader(ranking)
+    return float(ranking.log_odds[next(i for i, one in enumerate(ranking.fits) if one is best)])
 
 
 def _sure(ranking: Ranking) -> bool:
     """Whether the group of the leading law, at its place, is probable enough for a name."""
-    best = ranking.best
+    best = leader(ranking)
     same = sum(
         p
         for one, p in zip(ranking.fits, ranking.probabilities, strict=True)
@@ -132,11 +114,19 @@ def _sure(ranking: Ranking) -> bool:
 
 def _rest(ranking: Ranking) -> Rest | None:
     """What the leading law leaves where it takes most of the misfit without a rival; None where it may stand for something else."""
-    best, (_, *others) = ranking.best, ranking.groups
+    best, (_, *others) = leader(ranking), ranking.groups
     share = _excess(best) / max(_excess(ranking.baseline), 1e-300)
     if share > 1 - _MOST or _odds(ranking) <= _FAR_OVER or any(p > RIVAL for _, p in others):
         return None
     return Rest(share, min(upper_tail(best.misfit, max(int(best.dof), 1)), shift_p(best, ranking.noise_scale)))
+
+
+def far(one: Fit, scale: float) -> tuple[str, ...]:
+    """The nuisances beyond FAR, in words, the furthest first."""
+    z = shifted(one, scale)
+    names = (*one.hypothesis.linear.names, *(f"offset of force {i + 1}" for i in range(len(one.hypothesis.offset))))
+    order = np.argsort(-np.abs(z))
+    return tuple(f"{names[i]} is {z[i]:+.1f} prior sd from its mean" for i in order if abs(z[i]) > FAR)
 
 
 def _distant(distant: tuple[str, ...]) -> str:
@@ -147,7 +137,7 @@ def _distant(distant: tuple[str, ...]) -> str:
 
 
 def _refuted(best: Fit, ratio: float) -> str:
-    titles = " and ".join(titled(part) for part in best.hypothesis.parts)
+    titles = " and ".join(part.title for part in best.hypothesis.parts)
     return f"Refuted by records that no fit has seen, whose error is {ratio:.3g} times that of the model as it is: {titles}."
 
 
@@ -168,27 +158,11 @@ def untried(found: Weighed, own: Study, known: list[Law] | None) -> tuple[Untrie
     )
 
 
-def explanation(one: Fit, probability: float, theta: np.ndarray) -> Explanation:
-    """A fit as reports give it."""
-    dof = max(int(one.dof), 1)
-    return Explanation(causes(one), one.misfit, dof, upper_tail(one.misfit, dof), one.log_evidence, theta, probability)
+def explanations(ranking: Ranking, model: Uncertain) -> tuple[Explanation, ...]:
+    """All fits as reports give them, `model` that of the deck."""
+    return tuple(_explanation(one, float(p), model) for one, p in zip(ranking.fits, ranking.probabilities, strict=True))
 
 
-def causes(one: Fit) -> tuple[Cause, ...]:
-    """Its laws at their places, with their sizes."""
-    sd = np.sqrt(np.abs(np.diag(one.covariance)))[one.hypothesis.nuisances :]
-    found = []
-    for part, p in one.hypothesis.sizes(one.x[None]):
-        own, sd = sd[: len(part.unknowns)], sd[len(part.unknowns) :]
-        sizes = tuple(
-            Size(u.name, u.unit, float(v), float(v * s), u.lower, u.upper)
-            for u, v, s in zip(part.unknowns, p[:, 0], own, strict=True)
-        )
-        found.append(Cause(part.law.key, part.law.group, titled(part), part.place.site, sizes))
-    return tuple(found)
-
-
-def titled(part: Part) -> str:
-    """A law and its variant in words."""
-    word = part.law.words[part.variant]
-    return f"{part.law.title} ({word})" if word else part.law.title
+def _explanation(one: Fit, probability: float, model: Uncertain) -> Explanation:
+    dof, theta = max(int(one.dof), 1), model.theta(one.x[: model.own])
+    return Explanation(one.causes, one.misfit, dof, upper_tail(one.misfit, dof), one.log_evidence, theta, probability)

@@ -83,7 +83,7 @@ def doubts(parts: list[tuple[float, tuple[Weighed, ...], np.ndarray]]) -> tuple[
 def ways(one: Fit) -> tuple[Weighed, ...]:
     """The fit with the accuracies as stated, and beside each kind of error that has a meaning for its test, if that is modal."""
     stated = Weighed(None, np.zeros(1), np.array([one.misfit]))
-    if not isinstance(one.model.base.data, Data):
+    if not isinstance(one.data, Data):
         return (stated,)
     descent = _descent(one)
     return (stated, *(found for error in ERRORS if (found := _weighed(one, error, *descent)) is not None))

@@ -8,13 +8,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.likelihoods.history.free_force import Spectrum
-from mouse_cli.diagnosis.likelihoods.history.polish import Fit, followed, segments
-from mouse_cli.diagnosis.likelihoods.history.records import reduced
-from mouse_cli.diagnosis.likelihoods.history.regression import Regression, stepped
-from mouse_cli.diagnosis.likelihoods.history.series import REACH, Series, passed
-from mouse_cli.diagnosis.likelihoods.history.study import Study, begin
-from mouse_cli.diagnosis.likelihoods.history.verdict import titled
 from mouse_cli.dynamics.response import simulate
 from mouse_cli.model.record_diagnosis import (
     AS_IT_IS,
@@ -23,6 +16,12 @@ from mouse_cli.model.record_diagnosis import (
     Surface,
     Trace,
 )
+from mouse_cli.updating.recordings.free_force import Spectrum
+from mouse_cli.updating.recordings.polish import Fit, followed, segments
+from mouse_cli.updating.recordings.records import reduced
+from mouse_cli.updating.recordings.regression import Regression, stepped
+from mouse_cli.updating.recordings.series import REACH, Series, passed
+from mouse_cli.updating.recordings.study import Study, begin
 
 _SEGMENTS = 12
 _JUDGES = 0.1  # share of the squared error above the noise of the channels, from which on a held-out record judges
@@ -142,4 +141,4 @@ def surface(study: Study, best: Fit) -> Surface | None:
     force = look.free(best.x)
     x, v, own = look.local.x, look.local.v, look.kept
     told = stepped(law, x, v, p[:, None], words)[:, 0] if law.states else law.force(x, v, None, p, **words)[0]
-    return Surface(titled(part), part.place.site.text, x[own], v[own], force[own], told[own])
+    return Surface(part.title, part.place.site.text, x[own], v[own], force[own], told[own])

@@ -5,16 +5,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.likelihoods.history.deck_laws import acting
-from mouse_cli.diagnosis.likelihoods.history.free_force import Spectrum
-from mouse_cli.diagnosis.likelihoods.history.hypothesis import Hypothesis, Place
-from mouse_cli.diagnosis.likelihoods.history.places import places
-from mouse_cli.diagnosis.likelihoods.history.polish import Fit, Segments, followed, segments
-from mouse_cli.diagnosis.likelihoods.history.records import Records, reduced, steps
-from mouse_cli.diagnosis.likelihoods.history.regression import Regression, Start
-from mouse_cli.diagnosis.likelihoods.history.series import REACH, Series
-from mouse_cli.diagnosis.likelihoods.history.uncertain import LARGEST, Uncertain, uncertain
 from mouse_cli.model.problem import Problem
+from mouse_cli.updating.recordings.deck_laws import acting
+from mouse_cli.updating.recordings.free_force import Spectrum
+from mouse_cli.updating.recordings.hypothesis import Hypothesis, Place
+from mouse_cli.updating.recordings.places import places
+from mouse_cli.updating.recordings.polish import Fit, Segments, followed, segments
+from mouse_cli.updating.recordings.records import Records, reduced, steps
+from mouse_cli.updating.recordings.regression import Regression, Start
+from mouse_cli.updating.recordings.series import REACH, Series
+from mouse_cli.updating.recordings.uncertain import LARGEST, Uncertain, uncertain
 
 Modelled = Callable[[Problem, float, np.ndarray], Uncertain]
 

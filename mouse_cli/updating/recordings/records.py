@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mouse_cli._errors import ERROR, WARNING, DeckError, Diagnostic
-from mouse_cli.diagnosis.likelihoods.history.series import REACH, Series
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.recording import MOTIONS, Channel, Recording
+from mouse_cli.updating.recordings.series import Series
 
 FLOOR = 0.01  # of the rms of a channel: no transducer and no theory is more accurate
 HELD = 0.3  # share at the end of each record that is held out where the deck holds nothing out
@@ -142,8 +142,3 @@ def steps(series: Series, highest_hz: float) -> Series:
 def reduced(series: Series, basis: np.ndarray) -> Series:
     """The series in the coordinates of a basis (n, m)."""
     return replace(series, inputs=basis.T @ series.inputs, sensing=series.sensing @ basis)
-
-
-def enough(series: Series, length: int) -> bool:
-    """Whether the series holds two segments."""
-    return len(series) >= 2 * length + 2 * REACH

@@ -5,8 +5,8 @@ from functools import cached_property
 
 import numpy as np
 
-from mouse_cli.diagnosis.likelihoods.history.linear import Linear
-from mouse_cli.diagnosis.likelihoods.history.series import Series
+from mouse_cli.updating.recordings.linear import Linear
+from mouse_cli.updating.recordings.series import Series
 
 _EVERYWHERE = 0.03  # rms of small unknown forces at every degree of freedom, by that of the measured force
 _HERE = 3.0  # rms of the unknown force at one place, by that of the measured force

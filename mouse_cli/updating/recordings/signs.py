@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from mouse_cli.diagnosis.likelihoods.history.polish import Fit, Polish, Segments
-from mouse_cli.diagnosis.likelihoods.history.study import Study, begin
 from mouse_cli.model.record_diagnosis import LevelSign, Linearity
 from mouse_cli.records.linearity import distortion, incoherent, period
+from mouse_cli.updating.recordings.polish import Fit, Polish, Segments
+from mouse_cli.updating.recordings.study import Study, begin
 
 _STEPS = 8
 

@@ -30,12 +30,3 @@ class Linear:
     def k(self) -> int:
         """Number of nuisances."""
         return len(self.names)
-
-
-def sum_of(M, C, K, dM, dC, dK, names) -> Linear:
-    """A linear model whose matrices are linear in the nuisances."""
-
-    def matrices(z: np.ndarray):
-        return tuple(m + np.einsum("pk,kij->pij", z, d) for m, d in ((M, dM), (C, dC), (K, dK)))
-
-    return Linear(M, C, K, matrices, (dM, dC, dK), tuple(names))

@@ -6,12 +6,14 @@ nearly). The logarithm of the evidence is Laplace's.
 """
 
 from dataclasses import dataclass, field, replace
+from typing import ClassVar
 
 import numpy as np
 
-from mouse_cli.diagnosis.likelihoods.history.hypothesis import Hypothesis
-from mouse_cli.diagnosis.likelihoods.history.series import REACH, Series, passed, sampled
 from mouse_cli.dynamics.response import simulate
+from mouse_cli.model.diagnosis import Cause, Size
+from mouse_cli.updating.recordings.hypothesis import Hypothesis, Part
+from mouse_cli.updating.recordings.series import REACH, Series, passed, sampled
 
 _DAMPING, _UP, _DOWN = 1e-3, 10.0, 0.2  # of Levenberg and Marquardt
 _STEPS = 25
@@ -71,6 +73,27 @@ class Fit:
     cost: float
     log_evidence: float
     residual: np.ndarray = field(repr=False)
+    nameless: ClassVar[None] = None  # no rival without a name is sought in recordings
+    data: ClassVar[None] = None  # no errors of sensors are sought in them either
+
+    @property
+    def recipes(self) -> tuple[Part, ...]:
+        """Its laws at their places."""
+        return self.hypothesis.parts
+
+    @property
+    def causes(self) -> tuple[Cause, ...]:
+        """Its laws at their places, with their sizes."""
+        sd = np.sqrt(np.abs(np.diag(self.covariance)))[self.hypothesis.nuisances :]
+        found = []
+        for part, p in self.hypothesis.sizes(self.x[None]):
+            own, sd = sd[: len(part.unknowns)], sd[len(part.unknowns) :]
+            sizes = tuple(
+                Size(u.name, u.unit, float(v), float(v * s), u.lower, u.upper)
+                for u, v, s in zip(part.unknowns, p[:, 0], own, strict=True)
+            )
+            found.append(Cause(part.law.key, part.law.group, part.title, part.place.site, sizes))
+        return tuple(found)
 
 
 @dataclass

@@ -1,19 +1,10 @@
 """A run on recordings: parameters of the deck and of its laws by the output-error fit that a diagnosis begins with."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.likelihoods.history.hypothesis import Hypothesis, Part, Place
-from mouse_cli.diagnosis.likelihoods.history.limits import strained
-from mouse_cli.diagnosis.likelihoods.history.noise import noise
-from mouse_cli.diagnosis.likelihoods.history.polish import Fit, Polish, followed
-from mouse_cli.diagnosis.likelihoods.history.prove import scores, surface, trace
-from mouse_cli.diagnosis.likelihoods.history.records import named, records
-from mouse_cli.diagnosis.likelihoods.history.search import Notice, unlikely, with_noise
-from mouse_cli.diagnosis.likelihoods.history.study import Study, begin, study
-from mouse_cli.diagnosis.likelihoods.history.uncertain import Uncertain
-from mouse_cli.diagnosis.likelihoods.history.verdict import causes
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.local_law import LocalLaw
 from mouse_cli.model.problem import Problem
@@ -21,7 +12,17 @@ from mouse_cli.model.record_update import RecordUpdate
 from mouse_cli.model.result import ChiSquareTest
 from mouse_cli.terms.laws import Scale, registry
 from mouse_cli.updating.chi_square import upper_tail
+from mouse_cli.updating.recordings.adequacy import strained, unlikely, with_noise
+from mouse_cli.updating.recordings.hypothesis import Hypothesis, Part, Place
+from mouse_cli.updating.recordings.noise import noise
+from mouse_cli.updating.recordings.polish import Fit, Polish, followed
+from mouse_cli.updating.recordings.records import named, records
+from mouse_cli.updating.recordings.study import Study, begin, study
+from mouse_cli.updating.recordings.uncertain import Uncertain
+from mouse_cli.updating.recordings.validation import scores, surface, trace
 from mouse_cli.updating.refusals import not_simulated
+
+Notice = Callable[[str], None]
 
 _RANGE = 30.0  # factor within which a parameter of a law may be revised
 _STEP = 1e-4  # of finite differences, in prior sd
@@ -46,7 +47,7 @@ def update_records(problem: Problem, notice: Notice) -> RecordUpdate:
         problem=problem,
         theta=own.model.theta(fit.x[: own.model.own]),
         covariance=scale * _covariance(own.model, fit),
-        laws=causes(replace(fit, covariance=scale * fit.covariance)),
+        laws=replace(fit, covariance=scale * fit.covariance).causes,
         residual=ChiSquareTest("residual", fit.misfit, dof, upper_tail(fit.misfit, dof)),
         noise_scale=scale,
         explained=not strained(fit, scale) and (not unlikely(fit) or left is not None),

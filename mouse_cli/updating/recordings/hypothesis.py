@@ -5,11 +5,11 @@ from functools import cached_property
 
 import numpy as np
 
-from mouse_cli.diagnosis.likelihoods.history.linear import Linear
-from mouse_cli.diagnosis.likelihoods.history.series import Series
 from mouse_cli.dynamics.response import LocalForce, Plant
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.terms.laws import Law, Scale, Unknown
+from mouse_cli.updating.recordings.linear import Linear
+from mouse_cli.updating.recordings.series import Series
 
 
 @dataclass(frozen=True)
@@ -48,6 +48,17 @@ class Part:
     def unknowns(self) -> tuple[Unknown, ...]:
         """Its parameters and how large they may be."""
         return self.ranges or self.law.unknowns(self.place.scale)
+
+    @property
+    def candidate(self) -> Law:
+        """What has the name, as in every hypothesis."""
+        return self.law
+
+    @property
+    def title(self) -> str:
+        """The law and its variant in words."""
+        word = self.law.words[self.variant]
+        return f"{self.law.title} ({word})" if word else self.law.title
 
     @property
     def words(self) -> dict[str, float]:

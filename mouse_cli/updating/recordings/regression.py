@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.diagnosis.likelihoods.history.free_force import Spectrum
-from mouse_cli.diagnosis.likelihoods.history.hypothesis import Acting, Hypothesis, Place
 from mouse_cli.terms.laws import Law, registry
+from mouse_cli.updating.recordings.free_force import Spectrum
+from mouse_cli.updating.recordings.hypothesis import Acting, Hypothesis, Place
 
 _APART = 0.15  # of the logarithm of a size, from which on two starts are two
 _FAR = 0.7  # most that ln parameters of a law that is there already move in a first look

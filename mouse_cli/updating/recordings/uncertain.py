@@ -9,13 +9,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.diagnosis.likelihoods.history.linear import Linear
 from mouse_cli.model.arrays import Matrix, dense
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
 from mouse_cli.updating.coordinates import coordinates
+from mouse_cli.updating.recordings.linear import Linear
 
 UNDAMPED, LOOSE = 0.01, 2.0  # damping ratio assumed of each mode where the deck has no damping; its sd, by its value
+LEFT_OUT = (
+    0.01  # sd at least of the damping ratio of a mode where the deck has damping: air, joints and supports add to it
+)
 LARGEST = 40  # degrees of freedom that are simulated as they are; larger models by modes
 _MOST_MODES = 60
 _MOST_LINKED = 400  # degrees of freedom of a model all of whose links are looked at
@@ -164,16 +167,17 @@ class _Extra:
 def _extra(M, C, K, slopes, bare: bool, labels: tuple[str, ...], by: tuple[float, float]) -> _Extra:
     """Links, or modes, that the deck's own parameters do not move; where the deck has no damping, that of both."""
     at, (stiffer, loose) = links(K), by
-    stiff, damped = _by_mode(M, C, K)
-    if at is not None:
-        stiff, damped = _by_link(at, labels), (damped if bare else []) + _dashpots(at, K, M, C, labels, bare)
+    stiff = _by_mode(M, K) if at is None else _by_link(at, labels)
     own = _beyond([d for _, d in stiff], slopes[2])
     found = [(np.zeros_like(K), stiffer * d, stiffer, f"stiffness {name}") for name, d in (stiff[i] for i in own)]
+    damped = _modal(M, C, K, loose)
+    if at is not None:
+        damped += [(loose * d, loose, name) for name, d in _dashpots(at, K, M, C, labels, bare)]
     # a parameter that moves stiffness, and damping in proportion, leaves the damping alone uncertain
     size = [np.linalg.norm(one) or 1.0 for one in (C, K)]
     both = lambda c, k: np.concatenate([c / size[0], k / size[1]], axis=-1)
-    own = _beyond([both(d, np.zeros_like(K)) for _, d in damped], both(slopes[1], slopes[2]))
-    found += [(loose * d, np.zeros_like(K), loose, f"damping {name}") for name, d in (damped[i] for i in own)]
+    own = _beyond([both(d, np.zeros_like(K)) for d, _, _ in damped], both(slopes[1], slopes[2]))
+    found += [(d, np.zeros_like(K), share, f"damping {name}") for d, share, name in (damped[i] for i in own)]
     C, K = (np.array([one[i] for one in found]).reshape(-1, *K.shape) for i in (0, 1))
     return _Extra(C, K, np.array([one[2] for one in found]), [one[3] for one in found])
 
@@ -201,14 +205,28 @@ def _dashpots(at: Links, K: np.ndarray, M: np.ndarray, C: np.ndarray, labels: tu
     return found + [others[i] for i in _beyond([d for _, d in others], np.array([d for _, d in found]))]
 
 
-def _by_mode(M: np.ndarray, C: np.ndarray, K: np.ndarray) -> tuple[_Named, _Named]:
+def _by_mode(M: np.ndarray, K: np.ndarray) -> _Named:
+    """What each mode is worth of the stiffness, by its name."""
     from scipy.linalg import eigh
 
     values, shapes = eigh(K, M)
-    pairs = [np.outer(m, m) for m in (M @ shapes).T]
-    damped = np.einsum("ij,ik,kj->j", shapes, C, shapes)
-    named = lambda sizes: [(f"of mode {i}", v * m) for i, (v, m) in enumerate(zip(sizes, pairs, strict=True), 1)]
-    return named(values), named(damped)
+    return [
+        (f"of mode {i}", v * np.outer(m, m)) for i, (v, m) in enumerate(zip(values, (M @ shapes).T, strict=True), 1)
+    ]
+
+
+def _modal(M: np.ndarray, C: np.ndarray, K: np.ndarray, loose: float) -> list[tuple[np.ndarray, float, str]]:
+    """Damping of each mode: a step of one sd, that sd by the value, and the name.
+
+    What a deck leaves out is no share of what it has: the sd of 2 zeta w is `loose` of it, and that of LEFT_OUT at least.
+    """
+    from scipy.linalg import eigh
+
+    values, shapes = eigh(K, M)
+    own = np.einsum("ij,ik,kj->j", shapes, C, shapes)
+    sd = np.maximum(loose * own, 2 * LEFT_OUT * np.sqrt(np.maximum(values, 0.0)))
+    parts = enumerate(zip(own, sd, (M @ shapes).T, strict=True), 1)
+    return [(s * np.outer(m, m), s / max(d, 1e-9 * s), f"of mode {i}") for i, (d, s, m) in parts if s > 0]
 
 
 def _beyond(candidates: list[np.ndarray], known: np.ndarray) -> list[int]:
@@ -258,7 +276,7 @@ def _remarks(bare: bool, extra: int, by: tuple[float, float]) -> tuple[str, ...]
     if extra:
         said += (
             f"beside the parameters of the deck, stiffness (sd {100 * by[0]:g} %) and damping "
-            f"(sd {100 * by[1]:g} %) of each part that they do not reach were free: {extra} in all",
+            f"(sd {100 * by[1]:g} %) of each part and mode that they do not reach were free: {extra} in all",
         )
     if bare:
         said += (

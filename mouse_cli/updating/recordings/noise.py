@@ -9,10 +9,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.likelihoods.history.free_force import Spectrum
-from mouse_cli.diagnosis.likelihoods.history.hypothesis import Hypothesis, Place
-from mouse_cli.diagnosis.likelihoods.history.regression import Regression, allowed
 from mouse_cli.model.record_diagnosis import Noise
+from mouse_cli.updating.recordings.free_force import Spectrum
+from mouse_cli.updating.recordings.hypothesis import Hypothesis, Place
+from mouse_cli.updating.recordings.regression import Regression, allowed
 
 EXPLAINED = 0.1  # share of what is left that a law takes, from which on it is no noise
 LOUD = 0.2  # rms of what is left by that of the record, from which on a record cannot be said to be explained
