@@ -15,7 +15,17 @@ from mouse_cli.diagnosis.mechanisms import Candidate, registry
 from mouse_cli.diagnosis.nameless.fit import field_of, rivals
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.rank import Ranking, rank, ranking
-from mouse_cli.diagnosis.verdict import ODDS, SURE, doubtful, explains, explanation, explanations, far_parameters, leader, sure
+from mouse_cli.diagnosis.verdict import (
+    ODDS,
+    SURE,
+    doubtful,
+    explains,
+    explanation,
+    explanations,
+    far_parameters,
+    leader,
+    sure,
+)
 from mouse_cli.model.arrangements import ArrangementsDiagnosis, Turn
 from mouse_cli.model.diagnosis import BY_DECK, NAMED, ONE_OF, Choices, Field, HeldOut, Score
 from mouse_cli.model.problem import Problem
