@@ -12,8 +12,10 @@ from itertools import combinations
 import numpy as np
 
 from mouse_cli.dynamics.eigen import EigenSolution
-from mouse_cli.estimators import estimator
+from mouse_cli.estimators import estimator as find_estimator
+from mouse_cli.estimators.linear import Estimator
 from mouse_cli.model.arrays import is_sparse
+from mouse_cli.model.result import Alternative, Alternatives
 from mouse_cli.updating import anchored
 from mouse_cli.updating.convergence import ExceedanceTest
 from mouse_cli.updating.normality import falls
@@ -32,10 +34,31 @@ _NEGLIGIBLE = 20.0  # J beyond that of the best by this: a share below 1e-4 of t
 _EVEN = 0.5  # standard deviations to all sides of a place at which the density must be lower, if it is a mode
 
 
+def sought(setting: Setting, state: State, estimator: Estimator) -> list[Laplace]:
+    """All modes of the posterior that are found from `state`, the highest first; none where that is no mode of this posterior."""
+    run, coordinates = setting.problem.run, setting.coordinates
+    posed = run.recursion == "anchored" and estimator.uses_prior and estimator.weighted and setting.frf is None
+    if not posed or not len(setting.y) or not coordinates.L.size or is_sparse(setting.problem.structure.K):
+        return []
+    return [] if coordinates.at_limit(state.u).any() else alternatives(setting, laplace(setting, state))
+
+
+def stated(found: list[Laplace]) -> Alternatives:
+    """What a result says of the modes `found`, of which the first is the answer."""
+    share = shares(found)
+    others = tuple(
+        Alternative(each.state.theta, np.sqrt(np.diag(each.covariance)), each.cost, float(own))
+        for each, own in zip(found[1:], share[1:], strict=True)
+    )
+    telling = deciding(found)
+    if telling is None:
+        return Alternatives(float(share[0]), others)
+    mode, dof, (here, there) = telling
+    return Alternatives(float(share[0]), others, (int(found[0].setting.problem.test.number[mode]), dof, here, there))
+
+
 def alternatives(setting: Setting, first: Laplace, seed: int = 1) -> list[Laplace]:
     """The modes found from `first` and elsewhere, the highest first; without `first` where that is a saddle beside them."""
-    if is_sparse(setting.problem.structure.K):
-        return [first]
     found, waiting = [first], [first]
     draws = _DRAWS if setting.problem.structure.n <= _SMALL else 0
     rng = np.random.default_rng(seed)
@@ -82,7 +105,7 @@ def descended(setting: Setting, z: np.ndarray) -> Laplace | None:
         return None
     test = ExceedanceTest(setting.problem.run.confidence, setting.problem.run.convergence)
     trace = Trace(setting, test, lambda cycle: None, begun)
-    status = anchored.recur(trace, estimator("bayes"))
+    status = anchored.recur(trace, find_estimator("bayes"))
     return laplace(setting, trace.state) if status.key == "converged" else None
 
 
@@ -162,7 +185,7 @@ class _Screen:
         return State(setting, u, EigenSolution(values, shapes)).chi2 + float(z @ z)
 
 
-def deciding(found: list[Laplace]) -> tuple[int, int, np.ndarray] | None:
+def deciding(found: list[Laplace]) -> tuple[int, int, tuple[float, float]] | None:
     """(measured mode, degree of freedom, values at both) where the shapes of the two highest modes of the posterior differ most.
 
     Shapes with their largest component 1; degrees of freedom without a sensor alone. None where none differs.
@@ -178,4 +201,4 @@ def deciding(found: list[Laplace]) -> tuple[int, int, np.ndarray] | None:
     if not gap.size or gap.max() < _TELLING:
         return None
     dof, mode = np.unravel_index(int(gap.round(6).argmax()), gap.shape)
-    return int(mode), int(dof), np.array([X[dof, mode] for X in at])
+    return int(mode), int(dof), (float(at[0][dof, mode]), float(at[1][dof, mode]))

@@ -41,6 +41,13 @@ class Coordinates:
         """Whether u (p,) lies within all limits."""
         return self.lower is None or bool(np.all((u >= self.lower) & (u <= self.upper)))
 
+    def at_limit(self, u: np.ndarray) -> np.ndarray:
+        """Mask (p,) of the parameters that stand at a limit."""
+        if self.lower is None:
+            return np.zeros(len(u), bool)
+        near = 1e-7 * np.maximum(np.abs(u), np.abs(u - self.mean))
+        return (u - self.lower <= near) | (self.upper - u <= near)
+
 
 def coordinates(problem: Problem, assembly: Assembly) -> Coordinates:
     """The coordinates of `problem`, its prior in square-root form, its limits, and what it holds fixed."""

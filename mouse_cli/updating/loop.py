@@ -22,7 +22,7 @@ from mouse_cli.model.arrays import is_sparse
 from mouse_cli.model.conditioning import Conditioning
 from mouse_cli.model.modal_test import restricted
 from mouse_cli.model.problem import MOST_COVARIANCE, Problem
-from mouse_cli.model.result import Alternative, Alternatives, ChiSquareTest, Result, Snapshot, Status
+from mouse_cli.model.result import ChiSquareTest, Result, Snapshot, Status
 from mouse_cli.observables.modal import UnrelatedShapes, observe
 from mouse_cli.terms.assembly import assembly as assemble
 from mouse_cli.terms.modal_damping import with_modal_damping
@@ -34,7 +34,7 @@ from mouse_cli.updating.frf_gains import with_gains
 from mouse_cli.updating.frf_setting import begin as begin_frf
 from mouse_cli.updating.frf_setting import with_test
 from mouse_cli.updating.frf_start import start as frf_start
-from mouse_cli.updating.posterior import Laplace, laplace
+from mouse_cli.updating.posterior import laplace
 from mouse_cli.updating.remarks import remarks
 from mouse_cli.updating.state import Setting, State, paired, reference_eigenvalue, solve
 from mouse_cli.updating.trace import Progress, Trace
@@ -136,40 +136,15 @@ def _run(trace: Trace, estimator: Estimator, search: bool) -> Result:
     if setting.frf is not None and setting.frf.observables and setting.problem.run.recursion == "anchored":
         trace.guess = frf_start(setting, trace.guess)
     status = RECURSIONS[setting.problem.run.recursion].recur(trace, estimator)
-    found = _elsewhere(trace, status, estimator) if search else []
+    found = alternatives.sought(setting, trace.state, estimator) if search and not status.exit_code else []
     if found and found[0].cost < laplace(setting, trace.state).cost - _HIGHER:  # it ended on a saddle, or a lower mode
         trace = Trace(setting, trace.test, trace.progress, start, guess=found[0].state.theta, enough=trace.enough)
         status = RECURSIONS[setting.problem.run.recursion].recur(trace, estimator)
     result = _result(trace, start, status, estimator, innovation)
     if len(found) > 1:
-        result = replace(result, alternatives=_alternatives(found))
+        result = replace(result, alternatives=alternatives.stated(found))
     doubt = normality.remark(result, setting, trace.state, estimator)
     return replace(result, warnings=(*remarks(result), *doubt))
-
-
-def _elsewhere(trace: Trace, status: Status, estimator: Estimator) -> list[Laplace]:
-    """All modes of the posterior that are found, the highest first; none where the run has no posterior of which this is a mode."""
-    setting, run = trace.setting, trace.setting.problem.run
-    posed = run.recursion == "anchored" and estimator.uses_prior and estimator.weighted and setting.frf is None
-    if not posed or status.exit_code or not len(setting.y) or not setting.coordinates.L.size:
-        return []
-    if is_sparse(setting.problem.structure.K) or _at_limit(setting, trace.state.u).any():
-        return []
-    return alternatives.alternatives(setting, laplace(setting, trace.state))
-
-
-def _alternatives(found: list[Laplace]) -> Alternatives:
-    """What a result says of the modes `found`, of which the first is the answer."""
-    share = alternatives.shares(found)
-    others = tuple(
-        Alternative(each.state.theta, np.sqrt(np.diag(each.covariance)), each.cost, float(own))
-        for each, own in zip(found[1:], share[1:], strict=True)
-    )
-    telling = alternatives.deciding(found)
-    if telling is not None:
-        mode, dof, values = telling
-        telling = (int(found[0].setting.problem.test.number[mode]), dof, float(values[0]), float(values[1]))
-    return Alternatives(float(share[0]), others, telling)
 
 
 def _result(trace: Trace, start: State, status: Status, estimator: Estimator, innovation: ChiSquareTest) -> Result:
@@ -264,22 +239,13 @@ def _spread(setting: Setting, state: State, estimator: Estimator) -> tuple[Linea
         estimate = estimator.solve(problem)
     except Unobservable:
         estimate = find_estimator("bayes").solve(problem)
-    at_limit = _at_limit(setting, state.u)
+    at_limit = setting.coordinates.at_limit(state.u)
     if at_limit.any():
         root_x, held = estimate.root(), at_limit.astype(int)
         in_u = replace(problem, L=np.eye(len(state.u)))
         root = np.where(at_limit[:, None], 0.0, conditioned(in_u, root_x, held)[0])
         estimate = replace(estimate, root=lambda: root, variances=None, seen=None)
     return estimate, at_limit
-
-
-def _at_limit(setting: Setting, u: np.ndarray) -> np.ndarray:
-    """Mask (p,) of the parameters that stand at a limit."""
-    lower, upper = setting.coordinates.lower, setting.coordinates.upper
-    if lower is None:
-        return np.zeros(len(u), bool)
-    near = 1e-7 * np.maximum(np.abs(u), np.abs(u - setting.coordinates.mean))
-    return (u - lower <= near) | (upper - u <= near)
 
 
 def _snapshot(state: State, variance: np.ndarray) -> Snapshot:

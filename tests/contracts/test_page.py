@@ -76,7 +76,7 @@ def test_mac_matrix_agrees_with_the_run():
 
 def test_verdicts_in_words():
     told = {name: Reader(made(name)).named("section")[0]["text"] for name in NAMES}
-    assert "The model lacks a spring to the ground: degree of freedom 2 (probability 0.998)." in told["named"]
+    assert "The model lacks a spring to the ground: degree of freedom 2 (probability > 0.999)." in told["named"]
     assert "Nothing is missing that this test could show: the model" in told["nothing"]
     assert (
         "The mass of items that the deck has as massless: items 21, 22 (probability > 0.999; log"

@@ -13,7 +13,7 @@ MIRRORED = (5, 3)  # storeys of a chain held at both ends, and of measured modes
 
 
 def chain_deck(path: Path, k: np.ndarray, noise: np.ndarray, shapes: bool) -> Path:
-    """Masses of 1 kg on springs k (n + 1,) between two walls, each a parameter of 1000 +- 150 N/m; lowest modes with 0.5 % noise."""
+    """Masses of 1 kg on springs k (n + 1,) between two walls, each a parameter, 1000 +- 150 N/m; the lowest modes, 0.5 % noise."""
     n, m = len(k) - 1, MIRRORED[1]
     K = np.diag(k[:-1] + k[1:]) - np.diag(k[1:-1], 1) - np.diag(k[1:-1], -1)
     values, vectors = np.linalg.eigh(K)

@@ -36,12 +36,12 @@ def _deciding(result: Result) -> str:
     """The measurement at which the answer and the other that leads differ most."""
     telling = result.alternatives.deciding
     if telling is None:
-        return "No shape of the measured modes tells them apart: measure further modes, or the same with a known mass added to one side."
+        return "No shape of the measured modes tells them apart: measure further modes, or with a known mass added to one side."
     mode, dof, here, there = telling
     label = result.problem.structure.labels[dof]
     return (
-        f"To decide, measure the shape of mode {mode} at degree of freedom {label}: the answer predicts {here:.3f} there, the other "
-        f"{there:.3f}, of its largest component."
+        f"To decide, measure the shape of mode {mode} at degree of freedom {label}: the answer predicts {here:.3f} there, the "
+        f"other {there:.3f}, of its largest component."
     )
 
 
