@@ -18,12 +18,8 @@ def mac(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     [[1.0, 0.0]]
     """
     have_one, have_other = np.isfinite(one), np.isfinite(other)
-    if have_one.all() and have_other.all():
-        x, y = one, other
-        size = np.outer((x * x).sum(axis=0), (y * y).sum(axis=0))
-    else:
-        x, y = np.where(have_one, one, 0.0), np.where(have_other, other, 0.0)
-        size = ((x * x).T @ have_other) * (have_one.T @ (y * y))
+    x, y = np.where(have_one, one, 0.0), np.where(have_other, other, 0.0)
+    size = ((x * x).T @ have_other) * (have_one.T @ (y * y))
     return np.divide((x.T @ y) ** 2, size, out=np.zeros_like(size), where=size > 0)
 
 
