@@ -66,7 +66,7 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices) -> Diagnos
     model, told = _model(problem, solver)
     enough = 0.0 if model.places is None else ENOUGH
     result, remarks = _update(problem, kept, notice, _guess(model), enough, solver)
-    ranking = rank(model, _known(choices), choices.causes, _hear())
+    ranking = rank(model, _known(choices), choices.causes, _hear(given.test is not None))
     verdict, as_it_is = judge(ranking, result.rejected and given.test is not None, model), ranking.baseline
     kind, best, missing = verdict.kind, verdict.best, verdict.kind != NOTHING
     location = locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None
@@ -99,10 +99,10 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices) -> Diagnos
     )
 
 
-def _hear() -> Callable[[Ranking], Ranking]:
-    """What functions, then recordings make of a ranking by modes."""
+def _hear(measured: bool) -> Callable[[Ranking], Ranking]:
+    """What functions, then recordings make of a ranking by modes; measured: these are no modes of the functions."""
     recordings = Hearing()
-    return lambda found: recordings(heard(found))
+    return lambda found: recordings(heard(found, measured))
 
 
 def _by_modes(problem: Problem) -> Problem:
