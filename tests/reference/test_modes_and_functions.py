@@ -12,7 +12,7 @@ from mouse_cli.formats import read_deck
 from mouse_cli.model.diagnosis import NAMED, NOTHING, Choices
 
 YOUNG, DENSITY, ETA, FINE = 2.1e11, 7850.0, 0.01, 3  # FINE: elements of the truth in each of the deck
-OF_FREQUENCY, OF_SHAPE, OF_FUNCTION = 0.003, 0.03, 0.02
+OF_FREQUENCY, OF_SHAPE, OF_FUNCTION = 0.003, 0.03, 0.05
 DIRECTIONS = ("TX", "TY", "RZ")
 KNOWN = Choices(candidates=("mass", "crack", "ground-spring", "support-rotation", "oscillator"), causes=1)
 
@@ -131,7 +131,7 @@ test:
 
 
 BEAM = Structure(
-    tuple((i / 8, 0.0) for i in range(9)), (0,), 1.2e-4, 3.6e-10, ((3, 1), (8, 1)), (3, 1), (6, 1), (15, 60)
+    tuple((i / 8, 0.0) for i in range(9)), (0,), 1.2e-4, 3.6e-10, ((3, 1), (8, 1)), (3, 1), (6, 1), (20, 45)
 )
 _RISE = [(0.0, 0.5 * i) for i in range(5)]
 PORTAL = Structure(
