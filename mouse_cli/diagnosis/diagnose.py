@@ -71,8 +71,9 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices, recordings
     model, told = _model(problem, solver)
     enough = 0.0 if model.places is None else ENOUGH
     result, remarks = _update(problem, kept, notice, _guess(model), enough, solver)
-    ranking = rank(model, _known(choices), choices.causes, lambda found: recordings(heard(found)))
-    verdict, as_it_is = judge(ranking, result.rejected and given.test is not None, model), ranking.baseline
+    measured = given.test is not None
+    ranking = rank(model, _known(choices), choices.causes, lambda found: recordings(heard(found, measured)))
+    verdict, as_it_is = judge(ranking, result.rejected and measured, model), ranking.baseline
     kind, best, missing = verdict.kind, verdict.best, verdict.kind != NOTHING
     location = locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None
     put = best if kind in (NAMED, ONE_OF) else verdict.field

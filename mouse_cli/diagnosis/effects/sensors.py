@@ -12,6 +12,7 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.sites.lines import Line
 from mouse_cli.model.arrays import is_sparse
 from mouse_cli.model.diagnosis import Site
+from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.problem import Problem
@@ -103,7 +104,24 @@ def with_readings(problem: Problem, rows: dict[int, np.ndarray]) -> Problem:
     sensing = csr_array(vstack(parts))
     sensing.eliminate_zeros()
     dofs = [int(np.argmax(np.abs(rows[k]))) if k in rows else int(test.dofs[k]) for k in range(test.s)]
-    return replace(problem, test=replace(test, dofs=np.array(dofs), sensing=sensing, sensors=tuple(names)))
+    test = replace(test, dofs=np.array(dofs), sensing=sensing, sensors=tuple(names))
+    return replace(problem, test=test, frf=_in_functions(problem, rows))
+
+
+def _in_functions(problem: Problem, rows: dict[int, np.ndarray]) -> tuple[FrfTest, ...]:
+    """The functions of the deck, responses of the sensors in `rows` read as these (n,) instead."""
+    from scipy.sparse import csr_array, vstack
+
+    n, found = problem.structure.n, []
+    known = [(csr_array(row(problem, k)[None]), csr_array(new[None])) for k, new in rows.items()]
+    for test in problem.frf:
+        outputs = test.outputs
+        if outputs.ndim == 1:
+            outputs = csr_array((np.ones(len(outputs)), (np.arange(len(outputs)), outputs)), shape=(len(outputs), n))
+        parts = [csr_array(outputs)[[o]] for o in range(outputs.shape[0])]
+        parts = [next((new for old, new in known if not abs(part - old).sum()), part) for part in parts]
+        found.append(replace(test, outputs=csr_array(vstack(parts))))
+    return tuple(found)
 
 
 def row(problem: Problem, k: int) -> np.ndarray:
@@ -150,4 +168,5 @@ def exchanged(problem: Problem, i: int, j: int) -> Problem:
     order[[i, j]] = j, i
     sensing = None if test.sensing is None else test.sensing[order]
     names = tuple(test.sensors[k] for k in order) if test.sensors else ()
-    return replace(problem, test=replace(test, dofs=test.dofs[order], sensing=sensing, sensors=names))
+    functions = _in_functions(problem, {i: row(problem, j), j: row(problem, i)})
+    return replace(problem, test=replace(test, dofs=test.dofs[order], sensing=sensing, sensors=names), frf=functions)

@@ -112,7 +112,7 @@ def _over(one: Fit, tests: Tests, at: slice) -> FrfModel:
         s, shape = test.laplace[at], test.H[at].shape
         factor = kind_factor(KINDS[test.kind], s)
         blocks.append(Lines(test, s, np.zeros(shape), np.ones(shape), np.ones(shape, bool), factor))
-    data = replace(one.model.base.data, blocks=tuple(blocks))
+    data = replace(one.model.base.data, blocks=tuple(blocks), modes=None)
     model = FrfModel(replace(one.model.base, data=data), one.model.damping, one.recipes)
     model.losses.middle = one.model.losses.middle  # which loss factors of viscous springs belong to
     return model

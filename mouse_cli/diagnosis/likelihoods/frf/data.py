@@ -4,9 +4,11 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from mouse_cli.diagnosis.likelihoods.modal.data import Data
 from mouse_cli.model.frf_test import MOST_LINES, FrfTest
 from mouse_cli.model.theory import Theory
 from mouse_cli.observables.frf import observe
+from mouse_cli.observables.frf_smoothing import smoothed
 
 _VALUES, _FEW, _MOST = (
     4000,
@@ -40,6 +42,12 @@ class Lines:
         own = {name: getattr(self, name)[::count] for name in ("s", "H", "sd", "has")}
         return replace(self, **own, factor=self.factor[::count])
 
+    def broadened(self, width: float) -> "Lines":
+        """The same functions with every resonance as broad as by a damping ratio larger by `width`, known to some per cent."""
+        seen = smoothed(self.test, width)
+        H, sd = (np.where(seen.have, each, other) for each, other in ((seen.H, 0.0), (seen.sd, 1.0)))
+        return replace(self, s=seen.s, H=H, sd=sd, has=seen.have, factor=seen.factor)
+
     def stacked(self, H: np.ndarray) -> np.ndarray:
         """Real and imaginary parts (2 q, ...) of what was measured of H (f, o, i, ...), over their standard deviations."""
         whitened = H[self.has] / self.sd[self.has].reshape(-1, *[1] * (H.ndim - 3))
@@ -65,19 +73,25 @@ def _largest(H: np.ndarray) -> np.ndarray:
 @dataclass(frozen=True)
 class FrfData:
     """All FRFs of a diagnosis. theory (c,): sd of ln f of the lowest modes by what theory and mesh leave. alike: how many data say
-    the same. slack: 0, as no datum is made less accurate between rivals.
+    the same. modes: measured beside them, their accuracies those of the test, as `theory` is that of both.
     """
 
     blocks: tuple[Lines, ...]
     theory: np.ndarray = field(default_factory=lambda: np.zeros(0))
     alike: float = 1.0
-    slack: float = 0.0
+    modes: Data | None = None
     by_shape: bool = True  # modes are told apart by what several sensors read
 
     @property
     def dof(self) -> int:
         """Real numbers measured, those that say the same counted once."""
-        return int(2 * sum(block.has.sum() for block in self.blocks) / self.alike)
+        functions = int(2 * sum(block.has.sum() for block in self.blocks) / self.alike)
+        return functions + (self.modes.dof if self.modes else 0)
+
+    @property
+    def slack(self) -> float:
+        """That of the modes: no value of a function is made less accurate between rivals."""
+        return self.modes.slack if self.modes else 0.0
 
     @property
     def assumed(self) -> bool:

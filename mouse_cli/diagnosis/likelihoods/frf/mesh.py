@@ -22,7 +22,7 @@ def of_mesh(one: Fit, base: Reduced) -> float:
         return 0.0
     theta = base.parameters(one.point.x[: one.model.of_deck])
     finer = reduced(halved(base.problem), theta, EigenSolver())
-    data = one.model.base.data
+    data = replace(one.model.base.data, modes=None)
     there = FrfModel(replace(finer, data=data), damping(finer)).point(one.point.x)
     if there is None:
         return 0.0

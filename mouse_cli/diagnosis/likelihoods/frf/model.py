@@ -5,10 +5,11 @@ are of low rank: Z = Z_0 + G' W(s) G. Then
 
     H = s^k S Z^-1 B',   Z^-1 = Z_0^-1 - Z_0^-1 G' (I + W G Z_0^-1 G')^-1 W G Z_0^-1,   dH = s^k (dS Z^-1 - S Z^-1 dZ Z^-1) B'
 
-(Sherman, Morrison and Woodbury; lecture 21 for the derivative).
+(Sherman, Morrison and Woodbury; lecture 21 for the derivative). Modes that were measured beside the functions add their residual:
+both belong to one structure, whose theory errs alike in both.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 
 import numpy as np
@@ -17,7 +18,7 @@ from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.likelihoods.frf.damping import Damping
 from mouse_cli.diagnosis.likelihoods.frf.gains import gains
 from mouse_cli.diagnosis.likelihoods.frf.losses import Losses
-from mouse_cli.diagnosis.likelihoods.modal.model import Model, modes_of
+from mouse_cli.diagnosis.likelihoods.modal.model import Model, Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.dynamics.sensing import read
 
@@ -26,13 +27,14 @@ _STEP = 1e-5  # of a range, for derivatives of losses
 
 @dataclass(frozen=True)
 class FrfPoint:
-    """The model at x: eigenvalues (size,), modes X (size, size), residual (2 q,) and each block of functions."""
+    """The model at x: eigenvalues (size,), modes X (size, size), residual (2 q + m,), each block of functions, measured modes."""
 
     x: np.ndarray
     eigenvalues: np.ndarray
     X: np.ndarray
     residual: np.ndarray
     parts: tuple["Functions", ...]
+    modal: Point | None = None
 
     @property
     def chi2(self) -> float:
@@ -59,7 +61,7 @@ class FrfModel:
     def __init__(self, base: Reduced, damping: Damping, recipes: tuple[Recipe, ...] = (), middle: float | None = None):
         """base.data: FrfData; middle: omega_0, rad/s, of viscous losses; None: the middle of the band."""
         self.base, self.damping, self.recipes = base, damping, recipes
-        self.elastic = Model(base, recipes)
+        self.elastic, self.modes = Model(replace(base, data=base.data.modes), recipes), base.data.modes
         self.gains = gains(tuple(block.test for block in base.data.blocks))
         self.losses = Losses(self.elastic, damping, base.data.middle if middle is None else middle)
         self.of_deck, self.lossy = base.L.shape[1], base.L.shape[1] + len(damping.mean)
@@ -91,19 +93,29 @@ class FrfModel:
 
     def point(self, x: np.ndarray) -> FrfPoint | None:
         """The model at x (k + t,); None where it is not physical."""
-        r, (z, _, _, errs, c) = self.base.r, self.split(x)
-        K, M, sensing = self.elastic.added(np.concatenate([z, c]))
-        K0, M0 = self.base.matrices(z)
-        K[:r, :r] += K0
-        M[:r, :r] += M0
-        eigenvalues, X = modes_of(K, M)
-        if not np.isfinite(eigenvalues).all() or eigenvalues[0] < -1e-5 * abs(eigenvalues[-1]):
+        z, _, _, errs, c = self.split(x)
+        own = np.concatenate([z, c])
+        solved = self.elastic.solved(own)
+        if solved is None:
             return None
+        eigenvalues, X, sensing = solved
+        modal = self.modes and self.elastic.paired(own, *solved)
+        if self.modes and modal is None:
+            return None
+        eigenvalues = eigenvalues.copy()
         eigenvalues[: len(errs)] *= np.exp(2 * self.theory * errs)
         parts = tuple(self._functions(i, x, eigenvalues, X, sensing) for i in range(len(self._ends)))
         blocks = self.base.data.blocks
-        residual = np.concatenate([b.stacked(b.H - part.H) for b, part in zip(blocks, parts, strict=True)])
-        return FrfPoint(x, eigenvalues, X, residual, parts) if np.isfinite(residual).all() else None
+        residual = [b.stacked(b.H - part.H) for b, part in zip(blocks, parts, strict=True)]
+        residual += [modal.residual - self._erring(modal) @ errs] if modal else []
+        residual = np.concatenate(residual)
+        return FrfPoint(x, eigenvalues, X, residual, parts, modal) if np.isfinite(residual).all() else None
+
+    def _erring(self, at: Point) -> np.ndarray:
+        """d(prediction)/d(errs) (m, c) of the measured modes, whitened."""
+        rows = self.theory * (at.modes[:, None] == np.arange(len(self.theory))) / self.modes.sd_log[:, None]
+        rows = rows[self.modes.has_frequency]
+        return np.pad(rows, ((0, len(at.residual) - len(rows)), (0, 0)))
 
     def _functions(
         self, i: int, x: np.ndarray, eigenvalues: np.ndarray, X: np.ndarray, sensing: np.ndarray
@@ -126,8 +138,13 @@ class FrfModel:
 
     def jacobian(self, at: FrfPoint) -> np.ndarray:
         """d(prediction)/dx (2 q, k + t), whitened."""
-        columns = [self._moved(i, at) for i in range(len(at.parts))]
-        return np.concatenate([b.stacked(d) for b, d in zip(self.base.data.blocks, columns, strict=True)])
+        rows = [b.stacked(self._moved(i, at)) for i, b in enumerate(self.base.data.blocks)]
+        if at.modal:
+            found = np.zeros((len(at.modal.residual), len(at.x)))
+            found[:, np.r_[: self.of_deck, self.k : len(at.x)]] = self.elastic.jacobian(at.modal)
+            found[:, self.measured : self.k] = self._erring(at.modal)
+            rows.append(found)
+        return np.concatenate(rows)
 
     def _moved(self, i: int, at: FrfPoint) -> np.ndarray:
         """dH/dx (f, o, i, k + t) of block i."""

@@ -21,9 +21,12 @@ from mouse_cli.diagnosis.likelihoods.frf.model import FrfModel
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
+from mouse_cli.diagnosis.search.optima import distinct
 from mouse_cli.diagnosis.search.rank import Ranking, ranking
 from mouse_cli.diagnosis.search.several import adequate
+from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.updating.chi_square import upper_tail
+from mouse_cli.updating.frf_start import WIDTHS
 
 _REACH = 60.0  # nats by which modes may speak against an explanation that is judged by FRFs still
 _SINGLES, _ELSEWHERE = (
@@ -32,6 +35,7 @@ _SINGLES, _ELSEWHERE = (
 )  # single causes that are judged in any case; other places at which modes leave a cause possible
 _PLACES, _KEPT = 5, 2  # places from which what only damps begins, and how many of its kind go on
 _THIN, _BRIEF = 4, 12  # in a first look: every so manieth line, and steps
+_WIDTHS = WIDTHS[1:]  # damping ratios by which resonances are broadened
 _WEIGHED = 3  # times that accuracies nobody stated are taken from what is left
 _FAR, _LEAST = (
     200.0,
@@ -61,18 +65,35 @@ class Heard(Fit):
 
 @dataclass(frozen=True)
 class Judge:
-    """FRFs of a test and the damping of the structure as it is held likely."""
+    """FRFs of a test and the damping of the structure as it is held likely.
+
+    known (m,): sd of ln f of modes measured beside them by what theory leaves of both; None: the modes are those of the functions.
+    """
 
     data: FrfData
     damping: Damping
+    known: np.ndarray | None = None
 
     def thinned(self) -> "Judge":
         """By few lines."""
         return replace(self, data=replace(self.data, blocks=tuple(block.every(_THIN) for block in self.data.blocks)))
 
-    def model(self, base: Reduced, recipes: tuple) -> FrfModel:
-        """The reduced model `base` with causes, as the FRFs see it."""
-        return FrfModel(replace(base, data=self.data), self.damping, recipes)
+    def broadened(self, width: float) -> "Judge":
+        """By functions with broader resonances."""
+        return replace(
+            self, data=replace(self.data, blocks=tuple(block.broadened(width) for block in self.data.blocks))
+        )
+
+    def model(self, base: Reduced, recipes: tuple = ()) -> FrfModel:
+        """The reduced model `base` with causes, as the FRFs see it, and the modes that were measured beside them."""
+        modes = base.data
+        if isinstance(modes, FrfData):
+            modes = modes.modes
+        elif self.known is None:
+            modes = None
+        else:
+            modes = modes.sharpened(self.known)
+        return FrfModel(replace(base, data=replace(self.data, modes=modes)), self.damping, recipes)
 
     def fitted(self, one: Fit, law: str = SAME, most: int = MOST) -> Fit | None:
         """The explanation `one` of modes, or of FRFs, fitted from where it is; law: of its springs, where they have none yet."""
@@ -88,8 +109,16 @@ class Judge:
         found = [self.fitted(one) for one in fits]
         return [one for one in found if one is not None]
 
+    def near(self, one: Fit, stages: "tuple[Judge, ...]") -> Fit | None:
+        """`one` where its resonances are near the measured ones: as it is, or fitted with ever narrower resonances, `stages`."""
+        end = one
+        for stage in stages:
+            end = stage.fitted(end, most=_BRIEF // 2) or end
+        starts = [at for at in (self.fitted(one, most=0), self.fitted(end, most=0)) if at is not None]
+        return min(starts, key=lambda at: at.misfit, default=None)
+
     def laws(self, one: Fit) -> list[Fit]:
-        """A first look at the explanation `one` of modes under each law of damping that its springs may follow."""
+        """A first look at the explanation `one` under each law of damping that its springs may follow."""
         may = any(recipe.candidate.group in GROUPS for recipe in one.recipes)
         found = [self.fitted(one, law, _BRIEF) for law in (LAWS if may else (SAME,))]
         return [each for each in found if each is not None]
@@ -98,6 +127,7 @@ class Judge:
         """A first look at what only damps, beside the causes of `one`, a fit of FRFs; base: its model with its modes."""
         found = []
         for recipes in (dashpots(base), lossy_parts(base, self.data.middle)):
+            recipes = [replace(recipe, number=i) for i, recipe in enumerate(recipes)]
             fits = [fit(trial, x[trial.k :], x[: trial.k], _BRIEF) for trial, x in self._starts(one, recipes)]
             found += sorted((each for each in fits if each is not None), key=lambda each: -each.log_evidence)[:_KEPT]
         return found
@@ -121,18 +151,26 @@ class Judge:
         return [(trial, x) for _, trial, x in sorted(tried, key=lambda item: item[0])[:_PLACES]]
 
 
-def heard(modal: Ranking) -> Ranking:
-    """The ranking `modal` of what modes say, judged anew by the FRFs of the test; `modal` itself where there are none."""
+def heard(modal: Ranking, measured: bool) -> Ranking:
+    """The ranking `modal` of what modes say, judged anew by the FRFs of the test; `modal` itself where there are none.
+
+    measured: the modes were measured beside the FRFs, and both judge; else the FRFs showed them, and judge alone.
+    """
     base = modal.baseline.model.base
     if not base.problem.frf:
         return modal
-    measured = tuple(lines(test, base.problem.theory) for test in base.problem.frf)
-    judge = Judge(FrfData(measured, _theory(modal.baseline)), damping(base))
-    quick = judge.thinned()
-    none = quick.fitted(modal.baseline)
+    blocks = tuple(lines(test, base.problem.theory) for test in base.problem.frf)
+    judge = Judge(FrfData(blocks, _theory(modal.baseline)), damping(base), base.data.theory if measured else None)
+    quick, stages = judge.thinned(), tuple(judge.broadened(width) for width in _WIDTHS)
+    begun = quick.near(modal.baseline, stages)
+    none = None if begun is None else quick.fitted(begun)
     if none is None:
         return modal
-    looked = [law for one in _promising(modal) for law in quick.laws(one)] + quick.damped(none, base)
+    starts = [quick.near(one, stages) for one in _promising(modal)]
+    looked = [law for one in starts if one for law in quick.laws(one)] + quick.damped(none, base)
+    if measured or not any(map(adequate, looked)):
+        starts = [quick.near(one, stages[1:]) for one in anew(stages[0], modal)]
+        looked += [law for one in starts if one for law in quick.laws(one)]
     fits = judge.all_of([none, *_leading(looked)])
     alike = None
     for _ in range(_WEIGHED):
@@ -142,11 +180,29 @@ def heard(modal: Ranking) -> Ranking:
         alike = correlated(nearest) if alike is None else 1.0
         judge = replace(judge, data=judge.data.weighed(alike, _scatter(nearest)))
         fits = judge.all_of(fits)
-    fits = _shared(fits)
+    fits = _shared(_together(fits))
     fits[0] = replace(fits[0], log_evidence=fits[0].log_evidence + of_mesh(fits[0], base) / 2)
     found = ranking(fits[0], fits)
     views = {id(one): _beside_modes(one, base.data) for one in fits}
     return replace(found, baseline=views[id(fits[0])], fits=tuple(views[id(one)] for one in found.fits))
+
+
+def anew(judge: Judge, modal: Ranking) -> list[Fit]:
+    """Single mechanisms at places that modes did not show: where a first look by functions that are broadened finds most.
+
+    judge: by these.
+    """
+    base, found = modal.baseline.model.base, []
+    known = {one.recipes[0].candidate.key: one.recipes[0].candidate for one in modal.fits if len(one.recipes) == 1}
+    study, k = Study(Study(base).coarse.model, known, judge.model), judge.model(base).k
+    study.k = k
+    for name in known:
+        recipes, first = Study(base, known).recipes(name), {}
+        for _, number, x in study.looks(name, np.zeros(k), ()):
+            first.setdefault(number, x)
+        for number, x in list(first.items())[:_ELSEWHERE]:
+            found.append(fit(judge.model(base, (recipes[number],)), x[k:], x[:k], _BRIEF))
+    return [one for one in found if one is not None]
 
 
 def _theory(one: Fit) -> np.ndarray:
@@ -185,6 +241,21 @@ def _leading(looked: list[Fit]) -> list[Fit]:
     return [one for i, one in enumerate(order) if i < _LEAST or best - one.log_evidence < _FAR / _THIN]
 
 
+def _together(fits: list[Fit]) -> list[Fit]:
+    """One of each hypothesis: the best, its evidence summed over distinct optima; those are where else it may act."""
+    names: dict[tuple, list[Fit]] = {}
+    for one in fits:
+        field = one.nameless.rival.key if one.nameless else ""
+        names.setdefault((field, *((r.candidate.key, r.law) for r in one.recipes)), []).append(one)
+    found = []
+    for alike in names.values():
+        best, *others = distinct(alike)
+        total = np.logaddexp.reduce([one.log_evidence for one in (best, *others)])
+        elsewhere = tuple((one, float(np.exp(one.log_evidence - total))) for one in others)
+        found.append(replace(best, log_evidence=float(total), elsewhere=elsewhere))
+    return found
+
+
 def _shared(fits: list[Fit]) -> list[Fit]:
     """Fits whose springs follow one law of several: each law has its share of the prior of the cause."""
     return [replace(one, log_evidence=one.log_evidence - np.log(_laws(one))) for one in fits]
@@ -203,4 +274,5 @@ def _beside_modes(one: Fit, data) -> Fit:
     if at is None:
         return one
     known = np.linalg.inv(one.covariance[np.ix_(elastic, elastic)])  # the damping of the structure integrated out
-    return Heard(model, at, one.misfit, known, one.log_evidence, frf=one)
+    elsewhere = tuple((_beside_modes(other, data), share) for other, share in one.elsewhere)
+    return Heard(model, at, one.misfit, known, one.log_evidence, elsewhere, frf=one)

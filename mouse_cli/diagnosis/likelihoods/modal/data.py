@@ -43,6 +43,13 @@ class Data:
         found.slack = found.log_sd - (self.log_sd - self.slack)
         return found
 
+    def sharpened(self, known: np.ndarray) -> "Data":
+        """The same data without the errors `known` (m,), sd of ln f, where these are unknowns of their own."""
+        found = copy(self)
+        found.sd_log = np.sqrt(np.maximum(self.sd_log**2 - known**2, (1e-3 * self.sd_log) ** 2))
+        found.slack += found.log_sd - self.log_sd
+        return found
+
     @property
     def theory(self) -> np.ndarray:
         """sd of ln f (m,) beside that of the measurement: what theory and numerics leave; theory alone where none was measured."""

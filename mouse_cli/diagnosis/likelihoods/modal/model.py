@@ -133,16 +133,24 @@ class Model:
 
     def point(self, x: np.ndarray) -> "Point | None":
         """The model at x (k + t,); None where it is not physical."""
+        found = self.solved(x)
+        return None if found is None else self.paired(x, *found)
+
+    def solved(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+        """Eigenvalues (size,) and shapes X (size, size) at x (k + t,), and sensing (s, size) that the causes add; None likewise."""
         r = self.base.r
         K, M, S = self.added(x)
         K0, M0 = self.base.matrices(x[: self.k])
         K[:r, :r] += K0
         M[:r, :r] += M0
-        S[:, :r] += self.base.sensing
         eigenvalues, X = modes_of(K, M)
-        if not np.isfinite(eigenvalues).all() or eigenvalues[0] < -1e-5 * abs(eigenvalues[-1]):
-            return None
+        physical = np.isfinite(eigenvalues).all() and eigenvalues[0] >= -1e-5 * abs(eigenvalues[-1])
+        return (eigenvalues, X, S) if physical else None
+
+    def paired(self, x: np.ndarray, eigenvalues: np.ndarray, X: np.ndarray, S: np.ndarray) -> "Point | None":
+        """Those modes beside the test; None where it has modes that are none of theirs."""
         seen = S @ X
+        seen += self.base.sensing @ X[: self.base.r]
         modes = self.base.data.pair(eigenvalues, seen)
         if modes.max() >= len(eigenvalues) or eigenvalues[modes].min() <= 0:
             return None
