@@ -3,6 +3,7 @@
 import zlib
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -38,6 +39,7 @@ class Case:
     draws: int = 1  # tests of different noise
     choices: tuple[int, ...] = ()  # sites from which sensors are chosen; empty: all
     files: dict[str, str] = field(default_factory=dict)  # that the deck refers to
+    config: Any = None  # sensors and noise of its own, a Config of `test_data`
 
 
 def generator(*words: object) -> np.random.Generator:
