@@ -74,7 +74,9 @@ def _felt(model: Reduced, update: Fit, count: int) -> np.ndarray:
     """
     T, X = update.model.jacobian(update.point), update.point.X
     size = _EACH // 10
-    gain = np.concatenate([gained(update, T, model.V[i : i + size] @ X)[0] for i in range(0, len(model.V), size)], axis=1)
+    gain = np.concatenate(
+        [gained(update, T, model.V[i : i + size] @ X)[0] for i in range(0, len(model.V), size)], axis=1
+    )
     found: list[int] = []
     for c in range(2):
         order = np.argsort(-gain[c], kind="stable")[: size // 4]

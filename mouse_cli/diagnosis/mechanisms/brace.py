@@ -65,7 +65,7 @@ CANDIDATE = Candidate(
     "brace",
     "a spring between two places",
     "brace",
-    "a brace, cable, strut or tie that joins two places which nothing joins in the model: K + k b'b, b their elongation along the line "
-    "between them; floors of a row of storeys, or masses of a chain, that are not neighbours: their relative motion",
+    "a brace, cable, strut or tie that joins two places which nothing joins in the model: K + k b'b, b their elongation along the "
+    "line between them; floors of a row of storeys, or masses of a chain, that are not neighbours: their relative motion",
     recipes,
 )

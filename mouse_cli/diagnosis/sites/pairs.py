@@ -104,13 +104,13 @@ def _none(model: Reduced) -> tuple[np.ndarray, np.ndarray]:
 def _between_ends(model: Reduced) -> tuple[np.ndarray, np.ndarray]:
     """Along the line between ends of members; in each direction where all nodes are in one row."""
     mesh = model.problem.mesh
-    ends, joined = _ends(mesh), _joined(mesh)
-    if not 2 < len(ends) <= _ENDS:
+    found, joined = ends(mesh), _joined(mesh)
+    if not 2 < len(found) <= _ENDS:
         return _none(model)
     u = model.motion.apply(model.V)[: 6 * len(mesh.node_ids)].reshape(-1, 6, model.r)
-    if np.linalg.matrix_rank(mesh.coordinates[ends] - mesh.coordinates[ends[0]], tol=1e-9 * _size(mesh)) < 2:
-        return _none(model) if model.bars is not None or len(ends) > _SPRINGS else _in_a_row(u, ends, joined)
-    one, other = (ends[i] for i in np.triu_indices(len(ends), 1))
+    if np.linalg.matrix_rank(mesh.coordinates[found] - mesh.coordinates[found[0]], tol=1e-9 * _size(mesh)) < 2:
+        return _none(model) if model.bars is not None or len(found) > _SPRINGS else _in_a_row(u, found, joined)
+    one, other = (found[i] for i in np.triu_indices(len(found), 1))
     apart = np.linalg.norm(mesh.coordinates[other] - mesh.coordinates[one], axis=1)
     order = np.argsort(apart, kind="stable")
     order = order[apart[order] > 1e-6 * _size(mesh)][:_LOOKED]
@@ -122,15 +122,15 @@ def _between_ends(model: Reduced) -> tuple[np.ndarray, np.ndarray]:
     return np.stack([one, other, np.full(len(one), ALONG)], axis=1), rows
 
 
-def _in_a_row(u: np.ndarray, ends: np.ndarray, joined: set) -> tuple[np.ndarray, np.ndarray]:
+def _in_a_row(u: np.ndarray, nodes: np.ndarray, joined: set) -> tuple[np.ndarray, np.ndarray]:
     """Floors of a chain of storeys, or masses in a row, that are not neighbours; from a held one it is a spring to the ground."""
-    ends = ends[np.abs(u[ends, :3]).max(axis=(1, 2)) > 0]
-    own = [(i, j) for n, i in enumerate(ends.tolist()) for j in ends[n + 1 :].tolist() if (i, j) not in joined]
+    nodes = nodes[np.abs(u[nodes, :3]).max(axis=(1, 2)) > 0]
+    own = [(i, j) for n, i in enumerate(nodes.tolist()) for j in nodes[n + 1 :].tolist() if (i, j) not in joined]
     keys = np.array([(i, j, d) for d in range(3) for i, j in own], int).reshape(-1, 3)
     return keys, u[keys[:, 1], keys[:, 2]] - u[keys[:, 0], keys[:, 2]]
 
 
-def _ends(mesh: Mesh) -> np.ndarray:
+def ends(mesh: Mesh) -> np.ndarray:
     """Nodes (indices) of two-node elements at which not just one straight member passes."""
     arms: dict[int, list[np.ndarray]] = {}
     for elements in mesh.elements:
