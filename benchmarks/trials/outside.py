@@ -10,6 +10,7 @@ from benchmarks.trials.library import log_uniform, somewhere
 Box = tuple[tuple[float, ...], tuple[float, ...]]
 # names (physics, group) that are as true where they are declared, at the site of the mechanism
 BED, SOFT, FOOT = ("foundation", "foundation"), ("stiffness-loss", "local-stiffness"), ("support-rotation", "support")
+BRACE = ("brace", "brace")
 LOCAL = ("stiffness", "force")  # properties of nameless fields that describe what acts at places
 
 
@@ -85,7 +86,11 @@ def distant(blank: Blank, rng: np.random.Generator) -> Mechanism:
             break
     k = blank.weight * blank.first**2 * log_uniform(rng, 0.2, 3.0) * (1.0 if blank.lines else 0.1)
     blank.truth.spring({a: 1.0, b: -1.0}, k)
-    return Mechanism("spring between distant places", size=k, properties=LOCAL, regions=around(p, q))
+    about = {"properties": LOCAL, "regions": around(p, q)}
+    if blank.family in ("chain", "storeys"):  # whose springs act along one direction, as a brace of the library does
+        at = tuple(np.mean([p, q], axis=0).tolist())
+        return Mechanism("spring between distant places", "", "", at, blank.near(), k, (BRACE,), **about)
+    return Mechanism("spring between distant places", size=k, **about)
 
 
 def eccentric(blank: Blank, rng: np.random.Generator) -> Mechanism:

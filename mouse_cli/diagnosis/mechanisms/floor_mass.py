@@ -10,7 +10,6 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import total_mass
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.lines import Line, elements
-from mouse_cli.diagnosis.sites.preload import runs
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 
@@ -20,8 +19,8 @@ _LEVEL = 1e-3  # of the height of the structure
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """M + m times the integral of u'u over some of the rows of bars, not all of them."""
-    found = runs(model, "nonstructural_mass")
-    if len(found) < 2 or len(found) != len(model.bars.runs):
+    found = [] if model.bars is None else list(model.bars.runs)
+    if len(found) < 2 or any(b.property == "nonstructural_mass" for b in model.problem.bindings):
         return []
     parts = _parts(model, found)
     sums = {i: Wet(found[i]).sums[-1] for i in sorted({i for own in parts.values() for i in own})}
