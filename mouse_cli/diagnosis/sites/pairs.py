@@ -107,27 +107,29 @@ def _between_ends(model: Reduced) -> tuple[np.ndarray, np.ndarray]:
     found, joined = ends(mesh), _joined(mesh)
     if not 2 < len(found) <= _ENDS:
         return _none(model)
-    u = model.motion.apply(model.V)[: 6 * len(mesh.node_ids)].reshape(-1, 6, model.r)
-    if np.linalg.matrix_rank(mesh.coordinates[found] - mesh.coordinates[found[0]], tol=1e-9 * _size(mesh)) < 2:
+    u = np.array([model.node(int(i))[:3] for i in found])
+    xyz = mesh.coordinates[found]
+    if np.linalg.matrix_rank(xyz - xyz[0], tol=1e-9 * _size(mesh)) < 2:
         return _none(model) if model.bars is not None or len(found) > _SPRINGS else _in_a_row(u, found, joined)
-    one, other = (found[i] for i in np.triu_indices(len(found), 1))
-    apart = np.linalg.norm(mesh.coordinates[other] - mesh.coordinates[one], axis=1)
+    one, other = np.triu_indices(len(found), 1)
+    apart = np.linalg.norm(xyz[other] - xyz[one], axis=1)
     order = np.argsort(apart, kind="stable")
     order = order[apart[order] > 1e-6 * _size(mesh)][:_LOOKED]
-    order = np.array([i for i in order if (int(one[i]), int(other[i])) not in joined], int)
-    order = np.sort(order[_in_sight(mesh, one[order], other[order])])
+    order = np.array([i for i in order if (int(found[one[i]]), int(found[other[i]])) not in joined], int)
+    order = np.sort(order[_in_sight(mesh, found[one[order]], found[other[order]])])
     one, other, apart = one[order], other[order], apart[order]
-    axis = (mesh.coordinates[other] - mesh.coordinates[one]) / apart[:, None]
-    rows = np.einsum("cd,cdr->cr", axis, u[other, :3] - u[one, :3])
-    return np.stack([one, other, np.full(len(one), ALONG)], axis=1), rows
+    axis = (xyz[other] - xyz[one]) / apart[:, None]
+    rows = np.einsum("cd,cdr->cr", axis, u[other] - u[one])
+    return np.stack([found[one], found[other], np.full(len(one), ALONG)], axis=1), rows
 
 
 def _in_a_row(u: np.ndarray, nodes: np.ndarray, joined: set) -> tuple[np.ndarray, np.ndarray]:
     """Floors of a chain of storeys, or masses in a row, that are not neighbours; from a held one it is a spring to the ground."""
-    nodes = nodes[np.abs(u[nodes, :3]).max(axis=(1, 2)) > 0]
-    own = [(i, j) for n, i in enumerate(nodes.tolist()) for j in nodes[n + 1 :].tolist() if (i, j) not in joined]
-    keys = np.array([(i, j, d) for d in range(3) for i, j in own], int).reshape(-1, 3)
-    return keys, u[keys[:, 1], keys[:, 2]] - u[keys[:, 0], keys[:, 2]]
+    free = np.flatnonzero(np.abs(u).max(axis=(1, 2)) > 0).tolist()
+    own = [(i, j) for n, i in enumerate(free) for j in free[n + 1 :] if (int(nodes[i]), int(nodes[j])) not in joined]
+    at = np.array([(i, j, d) for d in range(3) for i, j in own], int).reshape(-1, 3)
+    keys = np.column_stack([nodes[at[:, 0]], nodes[at[:, 1]], at[:, 2]])
+    return keys, u[at[:, 1], at[:, 2]] - u[at[:, 0], at[:, 2]]
 
 
 def ends(mesh: Mesh) -> np.ndarray:
