@@ -69,7 +69,7 @@ def _left(model: Reduced, measured: Shapes, rows: np.ndarray, sizes: np.ndarray)
 def _misfit(measured: Shapes, C: np.ndarray, values: np.ndarray, seen: np.ndarray) -> np.ndarray:
     """Of models (c,) with eigenvalues `values` (c, r), of which sensors see `seen` (c, s, r).
 
-    Sum of ln(1 + misfit) over the modes: the parameters turn shapes of close modes, and what makes all others is not to fail by two.
+    Sum of ln(1 + misfit) over modes: the parameters turn shapes of close modes, and what makes all others need not fail by two.
     """
     at = np.arange(len(values))
     total, off = np.zeros(len(values)), np.zeros((len(values), len(measured.modes)))
