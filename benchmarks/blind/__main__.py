@@ -15,7 +15,7 @@ from pathlib import Path
 from benchmarks.blind import beams, chains, cracks, frames, plate
 from benchmarks.blind.calculix import cached
 from benchmarks.blind.case import SPLITS, Case
-from benchmarks.blind.decks import answer, name_of, write
+from benchmarks.blind.decks import answer, deliver
 from benchmarks.blind.diagnose import diagnosed
 from benchmarks.blind.scoring import scored, tables
 from benchmarks.blind.test_data import CONFIGS, MISSTATED, measured
@@ -60,18 +60,12 @@ def decks(
     folder: Path, cases: list[Case], truths: list[dict], config: str, misstated: str, seed: int
 ) -> list[tuple[Path, dict]]:
     """Decks written to `folder`/decks, answers to `folder`/answers, and both by deck."""
-    for name in ("decks", "answers"):
-        (folder / name).mkdir(parents=True, exist_ok=True)
     made = []
     for case, truth in zip(cases, truths, strict=True):
         for draw in range(case.draws):
             words = (config, misstated, seed, draw)
             test = measured(case, truth, CONFIGS[config], words, misstated)
-            name = name_of(case, words)
-            path = write(folder / "decks", name, case, test, CONFIGS[config])
-            known = answer(case, truth, words)
-            (folder / "answers" / f"{name}.json").write_text(json.dumps(known))
-            made.append((path, known))
+            made.append(deliver(folder, case, test, CONFIGS[config], answer(case, truth, words)))
     return made
 
 

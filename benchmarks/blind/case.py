@@ -3,6 +3,7 @@
 import zlib
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -39,6 +40,7 @@ class Case:
     choices: tuple[int, ...] = ()  # sites from which sensors are chosen; empty: all
     files: dict[str, str] = field(default_factory=dict)  # that the deck refers to
     sizes: dict[str, float] = field(default_factory=dict)  # of the cause, by the names that the tool gives them
+    config: Any = None  # sensors and noise of its own, a Config of `test_data`
 
 
 def generator(*words: object) -> np.random.Generator:

@@ -1,17 +1,28 @@
 """A case as two things: a deck, which holds what an engineer would know, and an answer, which the tool never reads."""
 
 import hashlib
+import json
 from pathlib import Path
 
 import numpy as np
 
 from benchmarks.blind.case import Case
-from benchmarks.blind.test_data import MEASURED, Config, Measured
+from benchmarks.blind.test_data import Config, Measured
 
 
 def name_of(case: Case, words: tuple) -> str:
     """A name that says nothing: part of a hash."""
     return hashlib.sha256(repr((case.name, *words)).encode()).hexdigest()[:10]
+
+
+def deliver(folder: Path, case: Case, test: Measured, config: Config, known: dict) -> tuple[Path, dict]:
+    """The deck in `folder`/decks, the answer in `folder`/answers, and both."""
+    for name in ("decks", "answers"):
+        (folder / name).mkdir(parents=True, exist_ok=True)
+    name = name_of(case, tuple(known["words"]))
+    path = write(folder / "decks", name, case, test, config)
+    (folder / "answers" / f"{name}.json").write_text(json.dumps(known))
+    return path, known
 
 
 def write(folder: Path, name: str, case: Case, test: Measured, config: Config) -> Path:
@@ -48,7 +59,7 @@ def _test(case: Case, test: Measured, config: Config) -> str:
         f"    dofs: [{', '.join(dofs)}]",
         *("    shapes:", *rows, f"    shape_sd: {100 * config.shape_sd:g} %"),
         "  hold_out:",
-        f"    modes: {list(case.numbers[MEASURED:m])}",
+        f"    modes: {list(case.numbers[config.modes : m])}",
         "    altered:",
         "      - title: mass added",
         f"        mass: {case.altered}",

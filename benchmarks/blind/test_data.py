@@ -11,11 +11,12 @@ MEASURED = 5  # modes
 
 @dataclass(frozen=True)
 class Config:
-    """Number of sensors; sd of frequencies, of each, and of shapes, of the largest component of a mode."""
+    """Number of sensors; sd of frequencies, of each, and of shapes, of the largest component of a mode; modes to be fitted."""
 
     sensors: int
     frequency_sd: float
     shape_sd: float
+    modes: int = MEASURED
 
 
 CONFIGS = {
@@ -36,7 +37,7 @@ MISSTATED = (
 class Measured:
     """sites (s,): indices into those of the case; frequency (m,); shapes (s, m), the largest component of a mode about 1.
 
-    The first MEASURED modes are to be fitted, the rest is held out, as is altered (a,), the frequencies with a mass added.
+    The first `modes` of the configuration are to be fitted, the rest is held out, as is altered (a,), with a mass added.
     """
 
     sites: list[int]
@@ -62,7 +63,7 @@ def measured(case: Case, truth: dict[str, np.ndarray], config: Config, words: tu
     frequency = truth["frequency"][:count] * (1 + scale * config.frequency_sd * rng.standard_normal(count))
     if misstated == "drift":
         frequency = frequency * (1 + rng.uniform(-0.01, 0.01, count))
-    altered = truth["altered"][:MEASURED]
+    altered = truth["altered"][: config.modes]
     altered = altered * (1 + scale * config.frequency_sd * rng.standard_normal(len(altered)))
     return Measured(sites, frequency, readings, altered)
 

@@ -20,6 +20,7 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.localise.energy_map import energy_map
 from mouse_cli.diagnosis.localise.force import locate
 from mouse_cli.diagnosis.localise.implied_law import implied_law
+from mouse_cli.diagnosis.localise.ties import ties
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
 from mouse_cli.diagnosis.nameless.fit import field_of
 from mouse_cli.diagnosis.names import by_records
@@ -163,7 +164,8 @@ def _model(problem: Problem, solver: EigenSolver) -> tuple[Reduced, tuple[str, .
         return model, ()
     found = numerics(problem, problem.prior.mean, bare.modes, model.data.sd_log)
     still = np.zeros(model.data.has_shape.shape)
-    return replace(model, data=model.data.loosened(np.abs(found.moved), still)), found.remarks
+    model = replace(model, data=model.data.loosened(np.abs(found.moved), still))
+    return replace(model, ties=ties(model)), found.remarks
 
 
 def _coarse(deck: Problem) -> tuple[str, ...]:

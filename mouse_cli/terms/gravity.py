@@ -21,7 +21,7 @@ def axial_forces(mesh: Mesh, sets: list[ElementMatrices], motion: Motion, K: Mat
     load = _weights(mesh, sets)
     found = {}
     if any(m.kind.axial is not None for m in sets):
-        u = motion.apply(_displacements(K, motion.load(load)))
+        u = motion.apply(displacements(K, motion.load(load)))
         for i, m in enumerate(sets):
             tension = m.tension(u[_dofs(m)])
             if tension is not None:
@@ -46,7 +46,7 @@ def _weights(mesh: Mesh, sets: list[ElementMatrices]) -> np.ndarray:
     return load
 
 
-def _displacements(K: Matrix, f: np.ndarray) -> np.ndarray:
+def displacements(K: Matrix, f: np.ndarray) -> np.ndarray:
     """K^-1 f. Raises NoLoadPath where K does not resist f."""
     if is_sparse(K):
         from scipy.sparse import diags_array

@@ -64,6 +64,35 @@ MODELS = {
 """,
         [(8, "TY"), (8, "TZ"), (14, "TY"), (14, "TZ"), (21, "TY"), (21, "TZ")],
     ),
+    "tower": (
+        f"""
+  structure:
+    nodes:
+      - {{1: [0, 0, 0], 2: [3, 0, 0], 3: [3, 4, 0], 4: [0, 4, 0], 5: [0, 0, 3], 6: [3, 0, 3], 7: [3, 4, 3], 8: [0, 4, 3]}}
+      - {{line: {{from: 11, to: 14, start: [0, 0, 0.6], end: [0, 0, 2.4]}}}}
+      - {{line: {{from: 21, to: 24, start: [3, 0, 0.6], end: [3, 0, 2.4]}}}}
+      - {{line: {{from: 31, to: 34, start: [3, 4, 0.6], end: [3, 4, 2.4]}}}}
+      - {{line: {{from: 41, to: 44, start: [0, 4, 0.6], end: [0, 4, 2.4]}}}}
+      - {{line: {{from: 51, to: 52, start: [1, 0, 3], end: [2, 0, 3]}}}}
+      - {{line: {{from: 61, to: 62, start: [3, 1.5, 3], end: [3, 2.5, 3]}}}}
+      - {{line: {{from: 71, to: 72, start: [2, 4, 3], end: [1, 4, 3]}}}}
+      - {{line: {{from: 81, to: 82, start: [0, 2.5, 3], end: [0, 1.5, 3]}}}}
+    {STEEL}
+    sections: {{column: {{rectangle: [0.2, 0.25]}}, beam: {{rectangle: [0.15, 0.2]}}}}
+    elements:
+      - {{id: 11-15, type: beam, nodes: [1, 11-14, 5], material: steel, section: column}}
+      - {{id: 21-25, type: beam, nodes: [2, 21-24, 6], material: steel, section: column}}
+      - {{id: 31-35, type: beam, nodes: [3, 31-34, 7], material: steel, section: column}}
+      - {{id: 41-45, type: beam, nodes: [4, 41-44, 8], material: steel, section: column}}
+      - {{id: 51-53, type: beam, nodes: [5, 51-52, 6], material: steel, section: beam}}
+      - {{id: 61-63, type: beam, nodes: [6, 61-62, 7], material: steel, section: beam}}
+      - {{id: 71-73, type: beam, nodes: [7, 71-72, 8], material: steel, section: beam}}
+      - {{id: 81-83, type: beam, nodes: [8, 81-82, 5], material: steel, section: beam}}
+      - {{id: 91-94, type: mass, nodes: [5, 6, 7, 8], mass: [900, 1000, 1100, 800]}}
+    supports: {{1: all, 2: all, 3: all, 4: all}}
+""",
+        [(5, "TX"), (5, "TY"), (7, "TX"), (7, "TY"), (8, "TX")],
+    ),
     "storeys": (
         """
   structure:
@@ -126,7 +155,7 @@ def deck(name: str, folder) -> "Problem":  # noqa: F821
 
 
 _E = "parameters:\n  - {name: E, material: steel, property: E, sd: 3 %}\n"
-_PARAMETERS = dict.fromkeys(("cantilever", "free", "portal", "space"), _E)
+_PARAMETERS = dict.fromkeys(("cantilever", "free", "portal", "space", "tower"), _E)
 _PARAMETERS["laden"] = _E + "  - {name: tip, elements: 43, property: mass, sd: 30 %}\n"
 _PARAMETERS["storeys"] = "parameters:\n  - {name: storey, elements: 1-5, property: TX, factor: true, sd: 10 %}\n"
 _PARAMETERS["masses"] = "parameters:\n  - {name: k, elements: 11-13, property: TX, sd: 10 %}\n"

@@ -4,7 +4,7 @@ import numpy as np
 
 from benchmarks.trials.case import Blank, Mechanism
 from benchmarks.trials.library import joint_at, log_uniform, somewhere
-from benchmarks.trials.outside.places import FOOT, LOCAL, MASS, MOUNT, OSCILLATOR, around
+from benchmarks.trials.outside.places import BRACE, FOOT, LOCAL, MASS, MOUNT, OSCILLATOR, around
 
 
 def rocking(blank: Blank, rng: np.random.Generator) -> Mechanism:
@@ -33,7 +33,11 @@ def distant(blank: Blank, rng: np.random.Generator) -> Mechanism:
             break
     k = blank.weight * blank.first**2 * log_uniform(rng, 0.2, 3.0) * (1.0 if blank.lines else 0.1)
     blank.truth.spring({a: 1.0, b: -1.0}, k)
-    return Mechanism("spring between distant places", size=k, properties=LOCAL, regions=around(p, q))
+    about = {"properties": LOCAL, "regions": around(p, q)}
+    if blank.family in ("chain", "storeys"):  # whose springs act along one direction, as a brace of the library does
+        at = tuple(np.mean([p, q], axis=0).tolist())
+        return Mechanism("spring between distant places", "", "", at, blank.near(), k, (BRACE,), **about)
+    return Mechanism("spring between distant places", size=k, **about)
 
 
 def eccentric(blank: Blank, rng: np.random.Generator) -> Mechanism:

@@ -136,12 +136,16 @@ class Edit:
 
     def detach(self, element: tuple[int, int], end: int) -> int:
         """A node of its own, at the same place, for one end (0, 1) of an element; it is not tied to the old one."""
+        new = self.node(self.coordinates[self.sets[element[0]].nodes[element[1], end]])
+        self.move_to(element, new, end)
+        return new
+
+    def move_to(self, element: tuple[int, int], node: int, end: int = 0) -> None:
+        """Puts one end of an element to another node."""
         s, i = element
         nodes = self.sets[s].nodes.copy()
-        new = self.node(self.coordinates[nodes[i, end]])
-        nodes[i, end] = new
+        nodes[i, end] = node
         self.sets[s] = replace(self.sets[s], nodes=nodes)
-        return new
 
     def extract(self, elements: list[tuple[int, int]]) -> list[tuple[int, int]]:
         """The same elements, all of one set, in a set of their own."""

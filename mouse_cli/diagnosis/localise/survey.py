@@ -73,20 +73,14 @@ def _felt(model: Reduced, update: Fit, count: int) -> np.ndarray:
     of a model that is nearly right are made by a force anywhere: what is weak is found so.
     """
     T, X = update.model.jacobian(update.point), update.point.X
-    follow = np.linalg.solve(T.T @ T + np.eye(T.shape[1]), T.T)
-
-    def felt(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Gain (2, n) of a spring and of a mass, and what they do (2, q, n), of unit length."""
-        g = _effects(update, rows @ X)
-        left = np.maximum(np.einsum("cqn,cqn->cn", g, g - T @ (follow @ g)), 1e-300)
-        return np.maximum(np.einsum("q,cqn->cn", update.point.residual, g), 0.0) ** 2 / left, g / np.sqrt(left)[:, None]
-
     size = _EACH // 10
-    gain = np.concatenate([felt(model.V[i : i + size])[0] for i in range(0, len(model.V), size)], axis=1)
+    gain = np.concatenate(
+        [gained(update, T, model.V[i : i + size] @ X)[0] for i in range(0, len(model.V), size)], axis=1
+    )
     found: list[int] = []
     for c in range(2):
         order = np.argsort(-gain[c], kind="stable")[: size // 4]
-        effect = felt(model.V[order])[1][c]
+        effect = gained(update, T, model.V[order] @ X)[1][c]
         free = gain[c, order] > 0
         for _ in range(count - count // 2):
             if not free.any():
@@ -95,6 +89,17 @@ def _felt(model: Reduced, update: Fit, count: int) -> np.ndarray:
             found.append(int(order[i]))
             free &= effect.T @ effect[:, i] < _LIKE * np.linalg.norm(effect[:, i]) * np.linalg.norm(effect, axis=0)
     return np.array(found[:count], int)
+
+
+def gained(update: Fit, T: np.ndarray, B: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """What a little spring and a little mass gain (2, n) of the misfit at each row of B (n, r) in own modes, see `_felt`.
+
+    And what they do to the data (2, q, n), over the length of what the deck's parameters, of derivatives T (q, k), cannot follow.
+    """
+    follow = np.linalg.solve(T.T @ T + np.eye(T.shape[1]), T.T)
+    g = _effects(update, B)
+    left = np.maximum(np.einsum("cqn,cqn->cn", g, g - T @ (follow @ g)), 1e-300)
+    return np.maximum(np.einsum("q,cqn->cn", update.point.residual, g), 0.0) ** 2 / left, g / np.sqrt(left)[:, None]
 
 
 def _effects(update: Fit, B: np.ndarray) -> np.ndarray:

@@ -2,7 +2,7 @@
 
 force: along or across a bar, or in a direction of a node, or on a degree of freedom; moment: about an axis of a node. Pairs of
 equal and opposite ones: hinge, the bending moments where a bar gives way; slide, the shear forces there; stretch, those along a
-bar; pair, between two nodes or degrees of freedom that are coupled in K.
+bar; pair, between two nodes or degrees of freedom that are coupled in K; tie, between two that nothing joins.
 """
 
 from collections.abc import Callable
@@ -12,13 +12,22 @@ import numpy as np
 
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.sites.bars import Bars
+from mouse_cli.diagnosis.sites.pairs import chosen, site_of
 from mouse_cli.model.arrays import is_sparse
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.mesh import Mesh
 
-FORCE, MOMENT, HINGE, SLIDE, STRETCH, PAIR = "force", "moment", "hinge", "slide", "stretch", "pair"
-LIKELY = {FORCE: 1.0, HINGE: 1.0, PAIR: 1.0, MOMENT: 0.1, SLIDE: 0.1, STRETCH: 0.1}  # masses turn, but they move first
+FORCE, MOMENT, HINGE, SLIDE, STRETCH, PAIR, TIE = "force", "moment", "hinge", "slide", "stretch", "pair", "tie"
+LIKELY = {
+    FORCE: 1.0,
+    HINGE: 1.0,
+    PAIR: 1.0,
+    MOMENT: 0.1,
+    SLIDE: 0.1,
+    STRETCH: 0.1,
+    TIE: 0.1,
+}  # masses turn, but they move first
 _PLACES = 160  # places along bars from which on each bar has one
 _STILL = 1e-9  # share of the largest motion below which a place does not move
 
@@ -39,6 +48,7 @@ class Channel:
 def channels(model: Reduced) -> list[Channel]:
     """All that one force may act through, those that the coordinates do not move left out."""
     found = _structure(model) if model.motion is not None else _bare(model)
+    found += _ties(model)
     return [moving for one in found if (moving := _moving(one)) is not None]
 
 
@@ -134,6 +144,14 @@ def _between_nodes(model: Reduced) -> list[Channel]:
 
     joined = np.concatenate(rows)
     return [Channel(PAIR, joined, np.ones(len(joined)), site)]
+
+
+def _ties(model: Reduced) -> list[Channel]:
+    """Pairs that nothing joins."""
+    found = chosen(model)
+    if not len(found):
+        return []
+    return [Channel(TIE, found.rows, np.ones(len(found)), lambda i: site_of(model, found.keys[i]))]
 
 
 def _bare(model: Reduced) -> list[Channel]:

@@ -33,7 +33,7 @@ class Reduced:
     derivatives along `directions` (p, k) of theta.
 
     sensing (s, r); V (n, r); data: the test. places: degrees of freedom (from 0) at which a force is exact, of a large model;
-    None: everywhere.
+    None: everywhere. ties (c, 3): pairs of places that are worth looking at, see `sites/pairs.py`; None: no look was taken.
     """
 
     problem: Problem
@@ -49,6 +49,7 @@ class Reduced:
     assembly: Assembly
     places: np.ndarray | None = None
     origin: np.ndarray | None = None
+    ties: np.ndarray | None = None
 
     @property
     def r(self) -> int:
@@ -197,7 +198,7 @@ class Reduced:
         """The same model at other values theta (p,) of its parameters; a large one in the same coordinates and places."""
         if self.V.shape[0] <= WHOLE:
             matrices = self.assembly.matrices(theta)
-            return replace(exact(self.problem, self.assembly, *matrices, theta), data=self.data)
+            return replace(exact(self.problem, self.assembly, *matrices, theta), data=self.data, ties=self.ties)
         return replace(self, theta=theta, origin=self.theta if self.origin is None else self.origin)
 
     def without(self, keep_modes: np.ndarray) -> "Reduced":

@@ -1,0 +1,47 @@
+"""Masses on rigid arms: the end of an arm a moves as u + theta x a when its node moves by u and turns by theta."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Unknown
+from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.likelihoods.modal.scales import span
+from mouse_cli.model.mesh import RigidLink
+
+_LONGEST = 0.3  # of the structure
+_BEGIN = 0.4  # of the longest, where a search begins
+_STILL = 1e-6  # of the largest translation: what turning by a rad adds to that, below which no arm is felt
+_AXES = "XYZ"
+
+
+def arms(model: Reduced, node: int) -> tuple[tuple[Unknown, ...], np.ndarray, list[int]]:
+    """Components of an arm that matter at a node (index), arms (g, c) to begin from, and the axes (c,) of the components.
+
+    None matters where the node does not turn.
+    """
+    used = slice(0, min(model.r, int(model.data.test.number.max()) + 2))
+    rows, length = model.node(node)[:, used], _LONGEST * span(model)
+    felt = [np.abs(np.cross(np.eye(3)[d], rows[3:], axisb=0)).max(initial=0.0) * length for d in range(3)]
+    axes = [d for d in range(3) if felt[d] > _STILL * np.abs(rows[:3]).max(initial=0.0)]
+    unknowns = tuple(Unknown(f"arm along {_AXES[d]}", "m", -length, length, log=False) for d in axes)
+    signs = np.concatenate([np.eye(len(axes)), -np.eye(len(axes))])
+    return unknowns, _BEGIN * length * signs, axes
+
+
+def arm(values: np.ndarray, axes: list[int]) -> np.ndarray:
+    """The arm (3,) of components `values` (c,)."""
+    found = np.zeros(3)
+    found[axes] = values
+    return found
+
+
+def at_end(rows: np.ndarray, vector: np.ndarray) -> np.ndarray:
+    """Motion (3, r) of the end of an arm (3,) from that (6, r) of its node."""
+    return rows[:3] + np.cross(rows[3:], vector, axisa=0).T
+
+
+def with_arm(edit: Edit, node: int, vector: np.ndarray) -> int:
+    """A new node (index) at the end of a rigid arm from a node."""
+    end = edit.node(edit.coordinates[node] + vector)
+    edit.links.append(RigidLink(node, end))
+    return end

@@ -1,0 +1,84 @@
+"""A first look at pairs of places that nothing joins: along which of them a spring could make what was measured.
+
+By two rules, as neither alone finds all. To first order a spring k along b moves the data by k g, g their derivatives; with the
+deck's parameters following, T their derivatives, it gains
+
+    (g'r)^2 / (g'g - g'T (T'T + I)^-1 T'g)        where g'r > 0
+
+of the misfit of the residual r: it ranks what is weak, and what acts on frequencies alone. And for what is not weak, the modes of
+diag(lambda) + k b b' in the lowest coordinates at a few k, each measured mode beside the one that is most like it; the frequencies
+may be off by what the prior of the parameters allows, I + T T' in their accuracies.
+"""
+
+import numpy as np
+
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.likelihoods.modal.scales import lowest, total_mass
+from mouse_cli.diagnosis.localise.matching import Shapes, shapes
+from mouse_cli.diagnosis.localise.survey import gained
+from mouse_cli.diagnosis.search.fit import fit
+from mouse_cli.diagnosis.sites.pairs import MOST, pairs
+
+_SIZES = 10.0 ** np.arange(-2.5, 3.0)  # of the mass times the lowest measured eigenvalue
+_BETWEEN, _CLOSER = 10.0 ** (np.array([-1, 1]) / 3), 300  # times these, for so many of the best
+_COARSE, _BESIDE = 24, 8  # coordinates at least, and besides those of the measured modes
+_EACH = 256  # pairs worked on at once
+
+
+def ties(model: Reduced) -> np.ndarray | None:
+    """Keys (c, 3) of the MOST pairs that are worth fitting; None where there are no more."""
+    found = pairs(model)
+    if len(found) <= MOST:
+        return None
+    update = fit(Model(model), np.zeros(0))
+    if update is None:
+        return None
+    gain, _ = gained(update, update.model.jacobian(update.point), found.rows @ update.point.X)
+    order = [np.argsort(-gain[0], kind="stable")]
+    measured = shapes(model)
+    if len(measured.modes) and measured.dof > 0:
+        left = _left(model, measured, found.rows, _SIZES)
+        best = np.argsort(left, kind="stable")[:_CLOSER]
+        closer = _left(model, measured, found.rows[best], np.outer(_SIZES, _BETWEEN).ravel())
+        left[best] = np.minimum(left[best], closer)
+        order.append(np.argsort(left, kind="stable"))
+    mixed = np.stack(order, axis=1).ravel()
+    kept = mixed[np.sort(np.unique(mixed, return_index=True)[1])][:MOST]
+    return found.keys[np.sort(kept)]
+
+
+def _left(model: Reduced, measured: Shapes, rows: np.ndarray, sizes: np.ndarray) -> np.ndarray:
+    """The least misfit (c,) of shapes and frequencies over the `sizes` of a spring along each of `rows` (c, r)."""
+    own = model.data.test.number[measured.modes] - 1
+    r = min(model.r, max(_COARSE, int(own.max()) + 1 + _BESIDE))
+    dK, dM = model.slopes(np.zeros(model.L.shape[1]))
+    T = (dK[:, own, own] - model.eigenvalues[own] * dM[:, own, own]).T / measured.sd[:, None]
+    C = np.linalg.inv(np.eye(len(own)) + T @ T.T)
+    least = np.full(len(rows), np.inf)
+    for size in sizes * lowest(model) * total_mass(model):
+        for first in range(0, len(rows), _EACH):
+            b = rows[first : first + _EACH, :r]
+            A = np.diag(model.eigenvalues[:r]) + size * b[:, :, None] * b[:, None, :]
+            values, Q = np.linalg.eigh(A)
+            cost = _misfit(measured, C, values, model.sensing[:, :r] @ Q)
+            least[first : first + _EACH] = np.minimum(least[first : first + _EACH], cost)
+    return least
+
+
+def _misfit(measured: Shapes, C: np.ndarray, values: np.ndarray, seen: np.ndarray) -> np.ndarray:
+    """Of models (c,) with eigenvalues `values` (c, r), of which sensors see `seen` (c, s, r).
+
+    Sum of ln(1 + misfit) over modes: the parameters turn shapes of close modes, and what makes all others need not fail by two.
+    """
+    at = np.arange(len(values))
+    total, off = np.zeros(len(values)), np.zeros((len(values), len(measured.modes)))
+    for i, lam in enumerate(measured.eigenvalue):
+        h, y = seen * measured.weight[:, i, None], measured.y[:, i]
+        shape = y @ y - np.einsum("s,csr->cr", y, h) ** 2 / np.maximum(np.einsum("csr,csr->cr", h, h), 1e-300)
+        t = (values - lam) / measured.sd[i]
+        best = np.argmin(shape + C[i, i] * t**2, axis=1)
+        total += np.log1p(np.maximum(shape[at, best], 0.0))
+        off[:, i] = t[at, best]
+    each = np.maximum(np.einsum("ci,ij,cj->c", off, C, off), 0.0) / off.shape[1]
+    return total + off.shape[1] * np.log1p(each)

@@ -1,0 +1,63 @@
+"""A mass on a rigid arm from a node: a tank on a bracket, a machine beside the axis of a floor."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.arms import arm, arms, at_end, with_arm
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown
+from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.likelihoods.modal.scales import total_mass
+from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.pairs import ends
+from mouse_cli.diagnosis.sites.points import wanted
+from mouse_cli.model.diagnosis import Site
+from mouse_cli.model.problem import Problem
+
+_MOST = 40  # nodes that are looked at: those that turn most in the measured modes
+_BEGIN = 0.03  # of the whole mass
+
+
+def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
+    """M + m B'B, B = T + R x a the motion of the end of an arm a: at ends of members and at nodes with point masses."""
+    if model.motion is None:
+        return []
+    mesh, keep = model.problem.mesh, wanted(model)
+    heavy = [elements.nodes[:, 0] for elements in mesh.elements if elements.type == "mass"]
+    nodes = np.unique(np.concatenate([ends(mesh), *heavy])).tolist()
+    found = [(node, arms(model, node)) for node in nodes if keep is None or keep[node]]
+    found = [(node, about) for node, about in found if about[0]]
+    count = min(model.r, int(model.data.test.number.max()) + 2)
+    turned = [np.abs(model.node(node)[3:, :count]).max() for node, _ in found]
+    chosen = [found[i] for i in sorted(np.argsort(turned, kind="stable")[::-1][:_MOST])]
+    return [_recipe(model, candidate, node, about, len(found)) for node, about in chosen]
+
+
+def _recipe(model: Reduced, candidate: Candidate, node: int, about: tuple, count: int) -> Recipe:
+    unknowns, starts, axes = about
+    rows, number, total = model.node(node), int(model.problem.mesh.node_ids[node]), total_mass(model)
+    m = Unknown("mass", "kg", 1e-3 * total, 0.5 * total)
+    site = Site("node", (number,), tuple(model.problem.mesh.coordinates[node].tolist()), f"an arm from node {number}")
+
+    def change(values: np.ndarray) -> Change:
+        B = at_end(rows, arm(values[1:], axes))
+        return Change(M=values[0] * B.T @ B)
+
+    def extend(problem: Problem, values: np.ndarray) -> Problem:
+        edit = Edit(problem)
+        end = with_arm(edit, edit.index(number), arm(values[1:], axes))
+        edit.bind(f"mass on {site.text}", edit.add("mass", [[end]], {"mass": values[0]}), ("mass",), unit="kg")
+        return edit.done()
+
+    grid = np.hstack([np.full((len(starts), 1), _BEGIN * total), starts])
+    log_prior = -float(np.log(count))
+    return Recipe(candidate, (m, *unknowns), change, grid, lambda values: site, log_prior=log_prior, extend=extend)
+
+
+CANDIDATE = Candidate(
+    "eccentric-mass",
+    "a lumped mass on an arm",
+    "mass",
+    "something heavy on a rigid arm from a node, such as a tank on a bracket or a machine far from the axis of a floor: M + m B'B, "
+    "B = T + R x a for translations T and rotations R of the node, so that it turns what it moves",
+    recipes,
+)

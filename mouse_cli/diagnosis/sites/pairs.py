@@ -1,0 +1,182 @@
+"""Pairs of places that nothing joins yet: where a brace, a cable or a strut may act, and by which motion."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.model.arrays import dense
+from mouse_cli.model.diagnosis import Site
+from mouse_cli.model.geometry import DIRECTIONS
+from mouse_cli.model.mesh import Mesh
+
+ALONG = -1  # direction of a pair that acts along the line from one to the other
+MOST = 40  # pairs that are fitted
+_STILL = 0.02  # share of the largest elongation in a measured mode below which a pair does not take part
+_SPRINGS = 60  # degrees of freedom or nodes up to which a model of springs is looked at
+_ENDS, _LOOKED = 600, 3000  # ends of members, and pairs of them, the closest first, that are looked at
+_STRAIGHT = 0.999  # cosine from which on one member continues another
+_SIGHT = 1e-3  # of the distance: how near to the line a third node is in the way
+_EACH = 256  # pairs worked on at once
+
+
+@dataclass(frozen=True)
+class Pairs:
+    """keys (c, 3): nodes (indices), or degrees of freedom of a model of matrices, and a direction (0 to 5) or ALONG.
+
+    rows (c, r): b, the motion of the second relative to the first in that direction. likely: of how many these are a choice.
+    """
+
+    keys: np.ndarray
+    rows: np.ndarray
+    likely: int
+
+    def __len__(self) -> int:
+        return len(self.keys)
+
+    def only(self, which: np.ndarray) -> "Pairs":
+        """Some of them."""
+        return Pairs(self.keys[which], self.rows[which], self.likely)
+
+
+def chosen(model: Reduced) -> Pairs:
+    """Those that a first look over the data found worth fitting, or that the measured modes strain most."""
+    found = pairs(model)
+    if model.ties is not None:
+        number = {tuple(key): i for i, key in enumerate(found.keys.tolist())}
+        own = [number[tuple(key)] for key in model.ties.tolist() if tuple(key) in number]
+        return found.only(np.array(own, int))
+    return found.only(np.sort(strained(model, found)[:MOST]))
+
+
+def strained(model: Reduced, found: Pairs) -> np.ndarray:
+    """Their order, those first that take most of the energy of a measured mode when they are there."""
+    count = _count(model)
+    scale = np.maximum(model.eigenvalues[:count], 1e-9 * model.eigenvalues[-1])
+    return np.argsort(-(found.rows[:, :count] ** 2 / scale).max(axis=1, initial=0.0), kind="stable")
+
+
+def pairs(model: Reduced) -> Pairs:
+    """Ends of members in sight of one another; in a row of springs all that are not neighbours.
+
+    Along a straight line of bars nothing is in sight but the neighbour: a beam has none.
+    """
+    if model.motion is None:
+        keys, rows = _uncoupled(model)
+    else:
+        keys, rows = _between_ends(model)
+    size = np.abs(rows[:, : _count(model)]).max(axis=1, initial=0.0)
+    kept = np.flatnonzero(size > _STILL * size.max(initial=0.0))
+    return Pairs(keys[kept], rows[kept], len(kept))
+
+
+def site_of(model: Reduced, key: np.ndarray) -> Site:
+    """A pair in words."""
+    one, other, direction = key.tolist()
+    if model.motion is None:
+        labels = tuple(model.problem.structure.labels[i] for i in (one, other))
+        return Site("dof", labels, None, f"between degrees of freedom {labels[0]} and {labels[1]}")
+    mesh = model.problem.mesh
+    ids = tuple(int(mesh.node_ids[i]) for i in (one, other))
+    middle = tuple(mesh.coordinates[[one, other]].mean(axis=0).tolist())
+    along = "" if direction == ALONG else f", {DIRECTIONS[direction]}"
+    return Site("node", ids, middle, f"between nodes {ids[0]} and {ids[1]}{along}")
+
+
+def _count(model: Reduced) -> int:
+    return min(model.r, int(model.data.test.number.max()) + 1)
+
+
+def _uncoupled(model: Reduced) -> tuple[np.ndarray, np.ndarray]:
+    """Degrees of freedom of a model of springs that no spring joins; none where K is not made of springs."""
+    K = dense(model.assembly.matrices(model.theta)[0]) if model.problem.structure.n <= _SPRINGS else np.ones((1, 1))
+    off = K - np.diag(np.diag(K))
+    if model.problem.structure.geometry is not None or (off > 1e-9 * np.abs(K).max()).any() or not off.any():
+        return _none(model)
+    one, other = np.nonzero(np.triu(off == 0, 1))
+    return np.stack([one, other, np.full(len(one), ALONG)], axis=1), model.V[other] - model.V[one]
+
+
+def _none(model: Reduced) -> tuple[np.ndarray, np.ndarray]:
+    return np.zeros((0, 3), int), np.zeros((0, model.r))
+
+
+def _between_ends(model: Reduced) -> tuple[np.ndarray, np.ndarray]:
+    """Along the line between ends of members; in each direction where all nodes are in one row."""
+    mesh = model.problem.mesh
+    found, joined = ends(mesh), _joined(mesh)
+    if not 2 < len(found) <= _ENDS:
+        return _none(model)
+    u = np.array([model.node(int(i))[:3] for i in found])
+    xyz = mesh.coordinates[found]
+    if np.linalg.matrix_rank(xyz - xyz[0], tol=1e-9 * _size(mesh)) < 2:
+        return _none(model) if model.bars is not None or len(found) > _SPRINGS else _in_a_row(u, found, joined)
+    one, other = np.triu_indices(len(found), 1)
+    apart = np.linalg.norm(xyz[other] - xyz[one], axis=1)
+    order = np.argsort(apart, kind="stable")
+    order = order[apart[order] > 1e-6 * _size(mesh)][:_LOOKED]
+    order = np.array([i for i in order if (int(found[one[i]]), int(found[other[i]])) not in joined], int)
+    order = np.sort(order[_in_sight(mesh, found[one[order]], found[other[order]])])
+    one, other, apart = one[order], other[order], apart[order]
+    axis = (xyz[other] - xyz[one]) / apart[:, None]
+    rows = np.einsum("cd,cdr->cr", axis, u[other] - u[one])
+    return np.stack([found[one], found[other], np.full(len(one), ALONG)], axis=1), rows
+
+
+def _in_a_row(u: np.ndarray, nodes: np.ndarray, joined: set) -> tuple[np.ndarray, np.ndarray]:
+    """Floors of a chain of storeys, or masses in a row, that are not neighbours; from a held one it is a spring to the ground."""
+    free = np.flatnonzero(np.abs(u).max(axis=(1, 2)) > 0).tolist()
+    own = [(i, j) for n, i in enumerate(free) for j in free[n + 1 :] if (int(nodes[i]), int(nodes[j])) not in joined]
+    at = np.array([(i, j, d) for d in range(3) for i, j in own], int).reshape(-1, 3)
+    keys = np.column_stack([nodes[at[:, 0]], nodes[at[:, 1]], at[:, 2]])
+    return keys, u[at[:, 1], at[:, 2]] - u[at[:, 0], at[:, 2]]
+
+
+def ends(mesh: Mesh) -> np.ndarray:
+    """Nodes (indices) of two-node elements at which not just one straight member passes."""
+    arms: dict[int, list[np.ndarray]] = {}
+    for elements in mesh.elements:
+        if elements.nodes.shape[1] == 2:
+            along = mesh.coordinates[elements.nodes[:, 1]] - mesh.coordinates[elements.nodes[:, 0]]
+            bent = np.full(len(elements), elements.type != "beam")
+            along[bent] = 0.0  # only beams carry a load past a node
+            for (a, b), vector in zip(elements.nodes.tolist(), along, strict=True):
+                arms.setdefault(a, []).append(vector), arms.setdefault(b, []).append(-vector)
+    held = set(mesh.supports[:, 0].tolist())
+    return np.array(sorted(node for node, own in arms.items() if node in held or not _passes(own)), int)
+
+
+def _passes(arms: list[np.ndarray]) -> bool:
+    """Whether two elements alone meet and continue one another."""
+    if len(arms) != 2:
+        return False
+    size = np.linalg.norm(arms[0]) * np.linalg.norm(arms[1])
+    return bool(size > 0 and arms[0] @ arms[1] < -_STRAIGHT * size)
+
+
+def _joined(mesh: Mesh) -> set[tuple[int, int]]:
+    """Nodes (i < j) that an element or a rigid link joins."""
+    found = {tuple(sorted((link.independent, link.dependent))) for link in mesh.links}
+    for elements in mesh.elements:
+        if elements.nodes.shape[1] == 2:
+            found |= {tuple(pair) for pair in np.sort(elements.nodes, axis=1).tolist()}
+    return found
+
+
+def _size(mesh: Mesh) -> float:
+    return float(np.ptp(mesh.coordinates, axis=0).max())
+
+
+def _in_sight(mesh: Mesh, one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Mask of the pairs between which no third node is."""
+    xyz, free = mesh.coordinates, np.ones(len(one), bool)
+    for first in range(0, len(one), _EACH):
+        own = slice(first, first + _EACH)
+        start, along = xyz[one[own]], xyz[other[own]] - xyz[one[own]]
+        to = xyz[None] - start[:, None]
+        length = np.linalg.norm(along, axis=1)[:, None]
+        share = np.einsum("cnd,cd->cn", to, along) / length**2
+        off = np.linalg.norm(to - share[..., None] * along[:, None], axis=2)
+        between = (off < _SIGHT * length) & (share > _SIGHT) & (share < 1 - _SIGHT)
+        free[own] = ~between.any(axis=1)
+    return free

@@ -1,0 +1,45 @@
+"""The blind cases of space frames and storey buildings: OpenSees on closed forms, decks that say nothing of the cause."""
+
+import importlib.util
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mouse_cli.dynamics.eigen import dense_solution
+from mouse_cli.formats import read_deck
+from mouse_cli.model.arrays import dense
+from mouse_cli.terms.assembly import assembly
+
+TOP = Path(__file__).resolve().parents[2]
+pytestmark = pytest.mark.skipif(importlib.util.find_spec("openseespy") is None, reason="openseespy is not installed")
+
+
+def _run(*arguments: str) -> str:
+    command = [sys.executable, "-m", "benchmarks.blind.space", *arguments]
+    return subprocess.run(command, cwd=TOP, capture_output=True, text=True, check=True).stdout
+
+
+def test_the_truth_solver_meets_closed_forms():
+    errors = re.findall(r" ([\d.]+)$", _run("--verify"), re.MULTILINE)
+    assert len(errors) == 2 and max(map(float, errors)) < 0.01
+
+
+def test_decks_of_controls_are_the_truth_and_others_say_nothing(tmp_path):
+    _run("--count", "2", "--jobs", "1", "--cache", str(tmp_path / "truths"), "--output", str(tmp_path), "--decks-only")
+    words = ("soft", "flexib", "rock", "brace", "control")
+    for path in sorted((tmp_path / "decks").glob("*.yaml")):
+        assert not any(word in path.read_text() for word in words)
+    import json
+
+    found = [json.loads(path.read_text()) | {"stem": path.stem} for path in (tmp_path / "answers").glob("*.json")]
+    assert {one["truth"] for one in found} >= {"control", "softer member", "rocking foundation"}
+    for one in (one for one in found if one["truth"] == "control"):
+        problem = read_deck(tmp_path / "decks" / f"{one['stem']}.yaml")
+        K, M = (dense(part) for part in assembly(problem).matrices(problem.prior.mean))
+        hz = np.sqrt(dense_solution(K, M).eigenvalues[: len(one["frequency"])]) / (2 * np.pi)
+        shift = np.log(one["frequency"] / hz)  # what differs is one factor of E, and the stiffness of storeys
+        assert np.ptp(shift) < (0.15 if one["kind"] == "storeys" else 0.01)

@@ -1,0 +1,199 @@
+"""Springs between two places and masses off their nodes, against closed forms; and the first look at pairs of places."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.localise.force import scores
+from mouse_cli.diagnosis.localise.ties import ties
+from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.diagnosis.sites.pairs import MOST, pairs
+from mouse_cli.formats import yaml_deck
+from mouse_cli.formats.assemble import assemble
+from mouse_cli.model.arrays import dense
+from mouse_cli.terms.assembly import assembly
+
+H, W, EI, KG = 3.0, 4.0, 2.0, 5.0
+PORTAL = f"""\
+mouse: 1
+model:
+  structure:
+    nodes: {{1: [0, 0], 2: [0, {H}], 3: [{W}, {H}], 4: [{W}, 0]}}
+    elements:
+      - {{id: 1, type: beam, nodes: [1, 2], E: 1, G: 1, density: 1.0e-13, A: 1.0e+6, Iz: {EI}, Iy: 1, J: 1}}
+      - {{id: 2, type: beam, nodes: [3, 4], E: 1, G: 1, density: 1.0e-13, A: 1.0e+6, Iz: {EI}, Iy: 1, J: 1}}
+      - {{id: 3, type: beam, nodes: [2, 3], E: 1, G: 1, density: 1.0e-13, A: 1.0e+6, Iz: 1.0e+6, Iy: 1, J: 1}}
+      - {{id: 4, type: mass, nodes: [2], mass: {KG}}}
+    supports: {{1: all, 4: all}}
+    plane: XY
+test:
+  modes: {{number: [1], frequency: [1], frequency_sd: 1 %}}
+"""
+TIP = f"""\
+mouse: 1
+model:
+  structure:
+    nodes: {{line: {{from: 1, to: 5, start: [0, 0], end: [{H}, 0]}}}}
+    elements:
+      - {{id: 1-4, type: beam, nodes: 1-5, E: 1, G: 1, density: 1.0e-13, A: 1.0e+6, Iz: {EI}, Iy: 1, J: 1}}
+      - {{id: 9, type: mass, nodes: [5], mass: %s}}
+    supports: {{1: all}}
+    plane: XY
+test:
+  modes: {{number: [1], frequency: [1], frequency_sd: 1 %%}}
+"""
+
+
+def model(text: str):
+    problem = assemble(yaml_deck.read(text, "deck.yaml"))
+    return reduced(problem, problem.prior.mean)
+
+
+def lowest(found, key: str, values, says: str = "") -> float:
+    """The lowest eigenvalue with candidate `key` at the site that `says` so."""
+    own = (each for each in registry()[key].recipes(found, registry()[key]))
+    recipe = next(each for each in own if says in each.site(each.grid[0]).text)
+    x = np.append(found.z, recipe.coordinates(np.array(values, float)))
+    return float(Model(found, (recipe,)).point(x).eigenvalues[0])
+
+
+@pytest.mark.parametrize("says", ["nodes 1 and 3", "nodes 2 and 4"])
+def test_a_brace_adds_the_square_of_its_slope_to_the_stiffness_against_sway(says):
+    k, cosine = 0.7, W / np.hypot(W, H)
+    expected = (24 * EI / H**3 + k * cosine**2) / KG
+    assert lowest(model(PORTAL), "brace", [k], says) == pytest.approx(expected, rel=1e-4)
+
+
+def test_mass_of_a_floor_sways_with_it():
+    m = 0.3
+    expected = 24 * EI / H**3 / (KG + m * W)
+    assert lowest(model(PORTAL), "floor-mass", [m], "the floor at Y = 3 m") == pytest.approx(expected, rel=1e-4)
+
+
+@pytest.mark.parametrize(("key", "own"), [("eccentric-mass", 1e-9), ("item-offset", KG)])
+@pytest.mark.parametrize("arm", [(0.8, 0.0), (-0.5, 0.0), (0.0, 0.6)])
+def test_mass_beyond_the_tip_of_a_cantilever(key, own, arm):
+    """Flexibility of the end of the arm: of the tip, its turning and the arm; across the arm it only turns."""
+    along, across = arm
+    deflection = np.array([H**3 / 3 + along * H**2 + along**2 * H, -across * (H**2 / 2 + along * H)]) / EI
+    F = np.array([[deflection[0], deflection[1]], [deflection[1], across**2 * H / EI]])
+    expected = 1 / (KG * np.linalg.eigvalsh(F)[-1])
+    values = [*((KG,) if key == "eccentric-mass" else ()), *arm]
+    assert lowest(model(TIP % own), key, values, "5" if key == "eccentric-mass" else "9") == pytest.approx(
+        expected, rel=1e-3
+    )
+
+
+def test_what_may_expand_has_no_force_and_what_is_held_has_all():
+    bar = "type: beam, E: 3, G: 1, density: 1, A: 2, Iz: 1, Iy: 1, J: 1"
+    text = f"""\
+mouse: 1
+model:
+  structure:
+    nodes: {{1: [0, 0], 2: [2, 0], 3: [5, 0], 4: [2, 1]}}
+    elements:
+      - {{id: 1-2, nodes: 1-3, {bar}}}
+      - {{id: 3, nodes: [2, 4], {bar}}}
+    supports: {{1: all, 3: all}}
+    plane: XY
+test:
+  modes: {{number: [1], frequency: [1], frequency_sd: 1 %}}
+"""
+    found = model(text)
+    recipe = registry()["thermal"].recipes(found, registry()["thermal"])[0]
+    strain = float(recipe.values(recipe.bounds[:, 1])[0])
+    deck = recipe.extend(found.problem, np.array([strain]))
+    tension = np.concatenate([each.properties["preload"] for each in deck.mesh.elements])
+    assert tension == pytest.approx([-6 * strain, -6 * strain, 0.0], abs=1e-12)
+
+
+TOWER = (2, 2, 4)  # columns by columns, floors
+
+
+def tower() -> str:
+    """A tower of four columns."""
+    place = {at: n for n, at in enumerate(np.ndindex(TOWER[2], TOWER[1], TOWER[0]), 1)}
+    nodes = ", ".join(f"{n}: [{4 * i}, {5 * j}, {3 * k}]" for (k, j, i), n in place.items())
+    bars = [
+        (n, place[other])
+        for (k, j, i), n in place.items()
+        for other in ((k + 1, j, i), (k, j + 1, i), (k, j, i + 1))
+        if other in place and (k > 0 or other[0] > 0)
+    ]
+    beams = "\n".join(
+        f"      - {{id: {e}, type: beam, nodes: [{a}, {b}], material: steel, section: bar}}"
+        for e, (a, b) in enumerate(bars, 1)
+    )
+    heavy = [n for (k, _, _), n in place.items() if k]
+    return f"""\
+mouse: 1
+model:
+  structure:
+    nodes: {{{nodes}}}
+    materials: {{steel: {{E: 2.1e+11, nu: 0.3, density: 7850}}}}
+    sections: {{bar: {{rectangle: [0.2, 0.2]}}}}
+    elements:
+{beams}
+      - {{id: 101-{100 + len(heavy)}, type: mass, nodes: {heavy}, mass: 2000}}
+    supports: {{1: all, 2: all, 3: all, 4: all}}
+parameters:
+  - {{name: E, material: steel, property: E, sd: 5 %}}
+test:
+  modes:
+    number: [1, 2, 3, 4, 5, 6]
+    frequency: [1, 2, 3, 4, 5, 6]
+    frequency_sd: 0.2 %
+    dofs: [{", ".join(f"{n}T{d}" for n in heavy for d in "XY")}]
+    shapes:
+{chr(10).join("      - [1, 1, 1, 1, 1, 1]" for _ in range(2 * len(heavy)))}
+    shape_sd: 0.01
+"""
+
+
+def braced(one: int, other: int, k: float):
+    """The tower, measured with a spring between two nodes."""
+    problem = assemble(yaml_deck.read(tower(), "tower.yaml"))
+    K, M = (dense(part) for part in assembly(problem).matrices(problem.prior.mean))
+    mesh, label = problem.mesh, {name: i for i, name in enumerate(problem.structure.labels)}
+    e = mesh.coordinates[other - 1] - mesh.coordinates[one - 1]
+    e = e / np.linalg.norm(e)
+    b = np.zeros(len(K))
+    for node, sign in ((one, -1), (other, 1)):
+        for d, part in zip("XYZ", e, strict=True):
+            if f"{node}T{d}" in label:
+                b[label[f"{node}T{d}"]] = sign * part
+    lam, X = eigh(K + k * np.outer(b, b), M, subset_by_index=[0, 5])
+    hz, shapes = np.sqrt(lam) / (2 * np.pi), problem.test.read(X)
+    size = np.abs(shapes).max(axis=0)
+    test = replace(
+        problem.test, frequency_hz=hz, frequency_sd_hz=0.002 * hz, shapes=shapes / size,
+        shape_sd=np.full(shapes.shape, 0.01),
+    )  # fmt: skip
+    problem = replace(problem, test=test)
+    return reduced(problem, problem.prior.mean)
+
+
+@pytest.mark.parametrize(("one", "other", "k"), [(5, 10, 3e6), (6, 12, 1e6), (3, 8, 2e7), (9, 12, 2e6)])
+def test_the_first_look_keeps_the_true_pair_of_many(one, other, k):
+    found = braced(one, other, k)
+    assert len(pairs(found)) > MOST
+    kept = [(a + 1, b + 1) for a, b, _ in ties(found).tolist()]
+    assert len(kept) == MOST
+    assert (one, other) in kept
+
+
+def test_a_brace_makes_the_shapes_as_no_other_force_does():
+    """But for the diagonal that crosses it."""
+    found = braced(6, 12, 1e6)
+    tried = scores(replace(found, ties=ties(found)))
+    channel, number = tried.find(int(np.argmin(tried.matches.cost)))
+    assert channel.name == "tie"
+    assert channel.site(number).ids in {(6, 12), (8, 10)}
+
+
+def test_a_beam_has_no_braces():
+    assert not len(pairs(model(TIP % 1.0)))
