@@ -64,6 +64,33 @@ MODELS = {
 """,
         [(8, "TY"), (8, "TZ"), (14, "TY"), (14, "TZ"), (21, "TY"), (21, "TZ")],
     ),
+    "frame": (
+        f"""
+  structure:
+    nodes:
+      - {{line: {{from: 1, to: 5, start: [0, 0, 0], end: [0, 0, 3]}}}}
+      - {{line: {{from: 11, to: 15, start: [4, 0, 0], end: [4, 0, 3]}}}}
+      - {{line: {{from: 21, to: 25, start: [4, 5, 0], end: [4, 5, 3]}}}}
+      - {{line: {{from: 31, to: 35, start: [0, 5, 0], end: [0, 5, 3]}}}}
+      - {{line: {{from: 41, to: 43, start: [1, 0, 3], end: [3, 0, 3]}}}}
+      - {{line: {{from: 51, to: 53, start: [4, 1.25, 3], end: [4, 3.75, 3]}}}}
+      - {{line: {{from: 61, to: 63, start: [3, 5, 3], end: [1, 5, 3]}}}}
+      - {{line: {{from: 71, to: 73, start: [0, 3.75, 3], end: [0, 1.25, 3]}}}}
+    {STEEL}
+    sections: {{column: {{rectangle: [0.1, 0.12]}}, beam: {{rectangle: [0.08, 0.1]}}, bar: {{rectangle: [0.07, 0.1]}}}}
+    elements:
+      - {{id: 1-4, type: beam, nodes: 1-5, material: steel, section: column}}
+      - {{id: 11-14, type: beam, nodes: 11-15, material: steel, section: column}}
+      - {{id: 21-24, type: beam, nodes: 21-25, material: steel, section: column}}
+      - {{id: 31-34, type: beam, nodes: 31-35, material: steel, section: column}}
+      - {{id: 41-44, type: beam, nodes: [5, 41-43, 15], material: steel, section: beam}}
+      - {{id: 51-54, type: beam, nodes: [15, 51-53, 25], material: steel, section: beam}}
+      - {{id: 61-64, type: beam, nodes: [25, 61-63, 35], material: steel, section: beam}}
+      - {{id: 71-74, type: beam, nodes: [35, 71-73, 5], material: steel, section: bar}}
+    supports: {{1: all, 11: all, 21: all, 31: all}}
+""",
+        [(5, "TX"), (5, "TY"), (15, "TX"), (15, "TY"), (25, "TX"), (25, "TY"), (42, "TZ"), (52, "TZ")],
+    ),
     "storeys": (
         """
   structure:
@@ -126,11 +153,20 @@ def deck(name: str, folder) -> "Problem":  # noqa: F821
 
 
 _E = "parameters:\n  - {name: E, material: steel, property: E, sd: 3 %}\n"
-_PARAMETERS = dict.fromkeys(("cantilever", "free", "portal", "space"), _E)
+_PARAMETERS = dict.fromkeys(("cantilever", "free", "portal", "space", "frame"), _E)
 _PARAMETERS["laden"] = _E + "  - {name: tip, elements: 43, property: mass, sd: 30 %}\n"
 _PARAMETERS["storeys"] = "parameters:\n  - {name: storey, elements: 1-5, property: TX, factor: true, sd: 10 %}\n"
 _PARAMETERS["masses"] = "parameters:\n  - {name: k, elements: 11-13, property: TX, sd: 10 %}\n"
-CASES = [(name, key) for name in MODELS for key in registry()]
+IN_SPACE = {
+    "member",
+    "stiffness-gain",
+    "added-mass",
+    "support-rotation",
+    "support-translation",
+    "support-spread",
+    "taper",
+}
+CASES = [(name, key) for name in MODELS for key in registry() if name != "frame" or key in IN_SPACE]
 
 
 @pytest.fixture(scope="module")

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Carried, Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.effects.change import Carried, Change, Recipe, Unknown, product, steps
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.directions import projected
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
@@ -20,8 +20,8 @@ from mouse_cli.terms.assembly import Assembly, assembly
 
 _LOADED = 0.02  # share of the largest reaction of its kind below which a support is not loaded
 _SHIFT = 1e-3  # of the lowest measured eigenvalue, so that motions that nothing resists need no support
-_TOGETHER = 12  # supports that may give way alike
-_MOST = 24  # supports that are looked at: those that bear most
+_TOGETHER = 16  # supports that may give way alike
+_MOST = 48  # supports that are looked at: those that bear most
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,8 @@ class Released:
     """a supports, (node, direction) in `held`, and their motion: K (r + a, r + a) and M with the cause but without springs.
 
     Those of the model itself are taken out. reading (s, a): what sensors read of them; resistance (a,): stiffness of the
-    structure against the motion of one support alone. carried: motion of the structure with them.
+    structure against the motion of one support alone; load (a,): largest reactions in the lowest modes. carried: motion of the
+    structure with them.
     """
 
     held: tuple[tuple[int, int], ...]
@@ -37,6 +38,7 @@ class Released:
     M: np.ndarray
     reading: np.ndarray
     resistance: np.ndarray
+    load: np.ndarray
     carried: Carried
 
     def some(self, which: list[int], r: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -46,16 +48,34 @@ class Released:
 
 
 def yielding(model: Reduced, candidate: Candidate, turning: bool) -> list[Recipe]:
-    """A recipe for each support that the measured modes load, and one for all alike, in translation or in rotation."""
+    """In translation or in rotation: a recipe for each support that the measured modes load, for all alike, and for those of one
+    node, or of all alike, in both directions that bear most, each with a stiffness of its own.
+    """
     found = released(model, range(3, 6) if turning else range(3))
     if found is None:
         return []
-    groups = [[i] for i in range(len(found.held))]
-    for d in sorted({d for _, d in found.held}):
-        alike = [i for i, (_, direction) in enumerate(found.held) if direction == d]
-        if 1 < len(alike) <= _TOGETHER:
-            groups.append(alike)
-    return [_recipe(model, candidate, found, group, turning, len(groups)) for group in groups]
+    single, alike = _sets(found)
+    recipes = []
+    for kind in (single, alike):
+        share = -float(np.log(len(kind) * (1 + bool(alike)))) if kind else 0.0
+        recipes += [_recipe(model, candidate, found, which, turning, share) for which in kind]
+    return recipes
+
+
+def _sets(found: Released) -> tuple[list[list[list[int]]], list[list[list[int]]]]:
+    """Supports by number that give way together, in lists of one stiffness each: of single nodes, and of all."""
+    by: dict[int, list[int]] = {}
+    for i, (_, d) in enumerate(found.held):
+        by.setdefault(d, []).append(i)
+    strongest = sorted(by, key=lambda d: -sum(found.load[i] for i in by[d]))[:2]
+    at = {held: i for i, held in enumerate(found.held)}
+    both = [[[at[node, d]] for d in strongest] for node in dict.fromkeys(node for node, _ in found.held)
+            if len(strongest) == 2 and all((node, d) in at for d in strongest)]  # fmt: skip
+    many = {d: own for d, own in sorted(by.items()) if 1 < len(own) <= _TOGETHER}
+    alike = [[own] for own in many.values()]
+    if len(strongest) == 2 and all(d in many for d in strongest):
+        alike.append([many[d] for d in strongest])
+    return [[[i]] for i in range(len(found.held))] + both, alike
 
 
 def released(model: Reduced, kinds: range) -> Released | None:
@@ -69,7 +89,7 @@ def released(model: Reduced, kinds: range) -> Released | None:
     f = np.array([place[label] for label in model.problem.structure.labels], int)
     names = [f"{model.problem.mesh.node_ids[node]}{DIRECTIONS[d]}" for node, d in held]
     K, M = (m.tocsr() if is_sparse(m) else m for m in assembly(free).matrices(theta))
-    held, names = _loaded(model, held, names, place, f, K, M)
+    held, names, load = _loaded(model, held, names, place, f, K, M)
     if not held:
         return None
     s = np.array([place[name] for name in names])
@@ -84,7 +104,7 @@ def released(model: Reduced, kinds: range) -> Released | None:
     slopes, stack = _slopes(model, assembly(free), theta, whole)
     within = model.V.T @ (M[f][:, f] @ motion[f])
     carried = Carried(within, motion, K @ motion, M @ motion, f, slopes, _across(model, stack, motion))
-    return Released(tuple(held), *blocks, free.test.read(motion), np.asarray(K.diagonal())[s], carried)
+    return Released(tuple(held), *blocks, free.test.read(motion), np.asarray(K.diagonal())[s], load, carried)
 
 
 Slopes = tuple[np.ndarray, np.ndarray]
@@ -131,22 +151,22 @@ def _without_supports(problem: Problem) -> Problem:
 
 def _loaded(
     model: Reduced, held: list, names: list[str], place: dict[str, int], f: np.ndarray, K, M
-) -> tuple[list, list]:
-    """Those that bear a part of the largest reaction in the lowest modes.
+) -> tuple[list, list, np.ndarray]:
+    """Those that bear a part of the largest reaction in the lowest modes, their names and largest reactions.
 
     A support without mass would only be in series with what it holds, whose own stiffness says the same.
     """
     heavy = M.diagonal() > 0
     known = [i for i, name in enumerate(names) if name in place and heavy[place[name]]]
     if not known:
-        return [], []
+        return [], [], np.zeros(0)
     s = np.array([place[names[i]] for i in known])
     modes = slice(0, min(model.r, int(model.data.test.number.max()) + 1))
     reaction = K[s][:, f] @ model.V[:, modes] - (M[s][:, f] @ model.V[:, modes]) * model.eigenvalues[modes]
     size = np.abs(reaction).max(axis=1)
     order = np.sort(np.argsort(-size, kind="stable")[:_MOST])
-    chosen = [known[i] for i in order if size[i] > _LOADED * size.max()]
-    return [held[i] for i in chosen], [names[i] for i in chosen]
+    order = [i for i in order.tolist() if size[i] > _LOADED * size.max()]
+    return [held[known[i]] for i in order], [names[known[i]] for i in order], size[order]
 
 
 def _dense(matrix) -> np.ndarray:
@@ -164,37 +184,50 @@ def _solved(Kff, Mff, Kfs: np.ndarray, Mfs: np.ndarray, shift: float) -> np.ndar
 
 
 def _recipe(
-    model: Reduced, candidate: Candidate, found: Released, which: list[int], turning: bool, count: int
+    model: Reduced, candidate: Candidate, found: Released, sets: list[list[int]], turning: bool, share: float
 ) -> Recipe:
-    unit = "N m/rad" if turning else "N/m"
-    k = Unknown("stiffness of the support", unit, *_range(model, float(found.resistance[which].mean()), turning))
+    """sets: supports by number, those of each list with one stiffness."""
+    unit, which = "N m/rad" if turning else "N/m", [i for own in sets for i in own]
+    k = [Unknown(_called(found, own, sets), unit, *_range(model, found, own, turning)) for own in sets]
     K, M, reading = found.some(which, model.r)
-    springs = np.zeros(K.shape)
-    springs[range(model.r, len(K)), range(model.r, len(K))] = 1.0
+    number = np.repeat(np.arange(len(sets)), [len(own) for own in sets])
+    own_dofs = np.arange(model.r, len(K))
     sensing = np.hstack([np.zeros((len(reading), model.r)), reading])
-    held = [found.held[i] for i in which]
-    site = _site(model.problem, held)
+    site = _site(model.problem, [found.held[i] for i in which])
+
+    def change(values: np.ndarray) -> Change:
+        with_springs = K.copy()
+        with_springs[own_dofs, own_dofs] += values[number]
+        return Change(with_springs, M, sensing)
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         edit = Edit(problem)
-        nodes = [edit.index(int(model.problem.mesh.node_ids[node])) for node, _ in held]
-        direction = held[0][1]
-        edit.supports = [each for each in edit.supports if each not in {(node, direction) for node in nodes}]
-        springs = edit.add("spring", [[node] for node in nodes], {DIRECTIONS[direction]: values[0]})
-        edit.bind(f"stiffness of {site.text}", springs, (DIRECTIONS[direction],), unit=unit)
+        for own, value in zip(sets, values, strict=True):
+            held = [found.held[i] for i in own]
+            nodes = [edit.index(int(model.problem.mesh.node_ids[node])) for node, _ in held]
+            direction = held[0][1]
+            edit.supports = [each for each in edit.supports if each not in {(node, direction) for node in nodes}]
+            springs = edit.add("spring", [[node] for node in nodes], {DIRECTIONS[direction]: value})
+            name = f"stiffness of {_site(model.problem, held).text}"
+            edit.bind(name, springs, (DIRECTIONS[direction],), unit=unit)
         return edit.done()
 
     return Recipe(
         candidate,
-        (k,),
-        lambda values: Change(K + values[0] * springs, M, sensing),
-        steps(k, 6)[:, None],
+        tuple(k),
+        change,
+        product(*(steps(each, 6 if len(sets) == 1 else 4) for each in k)),
         lambda values: site,
         own=len(which),
-        log_prior=-float(np.log(count)),
+        log_prior=share,
         extend=extend,
         carried=_part(found.carried, which, model.r),
     )
+
+
+def _called(found: Released, own: list[int], sets: list[list[int]]) -> str:
+    """What a stiffness is called."""
+    return "stiffness of the support" + (f", {DIRECTIONS[found.held[own[0]][1]]}" if len(sets) > 1 else "")
 
 
 def _part(carried: Carried, which: list[int], r: int) -> Carried:
@@ -209,17 +242,18 @@ def _part(carried: Carried, which: list[int], r: int) -> Carried:
     return Carried(*own, carried.deck, slopes, across)
 
 
-def _range(model: Reduced, resistance: float, turning: bool) -> tuple[float, float]:
+def _range(model: Reduced, found: Released, own: list[int], turning: bool) -> tuple[float, float]:
     """Flexibility between 1e-6 and 0.1 L^3/EI in translation, 1e-4 and 1 L/EI in rotation; without bars by what they hold."""
     if model.bars is None:
+        resistance = float(found.resistance[own].mean())
         return 0.3 * resistance, 1e3 * resistance
     EI, L = model.bars.stiffness, model.bars.span
     return (EI / L, 1e4 * EI / L) if turning else (10 * EI / L**3, 1e6 * EI / L**3)
 
 
 def _site(problem: Problem, held: list[tuple[int, int]]) -> Site:
-    ids = tuple(int(problem.mesh.node_ids[node]) for node, _ in held)
-    direction = DIRECTIONS[held[0][1]]
+    ids = tuple(dict.fromkeys(int(problem.mesh.node_ids[node]) for node, _ in held))
+    direction = " and ".join(dict.fromkeys(DIRECTIONS[d] for _, d in held))
     if len(ids) > 1:
         return Site("node", ids, None, f"the supports of nodes {', '.join(map(str, ids))}, {direction}, all alike")
     position = tuple(problem.mesh.coordinates[held[0][0]].tolist())
