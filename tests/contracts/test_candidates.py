@@ -91,6 +91,26 @@ MODELS = {
 """,
         [(5, "TX"), (5, "TY"), (15, "TX"), (15, "TY"), (25, "TX"), (25, "TY"), (42, "TZ"), (52, "TZ")],
     ),
+    "weighed": (
+        f"""
+  structure:
+    nodes:
+      - {{line: {{from: 1, to: 9, start: [0, 0], end: [0, 2]}}}}
+      - {{line: {{from: 11, to: 19, start: [3, 0], end: [3, 2]}}}}
+      - {{line: {{from: 20, to: 26, start: [0.375, 2], end: [2.625, 2]}}}}
+    {STEEL}
+    sections: {{column: {{rectangle: [0.04, 0.05]}}, beam: {{rectangle: [0.05, 0.05]}}}}
+    elements:
+      - {{id: 1-8, type: beam, nodes: 1-9, material: steel, section: column}}
+      - {{id: 11-18, type: beam, nodes: 11-19, material: steel, section: column}}
+      - {{id: 21-28, type: beam, nodes: [9, 20-26, 19], material: steel, section: beam}}
+      - {{id: 31-32, type: mass, nodes: [9, 19], mass: 5000}}
+    supports: {{1: all, 11: all}}
+    plane: XY
+    gravity: [0, -9.81, 0]
+""",
+        [(5, "TX"), (9, "TX"), (15, "TX"), (23, "TY")],
+    ),
     "storeys": (
         """
   structure:
@@ -153,20 +173,13 @@ def deck(name: str, folder) -> "Problem":  # noqa: F821
 
 
 _E = "parameters:\n  - {name: E, material: steel, property: E, sd: 3 %}\n"
-_PARAMETERS = dict.fromkeys(("cantilever", "free", "portal", "space", "frame"), _E)
+_PARAMETERS = dict.fromkeys(("cantilever", "free", "portal", "space", "frame", "weighed"), _E)
 _PARAMETERS["laden"] = _E + "  - {name: tip, elements: 43, property: mass, sd: 30 %}\n"
 _PARAMETERS["storeys"] = "parameters:\n  - {name: storey, elements: 1-5, property: TX, factor: true, sd: 10 %}\n"
 _PARAMETERS["masses"] = "parameters:\n  - {name: k, elements: 11-13, property: TX, sd: 10 %}\n"
-IN_SPACE = {
-    "member",
-    "stiffness-gain",
-    "added-mass",
-    "support-rotation",
-    "support-translation",
-    "support-spread",
-    "taper",
-}
-CASES = [(name, key) for name in MODELS for key in registry() if name != "frame" or key in IN_SPACE]
+SUPPORTS = {"support-rotation", "support-translation", "rocking"}
+OWN = {"frame": SUPPORTS | {"member", "added-mass", "taper"}, "weighed": SUPPORTS}
+CASES = [(name, key) for name in MODELS for key in registry() if key in OWN.get(name, {key})]
 
 
 @pytest.fixture(scope="module")

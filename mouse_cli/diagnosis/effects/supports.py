@@ -12,11 +12,12 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.dynamics.contraction import Stack
-from mouse_cli.model.arrays import is_sparse
+from mouse_cli.model.arrays import Matrix, is_sparse
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import Assembly, assembly
+from mouse_cli.terms.element_term import ElementTerm
 
 _LOADED = 0.02  # share of the largest reaction of its kind below which a support is not loaded
 _SHIFT = 1e-3  # of the lowest measured eigenvalue, so that motions that nothing resists need no support
@@ -78,33 +79,75 @@ def _sets(found: Released) -> tuple[list[list[list[int]]], list[list[list[int]]]
     return [[[i]] for i in range(len(found.held))] + both, alike
 
 
+@dataclass(frozen=True)
+class Free:
+    """The structure without its supports: `place` of degrees of freedom by label, deck: those of the deck; K, M at theta."""
+
+    problem: Problem
+    theta: np.ndarray
+    place: dict[str, int]
+    deck: np.ndarray
+    K: Matrix
+    M: Matrix
+
+    @property
+    def n(self) -> int:
+        """Number of degrees of freedom."""
+        return self.problem.structure.n
+
+    def read(self, motion: np.ndarray) -> np.ndarray:
+        """What sensors read of a motion (n, a)."""
+        return self.problem.test.read(motion)
+
+    def reactions(self, model: Reduced, s: np.ndarray, modes: slice) -> np.ndarray:
+        """Loads (s, m) that modes put on the supports s."""
+        V, f = model.V[:, modes], self.deck
+        return self.K[s][:, f] @ V - (self.M[s][:, f] @ V) * model.eigenvalues[modes]
+
+
+def free_model(model: Reduced) -> Free:
+    """The structure of a model without its supports, at the parameters where its own K and M are taken."""
+    free = _without_supports(model.problem)
+    theta = model.theta if model.origin is None else model.origin
+    place = {label: i for i, label in enumerate(free.structure.labels)}
+    f = np.array([place[label] for label in model.problem.structure.labels], int)
+    return Free(free, theta, place, f, *(m.tocsr() if is_sparse(m) else m for m in assembly(free).matrices(theta)))
+
+
+def static(model: Reduced, free: Free, s: np.ndarray, pattern: np.ndarray) -> np.ndarray:
+    """Motion (n, a) of the structure for motions `pattern` (s, a) of the supports s."""
+    motion, f, (K, M) = np.zeros((free.n, pattern.shape[1])), free.deck, (free.K, free.M)
+    motion[s] = pattern
+    right = _dense(K[f][:, s]) @ pattern, _dense(M[f][:, s]) @ pattern
+    motion[f] = -_solved(K[f][:, f], M[f][:, f], *right, _SHIFT * lowest(model))
+    return motion
+
+
+def followed(model: Reduced, free: Free, motion: np.ndarray) -> tuple[np.ndarray, np.ndarray, Carried]:
+    """K and M (r + a, r + a) that a motion (n, a) adds to those of the model, and how it carries the model along."""
+    f, (K, M) = free.deck, (free.K, free.M)
+    whole = np.zeros((free.n, model.r + motion.shape[1]))
+    whole[f, : model.r], whole[:, model.r :] = model.V, motion
+    blocks = [whole.T @ (matrix @ whole) for matrix in (K, M)]
+    for block in blocks:
+        block[: model.r, : model.r] = 0.0
+    slopes, stack = _slopes(model, assembly(free.problem), free.theta, whole)
+    within = model.V.T @ (M[f][:, f] @ motion[f])
+    return *blocks, Carried(within, motion, K @ motion, M @ motion, f, slopes, _across(model, stack, motion))
+
+
 def released(model: Reduced, kinds: range) -> Released | None:
     """The loaded supports in the directions `kinds`; None where there are none."""
     held = _candidates(model, kinds)
     if not held:
         return None
-    free = _without_supports(model.problem)
-    theta = model.theta if model.origin is None else model.origin  # where its own K and M are taken
-    place = {label: i for i, label in enumerate(free.structure.labels)}
-    f = np.array([place[label] for label in model.problem.structure.labels], int)
-    names = [f"{model.problem.mesh.node_ids[node]}{DIRECTIONS[d]}" for node, d in held]
-    K, M = (m.tocsr() if is_sparse(m) else m for m in assembly(free).matrices(theta))
-    held, names, load = _loaded(model, held, names, place, f, K, M)
+    free = free_model(model)
+    held, s, load = _loaded(model, held, free)
     if not held:
         return None
-    s = np.array([place[name] for name in names])
-    motion = np.zeros((free.structure.n, len(s)))
-    motion[s, range(len(s))] = 1.0
-    motion[f] = -_solved(K[f][:, f], M[f][:, f], _dense(K[f][:, s]), _dense(M[f][:, s]), _SHIFT * lowest(model))
-    whole = np.zeros((free.structure.n, model.r + len(s)))
-    whole[f, : model.r], whole[:, model.r :] = model.V, motion
-    blocks = [whole.T @ (matrix @ whole) for matrix in (K, M)]
-    for block in blocks:
-        block[: model.r, : model.r] = 0.0
-    slopes, stack = _slopes(model, assembly(free), theta, whole)
-    within = model.V.T @ (M[f][:, f] @ motion[f])
-    carried = Carried(within, motion, K @ motion, M @ motion, f, slopes, _across(model, stack, motion))
-    return Released(tuple(held), *blocks, free.test.read(motion), np.asarray(K.diagonal())[s], load, carried)
+    motion = static(model, free, s, np.eye(len(s)))
+    K, M, carried = followed(model, free, motion)
+    return Released(tuple(held), K, M, free.read(motion), np.asarray(free.K.diagonal())[s], load, carried)
 
 
 Slopes = tuple[np.ndarray, np.ndarray]
@@ -136,37 +179,41 @@ def _across(model: Reduced, stack: Stack, motion: np.ndarray) -> Callable[[np.nd
 
 
 def _candidates(model: Reduced, kinds: range) -> list[tuple[int, int]]:
-    """Supports (node, direction) of `kinds`; none under gravity, whose weight needs them."""
+    """Supports (node, direction) of `kinds`."""
     mesh = model.problem.mesh
-    if model.motion is None or mesh.gravity is not None:
+    if model.motion is None:
         return []
     return [(node, d) for node, d in mesh.supports.tolist() if d in kinds and d in mesh.directions]
 
 
 def _without_supports(problem: Problem) -> Problem:
+    """The deck without supports; what bears weight keeps the axial force that it has on its supports."""
     edit = Edit(problem)
-    edit.supports = []
+    edit.supports, edit.gravity = [], None
+    terms = [term for term in problem.terms if isinstance(term, ElementTerm)]
+    for s, term in enumerate(terms):
+        if term.axial is not None:
+            own = [(s, i) for i in range(len(edit.sets[s]))]
+            edit.put(own, "preload", np.array([edit.values(element, "preload") for element in own]) + term.axial)
     return edit.done()
 
 
-def _loaded(
-    model: Reduced, held: list, names: list[str], place: dict[str, int], f: np.ndarray, K, M
-) -> tuple[list, list, np.ndarray]:
-    """Those that bear a part of the largest reaction in the lowest modes, their names and largest reactions.
+def _loaded(model: Reduced, held: list, free: Free) -> tuple[list, np.ndarray, np.ndarray]:
+    """Those that bear a part of the largest reaction in the lowest modes, where they are in `free`, and their largest reactions.
 
     A support without mass would only be in series with what it holds, whose own stiffness says the same.
     """
-    heavy = M.diagonal() > 0
-    known = [i for i, name in enumerate(names) if name in place and heavy[place[name]]]
+    names = [f"{model.problem.mesh.node_ids[node]}{DIRECTIONS[d]}" for node, d in held]
+    heavy = free.M.diagonal() > 0
+    known = [i for i, name in enumerate(names) if name in free.place and heavy[free.place[name]]]
     if not known:
-        return [], [], np.zeros(0)
-    s = np.array([place[names[i]] for i in known])
+        return [], np.zeros(0, int), np.zeros(0)
+    s = np.array([free.place[names[i]] for i in known])
     modes = slice(0, min(model.r, int(model.data.test.number.max()) + 1))
-    reaction = K[s][:, f] @ model.V[:, modes] - (M[s][:, f] @ model.V[:, modes]) * model.eigenvalues[modes]
-    size = np.abs(reaction).max(axis=1)
+    size = np.abs(free.reactions(model, s, modes)).max(axis=1)
     order = np.sort(np.argsort(-size, kind="stable")[:_MOST])
-    order = [i for i in order.tolist() if size[i] > _LOADED * size.max()]
-    return [held[known[i]] for i in order], [names[known[i]] for i in order], size[order]
+    order = order[size[order] > _LOADED * size.max()]
+    return [held[known[i]] for i in order], s[order], size[order]
 
 
 def _dense(matrix) -> np.ndarray:
@@ -221,25 +268,13 @@ def _recipe(
         own=len(which),
         log_prior=share,
         extend=extend,
-        carried=_part(found.carried, which, model.r),
+        carried=found.carried.part(which, model.r),
     )
 
 
 def _called(found: Released, own: list[int], sets: list[list[int]]) -> str:
     """What a stiffness is called."""
     return "stiffness of the support" + (f", {DIRECTIONS[found.held[own[0]][1]]}" if len(sets) > 1 else "")
-
-
-def _part(carried: Carried, which: list[int], r: int) -> Carried:
-    """What a part of the supports carries along."""
-    own = [getattr(carried, name)[:, which] for name in ("model", "whole", "K", "M")]
-    at = np.concatenate([np.arange(r), r + np.array(which)])
-    slopes = tuple(each[:, at[:, None], at] for each in carried.slopes)
-
-    def across(other: np.ndarray) -> Slopes:
-        return tuple(each[..., which] for each in carried.across(other))
-
-    return Carried(*own, carried.deck, slopes, across)
 
 
 def _range(model: Reduced, found: Released, own: list[int], turning: bool) -> tuple[float, float]:
