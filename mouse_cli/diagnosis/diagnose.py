@@ -22,7 +22,7 @@ from mouse_cli.diagnosis.localise.force import locate
 from mouse_cli.diagnosis.localise.implied_law import implied_law
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
 from mouse_cli.diagnosis.nameless.fit import field_of
-from mouse_cli.diagnosis.names import by_records
+from mouse_cli.diagnosis.names import by_records, housed
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.rank import Ranking, group, rank
 from mouse_cli.diagnosis.validate.next_measurement import proposals
@@ -45,7 +45,7 @@ _RIVALS = 4  # that are told apart from the leading explanation
 def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choices = _ALL) -> Diagnosis:
     """What the model of `problem` lacks, judged by its test; choices: which candidates are considered.
 
-    Raises DeckError and NumericalError as `run` does.
+    Raises DeckError and NumericalError as `run` does, and NoSite where no candidate of `choices` can act.
 
     >>> import mouse_cli
     >>> found = mouse_cli.diagnose(mouse_cli.read_deck("decks/ground_spring.yaml"))
@@ -64,6 +64,8 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices) -> Diagnos
     solver = EigenSolver(notice, sensors=0 if problem.test is None else problem.test.s)
     kept = related(problem, solver)
     model, told = _model(problem, solver)
+    if choices.candidates is not None:
+        housed(model, choices.candidates)
     enough = 0.0 if model.places is None else ENOUGH
     result, remarks = _update(problem, kept, notice, _guess(model), enough, solver)
     ranking = rank(model, _known(choices), choices.causes, _hear())

@@ -83,7 +83,7 @@ MODELS = {
       - {{id: 11-14, type: beam, nodes: 11-15, material: steel, section: column}}
       - {{id: 21-24, type: beam, nodes: 21-25, material: steel, section: column}}
       - {{id: 31-34, type: beam, nodes: 31-35, material: steel, section: column}}
-      - {{id: 41-44, type: beam, nodes: [5, 41-43, 15], material: steel, section: beam}}
+      - {{id: 41-44, type: beam, nodes: [5, 41-43, 15], material: steel, section: beam, nonstructural_mass: 5}}
       - {{id: 51-54, type: beam, nodes: [15, 51-53, 25], material: steel, section: beam}}
       - {{id: 61-64, type: beam, nodes: [25, 61-63, 35], material: steel, section: beam}}
       - {{id: 71-74, type: beam, nodes: [35, 71-73, 5], material: steel, section: bar}}
@@ -175,6 +175,7 @@ def deck(name: str, folder) -> "Problem":  # noqa: F821
 _E = "parameters:\n  - {name: E, material: steel, property: E, sd: 3 %}\n"
 _PARAMETERS = dict.fromkeys(("cantilever", "free", "portal", "space", "frame", "weighed"), _E)
 _PARAMETERS["laden"] = _E + "  - {name: tip, elements: 43, property: mass, sd: 30 %}\n"
+_PARAMETERS["frame"] = _E + "  - {name: load, elements: 41-44, property: nonstructural_mass, sd: 20 %}\n"
 _PARAMETERS["storeys"] = "parameters:\n  - {name: storey, elements: 1-5, property: TX, factor: true, sd: 10 %}\n"
 _PARAMETERS["masses"] = "parameters:\n  - {name: k, elements: 11-13, property: TX, sd: 10 %}\n"
 SUPPORTS = {"support-rotation", "support-translation", "rocking"}

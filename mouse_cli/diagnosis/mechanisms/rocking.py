@@ -2,6 +2,7 @@
 
 from mouse_cli.diagnosis.effects.rocking import rocking
 from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.reasons import bases
 
 CANDIDATE = Candidate(
     "rocking",
@@ -10,4 +11,5 @@ CANDIDATE = Candidate(
     "all supports together (a raft, a footing, a flange, a test bed) move as one rigid body against springs, along or about an "
     "axis; storeys over one base, in a model without rotations, turn with it, by heights from the coordinates",
     rocking,
+    bases,
 )

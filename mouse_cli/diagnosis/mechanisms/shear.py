@@ -6,6 +6,7 @@ from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.effects.shearing import shear, shear_range, slender, with_shear
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.reasons import bars
 from mouse_cli.model.problem import Problem
 
 
@@ -30,4 +31,5 @@ CANDIDATE = Candidate(
     "shear",
     "bars give way in shear (Timoshenko): frequencies of high modes fall with the square of their wave number, low ones stay",
     recipes,
+    bars,
 )

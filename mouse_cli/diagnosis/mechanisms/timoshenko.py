@@ -6,6 +6,7 @@ from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.effects.shearing import shear, shear_range, slender, with_shear
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.reasons import bars
 from mouse_cli.model.problem import Problem
 
 
@@ -30,4 +31,5 @@ CANDIDATE = Candidate(
     "shear",
     "Timoshenko's bar: shear flexibility together with the inertia of turning sections, which always come together",
     recipes,
+    bars,
 )
