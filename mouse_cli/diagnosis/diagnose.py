@@ -59,13 +59,11 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choi
 
 def _by_its_modes(problem: Problem, notice: Notice, choices: Choices) -> Diagnosis:
     """The same by measured modes, or those that measured functions show."""
-    given = replace(problem, run=_thorough(problem.run))
-    problem, doubts = with_modes(given)
+    problem, doubts = with_modes(given := replace(problem, run=_thorough(problem.run)))
     solver = EigenSolver(notice, sensors=0 if problem.test is None else problem.test.s)
     kept = related(problem, solver)
     model, told = _model(problem, solver)
-    if choices.candidates is not None:
-        housed(model, choices.candidates)
+    housed(model, choices.candidates)
     enough = 0.0 if model.places is None else ENOUGH
     result, remarks = _update(problem, kept, notice, _guess(model), enough, solver)
     ranking = rank(model, _known(choices), choices.causes, _hear())
@@ -73,7 +71,7 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices) -> Diagnos
     kind, best, missing = verdict.kind, verdict.best, verdict.kind != NOTHING
     location = locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None
     put = best if kind in (NAMED, ONE_OF) else verdict.field
-    deck = None if put is None else extended(problem, put)
+    deck = put and extended(problem, put)
     return Diagnosis(
         problem=problem,
         kind=kind,

@@ -42,10 +42,10 @@ class NoSite(ValueError):
     """None of the candidates that were asked for has a site in the model."""
 
 
-def housed(model: Reduced, given: tuple[str, ...]) -> None:
-    """Raises NoSite where none of the mechanisms `given` has a site in the model, with those that have one."""
+def housed(model: Reduced, given: tuple[str, ...] | None) -> None:
+    """Raises NoSite where none of the mechanisms `given` (None: all) has a site in the model, with those that have one."""
     found = mechanisms()
-    if any(model.recipes(found[name]) for name in given):
+    if given is None or any(model.recipes(found[name]) for name in given):
         return
     why = "; ".join(f"{name}: {found[name].why(model.first)}" for name in given)
     others = ", ".join(name for name, each in found.items() if model.recipes(each))

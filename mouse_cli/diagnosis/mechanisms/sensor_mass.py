@@ -48,8 +48,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     rows = model.V[dofs] if model.motion is None else np.concatenate([model.node(int(i))[:3] for i in nodes if i >= 0])
     M = rows.T @ rows
     each = total_mass(model) / max(len(nodes), 1 if len(nodes) else len(dofs))
-    most = _most(model, each)
-    if most <= _FELT * each:
+    if (most := _most(model, each)) <= _FELT * each:
         return []
     m = Unknown("mass of each sensor", "kg", _FELT * each, most)
     site = Site("sensor", tuple(structure.labels[i] for i in np.unique(test.dofs)), None, "at every sensor")
