@@ -61,7 +61,7 @@ def command(
 
     Several DECKS are arrangements of one structure, such as masses at other places: their causes are told one after another.
 
-    Where, what, how much, and whether it is true. Exit 0: nothing is missing. 1: something is. 2: no site. 4: rejected. 5: no answer.
+    Where, what, how much, whether it is true. Exit 0: nothing is missing. 1: something is. 2: no site. 4: rejected. 5: no answer.
     """
     from mouse_cli.cli._terminal import deliver
 
