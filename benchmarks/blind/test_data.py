@@ -65,7 +65,8 @@ def measured(case: Case, truth: dict[str, np.ndarray], config: Config, words: tu
         frequency = frequency * (1 + rng.uniform(-0.01, 0.01, count))
     altered = truth["altered"][: config.modes]
     altered = altered * (1 + scale * config.frequency_sd * rng.standard_normal(len(altered)))
-    return Measured(sites, frequency, readings, altered)
+    order = np.argsort(frequency)  # noise may exchange two close ones
+    return Measured(sites, frequency[order], readings[:, order], np.sort(altered))
 
 
 def _sites(case: Case, config: Config, rng: np.random.Generator) -> list[int]:

@@ -23,7 +23,7 @@ from mouse_cli.diagnosis.localise.implied_law import implied_law
 from mouse_cli.diagnosis.localise.ties import ties
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
 from mouse_cli.diagnosis.nameless.fit import field_of
-from mouse_cli.diagnosis.names import by_records
+from mouse_cli.diagnosis.names import by_records, housed
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.rank import Ranking, group, rank
 from mouse_cli.diagnosis.validate.next_measurement import proposals
@@ -46,7 +46,7 @@ _RIVALS = 4  # that are told apart from the leading explanation
 def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choices = _ALL) -> Diagnosis:
     """What the model of `problem` lacks, judged by its test; choices: which candidates are considered.
 
-    Raises DeckError and NumericalError as `run` does.
+    Raises DeckError and NumericalError as `run` does, and NoSite where no candidate of `choices` can act.
 
     >>> import mouse_cli
     >>> found = mouse_cli.diagnose(mouse_cli.read_deck("decks/ground_spring.yaml"))
@@ -65,11 +65,11 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choi
 
 def _by_its_modes(problem: Problem, notice: Notice, choices: Choices, recordings: Hearing) -> Diagnosis:
     """The same by measured modes, or those that measured functions show, then by recordings beside them."""
-    given = replace(problem, run=_thorough(problem.run))
-    problem, doubts = with_modes(given)
+    problem, doubts = with_modes(given := replace(problem, run=_thorough(problem.run)))
     solver = EigenSolver(notice, sensors=0 if problem.test is None else problem.test.s)
     kept = related(problem, solver)
     model, told = _model(problem, solver)
+    housed(model, choices.candidates)
     enough = 0.0 if model.places is None else ENOUGH
     result, remarks = _update(problem, kept, notice, _guess(model), enough, solver)
     measured = given.test is not None
@@ -78,7 +78,7 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices, recordings
     kind, best, missing = verdict.kind, verdict.best, verdict.kind != NOTHING
     location = locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None
     put = best if kind in (NAMED, ONE_OF) else verdict.field
-    deck = None if put is None else extended(problem, put)
+    deck = put and extended(problem, put)
     return Diagnosis(
         problem=problem,
         kind=kind,

@@ -1,5 +1,6 @@
 """The names of all that a diagnosis considers: mechanisms, which modes and FRFs show, and laws, which recordings show."""
 
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.mechanisms import registry as mechanisms
 from mouse_cli.model.problem import Problem
@@ -35,3 +36,17 @@ def chosen(problem: Problem, given: tuple[str, ...], without: bool) -> tuple[str
     if not found:
         raise ValueError(f"no candidate is left; of {data} there are {', '.join(own)}")
     return found
+
+
+class NoSite(ValueError):
+    """None of the candidates that were asked for has a site in the model."""
+
+
+def housed(model: Reduced, given: tuple[str, ...] | None) -> None:
+    """Raises NoSite where none of the mechanisms `given` (None: all) has a site in the model, with those that have one."""
+    found = mechanisms()
+    if given is None or any(model.recipes(found[name]) for name in given):
+        return
+    why = "; ".join(f"{name}: {found[name].why(model.first)}" for name in given)
+    others = ", ".join(name for name, each in found.items() if model.recipes(each))
+    raise NoSite(f"no candidate that was asked for has a site in this model ({why}); these have one: {others}")

@@ -43,6 +43,8 @@ SYSTEMS = {
     "in-lbf": Units("in", "slinch", "lbf", 0.0254),
     "ft-lbf": Units("ft", "slug", "lbf", 0.3048),
 }
+KILOGRAM = {"kg": 1.0, "t": 1e-3, "slinch": 1 / 175.12683524647636, "slug": 1 / 14.593902937206364}
+"""1 kg in units of mass, by their names."""
 
 
 def system(units: Units) -> str:

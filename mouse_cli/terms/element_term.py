@@ -34,6 +34,11 @@ class ElementTerm:
             self._find_rules()
             self._find_linear()
 
+    @property
+    def axial(self) -> np.ndarray | None:
+        """Axial force (e,) by weight, tension positive; None where weight makes none."""
+        return self._matrices.layout.axial
+
     def _spread(self, entries: np.ndarray) -> np.ndarray:
         """Entries of elements at their places."""
         return entries if self._entry is None else entries[self._entry] * self._factor

@@ -116,7 +116,11 @@ def test_what_lies_on_one_side_of_all_sensors_ties():
     """k4 (x4 - x3) = lambda m4 x4: what sensors on masses 3 and 4 see follows from mass 4 alone, whatever acts before."""
     K, M, b = chain(), np.diag(MASSES), np.eye(4)[1] - np.eye(4)[0]
     location = located(K, M, measured(K - 30e3 * np.outer(b, b), M, [2, 3], 4))
-    before = {("force", (str(i),)) for i in (1, 2, 3)} | {("pair", ("1", "2")), ("pair", ("2", "3")), ("tie", ("1", "3"))}
+    before = {("force", (str(i),)) for i in (1, 2, 3)} | {
+        ("pair", ("1", "2")),
+        ("pair", ("2", "3")),
+        ("tie", ("1", "3")),
+    }
     assert names(location, 1e-6) == before
     assert location.places[len(before)].deficit > 100
 

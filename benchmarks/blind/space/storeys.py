@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from benchmarks.blind.case import ALTERED, Case, generator, near
+from benchmarks.blind.case import ALTERED, DENSITY_SPREAD, Case, generator, near
 from benchmarks.blind.space.rocked import make
 from benchmarks.blind.test_data import Config
 
@@ -44,10 +44,10 @@ def case(
         if share
         else 0.0
     )
-    added = float(ALTERED * building.m.sum())
+    added, masses = float(ALTERED * building.m.sum()), building.m * near(rng, 1.0, DENSITY_SPREAD)
     measured = int(rng.integers(4, 6))
     inputs = {
-        "rocked": 1, "heights": building.heights.tolist(), "k": k.tolist(), "m": [near(rng, m, 0.01) for m in building.m],
+        "rocked": 1, "heights": building.heights.tolist(), "k": k.tolist(), "m": masses.tolist(),
         "width": building.width, "turning": turning, "added": [n, added],
     }  # fmt: skip
     return Case(

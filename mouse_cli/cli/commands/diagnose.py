@@ -61,7 +61,7 @@ def command(
 
     Several DECKS are arrangements of one structure, such as masses at other places: their causes are told one after another.
 
-    Where, what, how much, and whether it is true. Exit 0: nothing is missing. 1: something is. 4: deck rejected. 5: no answer.
+    Where, what, how much, whether it is true. Exit 0: nothing is missing. 1: something is. 2: no site. 4: rejected. 5: no answer.
     """
     from mouse_cli.cli._terminal import deliver
 
@@ -109,6 +109,7 @@ def _answer(named: Named, arranged: bool, common_sd: float | None, asked: _Asked
     from mouse_cli.cli._decks import read_problem
     from mouse_cli.cli._terminal import progress, show_diagnostics
     from mouse_cli.diagnosis.diagnose import diagnose
+    from mouse_cli.diagnosis.names import NoSite
 
     problems = tuple(read_problem(deck, **how) for deck in named.fitted)
     unseen = tuple(read_problem(deck, **how) for deck in named.unseen)
@@ -116,9 +117,12 @@ def _answer(named: Named, arranged: bool, common_sd: float | None, asked: _Asked
         show_diagnostics(tuple(each for problem in (*problems, *unseen) for each in problem.warnings))
     choices = asked.of(problems[0])
     with progress() as (_, say):
-        if not arranged:
+        if arranged:
+            return diagnosed(named, problems, unseen, common_sd, say, choices)
+        try:
             return diagnose(problems[0], say, choices)
-        return diagnosed(named, problems, unseen, common_sd, say, choices)
+        except NoSite as reason:
+            raise click.UsageError(str(reason)) from reason
 
 
 def _names(candidates: str | None, without: str | None) -> tuple[str, ...] | None:

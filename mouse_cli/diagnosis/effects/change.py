@@ -62,6 +62,17 @@ class Carried:
     slopes: tuple[np.ndarray, np.ndarray]
     across: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
+    def part(self, which: list[int], r: int) -> "Carried":
+        """What a part of the degrees of freedom carries along, of a model of r coordinates."""
+        own = [getattr(self, name)[:, which] for name in ("model", "whole", "K", "M")]
+        at = np.concatenate([np.arange(r), r + np.array(which)])
+        slopes = tuple(each[:, at[:, None], at] for each in self.slopes)
+
+        def across(other: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            return tuple(each[..., which] for each in self.across(other))
+
+        return Carried(*own, self.deck, slopes, across)
+
 
 @dataclass(frozen=True)
 class Recipe:

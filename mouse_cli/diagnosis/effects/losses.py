@@ -51,8 +51,8 @@ def _stiffness(model: Reduced, s: int) -> list[tuple[int, np.ndarray]]:
     return [(i, u.T @ matrices[i] @ u) for i, u in moved]
 
 
-def matrices_of(model: Reduced, s: int) -> Matrices:
-    """Matrices of the elements of set s, at the parameters where causes are weighed."""
+def matrices_of(model: Reduced, s: int, **instead: float) -> Matrices:
+    """Matrices of the elements of set s, at the parameters where causes are weighed; instead: other values of properties."""
     mesh = model.problem.mesh
     elements, kind = mesh.elements[s], registry()[mesh.elements[s].type]
     options = {k: o.default for k, o in kind.options.items()} | elements.options
@@ -63,6 +63,8 @@ def matrices_of(model: Reduced, s: int) -> Matrices:
         bound = BoundProperties(kind, elements, layout, own)
         for name, value in bound.at(model.theta)[0].items():
             properties[name][bound.members] = value
+    for name in instead.keys() & properties.keys():
+        properties[name][:] = instead[name]
     return kind.matrices(layout, properties)
 
 

@@ -30,13 +30,14 @@ class Edit:
     supports: list[tuple[int, int]] = field(init=False)
     parameters: list[Parameter] = field(init=False)
     gravity: np.ndarray | None = field(init=False)
+    directions: tuple[int, ...] = field(init=False)
 
     def __post_init__(self) -> None:
         mesh = self.problem.mesh
         self.node_ids, self.coordinates = mesh.node_ids.tolist(), list(mesh.coordinates)
         self.sets, self.bindings, self.links = list(mesh.elements), list(self.problem.bindings), list(mesh.links)
         self.supports = [tuple(held) for held in mesh.supports.tolist()]
-        self.parameters, self.gravity = [], mesh.gravity
+        self.parameters, self.gravity, self.directions = [], mesh.gravity, mesh.directions
 
     def index(self, node_id: int) -> int:
         """Index of the node called `node_id`."""
@@ -199,14 +200,13 @@ class Edit:
 
     def _mesh(self) -> Mesh:
         supports = np.array(self.supports, int).reshape(-1, 2)
-        old = self.problem.mesh
         return Mesh(
             np.array(self.node_ids),
             np.array(self.coordinates).reshape(-1, 3),
             tuple(self.sets),
             supports,
             tuple(self.links),
-            old.directions,
+            self.directions,
             self.gravity,
         )
 

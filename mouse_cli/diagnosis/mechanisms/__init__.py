@@ -7,12 +7,14 @@ from mouse_cli import _registry
 from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 
+NO_SITE = "it has no site in this model"
+
 
 @dataclass(frozen=True)
 class Candidate:
     """key; title: in words; group: of candidates that data can hardly tell apart; meaning: what it is, for the manual.
 
-    recipes(model): where it can act in a model and how; empty where it has no meaning.
+    recipes(model): where it can act in a model and how; empty where it has no meaning. why(model): why it has no site in it.
     """
 
     key: str
@@ -20,6 +22,7 @@ class Candidate:
     group: str
     meaning: str
     recipes: Callable[[Reduced, "Candidate"], list[Recipe]]
+    why: Callable[[Reduced], str] = lambda model: NO_SITE
 
 
 def registry() -> dict[str, Candidate]:

@@ -11,7 +11,8 @@ from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.intervals import Interval
 from mouse_cli.diagnosis.sites.lines import Line, from_end
 from mouse_cli.diagnosis.sites.preload import runs
-from mouse_cli.model.diagnosis import Site
+from mouse_cli.diagnosis.sites.reasons import line_masses
+from mouse_cli.model.diagnosis import EVERYWHERE, Site
 from mouse_cli.model.problem import Problem
 
 _PART, _BETWEEN = 0.5, 0.1  # prior probability that a row is covered in part; of those, that neither end of it is
@@ -19,7 +20,7 @@ _MOST = 12  # rows of bars that may be covered in part
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """M + m times the integral of u'u over all bars, or over a row of them from either end on, or between two places."""
+    """M + m times the integral of u'u over all bars without a parameter for it, or over a row of them from an end on or between places."""
     found = runs(model, "nonstructural_mass")
     if not found:
         return []
@@ -28,20 +29,26 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     m = Unknown("mass per length", "kg/m", 1e-3 * mean, mean)
     wet = {i: Wet(run) for i, run in enumerate(found)}
     total = sum(part.sums[-1] for part in wet.values())
+    ids = tuple(sorted({int(bars.ids[i]) for run in found for i in run.members}))
+    known = len(set(bars.ids.tolist())) - len(ids)
+    named = "all beams" if not known else f"all beams but {known} whose mass is a parameter"
+    pieces = (
+        [(bars.start[i], np.array(bars.point(int(i), 1.0))) for run in found for i in run.members] if known else None
+    )
     everywhere = Recipe(
         candidate,
         (m,),
         lambda values: Change(M=values[0] * total),
         steps(m, 4)[:, None],
+        lambda values: Site("element", ids, None, named) if known else EVERYWHERE,
         log_prior=float(np.log(1 - _PART)),
-        extend=lambda problem, values: _with_mass(problem, values[0], None, "all beams"),
+        extend=lambda problem, values: _with_mass(problem, values[0], pieces, named),
     )
-    ended = list(wet.items())[:_MOST] if len(found) == len(bars.runs) else []
+    ended = list(wet.items())[:_MOST]
     share = _PART / max(len(ended), 1)
     one, both = 0.5 * (1 - _BETWEEN) * share, _BETWEEN * share
     partly = [_partly(candidate, found[i], part, m, back, one) for i, part in ended for back in (False, True)]
-    partly += [_between(candidate, found[i], part, m, both) for i, part in ended]
-    return [everywhere, *partly] if len(found) == len(bars.runs) else []
+    return [everywhere, *partly, *(_between(candidate, found[i], part, m, both) for i, part in ended)]
 
 
 def _partly(candidate: Candidate, run: Line, wet: Wet, m: Unknown, back: bool, share: float) -> Recipe:
@@ -60,7 +67,7 @@ def _partly(candidate: Candidate, run: Line, wet: Wet, m: Unknown, back: bool, s
         s = L * (1 - values[1] if back else values[1])
         middle = np.array(run.bars.point(*run.at(s)))
         ends = (middle, run.ends[1]) if back else (run.ends[0], middle)
-        return _with_mass(problem, values[0], ends, site(values).text)
+        return _with_mass(problem, values[0], [ends], site(values).text)
 
     grid = product(steps(m, 3), steps(covered, 3))
     return Recipe(candidate, (m, covered), change, grid, site, log_prior=float(np.log(share)), extend=extend)
@@ -71,7 +78,7 @@ def _between(candidate: Candidate, run: Line, wet: Wet, m: Unknown, share: float
     interval = Interval(run)
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
-        return _with_mass(problem, values[0], interval.points(*values[1:]), interval.site(*values[1:]).text)
+        return _with_mass(problem, values[0], [interval.points(*values[1:])], interval.site(*values[1:]).text)
 
     return Recipe(
         candidate,
@@ -84,13 +91,12 @@ def _between(candidate: Candidate, run: Line, wet: Wet, m: Unknown, share: float
     )
 
 
-def _with_mass(problem: Problem, m: float, ends: tuple | None, where: str) -> Problem:
+def _with_mass(problem: Problem, m: float, pieces: list | None, where: str) -> Problem:
+    """m (kg/m) on all beams, or on those along `pieces` (start, end), where they are split."""
     edit = Edit(problem)
-    if ends is None:
-        beams = every_beam(edit)
-    else:
+    for ends in pieces or ():
         split(edit, ends)
-        beams = beams_within(edit, [ends])
+    beams = every_beam(edit) if pieces is None else beams_within(edit, pieces)
     edit.put(beams, "nonstructural_mass", np.array([edit.values(e, "nonstructural_mass") for e in beams]) + m)
     edit.bind(f"added mass of {where}", beams, ("nonstructural_mass",), unit="kg/m")
     return edit.done()
@@ -103,4 +109,5 @@ CANDIDATE = Candidate(
     "mass per length that the model does not know (liquid that moves along, ice, cladding), on all bars, from an end on or "
     "between two places; on all bars alike it is what a larger density would be",
     recipes,
+    line_masses,
 )

@@ -4,6 +4,7 @@ from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.preload import preloads
+from mouse_cli.diagnosis.sites.reasons import bars
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
@@ -17,4 +18,5 @@ CANDIDATE = Candidate(
     "axial",
     "a push along bars (thermal, dead load, prestress) that softens their bending: low modes fall most; it stays below buckling",
     recipes,
+    bars,
 )

@@ -8,6 +8,7 @@ from mouse_cli.diagnosis.effects.hinges import places, with_hinge
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import Bars
+from mouse_cli.diagnosis.sites.reasons import bars
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.fracture import compliance
 
@@ -57,4 +58,5 @@ CANDIDATE = Candidate(
     "an open edge crack across a bar of rectangular section: it gives way in bending about a point off the axis, and a little in "
     "tension and shear, by its depth (linear fracture mechanics)",
     recipes,
+    bars,
 )

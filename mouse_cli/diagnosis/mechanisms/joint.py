@@ -7,6 +7,7 @@ from mouse_cli.diagnosis.effects.hinges import hinged, with_hinge
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import Bars
+from mouse_cli.diagnosis.sites.reasons import bars
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 
@@ -96,4 +97,5 @@ CANDIDATE = Candidate(
     "local-stiffness",
     "a connection of bars (bolts, weld, corner) that the model takes as rigid and that turns in proportion to the moment",
     recipes,
+    bars,
 )

@@ -10,6 +10,7 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.lines import Line
 from mouse_cli.diagnosis.sites.preload import runs, site_of
+from mouse_cli.diagnosis.sites.reasons import bars
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.elements import _beam as beam
@@ -99,4 +100,5 @@ CANDIDATE = Candidate(
     "offset",
     "the centre of mass of a section is not the point about which it twists: bending and torsion come in pairs of coupled modes",
     recipes,
+    bars,
 )

@@ -6,6 +6,7 @@ from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.effects.shearing import rotary, slender, with_rotary
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.reasons import bars
 from mouse_cli.model.problem import Problem
 
 
@@ -32,4 +33,5 @@ CANDIDATE = Candidate(
     "inertia of sections that turn in bending (Rayleigh), about a third of what shear does; more than 1 times the section's own "
     "means heavy parts far from the axis",
     recipes,
+    bars,
 )

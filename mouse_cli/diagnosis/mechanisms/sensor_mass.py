@@ -11,6 +11,26 @@ from mouse_cli.diagnosis.likelihoods.modal.scales import total_mass
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
+from mouse_cli.model.units import KILOGRAM
+
+_FELT, _LARGEST = (
+    1e-3,
+    0.1,
+)  # of the mass of the structure, shared by the sensors: what may be felt, and what nobody would mount
+_HEAVIEST = 20.0  # kg of a sensor with its base plate and cable: geophones and servo accelerometers weigh less
+
+
+def _most(model: Reduced, each: float) -> float:
+    """The mass of the heaviest sensor in the unit of the deck, `each` the mass of the structure for each sensor."""
+    kilogram = KILOGRAM.get(model.problem.units.mass)
+    return min(_LARGEST * each, _HEAVIEST * kilogram) if kilogram else _LARGEST * each
+
+
+def _why(model: Reduced) -> str:
+    """Why it has no site."""
+    if not model.data.test.s:
+        return "the test has no sensors"
+    return f"no sensor is heavy enough to be felt: {_HEAVIEST:g} kg each, in {model.problem.units.mass}, beside the structure"
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
@@ -28,7 +48,9 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     rows = model.V[dofs] if model.motion is None else np.concatenate([model.node(int(i))[:3] for i in nodes if i >= 0])
     M = rows.T @ rows
     each = total_mass(model) / max(len(nodes), 1 if len(nodes) else len(dofs))
-    m = Unknown("mass of each sensor", "kg", 1e-3 * each, 0.1 * each)
+    if (most := _most(model, each)) <= _FELT * each:
+        return []
+    m = Unknown("mass of each sensor", "kg", _FELT * each, most)
     site = Site("sensor", tuple(structure.labels[i] for i in np.unique(test.dofs)), None, "at every sensor")
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
@@ -57,6 +79,8 @@ CANDIDATE = Candidate(
     "sensor-mass",
     "the mass of the sensors",
     "sensor-mass",
-    "sensors and cables that are heavy for what they are mounted on, the same mass at each",
+    "sensors and cables that are heavy for what they are mounted on, the same mass at each: at most a tenth of the structure, and "
+    "20 kg where the deck declares its units",
     recipes,
+    _why,
 )

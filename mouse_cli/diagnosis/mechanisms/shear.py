@@ -4,6 +4,7 @@ from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.effects.shearing import sheared
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.reasons import bars
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
@@ -17,4 +18,5 @@ CANDIDATE = Candidate(
     "shear",
     "bars give way in shear (Timoshenko): frequencies of high modes fall with the square of their wave number, low ones stay",
     recipes,
+    bars,
 )

@@ -6,6 +6,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.effects.losses import of_elements, of_springs
+from mouse_cli.diagnosis.effects.members import of_members
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.stretches import of_lines
@@ -16,11 +17,13 @@ _SAME = 0.999  # cosine between the changes of stiffness by a part and by a para
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """EI (1 + d) over a stretch of a line; K_e (1 + d) of an element; K + d k b b' of a spring between degrees of freedom."""
-    lines, others = of_lines(model, candidate, True), of_elements(model, candidate, 1) + of_springs(model, candidate, 1)
-    share = float(np.log(_SELDOM * (0.5 if lines and others else 1.0)))
-    others = [replace(each, log_prior=each.log_prior + _log_known(model, each)) for each in others]
-    return [replace(each, log_prior=each.log_prior + share) for each in lines + others]
+    """EI (1 + d) over a stretch of a line; K_e (1 + d) of an element or a member; K + d k b b' of a spring of matrices."""
+    others = of_elements(model, candidate, 1) + of_springs(model, candidate, 1)
+    kinds = [each for each in (of_lines(model, candidate, True), others, of_members(model, candidate, 1)) if each]
+    share = float(np.log(_SELDOM / max(len(kinds), 1)))
+    found = [each for kind in kinds for each in kind]
+    known = [_log_known(model, each) if len(each.unknowns) == 1 else 0.0 for each in found]
+    return [replace(each, log_prior=each.log_prior + share + log) for each, log in zip(found, known, strict=True)]
 
 
 def _log_known(model: Reduced, recipe: Recipe) -> float:
@@ -35,7 +38,8 @@ CANDIDATE = Candidate(
     "stiffness-gain",
     "a local gain of stiffness",
     "added-stiffness",
-    "a stretch of a bar, or another element, that is stiffer than the model says: a doubler or a gusset, an infill, a repair, "
-    "a thicker section; held to be ten times less likely than any other cause, a part with a parameter of its own a hundred times",
+    "a stretch of a bar, a member, or another element, that is stiffer than the model says: a doubler or a gusset, an infill, a "
+    "repair, a thicker section; held to be ten times less likely than any other cause, a part with a parameter of its own a "
+    "hundred times",
     recipes,
 )

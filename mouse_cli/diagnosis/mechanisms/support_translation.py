@@ -4,6 +4,7 @@ from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.effects.supports import yielding
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.reasons import supports
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
@@ -17,4 +18,5 @@ CANDIDATE = Candidate(
     "support",
     "what the model holds rigidly moves along the direction of a reaction (soil, bearing, test stand)",
     recipes,
+    supports,
 )

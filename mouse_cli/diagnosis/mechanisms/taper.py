@@ -10,14 +10,19 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.lines import Line, whole
 from mouse_cli.diagnosis.sites.preload import runs, site_of
+from mouse_cli.diagnosis.sites.reasons import bars
 from mouse_cli.model.problem import Problem
 
 _FEWEST = 4  # bars in a row that show a slope
 _MOST = 0.6  # change from the middle to an end
+_LEAST_MASS, _MOST_MASS = (
+    0.3,
+    1.0,
+)  # of b h over that of b h^3: a third where the depth h changes, all where the width b does
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """EI (1 + a xi) and mass per length (1 + b xi), xi from -1 at one end of the row to 1 at the other."""
+    """EI (1 + a xi) and mass per length (1 + a b xi), xi from -1 at one end of the row to 1 at the other."""
     found = [run for run in runs(model, "nonstructural_mass", "Iy", "Iz") if len(run.members) >= _FEWEST]
     return [_recipe(model, candidate, run, len(found)) for run in found]
 
@@ -25,7 +30,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
 def _recipe(model: Reduced, candidate: Candidate, run: Line, count: int) -> Recipe:
     bars = model.bars
     a = Unknown("slope of EI over its mean", "1", -_MOST, _MOST, log=False)
-    b = Unknown("slope of the mass over its mean", "1", -_MOST, _MOST, log=False)
+    b = Unknown("slope of the mass over that of EI", "1", _LEAST_MASS, _MOST_MASS, log=False)
     along = {int(i): _xi(run, run.bars.point(int(i), 0.5)) for i in run.members}
     members = whole(run)
     same = {(int(bars.set[i]), int(bars.member[i])): xi for i, xi in along.items()}
@@ -37,10 +42,12 @@ def _recipe(model: Reduced, candidate: Candidate, run: Line, count: int) -> Reci
     site = site_of(model, run)
 
     def change(values: np.ndarray) -> Change:
-        return Change(M=values[1] * M, softening=Softening(members, F * (1 / (1 + values[0] * xi) - 1)[:, None, None]))
+        return Change(
+            M=values[0] * values[1] * M, softening=Softening(members, F * (1 / (1 + values[0] * xi) - 1)[:, None, None])
+        )
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
-        return _tapered(problem, run, *values)
+        return _tapered(problem, run, values[0], values[0] * values[1])
 
     grid = product(steps(a, 4), steps(b, 2))
     return Recipe(candidate, (a, b), change, grid, lambda values: site, 0, -float(np.log(count)), extend)
@@ -68,6 +75,8 @@ CANDIDATE = Candidate(
     "taper",
     "a taper",
     "taper",
-    "sections that grow or shrink along a row of bars which the model takes as uniform: stiffness and mass change linearly",
+    "sections that grow or shrink along a row of bars which the model takes as uniform: stiffness and mass change "
+    "linearly, the mass by 0.3 to 1 times as much, as in one section (b h and b h^3)",
     recipes,
+    bars,
 )

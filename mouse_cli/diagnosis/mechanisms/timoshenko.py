@@ -4,6 +4,7 @@ from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.effects.shearing import sheared
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.reasons import bars
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
@@ -17,4 +18,5 @@ CANDIDATE = Candidate(
     "shear",
     "Timoshenko's bar: shear flexibility together with the inertia of turning sections, which always come together",
     recipes,
+    bars,
 )

@@ -26,10 +26,7 @@ from mouse_cli.diagnosis.search.study import Study, best, settled
 from mouse_cli.model.diagnosis import Untried
 from mouse_cli.model.groups import joined, shares
 
-_NO_SITE, _UNPHYSICAL = (
-    "it has no site in this model",
-    "no size of it makes a model whose modes can be paired with the test",
-)
+_UNPHYSICAL = "no size of it makes a model whose modes can be paired with the test"
 _TRUSTED = 0.5  # share of the stated accuracies in the leading explanation below which errors of the test may be all
 _LOUD = 4.0  # noise scale from which on no error of the test is all, and as many are sought as beside a test that is trusted
 _IDLE = (
@@ -114,7 +111,7 @@ def rank(
 def _untried(study: Study, singles: list[Fit]) -> tuple[Untried, ...]:
     """Candidates without a site in the model, or without a fit at any of them."""
     tried = {one.recipes[0].candidate.key for one in singles}
-    reason = lambda name: _UNPHYSICAL if study.recipes(name) else _NO_SITE
+    reason = lambda name: _UNPHYSICAL if study.recipes(name) else study.known[name].why(study.model.first)
     return tuple(Untried(name, reason(name)) for name in study.known if name not in tried)
 
 

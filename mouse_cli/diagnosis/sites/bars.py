@@ -221,7 +221,7 @@ def _properties(elements, layout: Layout, own: tuple, theta: np.ndarray) -> Prop
 
 def _planes(number: int, mesh: Mesh, layout: Layout, p: Properties, motion: Motion, V: np.ndarray | None) -> list[dict]:
     elements, at = mesh.elements[number], beam.span(layout)
-    u = _displacements(motion, elements.nodes, V)
+    u = displacements(motion, elements.nodes, V)
     local = np.einsum("eij,ejr->eir", at.motion, u)
     parts = []
     for plane, axis, across in ((0, "z", "y"), (1, "y", "z")):
@@ -255,7 +255,7 @@ def _planes(number: int, mesh: Mesh, layout: Layout, p: Properties, motion: Moti
     return parts
 
 
-def _displacements(motion: Motion, nodes: np.ndarray, V: np.ndarray | None) -> np.ndarray:
+def displacements(motion: Motion, nodes: np.ndarray, V: np.ndarray | None) -> np.ndarray:
     """Motion (e, 12, r) of the nodes (e, 2) in each coordinate."""
     places = 6 * np.unique(nodes)[:, None] + np.arange(6)
     rows = motion.rows(places.ravel()) if V is None else _rows(motion, places.ravel()) @ V

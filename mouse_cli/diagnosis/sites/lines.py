@@ -8,7 +8,7 @@ import numpy as np
 
 from mouse_cli.model.diagnosis import Site
 
-_STRAIGHT = 0.999  # cosine of the angle between bars of one line
+STRAIGHT = 0.999  # cosine of the angle between bars of one line
 
 
 @dataclass(frozen=True)
@@ -72,9 +72,7 @@ def joined_lines(part: dict[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray, n
     for i in range(b):
         here = (int(part["nodes"][i, 1]), int(part["plane"][i]))
         for j in first.get(here, ()):
-            straight = (
-                part["axis"][i] @ part["axis"][j] > _STRAIGHT and part["across"][i] @ part["across"][j] > _STRAIGHT
-            )
+            straight = part["axis"][i] @ part["axis"][j] > STRAIGHT and part["across"][i] @ part["across"][j] > STRAIGHT
             if j != i and straight and into[j] < 0 and follows[i] < 0:
                 follows[i], into[j] = j, i
     line, before, order, number, done = [], [], [], 0, np.zeros(b, bool)

@@ -1,0 +1,111 @@
+"""Members that lose or gain stiffness as a whole, all of A, Iy, Iz and J by one factor, and their mass with it."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.effects.losses import LOST, matrices_of
+from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.bars import displacements
+from mouse_cli.diagnosis.sites.members import SLENDER, Member, members
+from mouse_cli.model.geometry import DIRECTIONS
+from mouse_cli.model.problem import Problem
+
+_MOST = 240  # members that are looked at: those that hold most energy in the lowest modes
+_HELD = 1e-6  # share of the energy of a mode below which a member has no part in it
+_LOST, _GAINED = Unknown(LOST, "1", 0.02, 0.99), Unknown("share gained", "1", 0.02, 3.0)
+_STIFF = {"beam": ("E",), "rod": ("E",), "storey": DIRECTIONS}
+_SECTIONS = {"beam": ("A", "Iy", "Iz", "J"), "rod": ("A",)}
+
+Part = tuple[
+    np.ndarray, np.ndarray, np.ndarray
+]  # of a set: motion (e, 12, r) of the nodes, K and M (e, 12, 12) of the section
+
+
+def of_members(model: Reduced, candidate: Candidate, sign: int = -1) -> list[Recipe]:
+    """K - d K_e of each member, alone or with M - d M_e of its section; K + d K_e, and the same, by `sign`."""
+    if model.motion is None:
+        return []
+    parts: dict[int, Part] = {}
+    found = [(member, _energy(model, member, parts)) for member in members(model.problem.mesh)]
+    order = np.argsort([-energy for _, energy in found], kind="stable")[:_MOST]
+    chosen = [found[i][0] for i in sorted(order.tolist()) if found[i][1] > _HELD]
+    kinds = [member.kind for member in chosen]
+    recipes = []
+    for member in chosen:
+        K, M = (_sum(member, parts, which) for which in (1, 2))
+        heavy = bool(np.abs(M).max() > 0)
+        share = -float(np.log(len(set(kinds)) * kinds.count(member.kind) * (1 + heavy)))
+        recipes.append(_recipe(candidate, member, sign * K, None, sign, share, model.problem))
+        if heavy:
+            recipes.append(_recipe(candidate, member, sign * K, sign * M, sign, share, model.problem))
+    return recipes
+
+
+def _part(model: Reduced, s: int) -> Part:
+    """See `Part`; M without what the section only carries."""
+    found = matrices_of(model, s, nonstructural_mass=0.0)
+    elements = model.problem.mesh.elements[s]
+    u = displacements(model.motion, elements.nodes, model.V)
+    M = found["M"] if elements.type in SLENDER else np.zeros_like(found["K"])
+    return u, found["K"], M
+
+
+def _energy(model: Reduced, member: Member, parts: dict[int, Part]) -> float:
+    """The largest share of the strain energy of a low mode that a member holds."""
+    count = min(model.r, int(model.data.test.number.max()) + 1)
+    scale = np.maximum(model.eigenvalues[:count], 1e-9 * model.eigenvalues[-1])
+    held = np.zeros(count)
+    for s in sorted({s for s, _ in member.elements}):
+        if s not in parts:
+            parts[s] = _part(model, s)
+        own = [i for t, i in member.elements if t == s]
+        u, K = parts[s][0][own][:, :, :count], parts[s][1][own]
+        held += np.einsum("eir,eij,ejr->r", u, K, u, optimize=True)
+    return float((held / scale).max())
+
+
+def _sum(member: Member, parts: dict[int, Part], which: int) -> np.ndarray:
+    """K or M (r, r) of a member."""
+    total = 0.0
+    for s in sorted({s for s, _ in member.elements}):
+        own = [i for t, i in member.elements if t == s]
+        u = parts[s][0][own]
+        total = total + u.reshape(-1, u.shape[2]).T @ (parts[s][which][own] @ u).reshape(-1, u.shape[2])
+    return total
+
+
+def _recipe(
+    candidate: Candidate, member: Member, K: np.ndarray, M: np.ndarray | None, sign: int, share: float, deck: Problem
+) -> Recipe:
+    """K and M: what is added for a share of 1."""
+    d, site = _LOST if sign < 0 else _GAINED, member.site
+    kind, beside = deck.mesh.elements[member.elements[0][0]].type, "" if M is None else ", its mass alike"
+    numbers = [int(deck.mesh.elements[s].ids[i]) for s, i in member.elements]
+
+    def extend(problem: Problem, values: np.ndarray) -> Problem:
+        edit = Edit(problem)
+        own = [edit.element(number) for number in numbers]
+        names = _SECTIONS[kind] if M is not None else _stiff(edit, own, kind)
+        what = f"left of {site.text}" if sign < 0 else f"of {site.text}, strengthened"
+        edit.bind(f"{'section' if M is not None else 'stiffness'} {what}", own, names, factor=1 + sign * values[0])
+        return edit.done()
+
+    site = site if M is None else site.__class__(site.kind, site.ids, site.position, site.text + beside)
+    return Recipe(
+        candidate,
+        (d,),
+        lambda values: Change(values[0] * K, None if M is None else values[0] * M, spring=(values[0] + sign) * K),
+        steps(d, 4)[:, None],
+        lambda values: site,
+        log_prior=share,
+        extend=extend,
+    )
+
+
+def _stiff(edit: Edit, own: list[tuple[int, int]], kind: str) -> tuple[str, ...]:
+    """The properties that the stiffness of a type is in proportion to; G follows E unless it is given."""
+    given = edit.sets[own[0][0]].properties
+    names = tuple(name for name in _STIFF[kind] if kind != "storey" or name in given)
+    return (*names, "G") if kind == "beam" and "G" in given else names

@@ -1,0 +1,128 @@
+"""Members of a structure as its engineer sees them: alone, in a row through joints, or all of one section."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.diagnosis.sites.lines import STRAIGHT, elements
+from mouse_cli.model.diagnosis import Site
+from mouse_cli.model.mesh import ElementSet, Mesh
+
+SLENDER = ("beam", "rod")
+_SECTION = ("A", "Iy", "Iz", "J", "E")
+_GROUPED = (*SLENDER, "storey")
+
+Element = tuple[int, int]  # set and member
+
+
+@dataclass(frozen=True)
+class Member:
+    """Elements (set, member) that are one part; kind: ONE, ROW or ALIKE; text: in words."""
+
+    kind: str
+    elements: tuple[Element, ...]
+    site: Site
+
+
+ONE, ROW, ALIKE = "one", "row", "alike"
+
+
+def members(mesh: Mesh) -> list[Member]:
+    """All members, rows of them and groups of one section, each once; the structure as a whole is none."""
+    sets = [s for s, each in enumerate(mesh.elements) if each.type in _GROUPED]
+    slender = [(s, i) for s in sets if mesh.elements[s].type in SLENDER for i in range(len(mesh.elements[s]))]
+    ones, rows = _chains(mesh, slender)
+    total, found = sum(len(mesh.elements[s]) for s in sets), {}
+    for kind, parts in ((ONE, ones), (ROW, rows), (ALIKE, _alike(mesh, sets))):
+        for part in parts:
+            single = len(part) == 1 and mesh.elements[part[0][0]].type != "beam"  # which losses of elements know
+            if len(part) < total and not single:
+                found.setdefault(tuple(part), Member(kind, tuple(part), _site(mesh, part, kind)))
+    return list(found.values())
+
+
+def _chains(mesh: Mesh, slender: list[Element]) -> tuple[list[list[Element]], list[list[Element]]]:
+    """Members, which end where others begin or the section changes; and rows of them that go straight on."""
+    at: dict[int, list[int]] = {}
+    for n, (s, i) in enumerate(slender):
+        for node in mesh.elements[s].nodes[i].tolist():
+            at.setdefault(node, []).append(n)
+    along = [_direction(mesh, each) for each in slender]
+    on, through = [], []
+    for node, meeting in at.items():
+        out = {
+            n: along[n] if mesh.elements[slender[n][0]].nodes[slender[n][1], 0] == node else -along[n] for n in meeting
+        }
+        for k, n in enumerate(meeting):
+            for other in meeting[k + 1 :]:
+                if out[n] @ out[other] < -STRAIGHT and _type(mesh, slender[n]) == _type(mesh, slender[other]):
+                    through.append((n, other))
+                    if len(meeting) == 2 and _same(mesh, slender[n], slender[other]):
+                        on.append((n, other))
+    return tuple([[slender[n] for n in part] for part in _joined(len(slender), pairs)] for pairs in (on, through))
+
+
+def _type(mesh: Mesh, element: Element) -> str:
+    return mesh.elements[element[0]].type
+
+
+def _direction(mesh: Mesh, element: Element) -> np.ndarray:
+    """Unit vector (3,) from the first to the second node."""
+    s, i = element
+    a, b = mesh.coordinates[mesh.elements[s].nodes[i]]
+    return (b - a) / max(float(np.linalg.norm(b - a)), 1e-300)
+
+
+def _same(mesh: Mesh, one: Element, other: Element) -> bool:
+    """Whether two elements have the same section and material."""
+    return _section(mesh.elements[one[0]], one[1]) == _section(mesh.elements[other[0]], other[1])
+
+
+def _section(own: ElementSet, i: int) -> tuple:
+    return tuple(float(own.properties[name][i]) for name in _SECTION if name in own.properties)
+
+
+def _joined(count: int, pairs: Iterable[tuple[int, int]]) -> list[list[int]]:
+    """Numbers up to `count` in parts that `pairs` connect, in the order of their first."""
+    first = list(range(count))
+
+    def root(n: int) -> int:
+        while first[n] != n:
+            first[n] = first[first[n]]
+            n = first[n]
+        return n
+
+    for a, b in pairs:
+        a, b = sorted((root(a), root(b)))
+        first[b] = a
+    parts: dict[int, list[int]] = {}
+    for n in range(count):
+        parts.setdefault(root(n), []).append(n)
+    return list(parts.values())
+
+
+def _alike(mesh: Mesh, sets: list[int]) -> Iterator[list[Element]]:
+    """All elements of one section, by its name or its values, and all of one entry of the deck."""
+    found: dict[tuple, list[Element]] = {}
+    for s in sets:
+        own = mesh.elements[s]
+        name = own.origin.get("A") or own.origin.get("E")
+        for i in range(len(own)):
+            key = (own.type, name) if name else (own.type, *_section(own, i)) if own.type in SLENDER else (own.type, s)
+            found.setdefault(key, []).append((s, i))
+    yield from (part for part in found.values() if len(part) > 1)
+
+
+def _site(mesh: Mesh, part: list[Element], kind: str) -> Site:
+    """In words; where it is, unless it is all over the structure."""
+    ids = tuple(int(mesh.elements[s].ids[i]) for s, i in part)
+    nodes = np.unique(np.concatenate([mesh.elements[s].nodes[i] for s, i in part]))
+    own = mesh.elements[part[0][0]]
+    middle = (mesh.coordinates[nodes].min(axis=0) + mesh.coordinates[nodes].max(axis=0)) / 2
+    if kind == ALIKE:
+        name = own.origin.get("A") or own.origin.get("E")
+        text = f"all of {name}" if name else f"all of {elements(ids)}"
+        return Site("element", ids, None, f"{text}, alike")
+    text = elements(ids) if kind == ONE else f"the row of {elements(ids)}"
+    return Site("element", ids, tuple(middle.tolist()), text)

@@ -1,0 +1,53 @@
+"""Why a model has no site for a candidate, in words that follow its name."""
+
+from typing import Any
+
+from mouse_cli.diagnosis.sites.bases import base
+
+_MATRICES = "the model is one of matrices without elements"
+
+
+def bars(model: Any) -> str:
+    """Without a beam that bends."""
+    if model.motion is None or not model.problem.mesh.elements:
+        return f"{_MATRICES}, so that beams are not known"
+    return (
+        "no beam of this model bends in a way that it concerns" if model.bars is not None else "the model has no beams"
+    )
+
+
+def supports(model: Any) -> str:
+    """Without a support that bears."""
+    if model.motion is None or not model.problem.mesh.elements:
+        return f"{_MATRICES}, from which what is held was taken out: a spring to the ground stands for what holds it"
+    kept = set(model.problem.mesh.directions)
+    if not any(d in kept for _, d in model.problem.mesh.supports.tolist()):
+        return "the model has no supports"
+    return "no support with mass beside it bears a load in the measured modes"
+
+
+def bases(model: Any) -> str:
+    """Without a base that moves as one."""
+    if model.motion is None or not len(model.problem.mesh.supports):
+        return supports(model)
+    mesh = model.problem.mesh
+    if {"storey"} & {each.type for each in mesh.elements}:
+        if mesh.gravity is not None or any(each.properties.get("preload") is not None for each in mesh.elements):
+            return "storeys that turn with their base are not known under axial force (gravity, preload)"
+        return "storeys are not alone, or not all above one node that is held"
+    if base(model.problem) is None:
+        return "its supports are one node, or let it turn"
+    return "no motion of all supports together bears a load in the measured modes"
+
+
+def members(model: Any) -> str:
+    """Without members, or with one."""
+    found = bars(model)
+    return "the whole structure is one member" if model.motion is not None and model.bars is not None else found
+
+
+def line_masses(model: Any) -> str:
+    """Where mass along bars is known already."""
+    if model.bars is None:
+        return bars(model)
+    return "a parameter stands for the nonstructural_mass of every beam already"
