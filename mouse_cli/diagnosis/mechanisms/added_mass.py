@@ -20,7 +20,7 @@ _MOST = 12  # rows of bars that may be covered in part
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """M + m times the integral of u'u over all bars without a parameter for it, or over a row of them from an end on or between places."""
+    """M + m times the integral of u'u over bars without a parameter for it: all, or a row of them in part."""
     found = runs(model, "nonstructural_mass")
     if not found:
         return []

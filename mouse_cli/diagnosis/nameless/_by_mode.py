@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.diagnosis.likelihoods.modal.model import Model, Point, modes_of
+from mouse_cli.diagnosis.likelihoods.modal.model import Model, modes_of
+from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.nameless._field import Fielded
 
 

@@ -4,7 +4,8 @@ import numpy as np
 
 from mouse_cli.diagnosis.evidence import capped
 from mouse_cli.diagnosis.gates import GATE
-from mouse_cli.diagnosis.likelihoods.modal.model import Model, Point
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
 from mouse_cli.updating.chi_square import upper_tail
 

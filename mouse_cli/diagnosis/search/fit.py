@@ -12,7 +12,8 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.evidence import capped, laplace
-from mouse_cli.diagnosis.likelihoods.modal.model import Model, Point
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.likelihoods.modal.point import Point
 
 _SMALL = 1e-4  # change of J, relative to 1 + its share of rounding, that ends the search
 MOST = 40

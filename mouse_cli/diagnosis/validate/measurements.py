@@ -10,7 +10,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe
 from mouse_cli.diagnosis.effects.sensors import name
-from mouse_cli.diagnosis.likelihoods.modal.model import Point
+from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import highest, total_mass
 from mouse_cli.diagnosis.mechanisms import registry

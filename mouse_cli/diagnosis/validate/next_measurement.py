@@ -6,7 +6,8 @@ Each prediction h and its derivatives J are those of the fitted model itself.
 
 import numpy as np
 
-from mouse_cli.diagnosis.likelihoods.modal.model import Model, Point
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.sites.points import directions
 from mouse_cli.diagnosis.validate.measurements import SHAPE_SD, Measurement, listed, measurements, places, unaltered

@@ -18,7 +18,8 @@ from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.likelihoods.frf.damping import Damping
 from mouse_cli.diagnosis.likelihoods.frf.gains import gains
 from mouse_cli.diagnosis.likelihoods.frf.losses import Losses
-from mouse_cli.diagnosis.likelihoods.modal.model import Model, Point
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.dynamics.sensing import read
 

@@ -1,13 +1,13 @@
 """A reduced model with causes added to it: what it predicts at any parameters and sizes, and by which derivatives."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe
+from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 
 _STEP = 1e-5  # of a range, for derivatives of matrices
@@ -131,7 +131,7 @@ class Model:
             G[:r, self.places[j][r:]] = self.recipes[j].carried.model
         return G
 
-    def point(self, x: np.ndarray) -> "Point | None":
+    def point(self, x: np.ndarray) -> Point | None:
         """The model at x (k + t,); None where it is not physical."""
         found = self.solved(x)
         return None if found is None else self.paired(x, *found)
@@ -147,7 +147,7 @@ class Model:
         physical = np.isfinite(eigenvalues).all() and eigenvalues[0] >= -1e-5 * abs(eigenvalues[-1])
         return (eigenvalues, X, S) if physical else None
 
-    def paired(self, x: np.ndarray, eigenvalues: np.ndarray, X: np.ndarray, S: np.ndarray) -> "Point | None":
+    def paired(self, x: np.ndarray, eigenvalues: np.ndarray, X: np.ndarray, S: np.ndarray) -> Point | None:
         """Those modes beside the test; None where it has modes that are none of theirs."""
         seen = S @ X
         seen += self.base.sensing @ X[: self.base.r]
@@ -157,7 +157,7 @@ class Model:
         residual, a = self.base.data.residual(eigenvalues[modes], seen[:, modes])
         return Point(x, eigenvalues, X, seen, modes, residual, a)
 
-    def jacobian(self, at: "Point") -> np.ndarray:
+    def jacobian(self, at: Point) -> np.ndarray:
         """d(prediction)/dx (q, k + t), whitened."""
         X, m = at.X, at.modes
         forces, inertia, sensed = (
@@ -170,7 +170,7 @@ class Model:
         d_seen = np.swapaxes((G / apart) @ at.seen.T, 1, 2) - 0.5 * inertia[:, None] * at.seen[:, m] + sensed
         return self.base.data.jacobian(at.eigenvalues[m], at.seen[:, m], at.a, d_lambda.T, np.moveaxis(d_seen, 0, -1))
 
-    def _by_deck(self, at: "Point") -> Pushed:
+    def _by_deck(self, at: Point) -> Pushed:
         """What the deck's parameters do to the measured modes."""
         r, X, m = self.base.r, at.X, at.modes
         stiff, moved = self.base.moved(at.x[: self.k], X[:r, m])
@@ -182,7 +182,7 @@ class Model:
             inertia += np.einsum("prm,rm->pm", moved, X[:, m])
         return forces, inertia, np.zeros((self.k, len(at.seen), len(m)))
 
-    def _by_causes(self, at: "Point") -> Pushed:
+    def _by_causes(self, at: Point) -> Pushed:
         """What the coordinates of the causes do to them: matrices meet the shapes one by one, and are never summed."""
         r, X, eigenvalues = self.base.r, at.X[:, at.modes], at.eigenvalues[at.modes]
         forces, inertia = np.zeros((self.t, *X.shape)), np.zeros((self.t, X.shape[1]))
@@ -203,7 +203,7 @@ class Model:
                 forces[j, :r] += rows.T @ (core @ (rows @ X[:r]).reshape(len(bars), 3, -1)).reshape(len(rows), -1)
         return forces, inertia, sensed
 
-    def _following(self, at: "Point") -> np.ndarray | float:
+    def _following(self, at: Point) -> np.ndarray | float:
         """Forces (k, r, m) on the measured modes by what softens bars, as it follows their stiffness."""
         bars, core = self.softer(self.changes(at.x[self.k :]))
         if not len(bars):
@@ -214,11 +214,11 @@ class Model:
         loads = follows[:, :, None, None] * loads  # (k, b, 3, m)
         return rows.reshape(3 * b, -1).T @ loads.reshape(len(follows), 3 * b, loads.shape[-1])
 
-    def parts(self, at: "Point") -> list[tuple["Model", "Point"]]:
+    def parts(self, at: Point) -> list[tuple["Model", Point]]:
         """The model and its point by themselves: there is one arrangement."""
         return [(self, at)]
 
-    def loosened(self, at: "Point", share: float) -> "Model | None":
+    def loosened(self, at: Point, share: float) -> "Model | None":
         """The same, its data allowed that share of what the causes do at a point; None where there is no model without them."""
         bare = Model(self.base).point(self.base.bare(at.x[: self.k]))
         if bare is None:
@@ -286,21 +286,3 @@ def modes_of(K: np.ndarray, M: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
     eigenvalues, X, fault = dsygvd(K.T, M.T, overwrite_a=1, overwrite_b=1)
     return (np.full(len(K), np.nan) if fault else eigenvalues), X
-
-
-@dataclass(frozen=True)
-class Point:
-    """Model at x: all eigenvalues, shapes X (size, size), what sensors see of them (s, size), measured modes, residual, scales."""
-
-    x: np.ndarray
-    eigenvalues: np.ndarray
-    X: np.ndarray
-    seen: np.ndarray
-    modes: np.ndarray
-    residual: np.ndarray
-    a: np.ndarray
-
-    @property
-    def chi2(self) -> float:
-        """What is left of the data's misfit."""
-        return float(self.residual @ self.residual)
