@@ -99,6 +99,8 @@ def parameters(result: Result) -> list[dict[str, Any]]:
             "prior_sd": prior_sd[i],
             "posterior": result.revised.theta[i] if have else None,
             "posterior_sd": result.sd_theta[i] if have and not result.at_limit[i] else None,
+            "interval": result.interval(i) if have and not result.at_limit[i] else None,
+            "transform": parameter.transform,
             "at_limit": result.at_limit[i],
         }
         for i, parameter in enumerate(result.problem.parameters)
