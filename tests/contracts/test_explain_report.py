@@ -15,7 +15,9 @@ def test_the_report_is_explained(topic, capsys):
     assert head.lower().startswith(f"{topic.lower()}: ") and "1972" in head and len(told) > 30
 
 
-@pytest.mark.parametrize("field", next(group for group in GROUPS if group.number == 2).fields, ids=lambda field: field.row.name)
+@pytest.mark.parametrize(
+    "field", next(group for group in GROUPS if group.number == 2).fields, ids=lambda field: field.row.name
+)
 def test_fields_of_the_control_card_are_explained(field, capsys):
     assert _run(["explain", field.row.name]) == 0
     assert f"columns {field.columns}, FORMAT I8" in capsys.readouterr().out
