@@ -10,7 +10,7 @@ _UNSEEN = re.compile(
     "[\x00-\x08\x0b-\x1f\x7f-\x9f\xad\u061c\u115f\u1160\u180e\u200b-\u200f\u2028-\u202e\u2060-\u206f\u3164\ufe00-\ufe0f\ufeff\uffa0"
     "\ufff9-\ufffb\ud800-\udfff\U000e0000-\U000e0fff]"
 )
-# What servers take for a command of theirs at the beginning of a line, blanks or none before it: `::error::`, `##[group]`, `##vso[`.
+# What servers take for a command of theirs at the beginning of a line, after blanks too: `::error::`, `##[group]`, `##vso[`.
 _COMMAND = re.compile(r"^([ \t]*)(?::(?=:)|#(?=#(?:vso)?\[))", re.MULTILINE)
 _FORMULA = ("=", "+", "-", "@")
 
