@@ -11,7 +11,7 @@ import numpy as np
 from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 
-KEPT = 64  # places and sizes of one candidate that are looked at beside others; of no more each is
+KEPT = 256  # places and sizes of one candidate that are looked at beside others; of no more each is
 _EACH = 4  # of one recipe at least, if it has so many among the best
 
 
