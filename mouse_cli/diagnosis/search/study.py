@@ -16,6 +16,7 @@ from mouse_cli.diagnosis.search.escape import shifted, uncrossed
 from mouse_cli.diagnosis.search.fit import MOST, End, Fit, descended, fit
 from mouse_cli.diagnosis.search.optima import NEAR, distinct, within
 from mouse_cli.diagnosis.search.starts import cost, leading, spread
+from mouse_cli.diagnosis.search.superposed import KEPT, Alone, by_itself, chosen, text
 from mouse_cli.dynamics.eigen import IndefiniteError
 
 _STARTS = 3  # fits of a candidate to the end, from different optima
@@ -35,8 +36,16 @@ class Study:
     known: candidates by key; None: all. kind: of what a model with causes is made, of one structure or of its arrangements.
     """
 
-    def __init__(self, model: Reduced, known: dict[str, Candidate] | None = None, kind: type[Model] = Model):
+    def __init__(
+        self,
+        model: Reduced,
+        known: dict[str, Candidate] | None = None,
+        kind: type[Model] = Model,
+        begun: "Study | None" = None,
+    ):
         self.model, self.k, self.kind = model, model.L.shape[1], kind
+        self.begun = self if begun is None else begun  # the same at the parameters where the search began
+        self._alone: dict[str, Alone] = {}
         self.known = registry() if known is None else known
         self._made: dict[str, list[Recipe]] = {}
         self._about: list[Study] = [self]
@@ -57,7 +66,9 @@ class Study:
         Those are the lowest, and how the rest bends when one end of a line gives way, which they alone do not.
         """
         model = self.model.looked_at(_lowest)
-        return self if model is self.model else Study(model, self.known, self.kind)
+        if model is self.model:
+            return self
+        return Study(model, self.known, self.kind, None if self.begun is self else self.begun.coarse)
 
     def promising(self) -> list[str]:
         """All candidates, those first that a first look at them alone finds most promising."""
@@ -71,19 +82,36 @@ class Study:
 
     def looks(self, name: str, before: np.ndarray, beside: tuple[Recipe, ...]) -> list[tuple[float, int, np.ndarray]]:
         """The same, with the misfits that are to be expected; kept, for what looks best is where descents begin."""
-        others, found = self.own(beside), []
+        others = self.own(beside)
         key = (name, before.tobytes(), *((each.candidate.key, each.number) for each in others))
-        if key in self._looked:
-            return self._looked[key]
+        if key not in self._looked:
+            points = self._points(name, before, others)
+            found = [(self.foreseen(at), recipe.number, at.x) for recipe, _, at in points]
+            self._looked[key] = sorted(found, key=lambda item: item[0])
+            if not others and len(points) > KEPT:
+                self._alone[name] = by_itself(points, self.kind(self.model).point(np.zeros(self.k)))
+        return self._looked[key]
+
+    def _points(self, name: str, before: np.ndarray, others: tuple[Recipe, ...]) -> list[tuple[Recipe, int, Point]]:
+        """Recipe, number of the size and point of what candidate `name` does beside `others`, where that is worth a look."""
+        worth, found = self._worth(name, before, others), []
         for recipe in self.recipes(name):
-            trial = self.kind(self.model, (*others, recipe))
-            for values in recipe.grid:
-                at = trial.point(np.concatenate([before, recipe.coordinates(values)]))
-                if at is not None:
-                    found.append((self.foreseen(at), recipe.number, at.x))
-        found.sort(key=lambda item: item[0])
-        self._looked[key] = found
+            trial, place = self.kind(self.model, (*others, recipe)), text(recipe)
+            for i, values in enumerate(recipe.grid):
+                if worth is None or (place, i) in worth:
+                    at = trial.point(np.concatenate([before, recipe.coordinates(values)]))
+                    found += [] if at is None else [(recipe, i, at)]
         return found
+
+    def _worth(self, name: str, before: np.ndarray, others: tuple[Recipe, ...]) -> set[tuple[str, int]] | None:
+        """Sites, and numbers of sizes, that are worth a look beside `others`; None: all."""
+        if not others or sum(len(recipe.grid) for recipe in self.recipes(name)) <= KEPT:
+            return None
+        self.begun.looks(name, np.zeros(self.k), ())
+        at, alone = self.kind(self.model, others).point(before), self.begun._alone.get(name)
+        if at is None or alone is None:
+            return None
+        return chosen(alone, at.residual, before[: self.k], *self._adapted)
 
     def approached(
         self, name: str, before: np.ndarray, beside: tuple[Recipe, ...], reach: float = np.inf
@@ -126,9 +154,9 @@ class Study:
         return tuple(self._same(recipe) for recipe in recipes)
 
     def _same(self, recipe: Recipe) -> Recipe:
-        made, text = self.recipes(recipe.candidate.key), recipe.site(recipe.grid[0]).text
+        made, place = self.recipes(recipe.candidate.key), text(recipe)
         order = sorted(made, key=lambda each: each.number != recipe.number)
-        return next((each for each in order if each.site(each.grid[0]).text == text), order[0])
+        return next((each for each in order if text(each) == place), order[0])
 
     def with_cause(self, others: tuple[Recipe, ...], name: str, number: int) -> Model:
         """The model with the causes `others`, from any study, and recipe `number` of candidate `name`."""
@@ -138,7 +166,7 @@ class Study:
         """The same at the parameters that a fit found, if these are of a structure."""
         theta = one.model.base.parameters(one.point.x[: self.k])
         try:
-            return Study(self.model.at(theta), self.known, self.kind)
+            return Study(self.model.at(theta), self.known, self.kind, self.begun)
         except IndefiniteError:  # parameters far from their prior, of a fit that explains nothing
             return self
 

@@ -5,8 +5,8 @@ exact; of a large one V holds the lowest, the static responses to unit loads at 
 derivatives of the measured modes by the parameters.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -20,7 +20,7 @@ from mouse_cli.dynamics.sensing import read
 from mouse_cli.model.arrays import Matrix, dense
 from mouse_cli.model.modal_test import ModalTest, restricted
 from mouse_cli.model.problem import Problem
-from mouse_cli.terms.assembly import Assembly
+from mouse_cli.terms.assembly import Assembly, assembly
 from mouse_cli.terms.constraints import Motion
 from mouse_cli.updating.coordinates import Coordinates
 
@@ -50,6 +50,7 @@ class Reduced:
     places: np.ndarray | None = None
     origin: np.ndarray | None = None
     ties: np.ndarray | None = None
+    built_once: dict = field(default_factory=dict, repr=False, compare=False)
 
     @property
     def r(self) -> int:
@@ -144,6 +145,13 @@ class Reduced:
         rigid = ((at.direction == np.arange(3)[:, None]) & (at.node >= 0)).astype(float)
         return max(float(row @ (M @ row)) for row in rigid) or float(M.diagonal().sum())
 
+    def once(self, key: Hashable, build: Callable[[Problem], Problem]) -> tuple[Problem, Assembly]:
+        """What `build` makes of the deck, and its assembly: the same at all parameters and in all coordinates, and built once."""
+        if key not in self.built_once:
+            made = build(self.problem)
+            self.built_once[key] = made, assembly(made)
+        return self.built_once[key]
+
     def project(self, matrix) -> np.ndarray:
         """V' matrix V (r, r)."""
         return self.V.T @ (matrix @ self.V)
@@ -198,7 +206,8 @@ class Reduced:
         """The same model at other values theta (p,) of its parameters; a large one in the same coordinates and places."""
         if self.V.shape[0] <= WHOLE:
             matrices = self.assembly.matrices(theta)
-            return replace(exact(self.problem, self.assembly, *matrices, theta), data=self.data, ties=self.ties)
+            there = exact(self.problem, self.assembly, *matrices, theta)
+            return replace(there, data=self.data, ties=self.ties, built_once=self.built_once)
         return replace(self, theta=theta, origin=self.theta if self.origin is None else self.origin)
 
     def without(self, keep_modes: np.ndarray) -> "Reduced":
