@@ -79,9 +79,10 @@ class Recipe:
     """A candidate at a place, or along a line of them when the place is an unknown.
 
     change(values), site(values): what it does, and where, for values (t,) of the unknowns. own: degrees of freedom of its own.
-    grid (g, t): values to begin from. log_prior: ln of the share of the candidate's prior that this place has. extend(problem,
-    values): the deck with the cause in it. number: which of its candidate's recipes it is. carried: how degrees of
-    freedom of its own move the model along, which other causes see. law: how its spring loses energy, see `frf/lossy.py`.
+    grid (g, t): values to begin from; starts: those (t,) that a screening found. log_prior: ln of the share of the candidate's
+    prior that this place has. extend(problem, values): the deck with the cause in it. number: which of its candidate's recipes
+    it is. carried: how degrees of freedom of its own move the model along, which other causes see. law: how its spring loses
+    energy, see `frf/lossy.py`.
     jumps: coordinates, in order, at which the matrices jump, by number of the unknown; there the piece after it begins.
     """
 
@@ -97,6 +98,7 @@ class Recipe:
     carried: Carried | None = None
     law: str = ""
     jumps: dict[int, np.ndarray] = field(default_factory=dict, repr=False)
+    starts: tuple[np.ndarray, ...] = ()
     _last: dict[bytes, Change] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def at(self, coordinates: np.ndarray) -> Change:

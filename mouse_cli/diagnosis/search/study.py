@@ -209,12 +209,29 @@ def tried(
     tied = 0 if beside is not None or not near_by else sum(left < near_by[0][0] + _TIED for left, _, _ in near_by)
     count = max(count, min(tied, _TIES))
     chosen = near_by[:count] if first is study else _weighed(study, others, name, near_by, count)
+    ways = [(first, *each) for each in chosen] + (
+        [] if others else [(study, *each) for each in _screened(study, name, reach)]
+    )
     found: list[Fit] = []
-    for _, i, x in chosen:
+    for way, _, i, x in ways:
         least = min(reach, within(found, NEAR)) if found and others else reach  # beside others the best alone is kept
-        one = _ended(study, first, others, name, i, x, most, least)
+        one = _ended(study, way, others, name, i, x, most, least)
         found += [] if one is None else [one]
     return found
+
+
+def _screened(study: Study, name: str, reach: float) -> list[tuple[float, int, list[np.ndarray]]]:
+    """Likewise from where a screening of the candidate's own puts its recipes, in all coordinates: the best, and those as good.
+
+    A screening pairs modes by their shapes, where those of a wrong size misfit more than those of a wrong place.
+    """
+    none, ends = np.zeros(study.k), []
+    for recipe in study.recipes(name):
+        trial = study.with_cause((), name, recipe.number)
+        each = (descended(trial, recipe.coordinates(values), none, _BRIEF, _SLACK * reach) for values in recipe.starts)
+        ends += [(cost(end), recipe.number, [end.point.x]) for end in each if end is not None]
+    ends.sort(key=lambda item: item[0])
+    return [each for n, each in enumerate(ends[:_TIES]) if n < _STARTS or each[0] < ends[0][0] + _TIED]
 
 
 def _weighed(study: Study, others: tuple, name: str, near_by: list, count: int) -> list:

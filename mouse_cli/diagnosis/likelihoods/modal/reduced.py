@@ -49,7 +49,7 @@ class Reduced:
     assembly: Assembly
     places: np.ndarray | None = None
     origin: np.ndarray | None = None
-    ties: np.ndarray | None = None
+    ties: dict[tuple[int, int, int], float] | None = None
 
     @property
     def r(self) -> int:
