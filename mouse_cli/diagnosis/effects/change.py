@@ -15,11 +15,12 @@ from mouse_cli.model.unknown import Unknown
 class Softening:
     """Bars (c,), none twice, that give way by what is added to their flexibility (c, 3, 3), or to that in bending alone (c, 2, 2).
 
-    Several causes add up in one bar.
+    Several causes add up in one bar. residual (c, 3, 3): strains of each that forces in it make beyond the coordinates; None: none.
     """
 
     bars: np.ndarray
     added: np.ndarray
+    residual: np.ndarray | None = None
 
     def __post_init__(self) -> None:
         given, added = self.added, np.zeros((len(self.added), 3, 3))

@@ -79,8 +79,12 @@ def hinged(bars: Bars, bar: int, share: float, added: np.ndarray) -> Change:
 
     These are what its moments and force do at the hinge: `added` of the angle between the ends, and of the elongation.
     """
-    angle, _, gap = added @ np.linalg.solve(bars.flexibility[bar] + added, bars.strain[bar])
-    return Change(M=bars.jumped(bar, share, angle, gap), softening=Softening(np.array([bar]), added[None]))
+    own, strain, R = np.array([bar]), bars.strain[bar], None
+    if bars.residual is not None:
+        R = bars.residual[own]
+        strain = np.linalg.solve(np.eye(3) + R[0] @ bars.lost(own, added[None])[0], strain)
+    angle, _, gap = added @ np.linalg.solve(bars.flexibility[bar] + added, strain)
+    return Change(M=bars.jumped(bar, share, angle, gap), softening=Softening(own, added[None], R))
 
 
 def with_hinge(

@@ -33,6 +33,7 @@ class Bars:
     model, axial, twist (b, 2, r): u1, u2 and the turns about the bar there; start, axis, across (b, 3): first end, unit vectors
     along the bar and in the direction of w.
     line (b,): bars with one number continue one another in one plane; before (b,): length of the line before the bar.
+    residual (b, 3, 3): strains that unit forces in a bar make, and that these coordinates lack; None: they lack none.
     """
 
     set: np.ndarray
@@ -56,6 +57,7 @@ class Bars:
     across: np.ndarray
     line: np.ndarray
     before: np.ndarray
+    residual: np.ndarray | None = None
 
     def __len__(self) -> int:
         return len(self.length)
@@ -63,9 +65,7 @@ class Bars:
     @cached_property
     def strain(self) -> np.ndarray:
         """E (b, 3, r): bending, symmetric and antisymmetric, and elongation."""
-        w1, s1, w2, s2 = np.moveaxis(self.ends, 1, 0)
-        l = self.length[:, None]
-        return np.stack([s2 - s1, 2 / l * (w1 - w2) + s1 + s2, self.axial[:, 1] - self.axial[:, 0]], axis=1)
+        return natural(self.ends, self.axial, self.length)
 
     @cached_property
     def flexibility(self) -> np.ndarray:
@@ -157,6 +157,12 @@ class Bars:
             members = zip(self.set[line.members].tolist(), self.member[line.members].tolist(), strict=True)
             found.setdefault(tuple(sorted(members)), line)
         return tuple(found.values())
+
+
+def natural(ends: np.ndarray, axial: np.ndarray, length: np.ndarray) -> np.ndarray:
+    """Natural strains (c, 3, r) of bars by the motion of their ends (c, 4, r), along them (c, 2, r), and their length (c,)."""
+    w1, s1, w2, s2 = np.moveaxis(ends, 1, 0)
+    return np.stack([s2 - s1, 2 / length[:, None] * (w1 - w2) + s1 + s2, axial[:, 1] - axial[:, 0]], axis=1)
 
 
 def bars(problem: Problem, motion: Motion, theta: np.ndarray, V: np.ndarray | None) -> Bars | None:
@@ -258,13 +264,13 @@ def _planes(number: int, mesh: Mesh, layout: Layout, p: Properties, motion: Moti
 def displacements(motion: Motion, nodes: np.ndarray, V: np.ndarray | None) -> np.ndarray:
     """Motion (e, 12, r) of the nodes (e, 2) in each coordinate."""
     places = 6 * np.unique(nodes)[:, None] + np.arange(6)
-    rows = motion.rows(places.ravel()) if V is None else _rows(motion, places.ravel()) @ V
+    rows = motion.rows(places.ravel()) if V is None else sparse_rows(motion, places.ravel()) @ V
     where = np.searchsorted(np.unique(nodes), nodes)
     at = (6 * where[:, :, None] + np.arange(6)).reshape(len(nodes), 12)
     return rows[at]
 
 
-def _rows(motion: Motion, places: np.ndarray):
+def sparse_rows(motion: Motion, places: np.ndarray):
     """The rows `places` of T, sparse."""
     from scipy.sparse import csr_array
 
@@ -285,15 +291,3 @@ def motion_of(problem: Problem) -> Motion | None:
     beside = at.node < 0
     order = np.where(beside, 6 * len(mesh.node_ids) + np.cumsum(beside) - 1, 6 * at.node + at.direction)
     return links(mesh, int(beside.sum())).motion(order)
-
-
-def deflected(problem: Problem, element: tuple[int, int], share: float) -> np.ndarray:
-    """Displacement (3, n) at a share of the length of a beam (set, member), for each degree of freedom of `problem`."""
-    mesh, (s, i) = problem.mesh, element
-    nodes = mesh.elements[s].nodes[[i]]
-    at = beam.span(Layout(mesh.coordinates[nodes], dict(mesh.elements[s].options)))
-    places = (6 * nodes[0][:, None] + np.arange(6)).ravel()
-    local, l, x = at.motion[0] @ motion_of(problem).rows(places), at.length[0], share
-    N = np.array([1 - 3 * x**2 + 2 * x**3, l * (x - 2 * x**2 + x**3), 3 * x**2 - 2 * x**3, l * (x**3 - x**2)])
-    across = [(N * sense) @ local[dofs] for dofs, sense in beam.PLANES]
-    return at.axes[0].T @ np.stack([(1 - x) * local[0] + x * local[6], *across])
