@@ -28,6 +28,20 @@ class Softening:
         object.__setattr__(self, "added", added)
 
 
+def residual(parts: list[Softening], bars: np.ndarray) -> np.ndarray | None:
+    """That of `bars` (c,), sorted, of which `parts` are; None where they have none."""
+    found = np.zeros((len(bars), 3, 3))
+    for part in parts:
+        if part.residual is not None:
+            found[np.searchsorted(bars, part.bars)] = part.residual
+    return found if found.any() else None
+
+
+def felt(lost: np.ndarray, residual: np.ndarray) -> np.ndarray:
+    """What coordinates feel (..., 3, 3) of stiffness that bars lose, see `sites/residual.py`."""
+    return lost @ np.linalg.inv(np.eye(3) + residual @ lost)
+
+
 @dataclass(frozen=True)
 class Change:
     """K, M, C, D (r + a, r + a) that are added, a degrees of freedom of the cause's own behind the r of the model; None: none.

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.diagnosis.sites.bars import Bars, natural, sparse_rows
+from mouse_cli.diagnosis.sites.bars import Bars
+from mouse_cli.diagnosis.sites.strains import natural, sparse_rows
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.constraints import Motion
 from mouse_cli.terms.elements import Layout

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe
+from mouse_cli.diagnosis.effects.change import Change, Recipe, felt, residual
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 
@@ -59,20 +59,13 @@ class Model:
         if not parts:
             return np.zeros(0, int), np.zeros((0, 3, 3))
         if len(parts) == 1:
-            return parts[0].bars, self._felt(parts[0].bars, parts[0].added, parts[0].residual)
-        bars = np.unique(np.concatenate([part.bars for part in parts]))
-        total, residual = np.zeros((2, len(bars), 3, 3))
-        for part in parts:
-            at = np.searchsorted(bars, part.bars)
-            total[at] += part.added
-            if part.residual is not None:
-                residual[at] = part.residual
-        return bars, self._felt(bars, total, residual if residual.any() else None)
-
-    def _felt(self, bars: np.ndarray, added: np.ndarray, residual: np.ndarray | None) -> np.ndarray:
-        """What coordinates feel (c, 3, 3) of stiffness that `bars` lose, see `sites/residual.py`."""
-        L = self.base.bars.lost(bars, added)
-        return L if residual is None else L @ np.linalg.inv(np.eye(3) + residual @ L)
+            lost = self.base.bars.lost(parts[0].bars, parts[0].added)
+            return parts[0].bars, lost if parts[0].residual is None else felt(lost, parts[0].residual)
+        bars, at = np.unique(np.concatenate([part.bars for part in parts]), return_inverse=True)
+        total = np.zeros((len(bars), 3, 3))
+        np.add.at(total, at, np.concatenate([part.added for part in parts]))
+        lost, left = self.base.bars.lost(bars, total), residual(parts, bars)
+        return bars, lost if left is None else felt(lost, left)
 
     def follow(self, bars: np.ndarray, z: np.ndarray) -> np.ndarray:
         """EI of `bars` at z over what it is at the parameters of the base (c, 1, 1)."""
