@@ -7,7 +7,8 @@ from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.search import study as searched
 from mouse_cli.diagnosis.search import superposed
-from mouse_cli.diagnosis.search.study import Study, tried
+from mouse_cli.diagnosis.search.descents import tried
+from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.diagnosis.search.superposed import KEPT, Alone, chosen
 from mouse_cli.dynamics.eigen import dense_solution
 from mouse_cli.model.modal_test import ModalTest

@@ -9,10 +9,11 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from mouse_cli.diagnosis.search.descents import settled, summed, tried
 from mouse_cli.diagnosis.search.escape import shifted
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.optima import NEAR, within
-from mouse_cli.diagnosis.search.study import Study, settled, summed, tried
+from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.updating.chi_square import upper_tail
 
 _SECOND, _QUICK = 2, 8  # fits of a further mechanism beside others, and their steps, in a first try

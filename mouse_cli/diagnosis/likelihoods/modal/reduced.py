@@ -14,6 +14,7 @@ import numpy as np
 from mouse_cli.diagnosis.likelihoods.modal.data import Data
 from mouse_cli.diagnosis.likelihoods.modal.directions import Directions, directions, projected
 from mouse_cli.diagnosis.sites.bars import Bars, bars, motion_of, stiffening
+from mouse_cli.diagnosis.sites.residual import Static
 from mouse_cli.dynamics.contraction import Stack
 from mouse_cli.dynamics.eigen import dense_solution
 from mouse_cli.dynamics.sensing import read
@@ -33,7 +34,8 @@ class Reduced:
     derivatives along `directions` (p, k) of theta.
 
     sensing (s, r); V (n, r); data: the test. places: degrees of freedom (from 0) at which a force is exact, of a large model;
-    None: everywhere. ties (c, 3): pairs of places that are worth looking at, see `sites/pairs.py`; None: no look was taken.
+    None: everywhere. ties: pairs of places that are worth looking at, and sizes, see `localise/ties.py`; None: no look was taken.
+    static: what bars do statically in all degrees of freedom, of a large model.
     """
 
     problem: Problem
@@ -49,7 +51,8 @@ class Reduced:
     assembly: Assembly
     places: np.ndarray | None = None
     origin: np.ndarray | None = None
-    ties: np.ndarray | None = None
+    ties: dict[tuple[int, int, int], float] | None = None
+    static: Static | None = None
     built_once: dict = field(default_factory=dict, repr=False, compare=False)
 
     @property
@@ -127,7 +130,10 @@ class Reduced:
     @cached_property
     def bars(self) -> Bars | None:
         """Bars that bend; None where there are none."""
-        return None if self.motion is None else bars(self.problem, self.motion, self.theta, self.V)
+        found = None if self.motion is None else bars(self.problem, self.motion, self.theta, self.V)
+        if found is None or self.static is None:
+            return found
+        return replace(found, residual=self.static.left(found, self.eigenvalues))
 
     @cached_property
     def stiffening(self) -> np.ndarray:
