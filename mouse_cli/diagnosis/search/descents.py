@@ -9,13 +9,12 @@ from mouse_cli.diagnosis.search.escape import shifted, uncrossed
 from mouse_cli.diagnosis.search.fit import MOST, Fit, descended, fit
 from mouse_cli.diagnosis.search.optima import NEAR, distinct, within
 from mouse_cli.diagnosis.search.starts import cost
-from mouse_cli.diagnosis.search.study import Study, weighed_beside
+from mouse_cli.diagnosis.search.study import BRIEF, MOVED, Study, weighed_beside
 
 _STARTS = 3  # fits of a candidate to the end, from different optima
-_LOOKS, _MOST, _BRIEF = 12, 40, 4  # brief descents at least, at most, and their steps
 _SLACK = 1.5  # times the misfit that matters in all coordinates: what matters in few
 _TIED, _TIES = 6.0, 8  # misfit above the best up to which other places are as good, and how many of them are fitted
-_SETTLE, _MOVED = 3, 5e-3  # times that causes are weighed anew, as long as parameters move more than that share
+_SETTLE = 3  # times that causes are weighed anew
 _FEW = 16  # places and sizes that are looked at in all coordinates
 
 
@@ -31,7 +30,7 @@ def settled(one: Fit, study: Study) -> Fit:
     for _ in range(_SETTLE):
         theta = one.model.base.parameters(one.point.x[: one.model.k])
         before = one.model.base.theta
-        if not one.recipes or np.all(np.abs(theta - before) <= _MOVED * np.abs(before)):
+        if not one.recipes or np.all(np.abs(theta - before) <= MOVED * np.abs(before)):
             break
         there = study.at(one)
         base = there.model.judged_by(one.model.base.data)
@@ -85,7 +84,7 @@ def _screened(study: Study, name: str, reach: float) -> list[tuple[float, int, l
     none, ends = np.zeros(study.k), []
     for recipe in study.recipes(name):
         trial = study.with_cause((), name, recipe.number)
-        each = (descended(trial, recipe.coordinates(values), none, _BRIEF, _SLACK * reach) for values in recipe.starts)
+        each = (descended(trial, recipe.coordinates(values), none, BRIEF, _SLACK * reach) for values in recipe.starts)
         ends += [(cost(end), recipe.number, [end.point.x]) for end in each if end is not None]
     ends.sort(key=lambda item: item[0])
     return [each for n, each in enumerate(ends[:_TIES]) if n < _STARTS or each[0] < ends[0][0] + _TIED]

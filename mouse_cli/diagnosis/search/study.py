@@ -16,9 +16,9 @@ from mouse_cli.diagnosis.search.starts import cost, leading, spread
 from mouse_cli.diagnosis.search.superposed import KEPT, Alone, by_itself, chosen, text
 from mouse_cli.dynamics.eigen import IndefiniteError
 
-_LOOKS, _MOST, _BRIEF = 12, 40, 4  # brief descents at least, at most, and their steps
+_LOOKS, _MOST, BRIEF = 12, 40, 4  # brief descents at least, at most, and their steps
 _WEIGHED = 12  # ends of brief descents that are weighed in all coordinates
-_SETTLE, _MOVED = 3, 5e-3  # times that causes are weighed anew, as long as parameters move more than that share
+MOVED = 5e-3  # share of parameters within which causes weigh alike
 _ABOUT = 4  # studies at other parameters that are kept
 _COARSE = 24  # coordinates at least for a first look
 
@@ -123,7 +123,7 @@ class Study:
         for i, x in chosen:  # so many are weighed at most, and one that cannot be among these is given up
             last = cost(led[weighed_beside(beside) - 1][2]) if len(led) >= weighed_beside(beside) else np.inf
             limit = last + 2 * sum(recipe.log_prior for recipe in trials[i].recipes)
-            end = descended(trials[i], x[self.k :], x[: self.k], _BRIEF, min(reach, limit))
+            end = descended(trials[i], x[self.k :], x[: self.k], BRIEF, min(reach, limit))
             led = led if end is None else leading(led, (i, x, end))
         kept = {id(end) for _, end in spread([(i, one.point.x) for i, _, one in led], trials, most)}
         return [(cost(one), i, [one.point.x, x]) for i, x, one in led if id(one.point.x) in kept]
@@ -167,7 +167,7 @@ class Study:
         """The same, or one of the last there were, at parameters from which those of a fit differ by no more than a trifle."""
         theta = one.model.base.parameters(one.point.x[: self.k])
         for study in self._about:
-            if np.all(np.abs(theta - study.model.theta) <= _MOVED * np.abs(study.model.theta)):
+            if np.all(np.abs(theta - study.model.theta) <= MOVED * np.abs(study.model.theta)):
                 return study
         self._about = [self, self.at(one), *self._about[1:_ABOUT]]
         return self._about[1]
