@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Callable
+from dataclasses import replace
 
 import click
 
@@ -82,6 +83,8 @@ def read_raw(
     data, path = deck_bytes(deck), shown(deck)
     if not is_yaml(data, path):
         raise click.UsageError("--recordings needs a deck in YAML: mouse convert DECK -o deck.yaml")
+    if how.get("overrides") or how.get("strip_73_80"):
+        raise click.UsageError("--set and --strip-73-80 are for card decks; --recordings needs one in YAML")
     bare = assemble(read_draft(data, path, outside=outside(), **how))
     named, own = sensor_names(data, path)
     if own:
@@ -90,9 +93,31 @@ def read_raw(
     _known(choice, sensors)
     found = read_folder(str(given["folder"]), choice, sensors, outside(), notice)
     _used(choice, found)
+    ambient = bare.test is None and not any(each.channels("input") for each in found.records)
+    found = replace(found, held="") if ambient else found
     say(_told(str(given["folder"]), found), found.passed)
     text = with_recordings(data, path, found.records, found.held, choice)
-    return assemble(read_draft(text, path, outside=outside(), **how))
+    problem = assemble(read_draft(text, path, outside=outside(), **how))
+    return _with_modes(problem, notice, say) if ambient else problem
+
+
+def _with_modes(problem: Problem, notice: Callable[[str], None], say: Callable) -> Problem:
+    """The problem with the modes that its outputs alone show as its test: without forces there is nothing to simulate.
+
+    Raises RecordError where they show none.
+    """
+    from mouse_cli._errors import RecordError
+    from mouse_cli.cli._identify import of_outputs
+
+    found = of_outputs(problem, problem.recordings, None, None, notice)
+    if found.test is None:
+        raise RecordError(found.doubts)
+    hz = ", ".join(f"{each:.6g}" for each in found.modes.frequency_hz)
+    say(
+        [f"  no force was measured: judged by the modes that the responses show, {hz} Hz"],
+        (*found.doubts, *found.remarks),
+    )
+    return replace(problem, test=found.test, recordings=())
 
 
 def _known(choice, sensors) -> None:

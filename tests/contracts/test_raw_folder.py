@@ -32,13 +32,18 @@ SPRING = 2e4  # N/m, from mass 3 to the ground: in the structure, not in the dec
 FS = 1000.0
 
 
+def structure(spring: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """K, C, and A of its first-order form; unit masses."""
+    K = 1e5 * np.array([[2, -1, 0], [-1, 2, -1], [0, -1, 1.0]]) + np.diag([0, 0, spring])
+    C = np.array([[5, -2, 0], [-2, 5, -2], [0, -2, 3.0]])
+    return K, C, np.block([[np.zeros((3, 3)), np.eye(3)], [-K, -C]])
+
+
 def measured(seed: int, spring: float = SPRING, n: int = 3000) -> np.ndarray:
     """Force in N and accelerations in g (n, 4) of the structure with the spring: linear between samples, integrated by scipy."""
     from scipy.signal import butter, cont2discrete, dlsim, sosfilt
 
-    K = 1e5 * np.array([[2, -1, 0], [-1, 2, -1], [0, -1, 1.0]]) + np.diag([0, 0, spring])
-    C = np.array([[5, -2, 0], [-2, 5, -2], [0, -2, 3.0]])
-    A = np.block([[np.zeros((3, 3)), np.eye(3)], [-K, -C]])
+    K, C, A = structure(spring)
     B = np.array([[0], [0], [0], [1.0], [0], [0]])
     rng = np.random.default_rng(seed)
     force = 30 * sosfilt(butter(4, 120, fs=FS, output="sos"), rng.standard_normal(n))
@@ -89,12 +94,33 @@ def test_from_raw_files_to_the_spring(told):
     assert again.recordings[0].samples[:, 1] == pytest.approx(9.80665 * measured(1)[:, 1], rel=1e-5, abs=1e-6)
 
 
+def test_without_forces_the_modes_of_the_responses_judge(told):
+    """Wind on all masses, nobody measured it: three records of 20 s, whose modes show the same spring."""
+    from scipy.signal import cont2discrete, dlsim
+
+    K, C, A = structure(SPRING)
+    B, D = np.vstack([np.zeros((3, 3)), np.eye(3)]), np.eye(3)
+    Path("raw").mkdir()
+    for run in range(3):
+        rng = np.random.default_rng(run)
+        wind = rng.standard_normal((5000, 3))
+        motion = dlsim(cont2discrete((A, B, np.hstack([-K, -C]), D), 1 / 250), wind)[1]
+        motion += 0.02 * motion.std() * rng.standard_normal(motion.shape)
+        np.savetxt(f"raw/run{run}.txt", motion, header="fs = 250 Hz\nacc1 acc2 acc3\nm/s2 m/s2 m/s2")
+    code, out, err = told("deck.yaml", "--recordings", "raw", "-o", "revised.yaml")
+    assert "no force was measured: judged by the modes that the responses show" in err
+    assert code == 1 and "degree of freedom 3" in out.split("\n")[4]
+    again = read_deck("revised.yaml")
+    true = np.sqrt(np.linalg.eigvalsh(K)) / 2 / np.pi
+    assert np.abs((again.test.frequency_hz - true) / again.test.frequency_sd_hz).max() < 4
+
+
 def test_the_deck_is_written_where_nothing_is_missing(told):
     laboratory(Path("raw"), runs=1, spring=0.0)
     code, out, err = told("deck.yaml", "--recordings", "raw", "--force", "1=hammer", "-o", "measured.yaml")
     assert code == 0
     assert out.rstrip().endswith(
-        "No cause is named. The deck with its recordings is in measured.yaml; `mouse diagnose` accepts it."
+        "No cause is named. The deck with what was measured is in measured.yaml; `mouse diagnose` accepts it."
     )
     assert [each.title for each in read_deck("measured.yaml").recordings] == ["run1"]
     assert "held out from every fit" not in err  # one record alone: its end is held out, as ever
@@ -118,6 +144,7 @@ def test_a_force_without_a_place_is_told(told):
         (("--recordings", "raw", "--force", "1=hammer", "--unit", "acc9=g"), "no recording uses a channel 'acc9'"),
         (("--recordings", "raw", "--force", "1=hammer", "-o", "other/deck.yaml"), "files below its own folder"),
         (("deck.yaml", "--recordings", "raw"), "--recordings gives one deck its test"),
+        (("--recordings", "raw", "--set", "NPARD=5"), "--set and --strip-73-80 are for card decks"),
         (("--recordings", ".."), "is not below the folder of the deck"),
         (("--recordings", "deck.yaml"), "is a file"),
     ],

@@ -215,7 +215,7 @@ def _written(found, output: str, files: list[str]) -> str:
     from mouse_cli.model.diagnosis import NAMED, ONE_OF
 
     if files and not found.extended:
-        return f"No cause is named. The deck with its recordings is in {files[-1]}; `mouse diagnose` accepts it."
+        return f"No cause is named. The deck with what was measured is in {files[-1]}; `mouse diagnose` accepts it."
     if files and found.kind == ONE_OF:
         lead = f"The model with {found.best.title}, which leads and is not proved,"
         return f"{lead} is in {files[-1]}; `mouse run` accepts it."
