@@ -209,6 +209,39 @@ def test_channels_by_their_names(channel, sensor):
     assert Sensors(("tip",), ("3", "12TX", "12TY")).of(channel) == sensor
 
 
+def test_what_is_wrong_with_a_file_is_told_with_channel_and_sample(told):
+    """One sound file among damaged ones: it is taken, each of the others is told by its fault."""
+    from mouse_cli.formats.recording_folder import read_folder
+    from mouse_cli.formats.recording_source import Choice
+
+    Path("raw").mkdir()
+    values = np.column_stack([np.arange(500) / FS, measured(1)[:500, :2]])
+
+    def write(name: str, table: np.ndarray, head: str = "t (s),1TX (N),2TX (g)") -> None:
+        np.savetxt(f"raw/{name}", table, delimiter=",", header=head, comments="", fmt="%.9g")
+
+    dead, gap, back = values.copy(), values.copy(), values.copy()
+    dead[:, 2], gap[77, 2], back[300:, 0] = 0.0, np.nan, back[300:, 0] - 0.2
+    for name, table in {"a.csv": values, "dead.csv": dead, "gap.csv": gap, "back.csv": back}.items():
+        write(name, table)
+    write("slow.csv", values, "Sample rate,512\nt (s),1TX (N),2TX (g)")
+    Path("raw/cut.csv").write_text(Path("raw/a.csv").read_text()[:5000].rpartition(",")[0])
+    Path("raw/empty.csv").write_text("")
+    found = read_folder("raw", Choice(), Sensors((), ("1TX", "2TX")))
+    assert [each.recording.title for each in found.records] == ["a"]
+    said = {f"{each.span.path} {each.code} {each.message}" for each in found.passed}
+    for words in (
+        "raw/dead.csv MD607 passed over: channel '2TX' is dead: all 500 samples from 0 on are zero",
+        "raw/gap.csv MD605 passed over: 1 samples of channel '2TX' are no numbers, the first is sample 77",
+        "raw/back.csv MD604 passed over: time runs backwards in column 't' at sample 300",
+        "raw/slow.csv MD603 passed over: the file says 512 samples a second, its time column 1000",
+        "raw/empty.csv MD252 passed over: the file is empty",
+    ):
+        assert words in said, said
+    assert any(each.startswith("raw/cut.csv MD252 passed over: the line has") for each in said), said
+    assert all(each.severity == "warning" for each in found.passed)
+
+
 def test_segments_of_one_file_are_recordings_of_their_own(told):
     import sys
 
