@@ -13,7 +13,7 @@ from mouse_cli.formats.record_drafts import Findings, Pick
 from mouse_cli.formats.recording import recording
 from mouse_cli.formats.recording_files import Column, Contents, read_contents
 from mouse_cli.formats.recording_source import Choice
-from mouse_cli.formats.sampling import TIME_NAMES
+from mouse_cli.formats.sampling import is_time
 from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.model.channel_units import unit
 from mouse_cli.model.recording import INPUT, OUTPUT, Recording
@@ -169,7 +169,7 @@ def _picks(contents: Contents, choice: Choice, sensors: Sensors, where: Span) ->
 
 
 def _is_time(column: Column, choice: Choice) -> bool:
-    return column.name.strip().lower() in ((choice.time or "").lower(), *TIME_NAMES)
+    return column.name.strip().lower() == (choice.time or "").lower() or is_time(column.name)
 
 
 def _names(contents: Contents) -> list[str]:

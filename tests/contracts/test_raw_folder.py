@@ -229,7 +229,7 @@ def test_what_is_wrong_with_a_file_is_told_with_channel_and_sample(told):
     Path("raw/empty.csv").write_text("")
     found = read_folder("raw", Choice(), Sensors((), ("1TX", "2TX")))
     assert [each.recording.title for each in found.records] == ["a"]
-    said = {f"{each.span.path} {each.code} {each.message}" for each in found.passed}
+    said = {f"{each.span.file} {each.code} {each.message}" for each in found.passed}
     for words in (
         "raw/dead.csv MD607 passed over: channel '2TX' is dead: all 500 samples from 0 on are zero",
         "raw/gap.csv MD605 passed over: 1 samples of channel '2TX' are no numbers, the first is sample 77",

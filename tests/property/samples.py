@@ -227,6 +227,7 @@ FILES: dict[str, dict[str, dict[str, object]]] = {
             "run.csv": _table(np.column_stack([T, X]).tolist(), "t (s)", "force [N]", "acc (g)"),
             "comma.csv": "t;x\n" + "".join(f"{t:.3f};{x:.4f}\n".replace(".", ",") for t, x in zip(T, X[:, 0], strict=True)),
             "head.txt": "Operator: me\n# fs = 100 Hz\nforce\tacc\nN\tg\n" + "".join(f"{a}\t{b}\n" for a, b in X),
+            "clock.csv": "Timestamp;x\n" + "".join(f"2024-02-28 12:00:0{t:.3f};{x}\n" for t, x in zip(T, X[:, 0], strict=True)),
             "gaps.csv": "".join(f"{t:.3f}\t{'nan' if i % 7 == 3 else t}\t0.1+0.2j\n" for i, t in enumerate(T)),
         },
         "h5": {"run.h5": _hdf5_recording},

@@ -210,6 +210,21 @@ def test_heads_of_other_programs(tmp_path, head, delimiter):
     assert held.columns[1].values == pytest.approx(MOTION, abs=1e-6)
 
 
+@pytest.mark.parametrize(("date", "comma"), [("", "."), ("2024-02-28 ", ","), ("2024-12-31T", ".")])
+def test_times_of_day(tmp_path, date, comma):
+    """A logger that writes the clock beside each sample, over midnight where it writes the date."""
+    from datetime import datetime, timedelta
+
+    start = datetime.fromisoformat(f"{date.strip(' T') or '2024-01-01'}T23:59:5{'0' if not date else '9'}.500")
+    stamp = lambda t: (start + timedelta(seconds=float(t))).isoformat(sep=date[-1:] or " ", timespec="milliseconds")
+    clock = [stamp(t) if date else stamp(t).partition(" ")[2] for t in T]
+    rows = [f"{at.replace('.', comma)};{a:.6f};{b:.6f}" for at, a, b in zip(clock, FORCE, MOTION, strict=True)]
+    (tmp_path / "run.csv").write_text("Timestamp;force;acc\n" + "\n".join(rows) + "\n")
+    recording = problem(tmp_path, RUN).recordings[0]
+    assert recording.sample_rate_hz == pytest.approx(FS, rel=1e-6)
+    assert recording.samples[:, 1] == pytest.approx(MOTION, abs=1e-6)
+
+
 def test_a_rate_of_the_head_that_the_time_column_contradicts(tmp_path):
     table(tmp_path / "run.csv", T, FORCE, MOTION, head="Sample rate,512\nt,force,acc")
     assert "the file says 512 samples a second, its time column 500" in found(tmp_path, RUN, "MD603")

@@ -3,11 +3,12 @@
 Columns are separated by semicolons, tabulators, commas or blanks; before the numbers stand any lines, of which the last with as
 many cells as there are columns names them, `acc3`, `acc3 (g)`, `acc3 [m/s2]`; a line of units may follow, and lines such as
 `Sample rate;1000` or `fs = 512 Hz` state the sampling. Complex numbers are written `0.1+0.2j`. Beside semicolons and tabulators, a
-comma in a number is a decimal comma.
+comma in a number is a decimal comma. The first of several columns may hold times of day, `12:00:00.001`, also after an ISO date.
 """
 
 import re
 from contextlib import suppress
+from datetime import date
 from itertools import islice
 
 import numpy as np
@@ -18,6 +19,12 @@ from mouse_cli.formats.recording_files.text_head import COMMENTS, labelled, read
 
 _MOST_HEAD = 200  # lines before the numbers
 _MISSING = ("", "nan", "na", "n/a", "null", "-", "--", "#n/a", "inf", "-inf", "+inf")
+_EPOCH = date(1970, 1, 1).toordinal()
+_TIME_OF_DAY = re.compile(
+    r"(?:(?P<date>[0-9]{4}-[0-9]{2}-[0-9]{2})[ T])?"
+    r"(?P<hours>[0-9]{1,2}):(?P<minutes>[0-9]{2}):(?P<seconds>[0-9]{2}(?:[.,][0-9]{1,9})?)Z?",
+    re.ASCII,
+)
 _DECIMAL_COMMA = re.compile(r"[-+]?[0-9]*,[0-9]+([eE][-+]?[0-9]+)?")
 
 
@@ -53,6 +60,7 @@ def _first(path: str, lines: list[str]) -> tuple[int, str | None]:
         if len(cells) > MOST_COLUMNS:
             reject("MD258", path, f"line {i + 1} has more than {MOST_COLUMNS} cells", "divide the table")
         comma = separator in (";", "\t")
+        cells = cells[1:] if len(cells) > 1 and _clock(cells[0]) is not None else cells
         if any(_number(cell, comma) is not None for cell in cells) and all(
             _number(cell, comma) is not None or cell.lower() in _MISSING for cell in cells
         ):
@@ -83,6 +91,18 @@ def _number(cell: str, comma: bool) -> complex | None:
     except ValueError:
         return None
     return None if value != value else value
+
+
+def _clock(cell: str) -> float | None:
+    """Seconds from the time of day that a cell spells, after midnight or, with a date, after that of 1970."""
+    found = _TIME_OF_DAY.fullmatch(cell)
+    if found is None:
+        return None
+    with suppress(ValueError):
+        days = date.fromisoformat(found["date"]).toordinal() - _EPOCH if found["date"] else 0
+        hours, minutes = int(found["hours"]), int(found["minutes"])
+        return 86400.0 * days + 3600 * hours + 60 * minutes + float(found["seconds"].replace(",", "."))
+    return None
 
 
 def _spelled(text: str, comma: bool) -> str:
@@ -122,6 +142,7 @@ def _slowly(path: str, first: int, separator: str | None, width: int) -> np.ndar
             message = f"the line has {len(cells)} values; the first row of numbers, line {first + 1}, has {width}"
             reject("MD252", path, message, "the file is cut short or damaged here", line_span(path, i + 1, line))
         row = [np.nan if cell.lower() in _MISSING[:8] else _number(cell, comma) for cell in cells]
+        row[0] = _clock(cells[0]) if row[0] is None and width > 1 else row[0]
         if None in row:
             wrong = cells[row.index(None)]
             if wrong.lower().strip("+-") in ("nan", "inf", "infinity"):
