@@ -1,6 +1,6 @@
 """What `mouse identify` is given, brought to functions or outputs, identified, and written as a test."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import click
@@ -23,7 +23,7 @@ def identified(
     given: dict[str, object], say: Callable[[str], None],
 ) -> tuple[Identification, list[Diagnostic]]:  # fmt: skip
     """The modes of all sources together, and warnings of reading. Raises DeckError, RecordError and click.UsageError."""
-    from mouse_cli.records.identify import identify_frf, identify_recording
+    from mouse_cli.records.identify import identify_frf
 
     problem, (functions, recordings, warnings) = _read(sources, given | {"output_only": output_only})
     if output_only:
@@ -43,15 +43,20 @@ def identified(
             "name a file of functions or of time histories, or a deck with test: frf or recordings",
             sources[0],
         )
-    if len(recordings) > 1:
-        titles = ", ".join(each.title for each in recordings)
-        raise click.UsageError(f"outputs alone are identified one recording at a time: choose one of {titles}")
+    return of_outputs(problem, recordings, band, orders, say), warnings
+
+
+def of_outputs(
+    problem: Problem | None, recordings: Sequence[Recording], band: tuple[float, float] | None, orders: int | None,
+    say: Callable[[str], None],
+) -> Identification:  # fmt: skip
+    """The modes that the responses of repeats show without their forces. Raises RecordError (MD655)."""
+    from mouse_cli.records.identify import identify_recordings
     from mouse_cli.records.spectra import weights
 
-    chosen = recordings[0]
-    found = identify_recording(chosen, band, orders, say)
+    found, first = identify_recordings(recordings, band, orders, say), recordings[0]
     n = problem.structure.n if problem else 0
-    return _of_deck(found, problem, weights([chosen.channels[j] for j in chosen.outputs], n)), warnings
+    return _of_deck(found, problem, weights([first.channels[j] for j in first.outputs], n))
 
 
 def _refuse(code: str, message: str, help: str, source: str) -> None:

@@ -23,6 +23,8 @@ CHANNELS = (
         help="Samples a second, where the file does not say.",
     ),
     click.option("--time", metavar="CHANNEL", help="The time column. Default: one called t or time."),
+)
+SEGMENT = (
     click.option(
         "--segment", type=int, nargs=2, metavar="FIRST LAST", help="Samples from FIRST, from 0, up to but without LAST."
     ),

@@ -37,20 +37,25 @@ def measured_data(source: str, titles: tuple[str, ...], given: dict[str, object]
         return _of_deck(source, titles)
     if titles:
         raise click.UsageError("--recording chooses among those of a deck; a file is one recording")
-    from mouse_cli.formats.recording_source import Choice, read_recording
+    from mouse_cli.formats.recording_source import read_recording
 
-    units = dict(_unit(text) for text in given["units"])
-    choice = Choice(
+    found, warnings = read_recording(source, file_choice(given))
+    return Data((found,), found.title, warnings=warnings)
+
+
+def file_choice(given: dict[str, object]):
+    """What the options say of the channels of files. Raises click.BadParameter."""
+    from mouse_cli.formats.recording_source import Choice
+
+    return Choice(
         given["forces"],
         given["responses"],
-        units,
+        dict(_unit(text) for text in given["units"]),
         given["sample_rate"],
         given["time"],
-        given["segment"],
+        given.get("segment"),
         bool(given.get("output_only")),
     )
-    found, warnings = read_recording(source, choice)
-    return Data((found,), found.title, warnings=warnings)
 
 
 def _unit(text: str) -> tuple[str, str]:

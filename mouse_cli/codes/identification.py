@@ -1,4 +1,4 @@
-"""MD65x, MD680: modal identification of recordings and frequency response functions."""
+"""MD65x, MD68x: modal identification of recordings and frequency response functions."""
 
 from mouse_cli.codes import Code
 
@@ -74,5 +74,12 @@ CODES = {
         "functions without modes",
         "A diagnosis by frequency response functions first seeks causes by the modes that they show; they show none.",
         "Look at what `mouse identify` says of the same deck, or give measured modes beside the functions (test.modes).",
+    ),
+    "MD682": Code(
+        "short record of outputs alone",
+        "Outputs alone are identified by their correlations, averaged over blocks whose scatter gives the standard deviations. "
+        "This record takes shorter correlations, in fewer blocks, than usual: modes close to one another may run into one, weak "
+        "ones stay unseen, and standard deviations are rough.",
+        "Record for longer, or give repeats with the same channels: their correlations are averaged.",
     ),
 }

@@ -140,4 +140,16 @@ CODES = {
         "The window that takes the force for 0 after the stroke of a hammer ends before the stroke does; functions are too large.",
         "Give a longer --force-window, or no length: it is found in the strokes.",
     ),
+    "MD626": Code(
+        "no recording of the model in the folder",
+        "No file of the folder has channels that are sensors of the model. A channel is a sensor by its name: that of a sensor in "
+        "`test.sensors`, or the label of a degree of freedom, `12TY`; or by what the command line says.",
+        "Say which is which: `--force SENSOR=CHANNEL --response SENSOR=CHANNEL`; or call the sensors of the deck as the channels.",
+    ),
+    "MD627": Code(
+        "file of the folder passed over",
+        "The file can be read, but it is no recording of the model: it holds functions, no channel of it is a sensor, or a force "
+        "was measured and nothing says where it acts.",
+        "Name channels: `--force SENSOR=CHANNEL`, `--response SENSOR=CHANNEL`.",
+    ),
 }

@@ -10,7 +10,7 @@ from mouse_cli.formats.own_names import own_picks, own_sensor
 from mouse_cli.formats.record_drafts import Findings, Pick
 from mouse_cli.formats.recording import recording
 from mouse_cli.formats.recording_files import Column, Contents, read_contents
-from mouse_cli.formats.sampling import TIME_NAMES
+from mouse_cli.formats.sampling import is_time
 from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.model.recording import INPUT, OUTPUT, Recording
 
@@ -68,9 +68,7 @@ def _picks(contents: Contents, choice: Choice, where: Span) -> list[Pick]:
 
 def _response(each: Column, length: int) -> bool:
     """Whether a channel that nobody named is one of samples, and no time column."""
-    return (
-        len(each.values) == length and each.name.strip().lower() not in TIME_NAMES and not np.iscomplexobj(each.values)
-    )
+    return len(each.values) == length and not is_time(each.name) and not np.iscomplexobj(each.values)
 
 
 def _pick(role: str, text: str, choice: Choice, where: Span) -> Pick:

@@ -1,5 +1,6 @@
 """How a file was sampled: by what the deck says, what the file says and what its time column shows, which must agree."""
 
+import re
 from collections.abc import Sequence
 
 import numpy as np
@@ -10,9 +11,20 @@ from mouse_cli.formats.record_drafts import Findings
 from mouse_cli.formats.recording_files import Column, Contents
 from mouse_cli.records.faults import Clock, clock
 
-TIME_NAMES = ("t", "time", "times", "zeit", "temps", "seconds", "time_s", "t_s", "timestamp", "time stamp", "x_value")
+_TIME = re.compile(
+    r"(t|times?|zeit|temps|seconds|time_s|t_s|time ?stamp|date ?/? ?time|x_value)([ _]*[0-9]+)?( *- .*)?", re.IGNORECASE
+)
 _SECONDS = {"": 1.0, "s": 1.0, "sec": 1.0, "seconds": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0}
 _AGREE = 1e-3  # of two sample rates
+
+
+def is_time(name: str) -> bool:
+    """Whether a column of this name holds the time: `t`, `Zeit`, `Time 1 - default sample rate`.
+
+    >>> is_time("Time (s)".partition(" ")[0]), is_time("tip")
+    (True, False)
+    """
+    return _TIME.fullmatch(name.strip()) is not None
 
 
 def step_s(
@@ -62,9 +74,7 @@ def _time(
         (
             each
             for each in contents.columns
-            if each.name.strip().lower() in TIME_NAMES
-            and len(each.values) == length
-            and all(each is not other for other in chosen)
+            if is_time(each.name) and len(each.values) == length and all(each is not other for other in chosen)
         ),
         None,
     )

@@ -12,6 +12,7 @@ from mouse_cli.records import identify_output_only as outputs_only
 from mouse_cli.records.identify_combine import combined
 from mouse_cli.records.identify_frf import LEAST_LINES, Found, banded, identify_leaking, lines_of
 from mouse_cli.records.identify_modes import Drive, from_fit, from_subspace
+from mouse_cli.records.identify_repeats import alike, lost, short_of
 from mouse_cli.records.identify_review import drive_points, reviewed, reviewed_outputs
 from mouse_cli.records.lscf import OrderPoles
 from mouse_cli.records.modal_model import synthesised
@@ -64,26 +65,34 @@ def identify_recording(
     recording: Recording, band: Band = None, most: int | None = None, say: Callable[[str], None] = _QUIET
 ) -> Identification:
     """Modes of a recording's outputs alone. band: Hz; most: highest order."""
-    top = min(band[1] if band else np.inf, _TOP * recording.sample_rate_hz)
-    edges = (float(band[0]) if band else 2 / (recording.time_step_s * max(len(recording.samples), 1)), float(top))
-    channels = [recording.channels[j] for j in recording.outputs]
-    names = tuple(channel.sensor or channel.name for channel in channels)
-    method, noise = "covariance-driven SSI", f"scatter of {outputs_only.BLOCKS} blocks of the record"
-    samples, rate = outputs_only.decimated(recording, top)
-    least = outputs_only.least_samples(len(names))
-    if len(samples) < least or not names:
-        few = (
-            f"the record has {len(samples)} samples at {rate:.6g} Hz, which the band takes; at least {least} are needed"
-        )
-        doubt = Diagnostic("MD651", ERROR, few, help="record for longer")
-        return _nothing(recording.title, (recording.path or recording.title,), method, names, edges, noise, doubt)
-    found = outputs_only.identify_outputs(samples, rate, edges, most, say)
+    return identify_recordings([recording], band, most, say)
+
+
+def identify_recordings(
+    recordings: Sequence[Recording], band: Band = None, most: int | None = None, say: Callable[[str], None] = _QUIET
+) -> Identification:
+    """Modes of the outputs alone of repeats, whose correlations are averaged. Raises RecordError (MD655) where they are none."""
+    first = alike(recordings)
+    top = min(band[1] if band else np.inf, _TOP * first.sample_rate_hz)
+    longest = max(len(each.samples) for each in recordings)
+    edges = (float(band[0]) if band else 2 / (first.time_step_s * max(longest, 1)), float(top))
+    names = tuple(channel.sensor or channel.name for channel in (first.channels[j] for j in first.outputs))
+    title, sources = ", ".join(each.title for each in recordings), tuple(each.path or each.title for each in recordings)
+    parts, rates = zip(*(outputs_only.decimated(each, top) for each in recordings), strict=True)
+    division = outputs_only.division([len(each) for each in parts], len(names)) if names else None
+    method, of = "covariance-driven SSI", f"{len(parts)} records" if len(parts) > 1 else "the record"
+    noise = f"scatter of {division.blocks if division else outputs_only.BLOCKS} blocks of {of}"
+    if division is None:
+        doubt = short_of(parts, rates[0], outputs_only.least_samples())
+        return _nothing(title, sources, method, names, edges, noise, doubt)
+    found = outputs_only.identify_outputs(parts, rates[0], edges, division, most, say)
     judged = reviewed_outputs(found, edges)
-    level_hz, level = _spectrum(samples, rate)
+    level_hz, level = _spectrum(parts, rates[0])
     return Identification(
-        recording.title, (recording.path or recording.title,), method, names, edges, judged.modes,
+        title, sources, method, names, edges, judged.modes,
         _diagram(found.poles, [*found.tracks, *found.passing], level_hz, level, found.orders[-1]), noise,
-        rejected=(*judged.rejected, *_rejected(found.dropped, found.passing)), doubts=judged.doubts, remarks=judged.remarks,
+        rejected=(*judged.rejected, *_rejected(found.dropped, found.passing)), doubts=judged.doubts,
+        remarks=(*judged.remarks, *lost(division, found.samples, rates[0])),
         details={"samples": found.samples, "sample rate": found.rate_hz, "lags": 2 * found.lags, "orders": found.orders[-1]},
     )  # fmt: skip
 
@@ -129,13 +138,15 @@ def _diagram(poles: list[OrderPoles], every: list[Track], hz: np.ndarray, level:
     return Diagram(order.astype(int), frequency, damping, stable.astype(bool), hz, level, orders)
 
 
-def _spectrum(samples: np.ndarray, rate_hz: float) -> tuple[np.ndarray, np.ndarray]:
-    """Root mean square amplitude spectrum of all outputs, each over its sd."""
+def _spectrum(parts: Sequence[np.ndarray], rate_hz: float) -> tuple[np.ndarray, np.ndarray]:
+    """Root mean square amplitude spectrum of all outputs, each over its sd, over all records."""
     from scipy.signal import welch
 
-    size = samples.std(axis=0)
-    hz, power = welch(samples / np.where(size > 0, size, 1), rate_hz, nperseg=min(2048, len(samples)), axis=0)
-    return hz[1:], np.sqrt(power[1:].mean(axis=1))
+    size = np.concatenate(parts).std(axis=0)
+    block = min([2048, *(len(each) for each in parts)])
+    every = [welch(each / np.where(size > 0, size, 1), rate_hz, nperseg=block, axis=0) for each in parts]
+    power = np.mean([each[1] for each in every], axis=0)
+    return every[0][0][1:], np.sqrt(power[1:].mean(axis=1))
 
 
-__all__ = ["Drive", "from_fit", "from_subspace", "identify_frf", "identify_recording"]
+__all__ = ["Drive", "from_fit", "from_subspace", "identify_frf", "identify_recording", "identify_recordings"]

@@ -1,6 +1,6 @@
 """Modes from outputs alone: decimation to the band, SSI, tracks that persist, and the order at which each mode is best known."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +11,9 @@ from mouse_cli.records.mode_selection import ALIKE, HEAVIEST, Dropped
 from mouse_cli.records.ssi import Subspace, UncertainMode, poles, subspace, uncertain
 from mouse_cli.records.stabilisation import Track, persistent, tracks
 
-BLOCKS = 40  # of the record, for its scatter
+BLOCKS = 40  # of the records, for their scatter
+_TIMES = 4  # samples of a block over its lags
+_FEWEST_LAGS, _FEWEST_BLOCKS = 8, 10  # ten blocks know a standard deviation to a quarter of it
 _LAGS, _SIZE, _ORDERS, _STEP = 30, 400, 40, 2
 _MARGIN = 2.56  # samples a second per Hz of the band
 _UNKNOWN = 0.5  # sd of the decay rate over it
@@ -35,9 +37,37 @@ class FoundOutputs:
     samples: int
 
 
-def least_samples(outputs: int) -> int:
-    """Samples, after decimation, that the blocks and their lags take at least."""
-    return BLOCKS * 4 * lags_of(outputs)
+@dataclass(frozen=True)
+class Division:
+    """How correlations are taken of records: lags, block columns of the Hankel matrix; blocks of the whole; usual: of both."""
+
+    lags: int
+    blocks: int
+    usual: tuple[int, int]
+
+    @property
+    def short(self) -> bool:
+        """Whether the records allow less than usual."""
+        return (self.lags, self.blocks) != self.usual
+
+
+def division(lengths: Sequence[int], outputs: int) -> Division | None:
+    """Lags and blocks for records of so many samples: both fewer where they are short; None where even the fewest do not fit.
+
+    A block has four times as many samples as there are lags, and each record holds one at least.
+    """
+    lags = lags_of(outputs)
+    share = min(np.sqrt(sum(lengths) / (_TIMES * lags * BLOCKS)), min(lengths) / (_TIMES * lags), 1.0)
+    fewer = max(int(share * lags), _FEWEST_LAGS)
+    blocks = min(BLOCKS, sum(length // (_TIMES * fewer) for length in lengths))
+    if min(lengths) < _TIMES * fewer or blocks < _FEWEST_BLOCKS:
+        return None
+    return Division(min(fewer, lags), blocks, (lags, BLOCKS))
+
+
+def least_samples() -> int:
+    """Samples, after decimation, that the fewest blocks and their lags take."""
+    return _FEWEST_BLOCKS * _TIMES * _FEWEST_LAGS
 
 
 def lags_of(outputs: int) -> int:
@@ -68,14 +98,13 @@ def _factors(number: int) -> list[int]:
 
 
 def identify_outputs(
-    samples: np.ndarray, rate_hz: float, band_hz: tuple[float, float], most: int | None, say: Callable[[str], None]
-) -> FoundOutputs:
-    """Modes of outputs (t, o) within `band_hz`."""
-    size = samples.std(axis=0)
-    scaled = samples / np.where(size > 0, size, 1.0)
-    lags = lags_of(samples.shape[1])
+    records: Sequence[np.ndarray], rate_hz: float, band_hz: tuple[float, float], division: Division, most: int | None,
+    say: Callable[[str], None],
+) -> FoundOutputs:  # fmt: skip
+    """Modes within `band_hz` of records (t, o) of the same outputs; one of a higher level counts no more than another."""
+    scaled, size = _levelled(records)
     say("correlations")
-    seen = subspace(scaled, lags, BLOCKS)
+    seen = subspace(scaled, division.lags, division.blocks)
     highest = min(most or _ORDERS, len(seen.singular) // 2)
     orders = range(2, highest + 1, _STEP)
     say("poles")
@@ -96,7 +125,20 @@ def identify_outputs(
     passing = [track for track in every if not persistent(track, orders)]
     modes, kept, twice = _once(modes, kept)
     dropped += twice
-    return FoundOutputs(modes, kept, passing, dropped, found, orders, rate_hz, lags, len(samples))
+    return FoundOutputs(modes, kept, passing, dropped, found, orders, rate_hz, division.lags, sum(map(len, records)))
+
+
+def _levelled(records: Sequence[np.ndarray]) -> tuple[list[np.ndarray], np.ndarray]:
+    """Each record over its level and each output over its size (o,), whatever units and levels they were recorded in.
+
+    The level of a record is the geometric mean of the sd of its outputs, the size of an output its root mean square sd over levels.
+    """
+    sd = np.array([each.std(axis=0) for each in records])
+    alive = (sd > 0).all(axis=0)
+    level = np.exp(np.log(sd[:, alive]).mean(axis=1, keepdims=True)) if alive.any() else np.ones((len(sd), 1))
+    size = np.sqrt(((sd / level) ** 2).mean(axis=0))
+    size = np.where(size > 0, size, 1.0)
+    return [each / (one * size) for each, one in zip(records, level, strict=True)], size
 
 
 def _once(modes: list[UncertainMode], kept: list[Track]) -> tuple[list[UncertainMode], list[Track], list[Dropped]]:

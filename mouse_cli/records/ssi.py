@@ -7,6 +7,7 @@ covariance, and goes through all steps to first order, one vector a block, which
 Mechanical Systems and Signal Processing 38 (2013) 346, sections 3 and 4.
 """
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,7 +19,8 @@ from mouse_cli.records.lscf import OrderPoles, unit_largest
 class Subspace:
     """Hankel matrix of the record by its singular values, and its scatter.
 
-    left (a, k), singular (k,), right (b, k); scatter: for each block (H_j - H) / sqrt(n (n - 1)), (blocks, a, b). outputs: o.
+    left (a, k), singular (k,), right (b, k); scatter: for each block w_j (H_j - H) sqrt(n / (n - 1)), w_j its share of the whole
+    length, (blocks, a, b). outputs: o.
     """
 
     left: np.ndarray
@@ -38,21 +40,35 @@ class System:
     shapes: np.ndarray
 
 
-def subspace(samples: np.ndarray, lags: int, blocks: int) -> Subspace:
-    """Hankel matrix of samples (t, o) with `lags` block columns and lags + 1 block rows, and its scatter over `blocks`."""
-    t, o = samples.shape
-    length = (t - 2 * lags) // blocks
-    hankels = np.empty((blocks, (lags + 1) * o, lags * o))
-    for j in range(blocks):
-        first = j * length
-        base = samples[first : first + length]
-        moments = [samples[first + k : first + k + length].T @ base / length for k in range(1, 2 * lags + 1)]
-        for a in range(lags + 1):
-            hankels[j, a * o : (a + 1) * o] = np.concatenate(moments[a : a + lags], axis=1)
-    mean = hankels.mean(axis=0)
+def subspace(records: Sequence[np.ndarray], lags: int, blocks: int) -> Subspace:
+    """Hankel matrix of records (t, o) with `lags` block columns and lags + 1 block rows, and its scatter over `blocks`.
+
+    Blocks do not reach from one record into the next; each counts by its length.
+    """
+    stretches = list(_stretches([len(each) - 2 * lags for each in records], blocks))
+    hankels = np.array([_hankel(records[r], first, length, lags) for r, first, length in stretches])
+    share = np.array([length for _, _, length in stretches], float)
+    share /= share.sum()
+    mean = np.tensordot(share, hankels, 1)
     left, singular, right = np.linalg.svd(mean, full_matrices=False)
-    scatter = (hankels - mean) / np.sqrt(blocks * (blocks - 1))
-    return Subspace(left, singular, right.T, scatter, o)
+    n = len(stretches)
+    scatter = np.sqrt(n / (n - 1)) * share[:, None, None] * (hankels - mean)
+    return Subspace(left, singular, right.T, scatter, records[0].shape[1])
+
+
+def _stretches(lengths: list[int], blocks: int) -> Iterator[tuple[int, int, int]]:
+    """Record, first sample and length of about so many blocks, at least one of each record."""
+    whole = sum(lengths)
+    for r, length in enumerate(lengths):
+        count = max(1, round(blocks * length / whole))
+        yield from ((r, j * (length // count), length // count) for j in range(count))
+
+
+def _hankel(samples: np.ndarray, first: int, length: int, lags: int) -> np.ndarray:
+    """Correlations of one block in a block Hankel matrix ((lags + 1) o, lags o)."""
+    base = samples[first : first + length]
+    moments = [samples[first + k : first + k + length].T @ base / length for k in range(1, 2 * lags + 1)]
+    return np.concatenate([np.concatenate(moments[a : a + lags], axis=1) for a in range(lags + 1)])
 
 
 def system(found: Subspace, order: int) -> System:

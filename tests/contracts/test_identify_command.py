@@ -82,6 +82,28 @@ def test_a_recording_with_a_force_becomes_modes_in_one_command(folder):
         assert mode["scale"] == "unit modal mass"
 
 
+def test_repeats_without_a_force_are_one_answer(folder):
+    """Four records of one test in four files; a deck of them likewise, of which --recording chooses."""
+    names = [f"night{k}.csv" for k in range(4)]
+    for k, name in enumerate(names):
+        samples = vibrating.responses(150.0, 2500, 0.01, 0.01, np.random.default_rng(k))
+        table = np.column_stack([np.arange(2500) / 150, samples])
+        np.savetxt(name, table, delimiter=",", header="t,1,2,3", comments="")
+    done = call(*names, "--output-only", "--band", "4", "70", "--json", "-q")
+    found = json.loads(done.stdout)
+    assert done.return_value == 0 and found["sources"] == names
+    for mode, hz in zip(found["modes"], OMEGA / 2 / np.pi, strict=True):
+        assert abs(mode["frequency_hz"] - hz) < 4 * mode["frequency_sd_hz"]
+    listed = ", ".join(f"{{file: {name}, outputs: {{1: '1', 2: '2', 3: '3'}}}}" for name in names)
+    Path("nights.yaml").write_text(DECK.replace("frf: [{file: frf.npz}]", f"recordings: [{listed}]"))
+    whole, one = (
+        json.loads(call("nights.yaml", "--band", "4", "70", "--json", *more).stdout)
+        for more in ((), ("--recording", "night1"))
+    )
+    assert [each["frequency_hz"] for each in whole["modes"]] == [each["frequency_hz"] for each in found["modes"]]
+    assert one["sources"] == ["night1.csv"]
+
+
 def test_no_mode_is_exit_one_and_writes_nothing(folder):
     done = call("frf.npz", "--band", "17", "30", "-o", "none.yaml")
     assert done.return_value == 1 and "MD650" in done.output and not Path("none.yaml").exists()

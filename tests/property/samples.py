@@ -182,6 +182,24 @@ def _table(rows: object, *head: str) -> str:
 
 _LABELS = "".join("{}, {}, {}, {}, {:.9E}\n".format(*_DOF[i], *_DOF[j], K[i, j]) for i, j in zip(_I, _J, strict=True))
 _PLACES = ((3, -1.0, 1.5, -1.0), (12, 0.25, 0.0, -1.0))
+LVM = (
+    "LabVIEW Measurement\t\nWriter_Version\t2\nSeparator\tTab\nDecimal_Separator\t,\nMulti_Headings\tYes\nX_Columns\tOne\n"
+    "Time_Pref\tRelative\nDate\t2024/05/06\n***End_of_Header***\t\n\t\n"
+)
+
+
+def segment(values: np.ndarray, x0: float = 0.0, step: float = 0.01, names: str = "hammer\t12TY") -> str:
+    """A segment of two channels in N and g, as LabVIEW writes it, with a comment on its first row."""
+    n = len(values)
+    rows = [f"{x0 + k * step:.6f}\t{a:.6f}\t{b:.6f}\t{'' if k else 'go on'}" for k, (a, b) in enumerate(values)]
+    head = f"Channels\t2\t\t\nSamples\t{n}\t{n}\t\nY_Unit_Label\tN\tg\t\nX_Dimension\tTime\tTime\t\nX0\t{x0:.6f}\t{x0:.6f}\t\n"
+    table = (
+        f"{head}Delta_X\t{step:.6f}\t{step:.6f}\t\n***End_of_Header***\t\t\t\nX_Value\t{names}\tComment\n"
+        + "\n".join(rows)
+    )
+    return f"{table}\n\n".replace(".", ",")
+
+
 _15 = "".join(f"{n:10d}{0:10d}{0:10d}{11:10d}{x:13.5E}{y:13.5E}{z:13.5E}\n" for n, x, y, z in _PLACES)
 _2411 = "".join(f"{n + 50:10d}{1:10d}{1:10d}{11:10d}\n{x:25.16E}{y:25.16E}{z:25.16E}\n" for n, x, y, z in _PLACES)
 NODES_UNV = f"    -1\n    15\n{_15}    -1\n    -1\n  2411\n{_2411}    -1\n"
@@ -208,9 +226,12 @@ FILES: dict[str, dict[str, dict[str, object]]] = {
         "csv": {
             "run.csv": _table(np.column_stack([T, X]).tolist(), "t (s)", "force [N]", "acc (g)"),
             "comma.csv": "t;x\n" + "".join(f"{t:.3f};{x:.4f}\n".replace(".", ",") for t, x in zip(T, X[:, 0], strict=True)),
+            "head.txt": "Operator: me\n# fs = 100 Hz\nforce\tacc\nN\tg\n" + "".join(f"{a}\t{b}\n" for a, b in X),
+            "clock.csv": "Timestamp;x\n" + "".join(f"2024-02-28 12:00:0{t:.3f};{x}\n" for t, x in zip(T, X[:, 0], strict=True)),
             "gaps.csv": "".join(f"{t:.3f}\t{'nan' if i % 7 == 3 else t}\t0.1+0.2j\n" for i, t in enumerate(T)),
         },
         "h5": {"run.h5": _hdf5_recording},
+        "lvm": {"run.lvm": LVM + segment(X[:16]) + segment(X[16:], 0.16), "labview.txt": LVM + segment(X)},
         "mat": {
             "run.mat": partial(_matlab, run={"force": X[:, 0], "acc": X}, fs=100.0),
             "packed.mat": partial(_matlab, packed=True, acc=X, fs=100.0),

@@ -7,6 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "property"))
+import samples
+
 from mouse_cli._errors import DeckError, RecordError
 from mouse_cli.formats import read_deck, write_deck
 from mouse_cli.formats.recording_files import read_contents
@@ -126,6 +129,105 @@ def test_tdms(tmp_path):
     ).recordings[0]
     assert recording.sample_rate_hz == pytest.approx(FS)
     assert recording.samples == pytest.approx(np.column_stack([FORCE, 9.80665 * MOTION]))
+
+
+def lvm(path, *segments: str) -> None:
+    """Segments as LabVIEW writes them, in the sample of `tests/property`, which the package lvm_read reads too."""
+    path.write_text(samples.LVM + "".join(segments))
+
+
+def test_lvm_as_another_program_reads_it(tmp_path):
+    """lvm_read of Slavic et al. is the independent reader; a comment and a decimal comma are in the file."""
+    lvm_read = pytest.importorskip("lvm_read", reason="needs lvm_read")
+    values = np.column_stack([FORCE, MOTION])
+    lvm(
+        tmp_path / "run.lvm",
+        samples.segment(values[:400], 0.0, 1 / FS),
+        samples.segment(values[400:], 400 / FS, 1 / FS),
+    )
+    other = lvm_read.read_str((tmp_path / "run.lvm").read_text())
+    ours = read_contents(str(tmp_path / "run.lvm"))
+    theirs = np.vstack([other[0]["data"], other[1]["data"]])[:, :3]
+    assert np.column_stack([each.values for each in ours.columns]) == pytest.approx(theirs)
+    assert not ours.stretches  # the second segment goes on where the first ended
+
+
+@pytest.mark.parametrize("name", ["run.lvm", "run.txt"])
+def test_lvm(tmp_path, name):
+    lvm(tmp_path / name, samples.segment(np.column_stack([FORCE, MOTION]), 0.0, 1 / FS))
+    recording = problem(
+        tmp_path, f"recordings: [{{file: {name}, inputs: {{1: hammer}}, outputs: {{2: 12TY}}}}]"
+    ).recordings[0]
+    assert recording.sample_rate_hz == pytest.approx(FS) and [c.unit for c in recording.channels] == ["N", "m/s2"]
+    assert recording.samples == pytest.approx(np.column_stack([FORCE, 9.80665 * MOTION]), abs=1e-5)
+
+
+def test_lvm_of_two_records_says_where_the_second_begins(tmp_path):
+    values = np.column_stack([FORCE, MOTION])
+    lvm(tmp_path / "run.lvm", samples.segment(values[:400], 0, 1 / FS), samples.segment(values[400:], 0, 1 / FS))
+    assert read_contents(str(tmp_path / "run.lvm")).stretches == ((0, 400), (400, 1000))
+    run = "recordings: [{file: run.lvm, inputs: {1: hammer}, outputs: {2: 12TY}}]"
+    message = "time runs backwards in column 'X_Value' at sample 400"
+    assert found(tmp_path, run, "MD604") == message
+    second = problem(tmp_path, run.replace("}]", ", segment: [400, 1000]}]"))
+    assert second.recordings[0].samples[:, 0] == pytest.approx(FORCE[400:], abs=1e-6)
+
+
+def test_lvm_damaged(tmp_path):
+    values = np.column_stack([FORCE, MOTION])
+    text = samples.LVM + samples.segment(values, 0, 1 / FS)
+    run = "recordings: [{file: run.lvm, inputs: {1: hammer}, outputs: {2: 12TY}}]"
+    (tmp_path / "run.lvm").write_text("\n".join(text.split("\n")[:800]))
+    assert "channel 'hammer' has 782 samples" in found(tmp_path, run, "MD252")
+    (tmp_path / "run.lvm").write_text(text.replace("0,100000\t", "0,1#0000\t"))
+    assert found(tmp_path, run, "MD252") == "'0,1#0000' is no number"
+    (tmp_path / "run.lvm").write_text(text[: text.index("***End")])
+    assert "no head of a segment" in found(tmp_path, run, "MD252")
+    rows = text.split("\n")
+    short = [row if k < 1008 else "\t".join([*row.split("\t")[:2], "", ""]) for k, row in enumerate(rows)]
+    (tmp_path / "run.lvm").write_text("\n".join(short).replace("Samples\t1000\t1000", "Samples\t1000\t990"))
+    assert "channel 'hammer' has 1000 samples, channel '12TY' 990" in found(tmp_path, run, "MD608")
+
+
+HEADS = {
+    "Sample rate;500,0;Hz\nStart;12:00\n\nAI 1;AI 2\nN;g\n": ";",  # names, then units, below lines of the program
+    "# operator: me\n# fs = 0.5 kHz\n# AI_1 [N]\tAI_2 [g]\n": "\t",
+    "Operator,me\nSampling interval: 2 ms\nAI 1 (N),AI 2 (g)\n": ",",
+    "channel names:\nAI 1 (N)\tAI 2 (g)\nstart times:\n1/2/2024 10:00\t1/2/2024 10:00\ndt:\n0.002000\t0.002000\ndata:\n": "\t",
+    "AI 1;AI 2\nN;g\nSampling frequency [Hz];500\n": ";",
+}
+
+
+@pytest.mark.parametrize(("head", "delimiter"), HEADS.items())
+def test_heads_of_other_programs(tmp_path, head, delimiter):
+    """Names, units and the rate are where Dewesoft, catman, SignalExpress and hands put them; there is no time column."""
+    rows = [f"{a:.6f}{delimiter}{b:.6f}" for a, b in zip(FORCE, MOTION, strict=True)]
+    text = head + "\n".join(row.replace(".", ",") if delimiter == ";" else row for row in rows) + "\n"
+    (tmp_path / "run.csv").write_bytes(text.encode("cp1252"))
+    held = read_contents(str(tmp_path / "run.csv"))
+    assert held.sample_rate_hz == pytest.approx(FS)
+    assert [(each.name.replace("_", " "), each.unit) for each in held.columns] == [("AI 1", "N"), ("AI 2", "g")]
+    assert held.columns[1].values == pytest.approx(MOTION, abs=1e-6)
+
+
+@pytest.mark.parametrize(("date", "comma"), [("", "."), ("2024-02-28 ", ","), ("2024-12-31T", ".")])
+def test_times_of_day(tmp_path, date, comma):
+    """A logger that writes the clock beside each sample, over midnight where it writes the date."""
+    from datetime import datetime, timedelta
+
+    start = datetime.fromisoformat(f"{date.strip(' T') or '2024-01-01'}T23:59:5{'0' if not date else '9'}.500")
+    stamp = lambda t: (start + timedelta(seconds=float(t))).isoformat(sep=date[-1:] or " ", timespec="milliseconds")
+    clock = [stamp(t) if date else stamp(t).partition(" ")[2] for t in T]
+    rows = [f"{at.replace('.', comma)};{a:.6f};{b:.6f}" for at, a, b in zip(clock, FORCE, MOTION, strict=True)]
+    (tmp_path / "run.csv").write_text("Timestamp;force;acc\n" + "\n".join(rows) + "\n")
+    recording = problem(tmp_path, RUN).recordings[0]
+    assert recording.sample_rate_hz == pytest.approx(FS, rel=1e-6)
+    assert recording.samples[:, 1] == pytest.approx(MOTION, abs=1e-6)
+
+
+def test_a_rate_of_the_head_that_the_time_column_contradicts(tmp_path):
+    table(tmp_path / "run.csv", T, FORCE, MOTION, head="Sample rate,512\nt,force,acc")
+    assert "the file says 512 samples a second, its time column 500" in found(tmp_path, RUN, "MD603")
 
 
 def universal(path, binary: int, sets: list[dict]) -> None:

@@ -6,8 +6,10 @@ from textwrap import fill
 
 import click
 
+from mouse_cli._texts import shown
 from mouse_cli.cli._arrangements import ARRANGEMENTS, Named, diagnosed, several, told, written
 from mouse_cli.cli._options import QUIET, READING, answer_form, options, reading
+from mouse_cli.cli._raw_folder import RAW, asked_of_folder
 
 _WIDTH = 132  # columns of the printout
 _FORMS = {".json": "json", ".md": "markdown"}
@@ -39,7 +41,7 @@ _CONSIDERED = (
 @click.option(
     "--plot", metavar="PATH", help="Write figures: to a folder, or to one file (.pdf, .png, .svg). Needs matplotlib."
 )
-@options(_CONSIDERED, ARRANGEMENTS, QUIET)
+@options(_CONSIDERED, RAW, ARRANGEMENTS, QUIET)
 @options(READING)
 def command(
     decks: tuple[str, ...],
@@ -55,9 +57,9 @@ def command(
     changed: tuple[str, ...],
     common_sd: float | None,
     quiet: bool,
-    **how: object,
+    **given: object,
 ) -> int:
-    """Say what the model of DECKS lacks, judged by its test.
+    """Say what the model of DECKS lacks, judged by its test, or by the raw files of --recordings FOLDER.
 
     Several DECKS are arrangements of one structure, such as masses at other places: their causes are told one after another.
 
@@ -69,12 +71,12 @@ def command(
     arranged = several(named, output, plot)
     for deck in (*named.fitted, *held_out):
         _check_places(deck, output, plot, reports)
+    raw, how = asked_of_folder(decks, arranged, output, given)
     asked = _Asked(_names(candidates, without), without is not None, causes)
-    found = _answer(named, arranged, common_sd, asked, quiet, reading(**how))
-    files = _revised(found, output)
+    problems, found = _answer(named, arranged, common_sd, asked, quiet, reading(**how), raw)
+    files = _revised(found, output, problems[0] if raw["folder"] else None)
     for path in reports:
-        shape = _FORMS.get(os.path.splitext(path)[1].lower(), "printout")
-        deliver(_text(found, shape, numbers, output, files), path, decks[0])
+        deliver(_text(found, _form(path), numbers, output, files), path, decks[0])
     deliver(_text(found, form or "printout", numbers, output, files), None, decks[0])
     if plot:
         from mouse_cli.plots import draw
@@ -104,25 +106,45 @@ class _Asked:
             raise click.UsageError(str(reason)) from reason
 
 
-def _answer(named: Named, arranged: bool, common_sd: float | None, asked: _Asked, quiet: bool, how: dict[str, object]):
-    """The diagnosis of one deck, or of configurations."""
+def _answer(
+    named: Named, arranged: bool, common_sd: float | None, asked: _Asked, quiet: bool, how: dict[str, object],
+    raw: dict[str, object],
+):  # fmt: skip
+    """The problems of the decks fitted, and the diagnosis of one deck, or of configurations."""
     from mouse_cli.cli._decks import read_problem
     from mouse_cli.cli._terminal import progress, show_diagnostics
     from mouse_cli.diagnosis.diagnose import diagnose
     from mouse_cli.diagnosis.names import NoSite
 
-    problems = tuple(read_problem(deck, **how) for deck in named.fitted)
+    if raw["folder"]:
+        problems = (_measured(named.fitted[0], raw, how, quiet),)
+    else:
+        problems = tuple(read_problem(deck, **how) for deck in named.fitted)
     unseen = tuple(read_problem(deck, **how) for deck in named.unseen)
     if not quiet:
         show_diagnostics(tuple(each for problem in (*problems, *unseen) for each in problem.warnings))
     choices = asked.of(problems[0])
     with progress() as (_, say):
         if arranged:
-            return diagnosed(named, problems, unseen, common_sd, say, choices)
+            return problems, diagnosed(named, problems, unseen, common_sd, say, choices)
         try:
-            return diagnose(problems[0], say, choices)
+            return problems, diagnose(problems[0], say, choices)
         except NoSite as reason:
             raise click.UsageError(str(reason)) from reason
+
+
+def _measured(deck: str, raw: dict[str, object], how: dict[str, object], quiet: bool):
+    """The problem of the deck with the recordings of a folder; says on standard error what was read."""
+    from mouse_cli.cli._raw_folder import read_raw
+    from mouse_cli.cli._terminal import progress, show_diagnostics
+
+    said = []
+    with progress() as (_, notice):
+        problem = read_raw(deck, raw, how, notice, lambda *told: said.append(told))
+    for lines, passed in said if not quiet else ():
+        click.echo(shown("\n".join(lines)), err=True)
+        show_diagnostics(passed)
+    return problem
 
 
 def _names(candidates: str | None, without: str | None) -> tuple[str, ...] | None:
@@ -151,12 +173,19 @@ def _check_places(deck: str, output: str | None, plot: str | None, reports: tupl
         require(plot)
 
 
-def _revised(found, output: str | None) -> list[str]:
-    """Names of the files of the extended decks; none where there is none."""
+def _form(path: str) -> str:
+    """That of a report, by the suffix of its file."""
+    return _FORMS.get(os.path.splitext(path)[1].lower(), "printout")
+
+
+def _revised(found, output: str | None, measured=None) -> list[str]:
+    """Names of the files of the extended decks; none where there is none, but for the deck `measured` by a folder."""
     from mouse_cli.formats import write_deck
 
-    if output is None or not found.extended:
+    if output is None or not (found.extended or measured):
         return []
+    if not found.extended:
+        return write_deck(measured, output)
     return written(found, output) if _arranged(found) else write_deck(found.extended, output)
 
 
@@ -185,6 +214,8 @@ def _text(found, form: str, numbers: str | None, output: str | None, files: list
 def _written(found, output: str, files: list[str]) -> str:
     from mouse_cli.model.diagnosis import NAMED, ONE_OF
 
+    if files and not found.extended:
+        return f"No cause is named. The deck with what was measured is in {files[-1]}; `mouse diagnose` accepts it."
     if files and found.kind == ONE_OF:
         lead = f"The model with {found.best.title}, which leads and is not proved,"
         return f"{lead} is in {files[-1]}; `mouse run` accepts it."

@@ -3,7 +3,7 @@
 import click
 
 from mouse_cli.cli._options import OUTSIDE, answer_form, options
-from mouse_cli.cli._recording_options import CHANNELS, SPECTRA
+from mouse_cli.cli._recording_options import CHANNELS, SEGMENT, SPECTRA
 
 
 @click.command()
@@ -14,7 +14,7 @@ from mouse_cli.cli._recording_options import CHANNELS, SPECTRA
 @click.option(
     "--recording", "titles", multiple=True, metavar="TITLE", help="Of a deck: this recording; may be repeated."
 )
-@options(SPECTRA, CHANNELS, OUTSIDE, answer_form("mouse.spectra/1"))
+@options(SPECTRA, CHANNELS, SEGMENT, OUTSIDE, answer_form("mouse.spectra/1"))
 @click.option("-q", "--quiet", is_flag=True, help="No warnings on standard error.")
 def command(
     source: str,

@@ -49,12 +49,16 @@ class Function:
 
 @dataclass(frozen=True)
 class Contents:
-    """All channels and functions of a file; sample_rate_hz where it states one for all. remarks: what was passed over, and why."""
+    """All channels and functions of a file; sample_rate_hz where it states one for all. remarks: what was passed over, and why.
+
+    stretches: first sample and the one after the last of each record, where the file holds several one after another.
+    """
 
     columns: tuple[Column, ...] = ()
     sample_rate_hz: float | None = None
     functions: tuple[Function, ...] = ()
     remarks: tuple[str, ...] = field(default_factory=tuple)
+    stretches: tuple[tuple[int, int], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

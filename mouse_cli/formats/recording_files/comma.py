@@ -1,47 +1,66 @@
 """Tables as text (.csv, .txt, .tsv, .dat, .asc): one line for each sample or line of frequency, one column for each channel.
 
 Columns are separated by semicolons, tabulators, commas or blanks; before the numbers stand any lines, of which the last with as
-many cells as there are columns names them, `acc3`, `acc3 (g)`, `acc3 [m/s2]`; a line of units may follow. Complex numbers are
-written `0.1+0.2j`. Beside semicolons and tabulators, a comma in a number is a decimal comma.
+many cells as there are columns names them, `acc3`, `acc3 (g)`, `acc3 [m/s2]`; a line of units may follow, and lines such as
+`Sample rate;1000` or `fs = 512 Hz` state the sampling. Complex numbers are written `0.1+0.2j`. Beside semicolons and tabulators, a
+comma in a number is a decimal comma. The first of several columns may hold times of day, `12:00:00.001`, also after an ISO date.
 """
 
 import re
+from contextlib import suppress
+from datetime import date
 from itertools import islice
 
 import numpy as np
 
 from mouse_cli.formats.data_files import line_span, text_lines
 from mouse_cli.formats.recording_files import MOST_COLUMNS, Column, Contents, RecordingFormat, reject
-from mouse_cli.model.channel_units import unit
+from mouse_cli.formats.recording_files.text_head import COMMENTS, labelled, read_head
 
 _MOST_HEAD = 200  # lines before the numbers
 _MISSING = ("", "nan", "na", "n/a", "null", "-", "--", "#n/a", "inf", "-inf", "+inf")
+_EPOCH = date(1970, 1, 1).toordinal()
+_TIME_OF_DAY = re.compile(
+    r"(?:(?P<date>[0-9]{4}-[0-9]{2}-[0-9]{2})[ T])?"
+    r"(?P<hours>[0-9]{1,2}):(?P<minutes>[0-9]{2}):(?P<seconds>[0-9]{2}(?:[.,][0-9]{1,9})?)Z?",
+    re.ASCII,
+)
 _DECIMAL_COMMA = re.compile(r"[-+]?[0-9]*,[0-9]+([eE][-+]?[0-9]+)?")
-_COMMENTS = "#%!"
 
 
 def _read(path: str) -> Contents:
-    with open(path, encoding="utf-8-sig", errors="replace", newline=None) as stream:
-        head = [line.rstrip("\n") for line in islice(stream, _MOST_HEAD)]
+    head = _lines(path)
     first, separator = _first(path, head)
     width = _columns(head[first : first + 5], separator)
     values = _at_once(path, first, separator, head[first])
     if values is None or values.shape[1] != width:
         values = _slowly(path, first, separator, width)
-    names, units = _head(head[:first], separator, width)
-    return Contents(tuple(Column(names[j], values[:, j], units[j]) for j in range(width)))
+    found = read_head(
+        head[:first], lambda line: _cells(line, separator), width, _has_decimal_commas(head[first], separator)
+    )
+    columns = tuple(Column(found.names[j], values[:, j], found.units[j]) for j in range(width))
+    return Contents(columns, found.sample_rate_hz)
+
+
+def _lines(path: str) -> list[str]:
+    """The first lines, in UTF-8 or, where they are none, in the code page of Western Windows."""
+    for encoding, errors in (("utf-8-sig", "strict"), ("cp1252", "replace")):
+        with suppress(UnicodeDecodeError), open(path, encoding=encoding, errors=errors, newline=None) as stream:
+            return [line.rstrip("\n") for line in islice(stream, _MOST_HEAD)]
+    return []
 
 
 def _first(path: str, lines: list[str]) -> tuple[int, str | None]:
     """The line of the first numbers, from 0, and what separates them."""
     for i, line in enumerate(lines[:_MOST_HEAD]):
-        if not line.strip() or line.lstrip()[0] in _COMMENTS:
+        if not line.strip() or line.lstrip()[0] in COMMENTS or labelled(lines, i) not in ("", "data", "values"):
             continue
         separator = next((mark for mark in (";", "\t", ",") if mark in line), None)
         cells = _cells(line, separator)
         if len(cells) > MOST_COLUMNS:
             reject("MD258", path, f"line {i + 1} has more than {MOST_COLUMNS} cells", "divide the table")
         comma = separator in (";", "\t")
+        cells = cells[1:] if len(cells) > 1 and _clock(cells[0]) is not None else cells
         if any(_number(cell, comma) is not None for cell in cells) and all(
             _number(cell, comma) is not None or cell.lower() in _MISSING for cell in cells
         ):
@@ -74,6 +93,18 @@ def _number(cell: str, comma: bool) -> complex | None:
     return None if value != value else value
 
 
+def _clock(cell: str) -> float | None:
+    """Seconds from the time of day that a cell spells, after midnight or, with a date, after that of 1970."""
+    found = _TIME_OF_DAY.fullmatch(cell)
+    if found is None:
+        return None
+    with suppress(ValueError):
+        days = date.fromisoformat(found["date"]).toordinal() - _EPOCH if found["date"] else 0
+        hours, minutes = int(found["hours"]), int(found["minutes"])
+        return 86400.0 * days + 3600 * hours + 60 * minutes + float(found["seconds"].replace(",", "."))
+    return None
+
+
 def _spelled(text: str, comma: bool) -> str:
     text = text.replace(",", ".") if comma else text
     return text.replace("i", "j").replace(" ", "").replace("jnf", "inf") if "i" in text or " " in text else text
@@ -103,7 +134,7 @@ def _slowly(path: str, first: int, separator: str | None, width: int) -> np.ndar
     last = max(i for i, line in enumerate(lines) if line.strip())
     for i in range(first, last + 1):
         line = lines[i]
-        if not line.strip() or line.lstrip()[0] in _COMMENTS:
+        if not line.strip() or line.lstrip()[0] in COMMENTS:
             continue
         cells = _cells(line, separator)
         cells = cells[:width] if not any(cells[width:]) else cells
@@ -111,6 +142,7 @@ def _slowly(path: str, first: int, separator: str | None, width: int) -> np.ndar
             message = f"the line has {len(cells)} values; the first row of numbers, line {first + 1}, has {width}"
             reject("MD252", path, message, "the file is cut short or damaged here", line_span(path, i + 1, line))
         row = [np.nan if cell.lower() in _MISSING[:8] else _number(cell, comma) for cell in cells]
+        row[0] = _clock(cells[0]) if row[0] is None and width > 1 else row[0]
         if None in row:
             wrong = cells[row.index(None)]
             if wrong.lower().strip("+-") in ("nan", "inf", "infinity"):
@@ -121,31 +153,6 @@ def _slowly(path: str, first: int, separator: str | None, width: int) -> np.ndar
         rows.append(np.array(row, complex))
     table = np.array(rows)
     return table if table.imag.any() else table.real
-
-
-def _head(lines: list[str], separator: str | None, width: int) -> tuple[list[str], list[str]]:
-    """Names and units of the columns, from the lines before the numbers; without names, numbers from 1."""
-    rows = [_cells(line.lstrip().lstrip(_COMMENTS), separator) for line in lines if line.strip()]
-    rows = [row[:width] for row in rows if len(row) >= width and not any(row[width:]) and any(row)]
-    units = [""] * width
-    if len(rows) > 1 and any(unit(cell) for cell in rows[-1]) and _are_units(rows[-1]):
-        units, rows = [cell.strip("[]()") for cell in rows[-1]], rows[:-1]
-    names = list(rows[-1]) if rows else [""] * width
-    for j, name in enumerate(names):
-        stem, said = _parted(name)
-        if stem and said is not None:
-            names[j], units[j] = stem, units[j] or said
-    return [name or str(j + 1) for j, name in enumerate(names)], units
-
-
-def _parted(name: str) -> tuple[str, str | None]:
-    """`acc3` and `g` of `acc3 (g)` or `acc3 [g]`; None for a name without a unit."""
-    at = min((i for i in (name.find("("), name.find("[")) if i >= 0), default=-1)
-    return (name[:at].rstrip(), name[at + 1 : -1]) if at >= 0 and name.endswith((")", "]")) else (name, None)
-
-
-def _are_units(cells: list[str]) -> bool:
-    return all(unit(cell) or cell.strip("[]()").lower() in ("s", "sec", "ms", "hz", "-", "") for cell in cells)
 
 
 FORMAT = RecordingFormat("csv", _read, ("csv", "txt", "tsv", "dat", "asc"))

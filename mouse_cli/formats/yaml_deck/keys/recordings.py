@@ -10,7 +10,7 @@ SECTIONS = {
     "recording": Section(
         "Time histories of a file, or a stretch of them.",
         {
-            "file": Key("path", "file below the folder of the deck: csv, txt, mat, npz, wav, h5, tdms, uff, unv", required=True),
+            "file": Key("path", "file at or below the deck: csv, txt, lvm, mat, npz, wav, h5, tdms, uff, unv", required=True),
             "title": Key("text", "what the report and `hold_out` call it", "the name of the file, and its segment"),
             "sample_rate": Key("number", "samples a second", "what the file says", unit="Hz"),
             "time": Key("text", "channel that holds the time in s", "a column called t or time, where there is one"),

@@ -13,7 +13,7 @@ SECTIONS = {
             "recordings": Key("list recording", "time histories", "none"),
             "hold_out": Key("section hold_out", "what of it no fit uses", "nothing"),
         },
-        needs=(("modes",), ("frf",), ("recordings",)),
+        needs=(("modes",), ("frf",), ("recordings",), ("sensors",)),
     ),
     "sensor": Section(
         "A sensor with a name of its own, in one of three forms; on a matrix model only the last.",

@@ -1,0 +1,262 @@
+"""`mouse diagnose --recordings FOLDER`: from the raw files of a laboratory to a verdict, what was passed over, and refusals."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+
+from mouse_cli.cli.main import main
+from mouse_cli.formats import read_deck
+from mouse_cli.formats.recording_folder import Sensors
+
+DECK = """\
+mouse: 1
+title: three masses
+units: SI
+model:
+  stiffness: {order: 3, entries: [[1,1,2e5], [1,2,-1e5], [2,2,2e5], [2,3,-1e5], [3,3,1e5]]}
+  mass: {diagonal: [1, 1, 1]}
+  damping: {order: 3, entries: [[1,1,5], [1,2,-2], [2,2,5], [2,3,-2], [3,3,3]]}
+parameters: [{name: k1, sd: 1e4, stiffness: [[1,1,1]]}]
+"""
+SENSORS = """\
+test:
+  sensors:
+    - {name: acc1, weights: {1: 1}}
+    - {name: acc2, weights: {2: 1}}
+    - {name: acc3, weights: {3: 1}}
+"""
+SPRING = 2e4  # N/m, from mass 3 to the ground: in the structure, not in the deck
+FS = 1000.0
+
+
+def structure(spring: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """K, C, and A of its first-order form; unit masses."""
+    K = 1e5 * np.array([[2, -1, 0], [-1, 2, -1], [0, -1, 1.0]]) + np.diag([0, 0, spring])
+    C = np.array([[5, -2, 0], [-2, 5, -2], [0, -2, 3.0]])
+    return K, C, np.block([[np.zeros((3, 3)), np.eye(3)], [-K, -C]])
+
+
+def measured(seed: int, spring: float = SPRING, n: int = 3000) -> np.ndarray:
+    """Force in N and accelerations in g (n, 4) of the structure with the spring: linear between samples, integrated by scipy."""
+    from scipy.signal import butter, cont2discrete, dlsim, sosfilt
+
+    K, C, A = structure(spring)
+    B = np.array([[0], [0], [0], [1.0], [0], [0]])
+    rng = np.random.default_rng(seed)
+    force = 30 * sosfilt(butter(4, 120, fs=FS, output="sos"), rng.standard_normal(n))
+    motion = dlsim(cont2discrete((A, B, np.hstack([-K, -C]), B[3:]), 1 / FS, "foh"), force)[1]
+    motion += 0.05 * motion.std() * rng.standard_normal(motion.shape)
+    return np.column_stack([force, motion / 9.80665])
+
+
+def laboratory(folder: Path, runs: int = 3, spring: float = SPRING) -> None:
+    """The folder as a laboratory leaves it: decimal commas, a head of its program, notes beside."""
+    folder.mkdir()
+    for run in range(1, runs + 1):
+        rows = [";".join(f"{x:.8g}" for x in row).replace(".", ",") for row in measured(run, spring)]
+        head = "Operator;me\nSample rate;1000;Hz\n\nhammer;acc1;acc2;acc3\nN;g;g;g\n"
+        (folder / f"run{run}.csv").write_text(head + "\n".join(rows) + "\n")
+    (folder / "notes.docx").write_text("on Monday")
+    (folder / "readme.txt").write_text("all on Monday\n")
+
+
+@pytest.fixture
+def told(capsys, monkeypatch, tmp_path):
+    """Runs the command beside `deck.yaml`; gives exit code, standard output and standard error."""
+    monkeypatch.chdir(tmp_path)
+    Path("deck.yaml").write_text(DECK + SENSORS)
+
+    def run(*arguments: str) -> tuple[int, str, str]:
+        with pytest.raises(SystemExit) as end:
+            main(["diagnose", *arguments])
+        return int(end.value.code or 0), *capsys.readouterr()
+
+    return run
+
+
+def test_from_raw_files_to_the_spring(told):
+    """Truth: 20 kN/m between mass 3 and the ground; the deck that -o writes needs no option any more."""
+    laboratory(Path("raw"))
+    code, out, err = told("deck.yaml", "--recordings", "raw", "--force", "1=hammer", "-o", "revised.yaml")
+    assert code == 1 and "between degree of freedom 3 and the ground" in out.split("\n")[4]
+    assert float(re.search(r"stiffness (\S+) N/m", out)[1]) == pytest.approx(SPRING, rel=0.02)
+    for words in (
+        "raw: 3 recordings in 3 files", "1000 Hz, forces 1 = hammer, responses acc1, acc2, acc3",
+        "held out from every fit: run3", "no format of recordings: notes.docx", "raw/readme.txt:1:1: warning[MD601]: passed over",
+    ):  # fmt: skip
+        assert words in err
+    again = read_deck("revised.yaml")
+    assert [each.title for each in again.recordings] == ["run1", "run2"]
+    assert [each.title for each in again.held_records.recordings] == ["run3"]
+    assert again.recordings[0].samples[:, 1] == pytest.approx(9.80665 * measured(1)[:, 1], rel=1e-5, abs=1e-6)
+
+
+def test_without_forces_the_modes_of_the_responses_judge(told):
+    """Wind on all masses, nobody measured it: three records of 20 s, whose modes show the same spring."""
+    from scipy.signal import cont2discrete, dlsim
+
+    K, C, A = structure(SPRING)
+    B, D = np.vstack([np.zeros((3, 3)), np.eye(3)]), np.eye(3)
+    Path("raw").mkdir()
+    for run in range(3):
+        rng = np.random.default_rng(run)
+        wind = rng.standard_normal((5000, 3))
+        motion = dlsim(cont2discrete((A, B, np.hstack([-K, -C]), D), 1 / 250), wind)[1]
+        motion += 0.02 * motion.std() * rng.standard_normal(motion.shape)
+        np.savetxt(f"raw/run{run}.txt", motion, header="fs = 250 Hz\nacc1 acc2 acc3\nm/s2 m/s2 m/s2")
+    code, out, err = told("deck.yaml", "--recordings", "raw", "-o", "revised.yaml")
+    assert "no force was measured: judged by the modes that the responses show" in err
+    assert code == 1 and "degree of freedom 3" in out.split("\n")[4]
+    again = read_deck("revised.yaml")
+    true = np.sqrt(np.linalg.eigvalsh(K)) / 2 / np.pi
+    assert np.abs((again.test.frequency_hz - true) / again.test.frequency_sd_hz).max() < 4
+
+
+def test_the_deck_is_written_where_nothing_is_missing(told):
+    laboratory(Path("raw"), runs=1, spring=0.0)
+    code, out, err = told("deck.yaml", "--recordings", "raw", "--force", "1=hammer", "-o", "measured.yaml")
+    assert code == 0
+    assert out.rstrip().endswith(
+        "No cause is named. The deck with what was measured is in measured.yaml; `mouse diagnose` accepts it."
+    )
+    assert [each.title for each in read_deck("measured.yaml").recordings] == ["run1"]
+    assert "held out from every fit" not in err  # one record alone: its end is held out, as ever
+
+
+def test_a_force_without_a_place_is_told(told):
+    laboratory(Path("raw"), runs=1)
+    code, out, err = told("deck.yaml", "--recordings", "raw", "-o", "revised.yaml")
+    assert code == 4 and not out
+    assert "error[MD626]: none of 3 files in raw is a recording of the model" in err
+    assert "raw/run1.csv:1:1: warning[MD627]: passed over: channel 'hammer' is one of force" in err
+    assert "--force SENSOR=hammer" in err
+    assert not Path("revised.yaml").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--force", "1=hammer"), "--force without --recordings FOLDER"),
+        (("--recordings", "raw", "--force", "9=hammer"), "the model has no sensor '9'"),
+        (("--recordings", "raw", "--force", "1=hammer", "--unit", "acc9=g"), "no recording uses a channel 'acc9'"),
+        (("--recordings", "raw", "--force", "1=hammer", "-o", "other/deck.yaml"), "files below its own folder"),
+        (("deck.yaml", "--recordings", "raw"), "--recordings gives one deck its test"),
+        (("--recordings", "raw", "--set", "NPARD=5"), "--set and --strip-73-80 are for card decks"),
+        (("--recordings", ".."), "is not below the folder of the deck"),
+        (("--recordings", "deck.yaml"), "is a file"),
+    ],
+)
+def test_refusals(told, arguments, words):
+    laboratory(Path("raw"), runs=1)
+    code, out, err = told("deck.yaml", *arguments)
+    assert code == 2 and not out and words in err
+
+
+def test_a_deck_that_names_its_recordings(told):
+    laboratory(Path("raw"), runs=1)
+    named = "  recordings: [{file: raw/run1.csv, inputs: {1: hammer}, outputs: {1: acc1}}]\n"
+    Path("deck.yaml").write_text(DECK + SENSORS + named)
+    code, _, err = told("deck.yaml", "--recordings", "raw", "--force", "1=hammer")
+    assert code == 2 and "names recordings or functions itself" in err
+
+
+TESTS = {
+    "none": "",
+    "empty": "test:\n",
+    "block": SENSORS,
+    "flow": "test: {sensors: [{name: acc1, weights: {1: 1}}, {name: acc2, weights: {2: 1}}, {name: acc3, weights: {3: 1}}]}\n",
+    "held": "test:\n  modes: {frequency: [20, 50], frequency_sd: 1 %}\n  hold_out:\n    modes: [2]\n",
+    "held in flow": "test:\n  modes: {frequency: [20, 50], frequency_sd: 1 %}\n  hold_out: {modes: [2]}\nrun: {cycles: 2}\n",
+}
+
+
+@pytest.mark.parametrize("kind", TESTS)
+def test_recordings_in_the_text_of_any_deck(told, kind):
+    """However the test of the deck is written, its recordings come into it, and all else stays."""
+    from mouse_cli.formats import read_draft
+    from mouse_cli.formats.assemble import assemble
+    from mouse_cli.formats.recording_folder import read_folder
+    from mouse_cli.formats.recording_source import Choice
+    from mouse_cli.formats.yaml_deck.add_recordings import sensor_names, with_recordings
+
+    laboratory(Path("raw"))
+    choice = Choice(("1=hammer",), ("1=acc1", "2=acc2", "3=acc3"))
+    before = DECK + TESTS[kind]
+    sensors = Sensors(sensor_names(before, "deck.yaml")[0], ("1", "2", "3"))
+    found = read_folder("raw", choice, sensors)
+    after = with_recordings(before, "deck.yaml", found.records, found.held, choice)
+    problem = assemble(read_draft(after, "deck.yaml"))
+    assert [each.title for each in problem.recordings] == ["run1", "run2"]
+    assert [each.title for each in problem.held_records.recordings] == ["run3"]
+    kept, had = yaml.safe_load(after), yaml.safe_load(before)
+    kept["test"].pop("recordings")
+    kept["test"]["hold_out"].pop("recordings")
+    had["test"] = (had.get("test") or {}) | {"hold_out": (had.get("test") or {}).get("hold_out", {})}
+    assert kept == had
+
+
+@pytest.mark.parametrize(
+    ("channel", "sensor"),
+    [
+        ("12TY", "12TY"), ("acc 12ty", "12TY"), ("Run.12-TY", "12-TY"), ("12:+Y", None), ("112TY", None), ("12TYX", None),
+        ("tip", "tip"), ("run 1.TIP", "tip"), ("3", None), ("12TY-12TX", None),
+    ],
+)  # fmt: skip
+def test_channels_by_their_names(channel, sensor):
+    assert Sensors(("tip",), ("3", "12TX", "12TY")).of(channel) == sensor
+
+
+def test_what_is_wrong_with_a_file_is_told_with_channel_and_sample(told):
+    """One sound file among damaged ones: it is taken, each of the others is told by its fault."""
+    from mouse_cli.formats.recording_folder import read_folder
+    from mouse_cli.formats.recording_source import Choice
+
+    Path("raw").mkdir()
+    values = np.column_stack([np.arange(500) / FS, measured(1)[:500, :2]])
+
+    def write(name: str, table: np.ndarray, head: str = "t (s),1TX (N),2TX (g)") -> None:
+        np.savetxt(f"raw/{name}", table, delimiter=",", header=head, comments="", fmt="%.9g")
+
+    dead, gap, back = values.copy(), values.copy(), values.copy()
+    dead[:, 2], gap[77, 2], back[300:, 0] = 0.0, np.nan, back[300:, 0] - 0.2
+    for name, table in {"a.csv": values, "dead.csv": dead, "gap.csv": gap, "back.csv": back}.items():
+        write(name, table)
+    write("slow.csv", values, "Sample rate,512\nt (s),1TX (N),2TX (g)")
+    Path("raw/cut.csv").write_text(Path("raw/a.csv").read_text()[:5000].rpartition(",")[0])
+    Path("raw/empty.csv").write_text("")
+    found = read_folder("raw", Choice(), Sensors((), ("1TX", "2TX")))
+    assert [each.recording.title for each in found.records] == ["a"]
+    said = {f"{each.span.file} {each.code} {each.message}" for each in found.passed}
+    for words in (
+        "raw/dead.csv MD607 passed over: channel '2TX' is dead: all 500 samples from 0 on are zero",
+        "raw/gap.csv MD605 passed over: 1 samples of channel '2TX' are no numbers, the first is sample 77",
+        "raw/back.csv MD604 passed over: time runs backwards in column 't' at sample 300",
+        "raw/slow.csv MD603 passed over: the file says 512 samples a second, its time column 1000",
+        "raw/empty.csv MD252 passed over: the file is empty",
+    ):
+        assert words in said, said
+    assert any(each.startswith("raw/cut.csv MD252 passed over: the line has") for each in said), said
+    assert all(each.severity == "warning" for each in found.passed)
+
+
+def test_segments_of_one_file_are_recordings_of_their_own(told):
+    import sys
+
+    sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "property"))
+    import samples
+
+    from mouse_cli.formats.recording_folder import read_folder
+    from mouse_cli.formats.recording_source import Choice
+
+    Path("raw").mkdir()
+    values = measured(1)[:, :2]
+    parts = [samples.segment(values[k : k + 500], 0.0, 1 / FS, "1TX\t2TX") for k in (0, 500, 1000)]
+    Path("raw/run.lvm").write_text(samples.LVM + "".join(parts))
+    found = read_folder("raw", Choice(), Sensors((), ("1TX", "2TX")))
+    assert [each.recording.title for each in found.records] == ["run[0:500]", "run[500:1000]", "run[1000:1500]"]
+    assert found.held == "run[1000:1500]"
+    assert [pick.role for pick in found.records[0].picks] == ["input", "output"]  # by their units
+    assert found.records[1].recording.samples[:, 0] == pytest.approx(values[500:1000, 0], abs=1e-5)
