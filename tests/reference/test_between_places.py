@@ -53,10 +53,15 @@ def model(text: str):
     return reduced(problem, problem.prior.mean)
 
 
+def recipe_of(found, key: str, says: str = ""):
+    """Candidate `key` at the site that `says` so."""
+    own = (each for each in registry()[key].recipes(found, registry()[key]))
+    return next(each for each in own if says in each.site(each.grid[0]).text)
+
+
 def lowest(found, key: str, values, says: str = "") -> float:
     """The lowest eigenvalue with candidate `key` at the site that `says` so."""
-    own = (each for each in registry()[key].recipes(found, registry()[key]))
-    recipe = next(each for each in own if says in each.site(each.grid[0]).text)
+    recipe = recipe_of(found, key, says)
     x = np.append(found.z, recipe.coordinates(np.array(values, float)))
     return float(Model(found, (recipe,)).point(x).eigenvalues[0])
 
@@ -86,6 +91,21 @@ def test_mass_beyond_the_tip_of_a_cantilever(key, own, arm):
     assert lowest(model(TIP % own), key, values, "5" if key == "eccentric-mass" else "9") == pytest.approx(
         expected, rel=1e-3
     )
+
+
+@pytest.mark.parametrize(("key", "own"), [("eccentric-mass", 1e-9), ("item-offset", KG)])
+def test_in_a_model_of_bending_alone_an_arm_across_is_not_felt(key, own):
+    """The end of an arm moves as the node that the deck gets for it: nothing moves along the beam."""
+    along, heavy = 0.8, key == "eccentric-mass"
+    found = model((TIP % own).replace("plane: XY", "directions: [TY, RZ]"))
+    values = np.array([*((KG,) if heavy else ()), along])
+    expected = EI / (H**3 / 3 + along * H**2 + along**2 * H) / KG
+    recipe = recipe_of(found, key, "5" if heavy else "9")
+    assert [each.name for each in recipe.unknowns][-1:] == ["arm along X"] and len(recipe.unknowns) == len(values)
+    x = np.append(found.z, recipe.coordinates(values))
+    assert Model(found, (recipe,)).point(x).eigenvalues[0] == pytest.approx(expected, rel=1e-3)
+    deck = recipe.extend(found.problem, values)
+    assert reduced(deck, deck.prior.mean).eigenvalues[0] == pytest.approx(expected, rel=1e-3)
 
 
 def test_what_may_expand_has_no_force_and_what_is_held_has_all():

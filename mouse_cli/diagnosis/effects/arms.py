@@ -1,4 +1,7 @@
-"""Masses on rigid arms: the end of an arm a moves as u + theta x a when its node moves by u and turns by theta."""
+"""Masses on rigid arms: the end of an arm a moves as u + theta x a when its node moves by u and turns by theta.
+
+It moves in the directions that the deck keeps, as any node does: in a model of bending alone, no arm across the beam is felt.
+"""
 
 import numpy as np
 
@@ -21,7 +24,8 @@ def arms(model: Reduced, node: int) -> tuple[tuple[Unknown, ...], np.ndarray, li
     """
     used = slice(0, min(model.r, int(model.data.test.number.max()) + 2))
     rows, length = model.node(node)[:, used], _LONGEST * span(model)
-    felt = [np.abs(np.cross(np.eye(3)[d], rows[3:], axisb=0)).max(initial=0.0) * length for d in range(3)]
+    added = [at_end(model, rows, axis) - rows[:3] for axis in np.eye(3)]
+    felt = [np.abs(each).max(initial=0.0) * length for each in added]
     axes = [d for d in range(3) if felt[d] > _STILL * np.abs(rows[:3]).max(initial=0.0)]
     unknowns = tuple(Unknown(f"arm along {_AXES[d]}", "m", -length, length, log=False) for d in axes)
     signs = np.concatenate([np.eye(len(axes)), -np.eye(len(axes))])
@@ -35,9 +39,10 @@ def arm(values: np.ndarray, axes: list[int]) -> np.ndarray:
     return found
 
 
-def at_end(rows: np.ndarray, vector: np.ndarray) -> np.ndarray:
+def at_end(model: Reduced, rows: np.ndarray, vector: np.ndarray) -> np.ndarray:
     """Motion (3, r) of the end of an arm (3,) from that (6, r) of its node."""
-    return rows[:3] + np.cross(rows[3:], vector, axisa=0).T
+    kept = np.isin(np.arange(3), model.problem.mesh.directions)
+    return rows[:3] + kept[:, None] * np.cross(rows[3:], vector, axisa=0).T
 
 
 def with_arm(edit: Edit, node: int, vector: np.ndarray) -> int:

@@ -39,7 +39,7 @@ def _recipe(model: Reduced, candidate: Candidate, node: int, about: tuple, count
     site = Site("node", (number,), tuple(model.problem.mesh.coordinates[node].tolist()), f"an arm from node {number}")
 
     def change(values: np.ndarray) -> Change:
-        B = at_end(rows, arm(values[1:], axes))
+        B = at_end(model, rows, arm(values[1:], axes))
         return Change(M=values[0] * B.T @ B)
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:

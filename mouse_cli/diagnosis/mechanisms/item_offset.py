@@ -50,7 +50,7 @@ def _recipe(model: Reduced, candidate: Candidate, own: list[tuple], count: int) 
     site = Site("element", ids, position, f"mass{'es' if len(ids) > 1 else ''} {', '.join(map(str, ids))}")
 
     def change(values: np.ndarray) -> Change:
-        moved = [(at_end(u, arm(values, axes)), m) for u, m in rows]
+        moved = [(at_end(model, u, arm(values, axes)), m) for u, m in rows]
         return Change(M=sum(m * B.T @ B for B, m in moved) - still)
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
