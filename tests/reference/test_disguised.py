@@ -1,5 +1,7 @@
 """Sets of mechanisms that are a field in disguise: fits made up here, on a beam of ten bars."""
 
+from types import SimpleNamespace
+
 import pytest
 from made_up_rankings import made_up, ranked
 
@@ -29,6 +31,12 @@ def test_several_of_one_group_that_touch(both, key):
     assert disguised(made_up(*both)) == key
     assert disguised(made_up(*both[::-1])) == key
     assert disguised(made_up("axial", *both)) == key
+
+
+def test_laws_of_recordings_are_no_field():
+    """Two springs that touch, fitted to recordings: no change of K or M, and no coordinates of a modal model."""
+    part = SimpleNamespace(candidate=SimpleNamespace(group="stiffness"))
+    assert disguised(SimpleNamespace(recipes=(part, part), nameless=None, data=None)) is None
 
 
 def test_its_probability_is_that_of_the_field(monkeypatch):

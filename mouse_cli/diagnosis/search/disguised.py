@@ -20,9 +20,9 @@ STIFFNESS, MASS, BED = "field-stiffness", "field-mass", "field-bed"  # keys of r
 
 
 def disguised(one: Fit) -> str | None:
-    """Key of the field that a fit is in disguise; None: it is none."""
+    """Key of the field that a fit is in disguise; None: it is none, as laws of recordings, which have no field for a rival."""
     groups = [recipe.candidate.group for recipe in one.recipes]
-    if len(set(groups)) == len(groups):
+    if one.data is None or len(set(groups)) == len(groups):
         return None
     for i, j in combinations(range(len(groups)), 2):
         key = _touching(one, i, j) if groups[i] == groups[j] else None

@@ -99,7 +99,7 @@ def rank(
         singles += [] if one is None else [one]
     fits = [baseline, *singles]
     found = hear(ranking(baseline, fits))
-    if last and (dict(found.groups).get("none", 0.0) < _IDLE or not adequate(baseline, gates.GATE)):
+    if last and (dict(found.groups).get("none", 0.0) < _IDLE or not adequate(found.baseline, gates.GATE)):
         fits += rivals(model, baseline, kind, within(fits))
     with_cause = [one for one in found.fits if one.recipes]
     if causes > 1 and with_cause and not adequate(min(with_cause, key=lambda one: one.misfit)):

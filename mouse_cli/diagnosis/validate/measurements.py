@@ -175,7 +175,7 @@ def _true_reading(k: int) -> Read:
 
 def _supports(base: Reduced) -> list[tuple[int, str]]:
     """Numbers, among all recipes of supports that give way, of those of one support alone, and what each is called."""
-    found = [(i, recipe.site(np.ones(1))) for i, recipe in enumerate(_yielding(base))]
+    found = [(i, each.site(np.ones(1))) for i, each in enumerate(_yielding(base)) if len(each.unknowns) == 1]
     return [(i, site.text) for i, site in found if len(site.ids) == 1][:_SUPPORTS]
 
 
