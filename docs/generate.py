@@ -109,8 +109,8 @@ def _statuses() -> Iterator[str]:
     yield _NOTE
     yield "# Statuses\n"
     yield (
-        "How a run ended: the key `status` of the JSON document and the first line of the verdict. Exit 0 becomes exit 1 where other values fit as well, and where the "
-        "[form of the model](../explanation/model-form.md) is rejected.\n"
+        "How a run ended: the key `status` of the JSON document and the first line of the verdict. Exit 0 becomes exit 1 "
+        "where other values fit as well, and where the [form of the model](../explanation/model-form.md) is rejected.\n"
     )
     yield "| status | exit | mouse says | advice |"
     yield "|---|---|---|---|"

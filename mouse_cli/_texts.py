@@ -10,16 +10,20 @@ _UNSEEN = re.compile(
     "[\x00-\x08\x0b-\x1f\x7f-\x9f\xad\u061c\u115f\u1160\u180e\u200b-\u200f\u2028-\u202e\u2060-\u206f\u3164\ufe00-\ufe0f\ufeff\uffa0"
     "\ufff9-\ufffb\ud800-\udfff\U000e0000-\U000e0fff]"
 )
+# What servers take for a command of theirs at the beginning of a line, after blanks too: `::error::`, `##[group]`, `##vso[`.
+_COMMAND = re.compile(r"^([ \t]*)(?::(?=:)|#(?=#(?:vso)?\[))", re.MULTILINE)
 _FORMULA = ("=", "+", "-", "@")
 
 
-def shown(text: str) -> str:
-    """`text` with a question mark for whatever moves the cursor, turns the writing round or cannot be seen; lines stay.
+def shown(text: str, commands: bool = False) -> str:
+    """`text` with a question mark for whatever moves the cursor, turns the writing round, cannot be seen or is a command to the
+    server that keeps the log (unless `commands` are meant); lines stay.
 
-    >>> shown("mode\\x1b[2J 1\\u202e"), shown("é\\n")
-    ('mode?[2J 1?', 'é\\n')
+    >>> shown("mode\\x1b[2J 1\\u202e"), shown("é\\n"), shown("a::b\\n  ::error::forged\\n##[endgroup]")
+    ('mode?[2J 1?', 'é\\n', 'a::b\\n  ?:error::forged\\n?#[endgroup]')
     """
-    return _UNSEEN.sub("?", text)
+    text = _UNSEEN.sub("?", text)
+    return text if commands else _COMMAND.sub(r"\1?", text)
 
 
 def line(text: str) -> str:

@@ -32,6 +32,7 @@ class Case:
     numbers: tuple[int, ...]
     altered: str = ""  # masses that make the altered configuration, {node: kg}
     places: tuple[tuple[float, ...], ...] = ()  # one for each local cause, m
+    ends: tuple[tuple[int, ...], ...] = ()  # nodes that a cause joins: it is at none but these
     span: float = 1.0  # m
     outside: bool = False  # no cause of the library: the right answer is to abstain
     tolerated: tuple[str, ...] = ()  # groups that may be named besides

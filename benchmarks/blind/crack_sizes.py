@@ -17,8 +17,9 @@ from benchmarks.blind.test_data import CONFIGS, measured
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.diagnosis.search.descents import idealised, settled
 from mouse_cli.diagnosis.search.fit import fit
-from mouse_cli.diagnosis.search.study import Study, idealised, settled
+from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
 

@@ -78,6 +78,7 @@ def answer(case: Case, truth: dict[str, np.ndarray], words: tuple) -> dict:
         "truth",
         "groups",
         "places",
+        "ends",
         "span",
         "outside",
         "tolerated",

@@ -47,7 +47,7 @@ def scored(answer: dict, found: dict) -> Scored:
     probability = float(verdict.get("probability") or np.nan)
     return Scored(
         answer,
-        _outcome(answer, kind, leads, error),
+        _outcome(answer, kind, leads, _near(answer, verdict["sites"], error)),
         said,
         error,
         probability,
@@ -71,13 +71,20 @@ def _same(answer: dict, groups: list[str]) -> bool:
     return bool(groups) and not missing and set(extra) <= set(answer["tolerated"])
 
 
-def _outcome(answer: dict, kind: str, leads: bool, error: float) -> str:
+def _outcome(answer: dict, kind: str, leads: bool, near: bool) -> str:
     if kind == "nothing-missing":
         return RIGHT if not answer["groups"] and not answer["outside"] else MISSED
     if kind in ("one-of", "unknown"):
         return RIGHT if answer["outside"] else ABSTAINED
-    near = not answer["places"] or not np.isfinite(error) or error <= NEAR
     return RIGHT if leads and near else WRONG
+
+
+def _near(answer: dict, sites: list[dict], error: float) -> bool:
+    """Whether causes are where they were said to be: between the same nodes, or as near as matters."""
+    if answer.get("ends"):
+        said = [sorted(site["ids"]) for site in sites]
+        return all(sorted(pair) in said for pair in answer["ends"])
+    return not answer["places"] or not np.isfinite(error) or error <= NEAR
 
 
 def _error(answer: dict, places: list[list[float]]) -> float:

@@ -168,8 +168,8 @@ MUTANTS = (
             "test_rivals_without_a_name_share_their_prior",
         ),
         nameless_never_asked=(
-            "< _IDLE):",
-            "< 0.0):",
+            "if last and (dict",
+            "if not last and (dict",
             "test_a_field_over_the_masses_of_a_chain",
         ),
     ),
@@ -190,13 +190,17 @@ MUTANTS = (
         adequate_anyway=("_ADEQUATE = 0.05", "_ADEQUATE = 0.01", "test_adequate_is_a_p_value_of_a_twentieth"),
     ),
     *_of(
-        "nameless/_field.py",
+        "nameless/_correlated.py",
         _NAMELESS,
         field_not_smooth=(
-            "np.exp(-0.5 * (apart / length) ** 2)",
-            "np.exp(-apart / length)",
+            "np.exp(-0.5 * ((at - at[i]) ** 2).sum(axis=1) / length**2)",
+            "np.exp(-np.sqrt(((at - at[i]) ** 2).sum(axis=1)) / length)",
             "test_its_covariance_is_that_of_a_smooth_field",
         ),
+    ),
+    *_of(
+        "nameless/_field.py",
+        _NAMELESS,
         field_sd_of_nothing=(
             "field.P, covariance[own, own], field.P",
             "field.P, 9 * np.eye(field.P.shape[1]), field.P",

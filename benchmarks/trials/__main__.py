@@ -8,7 +8,7 @@ import benchmarks._threads  # noqa: F401  (before numpy)
 from benchmarks.trials.answer import answer, answers
 from benchmarks.trials.kinds import kinds
 from benchmarks.trials.page import page
-from benchmarks.trials.scoring import scored
+from benchmarks.trials.scoring import Scored, scored
 from benchmarks.trials.seal import BrokenSeal, opened, read, seal
 
 
@@ -34,14 +34,19 @@ def _answer(given: argparse.Namespace) -> None:
 
 
 def _open(given: argparse.Namespace) -> None:
-    truths, said = opened(given.folder, given.seed), answers(given.folder)
-    results = [scored(name, truths[name], said[name]) for name in sorted(truths) if name in said]
+    results = [one for folder in given.folders for one in _scored(folder, given.seed)]
     if not results:
         raise BrokenSeal("there are no answers yet: run `answer` first")
-    text = page(results, read(given.folder), len(truths))
+    text = page(results, [read(folder) for folder in given.folders])
     if given.page:
         given.page.write_text(text)
     print(text if not given.page else f"{len(results)} answers scored in {given.page}")
+
+
+def _scored(folder: Path, seed: int | None) -> list[Scored]:
+    """All answers of a folder beside their truths."""
+    truths, said = opened(folder, seed), answers(folder)
+    return [scored(name, truths[name], said[name]) for name in sorted(truths) if name in said]
 
 
 def _list(given: argparse.Namespace) -> None:
@@ -63,7 +68,7 @@ def _options() -> argparse.ArgumentParser:
     say.add_argument("--jobs", type=int, default=1, help="processes")
     say.set_defaults(act=_answer)
     score = actions.add_parser("open", help="make the truths again, check them against the seal, score the answers")
-    score.add_argument("folder", type=Path)
+    score.add_argument("folders", type=Path, nargs="+", help="several are scored on one page")
     score.add_argument("--page", type=Path, help="file of the page; else it is printed")
     score.add_argument("--seed", type=int, help="where it was withheld")
     score.set_defaults(act=_open)

@@ -16,11 +16,11 @@ from benchmarks.trials.test_data import QUALITIES
 _RULE_OF_THREE = 0.05  # 1 - confidence of the bound beside counts of nothing
 
 
-def page(results: list[Scored], seal: Seal, cases: int) -> str:
-    """Markdown."""
+def page(results: list[Scored], seals: list[Seal]) -> str:
+    """Markdown of one trial or of several together."""
     parts = [
         "# Blind trials\n",
-        _head(results, seal, cases),
+        _head(results, seals),
         "## Answers\n",
         _counts("class", results, lambda one: one.truth["class"], CLASSES),
         _counts("class, quality", results, _class_and_quality, [f"{c}, {q}" for c in CLASSES for q in QUALITIES]),
@@ -44,15 +44,19 @@ def page(results: list[Scored], seal: Seal, cases: int) -> str:
     return "\n".join(part for part in parts if part)
 
 
-def _head(results: list[Scored], seal: Seal, cases: int) -> str:
-    seed = "a seed that was withheld" if seal.seed is None else f"seed {seal.seed}"
+def _head(results: list[Scored], seals: list[Seal]) -> str:
+    made = "; ".join(
+        f"{seal.cases} from {'a seed that was withheld' if seal.seed is None else f'seed {seal.seed}'} (SHA-256 `{seal.truths}`, "
+        f"salt `{seal.salt}`)"
+        for seal in seals
+    )
     qualities = "; ".join(
         f"{key}: {q.sensors} sensors, {100 * q.frequency_sd:g} % of frequencies, {100 * q.shape_sd:g} % of shapes"
         for key, q in QUALITIES.items()
     )
     return (
-        f"`python -m benchmarks.trials` made {cases} decks from {seed}, whose truths mouse did not compute, and sealed the truths "
-        f"before `mouse diagnose` saw a deck: SHA-256 `{seal.truths}`, salt `{seal.salt}`. {len(results)} decks have an answer.\n\n"
+        "`python -m benchmarks.trials` made decks whose truths mouse did not compute, and sealed the truths before `mouse "
+        f"diagnose` saw a deck: {made}. {len(results)} decks have an answer.\n\n"
         f"Qualities: {qualities}. A right answer names all mechanisms within {100 * NEAR:g} % of the span. Cases were taken only "
         "if a model without one of the mechanisms, its parameters fitted to frequencies and shapes without noise, misses them by a "
         f"chi-square above {FELT:g}.\n"

@@ -50,9 +50,9 @@ def json_text(document: dict[str, object]) -> str:
     return json.dumps(document, indent=1, allow_nan=False)
 
 
-def say(text: str, end: str = "\n") -> None:
-    """Print `text`, whatever names of decks and recordings stand in it."""
-    click.echo(shown(text) + end, nl=False)
+def say(text: str, end: str = "\n", commands: bool = False) -> None:
+    """Print `text`, whatever names of decks and recordings stand in it; commands: to a server are meant."""
+    click.echo(shown(text, commands) + end, nl=False)
 
 
 def deliver(text: str, output: str | None, deck: str) -> None:

@@ -197,7 +197,7 @@ CODES = {
     "MD258": Code(
         "matrix file too large",
         "The file, or what it unpacks to, takes more than half of the memory that there is; or it promises more rows, columns or "
-        "channels than are read. Orders up to a million are read. Memory is that of the machine, of its control group, or of `ulimit -v`.",
+        "channels than are read. Orders up to a million are read. Memory is that of the machine, its group, or `ulimit -v`.",
         "Condense the model, divide the recording, or take a machine with more memory.",
     ),
     "MD259": Code(

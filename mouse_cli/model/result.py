@@ -159,6 +159,13 @@ class Result:
     conditioning: Conditioning | None = None
     alternatives: Alternatives | None = None
 
+    def interval(self, i: int) -> tuple[float, float]:
+        """Limits of property i with the confidence of the run, by its logarithm where that is what was estimated."""
+        value, width = float(self.revised.theta[i]), float(self.z * self.sd_theta[i])
+        if self.problem.parameters[i].transform == "log" and value > 0:
+            return value * float(np.exp(-width / value)), value * float(np.exp(width / value))
+        return value - width, value + width
+
     @property
     def rejected(self) -> bool:
         """Whether the data contradict the form of the model, as far as the tests after the cycles can tell."""

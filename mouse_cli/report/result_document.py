@@ -99,6 +99,8 @@ def parameters(result: Result) -> list[dict[str, Any]]:
             "prior_sd": prior_sd[i],
             "posterior": result.revised.theta[i] if have else None,
             "posterior_sd": result.sd_theta[i] if have and not result.at_limit[i] else None,
+            "interval": result.interval(i) if have and not result.at_limit[i] else None,
+            "transform": parameter.transform,
             "at_limit": result.at_limit[i],
         }
         for i, parameter in enumerate(result.problem.parameters)
@@ -147,7 +149,14 @@ def _alternatives(result: Result) -> dict[str, Any]:
     found = result.alternatives
     names = [parameter.name for parameter in result.problem.parameters]
     others = [
-        {"share": each.share, "cost": each.cost, "parameters": _named(names, each.theta), "sd": _named(names, each.sd)}
+        {
+            "share": each.share,
+            "cost": each.cost,
+            "parameters": [
+                {"name": name, "value": value, "sd": sd}
+                for name, value, sd in zip(names, each.theta, each.sd, strict=True)
+            ],
+        }
         for each in found.others
     ]
     telling = None
@@ -155,10 +164,6 @@ def _alternatives(result: Result) -> dict[str, Any]:
         mode, dof, here, there = found.deciding
         telling = {"mode": mode, "dof": dof_name(result.problem.structure.labels[dof]), "answer": here, "other": there}
     return {"share": found.share, "others": others, "deciding": telling}
-
-
-def _named(names: list[str], values: np.ndarray) -> dict[str, float]:
-    return dict(zip(names, values.tolist(), strict=True))
 
 
 def _judged(result: Result) -> dict[str, Any]:

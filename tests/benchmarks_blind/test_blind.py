@@ -103,6 +103,14 @@ def test_scores(said, outcome):
     assert scoring.scored(ANSWER, said).outcome == outcome
 
 
+@pytest.mark.parametrize(("ids", "outcome"), [([3, 8], "right"), ([8, 3], "right"), ([4, 7], "wrong")])
+def test_a_brace_is_where_both_of_its_ends_are(ids, outcome):
+    """The other diagonal of a panel has the same middle."""
+    said = _said("named", "brace")
+    said["verdict"]["sites"][0]["ids"] = ids
+    assert scoring.scored(ANSWER | {"groups": ["brace"], "ends": [[3, 8]]}, said).outcome == outcome
+
+
 def test_scores_of_controls_and_of_causes_without_a_name():
     control = ANSWER | {"groups": [], "places": []}
     assert scoring.scored(control, _said("nothing-missing")).outcome == "right"

@@ -1,14 +1,20 @@
 """The blind cases of space frames and storey buildings: OpenSees on closed forms, decks that say nothing of the cause."""
 
 import importlib.util
+import json
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.localise.ties import ties
+from mouse_cli.diagnosis.search.descents import best
+from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.dynamics.eigen import dense_solution
 from mouse_cli.formats import read_deck
 from mouse_cli.model.arrays import dense
@@ -33,8 +39,6 @@ def test_decks_of_controls_are_the_truth_and_others_say_nothing(tmp_path):
     words = ("soft", "flexib", "rock", "brace", "control")
     for path in sorted((tmp_path / "decks").glob("*.yaml")):
         assert not any(word in path.read_text() for word in words)
-    import json
-
     found = [json.loads(path.read_text()) | {"stem": path.stem} for path in (tmp_path / "answers").glob("*.json")]
     assert {one["truth"] for one in found} >= {"control", "softer member", "rocking foundation"}
     for one in (one for one in found if one["truth"] == "control"):
@@ -43,3 +47,16 @@ def test_decks_of_controls_are_the_truth_and_others_say_nothing(tmp_path):
         hz = np.sqrt(dense_solution(K, M).eigenvalues[: len(one["frequency"])]) / (2 * np.pi)
         shift = np.log(one["frequency"] / hz)  # what differs is one factor of E, and the stiffness of storeys
         assert np.ptp(shift) < (0.15 if one["kind"] == "storeys" else 0.01)
+
+
+def test_a_brace_is_found_among_many_pairs(tmp_path):
+    """A first look at sizes far from its own pairs its modes crosswise: springs elsewhere misfitted less."""
+    where = ("--cache", str(tmp_path / "truths"), "--output", str(tmp_path))
+    _run("--seed", "43", "--family", "brace", "--count", "1", "--jobs", "1", "--decks-only", *where)
+    problem = read_deck(next((tmp_path / "decks").glob("*.yaml")))
+    model = reduced(problem, problem.prior.mean)
+    one = best(Study(replace(model, ties=ties(model))), "brace")
+    found = [one, *(other for other, _ in one.elsewhere)]
+    known = json.loads(next((tmp_path / "answers").glob("*.json")).read_text())
+    assert one.misfit < one.dof + 3 * np.sqrt(2 * one.dof)
+    assert tuple(known["ends"][0]) in {each.recipes[0].site(each.recipes[0].values(each.c)).ids for each in found}

@@ -124,7 +124,9 @@ def test_interruption_leaves_nothing_half_written(tmp_path):
     """Ctrl-C while a run of many cycles goes on."""
     output = tmp_path / "answer.json"
     arguments = ["run", str(DECKS / "beam_58.yaml"), "--cycles", "2000000", "--json", "-o", str(output)]
-    process = subprocess.Popen([sys.executable, "-m", "mouse_cli", *arguments], env=ENVIRONMENT, stderr=subprocess.PIPE)
+    listening = lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)  # shells start jobs in the background deaf to it
+    command = [sys.executable, "-m", "mouse_cli", *arguments]
+    process = subprocess.Popen(command, env=ENVIRONMENT, stderr=subprocess.PIPE, preexec_fn=listening)
     _until_it_has_computed(process.pid, 2.0)
     process.send_signal(signal.SIGINT)
     _, stderr = process.communicate(timeout=120)

@@ -111,6 +111,20 @@ def test_action_runs_a_manifest(repository, programs):
 
 
 @needs_bash
+@pytest.mark.parametrize("linked", [False, True])
+def test_action_takes_no_answers_from_the_checkout(repository, programs, linked):
+    """A forged answer, or a link to write through, is refused before anything runs."""
+    results = repository / "mouse-results"
+    if linked:
+        results.symlink_to(repository.parent)
+    else:
+        results.mkdir()
+    code, printed, told = act(repository, programs, decks="decks/table_5_2.dat", command="check")
+    assert code == 2 and told["GITHUB_OUTPUT"] == "exit-code=2\n" and "the checkout does not have" in printed
+    assert not list(results.glob("junit.xml"))
+
+
+@needs_bash
 def test_action_fails_as_mouse_does_and_inputs_are_data(repository, programs):
     hostile = "$(touch made); touch made\n--help"
     code, printed, told = act(repository, programs, decks=hostile, results="$(touch made)", command="check")

@@ -27,8 +27,8 @@ from mouse_cli.model.problem import (
 from mouse_cli.model.structure import ListedElements, Structure
 from mouse_cli.model.theory import Theory
 
-finite = st.floats(allow_nan=False, allow_infinity=False, width=64)
-positive = st.floats(min_value=1e-300, max_value=1e300)
+finite = st.floats(-1e149, 1e149)  # of larger ones no products can be made
+positive = st.floats(min_value=1e-300, max_value=1e149)
 moderate = st.floats(min_value=1e-30, max_value=1e30)  # its square is neither 0 nor infinite
 text = st.text(st.characters(exclude_categories=["Cs"]), max_size=20)
 

@@ -12,10 +12,11 @@ from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unseen
 from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.diagnosis.search.descents import settled, tried
 from mouse_cli.diagnosis.search.fit import descended, fit
 from mouse_cli.diagnosis.search.optima import distinct
 from mouse_cli.diagnosis.search.several import _promised
-from mouse_cli.diagnosis.search.study import Study, settled, tried
+from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.problem import Problem

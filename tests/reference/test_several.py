@@ -10,9 +10,10 @@ from mouse_cli.diagnosis import diagnose
 from mouse_cli.diagnosis.gates import log_prior, prior
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.diagnosis.search.descents import best
 from mouse_cli.diagnosis.search.rank import _log_prior
 from mouse_cli.diagnosis.search.several import MATERIAL, adequate, key, material, same_kind
-from mouse_cli.diagnosis.search.study import Study, best
+from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.model.diagnosis import NAMED, Choices

@@ -4,7 +4,7 @@ import numpy as np
 
 from benchmarks.trials.case import Blank, Mechanism
 from benchmarks.trials.library import joint_at, log_uniform, somewhere
-from benchmarks.trials.outside.places import BRACE, FOOT, LOCAL, MASS, MOUNT, OSCILLATOR, around
+from benchmarks.trials.outside.places import BRACE, FOOT, LOCAL, MASS, MOUNT, OSCILLATOR, ROCKING, around
 
 
 def rocking(blank: Blank, rng: np.random.Generator) -> Mechanism:
@@ -14,7 +14,8 @@ def rocking(blank: Blank, rng: np.random.Generator) -> Mechanism:
     truth.springs = [(b | {phi: -1.0}, k) for b, k in truth.springs]
     k = blank.stiffness * n**2 * log_uniform(rng, 0.3, 3.0)
     truth.spring({phi: 1.0}, k)
-    return Mechanism("rocking soil", size=k, properties=LOCAL)
+    also = (ROCKING,) if blank.family == "storeys" else ()  # whose heights the deck knows
+    return Mechanism("rocking soil", size=k, also=also, properties=LOCAL)
 
 
 def outrigger(blank: Blank, rng: np.random.Generator) -> Mechanism:

@@ -55,7 +55,7 @@ def command(
         if file:
             deliver(text(found), file, "")
     if github:
-        say(annotations(found), end="")
+        say(annotations(found), end="", commands=True)
     say(table(found, quiet), end="")
     return exit_code(found)
 

@@ -72,8 +72,8 @@ TOPICS: dict[str, Callable[[], str]] = {
 @click.command()
 @click.argument("topic")
 def command(topic: str) -> int:
-    """Explain a code (MD104), an estimator, recursion, status, element or candidate, or: cards, candidates, elements, methods,
-    yaml, schema, exit."""
+    """Explain a code (MD104), an estimator, recursion, status, element or candidate, a field of the cards (NPARD), an operation
+    of the report (O-2), or: cards, candidates, elements, methods, yaml, schema, exit."""
     if topic in TOPICS:
         click.echo(TOPICS[topic]())
         return 0
@@ -95,6 +95,7 @@ def _entries() -> Iterator[tuple[str, str]]:
     from mouse_cli.codes import catalogue
     from mouse_cli.diagnosis import candidate_manual
     from mouse_cli.diagnosis.nameless import registry as rivals
+    from mouse_cli.formats.cards.operations import explanations
     from mouse_cli.methods import manual as method_manual
     from mouse_cli.methods import registry as methods
     from mouse_cli.terms.element_manual import about
@@ -121,3 +122,4 @@ def _entries() -> Iterator[tuple[str, str]]:
             yield key, candidate_manual.about(candidate)
     for key, rival in rivals().items():
         yield key, candidate_manual.about_nameless(rival)
+    yield from explanations()

@@ -15,16 +15,31 @@ from mouse_cli.model.unknown import Unknown
 class Softening:
     """Bars (c,), none twice, that give way by what is added to their flexibility (c, 3, 3), or to that in bending alone (c, 2, 2).
 
-    Several causes add up in one bar.
+    Several causes add up in one bar. residual (c, 3, 3): strains of each that forces in it make beyond the coordinates; None: none.
     """
 
     bars: np.ndarray
     added: np.ndarray
+    residual: np.ndarray | None = None
 
     def __post_init__(self) -> None:
         given, added = self.added, np.zeros((len(self.added), 3, 3))
         added[:, : given.shape[1], : given.shape[1]] = given
         object.__setattr__(self, "added", added)
+
+
+def residual(parts: list[Softening], bars: np.ndarray) -> np.ndarray | None:
+    """That of `bars` (c,), sorted, of which `parts` are; None where they have none."""
+    found = np.zeros((len(bars), 3, 3))
+    for part in parts:
+        if part.residual is not None:
+            found[np.searchsorted(bars, part.bars)] = part.residual
+    return found if found.any() else None
+
+
+def felt(lost: np.ndarray, residual: np.ndarray) -> np.ndarray:
+    """What coordinates feel (..., 3, 3) of stiffness that bars lose, see `sites/residual.py`."""
+    return lost @ np.linalg.inv(np.eye(3) + residual @ lost)
 
 
 @dataclass(frozen=True)
@@ -79,9 +94,10 @@ class Recipe:
     """A candidate at a place, or along a line of them when the place is an unknown.
 
     change(values), site(values): what it does, and where, for values (t,) of the unknowns. own: degrees of freedom of its own.
-    grid (g, t): values to begin from. log_prior: ln of the share of the candidate's prior that this place has. extend(problem,
-    values): the deck with the cause in it. number: which of its candidate's recipes it is. carried: how degrees of
-    freedom of its own move the model along, which other causes see. law: how its spring loses energy, see `frf/lossy.py`.
+    grid (g, t): values to begin from; starts: those (t,) that a screening found. log_prior: ln of the share of the candidate's
+    prior that this place has. extend(problem, values): the deck with the cause in it. number: which of its candidate's recipes
+    it is. carried: how degrees of freedom of its own move the model along, which other causes see. law: how its spring loses
+    energy, see `frf/lossy.py`.
     jumps: coordinates, in order, at which the matrices jump, by number of the unknown; there the piece after it begins.
     """
 
@@ -97,6 +113,7 @@ class Recipe:
     carried: Carried | None = None
     law: str = ""
     jumps: dict[int, np.ndarray] = field(default_factory=dict, repr=False)
+    starts: tuple[np.ndarray, ...] = ()
     _last: dict[bytes, Change] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def at(self, coordinates: np.ndarray) -> Change:

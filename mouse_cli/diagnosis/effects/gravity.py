@@ -12,7 +12,6 @@ from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.model.arrays import dense
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
-from mouse_cli.terms.assembly import assembly
 
 G = 9.80665  # m/s2
 _STOREYS, _BARS = (0.3, 3.0), (0.9, 1.1)  # effective heights are anybody's guess; of bars all is known but the mass
@@ -44,7 +43,8 @@ def _softening(model: Reduced, down: tuple[int, int, int]) -> np.ndarray | None:
     from mouse_cli.terms.faults import MeshFault
 
     try:
-        K, _ = assembly(_with_gravity(model.problem, down, 1.0)).matrices(model.theta)
+        _, total = model.once(("gravity", down), lambda problem: _with_gravity(problem, down, 1.0))
+        K, _ = total.matrices(model.theta)
     except (MeshFault, np.linalg.LinAlgError):
         return None
     before, _ = model.assembly.matrices(model.theta)

@@ -33,7 +33,7 @@ def ends(model: Reduced) -> np.ndarray:
         return np.zeros((0, model.r))
     chosen = [(line.members[0], -1.0) for line in bars.lines] + [(line.members[-1], 1.0) for line in bars.lines]
     b, eta = (np.array(part) for part in zip(*chosen, strict=True))
-    yields = (bars.strain[b] / np.diagonal(bars.flexibility[b], axis1=1, axis2=2)[:, :, None])[:, :2]
+    yields = bars.rigid(b) @ bars.strain[b]
     moments = yields[:, 0] + eta[:, None] * yields[:, 1]
     count = min(model.r, int(model.data.test.number.max()) + 1)
     return moments[np.argsort(-np.abs(moments[:, :count]).max(axis=1), kind="stable")[:_ENDS]]
@@ -79,8 +79,12 @@ def hinged(bars: Bars, bar: int, share: float, added: np.ndarray) -> Change:
 
     These are what its moments and force do at the hinge: `added` of the angle between the ends, and of the elongation.
     """
-    angle, _, gap = added @ np.linalg.solve(bars.flexibility[bar] + added, bars.strain[bar])
-    return Change(M=bars.jumped(bar, share, angle, gap), softening=Softening(np.array([bar]), added[None]))
+    own, strain, R = np.array([bar]), bars.strain[bar], None
+    if bars.residual is not None:
+        R = bars.residual[own]
+        strain = np.linalg.solve(np.eye(3) + R[0] @ bars.lost(own, added[None])[0], strain)
+    angle, _, gap = added @ bars.rigid(own, added)[0] @ strain
+    return Change(M=bars.jumped(bar, share, angle, gap), softening=Softening(own, added[None], R))
 
 
 def with_hinge(
@@ -101,6 +105,7 @@ def with_hinge(
     edit = Edit(problem)
     element, there = element_at(edit, np.array(bars.point(bar, share)), bars.axis[bar])
     node = edit.split(element, there)
+    element = edit.meeting(element, node)
     end = int(np.argmax(edit.sets[element[0]].nodes[element[1]] == node))
     axis, across = bars.axis[bar], bars.across[bar]
     spring = hinge(edit, element, end, np.stack([axis, across, np.cross(axis, across)]), turning, sliding, parting, off)

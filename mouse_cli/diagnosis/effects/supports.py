@@ -16,7 +16,7 @@ from mouse_cli.model.arrays import Matrix, is_sparse
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
-from mouse_cli.terms.assembly import Assembly, assembly
+from mouse_cli.terms.assembly import Assembly
 from mouse_cli.terms.element_term import ElementTerm
 
 _LOADED = 0.02  # share of the largest reaction of its kind below which a support is not loaded
@@ -84,6 +84,7 @@ class Free:
     """The structure without its supports: `place` of degrees of freedom by label, deck: those of the deck; K, M at theta."""
 
     problem: Problem
+    assembly: Assembly
     theta: np.ndarray
     place: dict[str, int]
     deck: np.ndarray
@@ -107,11 +108,12 @@ class Free:
 
 def free_model(model: Reduced) -> Free:
     """The structure of a model without its supports, at the parameters where its own K and M are taken."""
-    free = _without_supports(model.problem)
+    free, total = model.once("without supports", _without_supports)
     theta = model.theta if model.origin is None else model.origin
     place = {label: i for i, label in enumerate(free.structure.labels)}
     f = np.array([place[label] for label in model.problem.structure.labels], int)
-    return Free(free, theta, place, f, *(m.tocsr() if is_sparse(m) else m for m in assembly(free).matrices(theta)))
+    K, M = (m.tocsr() if is_sparse(m) else m for m in total.matrices(theta))
+    return Free(free, total, theta, place, f, K, M)
 
 
 def static(model: Reduced, free: Free, s: np.ndarray, pattern: np.ndarray) -> np.ndarray:
@@ -131,7 +133,7 @@ def followed(model: Reduced, free: Free, motion: np.ndarray) -> tuple[np.ndarray
     blocks = [whole.T @ (matrix @ whole) for matrix in (K, M)]
     for block in blocks:
         block[: model.r, : model.r] = 0.0
-    slopes, stack = _slopes(model, assembly(free.problem), free.theta, whole)
+    slopes, stack = _slopes(model, free.assembly, free.theta, whole)
     within = model.V.T @ (M[f][:, f] @ motion[f])
     return *blocks, Carried(within, motion, K @ motion, M @ motion, f, slopes, _across(model, stack, motion))
 

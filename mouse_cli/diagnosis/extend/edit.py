@@ -125,6 +125,8 @@ class Edit:
         apart = bool(offsets) and (len(offsets) < 2 or not np.array_equal(*offsets))
         if apart or share < _NEAR or share > 1 - _NEAR:
             return int(members.nodes[i, round(share)])
+        if members.options.get("releases"):
+            return self._apart(element, share)
         ends = [self.coordinates[n] for n in members.nodes[i]]
         middle = self.node((1 - share) * ends[0] + share * ends[1])
         nodes = np.insert(members.nodes, i + 1, [middle, members.nodes[i, 1]], axis=0)
@@ -134,6 +136,29 @@ class Edit:
         self.sets[s] = replace(members, ids=ids, nodes=nodes, properties=properties)
         self.bindings = [_shifted(b, i) if b.set == s else b for b in self.bindings]
         return middle
+
+    def _apart(self, element: tuple[int, int], share: float) -> int:
+        """The same of an element with releases: each half in a set of its own, with those of its end."""
+        s, i = self.extract([element])[0]
+        options = dict(self.sets[s].options)
+        releases = options.pop("releases")
+        self.sets[s] = replace(self.sets[s], options=options)
+        node = self.split((s, i), share)
+        for own, end in ((self.extract([(s, 1)])[0][0], 2), (s, 1)):
+            if kept := {key: names for key, names in releases.items() if int(key) == end}:
+                self.option(own, releases=kept)
+        return node
+
+    def meeting(self, element: tuple[int, int], node: int) -> tuple[int, int]:
+        """The element, or, after it was split, the half in another set that begins or ends at `node`."""
+        s, i = element
+        if s < len(self.sets) and i < len(self.sets[s]) and node in self.sets[s].nodes[i]:
+            return element
+        return next(
+            (t, int(np.flatnonzero((each.nodes == node).any(axis=1))[0]))
+            for t, each in enumerate(self.sets)
+            if each.type == "beam" and (each.nodes == node).any()
+        )
 
     def detach(self, element: tuple[int, int], end: int) -> int:
         """A node of its own, at the same place, for one end (0, 1) of an element; it is not tied to the old one."""

@@ -26,8 +26,8 @@ _COARSE, _BESIDE = 24, 8  # coordinates at least, and besides those of the measu
 _EACH = 256  # pairs worked on at once
 
 
-def ties(model: Reduced) -> np.ndarray | None:
-    """Keys (c, 3) of the MOST pairs that are worth fitting; None where there are no more."""
+def ties(model: Reduced) -> dict[tuple[int, int, int], float] | None:
+    """Keys of the MOST pairs that are worth fitting, and a stiffness for each (N/m), nan where unknown; None: no more."""
     found = pairs(model)
     if len(found) <= MOST:
         return None
@@ -35,35 +35,37 @@ def ties(model: Reduced) -> np.ndarray | None:
     if update is None:
         return None
     gain, _ = gained(update, update.model.jacobian(update.point), found.rows @ update.point.X)
-    order = [np.argsort(-gain[0], kind="stable")]
+    order, k = [np.argsort(-gain[0], kind="stable")], np.full(len(found), np.nan)
     measured = shapes(model)
     if len(measured.modes) and measured.dof > 0:
-        left = _left(model, measured, found.rows, _SIZES)
+        left, k = _left(model, measured, found.rows, _SIZES)
         best = np.argsort(left, kind="stable")[:_CLOSER]
-        closer = _left(model, measured, found.rows[best], np.outer(_SIZES, _BETWEEN).ravel())
+        closer, between = _left(model, measured, found.rows[best], np.outer(_SIZES, _BETWEEN).ravel())
+        k[best] = np.where(closer < left[best], between, k[best])
         left[best] = np.minimum(left[best], closer)
         order.append(np.argsort(left, kind="stable"))
     mixed = np.stack(order, axis=1).ravel()
     kept = mixed[np.sort(np.unique(mixed, return_index=True)[1])][:MOST]
-    return found.keys[np.sort(kept)]
+    return {tuple(found.keys[i].tolist()): float(k[i]) for i in np.sort(kept)}
 
 
-def _left(model: Reduced, measured: Shapes, rows: np.ndarray, sizes: np.ndarray) -> np.ndarray:
-    """The least misfit (c,) of shapes and frequencies over the `sizes` of a spring along each of `rows` (c, r)."""
+def _left(model: Reduced, measured: Shapes, rows: np.ndarray, sizes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The least misfit (c,) of shapes and frequencies over the `sizes` of a spring along each of `rows` (c, r), and its k (c,)."""
     own = model.data.test.number[measured.modes] - 1
     r = min(model.r, max(_COARSE, int(own.max()) + 1 + _BESIDE))
     dK, dM = model.slopes(np.zeros(model.L.shape[1]))
     T = (dK[:, own, own] - model.eigenvalues[own] * dM[:, own, own]).T / measured.sd[:, None]
     C = np.linalg.inv(np.eye(len(own)) + T @ T.T)
-    least = np.full(len(rows), np.inf)
+    least, k = np.full((2, len(rows)), np.inf)
     for size in sizes * lowest(model) * total_mass(model):
         for first in range(0, len(rows), _EACH):
             b = rows[first : first + _EACH, :r]
             A = np.diag(model.eigenvalues[:r]) + size * b[:, :, None] * b[:, None, :]
             values, Q = np.linalg.eigh(A)
             cost = _misfit(measured, C, values, model.sensing[:, :r] @ Q)
-            least[first : first + _EACH] = np.minimum(least[first : first + _EACH], cost)
-    return least
+            at = first + np.flatnonzero(cost < least[first : first + _EACH])
+            least[at], k[at] = cost[at - first], size
+    return least, k
 
 
 def _misfit(measured: Shapes, C: np.ndarray, values: np.ndarray, seen: np.ndarray) -> np.ndarray:

@@ -1,5 +1,7 @@
 """A spring between two places that nothing joins in the model: a brace, a cable, a strut."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
@@ -26,9 +28,15 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     k = Unknown("stiffness", "N/m", 1e-3 * scale, 1e3 * scale)
     log_prior = -float(np.log(pairs.likely))
     return [
-        _recipe(candidate, k, key, b, site_of(model, key), log_prior)
+        replace(_recipe(candidate, k, key, b, site_of(model, key), log_prior), starts=_starts(model, key))
         for key, b in zip(pairs.keys, pairs.rows, strict=True)
     ]
+
+
+def _starts(model: Reduced, key: np.ndarray) -> tuple[np.ndarray, ...]:
+    """The stiffness that the screening of many pairs found for this one."""
+    k = (model.ties or {}).get(tuple(key.tolist()), np.nan)
+    return (np.array([k]),) if np.isfinite(k) else ()
 
 
 def _recipe(candidate: Candidate, k: Unknown, key: np.ndarray, b: np.ndarray, site: Site, log_prior: float) -> Recipe:

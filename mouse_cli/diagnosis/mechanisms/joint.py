@@ -30,7 +30,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
 
 def _moment(bars: Bars, bar: int, end: int, modes: slice) -> np.ndarray:
     """Bending moment of the modes at an end."""
-    return np.array([1.0, 2.0 * end - 1, 0.0]) @ np.linalg.solve(bars.flexibility[bar], bars.strain[bar][:, modes])
+    return np.array([1.0, 2.0 * end - 1, 0.0]) @ bars.rigid(np.array([bar]))[0] @ bars.strain[bar][:, modes]
 
 
 def _ends(bars: Bars) -> list[tuple[int, int]]:

@@ -12,9 +12,9 @@ from mouse_cli.diagnosis.nameless._cells import Cells
 from mouse_cli.diagnosis.nameless._field import LENGTHS, fielded, found, smooth
 from mouse_cli.diagnosis.nameless._tied import tied
 from mouse_cli.diagnosis.nameless.local import best_law
+from mouse_cli.diagnosis.search.descents import idealised
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.optima import NEAR, within
-from mouse_cli.diagnosis.search.study import idealised
 from mouse_cli.model.diagnosis import Field, HeldOut
 from mouse_cli.model.problem import Problem
 

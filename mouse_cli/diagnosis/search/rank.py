@@ -18,11 +18,12 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.nameless.fit import rivals
 from mouse_cli.diagnosis.noise import scale
+from mouse_cli.diagnosis.search.descents import best, settled
 from mouse_cli.diagnosis.search.disguised import disguised
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.optima import within
 from mouse_cli.diagnosis.search.several import adequate, several
-from mouse_cli.diagnosis.search.study import Study, best, settled
+from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.model.diagnosis import Untried
 from mouse_cli.model.groups import joined, shares
 

@@ -9,10 +9,11 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from mouse_cli.diagnosis.search.descents import settled, summed, tried
 from mouse_cli.diagnosis.search.escape import shifted
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.optima import NEAR, within
-from mouse_cli.diagnosis.search.study import Study, settled, summed, tried
+from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.updating.chi_square import upper_tail
 
 _SECOND, _QUICK = 2, 8  # fits of a further mechanism beside others, and their steps, in a first try
@@ -21,6 +22,7 @@ _PAIRED, _WIDE = 8, 5  # candidates that are tried in pairs; groups of which the
 _PARTNERS = 6  # candidates that a first look finds best beside others, which alone are fitted
 _GROWN, _ALIKE = 2, 5  # sets that grow further; kinds of which several are tried
 _ROUNDS = 2  # of exchanges
+_FAR = 100.0  # as FAR, of sets: many are tried, and brief descents say enough of them
 _ADEQUATE = 0.05  # p-value of the misfit below which a further mechanism is sought
 MATERIAL = 3.0  # log evidence that each further mechanism must gain
 
@@ -159,7 +161,7 @@ def _beside(study: Study, first: Fit, partners: Iterable[str], found: Found) -> 
     there = study.about(first)
     for name in _promising(there, first, list(partners)):
         same = found.get(tuple(sorted((*key(first), name))))
-        reach = min(within([first, *found.values()]), np.inf if same is None else within([same], NEAR))
+        reach = min(within([first, *found.values()], _FAR), np.inf if same is None else within([same], NEAR))
         for more in tried(there, name, first, _SECOND, _QUICK, reach):
             _keep(found, more)
 

@@ -3,7 +3,7 @@
 Bending of a bar of length l in a plane, in its natural strains e = [v_s'q, (2/l) v_a'q], v_s = [0, -1, 0, 1],
 v_a = [1, l/2, -1, l/2] on q = [w1, slope1, w2, slope2]: K = E'F^-1 E with the flexibility F = diag(l/EI, l/(3EI) (1 + phi)).
 A bending moment at 2 x/l - 1 = eta does work on [1, eta], so whatever gives way there adds c [1, eta]' [1, eta] to F. The third
-strain is the elongation, with l/EA.
+strain is the elongation, with l/EA. Forces that a released end does not bear are none: K = E'N (N'F N)^-1 N'E, N those it bears.
 """
 
 from dataclasses import dataclass
@@ -12,6 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from mouse_cli.diagnosis.sites.lines import Line, joined_lines
+from mouse_cli.diagnosis.sites.strains import borne, natural, sparse_rows
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.mesh import ElementSet, Mesh
 from mouse_cli.model.problem import Problem
@@ -19,6 +20,7 @@ from mouse_cli.terms.bound_properties import BoundProperties, nominal_properties
 from mouse_cli.terms.constraints import Motion
 from mouse_cli.terms.elements import Layout, Properties, registry
 from mouse_cli.terms.elements import _beam as beam
+from mouse_cli.terms.elements.beam import local
 
 _BENDING, _STEP = ("E", "Iy", "Iz"), 1e-4  # properties that bending stiffness follows; step in them
 _STIFF = 1e-9  # share of the largest bending stiffness below which a bar does not bend in that plane
@@ -33,6 +35,7 @@ class Bars:
     model, axial, twist (b, 2, r): u1, u2 and the turns about the bar there; start, axis, across (b, 3): first end, unit vectors
     along the bar and in the direction of w.
     line (b,): bars with one number continue one another in one plane; before (b,): length of the line before the bar.
+    bears (b, 3, 3): N N', where N'N = 1. residual (b, 3, 3): strains that unit forces in a bar make beyond the coordinates.
     """
 
     set: np.ndarray
@@ -54,8 +57,10 @@ class Bars:
     start: np.ndarray
     axis: np.ndarray
     across: np.ndarray
+    bears: np.ndarray
     line: np.ndarray
     before: np.ndarray
+    residual: np.ndarray | None = None
 
     def __len__(self) -> int:
         return len(self.length)
@@ -63,9 +68,7 @@ class Bars:
     @cached_property
     def strain(self) -> np.ndarray:
         """E (b, 3, r): bending, symmetric and antisymmetric, and elongation."""
-        w1, s1, w2, s2 = np.moveaxis(self.ends, 1, 0)
-        l = self.length[:, None]
-        return np.stack([s2 - s1, 2 / l * (w1 - w2) + s1 + s2, self.axial[:, 1] - self.axial[:, 0]], axis=1)
+        return natural(self.ends, self.axial, self.length)
 
     @cached_property
     def flexibility(self) -> np.ndarray:
@@ -87,12 +90,13 @@ class Bars:
 
     def lost(self, bars: np.ndarray, added: np.ndarray) -> np.ndarray:
         """Change (c, 3, 3) of the stiffness of `bars` (c,) when `added` comes to their flexibility."""
-        return np.linalg.inv(self.flexibility[bars] + added) - self._rigidity[bars]
+        return self.rigid(bars, added) - self.rigid(bars)
 
-    @cached_property
-    def _rigidity(self) -> np.ndarray:
-        """F^-1 (b, 3, 3)."""
-        return np.linalg.inv(self.flexibility)
+    def rigid(self, bars: np.ndarray | slice = slice(None), added: np.ndarray | float = 0.0) -> np.ndarray:
+        """N (N'F N)^-1 N' (..., c, 3, 3) of `bars`, `added` to their flexibility F."""
+        P, F = self.bears[bars], self.flexibility[bars] + added
+        size = np.trace(F, axis1=-2, axis2=-1)[..., None, None]
+        return P @ np.linalg.inv(P @ F @ P + size * (np.eye(3) - P)) @ P
 
     def strained(self, bars: np.ndarray, core: np.ndarray) -> np.ndarray:
         """Matrix (r, r) of stiffnesses `core` (c, 3, 3) on the natural strains of `bars` (c,)."""
@@ -110,9 +114,18 @@ class Bars:
         parts = (angle, self.ends[bar], beam.kinked), (gap, self.axial[bar], beam.parted)
         for M, (jump, ends, inertia) in zip(found, parts, strict=True):
             across, own = inertia(self.length[[bar]], at)
+            if inertia is beam.kinked and (turned := self._turned(bar, at)).any():
+                M_turned = beam.consistent(self.length[[bar]]) @ turned
+                across, own = across + M_turned, own + (2 * across + M_turned) @ turned
             crossed = np.outer(across[0] @ ends, jump)
             M += crossed + crossed.T + own[0] * np.outer(jump, jump)
         return self.line_mass[bar] * (found[0] + found[1])
+
+    def _turned(self, bar: int, at: float) -> np.ndarray:
+        """Motion (4,) of the ends of one bar that a unit angle at a share of its length makes: ends that are hinged turn."""
+        kink = np.array([1.0, 2 * at - 1, 0.0])
+        x = kink - self.flexibility[bar] @ self.rigid(np.array([bar]))[0] @ kink
+        return np.round([0.0, (x[1] - x[0]) / 2, 0.0, (x[0] + x[1]) / 2], 12)
 
     def deflection(self, bar: int, at: float) -> np.ndarray:
         """w (r,) at the share `at` of the length of one bar."""
@@ -164,7 +177,7 @@ def bars(problem: Problem, motion: Motion, theta: np.ndarray, V: np.ndarray | No
     mesh = problem.mesh
     parts = []
     for number, elements in enumerate(mesh.elements):
-        if elements.type != "beam" or elements.options.get("releases"):
+        if elements.type != "beam":
             continue
         layout = _layout(mesh, elements)
         own = tuple(b for b in problem.bindings if b.set == number)
@@ -172,7 +185,7 @@ def bars(problem: Problem, motion: Motion, theta: np.ndarray, V: np.ndarray | No
     if not parts:
         return None
     joined = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
-    bends = joined["EI"] > _STIFF * joined["EI"].max()
+    bends = (joined["EI"] > _STIFF * joined["EI"].max()) & joined["bears"][:, :2, :2].any(axis=(1, 2))
     moves = np.abs(joined["ends"]).max(axis=(1, 2)) > 0
     joined = {name: value[bends & moves] for name, value in joined.items()}
     line, before, order = joined_lines(joined)
@@ -222,7 +235,9 @@ def _properties(elements, layout: Layout, own: tuple, theta: np.ndarray) -> Prop
 def _planes(number: int, mesh: Mesh, layout: Layout, p: Properties, motion: Motion, V: np.ndarray | None) -> list[dict]:
     elements, at = mesh.elements[number], beam.span(layout)
     u = displacements(motion, elements.nodes, V)
-    local = np.einsum("eij,ejr->eir", at.motion, u)
+    releases = layout.options.get("releases")
+    ends = beam.condensation(local(layout, p)["K"], releases)
+    moved = np.einsum("eij,ejr->eir", at.motion if ends is None else ends @ at.motion, u)
     parts = []
     for plane, axis, across in ((0, "z", "y"), (1, "y", "z")):
         dofs, sense = beam.PLANES[plane]
@@ -244,12 +259,13 @@ def _planes(number: int, mesh: Mesh, layout: Layout, p: Properties, motion: Moti
                 "A": p["A"],
                 "E": p["E"],
                 "nu": p["nu"],
-                "ends": local[:, dofs] * sense[:, None],
-                "axial": local[:, [0, 6]],
-                "twist": local[:, [3, 9]],
+                "ends": moved[:, dofs] * sense[:, None],
+                "axial": moved[:, [0, 6]],
+                "twist": moved[:, [3, 9]],
                 "start": layout.coordinates[:, 0],
                 "axis": at.axes[:, 0],
                 "across": at.axes[:, 1 + plane],
+                "bears": borne(at.length, dofs, sense, beam.released(releases)),
             }
         )
     return parts
@@ -258,21 +274,10 @@ def _planes(number: int, mesh: Mesh, layout: Layout, p: Properties, motion: Moti
 def displacements(motion: Motion, nodes: np.ndarray, V: np.ndarray | None) -> np.ndarray:
     """Motion (e, 12, r) of the nodes (e, 2) in each coordinate."""
     places = 6 * np.unique(nodes)[:, None] + np.arange(6)
-    rows = motion.rows(places.ravel()) if V is None else _rows(motion, places.ravel()) @ V
+    rows = motion.rows(places.ravel()) if V is None else sparse_rows(motion, places.ravel()) @ V
     where = np.searchsorted(np.unique(nodes), nodes)
     at = (6 * where[:, :, None] + np.arange(6)).reshape(len(nodes), 12)
     return rows[at]
-
-
-def _rows(motion: Motion, places: np.ndarray):
-    """The rows `places` of T, sparse."""
-    from scipy.sparse import csr_array
-
-    counts = motion.counts[places]
-    first = motion.start[places]
-    at = np.repeat(first - np.cumsum(counts) + counts, counts) + np.arange(counts.sum())
-    start = np.concatenate([[0], np.cumsum(counts)])
-    return csr_array((motion.factor[at], motion.dof[at], start), shape=(len(places), motion.n))
 
 
 def motion_of(problem: Problem) -> Motion | None:
@@ -285,15 +290,3 @@ def motion_of(problem: Problem) -> Motion | None:
     beside = at.node < 0
     order = np.where(beside, 6 * len(mesh.node_ids) + np.cumsum(beside) - 1, 6 * at.node + at.direction)
     return links(mesh, int(beside.sum())).motion(order)
-
-
-def deflected(problem: Problem, element: tuple[int, int], share: float) -> np.ndarray:
-    """Displacement (3, n) at a share of the length of a beam (set, member), for each degree of freedom of `problem`."""
-    mesh, (s, i) = problem.mesh, element
-    nodes = mesh.elements[s].nodes[[i]]
-    at = beam.span(Layout(mesh.coordinates[nodes], dict(mesh.elements[s].options)))
-    places = (6 * nodes[0][:, None] + np.arange(6)).ravel()
-    local, l, x = at.motion[0] @ motion_of(problem).rows(places), at.length[0], share
-    N = np.array([1 - 3 * x**2 + 2 * x**3, l * (x - 2 * x**2 + x**3), 3 * x**2 - 2 * x**3, l * (x**3 - x**2)])
-    across = [(N * sense) @ local[dofs] for dofs, sense in beam.PLANES]
-    return at.axes[0].T @ np.stack([(1 - x) * local[0] + x * local[6], *across])

@@ -76,7 +76,7 @@ def _along_bars(bars: Bars) -> list[Channel]:
     l, weight = bars.length[bar], bars.length[bar] / each
     N = [1 - 3 * at**2 + 2 * at**3, l * at * (1 - at) ** 2, at**2 * (3 - 2 * at), l * at**2 * (at - 1)]
     slope = [6 * at * (at - 1) / l, (1 - at) * (1 - 3 * at), 6 * at * (1 - at) / l, at * (3 * at - 2)]
-    yields = (bars.strain / np.diagonal(bars.flexibility, axis1=1, axis2=2)[:, :, None])[:, :2]
+    yields = (bars.rigid() @ bars.strain)[:, :2]
     node = np.flatnonzero((at == 0) | (at == 1))
     once = np.flatnonzero(
         [bars.twins[int(s), int(e)][0] == i for i, (s, e) in enumerate(zip(bars.set, bars.member, strict=True))]

@@ -44,8 +44,7 @@ def chosen(model: Reduced) -> Pairs:
     found = pairs(model)
     if model.ties is not None:
         number = {tuple(key): i for i, key in enumerate(found.keys.tolist())}
-        own = [number[tuple(key)] for key in model.ties.tolist() if tuple(key) in number]
-        return found.only(np.array(own, int))
+        return found.only(np.array([number[key] for key in model.ties if key in number], int))
     return found.only(np.sort(strained(model, found)[:MOST]))
 
 

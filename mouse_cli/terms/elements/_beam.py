@@ -129,6 +129,11 @@ def kinked(length: np.ndarray, share: float) -> tuple[np.ndarray, np.ndarray]:
     return both, length**3 * float(psi**2 @ weights)
 
 
+def consistent(length: np.ndarray) -> np.ndarray:
+    """Integral over the length (e, 4, 4) of N N', N the cubic shapes."""
+    return integral(shapes(length, np.zeros(len(length)))[0], length)
+
+
 def parted(length: np.ndarray, share: float) -> tuple[np.ndarray, np.ndarray]:
     """The same (e, 2), (e,) of a bar that is parted there: along it, it moves by N u + chi times the gap, chi = H(x - a) - x/l."""
     x, weights = _halves(share)
@@ -142,6 +147,12 @@ def _halves(share: float) -> tuple[np.ndarray, np.ndarray]:
     return x, np.concatenate([share * WEIGHTS, (1 - share) * WEIGHTS])
 
 
+def released(releases: dict | None) -> np.ndarray:
+    """Local directions, 0 to 11, in which ends carry no load."""
+    own = [6 * (int(end) - 1) + DIRECTIONS.index(d) for end, names in (releases or {}).items() for d in names]
+    return np.array(own, int)
+
+
 def condensation(K: np.ndarray, releases: dict | None) -> np.ndarray | None:
     """Local motion (e, 12, 12) of ends of which some directions carry no load: u_c = -Kcc^-1 Kcr u_r; None without releases.
 
@@ -149,7 +160,7 @@ def condensation(K: np.ndarray, releases: dict | None) -> np.ndarray | None:
     """
     if not releases:
         return None
-    free = np.array([6 * (int(end) - 1) + DIRECTIONS.index(d) for end, names in releases.items() for d in names])
+    free = released(releases)
     kept = np.setdiff1d(np.arange(12), free)
     Kcc = K[:, free[:, None], free].copy()
     rows = np.arange(len(free))

@@ -17,6 +17,11 @@ def matrices(layout: Layout, properties: Properties) -> Matrices:
     Euler-Bernoulli, a = 1/(1 + phi) after Timoshenko, and any s, a, c with s a > c^2 for the generic element of Gladwell and
     Ahmadian (1995): k_ww = 12 a, k_thth = s + 3 a in their terms. Torsion couples to both in generic elements, see `_coupled`.
     """
+    return beam.to_nodes(layout, local(layout, properties))
+
+
+def local(layout: Layout, properties: Properties) -> Matrices:
+    """The same of the ends, in local axes, before anything is released."""
     p, length = properties, beam.span(layout).length
     kind = np.result_type(*p.values())
     K, M, Kg = (np.zeros((len(layout), 12, 12), kind) for _ in range(3))
@@ -35,8 +40,7 @@ def matrices(layout: Layout, properties: Properties) -> Matrices:
             _coupled(p, axis, EI, length, K, plane)
         if (tension != 0).any():
             beam.in_plane(Kg, beam.integral(slope, tension * length), plane)
-    local = {"K": K, "M": M, GEOMETRIC: Kg}
-    return beam.to_nodes(layout, local if (tension != 0).any() else {"K": K, "M": M})
+    return {"K": K, "M": M, GEOMETRIC: Kg} if (tension != 0).any() else {"K": K, "M": M}
 
 
 def _coupled(p: Properties, axis: str, EI: np.ndarray, length: np.ndarray, K: np.ndarray, plane: int) -> None:

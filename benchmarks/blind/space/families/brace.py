@@ -21,7 +21,17 @@ def cases(split: str, seed: int, count: int) -> Iterator[Case]:
             if visible(inputs, sound, config):
                 break
         middle = tuple(frame.points[[one, other]].mean(axis=0).tolist())
-        yield case("brace", k, frame, inputs, config, "brace", groups=("brace",), places=(middle,))
+        yield case(
+            "brace",
+            k,
+            frame,
+            inputs,
+            config,
+            "brace",
+            groups=("brace",),
+            places=(middle,),
+            ends=((one + 1, other + 1),),
+        )
 
 
 def _diagonals(frame: Frame) -> list[tuple[int, int]]:

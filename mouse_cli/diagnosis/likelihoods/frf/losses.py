@@ -5,7 +5,7 @@ They are of low rank, G' W(s) G with rows G (c, size) and cores W (f, c, c), bes
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change
+from mouse_cli.diagnosis.effects.change import Change, felt, residual
 from mouse_cli.diagnosis.likelihoods.frf.damping import Damping, of_low_rank
 from mouse_cli.diagnosis.likelihoods.frf.lossy import SAME, VISCOUS
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
@@ -78,8 +78,9 @@ class Losses:
                 total[:, b] += added / springs[i][:, None, None]
             start += len(part.bars)
         base = self.model.base
-        F, scale = base.bars.flexibility[bars], g[:, None, None, None]
-        core = np.linalg.inv(F / scale + total) - scale * np.linalg.inv(F)
+        scale, left = g[:, None, None, None], residual([part for _, part in parts], bars)
+        core = scale * base.bars.lost(bars, scale * total)
+        core = core if left is None else felt(core, left / scale)
         W = (core - scale * self.model.softer(changes)[1]) * self.model.follow(bars, z)
         return self._wide(base.bars.strain[bars].reshape(-1, base.r), np.arange(base.r)), _diagonal(
             list(np.swapaxes(W, 0, 1))

@@ -46,7 +46,7 @@ def lossy_parts(model: Reduced, middle: float) -> list[Recipe]:
 def _stiffness(model: Reduced, line: Line, values: np.ndarray) -> np.ndarray:
     """K (r, r) of a stretch, of bars that are covered in part their share."""
     touched, a, b = covered(line, *stretch(line, values))
-    return model.bars.strained(touched, (b - a)[:, None, None] * np.linalg.inv(model.bars.flexibility[touched]))
+    return model.bars.strained(touched, (b - a)[:, None, None] * model.bars.rigid(touched))
 
 
 def _both(recipe: Recipe, stiffness: Callable, extend: Callable[..., Problem], middle: float) -> list[Recipe]:

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe
+from mouse_cli.diagnosis.effects.change import Change, Recipe, felt, residual
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 
@@ -59,11 +59,13 @@ class Model:
         if not parts:
             return np.zeros(0, int), np.zeros((0, 3, 3))
         if len(parts) == 1:
-            return parts[0].bars, self.base.bars.lost(parts[0].bars, parts[0].added)
+            lost = self.base.bars.lost(parts[0].bars, parts[0].added)
+            return parts[0].bars, lost if parts[0].residual is None else felt(lost, parts[0].residual)
         bars, at = np.unique(np.concatenate([part.bars for part in parts]), return_inverse=True)
         total = np.zeros((len(bars), 3, 3))
         np.add.at(total, at, np.concatenate([part.added for part in parts]))
-        return bars, self.base.bars.lost(bars, total)
+        lost, left = self.base.bars.lost(bars, total), residual(parts, bars)
+        return bars, lost if left is None else felt(lost, left)
 
     def follow(self, bars: np.ndarray, z: np.ndarray) -> np.ndarray:
         """EI of `bars` at z over what it is at the parameters of the base (c, 1, 1)."""

@@ -5,8 +5,8 @@ exact; of a large one V holds the lowest, the static responses to unit loads at 
 derivatives of the measured modes by the parameters.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -14,13 +14,14 @@ import numpy as np
 from mouse_cli.diagnosis.likelihoods.modal.data import Data
 from mouse_cli.diagnosis.likelihoods.modal.directions import Directions, directions, projected
 from mouse_cli.diagnosis.sites.bars import Bars, bars, motion_of, stiffening
+from mouse_cli.diagnosis.sites.residual import Static
 from mouse_cli.dynamics.contraction import Stack
 from mouse_cli.dynamics.eigen import dense_solution
 from mouse_cli.dynamics.sensing import read
 from mouse_cli.model.arrays import Matrix, dense
 from mouse_cli.model.modal_test import ModalTest, restricted
 from mouse_cli.model.problem import Problem
-from mouse_cli.terms.assembly import Assembly
+from mouse_cli.terms.assembly import Assembly, assembly
 from mouse_cli.terms.constraints import Motion
 from mouse_cli.updating.coordinates import Coordinates
 
@@ -33,7 +34,8 @@ class Reduced:
     derivatives along `directions` (p, k) of theta.
 
     sensing (s, r); V (n, r); data: the test. places: degrees of freedom (from 0) at which a force is exact, of a large model;
-    None: everywhere. ties (c, 3): pairs of places that are worth looking at, see `sites/pairs.py`; None: no look was taken.
+    None: everywhere. ties: pairs of places that are worth looking at, and sizes, see `localise/ties.py`; None: no look was taken.
+    static: what bars do statically in all degrees of freedom, of a large model.
     """
 
     problem: Problem
@@ -49,7 +51,9 @@ class Reduced:
     assembly: Assembly
     places: np.ndarray | None = None
     origin: np.ndarray | None = None
-    ties: np.ndarray | None = None
+    ties: dict[tuple[int, int, int], float] | None = None
+    static: Static | None = None
+    built_once: dict = field(default_factory=dict, repr=False, compare=False)
 
     @property
     def r(self) -> int:
@@ -126,7 +130,10 @@ class Reduced:
     @cached_property
     def bars(self) -> Bars | None:
         """Bars that bend; None where there are none."""
-        return None if self.motion is None else bars(self.problem, self.motion, self.theta, self.V)
+        found = None if self.motion is None else bars(self.problem, self.motion, self.theta, self.V)
+        if found is None or self.static is None:
+            return found
+        return replace(found, residual=self.static.left(found, self.eigenvalues))
 
     @cached_property
     def stiffening(self) -> np.ndarray:
@@ -143,6 +150,13 @@ class Reduced:
             return float(M.diagonal().sum())
         rigid = ((at.direction == np.arange(3)[:, None]) & (at.node >= 0)).astype(float)
         return max(float(row @ (M @ row)) for row in rigid) or float(M.diagonal().sum())
+
+    def once(self, key: Hashable, build: Callable[[Problem], Problem]) -> tuple[Problem, Assembly]:
+        """What `build` makes of the deck, and its assembly: the same at all parameters and in all coordinates, and built once."""
+        if key not in self.built_once:
+            made = build(self.problem)
+            self.built_once[key] = made, assembly(made)
+        return self.built_once[key]
 
     def project(self, matrix) -> np.ndarray:
         """V' matrix V (r, r)."""
@@ -198,7 +212,8 @@ class Reduced:
         """The same model at other values theta (p,) of its parameters; a large one in the same coordinates and places."""
         if self.V.shape[0] <= WHOLE:
             matrices = self.assembly.matrices(theta)
-            return replace(exact(self.problem, self.assembly, *matrices, theta), data=self.data, ties=self.ties)
+            there = exact(self.problem, self.assembly, *matrices, theta)
+            return replace(there, data=self.data, ties=self.ties, built_once=self.built_once)
         return replace(self, theta=theta, origin=self.theta if self.origin is None else self.origin)
 
     def without(self, keep_modes: np.ndarray) -> "Reduced":

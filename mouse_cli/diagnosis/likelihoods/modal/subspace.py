@@ -16,6 +16,7 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced, built
 from mouse_cli.diagnosis.localise.force import matched
 from mouse_cli.diagnosis.localise.matching import Matcher, shapes
 from mouse_cli.diagnosis.localise.survey import survey
+from mouse_cli.diagnosis.sites.residual import static
 from mouse_cli.dynamics.contraction import Stack
 from mouse_cli.dynamics.krylov import Krylov
 from mouse_cli.dynamics.lanczos import INFINITE
@@ -112,7 +113,9 @@ def large(
         more = _closer(model, places, room // _CLOSER)
         basis.responses(_placed(total.n, more, np.eye(len(more))))
         places = np.concatenate([places, more])
-    return replace(built(problem, total, theta, *basis.ritz(), by, stack), places=np.sort(places))
+    model = built(problem, total, theta, *basis.ritz(), by, stack)
+    by_all = static(problem, model.motion, model.bars, basis.sigma, basis.space.operator.columns)
+    return replace(model, places=np.sort(places), static=by_all)
 
 
 def _closer(model: Reduced, places: np.ndarray, count: int) -> np.ndarray:

@@ -2,8 +2,6 @@
 
 from collections.abc import Iterator
 
-import numpy as np
-
 from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block, Cell, Column, Table, Text
 from mouse_cli.report.section import Options, Section
@@ -39,7 +37,7 @@ def _row(result: Result, i: int) -> tuple[Cell, ...]:
     """Line of property i."""
     parameter, before, after = result.problem.parameters[i], result.prior.theta[i], result.revised.theta[i]
     free = not result.at_limit[i]
-    low, high = _interval(result, i) if free else (None, None)
+    low, high = result.interval(i) if free else (None, None)
     return (
         parameter.name,
         parameter.unit,
@@ -53,14 +51,6 @@ def _row(result: Result, i: int) -> tuple[Cell, ...]:
         high,
         None if free else "at limit",
     )
-
-
-def _interval(result: Result, i: int) -> tuple[float, float]:
-    """Confidence limits of property i, by its logarithm where that is what was estimated."""
-    value, width = float(result.revised.theta[i]), float(result.z * result.sd_theta[i])
-    if result.problem.parameters[i].transform == "log" and value > 0:
-        return value * float(np.exp(-width / value)), value * float(np.exp(width / value))
-    return value - width, value + width
 
 
 SECTION = Section("properties", 100, "Revised properties", properties)

@@ -1,0 +1,140 @@
+"""The most probable fit of a mechanism: descents from the best first looks, weighed in all coordinates, and settled."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from mouse_cli.diagnosis.likelihoods.modal.unseen import unseen
+from mouse_cli.diagnosis.search.escape import shifted, uncrossed
+from mouse_cli.diagnosis.search.fit import MOST, Fit, descended, fit
+from mouse_cli.diagnosis.search.optima import NEAR, distinct, within
+from mouse_cli.diagnosis.search.starts import cost
+from mouse_cli.diagnosis.search.study import BRIEF, MOVED, Study, weighed_beside
+
+_STARTS = 3  # fits of a candidate to the end, from different optima
+_SLACK = 1.5  # times the misfit that matters in all coordinates: what matters in few
+_TIED, _TIES = 6.0, 8  # misfit above the best up to which other places are as good, and how many of them are fitted
+_SETTLE = 3  # times that causes are weighed anew
+_FEW = 16  # places and sizes that are looked at in all coordinates
+
+
+def idealised(one: Fit) -> Fit:
+    """The fit when the theory of its causes is right to some share of what they do."""
+    loose = one.model.loosened(one.point, one.model.base.problem.theory.mechanism)
+    return one if loose is None else fit(loose, one.c, one.point.x[: one.model.k]) or one
+
+
+def settled(one: Fit, study: Study) -> Fit:
+    """The fit with no modes crosswise, and its causes weighed at the parameters that it found, not where the search began."""
+    one = uncrossed(one)
+    for _ in range(_SETTLE):
+        theta = one.model.base.parameters(one.point.x[: one.model.k])
+        before = one.model.base.theta
+        if not one.recipes or np.all(np.abs(theta - before) <= MOVED * np.abs(before)):
+            break
+        there = study.at(one)
+        base = there.model.judged_by(one.model.base.data)
+        again = fit(study.kind(base, there.own(one.recipes)), one.c, one.point.x[: one.model.k])
+        if again is None:
+            break
+        one = again
+    return one
+
+
+def best(study: Study, name: str, reach: float = np.inf) -> Fit | None:
+    """The most probable fit of candidate `name` over all of its places, its evidence summed over distinct optima.
+
+    reach: misfit above which no fit matters, and is left as it was found.
+    """
+    found = distinct(tried(study, name, None, _STARTS, reach=reach))
+    return summed([settled(shifted(one), study) if one.misfit < reach else one for one in found], reach)
+
+
+def tried(
+    study: Study, name: str, beside: Fit | None, count: int, most: int = MOST, reach: float = np.inf
+) -> list[Fit]:
+    """Fits of candidate `name` from its `count` most promising places, in at most so many steps; beside: causes there already.
+
+    Each first in the lowest coordinates, then in all; in all at once where there is little to look at, for what is spread over
+    the structure, such as shear, is not to be had in few. reach: misfit above which none matters.
+    """
+    others = () if beside is None else beside.recipes
+    before = np.zeros(study.k) if beside is None else beside.point.x
+    first = study if sum(len(recipe.grid) for recipe in study.recipes(name)) <= _FEW else study.coarse
+    near_by = first.approached(name, before, others, _SLACK * reach)
+    tied = 0 if beside is not None or not near_by else sum(left < near_by[0][0] + _TIED for left, _, _ in near_by)
+    count = max(count, min(tied, _TIES))
+    chosen = near_by[:count] if first is study else _weighed(study, others, name, near_by, count)
+    ways = [(first, *each) for each in chosen] + (
+        [] if others else [(study, *each) for each in _screened(study, name, reach)]
+    )
+    found: list[Fit] = []
+    for way, _, i, x in ways:
+        least = min(reach, within(found, NEAR)) if found and others else reach  # beside others the best alone is kept
+        one = _ended(study, way, others, name, i, x, most, least)
+        found += [] if one is None else [one]
+    return found
+
+
+def _screened(study: Study, name: str, reach: float) -> list[tuple[float, int, list[np.ndarray]]]:
+    """Likewise from where a screening of the candidate's own puts its recipes, in all coordinates: the best, and those as good.
+
+    A screening pairs modes by their shapes, where those of a wrong size misfit more than those of a wrong place.
+    """
+    none, ends = np.zeros(study.k), []
+    for recipe in study.recipes(name):
+        trial = study.with_cause((), name, recipe.number)
+        each = (descended(trial, recipe.coordinates(values), none, BRIEF, _SLACK * reach) for values in recipe.starts)
+        ends += [(cost(end), recipe.number, [end.point.x]) for end in each if end is not None]
+    ends.sort(key=lambda item: item[0])
+    return [each for n, each in enumerate(ends[:_TIES]) if n < _STARTS or each[0] < ends[0][0] + _TIED]
+
+
+def _weighed(study: Study, others: tuple, name: str, near_by: list, count: int) -> list:
+    """The `count` of `near_by` that misfit least in all coordinates, from where they ended or the prior mean; and the first of all.
+
+    In few coordinates the true place may be behind several others. Parameters adapt to first order.
+    """
+    if len(near_by) <= count:
+        return near_by
+    k, left = study.k, []
+    for _, i, (end, *_) in near_by[: weighed_beside(others)]:
+        whole = study.with_cause(others, name, i)
+        points = [whole.point(x) for x in (end, np.concatenate([np.zeros(k), end[k:]]))]
+        cost = min((study.foreseen(at) for at in points if at is not None), default=np.inf)
+        left.append(cost - 2 * whole.recipes[-1].log_prior)
+    best = np.argsort(left, kind="stable")[:count].tolist()
+    return [near_by[j] for j in (best if 0 in best else [*best, 0])]
+
+
+def _ended(
+    study: Study, first: Study, others: tuple, name: str, i: int, starts: list, most: int, reach: float
+) -> Fit | None:
+    """The fit of recipe i, in the coordinates of `first`, then in all from where the whole misfits least.
+
+    That may be there, a start, or the same causes at the prior mean.
+    """
+    k, whole = study.k, study.with_cause(others, name, i)
+    if first is not study:
+        near = descended(first.with_cause(others, name, i), starts[0][k:], starts[0][:k], most, _SLACK * reach)
+        starts = starts if near is None else [near.point.x, *starts]
+        reach = reach if near is None or near.misfit > reach else np.inf
+    plain = [np.concatenate([np.zeros(k), x[k:]]) for x in starts[:1]]
+    points = [at for at in map(whole.point, [*starts, *plain]) if at is not None]
+    if not points:
+        return None
+    x = min(points, key=lambda at: at.chi2 + at.x[:k] @ at.x[:k]).x
+    one = fit(whole, x[k:], x[:k], most, reach)
+    return one if one is None or (others and one.misfit > reach) else uncrossed(one, most, reach)
+
+
+def summed(found: list[Fit], reach: float = np.inf) -> Fit | None:
+    """The best of several optima, its theory taken for as good as it is; those at other places add to its evidence."""
+    if not found:
+        return None
+    apart = distinct(found)
+    total = np.logaddexp.reduce([one.log_evidence for one in apart])
+    others = tuple((one, float(np.exp(one.log_evidence - total))) for one in apart[1:])
+    best = idealised(apart[0]) if apart[0].misfit < reach else apart[0]
+    log_evidence = best.log_evidence + float(total - apart[0].log_evidence) - unseen(best)
+    return replace(best, log_evidence=log_evidence, elsewhere=others)

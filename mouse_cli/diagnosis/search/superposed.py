@@ -1,0 +1,59 @@
+"""Which places and sizes of a cause deserve a look beside causes that are there: those whose effects add up best with theirs.
+
+To first order effects add: r(a and b) = r(a) + r(b) - r(none), r the residuals (q,). What each place and size does by itself was
+looked at once, at the parameters where the search began, so that beside whatever else only a sum is needed to choose by.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Recipe
+from mouse_cli.diagnosis.likelihoods.modal.point import Point
+
+KEPT = 256  # places and sizes of one candidate that are looked at beside others; of no more each is
+_EACH = 4  # of one recipe at least, if it has so many among the best
+
+
+def text(recipe: Recipe) -> str:
+    """Site of a recipe at its first size, by which it is known at any parameters."""
+    return recipe.site(recipe.grid[0]).text
+
+
+@dataclass(frozen=True)
+class Alone:
+    """What places and sizes do by themselves: site and number of the size (n,), residuals (n, q), and that of none (q,)."""
+
+    at: list[tuple[str, int]]
+    residuals: np.ndarray
+    none: np.ndarray
+
+
+def by_itself(looks: list[tuple[Recipe, int, Point]], none: Point) -> Alone:
+    """Of looks (recipe, number of the size, point) at the prior mean, and the point there without a cause."""
+    at = [(text(recipe), i) for recipe, i, _ in looks]
+    return Alone(at, np.array([each.residual for *_, each in looks]), none.residual)
+
+
+def chosen(
+    alone: Alone, residual: np.ndarray, z: np.ndarray, T: np.ndarray, adapted: np.ndarray
+) -> set[tuple[str, int]]:
+    """The most promising of `alone` beside causes that leave `residual` (q,) at the deck's parameters z (k,).
+
+    T (q, k), adapted (k, q + k): how far these follow, to first order; see `Study`.
+    """
+    q = len(residual)
+    R = alone.residuals + (residual - alone.none)
+    steps = R @ adapted[:, :q].T + adapted[:, q:] @ z
+    left = ((R - steps @ T.T) ** 2).sum(axis=1) + ((z + steps) ** 2).sum(axis=1)
+    most = max(_EACH, KEPT // len({text for text, _ in alone.at}))
+    taken: dict[str, int] = {}
+    found: set[tuple[str, int]] = set()
+    for i in np.argsort(left, kind="stable").tolist():
+        text = alone.at[i][0]
+        if taken.get(text, 0) < most:
+            taken[text] = taken.get(text, 0) + 1
+            found.add(alone.at[i])
+        if len(found) == KEPT:
+            break
+    return found

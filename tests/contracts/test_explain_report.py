@@ -1,0 +1,23 @@
+"""Words of the report of 1972 and names of its cards are found by `mouse explain`."""
+
+import pytest
+
+from mouse_cli.cli.main import _run
+from mouse_cli.formats.cards.layout import GROUPS
+
+OPERATIONS = [f"O-{i}" for i in range(1, 13)] + [f"I-{i}" for i in range(1, 6)]
+
+
+@pytest.mark.parametrize("topic", [*OPERATIONS, "table-3-1", "VIDAP", "o-7"])
+def test_the_report_is_explained(topic, capsys):
+    assert _run(["explain", topic]) == 0
+    head, _, told = capsys.readouterr().out.partition("\n\n")
+    assert head.lower().startswith(f"{topic.lower()}: ") and "1972" in head and len(told) > 30
+
+
+@pytest.mark.parametrize(
+    "field", next(group for group in GROUPS if group.number == 2).fields, ids=lambda field: field.row.name
+)
+def test_fields_of_the_control_card_are_explained(field, capsys):
+    assert _run(["explain", field.row.name]) == 0
+    assert f"columns {field.columns}, FORMAT I8" in capsys.readouterr().out

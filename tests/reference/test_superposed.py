@@ -1,0 +1,74 @@
+"""What deserves a look beside causes that are there: effects add to first order, and what is left out would not have been best."""
+
+import numpy as np
+import pytest
+
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.search import study as searched
+from mouse_cli.diagnosis.search import superposed
+from mouse_cli.diagnosis.search.descents import tried
+from mouse_cli.diagnosis.search.study import Study
+from mouse_cli.diagnosis.search.superposed import KEPT, Alone, chosen
+from mouse_cli.dynamics.eigen import dense_solution
+from mouse_cli.model.modal_test import ModalTest
+from mouse_cli.model.parameter import Gaussian, Parameter
+from mouse_cli.model.problem import Problem
+from mouse_cli.model.structure import ListedElements, Structure
+
+N = 24
+K = 100e3 * (2 * np.eye(N) - np.eye(N, k=1) - np.eye(N, k=-1))  # equal masses of 1 kg between two walls
+
+
+def chain_with(at: dict[int, float], springs: dict[int, float]) -> Reduced:
+    """The chain, and six modes of it with masses (kg) and springs (N/m) added, by an eigensolution of the whole here."""
+    truth = dense_solution(
+        K + np.diag([springs.get(i, 0.0) for i in range(N)]), np.diag([1 + at.get(i, 0.0) for i in range(N)])
+    )
+    hz, shapes = np.sqrt(truth.eigenvalues[:6]) / (2 * np.pi), truth.shapes[:, :6]
+    test = ModalTest(np.arange(1, 7), hz, 1e-3 * hz, np.arange(N), shapes, np.full((N, 6), 0.003))
+    row, col = np.nonzero(np.triu(K))
+    listed = ListedElements(np.zeros(len(row), bool), row, col)
+    prior = Gaussian(np.ones(1), np.array([0.03**2]))
+    parameters = (Parameter("factor", 0.03, 1.0),)
+    deck = Problem("chain", Structure(K, np.eye(N)), listed, K[row, col][:, None], parameters, prior, test)
+    return reduced(deck, prior.mean)
+
+
+def test_effects_add():
+    """Of three places, what adds to the cause there to make the data is chosen, not what explains most by itself."""
+    data = np.array([1.0, 0.6, 0.0, 0.0])
+    there = np.array([1.0, 0.0, 0.0, 0.0])  # what the cause that is there explains
+    effects = np.array([[0.9, 0.0, 0.0, 0.0], [0.0, 0.55, 0.0, 0.0], [0.0, 0.0, 0.3, 0.0]])
+    sites = [(f"{i}", size) for i in range(3) for size in range(KEPT // 2)]
+    alone = Alone(sites, np.repeat(data - effects, KEPT // 2, axis=0) + 1e-9, data)
+    found = chosen(alone, data - there, np.zeros(0), np.zeros((4, 0)), np.zeros((0, 4)))
+    assert len(found) <= KEPT
+    assert {text for text, _ in found} >= {"1"}
+    assert sum(text == "1" for text, _ in found) == KEPT // 3
+
+
+@pytest.mark.parametrize("name", ["ground-spring", "oscillator", "mass"])
+def test_the_best_look_beside_a_cause_is_among_those_that_are_taken(name, monkeypatch):
+    """At most so many of all places and sizes are looked at exactly, and the best of all of them is one."""
+    few_at_most = 64
+    for each in (searched, superposed):
+        monkeypatch.setattr(each, "KEPT", few_at_most)
+    model = chain_with({5: 0.4}, {16: 4e3})
+    study = Study(model)
+    first = tried(study, "mass", None, 1)[0]
+    assert "6" in first.recipes[0].site(first.recipes[0].values(first.c)).text
+    few = study.looks(name, first.point.x, first.recipes)
+    monkeypatch.setattr(searched, "KEPT", 10**9)
+    all_of_them = Study(model).looks(name, first.point.x, first.recipes)
+    assert len(few) <= few_at_most < len(all_of_them)
+    assert few[0][0] == pytest.approx(all_of_them[0][0], rel=1e-9)
+
+
+def test_what_the_deck_alone_decides_is_built_once_for_all_parameters():
+    model = chain_with({5: 0.4}, {})
+    there = model.at(1.02 * model.theta)
+    built = []
+    first = model.once("the deck", lambda problem: built.append(problem) or problem)
+    again = there.once("the deck", lambda problem: built.append(problem) or problem)
+    assert first[1] is again[1] and len(built) == 1
