@@ -165,7 +165,9 @@ def test_ruler_tower_has_a_softer_foot_and_nobody_knows_why():
     k = 24 * 2.1e11 * 25.5e-3 * 0.45e-3**3 / 12 / 0.0475**3
     translation = sizes(found, "support-translation")["stiffness of the support"]
     assert 0.78 < 1 / (1 + k / translation) < 0.9  # of the lowest storey's stiffness, in series
-    turns = of(found, "support-rotation")  # the clamp of the foot, or those of all blocks, which four frequencies do not tell apart
+    turns = of(
+        found, "support-rotation"
+    )  # the clamp of the foot, or those of all blocks, which four frequencies do not tell apart
     share = {sites[0].ids: p for sites, p in turns.elsewhere}
     assert of(found, "support-translation").causes[0].site.ids == (0,)
     assert {turns.causes[0].site.ids, *share} == {(0,), (0, 1, 2, 3, 4)} and 0.2 < sum(share.values()) < 0.8
