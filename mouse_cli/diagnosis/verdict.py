@@ -63,8 +63,8 @@ def judge(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
 
     Something is missing where the update leaves too much, where the model as it is is improbable (DEMANDED), or where some
     mechanism is sure and what the deck holds out confirms it. Where none of that holds and yet the model as it is is not probable
-    (LIKELY), or a mechanism predicts what was held out, if only mode by mode, it is likely, not proved: one of several, the model
-    as it is among them.
+    (LIKELY), or the model as it is fails on what the deck holds out and a mechanism predicts it, it is likely, not proved: one of
+    several, the model as it is among them.
     """
     baseline, best, none = ranking.baseline, leader(ranking), dict(ranking.groups).get("none", 0.0)
     believed = ranking.stated[0] >= _BELIEVED
@@ -98,14 +98,13 @@ def _odds(ranking: Ranking, one: Fit) -> float:
 
 
 def _predicts(ranking: Ranking, proof: HeldOut | None) -> bool:
-    """Whether what was held out, by the deck or mode by mode, is predicted better with the mechanism by more than chance.
+    """Whether what the deck holds out refutes the model as it is (GATE), and is predicted better with the mechanism than by chance.
 
-    It is the best of all that were tried, so that ODDS are asked of it for each of them.
+    It is the best of all that were tried, so that ODDS are asked of it for each of them. Modes predicted from one another are no
+    new data: the evidence has all of them already, and the site was chosen with them.
     """
-    if proof is None or proof.revised is None:
-        return False
-    gain = proof.revised.log_predictive_density - proof.baseline.log_predictive_density
-    return gain / ranking.noise_scale > ODDS + float(np.log(len(ranking.named)))
+    refuted = proof is not None and proof.kind == BY_DECK and proof.baseline.p < GATE
+    return refuted and _gain(proof) / ranking.noise_scale > ODDS + float(np.log(len(ranking.named)))
 
 
 def _against_field(ranking: Ranking, model: Reduced, best: Fit, gain: float) -> float:

@@ -7,7 +7,10 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Score:
-    """How well data that no fit has seen were predicted; rms_shape_error: at sensors held out, over the largest component."""
+    """How well data that no fit has seen were predicted; rms_shape_error: at sensors held out, over the largest component.
+
+    p: probability of a larger misfit than theirs, were the model as accurate as it is said to be.
+    """
 
     rms_frequency_error: float
     log_predictive_density: float
@@ -16,6 +19,7 @@ class Score:
     sd_hz: np.ndarray
     mac: np.ndarray
     rms_shape_error: float = float("nan")
+    p: float = float("nan")
 
 
 BY_DECK, BY_MODE = "held out by the deck", "each mode from the others"

@@ -131,6 +131,27 @@ test:
     assert tension == pytest.approx([-6 * strain, -6 * strain, 0.0], abs=1e-12)
 
 
+@pytest.mark.parametrize(
+    "link", ["", "    rigid_links: [{independent: 1, dependent: 3}]\n"], ids=["bars alone", "held by a link"]
+)
+def test_what_nothing_holds_expands_freely(link):
+    """A free square of bars, warmer by some degrees, is larger and without any force; so is one with a rigid diagonal."""
+    bar = "type: beam, E: 3, G: 1, density: 1, A: 2, Iz: 1, Iy: 1, J: 1"
+    text = f"""\
+mouse: 1
+model:
+  structure:
+    nodes: {{1: [0, 0], 2: [2, 0], 3: [2, 2], 4: [0, 2]}}
+    elements:
+      - {{id: 1-3, nodes: 1-4, {bar}}}
+      - {{id: 4, nodes: [4, 1], {bar}}}
+    plane: XY
+{link}test:
+  modes: {{number: [4], frequency: [1], frequency_sd: 1 %}}
+"""
+    assert registry()["thermal"].recipes(model(text), registry()["thermal"]) == []
+
+
 TOWER = (2, 2, 4)  # columns by columns, floors
 
 

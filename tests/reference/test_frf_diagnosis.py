@@ -23,7 +23,8 @@ from mouse_cli.diagnosis.likelihoods.frf.model import FrfModel
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.dynamics.solver import EigenSolver
-from mouse_cli.formats import read_deck
+from mouse_cli.formats import read_deck, yaml_deck
+from mouse_cli.formats.assemble import assemble
 from mouse_cli.terms.assembly import assembly
 
 K, C, LOSS = 2.0e3, 2.0, 0.3  # N/m, N s/m
@@ -168,3 +169,20 @@ def test_the_loss_of_a_softer_stretch_is_in_the_deck(name, omega, tmp_path):
     exact = (whole_beam + stretch * f / (1 + 1j * eta)) / EI
     assert found.real == pytest.approx(exact.real, rel=1e-3)
     assert found.imag == pytest.approx(exact.imag, rel=2e-2)
+
+
+def test_a_free_structure_has_the_loss_factor_of_its_elastic_modes():
+    """Two masses on one spring with a loss factor of 0.02 and nothing else: the motion of both together strains nothing."""
+    text = """\
+mouse: 1
+model:
+  stiffness: {order: 2, entries: [[1, 1, 1000], [1, 2, -1000], [2, 2, 1000]]}
+  mass: {identity: 2}
+  structural_damping: {order: 2, entries: [[1, 1, 20], [1, 2, -20], [2, 2, 20]]}
+test:
+  modes: {number: [2], frequency: [7.1], frequency_sd: 1 %}
+"""
+    problem = assemble(yaml_deck.read(text, "free.yaml"))
+    found = damping(reduced(problem, problem.prior.mean))
+    assert found.stated == pytest.approx(0.02)
+    assert np.isfinite(found.mean).all()

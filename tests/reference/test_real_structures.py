@@ -165,11 +165,12 @@ def test_ruler_tower_has_a_softer_foot_and_nobody_knows_why():
     k = 24 * 2.1e11 * 25.5e-3 * 0.45e-3**3 / 12 / 0.0475**3
     translation = sizes(found, "support-translation")["stiffness of the support"]
     assert 0.78 < 1 / (1 + k / translation) < 0.9  # of the lowest storey's stiffness, in series
-    x = sizes(found, "support-rotation")["stiffness of the support"] * 0.0475 / (2.1e11 * 3.8728e-13)
-    assert 0.78 < (x + 1) / (x + 4) < 0.9  # elastic clamp below, guided above
-    assert (
-        of(found, "support-translation").causes[0].site.ids == of(found, "support-rotation").causes[0].site.ids == (0,)
-    )
+    turns = of(
+        found, "support-rotation"
+    )  # the clamp of the foot, or those of all blocks, which four frequencies do not tell apart
+    share = {sites[0].ids: p for sites, p in turns.elsewhere}
+    assert of(found, "support-translation").causes[0].site.ids == (0,)
+    assert {turns.causes[0].site.ids, *share} == {(0,), (0, 1, 2, 3, 4)} and 0.2 < sum(share.values()) < 0.8
     told = {each.effort: each for each in found.proposals if each.between == found.proposals[0].between}
     assert told[Effort.MASS].separation < 1  # nor do these frequencies with a mass more tell
     assert told[Effort.SHAPES].promise == 2  # shapes would

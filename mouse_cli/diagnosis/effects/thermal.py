@@ -5,6 +5,7 @@ import numpy as np
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
@@ -16,12 +17,14 @@ _STRAIN = 1.5e-3  # free expansion of steel by 125 K
 _BUCKLES = 0.95  # share of the strain that makes the structure buckle
 _LEAST = 1e-2  # of the largest strain, the least
 _FREE = 1e-6  # share of E A below which no force is one
+_RIGID = 1e-6  # of the eigenvalue of the lowest measured mode, below which nothing resists a motion
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """K + s sum N_e Kg_e, N_e the forces in equilibrium for a unit of free expansion s: heated, and cooled.
 
-    One straight row of bars has but one force, which `tension` and `compression` are.
+    One straight row of bars has but one force, which `tension` and `compression` are. Forces in equilibrium do no work on a motion
+    that nothing resists: where those of the bars do, rigid links hold them, which in truth expand too.
     """
     bars, mesh = model.bars, model.problem.mesh
     if bars is None or len(bars.runs) < 2 or any(b.property == "preload" for b in model.problem.bindings):
@@ -33,7 +36,11 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
         return []
     _, slope, _ = beam.shapes(bars.length, bars.phi)
     Kg = bars.added(forces[:, None, None] * beam.integral(slope, bars.length))
-    softer = -np.linalg.eigvalsh(Kg / np.sqrt(np.outer(*2 * [np.maximum(model.eigenvalues, 1e-300)])))
+    elastic = model.eigenvalues > _RIGID * lowest(model)
+    if _STRAIN * np.abs(Kg[np.ix_(~elastic, ~elastic)]).max(initial=0.0) > _RIGID * lowest(model):
+        return []
+    size = np.sqrt(model.eigenvalues[elastic])
+    softer = -np.linalg.eigvalsh(Kg[np.ix_(elastic, elastic)] / np.outer(size, size))
     found = []
     for sign in (1, -1):
         buckles = (sign * softer).max()

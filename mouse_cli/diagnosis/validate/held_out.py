@@ -18,6 +18,7 @@ from mouse_cli.dynamics.sensing import read
 from mouse_cli.model.diagnosis import BY_DECK, BY_MODE, HeldOut, Score
 from mouse_cli.model.hold_out import HoldOut
 from mouse_cli.model.modal_test import ModalTest, restricted
+from mouse_cli.updating.chi_square import upper_tail
 
 _STEP = 1e-4  # of a prior standard deviation, or of the range of an unknown, for derivatives
 _COVERED = 1.6448536269514722  # standard deviations of a 90 % interval
@@ -27,7 +28,8 @@ _COVERED = 1.6448536269514722  # standard deviations of a 90 % interval
 class Prediction:
     """Of a test that was not fitted: frequencies (m,) and their sd by both model and data, MAC (m,), log density.
 
-    covered (f,): frequencies within their intervals; shape_error (c,): of components, over the largest of their mode.
+    covered (f,): frequencies within their intervals; shape_error (c,): of components, over the largest of their mode. misfit:
+    chi-square of all that was measured, on dof.
     """
 
     test: ModalTest
@@ -36,6 +38,8 @@ class Prediction:
     mac: np.ndarray
     density: float
     covered: np.ndarray
+    misfit: float
+    dof: int
     shape_error: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
 
@@ -48,8 +52,8 @@ def predict(one: Fit, base: Reduced, fixed: tuple[Recipe, ...] = ()) -> Predicti
     T, data = model.jacobian(at), base.data
     spread = T @ one.covariance @ T.T
     total = np.eye(len(spread)) + spread
-    _, size = np.linalg.slogdet(total)
-    density = -0.5 * (at.residual @ np.linalg.solve(total, at.residual) + size) - data.log_sd
+    misfit, size = float(at.residual @ np.linalg.solve(total, at.residual)), np.linalg.slogdet(total)[1]
+    density = -0.5 * (misfit + size) - data.log_sd
     frequencies = int(data.has_frequency.sum())
     off, sd = at.residual[:frequencies], np.sqrt(np.diag(total)[:frequencies])
     hz = np.sqrt(np.maximum(at.eigenvalues[at.modes], 0.0)) / (2 * np.pi)
@@ -58,7 +62,7 @@ def predict(one: Fit, base: Reduced, fixed: tuple[Recipe, ...] = ()) -> Predicti
     alike = np.full(data.m, np.nan)
     if data.s:
         alike = mac(data.test.shapes, at.seen[:, at.modes]).diagonal()
-    return Prediction(data.test, hz, sd_hz, alike, float(density), np.abs(off) < _COVERED * sd)
+    return Prediction(data.test, hz, sd_hz, alike, float(density), np.abs(off) < _COVERED * sd, misfit, len(spread))
 
 
 def readings(one: Fit, test: ModalTest) -> Prediction | None:
@@ -79,12 +83,14 @@ def readings(one: Fit, test: ModalTest) -> Prediction | None:
     J = np.hstack([J @ np.linalg.cholesky(one.covariance), of_mode * (told(at)[:, None] * own)]) / sd[:, None]
     off = (test.shapes[known] - told(at)) / sd
     total = np.eye(len(off)) + J @ J.T
-    density = -0.5 * (off @ np.linalg.solve(total, off) + np.linalg.slogdet(2 * np.pi * total)[1]) - np.log(sd).sum()
+    misfit = float(off @ np.linalg.solve(total, off))
+    density = -0.5 * (misfit + np.linalg.slogdet(2 * np.pi * total)[1]) - np.log(sd).sum()
     unmeasured = np.full(test.m, np.nan)
     alike = mac(test.shapes, sensing @ at.X[: base.r, at.modes]).diagonal() if len(sensing) > 1 else unmeasured
     left = off * sd / scale[np.nonzero(known)[1]]
     blind = replace(test, frequency_hz=unmeasured)
-    return Prediction(blind, unmeasured, unmeasured, alike, float(density), np.zeros(0, bool), left)
+    none = np.zeros(0, bool)
+    return Prediction(blind, unmeasured, unmeasured, alike, float(density), none, misfit, len(off), left)
 
 
 def _sensitivity(one: Fit, told: Callable[[Point], np.ndarray]) -> np.ndarray | None:
@@ -115,6 +121,7 @@ def score(parts: list[Prediction]) -> Score:
         sd_hz=np.concatenate([part.sd_hz for part in parts]),
         mac=np.concatenate([part.mac for part in parts]),
         rms_shape_error=float(np.sqrt(np.mean(left**2))) if len(left) else float("nan"),
+        p=upper_tail(sum(part.misfit for part in parts), sum(part.dof for part in parts)),
     )
 
 

@@ -14,6 +14,7 @@ from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, Toget
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.model.arrangements import SharedError
 from mouse_cli.model.diagnosis import Score
+from mouse_cli.updating.chi_square import upper_tail
 
 _COVERED = 1.6448536269514722  # standard deviations of a 90 % interval
 
@@ -64,7 +65,8 @@ def predicted(one: Fit, held: Arranged) -> Score | None:
     B = np.hstack([model.slopes(at), np.vstack(own)])
     left = np.concatenate([point.residual for point in at.points]) - B @ about.mean
     total = np.eye(len(left)) + B @ about.covariance @ B.T
-    density = -0.5 * (left @ np.linalg.solve(total, left) + np.linalg.slogdet(total)[1])
+    misfit = float(left @ np.linalg.solve(total, left))
+    density = -0.5 * (misfit + np.linalg.slogdet(total)[1])
     density -= sum(part.data.log_sd for part in held.parts)
     rows = np.concatenate([_of_frequencies(part) for part in held.parts])
     off, sd = left[rows], np.sqrt(np.diag(total)[rows])
@@ -78,6 +80,7 @@ def predicted(one: Fit, held: Arranged) -> Score | None:
         frequencies_hz=hz,
         sd_hz=hz * stated * sd,
         mac=np.full(len(hz), np.nan),
+        p=upper_tail(misfit, len(left)),
     )
 
 

@@ -5,11 +5,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
 from mouse_cli.model.arrays import Matrix
 
 _LOSS, _SPREAD = 0.01, 1.0  # loss factor of a structure whose deck states none, and sd of its logarithm
 _TRACE, _WIDE = 1e-4, 3.0  # viscous damping ratio in mid-band that may come beside it, and sd of its logarithm
 _FAR = 8.0  # standard deviations beyond which damping does not change
+_RIGID = (
+    1e-6  # of the eigenvalue of the lowest measured mode, below which a mode has no strain that would lose anything
+)
 _SAME = 1e-6  # share of the damping below which what a deck states is like the rest
 
 
@@ -39,8 +43,9 @@ def damping(model: Reduced) -> Damping:
     measured = model.data.test.frequency_hz
     middle = 2 * np.pi * float(np.sqrt(np.nanmin(measured) * np.nanmax(measured)))
     count = min(model.r, int(model.data.test.number.max()))
-    stiff = np.maximum(model.eigenvalues[:count], 1e-300)
-    stated = 0.0 if D is None else float(np.median(np.diag(D)[:count] / stiff))
+    stiff = model.eigenvalues[:count]
+    elastic = stiff > _RIGID * lowest(model)
+    stated = 0.0 if D is None else float(np.median(np.diag(D)[:count][elastic] / stiff[elastic]))
     rows, own, viscous = [np.zeros((0, model.r))], [np.zeros(0)], [np.zeros(0)]
     if D is not None:
         size, U = of_low_rank(D - stated * np.diag(model.eigenvalues), np.abs(D).max())
