@@ -22,7 +22,14 @@ def made_up(*groups: str, misfit: float = 20.0, dof: int = 20, z=(0.3, -0.4), na
     base = SimpleNamespace(L=np.diag([2.0, 0.1]), data=data, problem=problem, first=SimpleNamespace(bars=BARS))
     recipes = tuple(_recipe(name, more.get("own", 0)) for name in groups)
     field = SimpleNamespace(rival=SimpleNamespace(key=nameless)) if nameless else None
-    own = {"strained": False, "telling": False, "bearable": 1.5, "elsewhere": (), "c": np.zeros(len(groups)), "data": data} | more
+    own = {
+        "strained": False,
+        "telling": False,
+        "bearable": 1.5,
+        "elsewhere": (),
+        "c": np.zeros(len(groups)),
+        "data": data,
+    } | more
     model = SimpleNamespace(base=base, k=2, own=[slice(i, i + 1) for i in range(len(groups))])
     point = SimpleNamespace(x=np.asarray(z, float))
     return SimpleNamespace(misfit=misfit, dof=dof, recipes=recipes, nameless=field, model=model, point=point, **own)

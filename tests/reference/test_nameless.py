@@ -1,5 +1,6 @@
 """Physics without a name: truths that no mechanism of the library makes, by finite elements and chains written here."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -157,6 +158,20 @@ def test_fields_are_asked_where_no_candidate_does_better_than_none():
     found = diagnose(problem, choices=Choices(("sensor-swap",), causes=1))
     assert (found.kind, found.field.property) == (UNKNOWN, MASS)
     assert runs(found)
+
+
+@pytest.mark.parametrize("explained", [True, False])
+def test_all_data_together_say_whether_fields_are_asked(explained):
+    """Modes leave far more than chance; where functions or recordings are heard, what the model leaves of those decides."""
+    heavier = 0.25 * np.sin(np.arange(N) / 1.6)
+    problem = assemble(yaml_deck.read(chain(np.full(N, 1000.0), 1 + heavier), "chain.yaml"))
+
+    def hear(found):
+        own = found.baseline
+        return replace(found, baseline=replace(own, misfit=float(own.dof))) if explained else found
+
+    fits = rank(reduced(problem, problem.prior.mean), {}, hear=hear).fits
+    assert any(one.nameless for one in fits) is not explained
 
 
 def building(k: np.ndarray, m: np.ndarray) -> str:
