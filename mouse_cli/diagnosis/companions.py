@@ -50,7 +50,7 @@ def _summed(which: tuple[int, ...], own: list[Mechanism], every, reach: float) -
     for p, mechanisms in every:
         at = _matched([own[i] for i in which], mechanisms, reach)
         if at is not None:
-            physics.append(" + ".join(name for name, _, _ in sorted(mechanisms[i] for i in at)))
+            physics.append(" + ".join(sorted(mechanisms[i][0] for i in at)))
             beside.append(joined([group for i, (_, group, _) in enumerate(mechanisms) if i not in at]))
             weights.append(p)
     total = sum(weights)

@@ -53,6 +53,13 @@ def test_as_many_as_are_certain_are_named():
     assert len(found(*twice, p=(0.6, 0.37, 0.03)).which) == 1
 
 
+def test_two_of_one_kind_share_as_any_two():
+    """Their names do not tell their order, and their sites have none."""
+    fits = made_up("mass@0.2", "mass@0.7", "axial"), made_up("mass@0.2", "mass@0.7")
+    one = found(*fits, p=(0.6, 0.37, 0.03))
+    assert one.which == (0, 1) and dict(one.members) == {"mass + mass": 1.0}
+
+
 def test_what_has_no_name_does_not_share():
     fits = made_up("crack@0.4", "gravity"), made_up(nameless="field-bed"), made_up("crack@0.4")
     assert found(*fits, p=(0.45, 0.2, 0.32, 0.03)) is None
