@@ -85,16 +85,16 @@ class WrittenError(MouseError):
 
 
 def fault(error: BaseException, what: str = "") -> Diagnostic:
-    """The finding MD903 of an exception that no check foresaw: its kind and where it was raised; what: the deck it is about."""
+    """The finding MD903 of an unexpected exception: its kind and where it was raised; what: the deck it is about."""
     at, place = error.__traceback__, ""
     while at is not None:
         code = at.tb_frame.f_code
         if "mouse_cli" in code.co_filename:
             place = f" ({code.co_filename.rpartition('mouse_cli')[2].lstrip('/')}, line {at.tb_lineno})"
         at = at.tb_next
-    told = f"{what and what + ': '}{type(error).__name__}: {error}".split("\n")[0][:200] + place
+    message = f"{what and what + ': '}{type(error).__name__}: {error}".split("\n")[0][:200] + place
     help = "this is a fault of mouse: report it with the deck; with MOUSE_TRACEBACK=1 set, Python's account is printed"
-    return Diagnostic("MD903", ERROR, told, help=help)
+    return Diagnostic("MD903", ERROR, message, help=help)
 
 
 def frame(diagnostic: Diagnostic) -> str:

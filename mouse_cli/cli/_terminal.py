@@ -23,17 +23,17 @@ def show_diagnostics(diagnostics: Iterable[Diagnostic], brief: bool = False) -> 
     Of one code the first 20 are shown, and the others counted.
     """
     found = sorted(diagnostics, key=lambda each: each.severity != ERROR)
-    told: Counter[str] = Counter()
+    counts: Counter[str] = Counter()
     for diagnostic in found:
-        told[diagnostic.code] += 1
-        if told[diagnostic.code] > _MOST:
+        counts[diagnostic.code] += 1
+        if counts[diagnostic.code] > _MOST:
             continue
         text = on_line(diagnostic.headline) if brief else frame(diagnostic)
         mark = f"{diagnostic.severity}[{diagnostic.code}]"
         if _coloured(sys.stderr):
             text = text.replace(mark, click.style(mark, fg=_COLOURS[diagnostic.severity], bold=True), 1)
         click.echo(text, err=True)
-    for code, count in told.items():
+    for code, count in counts.items():
         if count > _MOST:
             click.echo(f"... and {count - _MOST} more of {code}: `mouse explain {code}`", err=True)
 

@@ -88,7 +88,7 @@ def _run(arguments: list[str] | None) -> int:
     except MemoryError:
         click.echo("mouse: error[MD512]: not enough memory for a model of this size", err=True)
         return 5
-    except Exception as error:  # the last resort: whatever no check foresaw
+    except Exception as error:  # the last resort
         if "MOUSE_TRACEBACK" in os.environ:
             raise
         from mouse_cli._errors import fault

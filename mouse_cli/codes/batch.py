@@ -24,7 +24,7 @@ CODES = {
     ),
     "MD903": Code(
         "fault of mouse",
-        "Something failed that no check foresees: the message names the kind of failure and its place in the program. Other jobs "
+        "An unexpected failure within mouse: the message names its kind and its place in the program. Other jobs "
         "of a batch are not touched, and the next batch tries the deck again.",
         "Report it with the deck. With `MOUSE_TRACEBACK=1` in the environment, Python's whole account is printed.",
     ),

@@ -1,4 +1,4 @@
-"""A reduced model in fewer coordinates: its lowest ones, and how the rest bends when one end of a line gives way."""
+"""A reduced model in fewer coordinates: its lowest ones, and how the rest bends when one end of a line is released."""
 
 import numpy as np
 
