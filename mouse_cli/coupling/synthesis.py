@@ -78,10 +78,9 @@ def synthesised(
         return S[first[point.substructure] + np.searchsorted(places[point.substructure], point.place)]
 
     q = K.shape[0]
-    B = np.array([motion(a) - motion(b) for a, b in coupling.interfaces]).reshape(-1, q)
-    own = np.array([motion(one.at) - (motion(one.to) if one.to else 0.0) for one in coupling.connections]).reshape(
-        -1, q
-    )
+    B = np.array([motion(a) - motion(b) for a, b in coupling.interfaces]).reshape(len(coupling.interfaces), q)
+    own = np.array([motion(one.at) - (motion(one.to) if one.to else 0.0) for one in coupling.connections])
+    own = own.reshape(len(coupling.connections), q)
     dK, dM, _, _ = (each.toarray() for each in added(coupling.connections, csr_array(own), q))
     more = dK.shape[0] - q
     L = kernel(csr_array(np.pad(B, ((0, 0), (0, more))))).toarray()

@@ -70,7 +70,11 @@ class Given:
             X = expansion(self.how).expand(measured)
         except (LooseError, np.linalg.LinAlgError) as reason:
             raise refusals.not_expanded(self.problem, self.how, str(reason)) from None
-        return X / np.sqrt(np.einsum("ij,ij->j", X, self.M @ X))
+        size = np.einsum("ij,ij->j", X, self.M @ X)
+        if not (size > 0).all():
+            mode = test.number[np.argmin(size)]
+            raise refusals.not_expanded(self.problem, self.how, f"measured mode {mode} then moves no mass")
+        return X / np.sqrt(size)
 
     def energies(self) -> Callable[[np.ndarray], np.ndarray]:
         """(K0 + s M)^-1 times columns, s the lowest measured eigenvalue: r'(K0 + s M)^-1 r is the energy of forces r."""

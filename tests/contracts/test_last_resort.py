@@ -71,3 +71,68 @@ def test_the_place_is_shown_however_far_to_the_right():
     shown = frame(Diagnostic("MD303", "error", "twice", Span("deck.yaml", 2, column, 5, text))).splitlines()
     caret = shown[2].index("^")
     assert shown[1][caret : caret + 5] == "77777" and shown[2].count("^") == 5 and max(map(len, shown)) <= 160
+
+
+UNRELATED = """\
+mouse: 1
+model: {stiffness: {order: 2, entries: [[1, 1, 100.3], [2, 2, 250.0]]}, mass: {diagonal: [1, 2.0]}}
+parameters: [{name: k, nominal: 4.0, sd: 10 %, lower: 0, stiffness: [[1, 1, 150]]}]
+test: {modes: {frequency: [1.6, 1.75], frequency_sd: 1 %, dofs: [1, 2], shapes: [[1, 0], [0, ~]], shape_sd: 0.1}}
+run: {recursion: anchored, cycles: 2}
+"""
+
+
+def test_a_mode_that_no_fit_holds_has_a_line_all_the_same(capsys, tmp_path):
+    """Mode 2 is related to none of the model: its frequency of the test stands alone."""
+    (tmp_path / "deck.yaml").write_text(UNRELATED)
+    assert _run(["diagnose", str(tmp_path / "deck.yaml"), "--causes", "1"]) in (0, 1)
+    table = capsys.readouterr().out.partition("FITTED DATA")[2].split("\n")
+    assert any(line.split() == ["2", "1.75"] for line in table)
+
+
+def test_no_modes_are_kept_of_parts(tmp_path):
+    """A part without boundary that keeps no mode has no coordinates."""
+    for path in (DECKS / "coupled").glob("*.yaml"):
+        text = path.read_text().replace("keep: [3, 6, 10]", "keep: [0, 6]")
+        (tmp_path / path.name).write_text(text)
+    assert _run(["couple", str(tmp_path / "portal.yaml"), "-o", str(tmp_path / "out.txt")]) == 0
+
+
+def test_a_mechanism_may_have_no_site_where_parameters_end(tmp_path):
+    """Ties the second property to nothing but the ground, so that no link is left where the parameters end."""
+    text = (
+        (DECKS / "table_5_1.yaml").read_text().replace("[1, 2, -1]", "[1, 2, 0]").replace("54.62878867", "59.62878867")
+    )
+    text = text.replace("[1.0, 1.0, 1.0, 1.0]", "[1.0, 1.7, 1.0, 1.0]").replace("-0.584744", "-6.584744")
+    (tmp_path / "deck.yaml").write_text(text.replace("225000.0", "225800.0"))
+    assert _run(["diagnose", str(tmp_path / "deck.yaml"), "--causes", "1"]) in (0, 1)
+
+
+@pytest.mark.filterwarnings("error")
+def test_values_that_nothing_measures_are_not_measured(capsys, tmp_path):
+    """Of 400 lines of a resonance one is 1e200: fourth powers of it are no numbers."""
+    hz = np.linspace(1, 9, 400)
+    H = 1 / (25 - hz**2 + 0.1j * hz)
+    H[33] = 1e200
+    rows = [f"{x:.6g},{h.real:.9g}{h.imag:+.9g}j\n" for x, h in zip(hz, H, strict=True)]
+    (tmp_path / "deck.yaml").write_text(FUNCTION)
+    (tmp_path / "run.csv").write_text("f,a\n" + "".join(rows))
+    assert _run(["identify", str(tmp_path / "deck.yaml")]) in (0, 1)
+    assert "MODE" in capsys.readouterr().out
+
+
+FUNCTION = """\
+mouse: 1
+model: {stiffness: {order: 1, entries: [[1, 1, 987.0]]}, mass: {diagonal: [1]}}
+parameters: [{name: k, sd: 10, stiffness: [[1, 1, 1]]}]
+test: {frf: [{file: run.csv, kind: receptance, input: 1, outputs: {1: a}, sd: 1 %}]}
+"""
+
+
+@pytest.mark.filterwarnings("error")
+def test_an_accuracy_beyond_all_numbers(capsys, tmp_path):
+    (tmp_path / "deck.yaml").write_text(FUNCTION.replace("1 %", "1e+200"))
+    (tmp_path / "run.csv").write_text("f,a\n" + "".join(f"{k},1+0j\n" for k in range(1, 50)))
+    assert _run(["run", str(tmp_path / "deck.yaml")]) in (4, 5)
+    said = capsys.readouterr().err
+    assert "error[MD" in said and "MD903" not in said

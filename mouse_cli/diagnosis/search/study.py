@@ -156,12 +156,13 @@ class Study:
         return self.kind(self.model, (*self.own(others), self.recipes(name)[number]))
 
     def at(self, one: Fit) -> "Study":
-        """The same at the parameters that a fit found, if these are of a structure."""
+        """The same at the parameters that a fit found, if these are of a structure where its causes can act."""
         theta = one.model.base.parameters(one.point.x[: self.k])
         try:
-            return Study(self.model.at(theta), self.known, self.kind, self.begun)
+            there = Study(self.model.at(theta), self.known, self.kind, self.begun)
         except IndefiniteError:  # parameters far from their prior, of a fit that explains nothing
             return self
+        return there if all(there.recipes(recipe.candidate.key) for recipe in one.recipes) else self
 
     def about(self, one: Fit) -> "Study":
         """The same, or one of the last there were, at parameters from which those of a fit differ by no more than a trifle."""

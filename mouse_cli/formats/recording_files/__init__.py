@@ -1,7 +1,7 @@
 """Measured data kept in files: one module = one format; here, what each of them hands over."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from mouse_cli.formats.data_files import kept, reject, room
 
 __all__ = ["Column", "Contents", "Function", "RecordingFormat", "kept", "read_contents", "reject", "room", "spread"]
 MOST_COLUMNS = 20_000  # of one file
+LARGEST = 1e75  # of a measured value: fourth powers of larger ones are beyond all floating-point numbers
 RATE_NAMES = ("fs", "sample_rate", "samplerate", "sampling_rate", "samplingrate", "sampling_frequency", "rate")
 STEP_NAMES = ("dt", "ts", "time_step", "sample_interval", "deltat", "delta_t")
 
@@ -81,7 +82,18 @@ def read_contents(path: str) -> Contents:
     if not contents.columns and not contents.functions:
         because = f": {'; '.join(contents.remarks[:3])}" if contents.remarks else ""
         _refuse("MD601", path, f"the file holds no channel of numbers{because}", "give a file with measured data")
-    return contents
+    return replace(
+        contents,
+        columns=tuple(replace(each, values=_measured(each.values)) for each in contents.columns),
+        functions=tuple(replace(each, values=_measured(each.values)) for each in contents.functions),
+    )
+
+
+def _measured(values: np.ndarray) -> np.ndarray:
+    """The values, those that nothing measures (1e75 and more) not a number."""
+    with np.errstate(over="ignore"):
+        beyond = np.abs(values) >= LARGEST if values.dtype.kind in "fc" else np.False_
+    return np.where(beyond, np.nan, values) if beyond.any() else values
 
 
 def _refuse(code: str, path: str, message: str, help: str) -> None:

@@ -184,9 +184,12 @@ def _accuracy(section: Section) -> tuple[float | None, float | None]:
         if percent is None
         else percent / 100
     )
-    if value is not None and not value > 0:
+    if value is not None and not 0 < value < np.inf:
         section.document.error(
-            "MD215", node, f"{section.what('sd')} is {value}; it must be positive", "give what the repeats show"
+            "MD215",
+            node,
+            f"{section.what('sd')} is {value}; it must be positive and finite",
+            "give what the repeats show",
         )
     return (None, value) if percent is None else (value, None)
 

@@ -30,7 +30,8 @@ def reference() -> str:
 
 
 _NUMBERS = (
-    "Numbers are written as `1`, `2.5`, `1e5` or `2.5e+05`; `.inf` and `.nan` are read too. A leading "
+    "Numbers are written as `1`, `2.5`, `1e5` or `2.5e+05`; `.inf` and `.nan` are read too. "
+    "From 1e150 on a number counts as infinite, for no products can be made of it. A leading "
     "zero means nothing: `010` is ten. An empty value, `~` and `null` mean that the key is not given."
 )
 

@@ -1,5 +1,6 @@
 """Values of YAML nodes: numbers, words and lists of them, each checked against what its key expects."""
 
+import math
 import re
 from collections.abc import Sequence
 
@@ -16,6 +17,7 @@ _PERCENT = re.compile(PERCENT, re.ASCII)
 _SPECIAL = {".nan": np.nan, ".inf": np.inf, "+.inf": np.inf, "-.inf": -np.inf}
 _FLAGS = {"true": True, "yes": True, "on": True, "false": False, "no": False, "off": False}
 _DIGITS = "0123456789+-.eE"
+LARGEST = 1e150  # products of larger numbers are beyond all floating-point numbers: they count as infinite
 _MOST_SHOWN = 20  # errors of one list; more say no more
 
 
@@ -65,15 +67,19 @@ def as_number(node: Node) -> float | None:
     if node.tag != PLAIN or not is_scalar(node):
         return None
     if _NUMBER.fullmatch(node.value):
-        return float(node.value)
+        return _bounded(float(node.value))
     return _SPECIAL.get(node.value.lower())
+
+
+def _bounded(value: float) -> float:
+    return value if abs(value) < LARGEST else math.copysign(math.inf, value)
 
 
 def as_percent(node: Node) -> float | None:
     """The 5 of `5 %`; None when it is no percentage."""
     if not is_scalar(node) or not _PERCENT.match(node.value):
         return None
-    return float(node.value.replace("%", ""))
+    return _bounded(float(node.value.replace("%", "")))
 
 
 def number(document: Document, node: Node, what: str, words: str = "a number") -> float | None:
@@ -202,4 +208,5 @@ def plain_numbers(nodes: list[Node]) -> np.ndarray | None:
         values = np.array([float(node.value) for node in nodes])
     except (TypeError, ValueError):
         return None
+    values[np.abs(values) >= LARGEST] *= np.inf
     return None if any(node.tag != PLAIN for node in nodes) else values

@@ -6,7 +6,8 @@ import numpy as np
 
 from mouse_cli.dynamics.frequency import frequency_hz
 from mouse_cli.model.diagnosis import NAMED, Diagnosis
-from mouse_cli.model.result import Snapshot
+from mouse_cli.model.modal_test import ModalTest
+from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block, Cell, Column, Table, Text
 from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._diagnosis_wording import likeness, per_cent, with_cause
@@ -27,13 +28,10 @@ def _columns(after: str) -> tuple[Column, ...]:
 
 def fitted(found: Diagnosis, options: Options) -> Iterator[Block]:
     """One line a mode, both models revised by the test."""
-    test = found.problem.test.frequency_hz
-    nothing = np.full(len(test), np.nan)
-    columns = [test, *_against(found.result.revised, test)]
-    after = found.extended_result
-    columns += _against(after.revised, test) if after else [nothing, nothing, nothing]
-    hz, off, alike, hz_after, off_after, alike_after = columns[1:]
-    rows = zip(found.problem.test.number, test, hz, off, hz_after, off_after, alike, alike_after, strict=True)
+    test, after = found.problem.test, found.extended_result
+    hz, off, alike = _against(found.result, test)
+    hz_after, off_after, alike_after = _against(after, test) if after else np.full((3, test.m), np.nan)
+    rows = zip(test.number, test.frequency_hz, hz, off, hz_after, off_after, alike, alike_after, strict=True)
     columns = _columns(with_cause(found))
     yield Table(columns, tuple((int(n), *_told(row)) for n, *row in rows)).without_empty_columns()
     which = "Both models with their" if after else "The model with its"
@@ -51,10 +49,13 @@ def _told(row: list[float]) -> tuple[Cell, ...]:
     return test, hz, per_cent(off), hz_after, per_cent(off_after), likeness(alike), likeness(alike_after)
 
 
-def _against(model: Snapshot, test: np.ndarray) -> list[np.ndarray]:
-    """Frequencies (m,), differences in per cent, MAC."""
+def _against(result: Result, test: ModalTest) -> np.ndarray:
+    """Frequencies, differences in per cent, MAC (3, m); NaN of modes that are related to none of the model, which no fit holds."""
+    model, kept = result.revised, np.isin(test.number, result.problem.test.number)
     hz = frequency_hz(model.eigenvalues[model.modes])
-    return [hz, 100 * (hz / test - 1), model.mac]
+    found = np.full((3, test.m), np.nan)
+    found[:, kept] = hz, 100 * (hz / test.frequency_hz[kept] - 1), model.mac
+    return found
 
 
 SECTION = Section("diagnosis-fitted", 70, "Fitted data, before and after", fitted, (Diagnosis,))

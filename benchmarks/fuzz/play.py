@@ -1,0 +1,178 @@
+"""One input through one command, in a child of this process: what it took, how it ended, and where it wrote."""
+
+import faulthandler
+import json
+import os
+import resource
+import signal
+import sys
+import traceback
+from dataclasses import dataclass
+from pathlib import Path
+
+_MB = 2**20
+_RAISED = 70
+_HANG = 120  # wall seconds
+_WRITES = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND
+_CHANGES = {"os.rename": (0, 1), "os.remove": (0,), "os.mkdir": (0,), "os.rmdir": (0,), "os.link": (1,), "os.symlink": (1,),
+            "os.truncate": (0,), "os.chmod": (0,), "shutil.rmtree": (0,), "socket.connect": (1,)}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Limits:
+    """cpu: seconds; memory: MB that one input may take."""
+
+    cpu: float = 10.0
+    memory: float = 1000.0
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """fault: traceback, slow, memory, outside, silent, warning or document; '' when there is none. place: where it was."""
+
+    exit: int
+    cpu: float
+    memory: float
+    fault: str = ""
+    place: str = ""
+
+
+def play(arguments: list[str], folder: Path, limits: Limits) -> Outcome:
+    """Outcome of `mouse ARGUMENTS` in `folder`, which holds `in` (left as it is) and gets `out` and `tmp`."""
+    for name in ("out", "tmp"):
+        (folder / name).mkdir(exist_ok=True)
+    sys.stdout.flush()
+    pid = os.fork()
+    if pid == 0:
+        _child(arguments, folder, limits)
+    _, status, usage = os.wait4(pid, 0)
+    own = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    cpu, memory = usage.ru_utime + usage.ru_stime, max(0.0, usage.ru_maxrss / 1024 - own)
+    code = os.waitstatus_to_exitcode(status)
+    fault, place = _judged(folder, code, cpu, memory, limits, "--json" in arguments and "--markdown" not in arguments)
+    return Outcome(code, round(cpu, 2), round(memory), fault, place)
+
+
+def _judged(folder: Path, code: int, cpu: float, memory: float, limits: Limits, document: bool) -> tuple[str, str]:
+    said = (folder / "stderr").read_text(errors="replace")
+    if (folder / "outside").exists():
+        return "outside", (folder / "outside").read_text().split("\n")[0]
+    if cpu > limits.cpu or code in (-signal.SIGKILL, -signal.SIGXCPU, -signal.SIGALRM):
+        return "slow", _place(said, "File ", "mouse_cli")
+    if code == _RAISED:
+        return "traceback", (folder / "tmp" / "raised").read_text()
+    if "error[MD903]" in (said := said + _answers(folder)):
+        return "traceback", _place(said, "", "error[MD903]")
+    if memory > limits.memory:
+        return "memory", ""
+    if code not in (0, 1, 2, 3, 4, 5):
+        return "silent", f"exit {code}"
+    if code in (4, 5) and "error[MD" not in said and (folder / "stdout").stat().st_size < 100:
+        return "silent", f"exit {code} without an error"
+    if "Warning:" in said:
+        return "warning", _place(said, "", "Warning:")
+    if document and code in (0, 1) and not _sound((folder / "stdout").read_text(errors="replace")):
+        return "document", ""
+    return "", ""
+
+
+def _answers(folder: Path) -> str:
+    """The findings of jobs, which stand in their answers: `error[CODE] message`, a line each."""
+    found = []
+    for path in (folder / "out").glob("*/**/*.json"):
+        try:
+            rows = json.loads(path.read_text(errors="replace"))["diagnostics"]
+            found += [f"error[{row['code']}] {row['message']}\n" for row in rows]
+        except (ValueError, KeyError, TypeError, OSError):
+            continue
+    return "".join(found)
+
+
+def _place(said: str, start: str, word: str) -> str:
+    """The first line that holds a word: of a stack, the innermost place in mouse."""
+    return next(
+        (line.strip()[:200] for line in said.split("\n") if line.strip().startswith(start) and word in line), ""
+    )
+
+
+def _sound(text: str) -> bool:
+    """Whether standard output is JSON without NaN."""
+
+    def never(name: str) -> None:
+        raise ValueError(name)
+
+    try:
+        json.loads(text, parse_constant=never)
+    except ValueError:
+        return False
+    return True
+
+
+def _child(arguments: list[str], folder: Path, limits: Limits) -> None:
+    for number, name in ((1, "stdout"), (2, "stderr")):
+        os.dup2(os.open(folder / name, os.O_WRONLY | os.O_CREAT | os.O_TRUNC), number)
+    os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
+    sys.stdout, sys.stderr = (open(number, "w", encoding="utf-8", closefd=False) for number in (1, 2))
+    os.environ |= {"TMPDIR": str(folder / "tmp"), "MPLCONFIGDIR": str(folder / "tmp"), "MOUSE_TRACEBACK": "1"}
+    os.chdir(folder)
+    _bound(limits)
+    _watch(folder)
+    code = _RAISED
+    try:
+        from mouse_cli.cli.main import _run
+
+        code = _run(arguments)
+    except SystemExit as error:
+        code = error.code if isinstance(error.code, int) else 1
+    except BaseException as error:
+        traceback.print_exc()
+        (folder / "tmp" / "raised").write_text(_innermost(error))
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(code)
+
+
+def _bound(limits: Limits) -> None:
+    """After the limit a stack is written; two seconds later the child is killed."""
+    cpu = int(limits.cpu) + 1
+    faulthandler.register(signal.SIGXCPU, file=2, all_threads=False)
+    resource.setrlimit(resource.RLIMIT_CPU, (cpu, cpu + 2))
+    resource.setrlimit(resource.RLIMIT_AS, (int((limits.memory + 3000) * _MB),) * 2)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (200 * _MB,) * 2)
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    signal.alarm(_HANG)
+
+
+def _watch(folder: Path) -> None:
+    """Whatever is written, made or taken away outside of `out` and `tmp`, said in the file `outside`."""
+    allowed = tuple(f"{os.path.realpath(folder / name)}{os.sep}" for name in ("out", "tmp"))
+    root, listening = os.path.realpath(folder), [True]
+
+    def outside(path: object) -> bool:
+        if not isinstance(path, str | bytes | os.PathLike):
+            return False
+        real = os.path.realpath(os.fsdecode(path))
+        return real != os.devnull and f"{real}{os.sep}" not in allowed and not real.startswith(allowed)
+
+    def hook(event: str, given: tuple) -> None:
+        if not listening[0]:
+            return
+        if event == "open":
+            paths = given[:1] if given[2] and given[2] & _WRITES else ()
+        else:
+            paths = tuple(given[k] for k in _CHANGES.get(event, ()))
+        if any(outside(path) for path in paths):
+            listening[0] = False
+            with open(os.path.join(root, "outside"), "w") as file:
+                file.write(f"{event} {paths}\n")
+                file.write("".join(traceback.format_stack()[:-1]))
+            listening[0] = True
+
+    sys.addaudithook(hook)
+
+
+def _innermost(error: BaseException) -> str:
+    """The exception and the innermost place in mouse where it was raised."""
+    places = [at for at in traceback.extract_tb(error.__traceback__) if "mouse_cli" in at.filename]
+    place = f"{places[-1].filename.rpartition('mouse_cli')[2].lstrip(os.sep)}:{places[-1].lineno}" if places else "?"
+    return f"{type(error).__name__} at {place}: {str(error)[:120]}"
