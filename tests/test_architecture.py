@@ -23,6 +23,7 @@ RANKS = {
     "updating": 4,
     "coupling": 4,
     "methods": 4,
+    "importing": 4,
     "estimators": 3,
     "observables": 3,
     "terms": 2,

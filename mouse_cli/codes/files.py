@@ -32,4 +32,71 @@ CODES = {
         "either, or it couples to others by mass alone: nothing determines its motion.",
         "Constrain it in the program that wrote the matrices, or leave it out of the export.",
     ),
+    "MD265": Code(
+        "input of a solver that cannot be read",
+        "A line of the input file is not what its keyword expects: a word that is no number, an element with too few nodes, a "
+        "name given twice.",
+        "Mend the line in the message.",
+    ),
+    "MD266": Code(
+        "missing include",
+        "*INCLUDE names a file that stands neither beside the file that names it nor beside the job.",
+        "Put the file there, or mend INPUT=.",
+    ),
+    "MD267": Code(
+        "cyclic include",
+        "A file includes itself, directly or by way of others.",
+        "Take one of the *INCLUDE lines of the chain in the message out.",
+    ),
+    "MD268": Code(
+        "keyword that changes K or M",
+        "The input has a keyword, or an option, that changes stiffness or mass in a way that is not read. An import without it "
+        "would be another model.",
+        "Replace it as the message says. What has no effect on K and M is passed over, and listed by `mouse import`.",
+    ),
+    "MD269": Code(
+        "type of element that is not read",
+        "CalculiX could not take the element, or its K and M could not be divided by element sets.",
+        "Use one of the types in the message.",
+    ),
+    "MD270": Code(
+        "sections that overlap",
+        "Two sections claim one element, a section is for elements of another type, or the element sets divide the model into too "
+        "many groups. The solver would take one of the sections in silence.",
+        "Give every element one section.",
+    ),
+    "MD271": Code(
+        "material or section missing",
+        "An element has no section, a section no material, or a material no *ELASTIC or *DENSITY. As a warning: a material that no "
+        "section names.",
+        "Complete the input.",
+    ),
+    "MD272": Code(
+        "unknown node, element or set",
+        "The input names a node, an element or a set that it does not define above that line.",
+        "Mend the name, or define it first.",
+    ),
+    "MD273": Code(
+        "support that cannot be imported",
+        "A boundary condition holds rotations of shells or beams, which CalculiX makes solids of and stiffens at such nodes; or a "
+        "node that a constraint determines; or a direction that is none. As a warning: two supports hold the same node.",
+        "Hold translations, of two rows of nodes for a clamp; hold the reference node of a constraint.",
+    ),
+    "MD274": Code(
+        "solver failed",
+        "CalculiX (ccx) is not on the path, or stopped with the error in the message.",
+        "Install it, or run the job in it and mend what it objects to.",
+    ),
+    "MD275": Code(
+        "import does not agree with the solver",
+        "The matrices of the element sets do not sum to those of the whole, or the imported model on its supports has not the "
+        "frequencies that CalculiX finds for the job as it was written. Nothing was written.",
+        "Import parts of the model to find which keyword acts otherwise than it is read, and report it.",
+    ),
+    "MD276": Code(
+        "supports or sets of imported matrices",
+        "A support names degrees of freedom that the matrices have not, two supports hold the same one, or a set gives neither "
+        "stiffness nor mass. As a warning of `mouse import`: which units the job was taken to be in.",
+        "Mend the names; give --units.",
+    ),
 }

@@ -63,6 +63,8 @@ def assemble(draft: Draft) -> Problem:
         laws=acting,
         modal_damping=draft.modal_damping,
         theory=draft.theory,
+        held=draft.held,
+        groups=draft.groups,
     )
 
 

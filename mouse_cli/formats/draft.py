@@ -17,6 +17,7 @@ from mouse_cli.formats.record_drafts import FrfDraft, RecordingDraft
 from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.geometry import Geometry
+from mouse_cli.model.held import ElementGroup, Held
 from mouse_cli.model.modal_damping import ModalDamping
 from mouse_cli.model.parameter import Parameter
 from mouse_cli.model.problem import RunOptions, Source
@@ -69,6 +70,15 @@ class TestDraft:
 
 
 @dataclass
+class SupportDraft:
+    """A support of imported matrices as read: its name, degrees of freedom (from 1) and place."""
+
+    name: str
+    dofs: np.ndarray
+    place: Span | None = None
+
+
+@dataclass
 class Draft:
     """A whole deck as read.
 
@@ -77,7 +87,7 @@ class Draft:
     the matrices; 0 while only the structure can tell. elements: Entries whose value is 0 for stiffness and 1 for mass, in the
     order of group RS, stiffness first. A: Entries (listed element, parameter, partial).
     covariance (p, p): the prior's, when it has off-diagonals; else the parameters' sd hold it. hold_out: what no fit uses of
-    test, frf and recordings.
+    test, frf and recordings. supports: of the matrices, which the rules apply; held: what that left.
     """
 
     title: str
@@ -96,6 +106,9 @@ class Draft:
     mesh: MeshDraft | None = None
     geometry: Geometry | None = None
     labels: tuple[str, ...] = ()
+    supports: tuple[SupportDraft, ...] = ()
+    groups: tuple[ElementGroup, ...] = ()
+    held: Held | None = None
     units: Units = UNDECLARED
     frf: tuple[FrfDraft, ...] = ()
     recordings: tuple[RecordingDraft, ...] = ()

@@ -6,6 +6,7 @@ from mouse_cli._errors import Diagnostic
 from mouse_cli._span import Span
 from mouse_cli.model.arrays import Matrix, frozen
 from mouse_cli.model.frf_test import FrfTest
+from mouse_cli.model.held import ElementGroup, Held
 from mouse_cli.model.hold_out import HeldRecords, HoldOut
 from mouse_cli.model.local_law import LocalLaw
 from mouse_cli.model.mesh import Binding, Mesh
@@ -77,7 +78,8 @@ class Problem:
     springs; mesh, bindings: what they were made of, for models with geometry. test is None for a deck that only asks for modes; it
     holds what is fitted, and hold_out what is kept from every fit. frf, recordings: frequency response functions and time histories
     of the test. units: of all numbers that are not in s or Hz. laws: local forces that are not linear, which modes do not have.
-    modal_damping: beside that of structure and terms. theory: by how much the model may be wrong beside what is named.
+    modal_damping: beside that of structure and terms. held: supports by name of imported matrices;
+    groups: their element sets. theory: by how much the model may be wrong beside what is named.
 
     A problem is changed by `dataclasses.replace`, which makes another one.
 
@@ -110,6 +112,8 @@ class Problem:
     laws: tuple[LocalLaw, ...] = ()
     modal_damping: ModalDamping | None = None
     theory: Theory = field(default_factory=Theory)
+    held: Held | None = None
+    groups: tuple[ElementGroup, ...] = ()
 
     def place(self, key: str) -> Span:
         """Where `key` (`order`, `estimator`, `mode 3`) stands in the deck; its first line when that is not known."""

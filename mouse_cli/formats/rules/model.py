@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from mouse_cli.formats.draft import Draft, Entries
-from mouse_cli.formats.rules import imported, matrices
+from mouse_cli.formats.rules import imported, matrices, supports
 from mouse_cli.formats.rules import mesh as mesh_rules
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.structure import Structure
@@ -30,9 +30,10 @@ def model(draft: Draft) -> Model | None:
     if draft.has_errors:
         return None
     if draft.mesh is None:
-        base = Structure(**found, labels=draft.labels, geometry=draft.geometry)
-        _massive(draft, base.K, base.M)
-        return base, ()
+        base = supports.applied(draft, Structure(**found, labels=draft.labels, geometry=draft.geometry))
+        if base is not None:
+            _massive(draft, base.K, base.M)
+        return None if draft.has_errors else (base, ())
     made = _built(draft, Structure(**found, labels=draft.labels) if found else None)
     if made is not None:
         draft.order, draft.labels = made[0].n, made[0].labels

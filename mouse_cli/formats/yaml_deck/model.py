@@ -5,16 +5,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli.formats import matrix_files
-from mouse_cli.formats.draft import Entries
+from mouse_cli.formats.draft import Entries, SupportDraft
 from mouse_cli.formats.mesh_draft import MeshDraft
 from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.files import read_below
 from mouse_cli.formats.yaml_deck.imported import Rows
+from mouse_cli.formats.yaml_deck.imported_parts import element_sets, supports
 from mouse_cli.formats.yaml_deck.kinds import KINDS
 from mouse_cli.formats.yaml_deck.nodes import Document, Node
 from mouse_cli.formats.yaml_deck.sections import Section
 from mouse_cli.formats.yaml_deck.structure import structure
 from mouse_cli.model.arrays import Matrix
+from mouse_cli.model.held import ElementGroup
 
 
 @dataclass
@@ -27,6 +29,8 @@ class Model:
     labels: tuple[str, ...] = ()
     mesh: MeshDraft | None = None
     rows: Rows | None = None
+    supports: tuple[SupportDraft, ...] = ()
+    groups: tuple[ElementGroup, ...] = ()
 
 
 _MATRICES = {"K": "stiffness", "M": "mass", "C": "damping", "D": "structural_damping"}
@@ -53,7 +57,8 @@ def model(section: Section) -> Model:
     below = section.section("structure")
     on = labels or tuple(str(i + 1) for i in range(order))
     mesh = structure(below, on) if below else None
-    return Model(first, found, order, labels, mesh, rows)
+    held, groups = supports(section, labels), element_sets(section, order, rows)
+    return Model(first, found, order, labels, mesh, rows, held, groups)
 
 
 def _matrix(section: Section, key: str) -> tuple[Entries | matrix_files.Contents | None, int, Node]:

@@ -83,6 +83,8 @@ def _draft(deck: Section) -> Draft:
         covariance=None if document.incomplete else covariance,  # a parameter may be missing
         test=test,
         labels=matrices.labels,
+        supports=matrices.supports,
+        groups=matrices.groups,
         units=declared,
         frf=frf,
         recordings=recordings,

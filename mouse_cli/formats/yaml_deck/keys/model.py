@@ -24,8 +24,29 @@ SECTIONS = {
             "nodes": Key(
                 "section file", "where the nodes of these are: .unv, .inp, .bdf, .csv (number, x, y, z)", "none"
             ),
+            "supports": Key(
+                "map held", "supports of stiffness and mass, by name; both are then given without them", "none"
+            ),
+            "sets": Key("map element_set", "element sets by name, with what each gives to stiffness and mass", "none"),
         },
         needs=(("stiffness", "mass"), ("structure",)),
+    ),
+    "held": Section(
+        "What one support of imported matrices holds.",
+        {
+            "dofs": Key("dofs", "degrees of freedom that it holds"),
+            "nodes": Key("ids", "nodes that it holds"),
+            "directions": Key("direction", "directions in which it holds them"),
+        },
+        forms=(("dofs",), ("nodes", "directions")),
+    ),
+    "element_set": Section(
+        "An element set of imported matrices, where `mouse diagnose` may find a part that is softer, stiffer, heavier or missing.",
+        {
+            "stiffness": Key("section file", "what the set gives to stiffness", "nothing", "N/m"),
+            "mass": Key("section file", "what the set gives to mass", "nothing", "kg"),
+            "nodes": Key("ids", "nodes of its elements", "none"),
+        },
     ),
     "matrix": Section(
         "A symmetric matrix, in one of these forms.",

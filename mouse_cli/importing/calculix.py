@@ -1,0 +1,130 @@
+"""CalculiX (ccx): its runs, what it writes, and a cache of both."""
+
+import hashlib
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from mouse_cli._errors import ERROR, DeckError, Diagnostic
+from mouse_cli._span import Span
+from mouse_cli.importing.dofs import Rows, rows
+from mouse_cli.model.arrays import Matrix
+
+_EDITION = "1"  # raised when what is kept of a run changes
+_SAID = 12  # last lines of the solver that a message shows
+PROGRAM = "ccx"
+
+
+@dataclass(frozen=True)
+class Exported:
+    """K and M (n, n) of one job, sparse, and what their rows are."""
+
+    K: Matrix
+    M: Matrix
+    rows: Rows
+
+
+@dataclass(frozen=True)
+class Solver:
+    """Runs jobs for the input file `path`, or finds what an earlier run left in `cache`; say: told before each run."""
+
+    path: str
+    cache: Path | None
+    say: Callable[[str], None]
+
+    def matrices(self, text: str, title: str, own: set[int]) -> Exported:
+        """K and M of a job; own: nodes of the input file."""
+        held = self._kept(text, title, _matrix_arrays)
+        from scipy.sparse import csr_array
+
+        n = int(held["n"])
+        found = rows(held["dofs"], own)
+        both = (csr_array((held[f"{x}_data"], held[f"{x}_indices"], held[f"{x}_indptr"]), shape=(n, n)) for x in "KM")
+        return Exported(*(found.brought(matrix) for matrix in both), found)
+
+    def eigenvalues(self, text: str, title: str) -> np.ndarray:
+        """Eigenvalues (m,), rad2/s2, of a job that asks for frequencies."""
+        return self._kept(text, title, lambda job: {"eigenvalues": _eigenvalues(job)})["eigenvalues"]
+
+    def _kept(self, text: str, title: str, read: Callable[[Path], dict[str, np.ndarray]]) -> dict[str, np.ndarray]:
+        key = hashlib.sha256(f"{_EDITION}\n{text}".encode()).hexdigest()[:32]
+        target = None if self.cache is None else self.cache / f"{key}.npz"
+        if target is not None and target.exists():
+            with np.load(target) as held:
+                return dict(held)
+        self.say(title)
+        with tempfile.TemporaryDirectory() as folder:
+            job = Path(folder) / "job"
+            job.with_suffix(".inp").write_text(text)
+            self._run(job, title)
+            found = read(job)
+        if target is not None:
+            target.parent.mkdir(parents=True, exist_ok=True)
+            scratch = target.with_suffix(f".{os.getpid()}.npz")
+            np.savez(scratch, **found)
+            scratch.replace(target)
+        return found
+
+    def _run(self, job: Path, title: str) -> None:
+        one = os.environ | {"OMP_NUM_THREADS": "1"}  # sums in one order: groups are told by differences of two runs
+        done = subprocess.run(
+            [PROGRAM, job.name], cwd=job.parent, stdin=subprocess.DEVNULL, capture_output=True, text=True, env=one,
+            errors="replace", check=False,
+        )  # fmt: skip
+        wrote = job.with_suffix(".sti").exists() or "E I G E N V A L U E" in _text(job.with_suffix(".dat"))
+        if "*ERROR" in done.stdout or not wrote:
+            errors = re.findall(r"\*ERROR[^\n]*(?:\n[^\n*]+)*", done.stdout)
+            said = errors[0] if errors else "\n".join((done.stdout + done.stderr).splitlines()[-_SAID:])
+            message = f"CalculiX stopped at {title}: {' '.join(said.split())[:400]}"
+            help = f"run the job itself in {PROGRAM} and mend what it objects to"
+            raise DeckError(Diagnostic("MD274", ERROR, message, Span(self.path, 1), help=help))
+
+
+def available() -> bool:
+    """Whether the solver is on the path."""
+    return shutil.which(PROGRAM) is not None
+
+
+def cache_folder() -> Path:
+    """Where the matrices of earlier runs are kept."""
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "mouse" / "import"
+
+
+def _text(path: Path) -> str:
+    return path.read_text(errors="replace") if path.exists() else ""
+
+
+def _matrix_arrays(job: Path) -> dict[str, np.ndarray]:
+    """K and M with both triangles, in compressed rows, and (n, 2) node and direction of each row."""
+    lines = job.with_suffix(".dof").read_text().split()
+    dofs = np.array([line.split(".") for line in lines], int)
+    found: dict[str, np.ndarray] = {"n": np.array(len(dofs)), "dofs": dofs}
+    for name, suffix in (("K", ".sti"), ("M", ".mas")):
+        matrix = _symmetric(job.with_suffix(suffix), len(dofs))
+        found |= {f"{name}_data": matrix.data, f"{name}_indices": matrix.indices, f"{name}_indptr": matrix.indptr}
+    return found
+
+
+def _symmetric(path: Path, n: int):
+    from scipy.sparse import coo_array
+
+    table = np.fromstring(path.read_text(), sep=" ").reshape(-1, 3)
+    row, col = (table[:, k].astype(np.int32) - 1 for k in (0, 1))
+    off = row != col
+    at = np.concatenate([row, col[off]]), np.concatenate([col, row[off]])
+    matrix = coo_array((np.concatenate([table[:, 2], table[off, 2]]), at), shape=(n, n)).tocsr()
+    matrix.eliminate_zeros()
+    return matrix
+
+
+def _eigenvalues(job: Path) -> np.ndarray:
+    table = job.with_suffix(".dat").read_text().split("P A R T I C I P")[0]
+    rows = re.findall(r"^ +\d+ +(\S+E\S+) +\S+E\S+ +\S+E\S+ +\S+E\S+ *$", table, re.M)
+    return np.array([float(value) for value in rows])

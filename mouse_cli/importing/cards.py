@@ -1,0 +1,136 @@
+"""Input of Abaqus and CalculiX as cards: a keyword, its options and its lines of data, with included files in their place."""
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from mouse_cli._errors import ERROR, DeckError, Diagnostic
+from mouse_cli._span import Span
+from mouse_cli.formats.data_files import line_span, reject, text_lines
+
+_MOST = 40  # findings that one reading lists
+
+
+@dataclass
+class Line:
+    """A line of data: its words, and where it stands."""
+
+    words: list[str]
+    text: str
+    file: str
+    number: int
+
+    @property
+    def span(self) -> Span:
+        """Where the line stands."""
+        return line_span(self.file, self.number, self.text)
+
+
+@dataclass
+class Card:
+    """keyword, such as `SOLID SECTION`; options by name, all in capitals; lines of data; head: the lines of the keyword."""
+
+    keyword: str
+    options: dict[str, str]
+    head: Line
+    lines: list[Line] = field(default_factory=list)
+
+    def text(self) -> list[str]:
+        """The card as it was written."""
+        return [self.head.text, *(line.text for line in self.lines)]
+
+
+@dataclass
+class Faults:
+    """What is wrong with the input, so that all of it is told at once."""
+
+    found: list[Diagnostic] = field(default_factory=list)
+
+    def add(self, code: str, message: str, span: Span, help: str) -> None:
+        """Note a finding."""
+        if len(self.found) < _MOST:
+            self.found.append(Diagnostic(code, ERROR, message, span, help=help))
+
+    def stop(self) -> None:
+        """Raise DeckError with what was found, if anything was."""
+        if self.found:
+            raise DeckError(self.found)
+
+
+def cards(path: str) -> list[Card]:
+    """All cards of a file, those of included files among them. Raises DeckError (MD250 to MD267)."""
+    found: list[Card] = []
+    for line in _lines(path, ()):
+        if line.text.lstrip().startswith("*"):
+            found.append(_card(line))
+        elif found:
+            found[-1].lines.append(line)
+        else:
+            reject(
+                "MD265", path, "data stand before the first keyword", "begin with a keyword such as *NODE", line.span
+            )
+    return found
+
+
+def _lines(path: str, above: tuple[str, ...]) -> Iterator[Line]:
+    """Lines without comments and blank ones; those of keywords with what continues them; those of included files in their place."""
+    head: Line | None = None
+    for number, text in enumerate(text_lines(path), 1):
+        if text.startswith("**") or not text.strip():
+            continue
+        if head is not None:
+            head.text += text.strip()
+        elif text.lstrip().startswith("*"):
+            head = Line([], text.rstrip(), path, number)
+        else:
+            yield Line(_words(text), text.rstrip(), path, number)
+            continue
+        if head.text.endswith(","):
+            continue
+        line, head = head, None
+        if _keyword(line.text) == "INCLUDE":
+            yield from _included(line, path, above)
+        else:
+            yield line
+    if head is not None:
+        yield head
+
+
+def _included(line: Line, path: str, above: tuple[str, ...]) -> Iterator[Line]:
+    """Lines of the file that *INCLUDE names: relative to the file that names it, or to the job."""
+    name = _options(line.text).get("INPUT", "").strip("\"'")
+    first = above[0] if above else path
+    places = [os.path.join(os.path.dirname(each), name) for each in (path, first)]
+    target = next((place for place in places if name and os.path.isfile(place)), None)
+    if target is None:
+        message = f"the included file '{name[:80]}' does not exist" if name else "*INCLUDE names no file"
+        reject("MD266", path, message, "put the file beside the job, or mend INPUT=", line.span)
+    chain = (*above, path)
+    if any(os.path.samefile(target, each) for each in chain):
+        message = f"'{name[:80]}' includes itself, by way of {' > '.join(map(os.path.basename, chain))}"
+        reject("MD267", path, message, "take one of the *INCLUDE lines out", line.span)
+    yield from _lines(target, chain)
+
+
+def _card(line: Line) -> Card:
+    return Card(_keyword(line.text), _options(line.text), line)
+
+
+def _keyword(text: str) -> str:
+    return " ".join(text.lstrip()[1:].partition(",")[0].upper().split())
+
+
+def _options(text: str) -> dict[str, str]:
+    """Options of a keyword line; names in capitals, and values too, but those of files."""
+    found = {}
+    for part in text.split(",")[1:]:
+        name, _, value = part.partition("=")
+        name = " ".join(name.upper().split())
+        if name:
+            found[name] = value.strip() if name in ("INPUT", "FILE") else value.strip().strip('"').upper()
+    return found
+
+
+def _words(text: str) -> list[str]:
+    words = [word.strip() for word in text.split(",")]
+    return words[:-1] if len(words) > 1 and not words[-1] else words

@@ -1,0 +1,90 @@
+"""Checks of an import: parts sum to the whole, and with its supports the model has the solver's own frequencies."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli._errors import ERROR, DeckError, Diagnostic
+from mouse_cli._span import Span
+from mouse_cli.importing.calculix import Solver
+from mouse_cli.importing.jobs import frequencies
+from mouse_cli.importing.model import InputModel
+from mouse_cli.importing.separate import Parts
+
+SUM, FREQUENCY = 1e-10, 1e-6  # largest relative differences
+_DIGITS, _SD = 3e-14, 4.0  # sd of a number with 14 digits, relative; how many of what they leave open are no error
+_COUNT, _PER_MODE = 8, 5  # modes that are compared; degrees of freedom that ARPACK takes for each
+_RIGID = 1e-6  # eigenvalues below this share of the highest compared are motions of a rigid body
+
+
+@dataclass(frozen=True)
+class Checked:
+    """Relative differences; hz, own (m,): frequencies by the solver, and by the matrices that were imported.
+
+    digits (m,): relative sd of the latter, as the solver writes 14 digits of K; only very thin shells lose as much as shows.
+    """
+
+    sum_K: float
+    sum_M: float
+    hz: np.ndarray
+    own: np.ndarray
+    digits: np.ndarray
+
+    @property
+    def frequency(self) -> float:
+        """The largest relative difference of a frequency."""
+        return float(np.abs(self.own / self.hz - 1).max(initial=0.0))
+
+    @property
+    def open(self) -> float:
+        """What the digits of the solver's file leave open of the frequency that differs most."""
+        return float(self.digits[np.argmax(np.abs(self.own / self.hz - 1))]) if len(self.hz) else 0.0
+
+
+def held_rows(model: InputModel, parts: Parts) -> list[tuple[str, list[int]]]:
+    """For each support its rows (from 0). Raises DeckError (MD273) where a held node is no row of the export."""
+    found, faults = [], []
+    for support in model.supports:
+        absent = [dof for dof in support.dofs if dof not in parts.whole.rows.held]
+        if absent:
+            node, d = absent[0]
+            message = f"support {support.name} holds node {node} in direction {d}, which a constraint or no element determines"
+            help = "hold the reference node of the constraint, or, for rotations of a rigid body, give it a ROT NODE and hold that"
+            faults.append(Diagnostic("MD273", ERROR, message, support.card.head.span, help=help))
+        found.append((support.name, [i for dof in support.dofs for i in parts.whole.rows.held.get(dof, ())]))
+    if faults:
+        raise DeckError(faults)
+    return found
+
+
+def check(model: InputModel, parts: Parts, solver: Solver) -> Checked:
+    """Raises DeckError (MD275) where parts do not sum to the whole, or frequencies differ."""
+    from mouse_cli.dynamics.solver import eigensolution
+
+    held = {i for _, rows in held_rows(model, parts) for i in rows}
+    kept = np.array([i for i in range(parts.whole.K.shape[0]) if i not in held])
+    count = max(1, min(_COUNT, len(kept) // _PER_MODE))
+    theirs = np.sort(solver.eigenvalues(frequencies(model, count), "frequencies with supports"))
+    K, M = (each[kept][:, kept] for each in (parts.whole.K, parts.whole.M))
+    solution = eigensolution(K, M, len(theirs))
+    own, X = solution.eigenvalues[: len(theirs)], solution.shapes[:, : len(theirs)]
+    elastic = (theirs > _RIGID * theirs[-1]) & (own > _RIGID * theirs[-1])
+    hz = [np.sqrt(each[elastic]) / (2 * np.pi) for each in (theirs, own)]
+    digits = _left_open(K, X)[elastic] / (2 * own[elastic])
+    found = Checked(*parts.error, *hz, digits)
+    _refuse(model, max(parts.error), SUM, "the matrices of the groups miss the whole by")
+    _refuse(model, found.frequency - _SD * found.open, FREQUENCY, "frequencies with supports miss the solver's by")
+    return found
+
+
+def _left_open(K, X: np.ndarray) -> np.ndarray:
+    """sd (m,) of eigenvalues by the digits that the solver's file does not hold: of sum of dK_ij x_i x_j, all dK independent."""
+    squares = K.multiply(K)
+    return _DIGITS * np.sqrt(np.einsum("im,im->m", X**2, squares @ X**2))
+
+
+def _refuse(model: InputModel, size: float, most: float, what: str) -> None:
+    if not size <= most:
+        message = f"{what} {size:.2g}; at most {most:.0e} is rounding"
+        help = "a keyword of the input acts otherwise than it is read: import a part of the model to find which, and report it"
+        raise DeckError(Diagnostic("MD275", ERROR, message, Span(model.path, 1), help=help))

@@ -1,0 +1,185 @@
+"""Writes what was imported: matrices and tables in a folder, and the deck that names them."""
+
+import io
+import os
+import re
+from collections.abc import Iterable
+from pathlib import Path
+
+import numpy as np
+
+from mouse_cli._atomic import write_bytes_atomically, write_text_atomically
+from mouse_cli.formats.yaml_deck.text import real, word, wrapped
+from mouse_cli.importing.checks import Checked, held_rows
+from mouse_cli.importing.model import InputModel
+from mouse_cli.importing.separate import Parts
+from mouse_cli.model.arrays import Matrix
+from mouse_cli.model.geometry import DIRECTIONS
+
+_E_SD, _DENSITY_SD, _SPRING_SD = "5 %", "1 %", "20 %"  # what is known of a material and of a spring before the test
+_SI_E, _MM_E = (1e8, 1e13), (1e2, 1e7)  # Young's moduli in Pa and in MPa
+_MOST_MODES = 6
+
+
+def units(model: InputModel) -> str:
+    """The system of units that the materials speak for: SI, mm-t-N, or nothing where they fit neither.
+
+    Steel has E = 2.1e11 Pa and 7850 kg/m3, or 2.1e5 MPa and 7.85e-9 t/mm3.
+    """
+    used = [group.material for group in model.groups if group.material is not None]
+    fits = lambda E, rho: all(E[0] < m.E < E[1] and rho[0] <= m.rho < rho[1] for m in used)
+    if used and fits(_SI_E, (1.0, 1e5)):
+        return "SI"
+    return "mm-t-N" if used and fits(_MM_E, (1e-12, 1e-6)) else ""
+
+
+def write(target: Path, model: InputModel, parts: Parts, checked: Checked, system: str) -> list[Path]:
+    """The deck `target` and a folder of its files beside it; returns all paths, the deck last. Raises WrittenError."""
+    folder = target.parent / f"{target.stem}_model"
+    folder.mkdir(parents=True, exist_ok=True)
+    written: list[Path] = []
+
+    def keep(name: str, matrix: Matrix) -> str:
+        path = folder / f"{name}.npz"
+        write_bytes_atomically(path, _npz(matrix))
+        written.append(path)
+        return f"{{file: {word(f'{folder.name}/{name}.npz')}}}"
+
+    def table(name: str, text: str) -> str:
+        write_text_atomically(folder / name, text)
+        written.append(folder / name)
+        return f"{{file: {word(f'{folder.name}/{name}')}}}"
+
+    lines = _head(model, parts, checked, system)
+    lines += [
+        "model:",
+        f"  stiffness: {keep('K', parts.whole.K)}  # without supports",
+        f"  mass: {keep('M', parts.whole.M)}",
+        f"  dofs: {table('dofs.csv', _dofs(parts.whole.rows.names))}",
+        f"  nodes: {table('nodes.csv', _nodes(model, parts))}",
+        *_supports(model, parts),
+        *_sets(model, parts, keep),
+        *_parameters(model, parts, keep, system),
+        *_stub(checked),
+    ]
+    write_text_atomically(target, "\n".join(lines) + "\n")
+    return [*written, target]
+
+
+def _head(model: InputModel, parts: Parts, checked: Checked, system: str) -> list[str]:
+    title = next((card.lines[0].text.strip() for card in model.kept if card.keyword == "HEADING" and card.lines), "")
+    n = parts.whole.K.shape[0]
+    return [
+        f"# Made by mouse import of {os.path.basename(model.path)}: {n} degrees of freedom, {len(model.groups)} element sets.",
+        f"# Sets sum to the whole to {max(checked.sum_K, checked.sum_M):.1g}; with its supports the model has CalculiX's own",
+        f"# frequencies to {checked.frequency:.1g}.",
+        "mouse: 1",
+        f"title: {word(title or os.path.basename(model.path), flow=False)}",
+        *([f"units: {system}"] if system else []),
+    ]
+
+
+def _supports(model: InputModel, parts: Parts) -> list[str]:
+    names = [f"{node}{DIRECTIONS[d - 1]}" for node, d in parts.whole.rows.names.tolist()]
+    found = held_rows(model, parts)
+    lines = ["  supports:"] if found else []
+    return lines + [f"    {word(name)}: {{dofs: {wrapped((names[i] for i in rows), 6)}}}" for name, rows in found]
+
+
+def _sets(model: InputModel, parts: Parts, keep) -> list[str]:
+    lines = ["  sets:"] if model.groups else []
+    for i, group in enumerate(model.groups):
+        files = [f"{key}: {keep(f'{mark}_{_slug(group.name)}', matrix)}"
+                 for key, mark, matrix in (("stiffness", "K", parts.K[i]), ("mass", "M", parts.M[i])) if matrix.nnz]  # fmt: skip
+        if files:
+            nodes = sorted({node for e in group.elements for node in model.elements[e][1]})
+            lines.append(f"    {word(group.name)}: {{{', '.join(files)}, nodes: {wrapped(_ranges(nodes), 6)}}}")
+    return lines
+
+
+def _parameters(model: InputModel, parts: Parts, keep, system: str) -> list[str]:
+    """E and density of each material, springs by their sets."""
+    lines = ["", "parameters:"]
+    pressure, density = {"SI": ("Pa", "kg/m3"), "mm-t-N": ("MPa", "t/mm3")}.get(system, ("", ""))
+    for name, material in model.materials.items():
+        own = [i for i, group in enumerate(model.groups) if group.material is material]
+        K, M = (sum(each[i] for i in own) if own else None for each in (parts.K, parts.M))
+        value, unit = (material.E, pressure) if material.isotropic else (1.0, "1")
+        if own and K.nnz:
+            lines.append(
+                _parameter(f"E of {name}", value, unit, _E_SD, "stiffness", keep(f"E_{_slug(name)}", K / value))
+            )
+        if own and M.nnz and material.rho:
+            file = keep(f"rho_{_slug(name)}", M / material.rho)
+            lines.append(_parameter(f"density of {name}", material.rho, density, _DENSITY_SD, "mass", file))
+    for i, group in enumerate(model.groups):
+        if group.owner.keyword == "SPRING" and parts.K[i].nnz:
+            file = keep(f"spring_{_slug(group.name)}", parts.K[i])
+            lines.append(_parameter(f"stiffness of {group.name}", 1.0, "1", _SPRING_SD, "stiffness", file))
+    return lines if len(lines) > 2 else []
+
+
+def _parameter(name: str, value: float, unit: str, sd: str, key: str, file: str) -> str:
+    of = f", unit: {word(unit)}" if unit else ""
+    return f"  - {{name: {word(name)}, nominal: {real(value)}{of}, sd: {sd}, transform: log, {key}: {file}}}"
+
+
+def _stub(checked: Checked) -> list[str]:
+    """What to fill in when the test is there; the values are the model's own."""
+    hz = ", ".join(f"{f:.4g}" for f in checked.own[:_MOST_MODES])
+    return [
+        "",
+        "# The test goes here; the frequencies are those of the model before it.",
+        "# test:",
+        "#   modes:",
+        f"#     frequency: [{hz}]",
+        "#     frequency_sd: 0.1 %",
+        "#     dofs: [...]         # of the sensors, such as 12TZ",
+        "#     shapes: [[...]]     # a row for each sensor",
+        "#     shape_sd: 2 %",
+    ]
+
+
+def _dofs(names: np.ndarray) -> str:
+    return "node,direction\n" + "".join(f"{node},{DIRECTIONS[d - 1]}\n" for node, d in names.tolist())
+
+
+def _nodes(model: InputModel, parts: Parts) -> str:
+    """Nodes of the input; those that the solver added are put amid what they are coupled to."""
+    places = dict(sorted(model.nodes.items())) | _added(model, parts)
+    return "number,x,y,z\n" + "".join(f"{n},{','.join(map(repr, at.tolist()))}\n" for n, at in places.items())
+
+
+def _added(model: InputModel, parts: Parts) -> dict[int, np.ndarray]:
+    numbers = parts.whole.rows.names[:, 0]
+    own = np.isin(numbers, list(model.nodes))
+    at = np.array([model.nodes[n] for n in numbers[own].tolist()]).reshape(-1, 3)
+    added, first = np.unique(numbers[~own], return_index=True)
+    if not len(added):
+        return {}
+    coupled = (abs(parts.whole.K[np.flatnonzero(~own)[first]][:, np.flatnonzero(own)]) > 0).astype(float)
+    count = np.maximum(np.asarray(coupled.sum(axis=1)).ravel(), 1.0)
+    return dict(zip(added.tolist(), coupled @ at / count[:, None], strict=True))
+
+
+def _ranges(numbers: list[int]) -> Iterable[str]:
+    """Numbers as ranges: 1-4, 7."""
+    start = last = numbers[0]
+    for n in [*numbers[1:], None]:
+        if n is not None and n == last + 1:
+            last = n
+            continue
+        yield str(start) if start == last else f"{start}-{last}"
+        start = last = n
+
+
+def _slug(name: str) -> str:
+    return re.sub(r"\W+", "_", name)
+
+
+def _npz(matrix: Matrix) -> bytes:
+    from scipy.sparse import csr_matrix, save_npz
+
+    stream = io.BytesIO()
+    save_npz(stream, csr_matrix(matrix))
+    return stream.getvalue()

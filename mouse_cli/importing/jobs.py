@@ -1,0 +1,127 @@
+"""Inputs for CalculiX: the model without supports, chosen groups of elements scaled, and the model as it was with its supports."""
+
+from collections.abc import Iterable
+
+from mouse_cli.importing.cards import Card
+from mouse_cli.importing.keywords import SECTIONS, TIES
+from mouse_cli.importing.model import Group, InputModel, Material
+
+SCALE = 2.0  # of the moduli, densities, springs and masses of a group, in the job that tells its matrices
+_MATRICES = ["*STEP", "*FREQUENCY, SOLVER=MATRIXSTORAGE", "1", "*END STEP"]
+_PER_LINE, _LONGEST = 8, 20
+
+
+def export(model: InputModel, scaled: Iterable[int] = ()) -> str:
+    """The job that writes K and M without supports; every group has a section of its own, those of `scaled` with SCALE."""
+    scaled, lines = set(scaled), []
+    owners = {id(group.owner) for group in model.groups}
+    for card in model.kept:
+        if id(card) not in owners:
+            lines += card.text()
+    for i, group in enumerate(model.groups):
+        lines += _section(group, i, SCALE if i in scaled else 1.0)
+    return "\n".join([*lines, *_MATRICES]) + "\n"
+
+
+def frequencies(model: InputModel, count: int) -> str:
+    """The job of the model as it was written, with its supports, for its lowest frequencies."""
+    lines = [text for card in model.kept for text in card.text()]
+    held = [f"{node}, {d}, {d}" for support in model.supports for node, d in support.dofs]
+    return (
+        "\n".join([*lines, *(["*BOUNDARY", *held] if held else []), "*STEP", "*FREQUENCY", str(count), "*END STEP"])
+        + "\n"
+    )
+
+
+def colours(model: InputModel) -> list[list[int]]:
+    """Groups (numbers) that one job can scale together: no two of them share a node, or are joined by a constraint."""
+    touched = [set(_nodes(model, group)) for group in model.groups]
+    joined = _joined(model)
+    near = [bool(nodes & joined) for nodes in touched]
+    classes: list[list[int]] = []
+    order = sorted(range(len(touched)), key=lambda i: -len(touched[i]))
+    for i in order:
+        apart = lambda j, i=i: not (touched[i] & touched[j]) and not (near[i] and near[j])
+        own = next((each for each in classes if all(map(apart, each))), None)
+        if own is None:
+            classes.append([i])
+        else:
+            own.append(i)
+    return classes
+
+
+def _nodes(model: InputModel, group: Group) -> Iterable[int]:
+    return (node for e in group.elements for node in model.elements[e][1])
+
+
+def _joined(model: InputModel) -> set[int]:
+    """Nodes that constraints may touch: all of them, where a constraint names surfaces or sets that are not followed."""
+    ties = [card for card in model.kept if card.keyword in TIES]
+    if not ties:
+        return set()
+    if any(card.keyword not in ("EQUATION", "MPC") for card in ties):
+        return set(model.nodes)
+    words = (word for card in ties for line in card.lines for word in line.words)
+    return {int(word) for word in words if word.isdigit()} & set(model.nodes)
+
+
+def _section(group: Group, i: int, factor: float) -> list[str]:
+    """The cards that give a group its properties."""
+    name = f"MOUSE_{i}"
+    lines = [f"*ELSET, ELSET={name}", *_listed(group.elements)]
+    options = {key: value for key, value in group.owner.options.items() if key not in ("ELSET", "MATERIAL")}
+    if group.owner.keyword in SECTIONS:
+        lines += _material(group.material, name, factor)
+        options = {"ELSET": name, "MATERIAL": name} | options
+    else:
+        options = {"ELSET": name} | options
+    head = "".join(f", {key}={value}" if value else f", {key}" for key, value in options.items())
+    data = [line.text for line in group.owner.lines]
+    if group.owner.keyword == "MASS" and data:
+        data = [_times(group.owner, 0, factor)]
+    elif group.owner.keyword == "SPRING" and data:
+        at = 0 if len(data) == 1 else 1
+        data = [*data[:at], _times(group.owner, at, factor, of=1)]
+    return [*lines, f"*{group.owner.keyword}{head}", *data]
+
+
+def _material(material: Material, name: str, factor: float) -> list[str]:
+    elastic = material.elastic
+    kind = elastic.options.get("TYPE", "ISO")
+    lines = [f"*MATERIAL, NAME={name}", elastic.head.text]
+    if kind in ("ISO", "ISOTROPIC"):
+        lines += [_times(elastic, 0, factor, of=1)]
+    elif kind == "ENGINEERING CONSTANTS":
+        words = [word for line in elastic.lines for word in line.words if word]
+        values = [float(word) * (1.0 if 3 <= k < 6 else factor) for k, word in enumerate(words[:9])]
+        lines += [", ".join(map(_real, values[:8])) + ",", ", ".join(map(_real, values[8:]))]
+    else:
+        lines += [_times(elastic, k, factor) for k in range(len(elastic.lines))]
+    return [*lines, "*DENSITY", _times(material.density, 0, factor, of=1)]
+
+
+def _times(card: Card, line: int, factor: float, of: int | None = None) -> str:
+    """A line of numbers times `factor`: the first `of` of them, or all."""
+    words = [word for word in card.lines[line].words if word]
+    count = len(words) if of is None else of
+    ended = "," if card.lines[line].text.rstrip().endswith(",") and of is None else ""
+    return (
+        ", ".join([*(_real(float(w.upper().replace("D", "E")) * factor) for w in words[:count]), *words[count:]])
+        + ended
+    )
+
+
+def _real(value: float) -> str:
+    """A number with the decimal point that CalculiX needs, within the 20 characters that it reads.
+
+    >>> _real(7e10), _real(1e-5), _real(1 / 3)
+    ('70000000000.0', '1.0e-05', '0.3333333333333333')
+    """
+    text = repr(value)
+    mantissa, mark, exponent = text.partition("e")
+    text = f"{mantissa}.0e{exponent}" if mark and "." not in mantissa else text
+    return text if len(text) <= _LONGEST else f"{value:.12e}"
+
+
+def _listed(numbers: list[int]) -> list[str]:
+    return [", ".join(map(str, numbers[i : i + _PER_LINE])) + "," for i in range(0, len(numbers), _PER_LINE)]

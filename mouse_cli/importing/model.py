@@ -1,0 +1,81 @@
+"""A model as a solver's input file states it: nodes, elements, sets, materials, sections, supports."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mouse_cli._errors import Diagnostic
+from mouse_cli.importing.cards import Card
+
+RIGIDITY, HEAVINESS = "stiffness", "mass"
+
+
+@dataclass
+class Material:
+    """elastic, density: their cards; E in the units of the file; isotropic: whether E is one number."""
+
+    name: str
+    card: Card
+    elastic: Card | None = None
+    density: Card | None = None
+
+    @property
+    def isotropic(self) -> bool:
+        """Whether one Young's modulus stands for it."""
+        return self.elastic is not None and self.elastic.options.get("TYPE", "ISO") in ("ISO", "ISOTROPIC")
+
+    @property
+    def E(self) -> float:
+        """Young's modulus, or the first modulus of a material with several."""
+        return float(self.elastic.lines[0].words[0])
+
+    @property
+    def rho(self) -> float:
+        """Density; 0 where none is given."""
+        return float(self.density.lines[0].words[0]) if self.density is not None else 0.0
+
+
+@dataclass
+class Support:
+    """dofs: (node, direction 1 to 6) that a boundary condition holds, under the name of its node set."""
+
+    name: str
+    dofs: list[tuple[int, int]]
+    card: Card
+
+
+@dataclass
+class Group:
+    """Elements (numbers) that share section, material and sets; owner: the section, *MASS or *SPRING of their properties."""
+
+    name: str
+    elements: list[int]
+    owner: Card
+    material: Material | None
+
+
+@dataclass
+class InputModel:
+    """nodes: coordinates by number; elements: type and nodes by number; kept: the cards of the model, without steps and supports.
+
+    tied: nodes of equations, couplings and rigid bodies. ignored: keywords without effect on K and M, and how often.
+    """
+
+    path: str
+    kept: list[Card] = field(default_factory=list)
+    nodes: dict[int, np.ndarray] = field(default_factory=dict)
+    elements: dict[int, tuple[str, tuple[int, ...]]] = field(default_factory=dict)
+    nsets: dict[str, list[int]] = field(default_factory=dict)
+    elsets: dict[str, list[int]] = field(default_factory=dict)
+    materials: dict[str, Material] = field(default_factory=dict)
+    supports: list[Support] = field(default_factory=list)
+    groups: list[Group] = field(default_factory=list)
+    ignored: dict[str, int] = field(default_factory=dict)
+    remarks: list[Diagnostic] = field(default_factory=list)
+
+    @property
+    def expanded(self) -> bool:
+        """Whether some elements are made solids of by CalculiX."""
+        from mouse_cli.importing.keywords import expanded
+
+        return any(expanded(kind) for kind, _ in self.elements.values())

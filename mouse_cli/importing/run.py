@@ -1,0 +1,68 @@
+"""The whole of an import: read, export, check, write."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from mouse_cli._errors import ERROR, WARNING, DeckError, Diagnostic
+from mouse_cli._span import Span
+from mouse_cli.importing import calculix
+from mouse_cli.importing.checks import Checked, check
+from mouse_cli.importing.deck import units, write
+from mouse_cli.importing.model import InputModel
+from mouse_cli.importing.read import read
+from mouse_cli.importing.separate import Parts, parts
+
+
+@dataclass(frozen=True)
+class Imported:
+    """What an import made: the model, its matrices, the checks, the files (the deck last), and what is to be known of it."""
+
+    model: InputModel
+    parts: Parts
+    checked: Checked
+    files: list[Path]
+    system: str
+    remarks: tuple[Diagnostic, ...]
+
+    def text(self) -> str:
+        """What was read, checked and written, in a few lines."""
+        model, rows = self.model, self.parts.whole.K.shape[0]
+        found = [
+            f"{len(model.nodes)} nodes, {len(model.elements)} elements, {rows} degrees of freedom; "
+            f"units {self.system or 'unknown'}",
+            f"element sets: {', '.join(group.name for group in model.groups)}",
+            f"supports: {', '.join(f'{s.name} ({len(s.dofs)})' for s in model.supports) or 'none'}",
+        ]
+        if model.ignored:
+            found.append(f"without effect on K and M: {', '.join(f'*{word}' for word in model.ignored)}")
+        found += [
+            f"{self.parts.jobs} exports; sets sum to the whole to {max(self.parts.error):.1g}",
+            f"{len(self.checked.hz)} frequencies with supports as the solver's, to {self.checked.frequency:.1g}",
+            f"written: {self.files[-1]} and {len(self.files) - 1} files in {self.files[0].parent}",
+        ]
+        return "\n".join(found)
+
+
+def imported(path: str, target: Path, system: str | None, cached: bool, say: Callable[[str], None]) -> Imported:
+    """Makes the deck `target` of the input file `path`; say: told what is going on. Raises DeckError, WrittenError."""
+    model = read(path)
+    if not calculix.available():
+        message = "CalculiX (ccx) is not on the path: nothing can export K and M"
+        help = "install it (Debian, Ubuntu: apt install calculix-ccx), or export by hand as docs/how-to/import-models.md says"
+        raise DeckError(Diagnostic("MD274", ERROR, message, Span(path, 1), help=help))
+    solver = calculix.Solver(path, calculix.cache_folder() if cached else None, say)
+    found = parts(model, solver)
+    checked = check(model, found, solver)
+    named = system or units(model)
+    remarks = list(model.remarks)
+    if not system:
+        spoken = (
+            f"taken for {named}, as E and density of its materials are"
+            if named
+            else "not to be told from its materials"
+        )
+        remarks.append(
+            Diagnostic("MD276", WARNING, f"the units of the job are {spoken}", Span(path, 1), help="give --units")
+        )
+    return Imported(model, found, checked, write(target, model, found, checked, named), named, tuple(remarks))

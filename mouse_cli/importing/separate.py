@@ -1,0 +1,90 @@
+"""The matrices of each group, from as few exports as there are colours: K' - K = (s - 1) K_g where a job scales group g by s."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.importing.calculix import Exported, Solver
+from mouse_cli.importing.jobs import SCALE, colours, export
+from mouse_cli.importing.model import InputModel
+from mouse_cli.model.arrays import Matrix
+
+_DIGITS = 1e-12  # of an element of a matrix: what the solver's files do not hold of a difference
+
+
+@dataclass(frozen=True)
+class Parts:
+    """The whole, and K and M (n, n) of each group of the model, in its order; jobs: how many were run for it.
+
+    error: largest element of the sum of the parts less the whole, over the largest of the whole, of K and of M.
+    """
+
+    whole: Exported
+    K: list[Matrix]
+    M: list[Matrix]
+    jobs: int
+    error: tuple[float, float]
+
+
+def parts(model: InputModel, solver: Solver) -> Parts:
+    """Exports the model and its groups. Raises DeckError (MD274)."""
+    from scipy.sparse import csr_array
+
+    own = set(model.nodes)
+    classes = colours(model)
+    total = len(classes) + 1
+    whole = solver.matrices(export(model), f"export 1 of {total}: the whole", own)
+    n = whole.K.shape[0]
+    K, M = ([csr_array((n, n)) for _ in model.groups] for _ in range(2))
+    for j, chosen in enumerate(classes, 2):
+        names = ", ".join(model.groups[i].name for i in chosen[:4]) + (", ..." if len(chosen) > 4 else "")
+        scaled = solver.matrices(export(model, chosen), f"export {j} of {total}: {names}", own)
+        differences = [_difference(getattr(scaled, x), getattr(whole, x)) for x in "KM"]
+        owner = _owners(model, chosen, differences, whole.rows.names[:, 0])
+        for into, difference in zip((K, M), differences, strict=True):
+            for i in chosen:
+                into[i] = _rows_of(difference, owner == i)
+    error = tuple(_error(each, getattr(whole, x)) for each, x in ((K, "K"), (M, "M")))
+    return Parts(whole, K, M, total, error)
+
+
+def _difference(scaled: Matrix, whole: Matrix) -> Matrix:
+    """What belongs to the scaled groups: elements that differ by rounding of the files alone are none."""
+    difference = (scaled - whole).tocsr()
+    size = abs(scaled).maximum(abs(whole)).tocsr()
+    close = abs(difference) - size * _DIGITS
+    keep = (close > 0).astype(float)
+    found = (difference.multiply(keep) / (SCALE - 1)).tocsr()
+    found.eliminate_zeros()
+    return found
+
+
+def _owners(model: InputModel, chosen: list[int], differences: list[Matrix], nodes: np.ndarray) -> np.ndarray:
+    """Group (n,) of each row, -1 for none: rows that are coupled are of one group, which shares no node with others."""
+    from scipy.sparse.csgraph import connected_components
+
+    if len(chosen) == 1:
+        return np.full(len(nodes), chosen[0])
+    touched = {node: i for i in chosen for e in model.groups[i].elements for node in model.elements[e][1]}
+    pattern = abs(differences[0]) + abs(differences[1])
+    count, part = connected_components(pattern, directed=False)
+    by_part = np.full(count, -1)
+    for row, node in enumerate(nodes.tolist()):
+        if node in touched:
+            by_part[part[row]] = touched[node]
+    return by_part[part]
+
+
+def _rows_of(matrix: Matrix, mask: np.ndarray) -> Matrix:
+    from scipy.sparse import diags_array
+
+    if mask.all():
+        return matrix
+    found = (diags_array(mask.astype(float)) @ matrix).tocsr()
+    found.eliminate_zeros()
+    return found
+
+
+def _error(each: list[Matrix], whole: Matrix) -> float:
+    largest = abs(whole).max()
+    return float(abs(sum(each[1:], each[0]) - whole).max() / largest) if largest else 0.0

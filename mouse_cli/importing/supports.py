@@ -1,0 +1,79 @@
+"""Supports of an input file, by the names of their node sets."""
+
+from mouse_cli._errors import WARNING, Diagnostic
+from mouse_cli.importing.cards import Card, Faults, Line
+from mouse_cli.importing.keywords import WORDS, expanded
+from mouse_cli.importing.model import InputModel, Support
+
+_LAST = 6
+
+
+def supports(model: InputModel, boundary: list[Card], faults: Faults) -> None:
+    """Puts what *BOUNDARY holds into the model; lines that name one set are one support."""
+    by_name: dict[str, Support] = {}
+    taken: dict[tuple[int, int], str] = {}
+    soft = _nodes_of_expanded(model)
+    for card in boundary:
+        for line in card.lines:
+            name, nodes = _held(model, line, faults)
+            first, last = _directions(line, faults)
+            own = by_name.setdefault(name, Support(name, [], card))
+            for node in nodes:
+                if last > 3 and node in soft:
+                    message = f"rotations of node {node} are held, which belongs to shells or beams that CalculiX makes solids of"
+                    help = "hold translations of two rows of nodes, or model the clamp by solids"
+                    faults.add("MD273", message, line.span, help)
+                    break
+                _hold(model, own, [(node, d) for d in range(first, last + 1)], taken, line)
+    model.supports += [support for support in by_name.values() if support.dofs]
+
+
+def _hold(model: InputModel, own: Support, dofs: list[tuple[int, int]], taken: dict, line: Line) -> None:
+    for dof in dofs:
+        other = taken.setdefault(dof, own.name)
+        if other == own.name:
+            if dof not in own.dofs[-_LAST:]:
+                own.dofs.append(dof)
+        elif not any(each.span == line.span for each in model.remarks):
+            message = f"node {dof[0]} is held by {other} and by {own.name}: it counts as one of {other}"
+            help = "give the two supports nodes of their own if one of them may be loose"
+            model.remarks.append(Diagnostic("MD273", WARNING, message, line.span, help=help))
+
+
+def _held(model: InputModel, line: Line, faults: Faults) -> tuple[str, list[int]]:
+    """The name of a support and its nodes."""
+    word = line.words[0].strip('"')
+    if word.isdigit():
+        if int(word) not in model.nodes:
+            faults.add("MD272", f"node {word} is held, but has no coordinates", line.span, "mend the number")
+        return f"NODE_{int(word)}", [int(word)]
+    name = word.upper()
+    if name not in model.nsets:
+        faults.add("MD272", f"there is no node set '{word[:40]}'", line.span, "define the set, or mend its name")
+    return name, list(dict.fromkeys(model.nsets.get(name, [])))
+
+
+def _directions(line: Line, faults: Faults) -> tuple[int, int]:
+    """First and last direction, 1 to 6."""
+    words = [*line.words[1:], "", "", ""][:3]
+    if words[0].upper() in WORDS:
+        held = WORDS[words[0].upper()]
+        if held == tuple(range(held[0], held[-1] + 1)):
+            return held[0], held[-1]
+    if not words[0].isdigit() or not (words[1] or words[0]).isdigit():
+        message, help = (
+            f"'{words[0][:20]}' is no direction that is read",
+            "give directions 1 to 6, a line for each range",
+        )
+        faults.add("MD273", message, line.span, help)
+        return 1, 0
+    first, last = int(words[0]), int(words[1] or words[0])
+    if not 1 <= first <= last <= _LAST:
+        if first != 11:  # temperature
+            faults.add("MD273", f"directions {first} to {last} are held", line.span, "give directions 1 to 6")
+        return 1, 0
+    return first, last
+
+
+def _nodes_of_expanded(model: InputModel) -> set[int]:
+    return {node for kind, nodes in model.elements.values() if expanded(kind) for node in nodes}

@@ -1,0 +1,195 @@
+"""mouse import: supports, sets and materials of an input file, checked against CalculiX itself; what is refused, and where."""
+
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mouse_cli import DeckError, read_deck
+from mouse_cli.dynamics.solver import eigensolution
+from mouse_cli.formats.matrix_files import read_matrix
+from mouse_cli.importing.jobs import colours
+from mouse_cli.importing.read import read
+from mouse_cli.terms.assembly import assembly
+
+TOP = Path(__file__).resolve().parents[2]
+PLATE = TOP / "decks" / "plate_calculix" / "plate.inp"
+solver = pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (ccx) is not on the path")
+
+BAR = """\
+*HEADING
+two solids in a row
+*NODE, NSET=ALL
+1, 0., 0., 0.
+2, 1., 0., 0.
+3, 1., 1., 0.
+4, 0., 1., 0.
+5, 0., 0., 1.
+6, 1., 0., 1.
+7, 1., 1., 1.
+8, 0., 1., 1.
+9, 0., 0., 2.
+10, 1., 0., 2.
+11, 1., 1., 2.
+12, 0., 1., 2.
+*ELEMENT, TYPE=C3D8, ELSET=LOW
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*ELEMENT, TYPE=C3D8, ELSET=HIGH
+2, 5, 6, 7, 8, 9, 10, 11, 12
+*NSET, NSET=FOOT
+1, 2, 3, 4
+*MATERIAL, NAME=STEEL
+*ELASTIC
+2.1e11, 0.3
+*DENSITY
+7850.
+*SOLID SECTION, ELSET=LOW, MATERIAL=STEEL
+*SOLID SECTION, ELSET=HIGH, MATERIAL=STEEL
+*BOUNDARY
+FOOT, 1, 3
+"""
+
+
+def written(folder: Path, text: str) -> str:
+    """Path of an input file with this text."""
+    (folder / "job.inp").write_text(text)
+    return str(folder / "job.inp")
+
+
+def imported(folder: Path, text: str, *options: str) -> tuple[Path, str]:
+    """The deck that `mouse import` makes of a text, and what it says."""
+    path = written(folder, text)
+    command = [
+        sys.executable,
+        "-m",
+        "mouse_cli",
+        "import",
+        path,
+        "-o",
+        str(folder / "deck.yaml"),
+        "--no-cache",
+        *options,
+    ]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    return folder / "deck.yaml", done.stdout
+
+
+@solver
+def test_the_plate_of_the_decks_by_its_own_matrices(tmp_path):
+    """The group matrices of decks/plate_calculix, which halved moduli told by hand, and the frequencies that CalculiX printed."""
+    deck, said = imported(tmp_path, PLATE.read_text())
+    problem = read_deck(deck)
+    dense = lambda m: m.toarray() if hasattr(m, "toarray") else np.asarray(m)
+    K, M = map(dense, assembly(problem).matrices(problem.prior.mean))
+    reference = read_deck(TOP / "decks" / "plate_calculix.yaml")
+    assert reference.structure.labels == problem.structure.labels
+    assert np.allclose(K, dense(reference.structure.K), rtol=0, atol=1e-12 * np.abs(K).max())
+    for name in ("alu", "cfrp"):
+        expected = dense(read_matrix(str(TOP / "decks" / "plate_calculix" / f"{name}.mtx")))  # for each GPa
+        j = [p.name for p in problem.parameters].index(f"E of {name.upper()}")
+        own = np.zeros_like(K)
+        stiff = ~problem.elements.is_mass
+        row, col = problem.elements.row[stiff], problem.elements.col[stiff]
+        own[row, col] = own[col, row] = dense(problem.A[:, [j]]).ravel()[stiff]
+        assert np.allclose(own * 1e9, expected, rtol=0, atol=1e-10 * np.abs(expected).max())
+    hz = np.sqrt(eigensolution(K, M, 6).eigenvalues[:6]) / (2 * np.pi)
+    assert np.allclose(hz, [85.30, 469.01, 521.31, 762.12, 1403.39, 1482.79], atol=0.006)
+    assert "supports: ROOT" in said
+
+
+@solver
+@pytest.mark.parametrize(
+    ("element", "section", "nodes"),
+    [
+        ("S4", "*SHELL SECTION, ELSET=E, MATERIAL=M\n0.05\n", 4),
+        ("B31", "*BEAM SECTION, ELSET=E, MATERIAL=M, SECTION=RECT\n", 2),
+    ],
+)
+def test_what_the_solver_makes_solids_of_keeps_its_supports(tmp_path, element, section, nodes):
+    """Shells and beams become solids in CalculiX; its own frequencies come back all the same, which the import checks to 1e-6."""
+    if nodes == 4:
+        at = [(x, y, 0.1 * x) for x in range(5) for y in range(3)]
+        made = [(3 * i + j, 3 * i + j + 3, 3 * i + j + 4, 3 * i + j + 1) for i in range(4) for j in range(2)]
+    else:
+        at, made = [(0.3 * x, 0.0, 0.0) for x in range(9)], [(i, i + 1) for i in range(8)]
+        section += "0.02, 0.03\n0., 1., 0.\n"
+    text = "*NODE\n" + "".join(f"{n}, {x}, {y}, {z}\n" for n, (x, y, z) in enumerate(at, 1))
+    text += f"*ELEMENT, TYPE={element}, ELSET=E\n"
+    text += "".join(f"{n}, {', '.join(str(i + 1) for i in each)}\n" for n, each in enumerate(made, 1))
+    text += "*MATERIAL, NAME=M\n*ELASTIC\n7.0e10, 0.3\n*DENSITY\n2700.\n" + section
+    text += f"*NSET, NSET=ENDS\n1, 2, {len(at) - 1}, {len(at)}\n*BOUNDARY\nENDS, 1, 3\n"
+    deck, said = imported(tmp_path, text)
+    assert "supports: ENDS (12)" in said
+    assert float(re.search(r"solver's, to (\S+)", said)[1]) < 1e-6
+    assert read_deck(deck).held.supports[0].name == "ENDS"
+
+
+@solver
+def test_springs_masses_and_sets_within_sets(tmp_path):
+    """Two named halves of one section are two groups; a spring and a mass are groups of their own; one export tells LOW and DOT."""
+    more = "*ELEMENT, TYPE=MASS, ELSET=DOT\n10, 9\n*MASS, ELSET=DOT\n100.\n"
+    more += "*ELEMENT, TYPE=SPRING1, ELSET=TIE\n11, 10\n*SPRING, ELSET=TIE\n1\n1.0e8\n"
+    deck, _ = imported(tmp_path, BAR + more)
+    problem = read_deck(deck)
+    assert {group.name for group in problem.groups} == {"LOW", "HIGH", "DOT", "TIE"}
+    by = {group.name: group for group in problem.groups}
+    tie = by["TIE"].K.toarray() if hasattr(by["TIE"].K, "toarray") else by["TIE"].K
+    i = problem.structure.labels.index("10TX")
+    assert tie[i, i] == pytest.approx(1e8, rel=1e-5)  # of a difference of files with 14 digits
+    assert by["DOT"].M.sum() == pytest.approx(300.0, rel=1e-6)
+    assert "stiffness of TIE" in [p.name for p in problem.parameters]
+
+
+def test_groups_that_do_not_touch_share_an_export(tmp_path):
+    """Feet on a plate: two exports tell any number of them."""
+    text = BAR.replace("*ELEMENT, TYPE=C3D8, ELSET=HIGH", "*NODE\n" + "".join(
+        f"{n}, {x}, {y}, 3.\n" for n, (x, y) in enumerate([(0, 0), (1, 0), (1, 1), (0, 1)], 13)
+    ) + "*ELEMENT, TYPE=C3D8, ELSET=TOP\n3, 9, 10, 11, 12, 13, 14, 15, 16\n*ELEMENT, TYPE=C3D8, ELSET=HIGH")  # fmt: skip
+    model = read(written(tmp_path, text + "*SOLID SECTION, ELSET=TOP, MATERIAL=STEEL\n"))
+    assert sorted(sorted(model.groups[i].name for i in each) for each in colours(model)) == [["HIGH"], ["LOW", "TOP"]]
+
+
+REFUSED = {
+    "contact": (BAR + "*CONTACT PAIR, INTERACTION=A\nX, Y\n", "MD268", 37),
+    "unknown keyword": (BAR.replace("*NSET", "*FANCY\n*NSET"), "MD268", 20),
+    "user element": (BAR.replace("C3D8, ELSET=LOW", "U1, ELSET=LOW"), "MD269", 16),
+    "overlap": (BAR.replace("ELSET=HIGH, MATERIAL", "ELSET=LOW, MATERIAL"), "MD270", 28),
+    "no section": (BAR.replace("*SOLID SECTION, ELSET=HIGH, MATERIAL=STEEL\n", ""), "MD271", None),
+    "no material": (BAR.replace("HIGH, MATERIAL=STEEL", "HIGH, MATERIAL=STEAL"), "MD271", 28),
+    "no density": (BAR.replace("*DENSITY\n7850.\n", ""), "MD271", 22),
+    "missing set": (BAR.replace("FOOT, 1, 3", "FEET, 1, 3"), "MD272", 30),
+    "missing node": (BAR.replace("6, 7, 8, 9, 10, 11, 12", "6, 7, 8, 9, 10, 11, 99"), "MD272", 19),
+    "no number": (BAR.replace("2.1e11", "2.1f11"), "MD265", 24),
+    "short element": (BAR.replace("9, 10, 11, 12\n*NSET", "9, 10, 11\n*NSET"), "MD265", 19),
+    "missing include": (BAR + "*INCLUDE, INPUT=absent.inc\n", "MD266", 31),
+    "cyclic include": (BAR + "*INCLUDE, INPUT=job.inp\n", "MD267", 31),
+    "prestress": (BAR + "*STEP, PERTURBATION\n*FREQUENCY\n5\n*END STEP\n", "MD268", 31),
+    "transform": (BAR + "*TRANSFORM, NSET=FOOT\n1, 1, 0, 0, 1, 0\n", "MD268", 31),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_bad_input_is_refused_by_file_and_line(tmp_path, name):
+    text, code, line = REFUSED[name]
+    with pytest.raises(DeckError) as refused:
+        read(written(tmp_path, text))
+    found = refused.value.diagnostics[0]
+    assert found.code == code and found.span.file.endswith("job.inp") and found.help
+    assert line is None or name == "contact" or found.span.line == line
+
+
+def test_included_files_tell_their_own_name_and_line(tmp_path):
+    (tmp_path / "part.inc").write_text("*NSET, NSET=MORE\n1, 77\n")
+    with pytest.raises(DeckError) as refused:
+        read(written(tmp_path, BAR + "*INCLUDE, INPUT=part.inc\n"))
+    span = refused.value.diagnostics[0].span
+    assert (Path(span.file).name, span.line) == ("part.inc", 2)
+
+
+def test_keywords_without_effect_are_listed(tmp_path):
+    model = read(written(tmp_path, BAR + "*STEP\n*FREQUENCY\n5\n*NODE FILE\nU\n*END STEP\n"))
+    assert model.ignored == {"HEADING": 1, "FREQUENCY": 1, "NODE FILE": 1}
