@@ -212,6 +212,9 @@ def test_files_fit_a_mind_and_functions_a_screen(path):
     assert not long
 
 
+STARTS_A_PROGRAM = Path(
+    "importing/calculix.py"
+)  # the solver that `mouse import` is asked to run, by a name that is fixed
 UNSAFE = {  # what makes code of data, or a shell of a name
     "eval", "exec", "compile", "__import__", "os.system", "os.popen", "yaml.load", "yaml.load_all", "yaml.unsafe_load",
     "yaml.full_load", "pickle.load", "pickle.loads", "marshal.loads", "shelve.open", "joblib.load", "pandas.read_pickle",
@@ -224,7 +227,8 @@ def test_data_are_never_code(path):
     tree = ast.parse(path.read_text())
     calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call)]
     assert not {ast.unparse(call.func) for call in calls} & UNSAFE
-    assert not {name.split(".")[0] for name in imported(path)} & {
+    starts = {"subprocess"} if path.relative_to(PACKAGE) == STARTS_A_PROGRAM else set()
+    assert not ({name.split(".")[0] for name in imported(path)} - starts) & {
         "pickle",
         "marshal",
         "shelve",

@@ -57,7 +57,7 @@ class Solver:
         key = hashlib.sha256(f"{_EDITION}\n{text}".encode()).hexdigest()[:32]
         target = None if self.cache is None else self.cache / f"{key}.npz"
         if target is not None and target.exists():
-            with np.load(target) as held:
+            with np.load(target, allow_pickle=False) as held:
                 return dict(held)
         self.say(title)
         with tempfile.TemporaryDirectory() as folder:

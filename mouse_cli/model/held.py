@@ -14,7 +14,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ElementGroup:
-    """An element set by its name: K and M (n, n), None where it gives nothing; nodes (numbers) that its elements join."""
+    """An element set by its name: K and M (N, N), None where it gives nothing; nodes (numbers) that its elements join.
+
+    They are in the degrees of freedom of the model without supports, where it has any.
+    """
 
     name: str
     K: Matrix | None = None

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mouse_cli import DeckError, read_deck
+from mouse_cli import DeckError, read_deck, write_deck
 from mouse_cli.dynamics.solver import eigensolution
 from mouse_cli.formats.matrix_files import read_matrix
 from mouse_cli.importing.jobs import colours
@@ -138,10 +138,25 @@ def test_springs_masses_and_sets_within_sets(tmp_path):
     assert {group.name for group in problem.groups} == {"LOW", "HIGH", "DOT", "TIE"}
     by = {group.name: group for group in problem.groups}
     tie = by["TIE"].K.toarray() if hasattr(by["TIE"].K, "toarray") else by["TIE"].K
-    i = problem.structure.labels.index("10TX")
+    i = problem.held.structure.labels.index("10TX")
     assert tie[i, i] == pytest.approx(1e8, rel=1e-5)  # of a difference of files with 14 digits
     assert by["DOT"].M.sum() == pytest.approx(300.0, rel=1e-6)
     assert "stiffness of TIE" in [p.name for p in problem.parameters]
+
+
+@solver
+def test_a_written_deck_reads_back_with_supports_and_sets(tmp_path):
+    deck, _ = imported(tmp_path, BAR)
+    problem = read_deck(deck)
+    write_deck(problem, tmp_path / "again.yaml")
+    again = read_deck(tmp_path / "again.yaml")
+    assert again.structure.labels == problem.structure.labels
+    for name in ("K", "M"):
+        assert np.array_equal(getattr(again.structure, name), getattr(problem.structure, name))
+        assert np.array_equal(getattr(again.groups[1], name), getattr(problem.groups[1], name))
+        assert np.allclose(getattr(again.held.structure, name), getattr(problem.held.structure, name), rtol=1e-15)
+    assert np.array_equal(again.held.supports[0].dofs, problem.held.supports[0].dofs)
+    assert np.array_equal(again.A, problem.A) and np.array_equal(again.held.A.toarray(), problem.held.A.toarray())
 
 
 def test_groups_that_do_not_touch_share_an_export(tmp_path):

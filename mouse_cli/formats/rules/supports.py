@@ -3,13 +3,13 @@
 import numpy as np
 
 from mouse_cli.formats.draft import Draft, Entries
-from mouse_cli.model.held import ElementGroup, Held, Support
+from mouse_cli.model.held import Held, Support
 from mouse_cli.model.held import applied as applied_to
 from mouse_cli.model.structure import ListedElements, Structure
 
 
 def applied(draft: Draft, base: Structure) -> Structure | None:
-    """The structure on its supports; the draft follows: order, labels, listed elements, A, sets. None after an error."""
+    """The structure on its supports; the draft follows: order, labels, listed elements, A. None after an error."""
     if not draft.supports:
         return base
     mask, owner = np.ones(base.n, bool), {}
@@ -31,14 +31,8 @@ def applied(draft: Draft, base: Structure) -> Structure | None:
     border, A = _parted(draft, base.n, mask)
     supports = tuple(Support(each.name, each.dofs - 1) for each in draft.supports)
     draft.held = Held(base, supports, kept, border, A)
-    draft.groups = tuple(_within(group, kept) for group in draft.groups)
     draft.order, draft.labels = len(kept), tuple(base.labels[i] for i in kept)
     return applied_to(base, kept)
-
-
-def _within(group: ElementGroup, kept: np.ndarray) -> ElementGroup:
-    K, M = (None if each is None else each[kept][:, kept] for each in (group.K, group.M))
-    return ElementGroup(group.name, K, M, group.nodes)
 
 
 def _parted(draft: Draft, n: int, mask: np.ndarray) -> tuple[ListedElements, object]:

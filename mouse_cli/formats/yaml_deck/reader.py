@@ -69,10 +69,7 @@ def _draft(deck: Section) -> Draft:
     return Draft(
         title=deck.value("title", ""),
         order=matrices.order,
-        K=matrices.matrices.get("K"),
-        M=matrices.matrices.get("M"),
-        C=matrices.matrices.get("C"),
-        D=matrices.matrices.get("D"),
+        **{name: matrices.matrices.get(name) for name in ("K", "M", "C", "D")},
         mesh=matrices.mesh,
         geometry=matrices.rows.geometry() if matrices.rows else None,
         elements=elements,

@@ -11,9 +11,11 @@ from mouse_cli.formats.yaml_deck.theory import theory_lines
 from mouse_cli.formats.yaml_deck.writer_laws import laws
 from mouse_cli.formats.yaml_deck.writer_modes import test_lines
 from mouse_cli.formats.yaml_deck.writer_parameters import parameters, prior
+from mouse_cli.formats.yaml_deck.writer_parts import parts
 from mouse_cli.formats.yaml_deck.writer_rows import rows
 from mouse_cli.formats.yaml_deck.writer_structure import structure
 from mouse_cli.model.arrays import Matrix, is_sparse, upper_triangle
+from mouse_cli.model.held import freed
 from mouse_cli.model.problem import Problem, RunOptions
 from mouse_cli.model.units import system
 
@@ -27,12 +29,14 @@ def write(problem: Problem, stem: str = "deck", folder: str | None = None) -> tu
     below. Whatever a reader could take otherwise is written out, so the result stays the same when defaults change.
     """
     attachments: dict[str, Matrix | str] = {}
+    whole = problem if problem.held is None else freed(problem)
     lines = [
         *_heading(problem),
-        *_model(problem, stem, attachments),
+        *_model(whole, stem, attachments),
+        *parts(problem, stem, attachments),
         *modal_damping_lines(problem.modal_damping),
         *laws(problem),
-        *parameters(problem, stem, attachments),
+        *parameters(whole, stem, attachments),
     ]
     lines += [*prior(problem), *test_lines(problem, folder), *theory_lines(problem.theory), *_run(problem.run)]
     return "\n".join(lines) + "\n", attachments
