@@ -55,15 +55,11 @@ def assemble(draft: Draft) -> Problem:
         terms=found[1],
         **({"mesh": draft.mesh.mesh, "bindings": tuple(draft.mesh.bindings)} if draft.mesh else {}),
         hold_out=held,
-        units=draft.units,
         frf=frf,
         recordings=recordings,
         held_records=kept,
         laws=acting,
-        modal_damping=draft.modal_damping,
-        theory=draft.theory,
-        held=draft.held,
-        groups=draft.groups,
+        **{name: getattr(draft, name) for name in ("units", "modal_damping", "theory", "held", "groups")},
     )
 
 
