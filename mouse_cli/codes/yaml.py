@@ -123,6 +123,12 @@ CODES = {
         "Two degrees of freedom have the same label, so it names neither.",
         "Give each degree of freedom its own name.",
     ),
+    "MD228": Code(
+        "decimal comma",
+        "In a list, a comma parts two values: 94,343 is 94 and 343. A list that has such a pair, blanks after other commas, and "
+        "values that do not ascend was meant otherwise.",
+        "Write decimal points.",
+    ),
     "MD227": Code(
         "shapes turned",
         "The list has one row for each mode, where one row for each degree of freedom was expected. As "

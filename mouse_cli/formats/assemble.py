@@ -15,6 +15,7 @@ from mouse_cli.formats.rules import (
     modal_test,
     model,
     partials,
+    plausible,
     prior,
     records,
     refusal,
@@ -38,6 +39,7 @@ def assemble(draft: Draft) -> Problem:
     acting = laws.laws(draft, geometry) if draft.order else ()
     if draft.order:
         matrices.total_mass_dofs(draft)
+    plausible.plausible(draft)
     if draft.has_errors:
         raise refusal(draft, unread)
     return Problem(

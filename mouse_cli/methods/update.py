@@ -16,6 +16,7 @@ from mouse_cli.model.arrays import Matrix, dense, is_sparse
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.updated import Checked, Compared, Foreseen, Updated
 from mouse_cli.terms.assembly import assembly as assemble
+from mouse_cli.updating import mistakes
 from mouse_cli.updating import refusals as deck_refusals
 from mouse_cli.updating.state import reference_eigenvalue, solve
 
@@ -89,6 +90,7 @@ def _begun(problem: Problem, full: bool, how: str, notice: Notice) -> Given:
     except (IndefiniteError, np.linalg.LinAlgError) as reason:
         raise deck_refusals.unphysical(problem, str(reason)) from None
     if problem.test is not None:
+        mistakes.check(problem, solution)
         deck_refusals.check_rigid_modes(problem, solution)
     r = solution.rigid(reference_eigenvalue(problem, solution.eigenvalues))
     return Given(problem, assembly, K, M, solution, r, how, notice)

@@ -26,7 +26,7 @@ from mouse_cli.model.result import ChiSquareTest, Result, Snapshot, Status
 from mouse_cli.observables.modal import UnrelatedShapes, observe
 from mouse_cli.terms.assembly import assembly as assemble
 from mouse_cli.terms.modal_damping import with_modal_damping
-from mouse_cli.updating import alternatives, anchored, model_form, normality, refusals, replaced
+from mouse_cli.updating import alternatives, anchored, mistakes, model_form, normality, refusals, replaced
 from mouse_cli.updating.convergence import ExceedanceTest
 from mouse_cli.updating.coordinates import coordinates
 from mouse_cli.updating.frf_fit import fits
@@ -95,6 +95,7 @@ def related(problem: Problem, solver: EigenSolver | None = None) -> np.ndarray:
         solution = solve(problem, K, M, solver=solver)
     except (IndefiniteError, np.linalg.LinAlgError) as reason:
         raise refusals.unphysical(problem, str(reason)) from None
+    mistakes.check(problem, solution)
     modes, kept = paired(problem, solution), np.ones(problem.test.m, bool)
     while kept.any():
         try:
@@ -140,6 +141,7 @@ def _run(trace: Trace, estimator: Estimator, search: bool) -> Result:
     if found and found[0].cost < laplace(setting, trace.state).cost - _HIGHER:  # it ended on a saddle, or a lower mode
         trace = Trace(setting, trace.test, trace.progress, start, guess=found[0].state.theta, enough=trace.enough)
         status = RECURSIONS[setting.problem.run.recursion].recur(trace, estimator)
+    status = trace.sound(status)
     result = _result(trace, start, status, estimator, innovation)
     if len(found) > 1:
         result = replace(result, alternatives=alternatives.stated(found))
@@ -219,6 +221,7 @@ def begin(
         frf, solution = begin_frf(problem, K, lambda count: solve(problem, K, M, count, solver, verify=True))
     except IndefiniteError as reason:
         raise refusals.unphysical(problem, str(reason)) from None
+    mistakes.check(problem, solution)
     refusals.check_rigid_modes(problem, solution)
     modes = paired(problem, solution)
     try:

@@ -23,7 +23,7 @@ def check_rigid_modes(problem: Problem, solution: EigenSolution) -> None:
                 f"mode {named[0]} is named as measured, but the model has {rigid} rigid-body mode(s) and this is one of them",
                 problem.place(f"mode {named[0]}"),
                 note=f"mode numbers count the rigid-body modes; the first flexural mode is number {rigid + 1}",
-                help="add the number of rigid-body modes to the mode numbers of the test",
+                help=f"add {rigid} to the mode numbers of the test; or give the supports, if the structure is held",
             )
         )
     if problem.run.legacy and rigid > _MOST_RIGID_1972:

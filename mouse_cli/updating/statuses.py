@@ -49,6 +49,13 @@ STATUSES = {
         "limits, or transform: log.",
         NO_ANSWER,
     ),
+    "impossible": Status(
+        "impossible",
+        "Stopped at values that cannot be: {reason}.",
+        "The data pull the property to nothing to make up for something that the model lacks: ask `mouse diagnose`, check units "
+        "and supports. transform: log or limits keep it positive; more partials do not help.",
+        UNTRUSTED,
+    ),
     "unobservable": Status(
         "unobservable",
         "No answer: {reason}; undetermined: {names}.",

@@ -6,12 +6,19 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mouse_cli.model.result import Cycle, Status
+from mouse_cli.terms.elements import registry
 from mouse_cli.updating.convergence import ExceedanceTest
 from mouse_cli.updating.state import Setting, State
 from mouse_cli.updating.statuses import status
 
 Progress = Callable[[Cycle], None]
 _LISTED = 3  # properties that a status names
+_NOTHING = 1e-6  # share of its prior value that a property must keep to be more than nothing
+
+
+def _positive(element: str, name: str) -> bool:
+    """Whether a property of a type of element is positive by its nature."""
+    return name == "density" or registry()[element].properties[name].positive
 
 
 @dataclass
@@ -66,6 +73,27 @@ class Trace:
         values = [f"{parameters[i].name} {theta[i]:.6g}, {parameters[i].nominal:.6g} before" for i in lost[:_LISTED]]
         more = [f"and {len(lost) - _LISTED} more"] if len(lost) > _LISTED else []
         return self.end("indefinite", cycle=len(self.cycles), reason="; ".join([message, *values, *more]))
+
+    def sound(self, status: Status) -> Status:
+        """`status`, or where a property that is positive by its nature has come to zero or below: that, and which one it is.
+
+        A parameter of matrix entries may be negative; one that is Young's modulus, an area or a density may not.
+        """
+        problem = self.setting.problem
+        lost = sorted(
+            {
+                b.parameter
+                for b in problem.bindings
+                if _positive(problem.mesh.elements[b.set].type, b.property)
+                and problem.parameters[b.parameter].nominal > 0
+                and not self.state.theta[b.parameter] > _NOTHING * problem.parameters[b.parameter].nominal
+            }
+        )
+        if not lost or not status.answered:
+            return status
+        named = [(problem.parameters[i], self.state.theta[i]) for i in lost[:_LISTED]]
+        values = [f"{p.name} became {value:.6g}{p.unit and ' ' + p.unit}, {p.nominal:.6g} before" for p, value in named]
+        return self.end("impossible", reason="; ".join(values))
 
     def unobservable(self, message: str, loose: np.ndarray) -> Status:
         """The status for properties (mask `loose`) that the data do not determine."""

@@ -53,16 +53,18 @@ def _forgotten(draft: Draft, given: MeshDraft, s: int, members: ElementSet) -> N
     if members.type != "beam" or len(given.mesh.directions) < 6:
         return
     nothing = np.zeros(len(members))
-    for name in ("Iy", "Iz", "J"):
-        without = np.flatnonzero(members.properties.get(name, nothing) == 0)
-        if len(without):
-            element = int(without[0])
-            draft.warn(
-                "MD426",
-                f"beam {members.ids[element]} has {name} = 0; {len(without)} such of these {len(members)} beams",
-                given.element_place(s, element),
-                help=f"give {name}, or a shape of the section such as tube or rectangle; plane: XY if it moves in a plane",
-            )
+    without = {name: members.properties.get(name, nothing) == 0 for name in ("Iy", "Iz", "J")}
+    names = [name for name, lacking in without.items() if lacking.any()]
+    if names:
+        lacking = np.flatnonzero(np.logical_or.reduce([without[name] for name in names]))
+        element = int(lacking[0])
+        draft.warn(
+            "MD426",
+            f"beam {members.ids[element]} has {' and '.join(f'{n} = 0' for n in names)}; "
+            f"{len(lacking)} such of these {len(members)} beams",
+            given.element_place(s, element),
+            help=f"give {' and '.join(names)}, or a shape of the section (tube, rectangle, ...); plane: XY if it moves in a plane",
+        )
 
 
 def _bound_once(draft: Draft, given: MeshDraft) -> None:

@@ -54,7 +54,10 @@ def _mode_numbers(draft: Draft, test: TestDraft) -> None:
 
 
 def _frequencies(draft: Draft, test: TestDraft) -> None:
-    previous = 0.0
+    previous, falling = 0.0, len(test.frequency_hz) > 1 and bool((np.diff(test.frequency_hz) < 0).all())
+    help = "give the modes in ascending order of frequency"
+    if falling:
+        help = f"{help}; or are these periods in s? then give 1 over each, in Hz"
     for i, frequency in enumerate(test.frequency_hz.tolist()):
         if np.isnan(frequency):
             continue
@@ -70,8 +73,10 @@ def _frequencies(draft: Draft, test: TestDraft) -> None:
                 "MD322",
                 f"test frequency {i + 1} is {frequency:.8g} Hz, below {previous:.8g} Hz of the mode before",
                 test.where_frequency(i),
-                help="give the modes in ascending order of frequency",
+                help=help,
             )
+            if falling:
+                break
         previous = max(previous, frequency)
 
 
@@ -106,12 +111,17 @@ def _accuracies(draft: Draft, test: TestDraft) -> None:
                 help="give the standard deviation in Hz; 0 would make a certain datum",
             )
     bad = np.isfinite(test.shapes) & ~(np.isfinite(test.shape_sd) & (test.shape_sd > 0))
+    places: set = set()
     for s, m in np.argwhere(bad)[:20]:
+        place = test.where_shape_sd(int(s), int(m))
+        if place is not None and place in places:
+            continue  # one number for all of them is one mistake
+        places.add(place)
         draft.error(
             "MD326",
             f"standard deviation of x({m + 1},{s + 1}), mode {m + 1} at measured point {s + 1}, is "
             f"{test.shape_sd[s, m]:.8g}; it must be positive",
-            test.where_shape_sd(int(s), int(m)),
+            place,
             help="give the standard deviation in the units of the shape",
         )
     for s, m in np.argwhere(np.isinf(test.shapes))[:20]:

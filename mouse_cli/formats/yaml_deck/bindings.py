@@ -131,6 +131,8 @@ def _parts(section: Section, name: str, key: str, chosen: list[np.ndarray], mesh
 
 def _nothing(section: Section, name: str, key: str, owner: str | None, lacking: list, known: set[str]) -> None:
     node, near = section.nodes["property"], get_close_matches(name, known, 1)
+    if owner is not None and not known and section.document.incomplete:
+        return  # elements that could not be read may be of it
     if owner is not None and not known:
         message, help = f"{section.called}: no element is of {key} '{owner}'", f"name a {key} that elements have"
         section.document.error("MD402", section.nodes[key], message, help)

@@ -221,6 +221,9 @@ def _indices(section: Section, numbers: np.ndarray, known: np.ndarray) -> np.nda
     place = np.minimum(np.searchsorted(known, numbers, sorter=sorter), len(known) - 1)
     absent = np.unique(numbers[known[sorter[place]] != numbers])
     node = section.nodes.get("nodes") or section.nodes.get("file") or section.node
+    if len(absent) and any(each.code == "MD404" for each in section.document.diagnostics):
+        section.document.incomplete = True  # nodes with wrong numbers: others are missing for it
+        return None
     for number in absent[:20]:
         near = known[np.argsort(np.abs(known - number), kind="stable")[:3]]
         message = f"{section.called} joins node {number}, which is not among the nodes"
@@ -242,6 +245,9 @@ def _properties(
         if name not in table:
             _unknown_name(section, key, name, table, code)
         own = {p: v for p, v in table.get(name, {}).items() if p in kind.properties}
+        if name not in table or None in own.values():  # an error by now: what the elements lack follows from it
+            section.document.incomplete = True
+            return {}, {}
         values |= {p: np.full(e, v) for p, v in own.items()}
         origin |= dict.fromkeys(own, name)
     direct = {**joined.properties, **_direct(section, kind, e)}

@@ -3,7 +3,7 @@
 from mouse_cli.formats.yaml_deck.cross_sections import DIMENSIONS, SHAPES, impossible
 from mouse_cli.formats.yaml_deck.sections import Section
 
-Named = dict[str, dict[str, float]]
+Named = dict[str, dict[str, float | None]]  # None: given, and no number
 
 
 def materials(structure: Section) -> Named:
@@ -17,9 +17,8 @@ def cross_sections(structure: Section) -> Named:
     return {name: _shape(section) | _numbers(section) for name, section in found.items()}
 
 
-def _numbers(section: Section) -> dict[str, float]:
-    given = {key: section.value(key) for key in section.nodes if key not in SHAPES}
-    return {key: value for key, value in given.items() if value is not None}
+def _numbers(section: Section) -> dict[str, float | None]:
+    return {key: section.value(key) for key in section.nodes if key not in SHAPES}
 
 
 def _shape(section: Section) -> dict[str, float]:

@@ -42,6 +42,10 @@ def _measured(section: Section, units: Units) -> TestDraft | None:
     if frequency is None:
         return None
     m, nodes, scale = len(frequency), modes.nodes, modes.value("scale", "fitted")
+    comma = "" if held else yaml_values.decimal_comma(nodes["frequency"])
+    if comma and (np.diff(frequency[np.isfinite(frequency)]) < 0).any():
+        message = f"{modes.what('frequency')} has {m} values that do not ascend"
+        return modes.document.error("MD228", nodes["frequency"], message, comma)
     if not m:
         return modes.document.error(
             "MD216", nodes["frequency"], f"{modes.what('frequency')} is empty", "give a frequency"

@@ -9,7 +9,7 @@ from mouse_cli.formats import matrix_files
 from mouse_cli.formats.draft import Entries
 from mouse_cli.formats.mesh_draft import MeshDraft
 from mouse_cli.formats.yaml_deck import values as yaml_values
-from mouse_cli.formats.yaml_deck.bindings import Bound
+from mouse_cli.formats.yaml_deck.bindings import WHOSE, Bound
 from mouse_cli.formats.yaml_deck.each import expanded
 from mouse_cli.formats.yaml_deck.files import named, read_kept
 from mouse_cli.formats.yaml_deck.imported import Rows
@@ -66,6 +66,8 @@ def _sd(section: Section, nominal: float, variance: float | None) -> float | Non
                 "MD224", section.node, message, "give sd: the prior standard deviation; 0 holds the parameter"
             )
         return from_covariance
+    if nominal == 0 and document.incomplete and any(key in section for key in WHOSE):
+        return None  # its elements could not be read, and their value with them
     sd = fraction_of(document, node, section.what("sd"), abs(nominal), "the nominal value, which is 0")
     if sd is None or variance is None or np.isclose(sd, from_covariance, rtol=1e-6, atol=0):
         return sd

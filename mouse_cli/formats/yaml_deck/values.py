@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 import yaml
@@ -10,9 +11,17 @@ import yaml
 from mouse_cli.formats.draft import Entries
 from mouse_cli.formats.yaml_deck.kinds import MAX_WHOLE, PERCENT
 from mouse_cli.formats.yaml_deck.nodes import PLAIN, QUOTED, Document, Node, is_null
+from mouse_cli.model.materials import DENSITIES, MODULI
 
 _NUMBER = re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?", re.ASCII)
 _FORTRAN = re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)[dD][-+]?[0-9]+", re.ASCII)
+_COMMA = re.compile(r"[-+]?[0-9]+,[0-9]+([eE][-+]?[0-9]+)?", re.ASCII)
+_WITH_UNIT = re.compile(
+    r"([-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?)(\s*)([A-Za-z][A-Za-z0-9/^]*)", re.ASCII
+)
+_UNITS = {**MODULI, **DENSITIES, "m": 1.0, "mm": 1e-3, "cm": 1e-2, "mm2": 1e-6, "cm2": 1e-4, "mm4": 1e-12, "cm4": 1e-8, "kg": 1.0,
+          "g": 1e-3, "t": 1e3, "N/m": 1.0, "N/mm": 1e3, "kN/m": 1e3, "kN/mm": 1e6, "MN/m": 1e6, "Hz": 1.0, "kHz": 1e3,
+          "rad/s": 0.15915494309189535, "rpm": 1 / 60}  # fmt: skip
 _PERCENT = re.compile(PERCENT, re.ASCII)
 _SPECIAL = {".nan": np.nan, ".inf": np.inf, "+.inf": np.inf, "-.inf": -np.inf}
 _FLAGS = {"true": True, "yes": True, "on": True, "false": False, "no": False, "off": False}
@@ -59,6 +68,12 @@ def _remedy(node: Node, words: str) -> str:
         return f"write the exponent with e: {re.sub('[dD]', 'e', node.value)}"
     if node.tag == QUOTED and _NUMBER.fullmatch(node.value):
         return "write the number without quotes"
+    if is_scalar(node) and _COMMA.fullmatch(node.value):
+        return f"write a decimal point: {node.value.replace(',', '.')}"
+    with_unit = _WITH_UNIT.fullmatch(node.value) if is_scalar(node) else None
+    if with_unit and with_unit[3] in _UNITS:
+        value = float(with_unit[1]) * _UNITS[with_unit[3]]
+        return f"write the number alone, without its unit: {value:.6g} in SI"
     return f"give {words}"
 
 
@@ -88,6 +103,17 @@ def number(document: Document, node: Node, what: str, words: str = "a number") -
     if value is None:
         mistyped(document, node, what, words)
     return value
+
+
+def decimal_comma(node: Node) -> str:
+    """How a list looks to be meant where two of its items are parted by a comma alone, and others by a comma and a blank."""
+    items = node.value if is_list(node) else []
+    gaps = [b.start_mark.index - a.end_mark.index for a, b in pairwise(items)]
+    if 1 not in gaps or len(set(gaps)) == 1 or not all(is_scalar(item) for item in items):
+        return ""
+    at = gaps.index(1)
+    one, other = items[at].value, items[at + 1].value
+    return f"{one},{other} are two numbers here: write {one}.{other} if it is one, or a blank after the comma"
 
 
 def whole(document: Document, node: Node, what: str, words: str = "a whole number") -> int | None:

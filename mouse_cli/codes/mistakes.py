@@ -1,0 +1,32 @@
+"""MD450 to MD459: values in another unit than the deck's, and other slips that only their size shows."""
+
+from mouse_cli.codes import Code
+
+CODES = {
+    "MD450": Code(
+        "the test in other units than the model",
+        "All measured frequencies are one common factor away from those of the model, or become equal to them once a value of the "
+        "deck is read in another unit: rad/s, rpm or kHz in place of Hz, E in MPa, density in g/cm3, sections in mm4, springs in "
+        "N/mm. The prior of the parameters is taken into account: it says that no value they may have explains the difference. The "
+        "message names what fits best, the note what fits as well.",
+        "Do as the message says. If the model is meant to be so far off, give a parameter a prior that allows for it.",
+    ),
+    "MD451": Code(
+        "a property that no material and no section has",
+        "Young's modulus and density together belong to no material, or a cross section does not go with its own area or with the "
+        "length of the structure, while in another unit they would.",
+        "Write the value that the message gives, or declare the units of the deck with `units:`.",
+    ),
+    "MD452": Code(
+        "impossible Poisson's ratio",
+        "Poisson's ratio of isotropic material lies above -1 and is at most 0.5, else its shear modulus would be negative or the "
+        "material would swell under pressure.",
+        "Give a ratio such as 0.3; for a material that is not isotropic give G.",
+    ),
+    "MD453": Code(
+        "a standard deviation that hardly can be meant",
+        "A standard deviation is so small against its value that nothing is known so well, or as large as the value: a number "
+        "was written where a percentage was meant, or the other way round. A plain number is in the unit of the value.",
+        "Write `5 %` for a percentage, else check the number and its unit.",
+    ),
+}
