@@ -37,8 +37,7 @@ def assemble(draft: Draft) -> Problem:
     geometry = found[0].geometry if found else None
     test, held, frf, recordings, kept = _measured(draft, geometry)
     acting = laws.laws(draft, geometry) if draft.order else ()
-    if draft.order:
-        matrices.total_mass_dofs(draft)
+    matrices.total_mass_dofs(draft)
     plausible.plausible(draft)
     if draft.has_errors:
         raise refusal(draft, unread)

@@ -15,12 +15,11 @@ from mouse_cli.terms.assembly import assembly
 from mouse_cli.terms.build import LARGEST_DENSE, build
 from mouse_cli.terms.faults import MeshFault
 from mouse_cli.terms.plausible import strange
-from mouse_cli.updating.state import paired, solve
+from mouse_cli.updating.state import paired, reference_eigenvalue, solve
 
 _FAR = 0.45  # |ln| of measured over predicted frequency, which every mode must exceed for a unit to be thought of
 _NEAR, _GAIN = 0.2, 0.2  # rms of that ln which a unit must leave at most, and as a share of what it was
 _EQUAL = 0.05  # misfit (rms of that ln, and what the mean MAC lacks of 1) by which two readings fit alike
-_RIGID = 7.0  # range of ln between modes beyond which some are rigid-body modes, of which another finding tells
 _LIKER = 0.05  # mean MAC that a reading must add where the modes as paired are near to one another in frequency
 _ADMITTED = 3.0  # prior standard deviations of the mean ln within which the parameters explain it themselves
 _MOST = 60  # parameters whose prior is looked at one by one
@@ -47,18 +46,23 @@ def check(problem: Problem, solution: EigenSolution) -> None:
         return
     before, by_number = _distances(problem, solution), _distances(problem, solution, test.number - 1)
     apart = next((d for d in (by_number, before) if (np.abs(d) > _FAR).all()), None)
-    if np.ptp(by_number) > _RIGID or apart is None or _admitted(problem, solution, apart):
+    if apart is None or _admitted(problem, solution, apart):
         return
     limit = min(_NEAR, _GAIN * _rms(apart))
     liker = 0.0 if (np.abs(before) > _FAR).all() else _likeness(problem, solution) + _LIKER
     found = []
     for each in _readings(problem):
         read = _read(problem, solution, each)
-        misfit = np.inf if read is None else _rms(_distances(*read))
+        misfit = np.inf if read is None or _rigid(*read) else _rms(_distances(*read))
         if misfit < limit and (likeness := _likeness(*read)) > liker:
             found.append((misfit + 1 - likeness, each))
     if found:
         raise DeckError(_said(problem, apart, found))
+
+
+def _rigid(problem: Problem, solution: EigenSolution) -> bool:
+    """Whether a measured mode is by its number one of zero frequency: of that another finding tells."""
+    return solution.rigid(reference_eigenvalue(problem, solution.eigenvalues)) >= problem.test.number.min()
 
 
 def _said(problem: Problem, apart: np.ndarray, found: list[tuple[float, Reading]]) -> Diagnostic:

@@ -108,7 +108,9 @@ CASES = {  # deck, what is changed into what, code, pattern that the remedy must
     "density in kN/m3": (BEAM, "density: 7850", "density: 77", "MD451", r"kN/m3 \(a weight\).*785"),
     "density in N/m3": (BEAM, "density: 7850", "density: 77000", "MD451", r"N/m3 \(a weight\).*785"),
     "density in lb/in3": (BEAM, "density: 7850", "density: 0.2836", "MD451", r"lb/in3.*785"),
-    "E and density in units of mm": (BEAM, "E: 2.1e11, nu: 0.3, density: 7850", "E: 210, nu: 0.3, density: 7.85", "MD451", r"GPa and g/cm3"),
+    "E and density in units of mm": (
+        BEAM, "E: 2.1e11, nu: 0.3, density: 7850", "E: 210, nu: 0.3, density: 7.85",
+        "MD451", r"GPa and g/cm3"),
     "nu in percent": (BEAM, "nu: 0.3", "nu: 30", "MD452", r"0\.3"),
     "nu below -1": (BEAM, "nu: 0.3", "nu: -5", "MD452", r"0\.3"),
     "nu above 0.5": (BEAM, "nu: 0.3", "nu: 0.7", "MD452", r"0\.3"),
@@ -117,7 +119,9 @@ CASES = {  # deck, what is changed into what, code, pattern that the remedy must
     "I in mm4": (BEAM, "Iz: 3.3333333e-8", "Iz: 33333", "MD451", r"I in mm4.*3\.3333e-08"),
     "I in cm4": (BEAM, "Iz: 3.3333333e-8", "Iz: 3.3333", "MD451", r"I in cm4.*3\.3333e-08"),
     "section in mm": (BEAM, "A: 1.0e-3, Iz: 3.3333333e-8", "A: 1000, Iz: 33333", "MD451", r"A and I in mm"),
-    "section in cm": (BEAM, "A: 1.0e-3, Iz: 3.3333333e-8", "A: 10, Iz: 3.3333", "MD450", r"areas by 0\.0001 and second moments by 1e-08"),
+    "section in cm": (
+        BEAM, "A: 1.0e-3, Iz: 3.3333333e-8", "A: 10, Iz: 3.3333", "MD450",
+        r"areas by 0\.0001 and second moments by 1e-08"),
     "nodes in mm": (BEAM, "[2.0, 0]", "[2000, 0]", "MD450", r"coordinates of the nodes by 0\.001"),
     "nodes in cm": (BEAM, "[2.0, 0]", "[200, 0]", "MD450", r"coordinates of the nodes by 0\.01"),
     "test in rad/s": (BEAM, _FREQUENCY, _listed(HZ * 2 * np.pi), "MD450", r"divide the frequencies by 2 pi"),
@@ -141,8 +145,11 @@ CASES = {  # deck, what is changed into what, code, pattern that the remedy must
     "plane misspelt": (BEAM, "plane: XY", "plan: XY", "MD210", r"plane"),
     "material misspelt": (BEAM, "material: steel, section", "material: steal, section", "MD402", r"steel"),
     "supports forgotten": (BEAM, "    supports: {1: all}\n", "", "MD330", r"supports"),
-    "a node given twice": (BEAM, "nodes: {line: {from: 1, to: 21, start: [0, 0], end: [2.0, 0]}}", "nodes:\n      - {line: {from: 1, "
-        "to: 11, start: [0, 0], end: [1.0, 0]}}\n      - {line: {from: 11, to: 20, start: [1.1, 0], end: [2.0, 0]}}", "MD404", "own number"),
+    "a node given twice": (
+        BEAM, "nodes: {line: {from: 1, to: 21, start: [0, 0], end: [2.0, 0]}}",
+        "nodes:\n      - {line: {from: 1, "
+        "to: 11, start: [0, 0], end: [1.0, 0]}}\n      - {line: {from: 11, to: 20, start: [1.1, 0], end: [2.0, 0]}}",
+        "MD404", "own number"),
     "K in N/mm": (MATRICES, _CHAIN_K, _k(1e-3), "MD450", r"multiply K by 1000"),
     "K in kN/mm": (MATRICES, _CHAIN_K, _k(1e-6), "MD450", r"multiply K by 1e6"),
     "K in kgf/mm": (MATRICES, _CHAIN_K, _k(1 / 9806.65), "MD450", r"9806\.65"),

@@ -129,6 +129,8 @@ def _where_diagonal(source: Entries | Matrix, index: int) -> Span | None:
 
 def total_mass_dofs(draft: Draft) -> None:
     """The degrees of freedom whose mass is summed must exist; labels become their numbers."""
+    if not draft.order:
+        return
     place = {label: i for i, label in enumerate(draft.labels)}
     numbers = [place.get(dof, dof) for dof in draft.run.total_mass_dofs]
     for dof in numbers:

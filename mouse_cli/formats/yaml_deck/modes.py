@@ -42,10 +42,8 @@ def _measured(section: Section, units: Units) -> TestDraft | None:
     if frequency is None:
         return None
     m, nodes, scale = len(frequency), modes.nodes, modes.value("scale", "fitted")
-    comma = "" if held else yaml_values.decimal_comma(nodes["frequency"])
-    if comma and (np.diff(frequency[np.isfinite(frequency)]) < 0).any():
-        message = f"{modes.what('frequency')} has {m} values that do not ascend"
-        return modes.document.error("MD228", nodes["frequency"], message, comma)
+    if not held and _with_decimal_commas(modes, frequency):
+        return None
     if not m:
         return modes.document.error(
             "MD216", nodes["frequency"], f"{modes.what('frequency')} is empty", "give a frequency"
@@ -76,6 +74,17 @@ def _measured(section: Section, units: Units) -> TestDraft | None:
         shape_sd.where,
         tuple(dofs or ()),
     )
+
+
+def _with_decimal_commas(modes: Section, frequency: np.ndarray) -> bool:
+    """Whether the frequencies do not ascend because of a decimal comma; says so."""
+    node = modes.nodes["frequency"]
+    comma = yaml_values.decimal_comma(node)
+    if not comma or not (np.diff(frequency[np.isfinite(frequency)]) < 0).any():
+        return False
+    message = f"{modes.what('frequency')} has {len(frequency)} values that do not ascend"
+    modes.document.error("MD228", node, message, comma)
+    return True
 
 
 def _of_file(modes: Section, held: ModeTable, dofs: list[SensorDraft]) -> tuple[Grid, Grid]:
