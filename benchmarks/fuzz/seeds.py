@@ -28,10 +28,10 @@ test:
   recordings:
     - title: run 1
       file: run.csv
-      segment: [0, 600]
+      segment: [0, 300]
       inputs: [{sensor: 2, channel: f, quantity: force, unit: N}]
       outputs: [{sensor: 1, channel: a1, quantity: acceleration, unit: m/s2}, {sensor: 2, channel: a2, unit: g}]
-    - {title: run 2, file: run.csv, sample_rate: 512, inputs: {2: f}, outputs: {1: a1, 2: a2}, segment: [600, 1024]}
+    - {title: run 2, file: run.csv, sample_rate: 512, inputs: {2: f}, outputs: {1: a1, 2: a2}, segment: [300, 512]}
   hold_out: {recordings: [run 2]}
 """
 
@@ -116,10 +116,10 @@ def _recorded(scratch: Path) -> list[Seed]:
     k, c = np.array([[5e4, -3e4], [-3e4, 3e4]]), np.array([[6.0, -3.6], [-3.6, 6.0]])
     a, b = np.block([[np.zeros((2, 2)), np.eye(2)], [-k, -c]]), np.array([[0.0], [0.0], [0.0], [1.0]])
     rng = np.random.default_rng(1)
-    force = 20 * rng.standard_normal(1024)
+    force = 20 * rng.standard_normal(512)
     seen = dlsim(cont2discrete((a, b, a[2:], b[2:]), 1 / 512), force)[1]
     seen *= 1 + 0.01 * rng.standard_normal(seen.shape)
-    table = np.column_stack([np.arange(1024) / 512, force, seen])
+    table = np.column_stack([np.arange(512) / 512, force, seen])
     path = scratch / "table.csv"
     np.savetxt(path, table, delimiter=",", header="t (s),f (N),a1 (m/s2),a2 (g)", comments="", fmt="%.7g")
     raw = path.read_bytes()

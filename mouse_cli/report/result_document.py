@@ -41,6 +41,7 @@ def document(result: Result) -> dict[str, Any]:
             "cycles": [_cycle(cycle) for cycle in result.cycles],
             "parameters": parameters(result),
             "covariance": _covariance(result),
+            "prior_covariance": problem.prior.dense() if len(problem.parameters) <= _LARGEST_COVARIANCE else None,
             **({"alternatives": _alternatives(result)} if result.alternatives else {}),
             **_matrices(result),
             "rigid_modes": result.rigid_modes,
@@ -114,10 +115,14 @@ def _covariance(result: Result) -> np.ndarray | None:
 
 
 def _matrices(result: Result) -> dict[str, Any]:
-    """Revised K and M while they are small enough for a document."""
-    if result.problem.structure.n > _LARGEST_MATRIX:
+    """Revised K and M, and those before, while they are small enough for a document; [A] of a model of matrices."""
+    problem = result.problem
+    if problem.structure.n > _LARGEST_MATRIX:
         return {}
-    return {"stiffness": dense(result.revised.K), "mass": dense(result.revised.M)}
+    before = {"stiffness": dense(result.prior.K), "mass": dense(result.prior.M)}
+    if not problem.terms and len(problem.parameters) <= _LARGEST_COVARIANCE:
+        before |= {"elements": problem.elements.labels(), "A": dense(problem.A)}
+    return {"stiffness": dense(result.revised.K), "mass": dense(result.revised.M), "before": before}
 
 
 def modes(result: Result) -> list[dict[str, Any]]:

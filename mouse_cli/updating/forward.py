@@ -68,7 +68,10 @@ def _damped(
     if count <= 0 or not any(m is not None and abs(m).max() > 0 for m in (dynamics.C, dynamics.D)):
         return None
     theta, prior = problem.prior.mean, coordinates(problem, assembly)
-    found = complex_modes(dynamics, solution, count)
+    try:
+        found = complex_modes(dynamics, solution, count)
+    except np.linalg.LinAlgError as reason:
+        raise refusals.unphysical(problem, str(reason)) from None
     slopes = found.damping_slopes(dynamics, Change(assembly.n, assembly.p, assembly.slopes(theta)))
     return DampedModes(
         found.frequencies_hz,

@@ -136,3 +136,16 @@ def test_an_accuracy_beyond_all_numbers(capsys, tmp_path):
     assert _run(["run", str(tmp_path / "deck.yaml")]) in (4, 5)
     said = capsys.readouterr().err
     assert "error[MD" in said and "MD903" not in said
+
+
+@pytest.mark.filterwarnings("ignore:overflow")
+def test_dashpots_of_masses_that_hardly_are(capsys, tmp_path):
+    """c/m is beyond all numbers, though k/m is none of those that are looked for."""
+    model = "{stiffness: {order: 2, entries: [[1, 1, 5.0e+4], [1, 2, -3.0e+4], [2, 2, 3.0e+4]]}, mass: {diagonal: [5.0e-324, 1]},"
+    model += " damping: {order: 2, entries: [[1, 1, 1.0e+9], [2, 2, 3.6]]}}"
+    (tmp_path / "deck.yaml").write_text(
+        f"mouse: 1\nmodel: {model}\nparameters: [{{name: k, sd: 10, stiffness: [[1, 1, 1]]}}]\n"
+    )
+    assert _run(["modes", str(tmp_path / "deck.yaml")]) in (4, 5)
+    said = capsys.readouterr().err
+    assert "error[MD" in said and "MD903" not in said

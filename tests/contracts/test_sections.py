@@ -2,12 +2,14 @@
 
 import json
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 import report_examples
 
 from mouse_cli import _registry, report
+from mouse_cli.formats import read_deck
 from mouse_cli.model.correlation import Correlation
 from mouse_cli.model.result import Forecast, Result
 from mouse_cli.report.blocks import Heading, Lines, Matrix, Table, Text
@@ -15,8 +17,10 @@ from mouse_cli.report.numbers import Numbers
 from mouse_cli.report.renderers import renderer
 from mouse_cli.report.renderers.printout import WIDTH
 from mouse_cli.report.section import Options, registry, sections
+from mouse_cli.updating import run
 from mouse_cli.updating.correlate import correlate
 
+DECKS = Path(__file__).resolve().parents[2] / "decks"
 SECTIONS = registry()
 FORMS = tuple(_registry.discover("mouse_cli.report.renderers", "RENDERER"))
 CELL = int | float | str | None | np.integer
@@ -75,6 +79,7 @@ def test_order() -> None:
         "heading",
         "cards",
         "prior",
+        "matrices-before",
         "innovation",
         "cycles",
         "partials",
@@ -217,6 +222,21 @@ def test_table_5_3_is_printed() -> None:
     text = report.printout(report_examples.result("noisy"))
     for printed in ("2.30524+05", "-1.48385+05", "2.63385+05"):
         assert printed in text
+
+
+def test_table_5_2_is_printed() -> None:
+    """Table 5-2, items (1), (2), (4) to (6): K before, M, covariance, [A], K after, in the printout and the document."""
+    result = run(read_deck(DECKS / "table_5_2.yaml"))
+    before, after = report.printout(result).split("TEST AGAINST PRIOR MODEL")
+    for item in ("STIFFNESS MATRIX BEFORE", "2.50000+05  -1.50000+05", "MASS MATRIX BEFORE", "7.20000+07  0.00000+00"):
+        assert item in before
+    assert "k(1,1)  1.00000+00   1.00000+00" in before and "k(1,2)  0.00000+00  -1.00000+00" in before
+    for printed in ("2.25103+05", "-1.40084+05", "2.55084+05"):
+        assert printed in after
+    told = report.document(result)
+    assert told["before"]["A"] == [[1, 1], [0, -1], [0, 1]] and told["before"]["mass"] == np.eye(4).tolist()
+    assert told["before"]["elements"] == ["k(1,1)", "k(1,2)", "k(2,2)"]
+    assert told["prior_covariance"] == [[pytest.approx(7.2e7), 0], [0, 1e8]]
 
 
 def test_unknown_form() -> None:

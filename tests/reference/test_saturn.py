@@ -152,3 +152,13 @@ def shearing(ratio: float) -> str:
 
 def read(text: str):
     return assemble(yaml_deck.read(text, "saturn.yaml"))
+
+
+def test_two_modes_by_the_loop_of_1972():
+    """Table 5-4, third column: 1.108 and 1.823 Hz; eigenvalues of Table 5-5: 48.4492 and 131.180."""
+    result = run(read_deck(DECK.with_name("saturn_v_two_modes.yaml")))
+    assert result.status.key == "converged"
+    revised = result.revised.eigenvalues[result.revised.modes]
+    assert np.sqrt(revised) / (2 * np.pi) == pytest.approx([1.108, 1.823], abs=0.003)
+    assert revised == pytest.approx([48.4492, 131.180], rel=4e-3)
+    assert (2 * np.pi * result.problem.test.frequency_hz) ** 2 == pytest.approx([48.2914, 130.912], rel=1e-4)

@@ -82,13 +82,18 @@ _WORDS = {
 
 
 def explanations() -> Iterator[tuple[str, str]]:
-    """Each name with its explanation: words of the report, then the fields of the cards."""
+    """Each name with its explanation: words of the report, then the arrays and the fields of the cards."""
     for name, (title, told) in _WORDS.items():
         section = {"I": "4.2", "O": "4.3", "t": "3.8", "V": "1"}[name[0]]
         yield name, f"{name}: {title} ({_SECTION.format(section)})\n\n{told}"
     for group in GROUPS:
+        if group.symbol:
+            yield (
+                group.symbol,
+                f"{group.symbol}: {group.name}\n\nCards of group {group.number}, FORMAT {group.format}. {group.text}",
+            )
         for field in group.fields[: len(group.rows)]:
-            if "{i}" not in field.row.name and field.row.name.isupper():
+            if "{i}" not in field.row.name and field.row.name.isupper() and field.row.name != group.symbol:
                 yield field.row.name, _about(group, field)
 
 
