@@ -21,6 +21,14 @@ CODES = {
         "recordings alone is a fit of simulations that has none of the options of the runs of 1972 and after.",
         "Leave it out. Estimator, limits and convergence of such a fit are fixed: the posterior mode, its steps taken to the end.",
     ),
+    "MD644": Code(
+        "motion of the ground not understood",
+        "The motion of what holds the model (`ground`, `groundTX`) stands among the outputs, or is given as a force, or no degree "
+        "of freedom moves along with it. Or an output is said to be relative to a ground that no input measures. Or it is an "
+        "absolute displacement or velocity, while of the ground only a higher derivative is known.",
+        "Name the motion of the ground under `inputs`, with its quantity or unit; say with `moves` what it carries along, and with "
+        "`frame` whether outputs are absolute or relative.",
+    ),
     "MD540": Code(
         "simulation that does not stay finite",
         "The deck as it is, simulated under the measured force of its recordings, grows beyond all bounds.",

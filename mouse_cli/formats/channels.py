@@ -108,7 +108,8 @@ def _calibrated(pick: Pick, found: Column, spelled: str, units: Units, say: Find
 
 def _uncalibrated(pick: Pick, found: Column, spelled: str, units: Units, say: Findings) -> tuple[Channel, float] | None:
     """A channel whose unit is none that can be converted: kept as it is."""
-    quantity = pick.quantity or ("force" if pick.role == INPUT else "acceleration")
+    forced = pick.role == INPUT and pick.sensor.ground is None
+    quantity = pick.quantity or ("force" if forced else "acceleration")
     if not spelled:
         return _named(pick, found, quantity, target(quantity, units)[0]), 1.0
     if not pick.quantity:
@@ -121,7 +122,8 @@ def _uncalibrated(pick: Pick, found: Column, spelled: str, units: Units, say: Fi
 
 
 def _named(pick: Pick, found: Column, quantity: str, spelled: str) -> Channel:
-    return Channel(found.name, pick.role, quantity, spelled, pick.sensor.name)
+    ground = pick.sensor.ground is not None
+    return Channel(found.name, pick.role, quantity, spelled, pick.sensor.name, ground=ground, frame=pick.frame)
 
 
 def unstated(picks: list[Pick], columns: list[Column], say: Findings, where) -> None:

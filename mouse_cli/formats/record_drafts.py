@@ -8,14 +8,14 @@ from mouse_cli._errors import ERROR, WARNING, Diagnostic
 from mouse_cli._span import Span
 from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.model.frf_test import FORMS, MOST_LINES
-from mouse_cli.model.recording import Recording
+from mouse_cli.model.recording import ABSOLUTE, Recording
 
 
 @dataclass
 class Pick:
     """Which channel of a file a sensor is, and what its numbers are; empty texts where that is not said.
 
-    sensitivity: as `100 mV/g`. where: its place, for messages; None where no deck says it.
+    sensitivity: as `100 mV/g`. frame: of an output. where: its place, for messages; None where no deck says it.
     """
 
     sensor: SensorDraft
@@ -25,6 +25,7 @@ class Pick:
     unit: str = ""
     sensitivity: str = ""
     where: Span | None = None
+    frame: str = ABSOLUTE
 
 
 @dataclass

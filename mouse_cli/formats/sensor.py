@@ -12,7 +12,9 @@ class SensorDraft:
     """What a sensor reads: a sum of `weights` over degrees of freedom, named by number (from 1) or label; or motion along
     `direction` (6,), a unit vector over TX, TY, TZ, RX, RY, RZ, at `node` or at the point `at` (3,) in m.
 
-    words: how it was written, for messages; plain: it stands in a list of degrees of freedom and has no name of its own.
+    ground (6,): the motion of the ground along a unit vector, 0 where a model of matrices has none; it carries along what `weights`
+    say, without them all that lies in its direction. words: how it was written, for messages; plain: it stands in a list of degrees
+    of freedom and has no name of its own.
     """
 
     name: str
@@ -23,3 +25,4 @@ class SensorDraft:
     at: np.ndarray | None = None
     words: str = ""
     plain: bool = False
+    ground: np.ndarray | None = None

@@ -7,6 +7,7 @@ import numpy as np
 from mouse_cli.model.arrays import frozen
 
 INPUT, OUTPUT = "input", "output"
+ABSOLUTE, RELATIVE = FRAMES = ("absolute", "relative")
 MOTIONS = {"displacement": 0, "velocity": 1, "acceleration": 2}  # how many times differentiated
 QUANTITIES = ("force", "moment", *MOTIONS, "rotation", "angular velocity", "angular acceleration", "sound", "other")
 
@@ -16,7 +17,9 @@ class Channel:
     """One channel of a recording. role: INPUT or OUTPUT; quantity: one of QUANTITIES; unit: of its samples.
 
     sensor: what it is mounted on, as decks write a sensor (`12TY`, `3`, `12-TY` for one mounted backwards); empty while no deck
-    has said so. weights: what it reads of the model's degrees of freedom, from 0; empty where there is no model.
+    has said so. weights: what it reads of the model's degrees of freedom, from 0; empty where there is no model. ground: whether
+    an input is the motion of the ground that holds the model; its weights then say how the degrees of freedom move along. frame of
+    an output: ABSOLUTE, or RELATIVE to that ground.
     """
 
     name: str
@@ -25,6 +28,8 @@ class Channel:
     unit: str = ""
     sensor: str = ""
     weights: dict[int, float] = field(default_factory=dict)
+    ground: bool = False
+    frame: str = ABSOLUTE
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.model.geometry import Geometry
-from mouse_cli.model.recording import Recording
+from mouse_cli.model.recording import INPUT, MOTIONS, RELATIVE, Recording
 
 
 def records(draft: Draft, geometry: Geometry | None) -> tuple[tuple[FrfTest, ...], tuple[Recording, ...]]:
@@ -49,10 +49,32 @@ def _matrix(draft: Draft, sensors: tuple[SensorDraft, ...], geometry: Geometry |
 
 def _recording(draft: Draft, each: RecordingDraft, geometry: Geometry | None) -> Recording | None:
     found = weights(draft, each.sensors, geometry, draft.order)
-    if found is None:
+    if found is None or not _grounded(draft, each):
         return None
     channels = zip(each.recording.channels, found, strict=True)
     return replace(each.recording, channels=tuple(replace(channel, weights=shares) for channel, shares in channels))
+
+
+def _grounded(draft: Draft, each: RecordingDraft) -> bool:
+    """Whether the ground is where it can be: an input that is a motion; and outputs relative to it stand beside one."""
+    before, known = len(draft.diagnostics), any(channel.ground for channel in each.recording.channels)
+    for channel, sensor in zip(each.recording.channels, each.sensors, strict=True):
+        where = sensor.where or each.where
+        if channel.ground and channel.role != INPUT:
+            message = f"channel '{channel.name}' is the motion of the ground, and stands among the outputs"
+            draft.error("MD644", message, where, help="name it under inputs: it is what excites the structure")
+        elif channel.ground and channel.quantity not in MOTIONS:
+            message = (
+                f"channel '{channel.name}' of the ground is {channel.quantity}; the ground has a motion, not a force"
+            )
+            draft.error(
+                "MD644", message, where, help="give quantity: acceleration, velocity or displacement, or its unit"
+            )
+        elif channel.frame == RELATIVE and (channel.role == INPUT or not known):
+            what = "is an input" if channel.role == INPUT else "has no motion of the ground beside it"
+            message = f"channel '{channel.name}' is to be relative to the ground, but {what}"
+            draft.error("MD644", message, where, help="name the motion of the ground under inputs, or delete frame")
+    return len(draft.diagnostics) == before
 
 
 def _titles(draft: Draft) -> None:

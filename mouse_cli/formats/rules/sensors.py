@@ -63,6 +63,8 @@ def _reading(
 ) -> Reading | None:
     if sensor.weights:
         return _sum(draft, sensor, geometry, place, n)
+    if sensor.ground is not None:
+        return _carried(draft, sensor, geometry, place, n)
     if geometry is None:
         message = f"{sensor.words} is mounted at a node or a point, but the model is made of matrices without nodes"
         draft.error("MD329", message, sensor.where, help="give weights: {degree of freedom: 1}")
@@ -75,6 +77,30 @@ def _reading(
         _silent(draft, sensor, geometry, motion.node, sensor.direction)
         return None
     return dofs, weights
+
+
+def _carried(
+    draft: Draft, sensor: SensorDraft, geometry: Geometry | None, place: dict[str, int], n: int
+) -> Reading | None:
+    """What the ground carries along: all degrees of freedom of its direction; without labels all there are."""
+    if geometry is not None:
+        direction = np.eye(6)[geometry.direction]
+    elif all(label[-2:] in DIRECTIONS for label in place) and place:
+        direction = np.eye(6)[[DIRECTIONS.index(label[-2:]) for label in place]]
+    elif not sensor.ground.any():
+        return np.arange(n), np.ones(n)
+    else:
+        direction = np.zeros((n, 6))
+    shares = direction @ sensor.ground
+    dofs = np.flatnonzero(shares)
+    if len(dofs):
+        return dofs, shares[dofs]
+    what = "has no direction" if not sensor.ground.any() else "carries nothing along"
+    message = f"{sensor.words} {what}: no degree of freedom of the model moves with it"
+    draft.error(
+        "MD644", message, sensor.where, help="call it groundTX, groundTY or groundTZ, or give moves: {1: 1, 2: 1}"
+    )
+    return None
 
 
 def _motion(draft: Draft, sensor: SensorDraft, geometry: Geometry) -> PointMotion | None:

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+from mouse_cli.formats.own_names import ground
 from mouse_cli.formats.record_drafts import Pick
 from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.formats.yaml_deck import sensors as yaml_sensors
@@ -9,6 +10,7 @@ from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.kinds import KINDS
 from mouse_cli.formats.yaml_deck.nodes import Node
 from mouse_cli.formats.yaml_deck.sections import Section
+from mouse_cli.model.recording import ABSOLUTE, OUTPUT
 
 Known = dict[str, SensorDraft]
 
@@ -39,6 +41,9 @@ def _named(section: Section, key: str, node: Node, known: Known) -> SensorDraft 
 
 def placed(section: Section, node: Node, what: str, known: Known) -> SensorDraft | None:
     """The sensor that `node` names; findings on it say so in words of their own, since it is not in a list of `dofs`."""
+    if yaml_values.is_scalar(node) and node.value not in known and (moving := ground(node.value)) is not None:
+        words = f"sensor {node.value} of {what}"
+        return SensorDraft(node.value, section.document.span(node), words=words, ground=moving)
     found = yaml_sensors.sensor(section.document, node, what, known)
     return (
         replace(found, words=f"sensor {found.name} of {what}", plain=False)
@@ -75,12 +80,28 @@ def _below(section: Section, what: str, name: Node, node: Node, below: str) -> N
 
 def picks(section: Section, key: str, role: str, known: Known) -> list[Pick]:
     """The channels of a recording that `inputs` or `outputs` chooses."""
-    found = []
+    found, frame = [], section.value("frame", ABSOLUTE)
     for sensor, item in pairs(section, key, known, "channel"):
+        own = frame if role == OUTPUT else ABSOLUTE
         if isinstance(item, Section):
             where = section.document.span(item.nodes.get("channel", item.node))
             texts = [item.value(name, "") for name in ("channel", "quantity", "unit", "sensitivity")]
+            sensor, own = _moving(item, sensor), item.value("frame", own)
         else:
             where, texts = section.document.span(item), [item.value, "", "", ""]
-        found.append(Pick(sensor, role, *texts, where))
+        found.append(Pick(sensor, role, *texts, where, own))
     return found
+
+
+def _moving(item: Section, sensor: SensorDraft) -> SensorDraft:
+    """The motion of the ground with what `moves` says that it carries along; any other sensor as it is."""
+    if "moves" not in item:
+        return sensor
+    node = item.nodes["moves"]
+    if sensor.ground is None:
+        message = (
+            f"{item.what('moves')} says what the ground carries along, but {sensor.words} is no motion of the ground"
+        )
+        item.document.error("MD644", node, message, "delete moves, or call the sensor ground")
+        return sensor
+    return replace(sensor, weights=yaml_sensors.weights(item.document, node, item.what("moves")) or {})

@@ -77,8 +77,29 @@ class Spectrum:
     @cached_property
     def motion(self) -> np.ndarray:
         """Lines (l, n) of the motion of the model under the measured force."""
-        F = self.line(self.series.force - self._mean) @ self.series.inputs.T
+        F = self._forces @ self.series.loads(self.linear.M).T
         return np.einsum("lij,lj->li", self.H, F)
+
+    @cached_property
+    def carried(self) -> np.ndarray | None:
+        """Lines (l, n) of the acceleration with which the ground carries the model along; None where it stands still."""
+        return self._forces @ self.series.base.T if self.series.base.any() else None
+
+    @property
+    def _forces(self) -> np.ndarray:
+        return self.line(self.series.force - self._mean)
+
+    @property
+    def passed_on(self) -> np.ndarray:
+        """sd (s,) of what the noise of the measured excitation, white as its floor, does to the outputs through the model."""
+        gain = np.abs(self.SH @ self.series.loads(self.linear.M))
+        return np.sqrt((gain[1:] ** 2).mean(axis=0) @ self.series.force_floor**2)
+
+    @cached_property
+    def _loads(self) -> np.ndarray:
+        """Histories (t, ...) of the measured forces, or of all that act on the model where the ground carries it along."""
+        series = self.series
+        return series.force if not series.base.any() else series.force @ series.loads(self.linear.M).T
 
     @property
     def _mean(self) -> np.ndarray:
@@ -108,7 +129,7 @@ class Spectrum:
 
         Forces of circular normal distribution with covariance Q: u = H f + H Q (SH)' (SH Q SH' + R)^-1 (y - S H f).
         """
-        size = np.sqrt((self.series.force**2).mean(axis=0).sum())
+        size = np.sqrt((self._loads**2).mean(axis=0).sum())
         unit = B / np.linalg.norm(B, axis=0)
         Q = size**2 * (_EVERYWHERE**2 * np.eye(len(B)) + _HERE**2 * unit @ unit.T)
         R = np.diag(self.series.sd**2)

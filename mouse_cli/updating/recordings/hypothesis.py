@@ -85,7 +85,8 @@ class Hypothesis:
     """x (k,): nuisances in prior sd, offsets of the measured forces among them, then ln parameters of each law.
 
     offset (i,): prior sd of a constant that a force channel reads wrongly; known: laws that the deck has already; parts: laws with
-    free parameters. place: that which is looked at, or that of the last law. fixed: x that no fit moves.
+    free parameters. place: that which is looked at, or that of the last law. fixed: x that no fit moves. ground:
+    whether the motion of the ground is all that excites the model.
     """
 
     linear: Linear
@@ -94,6 +95,7 @@ class Hypothesis:
     place: Place | None = None
     parts: tuple[Part, ...] = ()
     fixed: np.ndarray | None = None
+    ground: bool = False
 
     @property
     def law(self) -> Law | None:
@@ -184,16 +186,17 @@ class Hypothesis:
         x, a = self.whole(many), self.extra
         M, C, K = self.linear.matrices(x[:, : self.linear.k])
         m = M.shape[1]
-        constant = (x[:, self.linear.k : self.nuisances] * self.offset) @ series.inputs.T
-        inputs = np.repeat(series.inputs[None], len(many), 0)
-        inputs = np.concatenate([inputs, constant[:, :, None]], axis=2)
         motions = [one.B for one in self.known] + [part.place.B for part in self.parts if not part.law.linear]
         local = np.zeros((m + a, len(motions)))
         local[:m] = np.array(motions).reshape(-1, m).T
         if any(part.law.linear for part in self.parts):
             M, C, K = self._with_matrices(many, M, C, K)
         sensing = np.pad(series.sensing, ((0, 0), (0, a)))
-        return Plant(M, C, K, np.pad(inputs, ((0, 0), (0, a), (0, 0))), local, sensing, series.order)
+        own = [np.repeat(part.place.B[None] @ series.base, part.extra, 0) for part in self.parts]
+        felt = replace(series, inputs=np.pad(series.inputs, ((0, a), (0, 0))), base=np.concatenate([series.base, *own]))
+        inputs = felt.loads(M)
+        constant = np.einsum("pni,pi->pn", inputs, x[:, self.linear.k : self.nuisances] * self.offset)
+        return Plant(M, C, K, np.concatenate([inputs, constant[:, :, None]], axis=2), local, sensing, series.order)
 
     def _with_matrices(self, many: np.ndarray, *matrices: np.ndarray) -> tuple[np.ndarray, ...]:
         """M, C, K (P, m + a, m + a) with those of linear laws."""
@@ -223,6 +226,30 @@ class Hypothesis:
                 own = np.asarray(size) if states.ndim == 1 else part.place.B @ half[0]
                 half.append(np.broadcast_to(own, (part.extra, *states.shape[1:])))
         return np.concatenate([one for half in halves for one in half])
+
+    def gauged(self, x: np.ndarray) -> np.ndarray:
+        """x (k,) with all masses, stiffnesses, dampings and forces of laws multiplied by one factor, as the prior likes best.
+
+        Where the ground alone moves a model, no record knows that factor, and a fit would creep along it.
+        """
+        if self.fixed is not None or self.known or not self.ground:
+            return x
+        factors = np.concatenate([[0.0], np.geomspace(1e-4, 1.0, 25)])
+        tried = [self._scaled(x, float(np.exp(step))) for step in (*-factors[:0:-1], *factors)]
+        cost = lambda one: float((((one - self.mean) / self.sd) ** 2).sum())
+        return min((one for one in tried if one is not None), key=cost)
+
+    def _scaled(self, x: np.ndarray, s: float) -> np.ndarray | None:
+        """x (k,) with everything s times as large; None where nuisances or ranges do not reach."""
+        z = x[: self.linear.k] if s == 1 else self.linear.scaled(x[: self.linear.k], s)
+        if z is None:
+            return None
+        grows = [i in part.law.homogeneous for part in self.parts for i in range(len(part.unknowns))]
+        found = np.concatenate(
+            [z, x[self.linear.k : self.nuisances], x[self.nuisances :] + np.log(s) * np.array(grows)]
+        )
+        low, high = self.bounds
+        return found if s == 1 or ((found >= low) & (found <= high)).all() else None
 
     def placed(self, place: Place) -> "Hypothesis":
         """The same, looking at a place."""

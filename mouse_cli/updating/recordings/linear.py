@@ -11,6 +11,7 @@ class Linear:
     """M, C, K (n, n) at the prior mean, and k nuisances with a standard normal prior.
 
     matrices(z (P, k)) gives M, C, K (P, n, n); slopes: their derivatives dM, dC, dK (k, n, n) at the mean. names (k,).
+    scaled(z (k,), s): nuisances of the same model with M, C and K s times as large; None where they do not make one.
     """
 
     M: np.ndarray
@@ -19,6 +20,7 @@ class Linear:
     matrices: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray, np.ndarray]]
     slopes: tuple[np.ndarray, np.ndarray, np.ndarray]
     names: tuple[str, ...]
+    scaled: Callable[[np.ndarray, float], np.ndarray | None] = lambda z, s: None
 
     def sound(self, z: np.ndarray) -> bool:
         """Whether at z (k,) every motion has inertia, and stiffness unless it has none at the mean."""

@@ -8,9 +8,10 @@ from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
 from mouse_cli.terms.laws import Scale
+from mouse_cli.updating.recordings.basis import LARGEST
 from mouse_cli.updating.recordings.free_force import Spectrum
 from mouse_cli.updating.recordings.hypothesis import Place
-from mouse_cli.updating.recordings.uncertain import LARGEST, links
+from mouse_cli.updating.recordings.uncertain import links
 
 
 def motions(problem: Problem, sensed: np.ndarray) -> Iterator[tuple[Site, np.ndarray, bool]]:

@@ -128,7 +128,7 @@ class Polish:
 
     def _followed(self, x: np.ndarray, states: np.ndarray, internal, steps: int, beat: float) -> Fit | None:
         states = self.h.padded_states(states)
-        x = self._sound(np.clip(x, *self.h.bounds))
+        x = self._sound(self.h.gauged(np.clip(x, *self.h.bounds)))
         self.internal = internal
         here = self._point(x, states)
         cost, damping = self._cost(here, x, states), _DAMPING
@@ -138,7 +138,7 @@ class Polish:
             if step >= _PATIENCE and cost > _BEHIND * beat:
                 break
             moved, d_states = self._step(here, x, states, damping)
-            nx, ns = np.clip(x + moved, *self.h.bounds), states + d_states
+            nx, ns = self.h.gauged(np.clip(x + moved, *self.h.bounds)), states + d_states
             sound = self.h.linear.sound(self.h.whole(nx[None])[0, : self.h.linear.k])
             there = self._point(nx, ns) if sound else here
             new = self._cost(there, nx, ns) if sound else np.inf

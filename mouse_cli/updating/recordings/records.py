@@ -7,7 +7,9 @@ import numpy as np
 from mouse_cli._errors import ERROR, WARNING, DeckError, Diagnostic
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.recording import MOTIONS, Channel, Recording
+from mouse_cli.updating.recordings import ground
 from mouse_cli.updating.recordings.series import Series
+from mouse_cli.updating.recordings.uncertain import Uncertain
 
 FLOOR = 0.01  # of the rms of a channel: no transducer and no theory is more accurate
 HELD = 0.3  # share at the end of each record that is held out where the deck holds nothing out
@@ -17,6 +19,9 @@ _LINES, _LOWEST = (
 )  # spectral lines averaged for the noise floor; white noise over the lowest tenth of such means
 _FORCES = ("force", "moment")
 _ORDERS = MOTIONS | {"rotation": 0, "angular velocity": 1, "angular acceleration": 2}  # how many times differentiated
+_MOVING = (
+    "the ground moves: motions are simulated relative to it, and absolute channels compared less its measured motion"
+)
 _RATE = 30.0  # steps in a period of the highest mode of interest, at least
 
 
@@ -44,9 +49,14 @@ def records(problem: Problem) -> Records:
             f"{len(fitted) - len(alike)} recordings have other channels or another rate than the first and were left out"
         )
     held = [one for one in held if _alike(one, first)]
-    floor = np.max([_floor(one.samples[:, outputs]) for one in alike], axis=0)
-    sd = np.max([floor, *(FLOOR * one.samples[:, outputs].std(axis=0) for one in alike)], axis=0)
-    make = lambda one: replace(_series(problem, one, inputs, outputs, sd), floor=_floor(one.samples[:, outputs]))
+    orders = np.array([_ORDERS[first.channels[j].quantity] for j in outputs])
+    floors = {id(one): _floor(ground.relative(one, inputs, outputs, orders)) for one in [*alike, *held]}
+    sd = np.max([floors[id(one)] for one in alike], axis=0)
+    sd = np.max([sd, *(FLOOR * one.samples[:, outputs].std(axis=0) for one in alike)], axis=0)
+    quiet = np.max([_floor(ground.accelerations(one, inputs)) for one in alike], axis=0)
+    make = lambda one: replace(_series(problem, one, inputs, outputs, sd), floor=floors[id(one)], force_floor=quiet)
+    if any(first.channels[j].ground for j in inputs):
+        said.append(_MOVING)
     if held:
         series, kept = [make(one) for one in alike], [make(one) for one in held]
     else:
@@ -70,16 +80,32 @@ def named(found: Records) -> dict[str, object]:
 
 
 def _channels(problem: Problem, record: Recording) -> tuple[list[int], list[int]]:
-    """Columns of forces and of motions on degrees of freedom of the model."""
+    """Columns of forces, or motions of the ground, and of motions on degrees of freedom of the model."""
     own = lambda j: bool(record.channels[j].weights)
-    inputs = [int(j) for j in record.inputs if record.channels[j].quantity in _FORCES and own(j)]
+    forced = lambda channel: channel.quantity in _FORCES or channel.ground
+    inputs = [int(j) for j in record.inputs if forced(record.channels[j]) and own(j)]
     outputs = [int(j) for j in record.outputs if record.channels[j].quantity in _ORDERS and own(j)]
-    for what, columns in (("force", inputs), ("motion (displacement, rotation, or their derivatives)", outputs)):
+    _prescribed(problem, record)
+    for what, columns in (
+        ("force, or motion of the ground,", inputs),
+        ("motion (displacement, rotation, or their derivatives)", outputs),
+    ):
         if not columns:
             message = f"recording '{record.title}' has no channel of {what} at a degree of freedom of the model"
-            help = "name it under inputs or outputs with its quantity; simulation needs the measured force"
+            help = "name it under inputs or outputs with its quantity; simulation needs the measured excitation"
             raise DeckError([Diagnostic("MD640", ERROR, message, problem.place("recordings"), help=help)])
+    ground.check(problem, record, inputs, outputs, _ORDERS)
     return inputs, outputs
+
+
+def _prescribed(problem: Problem, record: Recording) -> None:
+    """Raise DeckError (MD640) for a motion that is prescribed at a degree of freedom of the model."""
+    for j in record.inputs:
+        channel = record.channels[j]
+        if channel.quantity in _ORDERS and not channel.ground:
+            message = f"input '{channel.name}' of recording '{record.title}' is a motion of {channel.sensor}, which is free to move"
+            help = "call it ground (groundTX) where it is the motion of what holds the model, or name it under outputs"
+            raise DeckError([Diagnostic("MD640", ERROR, message, problem.place("recordings"), help=help)])
 
 
 def cannot_judge(problem: Problem) -> tuple[Diagnostic, ...]:
@@ -92,7 +118,7 @@ def cannot_judge(problem: Problem) -> tuple[Diagnostic, ...]:
 
 
 def _alike(one: Recording, other: Recording) -> bool:
-    same = lambda r: [(c.role, c.quantity, c.weights) for c in r.channels]
+    same = lambda r: [(c.role, c.quantity, c.weights, c.ground, c.frame) for c in r.channels]
     return abs(one.time_step_s / other.time_step_s - 1) < 1e-6 and same(one) == same(other)
 
 
@@ -100,16 +126,17 @@ def _series(problem: Problem, record: Recording, inputs: list[int], outputs: lis
     n = problem.structure.n
     rows = lambda columns: np.array([_weights(record.channels[j], n) for j in columns])
     order = np.array([_ORDERS[record.channels[j].quantity] for j in outputs])
-    samples = record.samples
+    moving = np.array([record.channels[j].ground for j in inputs])
     return Series(
         record.title,
         record.time_step_s,
-        samples[:, inputs],
-        samples[:, outputs],
+        ground.accelerations(record, inputs),
+        ground.relative(record, inputs, outputs, order),
         sd,
-        rows(inputs).T,
+        np.where(moving, 0.0, rows(inputs).T),
         rows(outputs),
         order,
+        np.where(moving, rows(inputs).T, 0.0),
         first=record.start,
     )
 
@@ -139,6 +166,7 @@ def steps(series: Series, highest_hz: float) -> Series:
     return replace(series, factor=int(np.clip(2 ** np.ceil(np.log2(max(wanted, 1.0))), 2, 16)))
 
 
-def reduced(series: Series, basis: np.ndarray) -> Series:
-    """The series in the coordinates of a basis (n, m)."""
-    return replace(series, inputs=basis.T @ series.inputs, sensing=series.sensing @ basis)
+def reduced(series: Series, model: Uncertain) -> Series:
+    """The series in the coordinates of a model."""
+    V = model.basis
+    return replace(series, inputs=V.T @ series.inputs, sensing=series.sensing @ V, base=model.along @ series.base)

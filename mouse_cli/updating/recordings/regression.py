@@ -30,22 +30,27 @@ class Start:
 
 @dataclass(frozen=True)
 class Local:
-    """All that a place needs: histories x, v (t,) of its motion, lines X (l,), answer (l, s) of sensors to a force there."""
+    """All that a place needs: histories x, v (t,) of its motion, lines X (l,), answer (l, s) of sensors to a force there.
+
+    carried (l,): lines of the acceleration of the ground along it.
+    """
 
     place: Place
     x: np.ndarray
     v: np.ndarray
     X: np.ndarray
     answer: np.ndarray
+    carried: np.ndarray | float = 0.0
 
 
 class Regression:
     """Regressions of one record at one place: nuisances are projected out once.
 
-    begun (k,): x of `hypothesis`, about which laws that it has already are linear; None where it has none.
+    begun (k,): x of `hypothesis`, about which laws that it has already are linear; None where it has none. error: sd of the closed
+    form, by the rms of the missing part: nuisances leave their prior for no more than what it can tell.
     """
 
-    def __init__(self, spectrum: Spectrum, hypothesis: Hypothesis, begun: np.ndarray | None = None):
+    def __init__(self, spectrum: Spectrum, hypothesis: Hypothesis, begun: np.ndarray | None = None, error: float = 0.0):
         self.spectrum, self.base = spectrum, hypothesis
         self.begun = np.zeros(hypothesis.nuisances) if begun is None else begun
         place = hypothesis.place
@@ -57,11 +62,14 @@ class Regression:
         self._states = spectrum.history(both).T
         self.spread = self._states.std(axis=1)
         histories = (spectrum.history(X * (1j * spectrum.w) ** order) for order in (0, 1))
-        self.local = Local(place, *histories, X, spectrum.SH @ place.B)
+        self.local = Local(place, *histories, X, spectrum.SH @ place.B, self._carried(place))
         t = len(spectrum.series)
         self.kept = slice(int(_BEGIN * t), t - 2 * int(_BEGIN * t))
         self.missing = spectrum.missing + self._answer(self.begun)
+        self.sd = 1.0
         self.y = self._stacked(self.missing)
+        self.sd = float(np.hypot(1.0, error * np.sqrt((self.y**2).mean())))
+        self.y /= self.sd
         self.J = np.stack([self._stacked(column) for column in (*self._nuisances(U), *self._slopes())], axis=1)
         k = self.J.shape[1]
         self.Q, self.R = np.linalg.qr(np.vstack([self.J, np.eye(k)]))
@@ -81,8 +89,14 @@ class Regression:
             found += add(s.line(F * s.window), one.B)
         for part, p in self.base.sizes(x[None]):
             if part.law.linear:
-                found += add(_stiffness(part.matrices(p[:, 0]), s.w) * (self._U @ part.place.B), part.place.B)
+                along, B = self._carried(part.place), part.place.B
+                found += add(_force(part.matrices(p[:, 0]), s.w, self._U @ B, along), B)
         return found
+
+    def _carried(self, place: Place) -> np.ndarray | float:
+        """Lines (l,) of the acceleration with which the ground carries a place along."""
+        carried = self.spectrum.carried
+        return 0.0 if carried is None else carried @ place.B
 
     def _slopes(self) -> Iterator[np.ndarray]:
         """Answers (t, s) to a change of the ln parameters of the laws that the hypothesis has."""
@@ -111,13 +125,14 @@ class Regression:
         return found
 
     def _stacked(self, columns: np.ndarray) -> np.ndarray:
-        return self.spectrum.weighed(columns)[self.kept].ravel()
+        return self.spectrum.weighed(columns)[self.kept].ravel() / self.sd
 
     def _nuisances(self, U: np.ndarray) -> Iterator[np.ndarray]:
-        """Answers (t, s) to forces -(dK + iw dC - w^2 dM) u of each nuisance."""
+        """Answers (t, s) to forces -(dK u + iw dC u + dM a) of each nuisance, a = -w^2 u and what the ground adds."""
         s, w = self.spectrum, self.spectrum.w[:, None]
+        a = -(w**2) * U + (0.0 if s.carried is None else s.carried)
         for dM, dC, dK in zip(*self.base.linear.slopes, strict=True):
-            force = U @ dK.T + 1j * w * (U @ dC.T) - w**2 * (U @ dM.T)
+            force = U @ dK.T + 1j * w * (U @ dC.T) + a @ dM.T
             yield s.history(-np.einsum("lsn,ln->ls", s.SH, force)) * s.window[:, None]
 
     def free(self, x: np.ndarray) -> np.ndarray:
@@ -139,7 +154,7 @@ class Regression:
     def left(self) -> np.ndarray:
         """What the nuisances leave of the outputs (t, s), weighed; 0 at either end."""
         found = np.zeros_like(self.missing)
-        found[self.kept] = self.target[: len(self.y)].reshape(-1, found.shape[1])
+        found[self.kept] = self.sd * self.target[: len(self.y)].reshape(-1, found.shape[1])
         return found
 
     def share(self, forces: list[np.ndarray]) -> float:
@@ -169,7 +184,7 @@ class Regression:
             return
         for p in many:
             if law.linear:
-                yield _stiffness(law.matrices(p, **words), s.w) * local.X
+                yield _force(law.matrices(p, **words), s.w, local.X, local.carried)
             else:
                 yield s.line(law.force(local.x, local.v, None, p, **words)[0] * s.window)
 
@@ -207,13 +222,22 @@ class Regression:
         return Start(hypothesis, np.clip(x, *hypothesis.bounds), left)
 
 
-def _stiffness(matrices: tuple[np.ndarray, np.ndarray, np.ndarray], w: np.ndarray) -> np.ndarray:
-    """Dynamic stiffness (l,) of a linear law against its motion, its own degrees of freedom eliminated."""
+def _force(matrices: tuple[np.ndarray, ...], w: np.ndarray, X: np.ndarray, carried: np.ndarray | float) -> np.ndarray:
+    """Lines (l,) of the force of a linear law against its motion X (l,), its own degrees of freedom eliminated.
+
+    All of them are carried along with the acceleration `carried` of the ground: with 1 = (1, ..., 1),
+    [F, 0]' = Z [X, Q]' + M 1 carried.
+    """
     K, C, M = matrices
     Z = K + 1j * w[:, None, None] * C - w[:, None, None] ** 2 * M
+    felt = M.sum(axis=1)
     if len(K) == 1:
-        return Z[:, 0, 0]
-    return Z[:, 0, 0] - (Z[:, :1, 1:] @ np.linalg.solve(Z[:, 1:, 1:], Z[:, 1:, :1]))[:, 0, 0]
+        return Z[:, 0, 0] * X + felt[0] * carried
+    back = np.linalg.solve(
+        Z[:, 1:, 1:], np.concatenate([Z[:, 1:, :1], np.broadcast_to(felt[1:, None], Z[:, 1:, :1].shape)], 2)
+    )
+    through = (Z[:, :1, 1:] @ back)[:, 0]
+    return (Z[:, 0, 0] - through[:, 0]) * X + (felt[0] - through[:, 1]) * carried
 
 
 def stepped(law: Law, x: np.ndarray, v: np.ndarray, p: np.ndarray, words: dict[str, float]) -> np.ndarray:

@@ -13,8 +13,9 @@ _EDGE, _WINDOW = 0.42, 6.0  # its edge by the sample rate; parameter of its Kais
 class Series:
     """t samples of one record, dt apart in s. force (t, i), measured (t, s); sd (s,) of the noise; factor: steps in a sample.
 
-    inputs (n, i), sensing (s, n): how they meet the model; order (s,): 0 displacement, 1 velocity, 2 acceleration. floor (s,): what
-    the spectrum shows of the noise, where sd is more.
+    inputs (n, i), sensing (s, n): how they meet the model; order (s,): 0 displacement, 1 velocity, 2 acceleration. base (n, i): how
+    the ground carries it along, where `force` is its acceleration; motions are then relative to it, and `inputs` 0. floor (s,): of
+    the noise, as the spectrum shows it, where sd is more; force_floor (i,): that of the columns of `force`.
     """
 
     title: str
@@ -25,9 +26,11 @@ class Series:
     inputs: np.ndarray
     sensing: np.ndarray
     order: np.ndarray
+    base: np.ndarray
     factor: int = 4
     first: int = 0
     floor: np.ndarray | None = None
+    force_floor: np.ndarray | None = None
 
     def __len__(self) -> int:
         return len(self.measured)
@@ -35,6 +38,10 @@ class Series:
     def part(self, begin: int, end: int) -> "Series":
         """Samples begin to end."""
         return replace(self, force=self.force[begin:end], measured=self.measured[begin:end], first=self.first + begin)
+
+    def loads(self, M: np.ndarray) -> np.ndarray:
+        """What a unit of each column of `force` does to the model with the mass matrix M (..., n, n): P - M J (..., n, i)."""
+        return self.inputs - M @ self.base
 
     @property
     def at_rest(self) -> bool:

@@ -6,6 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mouse_cli.model.problem import Problem
+from mouse_cli.terms.assembly import assembly
+from mouse_cli.updating.recordings.basis import LARGEST
 from mouse_cli.updating.recordings.deck_laws import acting
 from mouse_cli.updating.recordings.free_force import Spectrum
 from mouse_cli.updating.recordings.hypothesis import Hypothesis, Place
@@ -14,7 +16,7 @@ from mouse_cli.updating.recordings.polish import Fit, Segments, followed, segmen
 from mouse_cli.updating.recordings.records import Records, reduced, steps
 from mouse_cli.updating.recordings.regression import Regression, Start
 from mouse_cli.updating.recordings.series import REACH, Series
-from mouse_cli.updating.recordings.uncertain import LARGEST, Uncertain, uncertain
+from mouse_cli.updating.recordings.uncertain import Uncertain, uncertain
 
 Modelled = Callable[[Problem, float, np.ndarray], Uncertain]
 
@@ -56,42 +58,54 @@ class Study:
             self._at[key] = first, self.looked(place, self.spectrum, first)
         return self._at[key][1]
 
-    def looked(self, place: Place, spectrum: Spectrum, first: Fit | None = None) -> Regression:
-        """The same of a spectrum, not kept."""
+    def looked(self, place: Place, spectrum: Spectrum, first: Fit | None = None, error: float = 0.0) -> Regression:
+        """The same of a spectrum, not kept; error: of the closed form."""
         base, x = (self.base, None) if first is None else (first.hypothesis, first.x)
-        return Regression(spectrum, base.placed(place), x)
+        return Regression(spectrum, base.placed(place), x, error)
 
 
 def study(problem: Problem, found: Records, of: Modelled = uncertain) -> Study:
     """What the fits of a deck begin from; of: its model, see `uncertain`."""
     first = found.fitted[0]
     lowest, high = _occupied(first)
-    model = of(problem, *_needed(first, high))
+    model = of(problem, *_needed(problem, first, high))
     hz = _resonances(model)
     flexible = hz[hz > 1e-3 * max(hz.max(), lowest)]
     slowest, highest = (flexible.min(), flexible.max()) if len(flexible) else (2 * lowest, high)
     low = min(lowest, 0.5 * float(slowest))
-    make = lambda one: steps(reduced(one, model.basis), min(highest, high))
+    found = _accurate(found, model)
+    make = lambda one: steps(reduced(one, model), min(highest, high))
     fitted = [make(one) for one in found.fitted]
     length = int(np.clip(_PERIODS / slowest / fitted[0].dt, _SHORTEST, _LONGEST))
     length = max(64, min(length, min(len(one) for one in fitted) // 3))
     share = max(2, _SEGMENTS // len(fitted))
     data = [segments(one, length, share) for one in fitted]
     rms = np.sqrt(np.mean([(one.force**2).mean(axis=0) for one in fitted], axis=0))
-    base = Hypothesis(model.linear, OFFSET * rms, acting(problem, model.basis))
+    ground = bool(first.base.any()) and not first.inputs.any()
+    base = Hypothesis(model.linear, OFFSET * rms, acting(problem, model.basis), ground=ground)
     loudest = max(fitted, key=lambda one: float((one.measured / one.sd).std()))
     look = loudest.part(0, min(len(loudest), _SAMPLES))
     return Study(problem, found, model, base, look, data, (low, high), length)
 
 
+def _accurate(found: Records, model: Uncertain) -> Records:
+    """The records with the noise of the motion of the ground in the accuracy of the channels: simulations repeat it, amplified."""
+    first = found.fitted[0]
+    if not first.base.any():
+        return found
+    more = Spectrum(reduced(first, model), model.linear).passed_on
+    wider = lambda series: tuple(replace(one, sd=np.hypot(one.sd, more)) for one in series)
+    return replace(found, fitted=wider(found.fitted), held=wider(found.held))
+
+
 def alike(own: Study, of: Modelled) -> Study:
     """The same stretches of the same records, judged by another model: as accurate, and begun within the same spread."""
     first = own.records.fitted[0]
-    model = of(own.problem, *_needed(first, _occupied(first)[1]))
-    there = reduced(first, model.basis)
-    seen = lambda one: replace(one, inputs=there.inputs, sensing=there.sensing)
+    model = of(own.problem, *_needed(own.problem, first, _occupied(first)[1]))
+    there = reduced(first, model)
+    seen = lambda one: replace(one, inputs=there.inputs, sensing=there.sensing, base=there.base)
     data = [replace(part, series=seen(part.series)) for part in own.data]
-    base = Hypothesis(model.linear, own.base.offset, acting(own.problem, model.basis))
+    base = Hypothesis(model.linear, own.base.offset, acting(own.problem, model.basis), ground=own.base.ground)
     found = Study(own.problem, own.records, model, base, seen(own.look), data, own.band, own.length)
     begun = own.at(own.places[0]).spread
     found.spread = found.at(found.places[0]).spread.copy()
@@ -103,9 +117,12 @@ def alike(own: Study, of: Modelled) -> Study:
     return found
 
 
-def _needed(first: Series, high: float) -> tuple[float, np.ndarray]:
+def _needed(problem: Problem, first: Series, high: float) -> tuple[float, np.ndarray]:
     """Frequency (Hz) up to which a model is to be true for a record, and motions (n, q) of its sensors and forces."""
-    return min(_ABOVE * high, _BEYOND / first.dt), np.unique(np.hstack([first.inputs, first.sensing.T]), axis=1)
+    loads = first.inputs
+    if first.base.any():
+        loads = first.loads(assembly(problem).matrices(problem.prior.mean)[1])
+    return min(_ABOVE * high, _BEYOND / first.dt), np.unique(np.hstack([loads, first.sensing.T]), axis=1)
 
 
 def _resonances(model: Uncertain) -> np.ndarray:

@@ -13,14 +13,13 @@ from mouse_cli.model.arrays import Matrix, dense
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
 from mouse_cli.updating.coordinates import coordinates
+from mouse_cli.updating.recordings.basis import along, basis_of
 from mouse_cli.updating.recordings.linear import Linear
 
 UNDAMPED, LOOSE = 0.01, 2.0  # damping ratio assumed of each mode where the deck has no damping; its sd, by its value
 LEFT_OUT = (
     0.01  # sd at least of the damping ratio of a mode where the deck has damping: air, joints and supports add to it
 )
-LARGEST = 40  # degrees of freedom that are simulated as they are; larger models by modes
-_MOST_MODES = 60
 _MOST_LINKED = 400  # degrees of freedom of a model all of whose links are looked at
 _Named = list[tuple[str, np.ndarray]]  # matrices (n, n) with the names of what they belong to
 Own = Callable[[np.ndarray], tuple[np.ndarray, ...]]  # M, C, K at the nuisances
@@ -61,11 +60,13 @@ def links(K: Matrix) -> Links | None:
 class Uncertain:
     """The linear model in the coordinates in which it is simulated: u = basis q, basis (n, m); remarks on what was assumed.
 
-    theta(z (own,)): values of the parameters of the deck, which are the first `own` nuisances.
+    along (m, n): q = along u of motions as a rigid body. theta(z (own,)): values of the parameters of the deck, which are the first
+    `own` nuisances.
     """
 
     linear: Linear
     basis: np.ndarray
+    along: np.ndarray
     theta: Callable[[np.ndarray], np.ndarray]
     own: int
     remarks: tuple[str, ...]
@@ -92,7 +93,7 @@ def uncertain(problem: Problem, highest_hz: float, at: np.ndarray) -> Uncertain:
 
     steady = found.linear and not where.logarithmic.any()
     linear, said = completed(problem, own, _names(problem, k), bare, steady, problem.structure.labels)
-    return Uncertain(linear, V, value, k, said)
+    return Uncertain(linear, V, along(V, found.matrices(value(np.zeros(k)))[1]), value, k, said)
 
 
 def completed(
@@ -112,29 +113,6 @@ def completed(
     by = problem.theory.link_stiffness, LOOSE if bare else problem.theory.link_damping
     extra = _extra(M, C, K, slopes, bare, labels, by)
     return _linear(own, (M, C, K), slopes, extra, names, steady), _remarks(bare, len(extra.names), by)
-
-
-def basis_of(K: Matrix, M: Matrix, highest_hz: float, at: np.ndarray) -> np.ndarray:
-    """The degrees of freedom themselves; of a larger model the modes up to `highest_hz`, and what the others add by their static
-    flexibility at the motions `at` (n, q), those of sensors and forces.
-    """
-    n = K.shape[0]
-    if n <= LARGEST:
-        return np.eye(n)
-    from scipy.linalg import eigh
-    from scipy.sparse import csc_array
-    from scipy.sparse.linalg import splu
-
-    from mouse_cli.dynamics.solver import EigenSolver
-
-    limit = (2 * np.pi * highest_hz) ** 2
-    found = EigenSolver().solve(K, M, min(_MOST_MODES, n))
-    modes = np.asarray(found.shapes)[:, :_MOST_MODES][:, found.eigenvalues[:_MOST_MODES] < limit]
-    static = splu(csc_array(K + limit * M)).solve(np.ascontiguousarray(at))
-    static -= modes @ np.linalg.solve(modes.T @ (M @ modes), modes.T @ (M @ static))
-    own, shares = np.linalg.svd(static / np.maximum(np.linalg.norm(static, axis=0), 1e-300), full_matrices=False)[:2]
-    V = np.column_stack([modes, own[:, shares > 1e-6 * shares.max()]])
-    return V @ eigh(V.T @ (K @ V), V.T @ (M @ V))[1]
 
 
 def viscous(K: np.ndarray, M: np.ndarray, C: np.ndarray | None, D: np.ndarray | None) -> np.ndarray:
@@ -162,6 +140,12 @@ class _Extra:
     def moved(self, z: np.ndarray) -> np.ndarray:
         """Steps (P, e) at z (P, e): what is softer or less damped by many sd tends to nothing and never turns negative."""
         return np.where(z < 0, np.expm1(np.minimum(self.share * z, 0.0)) / self.share, z)
+
+    def stepped(self, y: np.ndarray) -> np.ndarray | None:
+        """z (e,) at steps y (e,): the inverse of `moved`; None where a part would be less than nothing."""
+        if (self.share * y <= -1).any():
+            return None
+        return np.where(y < 0, np.log1p(np.minimum(self.share * y, 0.0)) / self.share, y)
 
 
 def _extra(M, C, K, slopes, bare: bool, labels: tuple[str, ...], by: tuple[float, float]) -> _Extra:
@@ -262,7 +246,26 @@ def _linear(own, mean, slopes, extra: _Extra, names: list[str], steady: bool) ->
         moved = (0.0, np.einsum("pk,kij->pij", z[:, k:], extra.dC), np.einsum("pk,kij->pij", z[:, k:], extra.dK))
         return tuple(part + d for part, d in zip(parts, moved, strict=True))
 
-    return Linear(*mean, matrices, whole, (*names, *extra.names))
+    scaled = _scaled(mean, whole, extra, k) if steady else lambda z, s: None
+    return Linear(*mean, matrices, whole, (*names, *extra.names), scaled)
+
+
+def _scaled(mean, slopes, extra: _Extra, k: int) -> Callable[[np.ndarray, float], np.ndarray | None]:
+    """How nuisances scale M, C and K alike: with M = M0 + sum y dM and M0 = sum y0 dM, C and K so too, y -> s y + (s - 1) y0."""
+    size = [np.abs(one).max() or 1.0 for one in mean]
+    target = np.concatenate([one.ravel() / norm for one, norm in zip(mean, size, strict=True)])
+    columns = [d.reshape(len(d), -1) / norm for d, norm in zip(slopes, size, strict=True)]
+    A = np.concatenate(columns, axis=1).T
+    y0 = np.linalg.lstsq(A, target, rcond=None)[0] if A.shape[1] else np.zeros(0)
+    if np.abs(A @ y0 - target).max() > 1e-6:
+        return lambda z, s: None
+
+    def scaled(z: np.ndarray, s: float) -> np.ndarray | None:
+        y = s * np.concatenate([z[:k], extra.moved(z[k:])]) + (s - 1) * y0
+        own = extra.stepped(y[k:])
+        return None if own is None else np.concatenate([y[:k], own])
+
+    return scaled
 
 
 def _names(problem: Problem, k: int) -> list[str]:

@@ -13,7 +13,7 @@ from mouse_cli.model.result import ChiSquareTest
 from mouse_cli.terms.laws import Scale, registry
 from mouse_cli.updating.chi_square import upper_tail
 from mouse_cli.updating.recordings.adequacy import strained, unlikely, with_noise
-from mouse_cli.updating.recordings.hypothesis import Hypothesis, Part, Place
+from mouse_cli.updating.recordings.hypothesis import Part, Place
 from mouse_cli.updating.recordings.noise import noise
 from mouse_cli.updating.recordings.polish import Fit, Polish, followed
 from mouse_cli.updating.recordings.records import named, records
@@ -35,6 +35,7 @@ def update_records(problem: Problem, notice: Notice) -> RecordUpdate:
     """
     found = records(problem)
     own = study(problem, found)
+    found = own.records
     notice("simulation of the records")
     prior, fit = _fitted(own, [_part(one, own) for one in problem.laws])
     if fit is None:
@@ -79,7 +80,7 @@ def _part(one: LocalLaw, own: Study) -> tuple[Part, np.ndarray]:
 def _fitted(own: Study, parts: list[tuple[Part, np.ndarray]]) -> tuple[Fit | None, Fit | None]:
     """The deck as it is, only initial states fitted, and the posterior; None where no simulation stays finite."""
     place = parts[-1][0].place if parts else None
-    hypothesis = Hypothesis(own.base.linear, own.base.offset, (), place, tuple(part for part, _ in parts))
+    hypothesis = replace(own.base, known=(), place=place, parts=tuple(part for part, _ in parts))
     sizes = [np.log(values) for _, values in parts]
     x = np.concatenate([np.zeros(hypothesis.nuisances), *sizes])
     looks = [own.at(own.places[0], data.series) for data in own.data]

@@ -36,7 +36,7 @@ def scores(study: Study, baseline: Fit, best: Fit | None) -> tuple[RecordScore, 
 
 def _held(study: Study) -> list[Series]:
     factor = study.data[0].series.factor
-    found = [reduced(one, study.model.basis) for one in study.records.held]
+    found = [reduced(one, study.model) for one in study.records.held]
     return [replace(one, factor=factor) for one in found]
 
 

@@ -18,7 +18,8 @@ from mouse_cli.diagnosis.evidence import capped
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.model.arrays import dense
 from mouse_cli.model.problem import Problem
-from mouse_cli.updating.recordings.uncertain import LARGEST, Uncertain, basis_of, completed, viscous
+from mouse_cli.updating.recordings.basis import LARGEST, basis_of
+from mouse_cli.updating.recordings.uncertain import Uncertain, completed, viscous
 
 
 @dataclass(frozen=True)
@@ -88,7 +89,14 @@ def modelled(known: Posterior, problem: Problem, highest_hz: float, at: np.ndarr
     names = [f"direction {i} of what modes leave uncertain" for i in range(1, len(mean) + 1)]
     labels = (*base.problem.structure.labels, *(f"own {i}" for i in range(1, own_dofs + 1)))
     linear, said = completed(problem, lambda y: at_bytes(np.ascontiguousarray(y).tobytes()), names, bare, False, labels)
-    return Uncertain(linear, A @ W, theta, len(mean), said)
+    along = np.linalg.lstsq(W, _carried(A, matrices(mean)[0], base.V.shape[1]), rcond=None)[0]
+    return Uncertain(linear, A @ W, along, theta, len(mean), said)
+
+
+def _carried(A: np.ndarray, K: np.ndarray, r: int) -> np.ndarray:
+    """Coordinates (size, n) of motions of the deck; those of mechanisms, behind the first r, as their springs carry them along."""
+    first = np.linalg.pinv(A[:, :r])
+    return np.concatenate([first, -np.linalg.lstsq(K[r:, r:], K[r:, :r] @ first, rcond=None)[0]])
 
 
 def _theta(known: Posterior, x: np.ndarray) -> np.ndarray:

@@ -16,6 +16,9 @@ from mouse_cli.updating.recordings.study import Study, fitted
 from mouse_cli.updating.refusals import not_simulated
 
 _POLISHED, _MORE, _AGAIN = 4, 12, 8  # starts that are fitted; where none of them is adequate; of the nearest law again
+_FIRST_ORDER = (
+    0.02  # of what is missing: error of first looks, where nuisances that leave their prior explain it by first order
+)
 _END = 0.01  # of the logarithm of a range, from its end
 _ROUNDS, _SECONDS = 3, 4  # laws beside which a second one is sought, and starts of it that are fitted
 
@@ -105,7 +108,8 @@ def _left(study: Study, one: Fit) -> Noise | None:
 
 def _singles(study: Study, notice: Notice, known: list[Law] | None, baseline: Fit) -> list[Fit]:
     notice(f"{len(study.places)} places, first look")
-    order = starts((study.looked(place, study.spectrum) for place in study.places), known)
+    error = _FIRST_ORDER if strained(baseline) else 0.0
+    order = starts((study.looked(place, study.spectrum, error=error) for place in study.places), known)
     found, best = [], baseline
     for count, start in enumerate(_varied(order), 1):
         if count > _POLISHED and (adequate(best) or count > _MORE):

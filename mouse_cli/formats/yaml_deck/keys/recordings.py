@@ -2,9 +2,12 @@
 
 from mouse_cli.formats.yaml_deck.kinds import Key, Section
 from mouse_cli.model.frf_test import FORMS, KINDS, MOST_LINES
-from mouse_cli.model.recording import QUANTITIES
+from mouse_cli.model.recording import FRAMES, QUANTITIES
 
-_SENSOR = "where: number or label of a degree of freedom, 12-TY, or a name of `sensors`; only in a list of channels"
+_SENSOR = (
+    "where: number or label of a degree of freedom, 12-TY, or a name of `sensors`; `ground`, or groundTX, for the motion of what "
+    "holds the model; only in a list of channels"
+)
 _FRF_UNIT = "unit of the values, as (m/s2)/N or g/lbf"
 SECTIONS = {
     "recording": Section(
@@ -15,8 +18,11 @@ SECTIONS = {
             "sample_rate": Key("number", "samples a second", "what the file says", unit="Hz"),
             "time": Key("text", "channel that holds the time in s", "a column called t or time, where there is one"),
             "segment": Key("span", "first sample and the one after the last, from 0", "the whole file"),
-            "inputs": Key("channels", "what excited the structure: {sensor: channel, ...}", "none: output only"),
+            "inputs": Key(
+                "channels", "what excited it, forces or motion of the ground: {sensor: channel, ...}", "none: output only"
+            ),
             "outputs": Key("channels", "what it answered: {sensor: channel, ...}", "all channels of a file that names its sensors"),
+            "frame": Key("choice", "whether outputs are motions in space or relative to the ground", FRAMES[0], choices=FRAMES),
         },
     ),
     "channel": Section(
@@ -25,10 +31,16 @@ SECTIONS = {
             "sensor": Key("text", _SENSOR),
             "channel": Key("text", "its name in the file, or its number from 1; column 3 of a table A is A[3]", required=True),
             "quantity": Key(
-                "choice", "what it measures", "by its unit; else force for inputs, acceleration for outputs", choices=QUANTITIES
+                "choice", "what it measures", "by its unit; else force of inputs, acceleration of others", choices=QUANTITIES
             ),
             "unit": Key("text", "of its numbers: N, kN, lbf, m/s2, mm/s2, g, m, mm, V, ...", "what the file says"),
             "sensitivity": Key("text", "of a transducer recorded in volts, as 100 mV/g", "none"),
+            "frame": Key("choice", "of an output: in space, or relative to the ground", "`frame` of the recording", choices=FRAMES),
+            "moves": Key(
+                "sensor weights",
+                "of the ground: degrees of freedom that it carries along as a rigid body, and by how much",
+                "all of its direction by 1; of a model of matrices without labels all",
+            ),
         },
     ),
     "frf": Section(

@@ -1,0 +1,272 @@
+"""Motion of the ground as excitation: truths in absolute coordinates by scipy's exact first-order hold, and closed forms."""
+
+import csv
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from mouse_cli._errors import DeckError
+from mouse_cli.cli.main import cli
+from mouse_cli.dynamics.response import simulate
+from mouse_cli.formats import read_deck
+from mouse_cli.terms.laws import registry
+from mouse_cli.updating.recordings.ground import derivative
+from mouse_cli.updating.recordings.polish import Segments
+from mouse_cli.updating.recordings.records import records
+from mouse_cli.updating.recordings.series import REACH
+from mouse_cli.updating.recordings.study import study
+
+RATE, SECONDS = 200.0, 20.0
+K, M, ZETA = np.array([6e4, 5e4, 4e4]), np.array([100.0, 90.0, 80.0]), 0.0144
+
+
+def chain(k):
+    found = np.diag(k + np.append(k[1:], 0.0))
+    i = np.arange(len(k) - 1)
+    found[i, i + 1] = found[i + 1, i] = -k[1:]
+    return found
+
+
+def table(seed=1, rate=RATE * 8):
+    """A band-limited random acceleration of the table (t,), and its velocity and displacement, exact line by line."""
+    t, rng = int(SECONDS * rate), np.random.default_rng(seed)
+    hz = np.fft.rfftfreq(t, 1 / rate)
+    lines = np.where((hz >= 0.5) & (hz <= 30), np.exp(2j * np.pi * rng.uniform(size=len(hz))), 0)
+    w = 2 * np.pi * np.maximum(hz, 1e-9)
+    a, v, d = (np.fft.irfft(lines / (1j * w) ** order, t) for order in (0, 1, 2))
+    size = a.std()
+    return a / size, v / size, d / size
+
+
+def absolute(m, C, k_matrix, J, seed=1):
+    """Absolute accelerations and displacements (t, n) of M u'' + C (u' - J d') + K (u - J d) = 0 at RATE, by scipy's lsim.
+
+    In absolute coordinates the table acts through springs and dashpots, by its displacement and velocity: not as mouse does it.
+    """
+    from scipy.signal import StateSpace, lsim
+
+    a, v, d = table(seed)
+    n, t = len(m), np.arange(len(a)) / (RATE * 8)
+    inverse = np.diag(1 / m)
+    A = np.block([[np.zeros((n, n)), np.eye(n)], [-inverse @ k_matrix, -inverse @ C]])
+    B = np.vstack([np.zeros((n, 2)), np.column_stack([inverse @ k_matrix @ J, inverse @ C @ J])])
+    x0 = np.concatenate([J * d[0], J * v[0]])
+    out = np.vstack([A[n:], np.eye(n, 2 * n)])
+    feed = np.vstack([B[n:], np.zeros((n, 2))])
+    _, y, _ = lsim(StateSpace(A, B, out, feed), np.column_stack([d, v]), t, x0)
+    return a[::8], d[::8], y[::8, :n], y[::8, n:]
+
+
+def damping(m, k_matrix, zeta=ZETA):
+    root = np.sqrt(m)
+    w2, s = np.linalg.eigh(k_matrix / np.outer(root, root))
+    return root[:, None] * (s @ np.diag(2 * zeta * np.sqrt(w2)) @ s.T) * root
+
+
+def deck(
+    folder,
+    ag,
+    floors,
+    outputs="{1: f1, 2: f2, 3: f3}",
+    ground="{sensor: ground, channel: ag, unit: m/s2}",
+    more="",
+    m=M,
+):
+    noisy = np.column_stack([ag, floors])
+    noisy = noisy + 0.003 * noisy.std(axis=0) * np.random.default_rng(5).standard_normal(noisy.shape)
+    with open(folder / "run.csv", "w", newline="") as file:
+        out = csv.writer(file)
+        out.writerow(["ag", *(f"f{i + 1}" for i in range(floors.shape[1]))])
+        out.writerows(noisy.tolist())
+    rows = [[i + 1, j + 1, float(chain(K)[i, j])] for i in range(3) for j in range(i, 3) if chain(K)[i, j]]
+    lines = [
+        "mouse: 1",
+        "model:",
+        f"  stiffness: {{order: 3, entries: {rows}}}",
+        f"  mass: {{diagonal: {list(map(float, m))}}}",
+    ]
+    lines += ["parameters:"]
+    for i in range(3):
+        entries = [[1, 1, 1]] if i == 0 else [[i, i, 1], [i, i + 1, -1], [i + 1, i + 1, 1]]
+        lines += [f"  - {{name: k{i + 1}, nominal: {K[i]}, sd: 5 %, stiffness: {entries}}}"]
+    lines += [f"  - {{name: m{i + 1}, nominal: {m[i]}, sd: 1 %, mass: [[{i + 1}, {i + 1}, 1]]}}" for i in range(3)]
+    lines += [
+        "test:",
+        "  recordings:",
+        "    - file: run.csv",
+        f"      sample_rate: {RATE:g}",
+        f"      inputs: [{ground}]",
+    ]
+    lines += [f"      outputs: {outputs}", *([f"      {more}"] if more else [])]
+    path = folder / "deck.yaml"
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+def sound(folder, **more):
+    k = chain(K)
+    ag, _, floors, _ = absolute(M, damping(M, k), k, np.ones(3))
+    return deck(folder, ag, floors, **more)
+
+
+def with_oscillator(mass, hz, zeta):
+    """A building with a mass on a spring and a dashpot on floor 3; its absolute accelerations."""
+    w = 2 * np.pi * hz
+    big, C = np.zeros((4, 4)), np.zeros((4, 4))
+    big[:3, :3], C[:3, :3] = chain(K), damping(M, chain(K))
+    b = np.array([0, 0, -1.0, 1.0])
+    big += mass * w**2 * np.outer(b, b)
+    C += 2 * zeta * mass * w * np.outer(b, b)
+    ag, _, floors, _ = absolute(np.append(M, mass), C, big, np.ones(4))
+    return ag, floors[:, :3]
+
+
+def test_a_motion_of_the_ground_is_read_from_the_deck(tmp_path):
+    recording = read_deck(sound(tmp_path)).recordings[0]
+    ground, first = recording.channels[:2]
+    assert ground.ground and ground.quantity == "acceleration" and ground.weights == {0: 1.0, 1: 1.0, 2: 1.0}
+    assert first.frame == "absolute" and not first.ground
+    moved = "{sensor: ground, channel: ag, unit: g, moves: {1: 1, 3: 0.5}}"
+    recording = read_deck(sound(tmp_path, ground=moved, more="frame: relative")).recordings[0]
+    assert recording.channels[0].weights == {0: 1.0, 2: 0.5} and recording.channels[1].frame == "relative"
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        ({"ground": "{sensor: ground, channel: ag, unit: N}"}, "is force; the ground has a motion"),
+        ({"ground": "{sensor: groundTX, channel: ag}"}, "carries nothing along"),
+        ({"ground": "{sensor: 1, channel: ag, unit: N, moves: {1: 1}}"}, "is no motion of the ground"),
+        ({"outputs": "{1: f1, ground: f2}"}, "stands among the outputs"),
+        ({"ground": "{sensor: 1, channel: ag, unit: N}", "more": "frame: relative"}, "has no motion of the ground"),
+    ],
+)
+def test_a_ground_that_cannot_be_is_diagnosed(tmp_path, more, words):
+    with pytest.raises(DeckError) as error:
+        read_deck(sound(tmp_path, **more))
+    found = [d for d in error.value.diagnostics if d.severity == "error"]
+    assert {(d.code, words in d.message, d.span is not None) for d in found} == {("MD644", True, True)}
+
+
+def test_check_says_what_diagnose_will_refuse(tmp_path):
+    """An absolute displacement beside the acceleration of the ground; a motion that is prescribed where the model is free."""
+    for more in (
+        {"outputs": "[{sensor: 1, channel: f1, unit: m}]"},
+        {"ground": "{sensor: 1, channel: ag, unit: m/s2}"},
+    ):
+        path = str(sound(tmp_path, **more))
+        checked, judged = (
+            CliRunner().invoke(cli, [word, path], standalone_mode=False) for word in ("check", "diagnose")
+        )
+        code = "MD644" if "outputs" in more else "MD640"
+        assert f"warning[{code}]" in checked.stderr
+        assert [one.code for one in judged.exception.diagnostics] == [code]
+
+
+def test_derivatives_of_a_record():
+    t = np.arange(4000) / 200
+    x = 0.3 + 0.2 * t + np.sin(2 * np.pi * 3 * t)
+    inner = slice(200, -200)
+    first, second = (derivative(x, 1 / 200, times) for times in (1, 2))
+    w = 2 * np.pi * 3
+    np.testing.assert_allclose(first[inner], 0.2 + w * np.cos(w * t)[inner], atol=2e-3 * w)
+    np.testing.assert_allclose(second[inner], -(w**2) * np.sin(w * t)[inner], atol=5e-3 * w**2)
+
+
+@pytest.mark.parametrize("quantity", ["acceleration", "displacement"])
+def test_absolute_and_relative_channels_say_the_same(tmp_path, quantity):
+    k = chain(K)
+    ag, d, floors, places = absolute(M, damping(M, k), k, np.ones(3))
+    if quantity == "acceleration":
+        whole = records(read_deck(deck(tmp_path, ag, floors))).fitted[0]
+        other = records(read_deck(deck(tmp_path, ag, floors - ag[:, None], more="frame: relative"))).fitted[0]
+    else:
+        unit = (
+            "[{sensor: 1, channel: f1, unit: m}, {sensor: 2, channel: f2, unit: m}, {sensor: 3, channel: f3, unit: m}]"
+        )
+        ground = "{sensor: ground, channel: ag, unit: m}"
+        whole = records(read_deck(deck(tmp_path, d, places, unit, ground))).fitted[0]
+        other = records(read_deck(deck(tmp_path, d, places - d[:, None], unit, ground, "frame: relative"))).fitted[0]
+    size = whole.measured.std()
+    np.testing.assert_allclose(whole.measured, other.measured, atol=0.05 * size)
+    assert np.corrcoef(whole.force[500:-500, 0], ag[500 : len(whole) - 500])[0, 1] > 0.9
+
+
+def test_hidden_masses_feel_the_motion_of_the_ground(tmp_path):
+    """A simulation in relative coordinates with a hidden oscillator, beside the answer in absolute ones."""
+    p = np.array([12.0, 4.0, 0.03])
+    ag, floors = with_oscillator(*p)
+    own = study(read_deck(deck(tmp_path, ag, floors)), records(read_deck(deck(tmp_path, ag, floors))))
+    place = next(one for one in own.places if one.ground and one.B[2])
+    h = own.base.placed(place).at(registry()["oscillator"], 0)
+    x = np.concatenate([np.zeros(h.nuisances), np.log(p)])
+    x[[own.model.linear.names.index(name) for name in own.model.linear.names if name.startswith("damping of mode")]] = (
+        0.0
+    )
+    series = own.look
+    part = Segments(series, np.array([REACH]), len(series) - 2 * REACH)
+    plant = h.plant(x[None], series)
+    u0 = np.zeros((1, plant.states, 1))
+    out, _ = simulate(plant, series.dt / series.factor, part.force, u0)
+    simulated = out[0, :, :: series.factor, 0].T
+    truth = (floors - ag[:, None])[: len(simulated)]
+    late = slice(
+        1200, len(simulated)
+    )  # the assumed damping, 1 % for 1.44 %, and the beginning from rest have died away by half
+    assert np.sqrt(((simulated - truth)[late] ** 2).mean()) < 0.35 * truth[late].std()
+
+
+def test_first_looks_find_masses_that_the_ground_moves(tmp_path):
+    """Closed-form starts: an oscillator's mass, frequency and place, and an added mass, from the record alone."""
+    ag, floors = with_oscillator(12.0, 4.0, 0.03)
+    problem = read_deck(deck(tmp_path, ag, floors))
+    own = study(problem, records(problem))
+    look = own.at(next(one for one in own.places if one.ground and one.B[2]))
+    (force,) = look.forces(registry()["oscillator"], 0, np.array([[12.0, 4.0, 0.03]]))
+    s = look.spectrum
+    look.local = replace(look.local, carried=0.0)
+    (resting,) = look.forces(registry()["oscillator"], 0, np.array([[12.0, 4.0, 0.03]]))
+    assert look.share([-s.history(force)]) > 0.6 > 2 * look.share([-s.history(resting)])
+    heavier = M + np.array([0, 25.0, 0])
+    ag, _, floors, _ = absolute(heavier, damping(heavier, chain(K)), chain(K), np.ones(3))
+    problem = read_deck(deck(tmp_path, ag, floors))
+    own = study(problem, records(problem))
+    looks = [own.looked(one, own.spectrum, error=0.02) for one in own.places if one.ground]
+    found = {look.local.place.site.ids[0]: look.best(registry()["mass"], 0) for look in looks}
+    best = min((one for one in found.values() if one), key=lambda one: one.left)
+    assert best is found["2"] and np.exp(best.x[-1]) == pytest.approx(25.0, rel=0.5)
+
+
+def verdict(path):
+    done = CliRunner().invoke(cli, ["diagnose", str(path), "--json", "-q"], standalone_mode=False)
+    assert done.exit_code in (0, 1), done.stderr
+    return json.loads(done.stdout)["verdict"]
+
+
+def test_a_sound_building_whose_damping_the_deck_leaves_out_lacks_nothing(tmp_path):
+    """1.44 % in every mode, absent from the deck: neither an oscillator nor a dashpot."""
+    assert verdict(sound(tmp_path))["kind"] == "nothing-missing"
+
+
+def test_a_sound_building_of_a_run_has_its_parameters_back(tmp_path):
+    """`mouse run` takes the motion of the ground too; masses 1 % off move the loads with them."""
+    heavier = M * [1.01, 0.99, 1.01]
+    k = chain(K * [1.04, 0.97, 1.02])
+    ag, _, floors, _ = absolute(heavier, damping(heavier, k), k, np.ones(3))
+    done = CliRunner().invoke(cli, ["run", str(deck(tmp_path, ag, floors)), "--json", "-q"], standalone_mode=False)
+    assert done.exit_code == 0, done.stderr
+    found = {one["name"]: one for one in json.loads(done.stdout)["parameters"]}
+    ratio = found["k1"]["posterior"] / found["m1"]["posterior"]
+    assert ratio == pytest.approx(1.04 * K[0] / heavier[0], rel=0.01)
+    for name, true in zip(("k1", "k2", "k3"), K * [1.04, 0.97, 1.02], strict=True):
+        assert abs(found[name]["posterior"] - true) < 3 * found[name]["posterior_sd"]
+
+
+def test_added_mass_is_named_at_its_floor(tmp_path):
+    heavier = M + np.array([0, 25.0, 0])
+    ag, _, floors, _ = absolute(heavier, damping(heavier, chain(K)), chain(K), np.ones(3))
+    said = verdict(deck(tmp_path, ag, floors))
+    assert (said["kind"], said["physics"], said["site"]["ids"]) == ("named", "mass", [2])
