@@ -142,6 +142,12 @@ CODES = {
         "The program of 1972 allowed three rigid-body modes; --legacy enforces that.",
         "Run without --legacy.",
     ),
+    "MD336": Code(
+        "close modes put in order",
+        "Two frequencies do not ascend, and differ by less than three standard deviations of their difference: noise has put close "
+        "modes out of order. They are sorted, each with its shape; mode numbers stay as they are.",
+        "Nothing; or write them in ascending order.",
+    ),
     "MD334": Code(
         "unknown estimator",
         "The deck asks for an estimator that neither mouse nor an installed plug-in has.",

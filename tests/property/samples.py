@@ -262,7 +262,14 @@ FILES: dict[str, dict[str, dict[str, object]]] = {
         "inp": {"n.inp": "*HEADING\nplate\n*NODE, NSET=ALL\n3, -1., 1.5, -1.\n12, .25, 0, -1.,\n*ELEMENT, TYPE=S4\n1,2\n"},
         "unv": {"n.unv": NODES_UNV},
     },
-    "mode_files": {"unv": {"modes.unv": _modes}},
+    "mode_files": {
+        "csv": {
+            "modes.csv": "node,direction,mode 1,mode 2\nfrequency,,3.4,21.5\nsd,,0.1,0.2\n2,TY,0.1,0.7\n3,-Y,0.4,-1\n",
+            "rows.tsv": "mode\tfrequency\tsd\t2TY\t3TY\n1\t3,4\t0,1\t0,1\t0,7\n2\t21,5\t0,2\t0,4\t-1\n",
+            "places.csv": "sensor,x,y,z,nx,ny,nz,1\nfrequency,,,,,,,3.4\nA,0.6,0,0,0,2,0,1\n",
+        },
+        "unv": {"modes.unv": _modes},
+    },
 }  # fmt: skip
 
 

@@ -1,7 +1,7 @@
 """Mode shapes kept in files: one module = one format; here, what each of them hands over."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -14,7 +14,8 @@ class ModeTable:
 
     Frequencies ascend. shapes: as the file scales them, NaN where a mode has no value; complex ones turned so that their real parts
     are largest, and those parts. Those with a modal mass are divided by its root. mass_kg: one of the
-    file's unit of mass, None where it says none.
+    file's unit of mass, None where it says none. frequency_sd_hz (m,), shape_sd (s, m): None where the file states none. places,
+    directions: by name, coordinates (3) or node, and direction (6, over TX to RZ), of sensors given by these.
     """
 
     names: tuple[str, ...]
@@ -22,6 +23,24 @@ class ModeTable:
     damping: np.ndarray
     shapes: np.ndarray
     mass_kg: float | None = None
+    frequency_sd_hz: np.ndarray | None = None
+    shape_sd: np.ndarray | None = None
+    places: dict[str, tuple | int] = field(default_factory=dict)
+    directions: dict[str, tuple] = field(default_factory=dict)
+
+    def ascending(self) -> "ModeTable":
+        """The same with the modes in ascending order of frequency."""
+        order = np.argsort(self.frequency_hz, kind="stable")
+        turned = {
+            "shapes": self.shapes[:, order],
+            "frequency_hz": self.frequency_hz[order],
+            "damping": self.damping[order],
+        }
+        if self.frequency_sd_hz is not None:
+            turned["frequency_sd_hz"] = self.frequency_sd_hz[order]
+        if self.shape_sd is not None:
+            turned["shape_sd"] = self.shape_sd[:, order]
+        return replace(self, **turned)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,11 +1,15 @@
 """Rules for the measured modes."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from mouse_cli.formats.draft import Draft, TestDraft
 from mouse_cli.formats.rules.sensors import Sensing, sensing
 from mouse_cli.model.geometry import Geometry
 from mouse_cli.model.modal_test import ModalTest
+
+_CLOSE = 3.0  # standard deviations of a difference within which two frequencies may have changed places by noise
 
 
 def modal_test(draft: Draft, geometry: Geometry | None = None) -> ModalTest | None:
@@ -16,6 +20,7 @@ def modal_test(draft: Draft, geometry: Geometry | None = None) -> ModalTest | No
     test = draft.test
     if test is None:
         return None
+    test = _in_order(draft, test)
     _mode_numbers(draft, test)
     _frequencies(draft, test)
     if test.sensors:
@@ -51,6 +56,36 @@ def _mode_numbers(draft: Draft, test: TestDraft) -> None:
                 "give the system mode number of each measured mode, in ascending order",
             )
         previous = max(previous, number)
+
+
+def _in_order(draft: Draft, test: TestDraft) -> TestDraft:
+    """The modes in ascending order of frequency, where noise alone has put close ones out of it; says so."""
+    hz, sd = test.frequency_hz, test.frequency_sd_hz
+    first, second = np.triu_indices(len(hz), 1)
+    with np.errstate(invalid="ignore"):
+        fallen = hz[first] > hz[second]
+        by_noise = hz[first] - hz[second] <= _CLOSE * np.hypot(sd[first], sd[second])
+    if not fallen.any() or not by_noise[fallen].all():
+        return test
+    order = np.argsort(hz, kind="stable")
+    if np.isnan(hz).any():  # modes without a frequency keep their places
+        order = np.arange(len(hz))
+        order[np.isfinite(hz)] = np.flatnonzero(np.isfinite(hz))[np.argsort(hz[np.isfinite(hz)], kind="stable")]
+    i, j = (int(pair[fallen][0]) for pair in (first, second))
+    message = f"test frequencies {i + 1} and {j + 1}, {hz[i]:.6g} and {hz[j]:.6g} Hz, were put in ascending order with their shapes"
+    draft.warn("MD336", message, test.where_frequency(j), "they differ by less than three of their standard deviations")
+    moved = lambda where: lambda k: where(int(order[k]))
+    return replace(
+        test,
+        frequency_hz=hz[order],
+        frequency_sd_hz=sd[order],
+        shapes=test.shapes[:, order],
+        shape_sd=test.shape_sd[:, order],
+        where_frequency=moved(test.where_frequency),
+        where_frequency_sd=moved(test.where_frequency_sd),
+        where_shape=lambda s, m: test.where_shape(s, int(order[m])),
+        where_shape_sd=lambda s, m: test.where_shape_sd(s, int(order[m])),
+    )
 
 
 def _frequencies(draft: Draft, test: TestDraft) -> None:

@@ -48,7 +48,8 @@ def _measured(section: Section, units: Units) -> TestDraft | None:
         return modes.document.error(
             "MD216", nodes["frequency"], f"{modes.what('frequency')} is empty", "give a frequency"
         )
-    sd = frequency_sd(modes, frequency)
+    stated = held is not None and held.frequency_sd_hz is not None and "frequency_sd" not in modes
+    sd = held.frequency_sd_hz if stated else frequency_sd(modes, frequency)
     number = modes.value("number", np.arange(1, m + 1))
     dofs = listed(modes.document, nodes["dofs"], modes.what("dofs"), named) if "dofs" in modes else named or None
     if held:
@@ -93,6 +94,11 @@ def _of_file(modes: Section, held: ModeTable, dofs: list[SensorDraft]) -> tuple[
     if rows is None:
         return Grid(np.zeros((0, len(held.frequency_hz)))), Grid(np.zeros((0, len(held.frequency_hz))))
     span = modes.document.span(modes.nodes["file"])
+    rows, stated = rows
+    if stated is not None and "shape_sd" not in modes:
+        return Grid(rows, lambda s, m: span), Grid(stated, lambda s, m: span)
+    if not len(rows):
+        return Grid(rows), Grid(rows)
     return Grid(rows, lambda s, m: span), _shape_sd(modes, rows) or Grid(np.full(rows.shape, np.nan))
 
 

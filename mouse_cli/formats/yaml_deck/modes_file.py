@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from mouse_cli._span import Span
 from mouse_cli.formats.mode_files import ModeTable, read_modes
 from mouse_cli.formats.own_names import own_sensor
 from mouse_cli.formats.sensor import SensorDraft
@@ -33,12 +34,25 @@ def own_sensors(modes: Section, held: ModeTable) -> list[SensorDraft]:
     """All sensors of the file, by its names."""
     where = modes.document.span(modes.nodes["file"])
     words = lambda name: f"sensor {name} of {modes.what('file')}"
-    return [own_sensor(name, where, words(name)) or SensorDraft(name, where) for name in held.names]
+    return [
+        _placed(held, name, where, words(name)) or own_sensor(name, where, words(name)) or SensorDraft(name, where)
+        for name in held.names
+    ]
 
 
-def chosen(modes: Section, held: ModeTable, dofs: list[SensorDraft]) -> np.ndarray | None:
-    """The rows of shapes at `dofs`, each by its name in the file, reversed where that is; None after an error."""
-    rows = []
+def _placed(held: ModeTable, name: str, where: Span, words: str) -> SensorDraft | None:
+    """The sensor of a row that gives coordinates, or a node and the components of a direction."""
+    if name not in held.places:
+        return None
+    place, direction = held.places[name], np.array(held.directions[name])
+    if isinstance(place, int):
+        return SensorDraft(name, where, direction=direction, node=place, words=words)
+    return SensorDraft(name, where, direction=direction, at=np.array(place), words=words)
+
+
+def chosen(modes: Section, held: ModeTable, dofs: list[SensorDraft]) -> tuple[np.ndarray, np.ndarray | None] | None:
+    """The rows of shapes at `dofs`, each by its name in the file, reversed where that is, and their sd; None after an error."""
+    rows, places = [], []
     for sensor in dofs:
         backwards = sensor.name.replace("-", "")
         name, sign = (sensor.name, 1.0) if sensor.name in held.names else (backwards, -1.0)
@@ -47,5 +61,7 @@ def chosen(modes: Section, held: ModeTable, dofs: list[SensorDraft]) -> np.ndarr
             note = f"it has {', '.join(held.names[:_SHOWN])}{', ...' if len(held.names) > _SHOWN else ''}"
             node = modes.nodes.get("dofs", modes.nodes["file"])
             return modes.document.error("MD600", node, message, "name sensors as the file does", note)
-        rows.append(sign * held.shapes[held.names.index(name)])
-    return np.array(rows).reshape(len(dofs), len(held.frequency_hz))
+        places.append(held.names.index(name))
+        rows.append(sign * held.shapes[places[-1]])
+    shape_sd = None if held.shape_sd is None else held.shape_sd[places]
+    return np.array(rows).reshape(len(dofs), len(held.frequency_hz)), shape_sd

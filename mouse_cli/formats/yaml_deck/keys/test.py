@@ -33,12 +33,12 @@ SECTIONS = {
         forms=(("name", "node", "direction"), ("name", "at", "direction"), ("name", "weights")),
     ),
     "modes": Section(
-        "m measured modes at s sensors: given here, or in a universal file.",
+        "m measured modes at s sensors: given here, or in a file.",
         {
             "file": Key(
                 "path",
-                "universal file whose data sets 55 or 2414 give frequencies and shapes; its sensors are called 12TY, ...; `dofs` "
-                "chooses among them",
+                "universal file whose data sets 55 or 2414 give frequencies and shapes, or a labelled table (.csv, .tsv, .txt) of "
+                "them; its sensors are called 12TY, ...; `dofs` chooses among them",
                 "none",
             ),
             "number": Key("wholes", "system mode number of each measured mode, rigid-body modes counted", "1 to m"),
