@@ -45,6 +45,12 @@ def shared(ranking: Ranking, first: Fit) -> Shared | None:
     return None
 
 
+def placed(one: Fit) -> float:
+    """Share of the evidence of a fit that is at its own sites, or so near that they are one (SAME_SITE)."""
+    own, reach = _mechanisms(one), SAME_SITE * span(one.model.base)
+    return 1 - sum(share for other, share in one.elsewhere if _matched(own, _mechanisms(other), reach) is None)
+
+
 def _summed(which: tuple[int, ...], own: list[Mechanism], every, reach: float) -> Shared:
     physics, beside, weights = [], [], []
     for p, mechanisms in every:
@@ -90,7 +96,8 @@ def _matched(wanted: Sequence[Mechanism], among: Sequence[Mechanism], reach: flo
 
 
 def gap(one: Site, other: Site) -> float:
-    """Distance between two sites in m; without coordinates 0 where they are the same."""
-    if one.position is None or other.position is None:
+    """Distance between two sites in m; 0 where they are the same, and infinite where two have no one place, or join other nodes."""
+    joining = one.kind == other.kind == "node" and max(len(one.ids), len(other.ids)) > 1
+    if joining or one.position is None or other.position is None:
         return 0.0 if (one.kind, one.ids) == (other.kind, other.ids) else float("inf")
     return float(np.linalg.norm(np.subtract(one.position, other.position)))

@@ -27,7 +27,7 @@ from mouse_cli.diagnosis.names import by_records, housed
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.rank import Ranking, group, rank
 from mouse_cli.diagnosis.validate.next_measurement import proposals
-from mouse_cli.diagnosis.verdict import Verdict, certain, explanations, judge, rest
+from mouse_cli.diagnosis.verdict import Verdict, acting, certain, explanations, judge, rest
 from mouse_cli.dynamics.solver import EigenSolver
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Choices, Diagnosis, Proposal
 from mouse_cli.model.modal_test import restricted
@@ -99,7 +99,7 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices, recordings
         choices=choices,
         field=verdict.field and field_of(ranking, verdict.field, verdict.field_proof),
         rest=rest(ranking) if kind == NAMED else None,
-        certain=verdict.certain and certain(best, verdict.certain),
+        **_open(verdict),
         **_tried(ranking),
         **vars(compared(problem, ranking, best if missing else None)),
     )
@@ -109,6 +109,11 @@ def _tried(ranking: Ranking) -> dict[str, object]:
     """What was tried, and how probable it is."""
     told = {name: getattr(ranking, name) for name in ("groups", "noise_scale", "untried")}
     return told | {"explanations": explanations(ranking)}
+
+
+def _open(verdict: Verdict) -> dict[str, object]:
+    """What is certain where companions are open, and whether the site is no longer."""
+    return {"certain": verdict.certain and certain(verdict.best, verdict.certain), "placed": verdict.placed}
 
 
 def _by_modes(problem: Problem) -> Problem:
@@ -177,10 +182,13 @@ def _coarse(deck: Problem) -> tuple[str, ...]:
 
 
 def _proposals(ranking: Ranking, verdict: Verdict) -> tuple[Proposal, ...]:
-    """What would separate the leading cause from what else is possible: no cause, or those that lead other groups."""
+    """What would separate the leading cause from other sites of it, or from no cause, or from those that lead other groups."""
     best = verdict.best
     if best is None or verdict.kind in (NOTHING, UNKNOWN):
         return ()
+    if not verdict.placed:
+        sites = [best, *(other for other, share in best.elsewhere[:_RIVALS] if share > RIVAL)]
+        return proposals(sites, [acting(one) for one in sites]) if len(sites) > 1 else ()
     fits_named = [ranking.fits[i] for i in ranking.named]
     names = [group(one) for one in fits_named]
     others = [(name, p) for name, p in ranking.groups if name in names and name not in (group(best), *verdict.refuted)]

@@ -12,7 +12,7 @@ NAMELESS = 0.1
 """Prior weight of a change without a name, about that of a pair."""
 
 SURE = 0.95
-"""Posterior probability of a group from which on it is named: no rival is left that would have to be listed."""
+"""Posterior probability of a group, and of its site, from which on it is named: no rival is left that would have to be listed."""
 
 STAYS = 0.1
 """Posterior probability of a group above which it stays a rival of what leads without a name."""

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.companions import Shared, shared
+from mouse_cli.diagnosis.companions import Shared, placed, shared
 from mouse_cli.diagnosis.gates import DEMANDED, FAR, GATE, LIKELY, ODDS, SEVERAL, STAYS, SURE
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unmeasured_hz
@@ -45,7 +45,7 @@ class Verdict:
 
     refuted: groups that held-out data speak against. field: the leading rival without a name where the answer is UNKNOWN, with
     field_proof, how it predicts what was held out. reasons: what forbids a name that evidence alone would give, in sentences.
-    certain: what of `best` is named, where its companions are open.
+    certain: what of `best` is named, where its companions are open. placed: whether its site is as sure as a name.
     """
 
     kind: str
@@ -56,6 +56,7 @@ class Verdict:
     field_proof: HeldOut | None = None
     reasons: tuple[str, ...] = ()
     certain: Shared | None = None
+    placed: bool = True
 
 
 def judge(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
@@ -64,7 +65,7 @@ def judge(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
     Something is missing where the update leaves too much, where the model as it is is improbable (DEMANDED), or where some
     mechanism is sure and what the deck holds out confirms it. Where none of that holds and yet the model as it is is not probable
     (LIKELY), or the model as it is fails on what the deck holds out and a mechanism predicts it, it is likely, not proved: one of
-    several, the model as it is among them.
+    several, the model as it is among them. A mechanism that is sure at one of several sites is one of these.
     """
     baseline, best, none = ranking.baseline, leader(ranking), dict(ranking.groups).get("none", 0.0)
     believed = ranking.stated[0] >= _BELIEVED
@@ -89,6 +90,8 @@ def judge(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
         return _unknown(ranking, model, best, proof, (), (*reasons, _OVERTAKEN.format(group(best))))
     kind = ONE_OF if stands < SURE else kind
     open_ = kind == NAMED and ranking.groups[0][1] < SURE
+    if kind == NAMED and not open_ and placed(best) < SURE:
+        return Verdict(ONE_OF, best, proof, reasons=reasons, placed=False)
     return Verdict(kind, best, proof, reasons=reasons, certain=shared(ranking, best) if open_ else None)
 
 
@@ -251,6 +254,11 @@ def _causes(one: Fit) -> tuple[Cause, ...]:
 
 def _sites(one: Fit) -> tuple[Site, ...]:
     return tuple(r.site(r.values(one.c[own])) for r, own in zip(one.recipes, one.model.own, strict=True))
+
+
+def acting(one: Fit) -> str:
+    """Where the mechanisms of a fit act, in words."""
+    return " + ".join(site.text or f"{site.kind} {', '.join(map(str, site.ids))}" for site in _sites(one))
 
 
 def _cause(recipe, c: np.ndarray, sd: np.ndarray, units: Units) -> Cause:

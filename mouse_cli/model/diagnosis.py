@@ -179,7 +179,7 @@ class Diagnosis:
     extended: the deck with the cause in it, and its update. frf, held_frf: functions of the model as it is, and with the cause
     where there is one, beside those fitted and those held out; damping: of the structure, as functions show it. field: physics
     without a name where the answer is UNKNOWN; rest: what a named mechanism leaves unexplained; untried: candidates left out;
-    certain: what is named where its companions are open.
+    certain: what is named where its companions are open; placed: False of ONE_OF whose rivals are sites of one mechanism.
     """
 
     problem: Problem
@@ -208,6 +208,7 @@ class Diagnosis:
     rest: Rest | None = None
     untried: tuple[Untried, ...] = ()
     certain: Certain | None = None
+    placed: bool = True
 
     @property
     def best(self) -> Explanation | None:
@@ -247,8 +248,8 @@ class Diagnosis:
 
     @property
     def rivals(self) -> tuple[tuple[str, float], ...]:
-        """Groups that hold more than 5 % of the probability, and it, the leading one first; never one alone of several."""
-        least = (1 if self.nameless > RIVAL else 2) if self.kind == ONE_OF else 0
+        """Groups that hold more than 5 % of the probability, and it, the leading one first; never one alone of several groups."""
+        least = (1 if self.nameless > RIVAL or not self.placed else 2) if self.kind == ONE_OF else 0
         named = {one.group for one in self.explanations}
         standing = [pair for pair in self.groups if pair[0] in named and pair[0] not in self.refuted]
         return tuple((name, p) for i, (name, p) in enumerate(standing) if p > RIVAL or i < least)

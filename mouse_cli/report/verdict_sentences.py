@@ -86,6 +86,9 @@ def _one_of(found: Diagnosis) -> str:
     none, first = dict(found.rivals).get("none"), leaders(found)
     named = "; ".join([*(grouped(found.explanations, one) for one in first), *_nameless(found)])
     test = "the records do" if isinstance(found, RecordDiagnosis) else "the test does"
+    if not found.placed:
+        at = f"{where(found.leader)}{rivals_of_site(found.elsewhere)}"
+        return f"The model lacks {named} ({with_p(found.probability)}), and {test} not settle where: {at}."
     if none is None:
         return f"Something is missing, and {test} not settle what: one of {{{named}}}."
     likely = "It is likely, not proved, that" if none <= _EVEN else "It is possible, not likely, that"

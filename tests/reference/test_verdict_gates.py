@@ -22,6 +22,7 @@ from mouse_cli.model.diagnosis import (
     Score,
     Site,
 )
+from mouse_cli.report.verdict_sentences import sentences
 
 
 @pytest.fixture
@@ -67,6 +68,28 @@ def test_a_model_of_one_in_twenty_may_lack_nothing(proofs):
     answer = Diagnosis(None, found.kind, None, None, told, ranking.groups)
     assert [name for name, _ in answer.rivals] == ["ground-spring", "none"]
     assert answer.exit_code == 1
+
+
+@pytest.mark.parametrize(
+    ("where", "share", "kind"), [("0.9", 0.06, ONE_OF), ("0.9", 0.04, NAMED), ("0.12", 0.4, NAMED)]
+)
+def test_a_name_takes_a_site_as_sure_as_itself(proofs, where, share, kind):
+    """Sites within 5 % of the span are one."""
+    other = made_up(f"ground-spring@{where}")
+    found = judged(made_up("ground-spring@0.1", elsewhere=((other, share),)), BARE, p=(0.99, 0.01))
+    assert (found.kind, found.placed) == (kind, kind == NAMED)
+
+
+def test_one_of_several_sites_is_told_as_such():
+    spring = lambda x: Cause("ground-spring", "ground-spring", "a spring", Site("dof", (x,)), ())
+    told = Explanation((spring(2),), 20.0, 20, 0.5, 0.0, np.zeros(2), 0.999, (((spring(7).site,), 0.3),))
+    bare = Explanation((), 90.0, 20, 0.0, 0.0, np.zeros(2), 0.001)
+    answer = Diagnosis(
+        None, ONE_OF, None, None, (told, bare), (("ground-spring", 0.999), ("none", 0.001)), placed=False
+    )
+    assert [name for name, _ in answer.rivals] == ["ground-spring"]
+    first, _ = sentences(answer)
+    assert "does not settle where: dof 2; or at dof 7 (probability of this site 0.30)" in first
 
 
 @pytest.mark.parametrize(("none", "kind"), [(0.019, NAMED), (0.021, ONE_OF), (0.099, ONE_OF), (0.11, NOTHING)])

@@ -1,4 +1,9 @@
-"""Members that lose or gain stiffness as a whole, all of A, Iy, Iz and J by one factor, and their mass with it."""
+"""Members that lose or gain stiffness as a whole, all of A, Iy, Iz and J by one factor, and their mass with it.
+
+In the coordinates of a large model, what they leave out of a member gives way with it, see `sites/left_out.py`.
+"""
+
+from collections.abc import Callable
 
 import numpy as np
 
@@ -8,6 +13,7 @@ from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import displacements
+from mouse_cli.diagnosis.sites.left_out import loaded
 from mouse_cli.diagnosis.sites.members import SLENDER, Member, members
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
@@ -18,6 +24,7 @@ _LOST, _GAINED = Unknown(LOST, "1", 0.02, 0.99), Unknown("share gained", "1", 0.
 _STIFF = {"beam": ("E",), "rod": ("E",), "storey": DIRECTIONS}
 _SECTIONS = {"beam": ("A", "Iy", "Iz", "J"), "rod": ("A",)}
 
+Beyond = Callable[[float], np.ndarray] | None  # K (r, r) of the share lost or gained
 Part = tuple[
     np.ndarray, np.ndarray, np.ndarray
 ]  # of a set: motion (e, 12, r) of the nodes, K and M (e, 12, 12) of the section
@@ -37,10 +44,23 @@ def of_members(model: Reduced, candidate: Candidate, sign: int = -1) -> list[Rec
         K, M = (_sum(member, parts, which) for which in (1, 2))
         heavy = bool(np.abs(M).max() > 0)
         share = -float(np.log(len(set(kinds)) * kinds.count(member.kind) * (1 + heavy)))
-        recipes.append(_recipe(candidate, member, sign * K, None, sign, share, model.problem))
+        stiff = sign * K, _beyond(model, member, parts, sign)
+        recipes.append(_recipe(candidate, member, stiff, None, sign, share, model.problem))
         if heavy:
-            recipes.append(_recipe(candidate, member, sign * K, sign * M, sign, share, model.problem))
+            recipes.append(_recipe(candidate, member, stiff, sign * M, sign, share, model.problem))
     return recipes
+
+
+def _beyond(model: Reduced, member: Member, parts: dict[int, Part], sign: int) -> Beyond:
+    """What a share lost or gained does beyond the coordinates, which follows the stiffness of the member; None: nothing."""
+    u, K = (np.concatenate([parts[s][which][[i]] for s, i in member.elements]) for which in (0, 1))
+    nodes = np.array([model.problem.mesh.elements[s].nodes[i] for s, i in member.elements])
+    given = loaded(model.static, member.elements, nodes, K)
+    if given is None:
+        return None
+    left = given.left(u, model.eigenvalues, model.static.shift)
+    scale = float(np.einsum("eii->", K) / np.einsum("eii->", given.K))
+    return lambda share: scale * left.felt(sign * share)
 
 
 def _part(model: Reduced, s: int) -> Part:
@@ -77,12 +97,24 @@ def _sum(member: Member, parts: dict[int, Part], which: int) -> np.ndarray:
 
 
 def _recipe(
-    candidate: Candidate, member: Member, K: np.ndarray, M: np.ndarray | None, sign: int, share: float, deck: Problem
+    candidate: Candidate,
+    member: Member,
+    stiff: tuple[np.ndarray, Beyond],
+    M: np.ndarray | None,
+    sign: int,
+    share: float,
+    deck: Problem,
 ) -> Recipe:
-    """K and M: what is added for a share of 1."""
+    """stiff: K that is added for a share of 1, and what goes beyond it; M: for a share of 1."""
+    K, beyond = stiff
     d, site = _LOST if sign < 0 else _GAINED, member.site
     kind, beside = deck.mesh.elements[member.elements[0][0]].type, "" if M is None else ", its mass alike"
     numbers = [int(deck.mesh.elements[s].ids[i]) for s, i in member.elements]
+
+    def change(values: np.ndarray) -> Change:
+        d = values[0]
+        added = d * K if beyond is None else d * K + beyond(d)
+        return Change(added, None if M is None else d * M, spring=(d + sign) * K)
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         edit = Edit(problem)
@@ -96,7 +128,7 @@ def _recipe(
     return Recipe(
         candidate,
         (d,),
-        lambda values: Change(values[0] * K, None if M is None else values[0] * M, spring=(values[0] + sign) * K),
+        change,
         steps(d, 4)[:, None],
         lambda values: site,
         log_prior=share,

@@ -18,10 +18,10 @@ from mouse_cli.diagnosis.likelihoods.modal.scales import lowest, total_mass
 from mouse_cli.diagnosis.localise.matching import Shapes, shapes
 from mouse_cli.diagnosis.localise.survey import gained
 from mouse_cli.diagnosis.search.fit import fit
-from mouse_cli.diagnosis.sites.pairs import MOST, pairs
+from mouse_cli.diagnosis.sites.pairs import MOST, Pairs, pairs
 
 _SIZES = 10.0 ** np.arange(-2.5, 3.0)  # of the mass times the lowest measured eigenvalue
-_BETWEEN, _CLOSER = 10.0 ** (np.array([-1, 1]) / 3), 300  # times these, for so many of the best
+_CLOSER, _HALVINGS = 300, 5  # best ones whose size is sought closer, by steps that are halved so often
 _COARSE, _BESIDE = 24, 8  # coordinates at least, and besides those of the measured modes
 _EACH = 256  # pairs worked on at once
 
@@ -38,34 +38,44 @@ def ties(model: Reduced) -> dict[tuple[int, int, int], float] | None:
     order, k = [np.argsort(-gain[0], kind="stable")], np.full(len(found), np.nan)
     measured = shapes(model)
     if len(measured.modes) and measured.dof > 0:
-        left, k = _left(model, measured, found.rows, _SIZES)
-        best = np.argsort(left, kind="stable")[:_CLOSER]
-        closer, between = _left(model, measured, found.rows[best], np.outer(_SIZES, _BETWEEN).ravel())
-        k[best] = np.where(closer < left[best], between, k[best])
-        left[best] = np.minimum(left[best], closer)
+        left, k = _sized(model, measured, found)
         order.append(np.argsort(left, kind="stable"))
     mixed = np.stack(order, axis=1).ravel()
     kept = mixed[np.sort(np.unique(mixed, return_index=True)[1])][:MOST]
     return {tuple(found.keys[i].tolist()): float(k[i]) for i in np.sort(kept)}
 
 
-def _left(model: Reduced, measured: Shapes, rows: np.ndarray, sizes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The least misfit (c,) of shapes and frequencies over the `sizes` of a spring along each of `rows` (c, r), and its k (c,)."""
+def _sized(model: Reduced, measured: Shapes, found: Pairs) -> tuple[np.ndarray, np.ndarray]:
+    """The least misfit (c,) of shapes and frequencies over the sizes of a spring between each of `found`, and its k (c,)."""
+    sizes = _SIZES * lowest(model) * total_mass(model)
+    each = np.array([_left(model, measured, found, np.full(len(found), size)) for size in sizes])
+    left, k = each.min(axis=0), sizes[each.argmin(axis=0)]
+    best = np.argsort(left, kind="stable")[:_CLOSER]
+    near, step = found.only(best), _SIZES[1] / _SIZES[0]
+    for _ in range(_HALVINGS):
+        step = np.sqrt(step)
+        for there in (k[best] / step, k[best] * step):
+            closer = _left(model, measured, near, there)
+            k[best] = np.where(closer < left[best], there, k[best])
+            left[best] = np.minimum(left[best], closer)
+    return left, k
+
+
+def _left(model: Reduced, measured: Shapes, found: Pairs, k: np.ndarray) -> np.ndarray:
+    """The misfit (c,) with a spring k (c,) between each of `found`."""
     own = model.data.test.number[measured.modes] - 1
     r = min(model.r, max(_COARSE, int(own.max()) + 1 + _BESIDE))
     dK, dM = model.slopes(np.zeros(model.L.shape[1]))
     T = (dK[:, own, own] - model.eigenvalues[own] * dM[:, own, own]).T / measured.sd[:, None]
     C = np.linalg.inv(np.eye(len(own)) + T @ T.T)
-    least, k = np.full((2, len(rows)), np.inf)
-    for size in sizes * lowest(model) * total_mass(model):
-        for first in range(0, len(rows), _EACH):
-            b = rows[first : first + _EACH, :r]
-            A = np.diag(model.eigenvalues[:r]) + size * b[:, :, None] * b[:, None, :]
-            values, Q = np.linalg.eigh(A)
-            cost = _misfit(measured, C, values, model.sensing[:, :r] @ Q)
-            at = first + np.flatnonzero(cost < least[first : first + _EACH])
-            least[at], k[at] = cost[at - first], size
-    return least, k
+    cost, felt = np.zeros(len(found)), k / (1 + k * found.left(model.eigenvalues[:r]))
+    for first in range(0, len(found), _EACH):
+        own = slice(first, first + _EACH)
+        b = found.rows[own, :r]
+        A = np.diag(model.eigenvalues[:r]) + felt[own, None, None] * b[:, :, None] * b[:, None, :]
+        values, Q = np.linalg.eigh(A)
+        cost[own] = _misfit(measured, C, values, model.sensing[:, :r] @ Q)
+    return cost
 
 
 def _misfit(measured: Shapes, C: np.ndarray, values: np.ndarray, seen: np.ndarray) -> np.ndarray:

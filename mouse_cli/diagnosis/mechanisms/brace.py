@@ -20,16 +20,17 @@ _SIZES = 4  # to begin from
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """K + k b'b, b the elongation between two nodes, or the relative motion of two masses of a row."""
+    """K + k / (1 + k R) b'b, b the elongation between two nodes, or the relative motion of two masses of a row."""
     pairs = chosen(model)
     if not len(pairs):
         return []
     scale = lowest(model) * total_mass(model)
     k = Unknown("stiffness", "N/m", 1e-3 * scale, 1e3 * scale)
     log_prior = -float(np.log(pairs.likely))
+    left = pairs.left(model.eigenvalues)
     return [
-        replace(_recipe(candidate, k, key, b, site_of(model, key), log_prior), starts=_starts(model, key))
-        for key, b in zip(pairs.keys, pairs.rows, strict=True)
+        replace(_recipe(candidate, k, key, (b, R), site_of(model, key), log_prior), starts=_starts(model, key))
+        for key, b, R in zip(pairs.keys, pairs.rows, left, strict=True)
     ]
 
 
@@ -39,9 +40,14 @@ def _starts(model: Reduced, key: np.ndarray) -> tuple[np.ndarray, ...]:
     return (np.array([k]),) if np.isfinite(k) else ()
 
 
-def _recipe(candidate: Candidate, k: Unknown, key: np.ndarray, b: np.ndarray, site: Site, log_prior: float) -> Recipe:
+def _recipe(
+    candidate: Candidate, k: Unknown, key: np.ndarray, along: tuple[np.ndarray, float], site: Site, log_prior: float
+) -> Recipe:
+    """along: b (r,), and R, see `Pairs.left`."""
+    b, R = along
+
     def change(values: np.ndarray) -> Change:
-        return Change(K=values[0] * np.outer(b, b))
+        return Change(K=values[0] / (1 + values[0] * R) * np.outer(b, b))
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         return _with_spring(problem, key, site, values[0])

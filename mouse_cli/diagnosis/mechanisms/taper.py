@@ -9,6 +9,7 @@ from mouse_cli.diagnosis.extend.places import beams_within
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.lines import Line, whole
+from mouse_cli.diagnosis.sites.members import crossed
 from mouse_cli.diagnosis.sites.preload import runs, site_of
 from mouse_cli.diagnosis.sites.reasons import bars
 from mouse_cli.model.problem import Problem
@@ -22,8 +23,10 @@ _LEAST_MASS, _MOST_MASS = (
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """EI (1 + a xi) and mass per length (1 + a b xi), xi from -1 at one end of the row to 1 at the other."""
-    found = [run for run in runs(model, "nonstructural_mass", "Iy", "Iz") if len(run.members) >= _FEWEST]
+    """EI (1 + a xi) and mass per length (1 + a b xi), xi from -1 at one end of a member to 1 at the other; it stops at joints."""
+    rows = runs(model, "nonstructural_mass", "Iy", "Iz")
+    joints = crossed(model.problem.mesh) if rows else set()
+    found = [part for run in rows for part in run.parted(joints) if len(part.members) >= _FEWEST]
     return [_recipe(model, candidate, run, len(found)) for run in found]
 
 
@@ -75,8 +78,8 @@ CANDIDATE = Candidate(
     "taper",
     "a taper",
     "taper",
-    "sections that grow or shrink along a row of bars which the model takes as uniform: stiffness and mass change "
-    "linearly, the mass by 0.3 to 1 times as much, as in one section (b h and b h^3)",
+    "sections that grow or shrink along a member, a row of bars up to the next joint, which the model takes as uniform: stiffness "
+    "and mass change linearly, the mass by 0.3 to 1 times as much, as in one section (b h and b h^3)",
     recipes,
     bars,
 )

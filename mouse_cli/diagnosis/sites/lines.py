@@ -30,6 +30,11 @@ class Line:
         bar = int(self.members[i])
         return bar, float(np.clip((s - first[i]) / self.bars.length[bar], 0.0, 1.0))
 
+    def parted(self, nodes: set[int]) -> list["Line"]:
+        """Its parts between `nodes` (indices) that it passes."""
+        cut = [i for i, bar in enumerate(self.members) if i and int(self.bars.nodes[bar, 0]) in nodes]
+        return [Line(self.bars, part) for part in np.split(self.members, cut)]
+
     @property
     def inner(self) -> np.ndarray:
         """Distances (c - 1,) at which one bar ends and the next begins: a place is in one of them, and jumps there."""

@@ -42,6 +42,15 @@ def members(mesh: Mesh) -> list[Member]:
     return list(found.values())
 
 
+def crossed(mesh: Mesh) -> set[int]:
+    """Nodes (indices) where more than two beams or rods meet: joints, which a row may pass and a member does not."""
+    count = np.zeros(len(mesh.node_ids), int)
+    for own in mesh.elements:
+        if own.type in SLENDER:
+            np.add.at(count, own.nodes.ravel(), 1)
+    return set(np.flatnonzero(count > 2).tolist())
+
+
 def _chains(mesh: Mesh, slender: list[Element]) -> tuple[list[list[Element]], list[list[Element]]]:
     """Members, which end where others begin or the section changes; and rows of them that go straight on."""
     at: dict[int, list[int]] = {}

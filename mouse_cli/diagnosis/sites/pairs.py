@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
+from mouse_cli.diagnosis.sites.left_out import between
 from mouse_cli.model.arrays import dense
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.geometry import DIRECTIONS
@@ -25,18 +27,26 @@ class Pairs:
     """keys (c, 3): nodes (indices), or degrees of freedom of a model of matrices, and a direction (0 to 5) or ALONG.
 
     rows (c, r): b, the motion of the second relative to the first in that direction. likely: of how many these are a choice.
+    flexibility (c,): b'(K - shift M)^-1 b of all degrees of freedom.
     """
 
     keys: np.ndarray
     rows: np.ndarray
     likely: int
+    flexibility: np.ndarray
+    shift: float
 
     def __len__(self) -> int:
         return len(self.keys)
 
     def only(self, which: np.ndarray) -> "Pairs":
         """Some of them."""
-        return Pairs(self.keys[which], self.rows[which], self.likely)
+        return Pairs(self.keys[which], self.rows[which], self.likely, self.flexibility[which], self.shift)
+
+    def left(self, eigenvalues: np.ndarray) -> np.ndarray:
+        """R (c,): what the lowest coordinates, of these eigenvalues (r,), leave of the flexibility, see `left_out.py`."""
+        kept = self.rows[:, : len(eigenvalues)] ** 2 @ (1 / (eigenvalues - self.shift))
+        return np.maximum(self.flexibility - kept, 0.0)
 
 
 def chosen(model: Reduced) -> Pairs:
@@ -66,7 +76,30 @@ def pairs(model: Reduced) -> Pairs:
         keys, rows = _between_ends(model)
     size = np.abs(rows[:, : _count(model)]).max(axis=1, initial=0.0)
     kept = np.flatnonzero(size > _STILL * size.max(initial=0.0))
-    return Pairs(keys[kept], rows[kept], len(kept))
+    keys, rows = keys[kept], rows[kept]
+    return Pairs(keys, rows, len(kept), *_flexibility(model, keys, rows))
+
+
+def _flexibility(model: Reduced, keys: np.ndarray, rows: np.ndarray) -> tuple[np.ndarray, float]:
+    """See `Pairs`, and the shift: that of all degrees of freedom of a large model, where it is known."""
+    ends, at = np.unique(keys[:, :2], return_inverse=True)
+    moved = None if model.motion is None or not len(keys) else between(model.static, ends)
+    if moved is None:
+        shift = -0.3 * lowest(model)
+        return rows**2 @ (1 / (model.eigenvalues - shift)), shift
+    one, other = at.reshape(-1, 2).T
+    C = moved.reshape(len(ends), 3, len(ends), 3).transpose(0, 2, 1, 3)
+    axis = _axes(model.problem.mesh, keys)
+    both = C[one, one] + C[other, other] - C[one, other] - C[other, one]
+    return np.einsum("ci,cij,cj->c", axis, both, axis), model.static.shift
+
+
+def _axes(mesh: Mesh, keys: np.ndarray) -> np.ndarray:
+    """Unit vectors (c, 3) along which pairs act."""
+    along = mesh.coordinates[keys[:, 1]] - mesh.coordinates[keys[:, 0]]
+    given = np.eye(3)[np.maximum(keys[:, 2], 0)]
+    size = np.maximum(np.linalg.norm(along, axis=1, keepdims=True), 1e-300)
+    return np.where(keys[:, 2:] == ALONG, along / size, given)
 
 
 def site_of(model: Reduced, key: np.ndarray) -> Site:

@@ -35,7 +35,7 @@ class Reduced:
 
     sensing (s, r); V (n, r); data: the test. places: degrees of freedom (from 0) at which a force is exact, of a large model;
     None: everywhere. ties: pairs of places that are worth looking at, and sizes, see `localise/ties.py`; None: no look was taken.
-    static: what bars do statically in all degrees of freedom, of a large model.
+    static: what a large model does statically in all degrees of freedom.
     """
 
     problem: Problem

@@ -114,7 +114,8 @@ def large(
         basis.responses(_placed(total.n, more, np.eye(len(more))))
         places = np.concatenate([places, more])
     model = built(problem, total, theta, *basis.ritz(), by, stack)
-    by_all = static(problem, model.motion, model.bars, basis.sigma, basis.space.operator.columns)
+    lowest = model.V[:, : min(model.r, int(problem.test.number.max()) + 2)]
+    by_all = static(problem, model.motion, model.bars, basis.sigma, basis.space.operator.columns, lowest)
     return replace(model, places=np.sort(places), static=by_all)
 
 

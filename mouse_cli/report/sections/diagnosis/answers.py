@@ -62,7 +62,8 @@ def _where(found: Diagnosis) -> Iterator[Block]:
     elif found.kind == NAMED:
         yield Text(f"{_capital(whereabouts(found.best, units, found.elsewhere))}.{shapes}")
     elif found.kind == ONE_OF:
-        yield Text(f"{'That depends on what it is' if len(leaders(found)) > 1 else 'If it is there, here'}.{shapes}")
+        where = "That depends on what it is" if len(leaders(found)) > 1 else "If it is there, here"
+        yield Text(f"{where if found.placed else 'At one of several sites'}.{shapes}")
         columns = (Column("if it is", align=LEFT), Column("then at", align=LEFT))
         at = lambda one: whereabouts(one, units, elsewhere(found.explanations, one))
         yield Table(columns, tuple((one.title, at(one)) for one in leaders(found)))

@@ -1,0 +1,102 @@
+"""Members and braces of frames that are reduced, beside OpenSees; tapers stop at joints; other diagonals are other sites."""
+
+import numpy as np
+import pytest
+
+from benchmarks.blind.case import generator
+from benchmarks.blind.space import frames, opensees
+from mouse_cli.diagnosis.companions import gap
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.likelihoods.modal.reduced import WHOLE
+from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.diagnosis.mechanisms.taper import CANDIDATE as TAPER
+from mouse_cli.formats import yaml_deck
+from mouse_cli.formats.assemble import assemble
+from mouse_cli.model.diagnosis import Site
+
+TEST = "test:\n  modes: {{number: [1, 2, 3], frequency: [{0}, {1}, {2}], frequency_sd: 0.2 %}}\n"
+
+
+def of(text: str):
+    problem = assemble(yaml_deck.read(text, "deck.yaml"))
+    return reduced(problem, problem.prior.mean)
+
+
+@pytest.fixture(scope="module")
+def frame():
+    """A frame above the size that is kept whole, its model, what OpenSees needs of it, and its frequencies."""
+    pytest.importorskip("openseespy")
+    rng = generator("test", "reduced frame", 1)
+    found = next(one for one in iter(lambda: frames.drawn(rng), None) if 6 * (len(one.points) - len(one.feet)) > WHOLE)
+    inputs = found.inputs(rng) | {"E": frames.E, "density": frames.DENSITY}
+    sound = opensees.modes(inputs, 8)[0]
+    model = of("mouse: 1\n" + frames.deck(found) + TEST.format(*sound[:3]))
+    assert model.r < WHOLE < len(model.V)
+    return found, model, inputs, sound
+
+
+def ratios(model, key: str, says: str, values) -> np.ndarray:
+    """The lowest eight frequencies with candidate `key` at the site whose text is `says`, over those without it."""
+    recipe = next(
+        each for each in registry()[key].recipes(model, registry()[key]) if each.site(each.grid[0]).text == says
+    )
+    at = Model(model, (recipe,)).point(np.append(model.z, recipe.coordinates(np.array(values, float))))
+    return np.sqrt(at.eigenvalues[:8] / model.eigenvalues[:8])
+
+
+@pytest.mark.parametrize("left", [0.6, 0.1])
+def test_softer_members_of_a_reduced_frame_beside_opensees(frame, left):
+    """Of few coordinates none is what a single member does; without what they leave out it moves a third too little."""
+    found, model, inputs, sound = frame
+    for member in (0, len(found.feet) + 2, len(found.members) - 1):
+        true = opensees.modes(inputs | {"factors": {str(member): [left, 1.0]}}, 8)[0] / sound
+        said = ratios(model, "member", f"element {member + 1}", [1 - left])
+        assert said == pytest.approx(true, abs=0.05 * np.abs(true - 1).max() + 2e-5)
+
+
+def test_a_stiffer_row_of_a_reduced_frame_beside_opensees(frame):
+    _, model, inputs, sound = frame
+    recipes = registry()["stiffness-gain"].recipes(model, registry()["stiffness-gain"])
+    site = next(s for s in (each.site(each.grid[0]) for each in recipes) if s.text.startswith("the row of"))
+    factors = {str(number - 1): [2.5, 1.0] for number in site.ids}
+    true = opensees.modes(inputs | {"factors": factors}, 8)[0] / sound
+    assert ratios(model, "stiffness-gain", site.text, [1.5]) == pytest.approx(true, abs=0.05 * np.abs(true - 1).max())
+
+
+def test_a_stiff_brace_of_a_reduced_frame_beside_opensees(frame):
+    found, model, inputs, sound = frame
+    for recipe in registry()["brace"].recipes(model, registry()["brace"])[:20:5]:
+        site, k = recipe.site(recipe.grid[0]), 2e8
+        one, other = (number - 1 for number in site.ids)
+        EA = k * float(np.linalg.norm(found.points[other] - found.points[one]))
+        true = opensees.modes(inputs | {"struts": [[one, other, EA]]}, 8)[0] / sound
+        assert ratios(model, "brace", site.text, [k]) == pytest.approx(true, abs=0.03 * np.abs(true - 1).max() + 1e-4)
+
+
+def test_a_taper_stops_at_joints():
+    """A column of eight bars with a beam on its fifth node: two members of four bars."""
+    bar = "type: beam, E: 2.1e+11, nu: 0.3, density: 7850, A: 0.01, Iz: 1.0e-5"
+    column = ", ".join(f"{n}: [0, {(n - 1) / 2}]" for n in range(1, 10))
+    text = f"""\
+mouse: 1
+model:
+  structure:
+    nodes: {{{column}%s}}
+    elements:
+      - {{id: 1-8, nodes: 1-9, {bar}}}
+%s
+    supports: {{1: all%s}}
+    plane: XY
+""" + TEST.format(10, 20, 60).replace("%", "%%")
+    tapers = lambda deck: [recipe.site(recipe.grid[0]).ids for recipe in TAPER.recipes(of(deck), TAPER)]
+    beam = f"      - {{id: 9, nodes: [5, 10], {bar}}}"
+    assert sorted(tapers(text % (", 10: [3, 2]", beam, ", 10: all"))) == [(1, 2, 3, 4), (5, 6, 7, 8)]
+    assert tapers(text % ("", "", "")) == [tuple(range(1, 9))]
+
+
+def test_diagonals_that_cross_are_two_sites():
+    middle = (1.0, 1.0, 0.0)
+    one, other = (Site("node", ids, middle) for ids in ((1, 4), (2, 3)))
+    assert gap(one, one) == 0 and gap(one, other) == np.inf
+    assert gap(Site("node", (1,), middle), Site("element", (7,), middle)) == 0
