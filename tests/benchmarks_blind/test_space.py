@@ -60,3 +60,25 @@ def test_a_brace_is_found_among_many_pairs(tmp_path):
     known = json.loads(next((tmp_path / "answers").glob("*.json")).read_text())
     assert one.misfit < one.dof + 3 * np.sqrt(2 * one.dof)
     assert tuple(known["ends"][0]) in {each.recipes[0].site(each.recipes[0].values(each.c)).ids for each in found}
+
+
+def test_a_building_that_rocks_is_fitted_whichever_mode_its_own_one_passes(tmp_path):
+    """No descent leads from where the mode of the foundation lies above one of the building to where it lies below."""
+    where = ("--cache", str(tmp_path / "truths"), "--output", str(tmp_path))
+    _run(
+        "--seed",
+        "57",
+        "--family",
+        "rocking",
+        "--cases",
+        "space-rocking-3",
+        "--count",
+        "4",
+        "--jobs",
+        "1",
+        "--decks-only",
+        *where,
+    )
+    problem = read_deck(next((tmp_path / "decks").glob("*.yaml")))
+    one = best(Study(reduced(problem, problem.prior.mean)), "rocking")
+    assert one.misfit < one.dof + 3 * np.sqrt(2 * one.dof)

@@ -22,6 +22,10 @@ from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
 
 _SOFT, _SOFTER, _STIFF = 0.8, 0.03, 200.0  # times what gives the rigid structure on it the lowest measured frequency
+_STARTS = (
+    10,
+    6,
+)  # sizes to begin from: between which two modes its own one lies depends on both, and no descent passes one
 _SMALL, _LARGE = 1e-2, 0.5  # rotary inertia of floors and base, of that of all masses about the base
 
 
@@ -78,7 +82,7 @@ def _turned(model: Reduced, candidate: Candidate, axis: Axis) -> Recipe:
         candidate,
         (k, J),
         lambda values: Change(K + values[0] * one, M + values[1] * one, sensing),
-        product(steps(k, 6), steps(J, 2)),
+        product(steps(k, _STARTS[0]), steps(J, _STARTS[1])),
         lambda values: site,
         own=1,
         extend=extend,
