@@ -61,7 +61,9 @@ class Laplace:
 
 
 def leading(size: np.ndarray) -> np.ndarray:
-    """Row of the largest value of each column; the first of those that differ by rounding alone."""
+    """Row of the largest value of each column; the first of those that differ by rounding alone. None of no columns."""
+    if not size.size:
+        return np.zeros(0, int)
     return (size >= (1 - _ROUNDING) * size.max(axis=0)).argmax(axis=0)
 
 

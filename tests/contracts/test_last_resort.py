@@ -149,3 +149,15 @@ def test_dashpots_of_masses_that_hardly_are(capsys, tmp_path):
     assert _run(["modes", str(tmp_path / "deck.yaml")]) in (4, 5)
     said = capsys.readouterr().err
     assert "error[MD" in said and "MD903" not in said
+
+
+def test_a_bootstrap_of_what_hardly_varies(capsys, tmp_path):
+    """The variance of the property is no floating-point number but 0, so that it is held."""
+    text = (
+        "mouse: 1\nmodel: {stiffness: {order: 2, entries: [[1, 1, 100.0], [2, 2, 400.0]]}, mass: {diagonal: [1, 1]}}\n"
+    )
+    text += "parameters: [{name: k, nominal: 1e-308, sd: 10 %, stiffness: [[1, 1, 1]]}]\n"
+    (tmp_path / "deck.yaml").write_text(text + "test: {modes: {frequency: [1.6, 3.2], frequency_sd: 1 %}}\n")
+    asked = ["--replicates", "2", "-j", "1", "-o", str(tmp_path / "out")]
+    assert _run(["bootstrap", str(tmp_path / "deck.yaml"), *asked]) in (0, 1, 4, 5)
+    assert "MD903" not in capsys.readouterr().err

@@ -210,6 +210,45 @@ def test_command_writes_samples_without_pickles_the_same_by_processes(tmp_path, 
         assert kept["theta"][:, :, 0].mean() == pytest.approx(one["parameters"][0]["mean"], rel=1e-12)
 
 
+def test_a_walk_that_is_killed_goes_on_and_ends_like_an_unbroken_one(tmp_path):
+    """Killed whenever its file has grown; at the end the same samples, bit by bit, and no file of the walk."""
+    import signal
+    import subprocess
+    import sys
+    import time
+
+    steps = ["--steps", "1000", "-q", "--json"]
+    deck = str(DECKS / "twin_springs.yaml")
+    command = lambda name: [sys.executable, "-m", "mouse_cli", "sample", deck, "--chain", str(tmp_path / name), *steps]
+    whole = subprocess.run(command("whole"), capture_output=True, check=False, timeout=300)
+    part, seen = tmp_path / "broken.npz.part", []
+    for _ in range(2):
+        process = subprocess.Popen(command("broken"), stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        before = part.stat().st_mtime_ns if part.exists() else 0
+        while process.poll() is None and not (part.exists() and part.stat().st_mtime_ns > before):
+            time.sleep(0.01)
+        process.send_signal(signal.SIGKILL)
+        process.communicate()
+        if not part.exists():
+            break
+        with np.load(part) as held:
+            seen.append(len(held["chain"]))
+    assert seen and seen == sorted(set(seen)), "each begins where the last was killed"
+    end = subprocess.run(command("broken"), capture_output=True, check=False, timeout=300)
+    assert end.stdout == whole.stdout and end.returncode == whole.returncode
+    with np.load(tmp_path / "whole.npz") as one, np.load(tmp_path / "broken.npz") as other:
+        assert all(np.array_equal(one[name], other[name]) for name in one.files)
+    assert not part.exists()
+
+
+def test_a_walk_of_another_deck_or_a_damaged_one_is_not_gone_on_with(tmp_path):
+    problem = read_deck(DECKS / "twin_springs.yaml")
+    (tmp_path / "chain.npz.part").write_bytes(b"PK\x03\x04 nothing")
+    found = sample(problem, Sampling(steps=250), keep=str(tmp_path / "chain"))
+    alone = sample(problem, Sampling(steps=250))
+    np.testing.assert_array_equal(found.chain.theta, alone.chain.theta)
+
+
 def test_nothing_to_sample_and_no_package(tmp_path, monkeypatch):
     import sys
 

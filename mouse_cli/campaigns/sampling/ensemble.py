@@ -8,6 +8,7 @@ import numpy as np
 
 from mouse_cli._errors import ERROR, Diagnostic, MouseError
 from mouse_cli.campaigns.sampling import chains
+from mouse_cli.campaigns.sampling.kept import Kept
 from mouse_cli.dynamics.frequency import frequency_hz
 from mouse_cli.updating.posterior import cost
 from mouse_cli.updating.state import Setting
@@ -71,28 +72,40 @@ def walk(
     seed: int,
     pool: Any = None,
     say: Callable[[str], None] = lambda text: None,
+    kept: Kept | None = None,
 ) -> Walked:
-    """Walk from the places z (w, k) until the chain is long enough, or for so many `steps`."""
+    """Walk from the places z (w, k) until the chain is long enough, or for so many `steps`; kept: goes on from there."""
     emcee = package()
     moves = [(emcee.moves.StretchMove(), 0.4), (emcee.moves.DEMove(), 0.5), (emcee.moves.DEMove(gamma0=1.0), 0.1)]
     count, k = begun.shape
     hz = [("hz", float, (density.setting.problem.test.m,))]
-    sampler = emcee.EnsembleSampler(count, k, density, moves=moves, blobs_dtype=hz, pool=pool)
-    state = emcee.State(density.w(begun), random_state=_random(seed))
-    done, enough, tau, burn = 0, False, np.inf, 0
+    kept, setting = kept or Kept(None), density.setting
+    backend = kept.backend(emcee, begun, density.centre, density.root, setting.y, setting.sd, np.array(seed))
+    sampler = emcee.EnsembleSampler(count, k, density, moves=moves, blobs_dtype=hz, pool=pool, backend=backend)
+    done, state = backend.iteration, None
+    if done:
+        burn, enough, tau = _looked(sampler, done, steps, say)
+    else:
+        state, burn, enough, tau = emcee.State(density.w(begun), random_state=_random(seed)), 0, False, np.inf
     while done < steps and not enough:
         part = min(_EVERY, steps - done)
         state = sampler.run_mcmc(state, part, skip_initial_state_check=True)
         done += part
-        burn = min(int(np.ceil(_BURN * chains.long_enough(sampler.get_chain())[1])), done // 2)
-        enough, tau = chains.long_enough(sampler.get_chain(discard=burn))
-        say(
-            f"step {done} of at most {steps}: autocorrelation time {tau:.3g}, {(done - burn) / tau:.0f} of {chains.ENOUGH}"
-        )
-    blobs = sampler.get_blobs(discard=burn)["hz"]
-    kept = sampler.get_chain(discard=burn)
+        if part == _EVERY:
+            kept.keep(backend)
+        burn, enough, tau = _looked(sampler, done, steps, say)
+    kept.done()
+    z, log_p = density.z(sampler.get_chain(discard=burn)), sampler.get_log_prob(discard=burn)
     acceptance = float(np.mean(sampler.acceptance_fraction))
-    return Walked(density.z(kept), sampler.get_log_prob(discard=burn), blobs, done, burn, tau, acceptance, enough)
+    return Walked(z, log_p, sampler.get_blobs(discard=burn)["hz"], done, burn, tau, acceptance, enough)
+
+
+def _looked(sampler: Any, done: int, steps: int, say: Callable[[str], None]) -> tuple[int, bool, float]:
+    """Steps to leave out at the beginning, whether the rest is long enough, its autocorrelation time."""
+    burn = min(int(np.ceil(_BURN * chains.long_enough(sampler.get_chain())[1])), done // 2)
+    enough, tau = chains.long_enough(sampler.get_chain(discard=burn))
+    say(f"step {done} of at most {steps}: autocorrelation time {tau:.3g}, {(done - burn) / tau:.0f} of {chains.ENOUGH}")
+    return burn, enough, tau
 
 
 def _random(seed: int) -> tuple:

@@ -7,6 +7,7 @@ import numpy as np
 
 from mouse_cli._errors import ERROR, WARNING, Diagnostic, NumericalError
 from mouse_cli.campaigns.sampling import chains, ensemble, pareto, search
+from mouse_cli.campaigns.sampling.kept import Kept
 from mouse_cli.campaigns.sampling.pool import pool_of
 from mouse_cli.estimators.linear import expand
 from mouse_cli.model.problem import Problem
@@ -22,8 +23,12 @@ _SHIFTED, _WIDER = 0.5, 1.25  # standard deviations, and factor, by which sample
 _QUANTILES = (0.025, 0.16, 0.5, 0.84, 0.975)
 
 
-def sample(problem: Problem, choices: Sampling, say: Callable[[str], None] = lambda text: None) -> Sampled:
+def sample(
+    problem: Problem, choices: Sampling, say: Callable[[str], None] = lambda text: None, keep: str | None = None
+) -> Sampled:
     """Samples of the posterior of `problem`: its prior and the likelihood of its data, whatever its estimator.
+
+    keep: file of samples to come; beside it stands how far a walk has come, and one that was broken off goes on from there.
 
     Raises MouseError: MD940 without emcee, MD941 where there is nothing to sample; and what a run raises.
     """
@@ -43,7 +48,7 @@ def sample(problem: Problem, choices: Sampling, say: Callable[[str], None] = lam
     with pool_of(problem, density, choices.processes) as pool:
         say(f"weighing {_DRAWS} draws from the normal density of the run")
         k_hat = _k_hat(normal, density, pool.map if pool else map, rng)
-        walked = ensemble.walk(density, begun, choices.steps, choices.seed, pool, say)
+        walked = ensemble.walk(density, begun, choices.steps, choices.seed, pool, say, Kept(keep))
     found = _summed(problem, result, setting, modes, walked, rng)
     evaluations = _DRAWS + walked.steps * len(begun)
     found = replace(found, k_hat=k_hat, draws=_DRAWS, evaluations=evaluations, seed=choices.seed)

@@ -21,7 +21,11 @@ from mouse_cli.cli._options import PRIOR, QUIET, READING, answer, earlier, optio
 @click.option(
     "-j", "--jobs", type=click.IntRange(1, 1024), default=1, show_default=True, help="Processes, for large models."
 )
-@click.option("--chain", metavar="FILE", help="Write the samples to FILE.npz.")
+@click.option(
+    "--chain",
+    metavar="FILE",
+    help="Write the samples to FILE.npz. A walk that was broken off goes on from FILE.npz.part.",
+)
 @options(answer("mouse.sample/1"))
 @options(PRIOR, QUIET)
 @options(READING)
@@ -58,7 +62,7 @@ def command(
     if not quiet:
         show_diagnostics((*problem.warnings, *without_laws(problem)))
     with progress() as (_, say):
-        found = sample(problem, Sampling(steps, walkers or 0, seed, jobs), say)
+        found = sample(problem, Sampling(steps, walkers or 0, seed, jobs), say, chain)
     if chain:
         from mouse_cli.campaigns.sampling.chain_file import write
 
