@@ -1,9 +1,9 @@
-"""A joint of bars that gives way in bending."""
+"""A joint of bars that turns in bending, where bars meet or, as a splice does, anywhere along a line of them."""
 
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
-from mouse_cli.diagnosis.effects.hinges import hinged, with_hinge
+from mouse_cli.diagnosis.effects.hinges import hinged, places, with_hinge
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import Bars
@@ -13,6 +13,7 @@ from mouse_cli.model.problem import Problem
 
 _MOST = 60  # joints that are looked at: those that bend most in the lowest modes
 _SAME = 1e-6  # of directions
+_SPLICE = 0.3  # prior probability that a joint is a splice, where others are
 _STEP = 1.3  # ratio of stiffnesses or masses from which on a straight line changes its section, and does not taper
 
 

@@ -1,15 +1,20 @@
-"""Ways on from where a descent ends too soon: before the end of a finite element, or with two modes paired crosswise."""
+"""Ways on from where a descent ends too soon: before the end of a finite element, at a site beside the best, or with two modes
+paired crosswise.
+"""
 
 import numpy as np
 
+from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.evidence import capped
 from mouse_cli.diagnosis.gates import GATE
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
+from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.updating.chi_square import upper_tail
 
 _SHIFTS = np.array([-5, -3, -2, -1, 1, 2, 3, 5]) / 50  # of the range of a place
+_AROUND, _WAYS = 8, 4  # sites next to one that are looked at, and steps from site to site
 
 
 def shifted(one: Fit) -> Fit:
@@ -27,13 +32,73 @@ def shifted(one: Fit) -> Fit:
             if at is None:
                 continue
             pull = T.T @ at.residual - np.where(np.arange(T.shape[1]) < model.k, np.delete(at.x, model.k + j), 0.0)
-            left = at.chi2 + at.x[: model.k] @ at.x[: model.k] - pull @ np.linalg.lstsq(H, pull, rcond=None)[0]
+            left = _cost(at, model.k) - pull @ np.linalg.lstsq(H, pull, rcond=None)[0]
             if left < best:
                 best, start = left, c
         again = None if start is None else fit(model, start, one.point.x[: model.k])
         if again is not None and again.misfit < one.misfit:
             one = again
     return one
+
+
+def walked(one: Fit, study: Study) -> Fit:
+    """The fit with each mechanism in turn at the next site but one, as long as that is better.
+
+    Sites that are apart, as nodes are, have no slope between them, and a first look knows few sizes.
+    """
+    for _ in range(_WAYS):
+        before = one
+        for i in range(len(one.recipes)):
+            one = _stepped(one, study, i)
+        if one is before:
+            break
+    return one
+
+
+def _stepped(one: Fit, study: Study, i: int) -> Fit:
+    """The fit with mechanism number i at the best of the sites around its own, by a full step from there; itself if none is."""
+    there, x, k = study.about(one), one.point.x, one.model.k
+    own, best, chosen = there.own(one.recipes), one.misfit - 1, None
+    for recipe in _around(own[i], there):
+        model = there.kind(there.model, (*own[:i], recipe, *own[i + 1 :]))
+        at = model.point(x)
+        if at is not None and (left := _after_a_step(model, at)) < best:
+            best, chosen = left, model
+    again = None if chosen is None else fit(chosen, x[k:], x[:k])
+    return again if again is not None and again.misfit < one.misfit - 1 else one
+
+
+def _around(recipe: Recipe, study: Study) -> list[Recipe]:
+    """The same mechanism at the sites next to its own; none where its place is an unknown, or acts on more than one place."""
+    where = [_fixed(each) for each in study.recipes(recipe.candidate.key)]
+    here = _fixed(recipe)
+    if here is None:
+        return []
+    gaps = [np.inf if at is None else float(np.linalg.norm(np.subtract(at, here))) for at in where]
+    order = [i for i in np.argsort(gaps, kind="stable").tolist() if 0 < gaps[i] < np.inf]
+    made = study.recipes(recipe.candidate.key)
+    alike = [made[i] for i in order if [u.name for u in made[i].unknowns] == [u.name for u in recipe.unknowns]]
+    return alike[:_AROUND]
+
+
+def _fixed(recipe: Recipe) -> tuple[float, ...] | None:
+    """Position of a recipe's site, whatever its size; None where it has none."""
+    if not all(u.log for u in recipe.unknowns) or not len(recipe.grid):
+        return None
+    return recipe.site(recipe.grid[0]).position
+
+
+def _after_a_step(model: Model, at: Point) -> float:
+    """The misfit that a full step from a point promises."""
+    k, T = model.k, model.jacobian(at)
+    own = np.arange(len(at.x)) < k
+    H = capped(T.T @ T + np.diag(own.astype(float)), model.width)
+    pull = T.T @ at.residual - np.where(own, at.x, 0.0)
+    return _cost(at, k) - float(pull @ np.linalg.solve(H, pull))
+
+
+def _cost(at: Point, k: int) -> float:
+    return at.chi2 + float(at.x[:k] @ at.x[:k])
 
 
 def uncrossed(one: Fit, most: int = MOST, reach: float = np.inf) -> Fit:

@@ -10,18 +10,18 @@ from collections.abc import Iterable
 import numpy as np
 
 from mouse_cli.diagnosis.search.descents import settled, summed, tried
-from mouse_cli.diagnosis.search.escape import shifted
+from mouse_cli.diagnosis.search.escape import shifted, walked
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.optima import NEAR, within
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.updating.chi_square import upper_tail
 
 _SECOND, _QUICK = 2, 8  # fits of a further mechanism beside others, and their steps, in a first try
-_SWAPPED, _FINISHED = 2, 6  # pairs whose aliases are tried; sets that are fitted to the end
+_SWAPPED, _FINISHED = 4, 6  # pairs whose aliases are tried; sets that are fitted to the end
 _PAIRED, _WIDE = 8, 5  # candidates that are tried in pairs; groups of which the best is tried with every candidate
 _PARTNERS = 6  # candidates that a first look finds best beside others, which alone are fitted
 _GROWN, _ALIKE = 2, 5  # sets that grow further; kinds of which several are tried
-_ROUNDS = 2  # of exchanges
+_ROUNDS = 3  # of exchanges
 _FAR = 100.0  # as FAR, of sets: many are tried, and brief descents say enough of them
 _ADEQUATE = 0.05  # p-value of the misfit below which a further mechanism is sought
 MATERIAL = 3.0  # log evidence that each further mechanism must gain
@@ -73,11 +73,11 @@ def pairs(study: Study, singles: list[Fit]) -> list[Fit]:
         own = [one.recipes[0].candidate.key for one in leading]
         any_of = any(first is one for one in wide)
         _beside(study, first, study.known if any_of else own, found)
-    done: set[tuple[str, ...]] = set()
-    for _ in range(_ROUNDS):  # both may be there by an alias
+    done: list[Fit] = []
+    for _ in range(_ROUNDS):  # both may be there by an alias, or at a wrong site
         for two in _best_of(found, _SWAPPED):
-            if key(two) not in done:
-                done.add(key(two))
+            if not any(two is one for one in done):
+                done.append(two)
                 _swap(study, two, found)
     return [two for two in _finished(study, found) if material(two, singles)]
 
@@ -133,7 +133,7 @@ def material(one: Fit, smaller: list[Fit]) -> bool:
 
 
 def _finished(study: Study, found: Found) -> list[Fit]:
-    return [summed([settled(shifted(one), study)]) for one in _best_of(found, _FINISHED)]
+    return [summed([settled(walked(shifted(one), study), study)]) for one in _best_of(found, _FINISHED)]
 
 
 def _best_of(found: Found, count: int) -> list[Fit]:
@@ -147,10 +147,15 @@ def _keep(found: Found, one: Fit) -> None:
 
 
 def _swap(study: Study, two: Fit, found: Found) -> None:
-    """Into `found` the same mechanisms with either replaced by what is hard to tell from it, begun from the pair itself."""
+    """Into `found` the same mechanisms with either replaced by what is hard to tell from it, begun from the pair itself.
+
+    Where the pair leaves too much that may be the same mechanism at another site.
+    """
     for i, recipe in enumerate(two.recipes):
-        own = recipe.candidate
-        aliases = [name for name, each in study.known.items() if each.group == own.group and name != own.key]
+        own, moved = recipe.candidate, not adequate(two)
+        aliases = [
+            name for name, each in study.known.items() if each.group == own.group and (moved or name != own.key)
+        ]
         rest = _without(two, i)
         if rest is not None and aliases:
             _beside(study, rest, aliases, found)
@@ -197,7 +202,7 @@ def _exchanged(study: Study, one: Fit, names: tuple[str, ...] | None = None) -> 
 
 
 def _without(one: Fit, i: int) -> Fit | None:
-    """The fit without its mechanism number i, the others where they are to begin with."""
+    """The fit without its mechanism number i, the others and the parameters as they are: begun anew they would make up for it."""
     rest = (*one.recipes[:i], *one.recipes[i + 1 :])
     c = np.concatenate([np.zeros(0), *(one.c[own] for j, own in enumerate(one.model.own) if j != i)])
-    return fit(type(one.model)(one.model.base, rest), c, one.point.x[: one.model.k], _QUICK)
+    return fit(type(one.model)(one.model.base, rest), c, one.point.x[: one.model.k], 0)
