@@ -1,9 +1,11 @@
 """A joint of bars that turns in bending, where bars meet or, as a splice does, anywhere along a line of them."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
-from mouse_cli.diagnosis.effects.hinges import hinged, places, with_hinge
+from mouse_cli.diagnosis.effects.hinges import hinged, lines, places, with_hinge
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import Bars
@@ -13,20 +15,53 @@ from mouse_cli.model.problem import Problem
 
 _MOST = 60  # joints that are looked at: those that bend most in the lowest modes
 _SAME = 1e-6  # of directions
-_SPLICE = 0.3  # prior probability that a joint is a splice, where others are
+_SPLICE = 0.5  # prior probability that a joint is a splice along a line, where bars meet too
 _STEP = 1.3  # ratio of stiffnesses or masses from which on a straight line changes its section, and does not taper
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """F + c [1, eta]'[1, eta], eta = +-1, at each end of a bar where others begin, in each plane."""
-    bars = model.bars
-    if bars is None:
+    """F + c [1, eta]'[1, eta] in each plane: eta = +-1 at each end of a bar where others begin, any eta of a splice."""
+    if model.bars is None:
         return []
+    found = [_corners(model, candidate), _splices(model, candidate)]
+    share = np.log([1 - _SPLICE, _SPLICE] if all(found) else [1.0, 1.0])
+    return [
+        replace(one, log_prior=one.log_prior + float(own))
+        for own, some in zip(share, found, strict=True)
+        for one in some
+    ]
+
+
+def _corners(model: Reduced, candidate: Candidate) -> list[Recipe]:
+    """Those of bars that meet."""
+    bars = model.bars
     ends = _ends(bars)
     modes = slice(0, min(model.r, int(model.data.test.number.max()) + 1))
     bent = [np.abs(_moment(bars, bar, end, modes)).max() for bar, end in ends]
     chosen = [ends[i] for i in sorted(np.argsort(bent)[::-1][:_MOST])]
     return [_recipe(model, candidate, bar, end, len(ends)) for bar, end in chosen]
+
+
+def _splices(model: Reduced, candidate: Candidate) -> list[Recipe]:
+    """Those along lines of bars."""
+    bars = model.bars
+    if not lines(model):
+        return []
+    k = _stiffness(max(float(bars.EI[line.members].max() / line.length) for line in lines(model)))
+
+    def added(bar: int, share: float, values: np.ndarray) -> np.ndarray:
+        b = np.array([1.0, 2 * share - 1, 0.0])
+        return np.outer(b, b) / values[0]
+
+    def extend(problem: Problem, bar: int, share: float, values: np.ndarray) -> Problem:
+        return with_hinge(problem, bars, bar, share, f"splice in {bars.site(bar, share).text}", values[0])
+
+    return places(model, candidate, (k,), added, steps(k, 3), extend)
+
+
+def _stiffness(scale: float) -> Unknown:
+    """That of a joint in a line of bending stiffness over length `scale`."""
+    return Unknown("stiffness of the joint", "N m/rad", scale / 0.5, scale / 3e-4)
 
 
 def _moment(bars: Bars, bar: int, end: int, modes: slice) -> np.ndarray:
@@ -75,8 +110,7 @@ def _different(bars: Bars, ends: list[tuple[int, int]]) -> list[tuple[int, int]]
 def _recipe(model: Reduced, candidate: Candidate, bar: int, end: int, count: int) -> Recipe:
     bars = model.bars
     line = bars.lines[bars.line[bar]]
-    scale = bars.EI[bar] / line.length
-    k = Unknown("stiffness of the joint", "N m/rad", scale / 0.5, scale / 3e-4)
+    k = _stiffness(bars.EI[bar] / line.length)
     b = np.array([1.0, 2.0 * end - 1, 0.0])
     node = int(model.problem.mesh.node_ids[bars.nodes[bar, end]])
     position = bars.point(bar, float(end))
@@ -96,7 +130,8 @@ CANDIDATE = Candidate(
     "joint",
     "a joint that gives way",
     "local-stiffness",
-    "a connection of bars (bolts, weld, corner) that the model takes as rigid and that turns in proportion to the moment",
+    "a connection of bars (bolts, weld, corner, or a splice anywhere along them) that the model takes as rigid and that turns in "
+    "proportion to the moment",
     recipes,
     bars,
 )
