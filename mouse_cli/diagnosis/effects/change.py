@@ -66,7 +66,8 @@ class Carried:
     """Motion (r, a) of the model with a degrees of freedom of a cause's own; of all n free then (n, a), and K, M times it.
 
     deck: which of those n the degrees of freedom of the deck are. slopes: what the deck's parameters, d directions, add to K and M
-    of the cause (d, r + a, r + a); across(motion (n, b)): to K and M between that motion and this one (d, b, a).
+    of the cause (d, r + a, r + a); across(motion (n, b)): to K and M between that motion and this one (d, b, a). strain (b, 3, a):
+    natural strains of the bars in it.
     """
 
     model: np.ndarray
@@ -76,6 +77,7 @@ class Carried:
     deck: np.ndarray
     slopes: tuple[np.ndarray, np.ndarray]
     across: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
+    strain: np.ndarray
 
     def part(self, which: list[int], r: int) -> "Carried":
         """What a part of the degrees of freedom carries along, of a model of r coordinates."""
@@ -86,7 +88,7 @@ class Carried:
         def across(other: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             return tuple(each[..., which] for each in self.across(other))
 
-        return Carried(*own, self.deck, slopes, across)
+        return Carried(*own, self.deck, slopes, across, self.strain[..., which])
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from itertools import combinations
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Carried, Change, Recipe, Unknown, product, steps
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product, steps
 from mouse_cli.diagnosis.effects.supports import followed, free_model, static
 from mouse_cli.diagnosis.extend.base import joined, on_joints
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
@@ -62,7 +62,7 @@ def _turned(model: Reduced, candidate: Candidate, axis: Axis) -> Recipe:
     K[:, r:], K[r:, :] = 0.0, 0.0
     slopes = carried.slopes
     slopes[0][:, :, r:], slopes[0][:, r:, :] = 0.0, 0.0
-    carried = Carried(carried.model, motion, 0 * motion, carried.M, carried.deck, slopes, _still(carried.across))
+    carried = replace(carried, K=0 * motion, slopes=slopes, across=_still(carried.across), strain=0 * carried.strain)
     inertia = float(M[r, r]) + axis.inertia
     M[r, r] = inertia
     direction = DIRECTIONS[axis.rotation]

@@ -11,6 +11,7 @@ from mouse_cli.diagnosis.likelihoods.modal.directions import projected
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
 from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.bars import strained
 from mouse_cli.dynamics.contraction import Stack
 from mouse_cli.model.arrays import Matrix, is_sparse
 from mouse_cli.model.diagnosis import Site
@@ -135,7 +136,9 @@ def followed(model: Reduced, free: Free, motion: np.ndarray) -> tuple[np.ndarray
         block[: model.r, : model.r] = 0.0
     slopes, stack = _slopes(model, free.assembly, free.theta, whole)
     within = model.V.T @ (M[f][:, f] @ motion[f])
-    return *blocks, Carried(within, motion, K @ motion, M @ motion, f, slopes, _across(model, stack, motion))
+    none = np.zeros((0, 3, motion.shape[1]))
+    strain = none if model.bars is None else strained(free.problem, model.bars, motion)
+    return *blocks, Carried(within, motion, K @ motion, M @ motion, f, slopes, _across(model, stack, motion), strain)
 
 
 def released(model: Reduced, kinds: range) -> Released | None:

@@ -23,6 +23,11 @@ _PARTNERS = 6  # candidates that a first look finds best beside others, which al
 _GROWN, _ALIKE = 2, 5  # sets that grow further; kinds of which several are tried
 _ROUNDS = 3  # of exchanges
 _FAR = 100.0  # as FAR, of sets: many are tried, and brief descents say enough of them
+_LIMITS = (  # groups of which one is the other at an end of its range: a crack at a clamp, an item on a stiff or a soft mount
+    {"local-stiffness", "support"},
+    {"mass", "oscillator"},
+    {"ground-spring", "oscillator"},
+)
 _ADEQUATE = 0.05  # p-value of the misfit below which a further mechanism is sought
 MATERIAL = 3.0  # log evidence that each further mechanism must gain
 
@@ -52,6 +57,8 @@ def several(study: Study, singles: list[Fit], most: int) -> list[Fit]:
             _beside(study, one, study.known, larger)
         for best in _best_of(larger, 1):
             _keep(larger, _exchanged(study, best))
+        for best in _best_of(larger, 1):
+            _swap(study, best, larger)
         growing = [one for one in _finished(study, larger) if material(one, smaller)]
         if not growing:
             break
@@ -146,17 +153,16 @@ def _keep(found: Found, one: Fit) -> None:
         found[key(one)] = one
 
 
-def _swap(study: Study, two: Fit, found: Found) -> None:
-    """Into `found` the same mechanisms with either replaced by what is hard to tell from it, begun from the pair itself.
+def _swap(study: Study, one: Fit, found: Found) -> None:
+    """Into `found` the same mechanisms with each replaced by what is hard to tell from it, begun from the set itself.
 
-    Where the pair leaves too much that may be the same mechanism at another site.
+    Where the set leaves too much that may be the same mechanism at another site.
     """
-    for i, recipe in enumerate(two.recipes):
-        own, moved = recipe.candidate, not adequate(two)
-        aliases = [
-            name for name, each in study.known.items() if each.group == own.group and (moved or name != own.key)
-        ]
-        rest = _without(two, i)
+    for i, recipe in enumerate(one.recipes):
+        own, moved = recipe.candidate, not adequate(one)
+        alike = {own.group}.union(*(pair for pair in _LIMITS if own.group in pair))
+        aliases = [name for name, each in study.known.items() if each.group in alike and (moved or name != own.key)]
+        rest = _without(one, i)
         if rest is not None and aliases:
             _beside(study, rest, aliases, found)
 

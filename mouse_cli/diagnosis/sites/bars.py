@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from mouse_cli.diagnosis.sites.lines import Line, joined_lines
-from mouse_cli.diagnosis.sites.strains import borne, natural, sparse_rows
+from mouse_cli.diagnosis.sites.strains import borne, by_ends, natural, sparse_rows
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.mesh import ElementSet, Mesh
 from mouse_cli.model.problem import Problem
@@ -278,6 +278,11 @@ def displacements(motion: Motion, nodes: np.ndarray, V: np.ndarray | None) -> np
     where = np.searchsorted(np.unique(nodes), nodes)
     at = (6 * where[:, :, None] + np.arange(6)).reshape(len(nodes), 12)
     return rows[at]
+
+
+def strained(problem: Problem, found: Bars, motion: np.ndarray) -> np.ndarray:
+    """Natural strains (b, 3, a) of the bars in motions (n, a) of `problem`, which has the same elements."""
+    return by_ends(problem, found) @ displacements(motion_of(problem), found.nodes, motion)
 
 
 def motion_of(problem: Problem) -> Motion | None:

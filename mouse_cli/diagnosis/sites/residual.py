@@ -12,11 +12,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mouse_cli.diagnosis.sites.bars import Bars
-from mouse_cli.diagnosis.sites.strains import natural, sparse_rows
+from mouse_cli.diagnosis.sites.strains import by_ends, sparse_rows
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.constraints import Motion
-from mouse_cli.terms.elements import Layout
-from mouse_cli.terms.elements import _beam as beam
 
 NUMBERS = 3e7  # in loads on all degrees of freedom, above which parts are left as the coordinates have them
 _EACH = 64  # bars worked on at once
@@ -66,7 +64,7 @@ def static(
 
 def _strained(problem: Problem, motion: Motion, bars: Bars, solve: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
     """E A^-1 E' (b, 3, 3)."""
-    whole, B = np.zeros((len(bars), 3, 3)), _strains(problem, bars)
+    whole, B = np.zeros((len(bars), 3, 3)), by_ends(problem, bars)
     for first in range(0, len(bars), _EACH):
         own = slice(first, first + _EACH)
         places = (6 * bars.nodes[own, :, None] + np.arange(6)).ravel()
@@ -78,16 +76,3 @@ def _strained(problem: Problem, motion: Motion, bars: Bars, solve: Callable[[np.
         at = np.arange(len(B[own]))
         whole[own] = B[own] @ moved.reshape(len(at), 12, len(at), 3)[at, :, at]
     return whole
-
-
-def _strains(problem: Problem, bars: Bars) -> np.ndarray:
-    """Natural strains (b, 3, 12) for each direction of both nodes."""
-    B = np.zeros((len(bars), 3, 12))
-    for number in np.unique(bars.set).tolist():
-        elements = problem.mesh.elements[number]
-        local = beam.span(Layout(problem.mesh.coordinates[elements.nodes], dict(elements.options))).motion
-        for plane, (dofs, sense) in enumerate(beam.PLANES):
-            own = (bars.set == number) & (bars.plane == plane)
-            there = local[bars.member[own]]
-            B[own] = natural(there[:, dofs] * sense[:, None], there[:, [0, 6]], bars.length[own])
-    return B

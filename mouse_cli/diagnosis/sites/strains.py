@@ -2,7 +2,10 @@
 
 import numpy as np
 
+from mouse_cli.model.problem import Problem
 from mouse_cli.terms.constraints import Motion
+from mouse_cli.terms.elements import Layout
+from mouse_cli.terms.elements import _beam as beam
 
 
 def natural(ends: np.ndarray, axial: np.ndarray, length: np.ndarray) -> np.ndarray:
@@ -28,3 +31,16 @@ def sparse_rows(motion: Motion, places: np.ndarray):
     at = np.repeat(first - np.cumsum(counts) + counts, counts) + np.arange(counts.sum())
     start = np.concatenate([[0], np.cumsum(counts)])
     return csr_array((motion.factor[at], motion.dof[at], start), shape=(len(places), motion.n))
+
+
+def by_ends(problem: Problem, bars) -> np.ndarray:
+    """Natural strains (b, 3, 12) for each direction of both nodes."""
+    B = np.zeros((len(bars), 3, 12))
+    for number in np.unique(bars.set).tolist():
+        elements = problem.mesh.elements[number]
+        local = beam.span(Layout(problem.mesh.coordinates[elements.nodes], dict(elements.options))).motion
+        for plane, (dofs, sense) in enumerate(beam.PLANES):
+            own = (bars.set == number) & (bars.plane == plane)
+            there = local[bars.member[own]]
+            B[own] = natural(there[:, dofs] * sense[:, None], there[:, [0, 6]], bars.length[own])
+    return B

@@ -77,14 +77,11 @@ class Losses:
             for b, added in zip(own, part.added, strict=True):
                 total[:, b] += added / springs[i][:, None, None]
             start += len(part.bars)
-        base = self.model.base
         scale, left = g[:, None, None, None], residual([part for _, part in parts], bars)
-        core = scale * base.bars.lost(bars, scale * total)
+        core = scale * self.model.base.bars.lost(bars, scale * total)
         core = core if left is None else felt(core, left / scale)
         W = (core - scale * self.model.softer(changes)[1]) * self.model.follow(bars, z)
-        return self._wide(base.bars.strain[bars].reshape(-1, base.r), np.arange(base.r)), _diagonal(
-            list(np.swapaxes(W, 0, 1))
-        )
+        return self.model.strain[bars].reshape(-1, self.model.size), _diagonal(list(np.swapaxes(W, 0, 1)))
 
 
 def _diagonal(blocks: list[np.ndarray]) -> np.ndarray:

@@ -191,9 +191,10 @@ class FrfModel:
         if len(bars):
             follow = self.base.stiffening[bars].T[:, :, None, None] * self.elastic.follow(bars, z)
             for j in np.flatnonzero(follow.any(axis=(1, 2, 3))):
-                K[j, :r, :r] += self.base.bars.strained(bars, core * follow[j])
-        for j, (i, change) in enumerate(self.elastic.derivatives(np.concatenate([z, c])), self.of_deck):
+                K[j] += self.elastic.strained(bars, core * follow[j])
+        for j, (i, change, softer) in enumerate(self.elastic.derivatives(np.concatenate([z, c])), self.of_deck):
             K[j], M[j], S[j] = self.elastic.summed([(i, change)])
+            K[j] += softer
         return K, M, S
 
     def _of_losses(self, i: int, x: np.ndarray, left: np.ndarray, right: np.ndarray):

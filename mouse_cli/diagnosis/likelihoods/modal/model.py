@@ -50,7 +50,7 @@ class Model:
                 into += np.tensordot(step, slopes, 1)
         bars, core = self.softer(changes)
         if len(bars):
-            K[: self.base.r, : self.base.r] += self.base.bars.strained(bars, core * self.follow(bars, x[: self.k]))
+            K += self.strained(bars, core * self.follow(bars, x[: self.k]))
         return K, M, S
 
     def softer(self, changes: list[Change]) -> tuple[np.ndarray, np.ndarray]:
@@ -66,6 +66,21 @@ class Model:
         np.add.at(total, at, np.concatenate([part.added for part in parts]))
         lost, left = self.base.bars.lost(bars, total), residual(parts, bars)
         return bars, lost if left is None else felt(lost, left)
+
+    @cached_property
+    def strain(self) -> np.ndarray:
+        """Natural strains of all bars (b, 3, size): in the coordinates, and where causes carry the model along."""
+        found = np.zeros((len(self.base.bars), 3, self.size))
+        found[..., : self.base.r] = self.base.bars.strain
+        for recipe, at in zip(self.recipes, self.places, strict=True):
+            if recipe.carried is not None:
+                found[..., at[self.base.r :]] = recipe.carried.strain
+        return found
+
+    def strained(self, bars: np.ndarray, core: np.ndarray) -> np.ndarray:
+        """Matrix (size, size) of stiffnesses `core` (c, 3, 3) on the natural strains of `bars` (c,)."""
+        rows = self.strain[bars]
+        return rows.reshape(-1, self.size).T @ (core @ rows).reshape(-1, self.size)
 
     def follow(self, bars: np.ndarray, z: np.ndarray) -> np.ndarray:
         """EI of `bars` at z over what it is at the parameters of the base (c, 1, 1)."""
@@ -177,7 +192,8 @@ class Model:
         r, X, m = self.base.r, at.X, at.modes
         stiff, moved = self.base.moved(at.x[: self.k], X[:r, m])
         forces, inertia = np.zeros((self.k, self.size, len(m))), np.einsum("prm,rm->pm", moved, X[:r, m])
-        forces[:, :r] = stiff - moved * at.eigenvalues[m] + self._following(at)
+        forces[:, :r] = stiff - moved * at.eigenvalues[m]
+        forces += self._following(at)
         if (followed := self.followed(at.x[: self.k])) is not None:
             moved = followed[1] @ X[:, m]
             forces += followed[0] @ X[:, m] - moved * at.eigenvalues[m]
@@ -186,7 +202,7 @@ class Model:
 
     def _by_causes(self, at: Point) -> Pushed:
         """What the coordinates of the causes do to them: matrices meet the shapes one by one, and are never summed."""
-        r, X, eigenvalues = self.base.r, at.X[:, at.modes], at.eigenvalues[at.modes]
+        X, eigenvalues = at.X[:, at.modes], at.eigenvalues[at.modes]
         forces, inertia = np.zeros((self.t, *X.shape)), np.zeros((self.t, X.shape[1]))
         sensed = np.zeros((self.t, len(at.seen), X.shape[1]))
         for j, (i, parts, softer) in enumerate(self.stencils(at.x)):
@@ -201,17 +217,17 @@ class Model:
             inertia[j] = 0.0 if M is None else np.einsum("rm,rm->m", M, u)
             sensed[j] = 0.0 if S is None else S
             for bars, core in softer:
-                rows = self.base.bars.strain[bars].reshape(-1, r)
-                forces[j, :r] += rows.T @ (core @ (rows @ X[:r]).reshape(len(bars), 3, -1)).reshape(len(rows), -1)
+                rows = self.strain[bars].reshape(-1, self.size)
+                forces[j] += rows.T @ (core @ (rows @ X).reshape(len(bars), 3, -1)).reshape(len(rows), -1)
         return forces, inertia, sensed
 
     def _following(self, at: Point) -> np.ndarray | float:
-        """Forces (k, r, m) on the measured modes by what softens bars, as it follows their stiffness."""
+        """Forces (k, size, m) on the measured modes by what softens bars, as it follows their stiffness."""
         bars, core = self.softer(self.changes(at.x[self.k :]))
         if not len(bars):
             return 0.0
-        rows = self.base.bars.strain[bars]
-        loads = (core * self.follow(bars, at.x[: self.k])) @ (rows @ at.X[: self.base.r, at.modes])
+        rows = self.strain[bars]
+        loads = (core * self.follow(bars, at.x[: self.k])) @ (rows @ at.X[:, at.modes])
         b, follows = len(bars), self.base.stiffening[bars].T
         loads = follows[:, :, None, None] * loads  # (k, b, 3, m)
         return rows.reshape(3 * b, -1).T @ loads.reshape(len(follows), 3 * b, loads.shape[-1])
@@ -231,17 +247,14 @@ class Model:
         moved = share * (at.a * at.seen[:, at.modes] - a * bare.seen[:, bare.modes])
         return Model(self.base.judged_by(data.loosened(off, moved)), self.recipes)
 
-    def derivatives(self, x: np.ndarray) -> Iterator[tuple[int, Change]]:
-        """Recipe and d(change)/dc, for each coordinate of the causes."""
+    def derivatives(self, x: np.ndarray) -> Iterator[tuple[int, Change, np.ndarray | float]]:
+        """Recipe, d(change)/dc and dK (size, size) of what softens bars, for each coordinate of the causes."""
         for i, parts, softer in self.stencils(x):
             found = {}
             for name in ("K", "M", "sensing"):
                 there = [(getattr(one, name), weight) for one, weight in parts]
                 found[name] = None if there[0][0] is None else sum(weight * matrix for matrix, weight in there)
-            for bars, core in softer:
-                K = self.base.bars.strained(bars, core)
-                found["K"] = K if found["K"] is None else found["K"] + K
-            yield i, Change(**found)
+            yield i, Change(**found), sum(self.strained(bars, core) for bars, core in softer)
 
     def stencils(self, x: np.ndarray) -> Iterator[Stencil]:
         """d(change)/dc for each coordinate of the causes, by differences of the matrices within their pieces."""
