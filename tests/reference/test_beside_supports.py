@@ -1,4 +1,4 @@
-"""What acts beside a support that turns, against beams of Hermite elements assembled here: the motion of the support is felt too."""
+"""What acts beside a support that turns, against beams of Hermite elements assembled here: it moves the bars too."""
 
 import numpy as np
 import pytest
