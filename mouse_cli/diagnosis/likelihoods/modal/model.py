@@ -6,9 +6,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, felt, residual
+from mouse_cli.diagnosis.effects.change import Change, Recipe
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.likelihoods.modal.softened import Softened
 
 _STEP = 1e-5  # of a range, for derivatives of matrices
 
@@ -18,7 +19,7 @@ Softer = tuple[np.ndarray, np.ndarray]  # bars (c,), and what their stiffness ga
 Stencil = tuple[int, Parts, list[Softer]]  # number of a recipe, and the derivative of what it does
 
 
-class Model:
+class Model(Softened):
     """A reduced model with causes: what it predicts at x, and by which derivatives."""
 
     def __init__(self, base: Reduced, recipes: tuple[Recipe, ...] = ()):
@@ -52,39 +53,6 @@ class Model:
         if len(bars):
             K += self.strained(bars, core * self.follow(bars, x[: self.k]))
         return K, M, S
-
-    def softer(self, changes: list[Change]) -> tuple[np.ndarray, np.ndarray]:
-        """Bars (c,), and the changes of their stiffness (c, 3, 3) by all that makes them softer, in series within each."""
-        parts = [change.softening for change in changes if change.softening is not None]
-        if not parts:
-            return np.zeros(0, int), np.zeros((0, 3, 3))
-        if len(parts) == 1:
-            lost = self.base.bars.lost(parts[0].bars, parts[0].added)
-            return parts[0].bars, lost if parts[0].residual is None else felt(lost, parts[0].residual)
-        bars, at = np.unique(np.concatenate([part.bars for part in parts]), return_inverse=True)
-        total = np.zeros((len(bars), 3, 3))
-        np.add.at(total, at, np.concatenate([part.added for part in parts]))
-        lost, left = self.base.bars.lost(bars, total), residual(parts, bars)
-        return bars, lost if left is None else felt(lost, left)
-
-    @cached_property
-    def strain(self) -> np.ndarray:
-        """Natural strains of all bars (b, 3, size): in the coordinates, and where causes carry the model along."""
-        found = np.zeros((len(self.base.bars), 3, self.size))
-        found[..., : self.base.r] = self.base.bars.strain
-        for recipe, at in zip(self.recipes, self.places, strict=True):
-            if recipe.carried is not None:
-                found[..., at[self.base.r :]] = recipe.carried.strain
-        return found
-
-    def strained(self, bars: np.ndarray, core: np.ndarray) -> np.ndarray:
-        """Matrix (size, size) of stiffnesses `core` (c, 3, 3) on the natural strains of `bars` (c,)."""
-        rows = self.strain[bars]
-        return rows.reshape(-1, self.size).T @ (core @ rows).reshape(-1, self.size)
-
-    def follow(self, bars: np.ndarray, z: np.ndarray) -> np.ndarray:
-        """EI of `bars` at z over what it is at the parameters of the base (c, 1, 1)."""
-        return np.exp(self.base.stiffening[bars] @ (z - self.base.z))[:, None, None]
 
     def summed(self, parts: list[tuple[int, Change]]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """K, M (size, size) and sensing (s, size) that `parts` make, by number of the recipe; without what softens bars."""
