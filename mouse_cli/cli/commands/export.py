@@ -1,0 +1,106 @@
+"""mouse export: a revised deck as cards of finite-element programs, and its mode shapes."""
+
+import click
+
+from mouse_cli.cli._options import QUIET, options
+
+
+@click.command()
+@click.argument("deck")
+@click.option(
+    "--for", "program", type=click.Choice(["abaqus", "ansys", "calculix", "nastran"]), help="Whose cards to write."
+)
+@click.option("--result", metavar="RESULT", help="What `mouse run --json` found: its values in place of the deck's.")
+@click.option(
+    "--job", metavar="FILE", help="The input file (.inp) that the deck was imported from, for constants of materials."
+)
+@click.option("--first", default=900001, show_default=True, help="Number from which new elements count.")
+@click.option("--shapes", metavar="FILE", help="Write mode shapes to FILE, .unv (data sets 15, 82, 55) or .vtk.")
+@click.option("--modes", default=12, show_default=True, type=click.IntRange(1), help="With --shapes: how many modes.")
+@click.option("-o", "--output", metavar="FILE", help="Write the cards to FILE instead of standard output.")
+@options(QUIET)
+def command(
+    deck: str,
+    program: str | None,
+    result: str | None,
+    job: str | None,
+    first: int,
+    shapes: str | None,
+    modes: int,
+    output: str | None,
+    quiet: bool,
+) -> int:
+    """Write what DECK says of materials, sections, springs and masses as an include file of a finite-element program.
+
+    Every value has a comment with its posterior and standard deviation; what has no card is said in a comment.
+    """
+    from mouse_cli.cli._decks import after_result, read_problem
+    from mouse_cli.cli._terminal import deliver, show_diagnostics
+
+    if not program and not shapes:
+        raise click.UsageError("give --for PROGRAM, or --shapes FILE")
+    before = read_problem(deck)
+    problem = after_result(before, result, {})
+    if not quiet:
+        show_diagnostics(before.warnings)
+    if shapes:
+        _shapes(problem, shapes, modes)
+    if program:
+        deliver(_cards(problem, before, program, job, first), output, deck)
+    return 0
+
+
+def _cards(problem, before, program: str, job: str | None, first: int) -> str:
+    """The include file. Raises DeckError."""
+    from mouse_cli._errors import ERROR, DeckError, Diagnostic
+    from mouse_cli.formats.solver_files import programs
+    from mouse_cli.terms.revision import revision
+
+    found, form = revision(problem, before, _constants(job), first), programs()[program]
+    if not (found.materials or found.sections or found.springs or found.masses):
+        message = f"no parameter of the deck has cards of {program}"
+        raise DeckError(Diagnostic("MD481", ERROR, message, problem.place("order"), help="see `mouse explain MD481`"))
+    for material in found.materials:
+        if form.whole and None in (material.E, material.nu):
+            lacking = "E" if material.E is None else "nu"
+            message = f"the deck does not know {lacking} of the material {material.name}"
+            help = "give --job, the input file that it was imported from"
+            raise DeckError(Diagnostic("MD480", ERROR, message, problem.place("order"), help=help))
+    return form.write(found)
+
+
+def _constants(job: str | None) -> dict:
+    """E, nu and density of the materials of an input file."""
+    if job is None:
+        return {}
+    from mouse_cli.importing.read import read
+
+    found = {}
+    for name, material in read(job).materials.items():
+        if material.isotropic:
+            words = material.elastic.lines[0].words
+            found[name] = (material.E, float(words[1]) if len(words) > 1 and words[1] else 0.0, material.rho or None)
+    return found
+
+
+def _shapes(problem, path: str, count: int) -> None:
+    """Write the lowest modes to the file `path`. Raises DeckError, WrittenError."""
+    import numpy as np
+
+    from mouse_cli._atomic import write_text_atomically
+    from mouse_cli._errors import ERROR, DeckError, Diagnostic
+    from mouse_cli.formats import shape_files
+    from mouse_cli.updating import forecast
+
+    if not path.endswith((".unv", ".uff", ".vtk")):
+        raise click.UsageError(f"--shapes {path}: expected .unv, .uff or .vtk")
+    geometry = problem.structure.geometry
+    if geometry is None:
+        help = "give the model `nodes` and `dofs`"
+        raise DeckError(
+            Diagnostic("MD482", ERROR, "the deck has no nodes to show shapes at", problem.place("order"), help=help)
+        )
+    found = forecast(problem, min(count, problem.structure.n))
+    hz, shapes = np.asarray(found.frequencies_hz), np.asarray(found.shapes)
+    write = shape_files.vtk if path.endswith(".vtk") else shape_files.universal
+    write_text_atomically(path, write(problem.title.strip(), geometry, hz, shapes))

@@ -1,0 +1,53 @@
+"""Include files of finite-element programs: one module = one program; here, what each of them is given."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from mouse_cli import _registry
+from mouse_cli.model.revision import Revision
+
+
+@dataclass(frozen=True, slots=True)
+class SolverFormat:
+    """A program: write(revision) gives the text of its include file; comment: what begins a line that it passes over.
+
+    whole: a material stands in it with all its constants, so that they must be known.
+    """
+
+    key: str
+    write: Callable[[Revision], str]
+    comment: str
+    whole: bool = True
+
+
+def programs() -> dict[str, Any]:
+    """All of them by key."""
+    return _registry.discover(__name__, "FORMAT")
+
+
+def head(revision: Revision, comment: str) -> Iterator[str]:
+    """The lines that say what the file is, and what of the revision it does not hold."""
+    yield f"{comment} Revised by mouse: {revision.title} ({revision.source})"
+    yield f"{comment} units: {revision.units or 'those of the deck'}; new elements count from {revision.first}"
+    yield from (f"{comment} not written: {line}" for line in revision.unwritten)
+
+
+def number(value: float) -> str:
+    """A real number with a point, to 10 digits, as all of these programs read it."""
+    text = f"{value:.10g}"
+    if "e" in text:
+        mantissa, exponent = text.split("e")
+        return f"{mantissa if '.' in mantissa else mantissa + '.'}E{int(exponent):+03d}"
+    return text if "." in text else f"{text}."
+
+
+def tag(name: str, used: set[str]) -> str:
+    """A name of letters, digits and _ for a set, each once."""
+    plain = "".join(c if c.isalnum() and c.isascii() else "_" for c in name.upper())[:60].strip("_") or "SET"
+    plain = plain if plain[0].isalpha() else f"S_{plain}"
+    found, count = plain, 2
+    while found in used:
+        found, count = f"{plain}_{count}", count + 1
+    used.add(found)
+    return found

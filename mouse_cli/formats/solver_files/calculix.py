@@ -1,0 +1,12 @@
+"""Include files of CalculiX: *MATERIAL, *SPRING and *MASS."""
+
+from mouse_cli.formats.solver_files import SolverFormat
+from mouse_cli.formats.solver_files._keywords import keyword_lines
+from mouse_cli.model.revision import Revision
+
+
+def _write(revision: Revision) -> str:
+    return "\n".join(keyword_lines(revision, inertia=False)) + "\n"
+
+
+FORMAT = SolverFormat("calculix", _write, "**")

@@ -1,0 +1,66 @@
+"""What a test has revised of a model, in the words of finite-element programs: materials, sections, springs and masses."""
+
+from dataclasses import dataclass
+
+End = tuple[int, int]  # node, and direction from 1 (TX) to 6 (RZ)
+
+
+@dataclass(frozen=True)
+class RevisedMaterial:
+    """Constants of a material; None: not known. elements: numbers of those made of it, where the deck has them; notes: on them."""
+
+    name: str
+    E: float | None = None
+    nu: float | None = None
+    density: float | None = None
+    notes: tuple[str, ...] = ()
+    elements: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True)
+class RevisedSection:
+    """Constants of a cross section of beams, of the elements that have it."""
+
+    name: str
+    A: float
+    Iy: float
+    Iz: float
+    J: float
+    notes: tuple[str, ...] = ()
+    elements: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True)
+class RevisedSpring:
+    """A spring between two directions of nodes, or between one and the ground."""
+
+    name: str
+    ends: tuple[End, ...]
+    stiffness: float
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class RevisedMass:
+    """A point mass, with moments of inertia about X, Y and Z."""
+
+    name: str
+    node: int
+    mass: float
+    inertia: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Revision:
+    """All of it. title, source, units: of the deck; first: number from which new elements count; unwritten: what has no card."""
+
+    title: str
+    source: str
+    units: str
+    materials: tuple[RevisedMaterial, ...] = ()
+    sections: tuple[RevisedSection, ...] = ()
+    springs: tuple[RevisedSpring, ...] = ()
+    masses: tuple[RevisedMass, ...] = ()
+    unwritten: tuple[str, ...] = ()
+    first: int = 900001
