@@ -11,6 +11,9 @@ import numpy as np
 
 # force(x, v, z) -> (F, z): r local motions x, v (P, r, G) and internal states z to forces (P, r, G) and next states
 LocalForce = Callable[[np.ndarray, np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
+# (v, F before, free, drop) -> (F, F at the end): of a step that begins with v, ends with free - drop F, and may hold a jump of the
+# force; F is what would do the same without a jump
+Implicit = Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
 CORRECTIONS = 2  # of the local force at the end of a step; each gains a factor h^2 F'/(6 m)
 
 
@@ -38,6 +41,18 @@ class Plant:
     def states(self) -> int:
         """Displacements and velocities, 2n."""
         return 2 * self.M.shape[1]
+
+
+@dataclass(frozen=True)
+class LocalForces:
+    """All local forces, and how those of them that jump with the velocity follow from the end of a step, by their place in r."""
+
+    force: LocalForce
+    implicit: dict[int, Implicit]
+
+    def __call__(self, x: np.ndarray, v: np.ndarray, z):
+        """Forces and next internal states."""
+        return self.force(x, v, z)
 
 
 @dataclass(frozen=True)
@@ -104,7 +119,7 @@ def simulate(
     h: float,
     force: np.ndarray,
     start: np.ndarray,
-    local: LocalForce | None = None,
+    local: LocalForce | LocalForces | None = None,
     z: np.ndarray | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Sensors (P, s, t, G), and local motions, their velocities and forces (t, 3, P, r, G), at every step.
@@ -131,8 +146,9 @@ def simulate(
         y = by.next @ x
         x[:, :n2] = y[:, :n2]
         if local:
-            F, z, moved = _corrected(local, y[:, n2:], by.drop, x[:, n2 + 2 * i :], z)
+            over, F, z, moved = _corrected(local, y[:, n2:], by.drop, motion[k, 1:], z)
             x[:, n2 + 2 * i :] = F
+            x[:, :n2] += by.hold @ (F - over)
             motion[k + 1, 0], motion[k + 1, 1], motion[k + 1, 2] = moved[:, :r], moved[:, r:], F
     return out, motion
 
@@ -163,10 +179,18 @@ def _begun(plant: Plant, start: np.ndarray, local: LocalForce, z):
     return np.stack([x, v, F]), z
 
 
-def _corrected(local: LocalForce, free: np.ndarray, drop: np.ndarray, F: np.ndarray, z):
-    """F at the end of a step by fixed-point iteration from its value before; states and local motions with it."""
-    r = F.shape[1]
+def _corrected(local: LocalForce | LocalForces, free: np.ndarray, drop: np.ndarray, begun: np.ndarray, z):
+    """F over a step and at its end, states and local motions with it, by fixed-point iteration from `begun`, v and F before it."""
+    v, F = begun
+    over, end, r = F, F, F.shape[1]
+    moving = lambda F: free - drop * F if r == 1 else free - drop @ F
+    implicit = local.implicit if isinstance(local, LocalForces) else {}
     for _ in range(CORRECTIONS):
-        moved = free - drop * F if r == 1 else free - drop @ F
-        F, after = local(moved[:, :r], moved[:, r:], z)
-    return F, after, moved
+        moved = moving(over)
+        there, after = local(moved[:, :r], moved[:, r:], z)
+        end = there.copy() if implicit else there
+        for i, solved in implicit.items():
+            own = drop[:, r + i, i, None]
+            there[:, i], end[:, i] = solved(v[:, i], F[:, i], moved[:, r + i] + own * over[:, i], own)
+        over = there
+    return over, end, after, moving(over) if implicit else moved

@@ -61,7 +61,7 @@ def test_friction_to_the_ground(tmp_path):
     """Regularised Coulomb friction: tanh of the velocity; no law of the library is exactly that."""
     found = answer(record(tmp_path, lambda u, v: np.array([6 * np.tanh(v[0] / 1e-3), 0.0])))
     assert found["verdict"]["kind"] != "nothing-missing"
-    assert found["candidates"][0]["physics"] in ("friction", "iwan")
+    assert found["candidates"][0]["physics"] in ("coulomb", "friction", "iwan")
     assert found["candidates"][0]["site"]["ids"] == [1]
 
 

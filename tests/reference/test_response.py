@@ -6,7 +6,8 @@ from scipy.integrate import solve_ivp
 from scipy.signal import lsim
 from scipy.special import ellipk
 
-from mouse_cli.dynamics.response import Plant, simulate
+from benchmarks.blind.drives.exact import Drive, run
+from mouse_cli.dynamics.response import LocalForces, Plant, simulate
 from mouse_cli.terms.laws import registry
 
 K, W = 1e4, 100.0  # N/m and rad/s of a mass of 1 kg
@@ -133,3 +134,19 @@ def test_models_and_segments_side_by_side_are_those_one_by_one():
             own = slice(i, i + 1)
             alone, _ = simulate(plant(own), 1e-4, force[:, :, [j]], start[own][:, :, [j]], local(values[:, own]))
             np.testing.assert_allclose(every[i, 0, :, j], alone[0, 0, :, 0], rtol=1e-9, atol=1e-9)
+
+
+def test_coulomb_friction_stops_and_holds_as_from_event_to_event():
+    """A mass between slip and stick against its integration by events, at 60 steps in the shortest period and more."""
+    law, (m, c, Fs), rng = registry()["coulomb"], (2.0, 3.0, 4.0), np.random.default_rng(1)
+    t = np.arange(8000) / 4000
+    f = sum(6 * np.sin(2 * np.pi * hz * t + rng.uniform(0, 6)) for hz in (0.7, 1.9, 3.3, 6.1))
+    truth = run(Drive(np.array([m]), np.array([c]), friction=Fs), np.column_stack([f, 0 * f]), 1 / 4000)
+    assert (truth["v"] == 0).mean() > 0.02
+    one, size = np.ones((1, 1, 1)), np.full((1, 1, 1), Fs)
+    forces = LocalForces(lambda x, v, z: (Fs * np.sign(v), z), {0: lambda *step: law.implicit(*step, size)})
+    plant = Plant(m * one, c * one, 0 * one, one, np.ones((1, 1)), np.ones((2, 1)), np.array([0, 1]))
+    for step, error in ((1, 1e-4), (8, 2e-3)):
+        found, _ = simulate(plant, step / 4000, f[::step, None, None], np.zeros((1, 2, 1)), forces, [None])
+        for own, key in zip(found[0, :, :, 0], "xv", strict=True):
+            assert (own - truth[key][::step, 0]).std() < error * truth[key].std()

@@ -18,6 +18,7 @@ class Scale:
     structure against it, rms of x and of its velocity.
 
     band: lowest and highest frequency in the record, Hz. stiffest: contact that steps of a simulation can follow, 2 m / h^2.
+    inertia: rms of the force that accelerates the mass, N: of bodies that move together it is far below stiffness times motion.
     """
 
     stiffness: float
@@ -26,6 +27,13 @@ class Scale:
     v: float
     band: tuple[float, float]
     stiffest: float = 0.0
+    inertia: float = np.inf
+
+    @property
+    def forces(self) -> tuple[float, float]:
+        """The smallest and the largest force, N, that the motion may stand for."""
+        elastic = self.stiffness * self.x
+        return min(elastic, self.inertia), elastic
 
 
 _ANY = Scale(1.0, 1.0, 1.0, 1.0, (1.0, 1.0))  # where ranges do not matter
@@ -39,7 +47,8 @@ class Law:
     parameters p (q, ...) that broadcast with them; z (states, ...): None where there is none. matrices(p) -> K, C, M (1 + a, 1 + a)
     instead, for linear laws, on x and a coordinates of their own. unknowns(scale): parameters. variants: signs and sides, told
     apart as words. homogeneous: indices of parameters with which F grows in proportion. grid: values of each other parameter
-    that a first search tries. at: `anywhere`, or `ground` where it acts only between a point and the ground.
+    that a first search tries. implicit(v, F before, free, drop, p) -> F, F at the end: of a step, for a law whose force jumps
+    with the velocity, see dynamics.response.Implicit. at: `anywhere` or `ground` where it acts only between a point and the ground.
     """
 
     key: str
@@ -56,6 +65,7 @@ class Law:
     states: int = 0
     at: str = "anywhere"
     odd: bool = True
+    implicit: Callable | None = None
 
     @property
     def linear(self) -> bool:

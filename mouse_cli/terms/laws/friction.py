@@ -13,12 +13,12 @@ def force(x, v, z, p):
 
 
 def unknowns(scale: Scale) -> tuple[Unknown, ...]:
-    """Stiffness before slip beside that of the structure; slip force beside the elastic force at the rms motion."""
-    k, x = scale.stiffness, scale.x
+    """Stiffness before slip beside that of the structure; slip force beside those of the rms motion."""
+    k, (low, high) = scale.stiffness, scale.forces
     stiff = float(np.clip(scale.stiffest, 100 * k, 1e4 * k))  # Coulomb's law, as far as a simulation can follow it
     return (
         Unknown("stiffness before slip", "N/m", 0.02 * k, stiff),
-        Unknown("slip force", "N", 0.003 * k * x, 3 * k * x),
+        Unknown("slip force", "N", 0.003 * low, 3 * high),
     )
 
 

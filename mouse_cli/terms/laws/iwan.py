@@ -35,9 +35,9 @@ def sliders(p) -> tuple[np.ndarray, np.ndarray]:
 
 def unknowns(scale: Scale) -> tuple[Unknown, ...]:
     """Slip force and stiffness beside those of the structure; the exponent of energy dissipation is 2 + 1 + chi."""
-    k, x = scale.stiffness, scale.x
+    k, (low, high) = scale.stiffness, scale.forces
     return (
-        Unknown("slip force", "N", 0.01 * k * x, 10 * k * x),
+        Unknown("slip force", "N", 0.01 * low, 10 * high),
         Unknown("stiffness before slip", "N/m", 0.02 * k, 100 * k),
         Unknown("1 + chi", "1", 0.1, 1.0),
         Unknown("beta", "1", 0.01, 10.0),

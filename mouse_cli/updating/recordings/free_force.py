@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from mouse_cli.updating.recordings.linear import Linear
-from mouse_cli.updating.recordings.series import Series
+from mouse_cli.updating.recordings.series import Series, quick
 
 _EVERYWHERE = 0.03  # rms of small unknown forces at every degree of freedom, by that of the measured force
 _HERE = 3.0  # rms of the unknown force at one place, by that of the measured force
@@ -70,8 +70,9 @@ class Spectrum:
         return np.fft.irfft(X, self.padded, axis=0)[: len(self.series)]
 
     def weighed(self, x: np.ndarray) -> np.ndarray:
-        """Outputs (t, s) over their sd, and by the weights."""
+        """Outputs (t, s) over their sd, without what is slow, and by the weights."""
         own = x / self.series.sd
+        own = quick(own, self.series.order, self.series.slow) if self.series.slow else own
         return own if self.weights is None else self.history(np.einsum("lij,lj->li", self.weights, self.line(own)))
 
     @cached_property
@@ -106,11 +107,36 @@ class Spectrum:
         return self.series.force.mean(axis=0)
 
     @cached_property
-    def missing(self) -> np.ndarray:
-        """Measured less simulated (t, s), tapered at the end."""
+    def _whole(self) -> np.ndarray:
+        """Measured less simulated (t, s)."""
         answer = self.history(np.einsum("lsn,ln->ls", self.S, self.motion))
-        own = self.series.measured - self.series.measured.mean(axis=0) * (self.series.order < 2)
-        return (own - answer) * self.window[:, None]
+        return self.series.measured - self.series.measured.mean(axis=0) * (self.series.order < 2) - answer
+
+    @cached_property
+    def missing(self) -> np.ndarray:
+        """The same, tapered at the end."""
+        return self._whole * self.window[:, None]
+
+    @cached_property
+    def closed(self) -> np.ndarray:
+        """Lines (l, s) of the same; of a structure that nothing holds as it is, faded beyond its ends in the room after it.
+
+        Tapered, a mass that drifts would stand still at its ends.
+        """
+        if not self.series.slow:
+            return self.line(self.missing)
+        x, t = self._whole, len(self.series)
+        m = min(max(2, int(_TAPER * t)), (self.padded - t) // 2)
+        fall = (0.5 + 0.5 * np.cos(np.pi * (np.arange(m) + 1) / m))[:, None]
+        found = np.zeros((self.padded, x.shape[1]))
+        found[:t] = x
+        found[t : t + m] = (2 * x[-1] - x[-2 : -m - 2 : -1]) * fall
+        if not self.series.at_rest:
+            found[-m:] = (2 * x[0] - x[m:0:-1]) * fall[::-1]
+        if self.series.adrift:  # what follows the record brings it back to rest: no line 0 shows a change of speed
+            back = np.hanning(self.padded - t - 2 * m + 2)[1:-1, None]
+            found[t + m : self.padded - m] -= found.sum(axis=0) * back / back.sum()
+        return np.fft.rfft(found, axis=0)
 
     @cached_property
     def window(self) -> np.ndarray:
@@ -124,6 +150,34 @@ class Spectrum:
             found[:m] = fall[::-1]
         return found
 
+    def with_speed(self, states: np.ndarray) -> np.ndarray:
+        """States (2n, t) with the constant speed that no line of the spectrum shows, where no displacement does.
+
+        Velocities have it on average; what accelerations tell of begins at rest.
+        """
+        series = self.series
+        if not series.slow or (series.order == 0).any():
+            return states
+        x, v = np.split(states, 2)
+        own = series.order == 1
+        if own.any():
+            R = self._rigid
+            short = (series.measured[:, own].T - series.sensing[own] @ v).mean(axis=1)
+            more = R @ np.linalg.lstsq(series.sensing[own] @ R, short, rcond=None)[0]
+        else:
+            more = -v[:, 0] * series.at_rest
+        t = series.dt * np.arange(len(series))
+        return np.concatenate([x + more[:, None] * t, v + more[:, None]])
+
+    @property
+    def _rigid(self) -> np.ndarray:
+        """Motions (n, r) that the linear model does not resist, or hardly."""
+        from scipy.linalg import eigh
+
+        values, shapes = eigh(self.linear.K, self.linear.M)
+        slowest = (2 * np.pi / (self.series.slow * self.series.dt)) ** 2
+        return shapes[:, values < slowest]
+
     def motions(self, B: np.ndarray) -> np.ndarray:
         """Lines (l, n) of the most probable motion when unknown forces act through B (n, r), and small ones everywhere.
 
@@ -135,5 +189,5 @@ class Spectrum:
         R = np.diag(self.series.sd**2)
         G = self.SH @ Q
         total = G @ self.SH.conj().transpose(0, 2, 1) + R
-        solved = np.linalg.solve(total, self.line(self.missing)[:, :, None])
+        solved = np.linalg.solve(total, self.closed[:, :, None])
         return self.motion + (self.H @ (G.conj().transpose(0, 2, 1) @ solved))[:, :, 0]

@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from mouse_cli.dynamics.response import LocalForce, Plant
+from mouse_cli.dynamics.response import LocalForces, Plant
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.terms.laws import Law, Scale, Unknown
 from mouse_cli.updating.recordings.linear import Linear
@@ -164,7 +164,7 @@ class Hypothesis:
         """The laws that are not linear at x (k,): those of the deck, then those of the hypothesis."""
         return [*self.known, *(part.acting(p[:, 0]) for part, p in self.sizes(x[None]) if not part.law.linear)]
 
-    def local(self, many: np.ndarray) -> LocalForce | None:
+    def local(self, many: np.ndarray) -> LocalForces | None:
         """The forces of all laws at x (P, k), internal states as a list; None where all is linear."""
         own = [part.acting(p[:, :, None, None]) for part, p in self.sizes(many) if not part.law.linear]
         every = [*self.known, *own]
@@ -179,7 +179,11 @@ class Hypothesis:
             ]
             return np.concatenate([F for F, _ in found], axis=1), [after for _, after in found]
 
-        return forces
+        def implicit(one: Acting, p: np.ndarray):
+            return lambda *step: one.law.implicit(*step, p[:, :, 0], **one.words)
+
+        jump = [i for i, one in enumerate(every) if one.law.implicit]
+        return LocalForces(forces, {i: implicit(every[i], shaped[i]) for i in jump})
 
     def plant(self, many: np.ndarray, series: Series) -> Plant:
         """The linear part at x (P, k), with the matrices of linear laws in it."""

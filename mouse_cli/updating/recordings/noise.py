@@ -50,6 +50,16 @@ def noise(spectrum: Spectrum, base: Hypothesis, places: list[Place], begun: np.n
     return Noise(size * series.sd, explained, effective, grows)
 
 
+def doubtful(spectrum: Spectrum, base: Hypothesis, places: list[Place], found: Noise) -> bool:
+    """Whether a law takes more of what noise was found in, as it is, than chance makes of its independent samples.
+
+    Made white, events too short for a first look to time them (a mass that comes to rest) hide what goes on between them.
+    """
+    count = found.effective * Regression(spectrum, base.placed(places[0])).y.size
+    most = max(EXPLAINED, _CHANCE / max(count, 1.0))
+    return any(_by_laws(Regression(spectrum, base.placed(place))) > most for place in places)
+
+
 def coherent(force: np.ndarray, left: np.ndarray) -> float:
     """Share of the power of `left` (t, s) that is coherent with forces (t, i), less what it would be by chance."""
     from scipy.signal import csd, welch

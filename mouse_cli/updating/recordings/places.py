@@ -63,6 +63,6 @@ def places(problem: Problem, spectrum: Spectrum, basis: np.ndarray, band: tuple[
             continue
         stiffness, mass = (float(B @ matrix @ B) / size**2 for matrix in (model.K, model.M))
         step = spectrum.series.dt / spectrum.series.factor
-        scale = Scale(max(stiffness, mass * a / x), mass, x, v, band, 2 * mass / step**2)
+        scale = Scale(max(stiffness, mass * a / x), mass, x, v, band, 2 * mass / step**2, mass * a)
         found.append(Place(site, B, ground, scale, b))
     return found

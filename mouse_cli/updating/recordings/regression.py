@@ -59,12 +59,13 @@ class Regression:
         self._U = U
         X = U @ place.B
         both = np.concatenate([U, 1j * spectrum.w[:, None] * U], axis=1)
-        self._states = spectrum.history(both).T
+        self._states = spectrum.with_speed(spectrum.history(both).T)
         self.spread = self._states.std(axis=1)
-        histories = (spectrum.history(X * (1j * spectrum.w) ** order) for order in (0, 1))
+        histories = (place.B @ half for half in np.split(self._states, 2))
         self.local = Local(place, *histories, X, spectrum.SH @ place.B, self._carried(place))
         t = len(spectrum.series)
-        self.kept = slice(int(_BEGIN * t), t - 2 * int(_BEGIN * t))
+        edge = int(_BEGIN * t) + spectrum.series.slow
+        self.kept = slice(edge, t - edge - int(_BEGIN * t))
         self.missing = spectrum.missing + self._answer(self.begun)
         self.sd = 1.0
         self.y = self._stacked(self.missing)

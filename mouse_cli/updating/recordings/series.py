@@ -16,6 +16,7 @@ class Series:
     inputs (n, i), sensing (s, n): how they meet the model; order (s,): 0 displacement, 1 velocity, 2 acceleration. base (n, i): how
     the ground carries it along, where `force` is its acceleration; motions are then relative to it, and `inputs` 0. floor (s,): of
     the noise, as the spectrum shows it, where sd is more; force_floor (i,): that of the columns of `force`.
+    slow: samples over which motions are free in a fit that no force makes, of a structure that nothing holds; 0 where all die away.
     """
 
     title: str
@@ -31,6 +32,7 @@ class Series:
     first: int = 0
     floor: np.ndarray | None = None
     force_floor: np.ndarray | None = None
+    slow: int = 0
 
     def __len__(self) -> int:
         return len(self.measured)
@@ -48,6 +50,11 @@ class Series:
         """Whether the record begins before anything moves."""
         size = np.sqrt((self.measured**2).mean(axis=0))
         return bool((np.abs(self.measured[:3]) < 5 * self.sd + 1e-3 * size).all()) and self.first == 0
+
+    @property
+    def adrift(self) -> bool:
+        """Whether no channel shows the speed of a structure that nothing holds."""
+        return bool(self.slow and (self.order == 2).all())
 
     @cached_property
     def fine(self) -> np.ndarray:
@@ -70,6 +77,21 @@ def limiter(factor: int) -> np.ndarray:
     from scipy.signal import firwin
 
     return firwin(2 * REACH * factor + 1, 2 * _EDGE / factor, window=("kaiser", _WINDOW))
+
+
+def quick(x: np.ndarray, order: np.ndarray, samples: int) -> np.ndarray:
+    """Channels x (t, s) without what places and speeds of so many samples make of them: displacements are taken twice about their
+    mean under a Hann window, velocities once, accelerations as they are; order (s,). Wrong within so many samples of either end.
+    """
+    from scipy.signal import oaconvolve
+
+    half = samples // 2
+    window = np.hanning(2 * half + 3)[1:-1, None]
+    window /= window.sum()
+    for least in (0, 1):
+        own = order <= least
+        x = np.where(own, x - oaconvolve(x, window, mode="same", axes=0), x) if own.any() else x
+    return x
 
 
 def passed() -> float:

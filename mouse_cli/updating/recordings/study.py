@@ -8,6 +8,7 @@ import numpy as np
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
 from mouse_cli.updating.recordings.basis import LARGEST
+from mouse_cli.updating.recordings.accuracy import accurate
 from mouse_cli.updating.recordings.deck_laws import acting
 from mouse_cli.updating.recordings.free_force import Spectrum
 from mouse_cli.updating.recordings.hypothesis import Hypothesis, Place
@@ -73,11 +74,11 @@ def study(problem: Problem, found: Records, of: Modelled = uncertain) -> Study:
     flexible = hz[hz > 1e-3 * max(hz.max(), lowest)]
     slowest, highest = (flexible.min(), flexible.max()) if len(flexible) else (2 * lowest, high)
     low = min(lowest, 0.5 * float(slowest))
-    found = _accurate(found, model)
-    make = lambda one: steps(reduced(one, model), min(highest, high))
-    fitted = [make(one) for one in found.fitted]
-    length = int(np.clip(_PERIODS / slowest / fitted[0].dt, _SHORTEST, _LONGEST))
-    length = max(64, min(length, min(len(one) for one in fitted) // 3))
+    length = int(np.clip(_PERIODS / slowest / first.dt, _SHORTEST, _LONGEST))
+    length = max(64, min(length, min(len(one) for one in found.fitted) // 3))
+    slow = length if float(hz.min()) * length * first.dt < 1 else 0
+    found = _accurate(accurate(found, length, slow), model)
+    fitted = [steps(reduced(one, model), min(highest, high)) for one in found.fitted]
     share = max(2, _SEGMENTS // len(fitted))
     data = [segments(one, length, share) for one in fitted]
     rms = np.sqrt(np.mean([(one.force**2).mean(axis=0) for one in fitted], axis=0))

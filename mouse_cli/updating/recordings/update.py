@@ -33,8 +33,7 @@ def update_records(problem: Problem, notice: Notice) -> RecordUpdate:
 
     Raises DeckError (MD640) for records that cannot judge, NumericalError (MD540) where the model as it is cannot be simulated.
     """
-    found = records(problem)
-    own = study(problem, found)
+    own = study(problem, records(problem))
     found = own.records
     notice("simulation of the records")
     prior, fit = _fitted(own, [_part(one, own) for one in problem.laws])

@@ -9,7 +9,7 @@ from mouse_cli.model.record_diagnosis import Noise
 from mouse_cli.terms.laws import Law
 from mouse_cli.terms.laws import registry as laws
 from mouse_cli.updating.recordings.adequacy import adequate, innovation, missing, strained, unlikely, with_noise
-from mouse_cli.updating.recordings.noise import noise
+from mouse_cli.updating.recordings.noise import doubtful, noise
 from mouse_cli.updating.recordings.polish import Fit
 from mouse_cli.updating.recordings.regression import Start, starts
 from mouse_cli.updating.recordings.study import Study, fitted
@@ -19,6 +19,7 @@ _POLISHED, _MORE, _AGAIN = 4, 12, 8  # starts that are fitted; where none of the
 _FIRST_ORDER = (
     0.02  # of what is missing: error of first looks, where nuisances that leave their prior explain it by first order
 )
+_TAKEN = 0.5  # of what may be noise, that a law leaves at most to be more than it
 _END = 0.01  # of the logarithm of a range, from its end
 _ROUNDS, _SECONDS = 3, 4  # laws beside which a second one is sought, and starts of it that are fitted
 
@@ -52,11 +53,14 @@ def weighed(study: Study, notice: Notice, known: list[Law] | None = None, causes
     if not missing(baseline):
         return Weighed(baseline, [])
     quiet = noise(study.spectrum, study.base, study.places) if unlikely(baseline) else None
-    if quiet is not None and not strained(baseline, with_noise(baseline, quiet)):
+    noisy = quiet is not None and not strained(baseline, with_noise(baseline, quiet))
+    if noisy and not doubtful(study.spectrum, study.base, study.places, quiet):
         return Weighed(baseline, [], quiet, baseline)
     dropped: dict[str, str] = {}
     found = _shown(study, _singles(study, notice, known, baseline), dropped)
     best = min([baseline, *found], key=innovation)
+    if noisy and innovation(best) > _TAKEN * innovation(baseline):
+        return Weighed(baseline, [], quiet, baseline)
     if best is baseline or adequate(best):
         return Weighed(baseline, found, dropped=tuple(dropped.items()))
     quiet = _left(study, best)
