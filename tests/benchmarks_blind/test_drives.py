@@ -61,10 +61,10 @@ def test_stick_and_slip_meet_the_events_of_scipy():
 
 def test_a_shaft_with_play_does_nothing_within_it():
     drive = Drive(np.ones(2), np.zeros(2), shaft=(1e4, 0.0, 1e-3))
-    found = run(drive, knots(np.full(400, 0.01)), H)
+    found = run(drive, knots(np.full(800, 0.01)), H)
     apart = found["x"][:, 0] - found["x"][:, 1]
     inside = np.maximum.accumulate(apart) < 1e-3
-    t = np.arange(400) * H
+    t = np.arange(800) * H
     assert inside.any() and (found["x"][inside, 1] == 0).all() and apart.max() > 1e-3
     np.testing.assert_allclose(found["x"][inside, 0], 0.01 * t[inside] ** 2 / 2, atol=1e-12)
 
