@@ -7,8 +7,8 @@ import numpy as np
 
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
-from mouse_cli.updating.recordings.basis import LARGEST
 from mouse_cli.updating.recordings.accuracy import accurate
+from mouse_cli.updating.recordings.basis import LARGEST
 from mouse_cli.updating.recordings.deck_laws import acting
 from mouse_cli.updating.recordings.free_force import Spectrum
 from mouse_cli.updating.recordings.hypothesis import Hypothesis, Place
