@@ -14,6 +14,7 @@ import numpy as np
 
 from benchmarks.blind.case import SPLITS
 from benchmarks.blind.diagnose import diagnosed
+from benchmarks.blind_frf import portals
 from benchmarks.blind_frf.cases import cases
 from benchmarks.blind_frf.decks import write
 from benchmarks.blind_frf.verify import verify
@@ -36,6 +37,8 @@ def main() -> None:
     ]
     folder.mkdir(parents=True, exist_ok=True)
     made = [write(folder, case, (given.seed, draw)) for case in chosen for draw in range(case.draws)]
+    if given.portals:
+        made = [portals.write(folder, given.seed, number) for number in range(given.count)]
     print(f"{len(made)} decks in {folder}, {given.split} split, seed {given.seed}", flush=True)
     with ProcessPoolExecutor(given.jobs) as pool:
         results = []
@@ -58,7 +61,7 @@ def scored(known: dict, found: dict) -> dict:
         }
     verdict, law = found["verdict"], None
     place = verdict["site"] and verdict["site"]["position"]
-    error = abs(place[0] - known["place"]) / known["span"] if place and known["place"] is not None else np.nan
+    error = _apart(place, known["place"]) / known["span"] if place and known["place"] is not None else np.nan
     kind, group = verdict["kind"], verdict["group"] or ""
     if kind == "named":
         right = group == known["group"] and not error > NEAR
@@ -70,6 +73,12 @@ def scored(known: dict, found: dict) -> dict:
         outcome = "abstained"
     said = group if kind == "named" else kind
     return known | {"outcome": outcome, "said": said, "error": error, "law right": law, "s": found["seconds"]}
+
+
+def _apart(place: list[float], true: float | list[float]) -> float:
+    """Distance of a place from the true one, of which x or x and y are known."""
+    at = np.atleast_1d(true)
+    return float(np.linalg.norm(np.array(place)[: len(at)] - at))
 
 
 def tables(results: list[dict]) -> str:
@@ -103,6 +112,7 @@ def _options() -> argparse.ArgumentParser:
     )
     parser.add_argument("--cases", nargs="+", default=[], help="names of cases, * for any: crack*")
     parser.add_argument("--count", type=int, default=6, help="structures of each truth")
+    parser.add_argument("--portals", action="store_true", help="frames with a flexible support instead of beams")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="processes")
     parser.add_argument("--output", type=Path, help="folder of decks and answers; else a temporary one")
     return parser
