@@ -204,3 +204,17 @@ def test_what_cannot_be_written_is_refused(tmp_path, capsys, monkeypatch):
     (tmp_path / "deck.yaml").write_text(text)
     assert mouse("export", "deck.yaml", "--for", "ansys") == 4 and "error[MD481]" in capsys.readouterr().err
     assert mouse("export", "deck.yaml") == 2
+
+
+@needs_ccx
+def test_results_of_calculix_are_modes(tmp_path):
+    """Frequencies as the table in .dat prints them; shapes of a brick model, which ccx scales to a modal mass of 1."""
+    from mouse_cli.formats.mode_files import read_modes
+
+    hz = frequencies(tmp_path, job().replace("*FREQUENCY\n6\n", "*FREQUENCY\n6\n*NODE FILE\nU\n"))
+    found = read_modes(str(tmp_path / "job.frd"))
+    np.testing.assert_allclose(found.frequency_hz, hz, rtol=1e-6)
+    assert len(found.names) == 36 and "1TX" not in found.names and np.isnan(found.damping).all()
+    rows = [line for line in (tmp_path / "job.frd").read_text().splitlines() if line.startswith(" -1        16")]
+    tip = [float(row[37:49]) for row in rows[-6:]]
+    np.testing.assert_allclose(found.shapes[found.names.index("16TZ")], tip)

@@ -268,6 +268,12 @@ FILES: dict[str, dict[str, dict[str, object]]] = {
             "rows.tsv": "mode\tfrequency\tsd\t2TY\t3TY\n1\t3,4\t0,1\t0,1\t0,7\n2\t21,5\t0,2\t0,4\t-1\n",
             "places.csv": "sensor,x,y,z,nx,ny,nz,1\nfrequency,,,,,,,3.4\nA,0.6,0,0,0,2,0,1\n",
         },
+        "frd": {
+            "modes.frd": "    1C\n    1PMODE                         1\n"
+            "  100CL  101 61.18531827           2                     2    1MODAL      1\n"
+            " -4  DISP        4    1\n -5  D1          1    2    1    0\n -1         2-8.76179E-03-4.36795E-04-8.77510E-02\n"
+            " -1         4-1.53868E-02-1.23228E-03-5.84415E-01\n -3\n 9999\n",
+        },
         "unv": {"modes.unv": _modes},
     },
 }  # fmt: skip

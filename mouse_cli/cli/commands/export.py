@@ -53,7 +53,7 @@ def command(
 def _cards(problem, before, program: str, job: str | None, first: int) -> str:
     """The include file. Raises DeckError."""
     from mouse_cli._errors import ERROR, DeckError, Diagnostic
-    from mouse_cli.formats.solver_files import programs
+    from mouse_cli.formats.solver_cards import programs
     from mouse_cli.terms.revision import revision
 
     found, form = revision(problem, before, _constants(job), first), programs()[program]

@@ -37,8 +37,8 @@ SECTIONS = {
         {
             "file": Key(
                 "path",
-                "universal file whose data sets 55 or 2414 give frequencies and shapes, or a labelled table (.csv, .tsv, .txt) of "
-                "them; its sensors are called 12TY, ...; `dofs` chooses among them",
+                "universal file whose data sets 55 or 2414 give frequencies and shapes, a labelled table (.csv, .tsv, .txt), or "
+                "results of CalculiX (.frd); its sensors are called 12TY, ...; `dofs` chooses among them",
                 "none",
             ),
             "number": Key("wholes", "system mode number of each measured mode, rigid-body modes counted", "1 to m"),

@@ -23,7 +23,7 @@ class SolverFormat:
 
 def programs() -> dict[str, Any]:
     """All of them by key."""
-    return _registry.discover(__name__, "FORMAT")
+    return _registry.discover(__name__, "PROGRAM")
 
 
 def head(revision: Revision, comment: str) -> Iterator[str]:

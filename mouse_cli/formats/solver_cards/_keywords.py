@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from mouse_cli.formats.solver_files import head, number, tag
+from mouse_cli.formats.solver_cards import head, number, tag
 from mouse_cli.model.revision import Revision
 
 _IN_LINE = 8  # numbers of elements

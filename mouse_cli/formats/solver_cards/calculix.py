@@ -1,7 +1,7 @@
 """Include files of CalculiX: *MATERIAL, *SPRING and *MASS."""
 
-from mouse_cli.formats.solver_files import SolverFormat
-from mouse_cli.formats.solver_files._keywords import keyword_lines
+from mouse_cli.formats.solver_cards import SolverFormat
+from mouse_cli.formats.solver_cards._keywords import keyword_lines
 from mouse_cli.model.revision import Revision
 
 
@@ -9,4 +9,4 @@ def _write(revision: Revision) -> str:
     return "\n".join(keyword_lines(revision, inertia=False)) + "\n"
 
 
-FORMAT = SolverFormat("calculix", _write, "**")
+PROGRAM = SolverFormat("calculix", _write, "**")

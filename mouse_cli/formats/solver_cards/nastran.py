@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from mouse_cli.formats.solver_files import SolverFormat, head
+from mouse_cli.formats.solver_cards import SolverFormat, head
 from mouse_cli.model.revision import Revision
 
 Field = float | int | str
@@ -45,4 +45,4 @@ def _lines(revision: Revision) -> Iterator[str]:
         element += 1
 
 
-FORMAT = SolverFormat("nastran", lambda revision: "\n".join(_lines(revision)) + "\n", "$")
+PROGRAM = SolverFormat("nastran", lambda revision: "\n".join(_lines(revision)) + "\n", "$")

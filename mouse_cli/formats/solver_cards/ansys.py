@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from mouse_cli.formats.solver_files import SolverFormat, head, number
+from mouse_cli.formats.solver_cards import SolverFormat, head, number
 from mouse_cli.model.revision import Revision
 
 _TYPES = 900  # element types and real constants of the new elements count from here
@@ -58,4 +58,4 @@ def _points(revision: Revision) -> Iterator[str]:
         number_of += 1
 
 
-FORMAT = SolverFormat("ansys", lambda revision: "\n".join(_lines(revision)) + "\n", "!", whole=False)
+PROGRAM = SolverFormat("ansys", lambda revision: "\n".join(_lines(revision)) + "\n", "!", whole=False)
