@@ -143,3 +143,47 @@ def test_a_deck_that_contradicts_the_file_is_refused(tmp_path, more, code):
     with pytest.raises(DeckError) as caught:
         read_deck(deck(tmp_path, more))
     assert code in [each.code for each in caught.value.diagnostics]
+
+
+def surveyed(folder, systems: str, moved: int) -> None:
+    """Modes by pyuff at nodes 102 to 105 of the test, which stand on 2 to 5 of the model; geometry by its layout."""
+    (folder / "shapes.unv").unlink(missing_ok=True)  # pyuff would add to it
+    pyuff_55(folder / "shapes.unv")
+    text = (folder / "shapes.unv").read_text()
+    for node in NODES:
+        text = text.replace(f"\n{node:10d}\n", f"\n{node + 100:10d}\n")
+    nodes = "".join(
+        f"{n + 100:10d}{0:10d}{moved:10d}{1:10d}\n{(n - 1) / 4:25.16E}{0.0:25.16E}{0.0:25.16E}\n" for n in NODES
+    )
+    (folder / "shapes.unv").write_text(f"    -1\n  2411\n{nodes}    -1\n{systems}{text}")
+
+
+def system(kind: int, axes, origin) -> str:
+    rows = "".join("".join(f"{x:25.16E}" for x in row) + "\n" for row in (*axes, origin))
+    return f"    -1\n  2420\n{1:10d}\npart\n{7:10d}{kind:10d}{1:10d}\nsystem\n{rows}    -1\n"
+
+
+def test_sensors_stand_at_the_coordinates_of_the_test(tmp_path):
+    surveyed(tmp_path, "", 0)
+    test = read_deck(deck(tmp_path, ", mount: coordinates")).test
+    assert test.sensors == ("102TY", "103TY", "104TY", "105TY") and test.shapes == pytest.approx(SHAPES, rel=1e-5)
+    labels = read_deck(deck(tmp_path, ", mount: coordinates")).structure.labels
+    read = test.read(np.eye(len(labels)))
+    assert read == pytest.approx(np.array([[label == f"{n}TY" for label in labels] for n in NODES], float))
+    with pytest.raises(DeckError):
+        read_deck(deck(tmp_path))  # by numbers: the model has no node 102
+
+
+def test_directions_of_other_systems(tmp_path):
+    """Y of a system turned by 30 degrees about Z; the tangent of a cylindrical one whose axis is Z, below the sensors."""
+    c, s = np.cos(np.pi / 6), 0.5
+    surveyed(tmp_path, system(0, [[c, s, 0], [-s, c, 0], [0, 0, 1]], [0, 0, 0]), 7)
+    problem = read_deck(deck(tmp_path, ", mount: coordinates"))
+    labels, read = problem.structure.labels, problem.test.read(np.eye(problem.structure.n))
+    assert dict(zip(labels, read[1], strict=True)) == pytest.approx(
+        {x: {"3TX": -s, "3TY": c}.get(x, 0.0) for x in labels}
+    )
+    surveyed(tmp_path, system(1, np.eye(3), [0.5, -0.5, 0]), 7)
+    read = read_deck(deck(tmp_path, ", mount: coordinates")).test.read(np.eye(problem.structure.n))
+    far = {"5TX": -(0.5**0.5), "5TY": 0.5**0.5}  # radius at 45 degrees
+    assert dict(zip(labels, read[3], strict=True)) == pytest.approx({x: far.get(x, 0.0) for x in labels})

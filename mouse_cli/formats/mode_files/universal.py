@@ -12,6 +12,7 @@ import numpy as np
 from mouse_cli._span import Span
 from mouse_cli.formats.data_files import reject
 from mouse_cli.formats.mode_files import ModeFormat, ModeTable
+from mouse_cli.formats.mode_files._survey import survey
 from mouse_cli.formats.recording_files.universal_blocks import Block, blocks
 from mouse_cli.model.geometry import DIRECTIONS
 
@@ -72,9 +73,8 @@ def _read(path: str) -> ModeTable:
     )
     shapes = np.stack([_real(raw[:, r]) for r in range(len(modes))], axis=1)
     sizes = np.array([np.sqrt(mode.mass) if mode.mass > 0 else 1.0 for mode in modes])
-    return ModeTable(
-        tuple(names), np.array([m.frequency_hz for m in modes]), np.array([m.damping for m in modes]), shapes / sizes, mass
-    )  # fmt: skip
+    hz, damping = np.array([m.frequency_hz for m in modes]), np.array([m.damping for m in modes])
+    return ModeTable(tuple(names), hz, damping, shapes / sizes, mass, surveyed=survey(path, data, tuple(names)))
 
 
 def _moves(modes: list[_Mode], name: str) -> bool:

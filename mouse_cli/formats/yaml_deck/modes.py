@@ -11,7 +11,7 @@ from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.files import named, read_kept
 from mouse_cli.formats.yaml_deck.kinds import KINDS
-from mouse_cli.formats.yaml_deck.modes_file import chosen, of_file, own_sensors
+from mouse_cli.formats.yaml_deck.modes_file import chosen, mounted, of_file, own_sensors
 from mouse_cli.formats.yaml_deck.sections import Section
 from mouse_cli.formats.yaml_deck.sensors import listed, sensors
 from mouse_cli.model.units import UNDECLARED, Units
@@ -53,7 +53,7 @@ def _measured(section: Section, units: Units) -> TestDraft | None:
     number = modes.value("number", np.arange(1, m + 1))
     dofs = listed(modes.document, nodes["dofs"], modes.what("dofs"), named) if "dofs" in modes else named or None
     if held:
-        dofs = own_sensors(modes, held) if dofs is None else dofs
+        dofs = own_sensors(modes, held) if dofs is None else mounted(modes, held, dofs)
     matching(modes, "number", len(number), m)
     shapes, shape_sd = _of_file(modes, held, dofs) if held else _shapes(modes, dofs, m)
     if modes.document.incomplete:

@@ -24,6 +24,11 @@ def of_file(modes: Section, units: Units) -> ModeTable | None:
             message = f"{modes.what(key)} stands beside {modes.what('file')}, which gives it"
             document.error("MD217", modes.nodes[key], message, f"delete {key}, or file")
     held = read_below(document, node, modes.called, read_modes)
+    if held is not None and modes.value("mount", "numbers") == "numbers":
+        held = replace(held, surveyed={})
+    elif held is not None and not held.surveyed and not held.places:
+        message = f"{modes.what('mount')} is coordinates, and the file has none"
+        document.error("MD600", modes.nodes["mount"], message, "export data set 15 or 2411 with the modes")
     if held is None or held.mass_kg is None:
         return held
     own = unit(units.force).factor / units.metre if units.declared else 1.0
@@ -40,8 +45,22 @@ def own_sensors(modes: Section, held: ModeTable) -> list[SensorDraft]:
     ]
 
 
+def mounted(modes: Section, held: ModeTable, dofs: list[SensorDraft]) -> list[SensorDraft]:
+    """`dofs` with those that the file places by coordinates at these."""
+    found = []
+    for sensor in dofs:
+        name = sensor.name if sensor.name in held.names else sensor.name.replace("-", "")
+        placed = _placed(held, name, sensor.where, sensor.words)
+        turned = placed is not None and name != sensor.name
+        found.append(replace(placed, name=sensor.name, direction=-placed.direction) if turned else placed or sensor)
+    return found
+
+
 def _placed(held: ModeTable, name: str, where: Span, words: str) -> SensorDraft | None:
     """The sensor of a row that gives coordinates, or a node and the components of a direction."""
+    if name in held.surveyed:
+        place, vector = held.surveyed[name]
+        return SensorDraft(name, where, direction=np.array(vector), at=np.array(place), words=words)
     if name not in held.places:
         return None
     place, direction = held.places[name], np.array(held.directions[name])

@@ -41,6 +41,13 @@ SECTIONS = {
                 "results of CalculiX (.frd); its sensors are called 12TY, ...; `dofs` chooses among them",
                 "none",
             ),
+            "mount": Key(
+                "choice",
+                "what mounts sensors of a universal file: numbers of nodes, or coordinates (data sets 15, 2411 and 2420), in "
+                "the unit of length of the deck, between the nodes of the model",
+                "numbers",
+                choices=("numbers", "coordinates"),
+            ),
             "number": Key("wholes", "system mode number of each measured mode, rigid-body modes counted", "1 to m"),
             "frequency": Key("maybes", "natural frequencies, null where not measured", "those of `file`", unit="Hz"),
             "frequency_sd": Key(
