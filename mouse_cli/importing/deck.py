@@ -19,6 +19,7 @@ from mouse_cli.model.geometry import DIRECTIONS
 _E_SD, _DENSITY_SD, _SPRING_SD = "5 %", "1 %", "20 %"  # what is known of a material and of a spring before the test
 _SI_E, _MM_E = (1e8, 1e13), (1e2, 1e7)  # Young's moduli in Pa and in MPa
 _MOST_MODES = 6
+_DIRECTIONS = ("S", *DIRECTIONS)
 
 
 def units(model: InputModel) -> str:
@@ -56,7 +57,7 @@ def write(target: Path, model: InputModel, parts: Parts, checked: Checked, syste
         f"  stiffness: {keep('K', parts.whole.K)}  # without supports",
         f"  mass: {keep('M', parts.whole.M)}",
         f"  dofs: {table('dofs.csv', _dofs(parts.whole.rows.names))}",
-        f"  nodes: {table('nodes.csv', _nodes(model, parts))}",
+        f"  nodes: {table('nodes.csv', _nodes(model))}",
         *_supports(model, parts),
         *_sets(model, parts, keep),
         *_parameters(model, parts, keep, system),
@@ -80,7 +81,7 @@ def _head(model: InputModel, parts: Parts, checked: Checked, system: str) -> lis
 
 
 def _supports(model: InputModel, parts: Parts) -> list[str]:
-    names = [f"{node}{DIRECTIONS[d - 1]}" for node, d in parts.whole.rows.names.tolist()]
+    names = [f"{node}{_DIRECTIONS[d]}" for node, d in parts.whole.rows.names.tolist()]
     found = held_rows(model, parts)
     lines = ["  supports:"] if found else []
     return lines + [f"    {word(name)}: {{dofs: {wrapped((names[i] for i in rows), 6)}}}" for name, rows in found]
@@ -141,25 +142,13 @@ def _stub(checked: Checked) -> list[str]:
 
 
 def _dofs(names: np.ndarray) -> str:
-    return "node,direction\n" + "".join(f"{node},{DIRECTIONS[d - 1]}\n" for node, d in names.tolist())
+    return "node,direction\n" + "".join(f"{node},{_DIRECTIONS[d]}\n" for node, d in names.tolist())
 
 
-def _nodes(model: InputModel, parts: Parts) -> str:
-    """Nodes of the input; those that the solver added are put amid what they are coupled to."""
-    places = dict(sorted(model.nodes.items())) | _added(model, parts)
-    return "number,x,y,z\n" + "".join(f"{n},{','.join(map(repr, at.tolist()))}\n" for n, at in places.items())
-
-
-def _added(model: InputModel, parts: Parts) -> dict[int, np.ndarray]:
-    numbers = parts.whole.rows.names[:, 0]
-    own = np.isin(numbers, list(model.nodes))
-    at = np.array([model.nodes[n] for n in numbers[own].tolist()]).reshape(-1, 3)
-    added, first = np.unique(numbers[~own], return_index=True)
-    if not len(added):
-        return {}
-    coupled = (abs(parts.whole.K[np.flatnonzero(~own)[first]][:, np.flatnonzero(own)]) > 0).astype(float)
-    count = np.maximum(np.asarray(coupled.sum(axis=1)).ravel(), 1.0)
-    return dict(zip(added.tolist(), coupled @ at / count[:, None], strict=True))
+def _nodes(model: InputModel) -> str:
+    return "number,x,y,z\n" + "".join(
+        f"{n},{','.join(map(repr, at.tolist()))}\n" for n, at in sorted(model.nodes.items())
+    )
 
 
 def _ranges(numbers: list[int]) -> Iterable[str]:

@@ -2,7 +2,7 @@
 
 Shells and beams become solids there, and the rows of all solid nodes that a node of the input became bear its number, in the
 order bottom (middle) top. Its own motion is their mean: of the outer two of three (S8 and S6, where supports hold the middle one
-too), of the first four of eight (B32), of all else. That mean and differences from it take the place of the rows.
+too), of the first four of eight (B32), of all else. That mean, and what the others move beside it, take the place of the rows.
 """
 
 from dataclasses import dataclass
@@ -12,15 +12,15 @@ import numpy as np
 from mouse_cli.model.arrays import Matrix
 
 _OUTER = {3: (0, 2), 8: (0, 1, 2, 3)}  # of so many rows of one node and direction, those whose mean is its motion
-_ROTATION = 3  # added to the direction of rows that are no translation of a node of the input
+_SCALAR = 0  # direction of what is no motion of a node of the input
 
 
 @dataclass(frozen=True)
 class Rows:
-    """T (n, n): from the new coordinates to the rows of the solver, None: the same; names (n, 2): node, direction 1 to 6.
+    """T (n, n): from the new coordinates to the rows of the solver, None: the same; names (n, 2): node, direction 1 to 6,
+    0 with a number of its own for what is no motion of a node of the input.
 
-    held: for (node, direction) of the input, the coordinates (from 0) that a support of it holds; extra: numbers given to what
-    is no node of the input.
+    held: for (node, direction) of the input, the coordinates (from 0) that a support of it holds.
     """
 
     T: Matrix | None
@@ -41,28 +41,32 @@ def rows(dofs: np.ndarray, own: set[int]) -> Rows:
     top = max(int(dofs[:, 0].max()), max(own, default=0))
     for (node, direction), at in places.items():
         if node not in own:
-            names[at, 1] += _ROTATION
+            names[at] = [(top + 1 + i, _SCALAR) for i in at]
         if len(at) == 1:
             held[node, direction] = (at[0],)
             continue
         outer = [at[k] for k in _OUTER.get(len(at), range(len(at)))]
         rest = [i for i in at if i not in outer]
         held[node, direction] = (outer[0], *rest) if len(at) == 3 else (outer[0],)
-        blocks.append(outer)
-        for k, i in enumerate(outer[1:] + rest):
-            names[i] = top + 8 * node + k, direction + _ROTATION
+        blocks.append((outer, rest))
+        for i in outer[1:] + rest:
+            names[i] = top + 1 + i, _SCALAR
     return Rows(_basis(len(dofs), blocks) if blocks else None, names, {k: v for k, v in held.items() if k[0] in own})
 
 
-def _basis(n: int, blocks: list[list[int]]):
-    """Mean m in the first of each block, e_k in the others: u_k = m + e_k, and u_0 = m - sum of e_k."""
+def _basis(n: int, blocks: list[tuple[list[int], list[int]]]):
+    """Mean m in the first of each block, e_k in the others: u_k = m + e_k, and u_0 = m - sum of e_k over those of the mean."""
     from scipy.sparse import coo_array
 
     row, col, value = list(range(n)), list(range(n)), [1.0] * n
-    for block in blocks:
-        first = block[0]
-        for i in block[1:]:
+    for outer, rest in blocks:
+        first = outer[0]
+        for i in outer[1:]:
             row += [i, first]
             col += [first, i]
             value += [1.0, -1.0]
+        for i in rest:
+            row.append(i)
+            col.append(first)
+            value.append(1.0)
     return coo_array((value, (row, col)), shape=(n, n)).tocsr()

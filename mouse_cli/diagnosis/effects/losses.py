@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from mouse_cli.diagnosis.effects import element_sets
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.matrices import Entries, of_matrices, with_entries
@@ -123,8 +124,8 @@ Listed = tuple[str, Entries, np.ndarray]
 
 
 def listed_springs(model: Reduced) -> list[Listed]:
-    """Springs and groups of a model of matrices: name, entries of -K in its matrices, and K (r, r)."""
-    return _springs(model) + _groups(model)
+    """Named element sets of a model of matrices, else springs and groups: name, entries of -K in its matrices, and K (r, r)."""
+    return element_sets.listed(model) or _springs(model) + _groups(model)
 
 
 def _springs(model: Reduced) -> list[Listed]:

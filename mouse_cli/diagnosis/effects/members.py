@@ -8,6 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.effects.element_sets import missing
 from mouse_cli.diagnosis.effects.losses import LOST, matrices_of
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
@@ -33,7 +34,7 @@ Part = tuple[
 def of_members(model: Reduced, candidate: Candidate, sign: int = -1) -> list[Recipe]:
     """K - d K_e of each member, alone or with M - d M_e of its section; K + d K_e, and the same, by `sign`."""
     if model.motion is None:
-        return []
+        return missing(model, candidate) if sign < 0 else []
     parts: dict[int, Part] = {}
     found = [(member, _energy(model, member, parts)) for member in members(model.problem.mesh)]
     order = np.argsort([-energy for _, energy in found], kind="stable")[:_MOST]

@@ -11,7 +11,7 @@ from itertools import combinations
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product, steps
-from mouse_cli.diagnosis.effects.supports import followed, free_model, static
+from mouse_cli.diagnosis.effects.released import followed, free_model, static
 from mouse_cli.diagnosis.extend.base import joined, on_joints
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import lowest

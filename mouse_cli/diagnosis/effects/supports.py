@@ -1,27 +1,20 @@
 """Supports that give way: the motion of each, as a degree of freedom of its own beside those of the reduced model."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Carried, Change, Recipe, Unknown, product, steps
+from mouse_cli.diagnosis.effects.named_supports import named
+from mouse_cli.diagnosis.effects.released import Free, followed, free_model, static
 from mouse_cli.diagnosis.extend.edit import Edit
-from mouse_cli.diagnosis.likelihoods.modal.directions import projected
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
 from mouse_cli.diagnosis.mechanisms import Candidate
-from mouse_cli.diagnosis.sites.bars import strained
-from mouse_cli.dynamics.contraction import Stack
-from mouse_cli.model.arrays import Matrix, is_sparse
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
-from mouse_cli.terms.assembly import Assembly
-from mouse_cli.terms.element_term import ElementTerm
 
 _LOADED = 0.02  # share of the largest reaction of its kind below which a support is not loaded
-_SHIFT = 1e-3  # of the lowest measured eigenvalue, so that motions that nothing resists need no support
 _TOGETHER = 16  # supports that may give way alike
 _MOST = 48  # supports that are looked at: those that bear most
 
@@ -53,6 +46,8 @@ def yielding(model: Reduced, candidate: Candidate, turning: bool) -> list[Recipe
     """In translation or in rotation: a recipe for each support that the measured modes load, for all alike, and for those of one
     node, or of all alike, in both directions that bear most, each with a stiffness of its own.
     """
+    if model.problem.held is not None:
+        return named(model, candidate, turning)
     found = released(model, range(3, 6) if turning else range(3))
     if found is None:
         return []
@@ -80,67 +75,6 @@ def _sets(found: Released) -> tuple[list[list[list[int]]], list[list[list[int]]]
     return [[[i]] for i in range(len(found.held))] + both, alike
 
 
-@dataclass(frozen=True)
-class Free:
-    """The structure without its supports: `place` of degrees of freedom by label, deck: those of the deck; K, M at theta."""
-
-    problem: Problem
-    assembly: Assembly
-    theta: np.ndarray
-    place: dict[str, int]
-    deck: np.ndarray
-    K: Matrix
-    M: Matrix
-
-    @property
-    def n(self) -> int:
-        """Number of degrees of freedom."""
-        return self.problem.structure.n
-
-    def read(self, motion: np.ndarray) -> np.ndarray:
-        """What sensors read of a motion (n, a)."""
-        return self.problem.test.read(motion)
-
-    def reactions(self, model: Reduced, s: np.ndarray, modes: slice) -> np.ndarray:
-        """Loads (s, m) that modes put on the supports s."""
-        V, f = model.V[:, modes], self.deck
-        return self.K[s][:, f] @ V - (self.M[s][:, f] @ V) * model.eigenvalues[modes]
-
-
-def free_model(model: Reduced) -> Free:
-    """The structure of a model without its supports, at the parameters where its own K and M are taken."""
-    free, total = model.once("without supports", _without_supports)
-    theta = model.theta if model.origin is None else model.origin
-    place = {label: i for i, label in enumerate(free.structure.labels)}
-    f = np.array([place[label] for label in model.problem.structure.labels], int)
-    K, M = (m.tocsr() if is_sparse(m) else m for m in total.matrices(theta))
-    return Free(free, total, theta, place, f, K, M)
-
-
-def static(model: Reduced, free: Free, s: np.ndarray, pattern: np.ndarray) -> np.ndarray:
-    """Motion (n, a) of the structure for motions `pattern` (s, a) of the supports s."""
-    motion, f, (K, M) = np.zeros((free.n, pattern.shape[1])), free.deck, (free.K, free.M)
-    motion[s] = pattern
-    right = _dense(K[f][:, s]) @ pattern, _dense(M[f][:, s]) @ pattern
-    motion[f] = -_solved(K[f][:, f], M[f][:, f], *right, _SHIFT * lowest(model))
-    return motion
-
-
-def followed(model: Reduced, free: Free, motion: np.ndarray) -> tuple[np.ndarray, np.ndarray, Carried]:
-    """K and M (r + a, r + a) that a motion (n, a) adds to those of the model, and how it carries the model along."""
-    f, (K, M) = free.deck, (free.K, free.M)
-    whole = np.zeros((free.n, model.r + motion.shape[1]))
-    whole[f, : model.r], whole[:, model.r :] = model.V, motion
-    blocks = [whole.T @ (matrix @ whole) for matrix in (K, M)]
-    for block in blocks:
-        block[: model.r, : model.r] = 0.0
-    slopes, stack = _slopes(model, free.assembly, free.theta, whole)
-    within = model.V.T @ (M[f][:, f] @ motion[f])
-    none = np.zeros((0, 3, motion.shape[1]))
-    strain = none if model.bars is None else strained(free.problem, model.bars, motion)
-    return *blocks, Carried(within, motion, K @ motion, M @ motion, f, slopes, _across(model, stack, motion), strain)
-
-
 def released(model: Reduced, kinds: range) -> Released | None:
     """The loaded supports in the directions `kinds`; None where there are none."""
     held = _candidates(model, kinds)
@@ -155,52 +89,12 @@ def released(model: Reduced, kinds: range) -> Released | None:
     return Released(tuple(held), K, M, free.read(motion), np.asarray(free.K.diagonal())[s], load, carried)
 
 
-Slopes = tuple[np.ndarray, np.ndarray]
-
-
-def _slopes(model: Reduced, free: Assembly, theta: np.ndarray, whole: np.ndarray) -> tuple[Slopes, Stack]:
-    """See `Carried`. Its static motion is nearly in the space of the coordinates, and the mass that is left to a support beside
-    theirs a small difference: M of the cause must follow the parameters as that of the model does, else M is indefinite.
-    """
-    stack = Stack(free.n, free.p, free.slopes(theta))
-    found = projected(stack, model.directions, whole)
-    for each in found:
-        each[:, : model.r, : model.r] = 0.0
-    return found, stack
-
-
-def _across(model: Reduced, stack: Stack, motion: np.ndarray) -> Callable[[np.ndarray], Slopes]:
-    """See `Carried`; what was asked for last is kept, as a pair of supports is looked at many times."""
-    kept: list[tuple[np.ndarray, Slopes]] = []
-
-    def across(other: np.ndarray) -> Slopes:
-        if not kept or kept[0][0] is not other:
-            b = other.shape[1]
-            both = projected(stack, model.directions, np.hstack([other, motion]))
-            kept[:] = [(other, tuple(each[:, :b, b:] for each in both))]
-        return kept[0][1]
-
-    return across
-
-
 def _candidates(model: Reduced, kinds: range) -> list[tuple[int, int]]:
     """Supports (node, direction) of `kinds`."""
     mesh = model.problem.mesh
     if model.motion is None:
         return []
     return [(node, d) for node, d in mesh.supports.tolist() if d in kinds and d in mesh.directions]
-
-
-def _without_supports(problem: Problem) -> Problem:
-    """The deck without supports; what bears weight keeps the axial force that it has on its supports."""
-    edit = Edit(problem)
-    edit.supports, edit.gravity = [], None
-    terms = [term for term in problem.terms if isinstance(term, ElementTerm)]
-    for s, term in enumerate(terms):
-        if term.axial is not None:
-            own = [(s, i) for i in range(len(edit.sets[s]))]
-            edit.put(own, "preload", np.array([edit.values(element, "preload") for element in own]) + term.axial)
-    return edit.done()
 
 
 def _loaded(model: Reduced, held: list, free: Free) -> tuple[list, np.ndarray, np.ndarray]:
@@ -219,20 +113,6 @@ def _loaded(model: Reduced, held: list, free: Free) -> tuple[list, np.ndarray, n
     order = np.sort(np.argsort(-size, kind="stable")[:_MOST])
     order = order[size[order] > _LOADED * size.max()]
     return [held[known[i]] for i in order], s[order], size[order]
-
-
-def _dense(matrix) -> np.ndarray:
-    return matrix.toarray() if is_sparse(matrix) else matrix
-
-
-def _solved(Kff, Mff, Kfs: np.ndarray, Mfs: np.ndarray, shift: float) -> np.ndarray:
-    """(K + shift M)_ff^-1 (K + shift M)_fs."""
-    right = Kfs + shift * Mfs
-    if not is_sparse(Kff):
-        return np.linalg.solve(Kff + shift * Mff, right)
-    from mouse_cli.terms.mechanisms import definite_factor
-
-    return definite_factor((Kff + shift * Mff).tocsc()).solve(right)
 
 
 def _recipe(

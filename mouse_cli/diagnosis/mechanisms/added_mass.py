@@ -3,6 +3,7 @@
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product, steps
+from mouse_cli.diagnosis.effects.element_sets import heavier
 from mouse_cli.diagnosis.effects.line_mass import Wet
 from mouse_cli.diagnosis.extend.edit import Edit, every_beam
 from mouse_cli.diagnosis.extend.places import beams_within, split
@@ -23,7 +24,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """M + m times the integral of u'u over bars without a parameter for it: all, or a row of them in part."""
     found = runs(model, "nonstructural_mass")
     if not found:
-        return []
+        return heavier(model, candidate)
     bars = model.bars
     mean = float(np.average(bars.line_mass, weights=bars.length)) or 1.0
     m = Unknown("mass per length", "kg/m", 1e-3 * mean, mean)

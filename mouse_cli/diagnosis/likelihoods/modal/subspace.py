@@ -13,6 +13,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.likelihoods.modal.directions import directions
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced, built
+from mouse_cli.diagnosis.likelihoods.modal.sets import MOST_OF_SETS, without_sets
 from mouse_cli.diagnosis.localise.force import matched
 from mouse_cli.diagnosis.localise.matching import Matcher, shapes
 from mouse_cli.diagnosis.localise.survey import survey
@@ -48,7 +49,7 @@ class Basis:
         theta, S, _ = solution.space.ritz()
         kept = min(max(last + 10, 3 * (last + 10) // 2, 30), _MODES, int((theta > INFINITE * theta[0]).sum()))
         modes = S[:, :kept].T @ solution.space.V[: solution.space.reached]
-        self.space = Krylov(operator, _MOST + 20)
+        self.space = Krylov(operator, _MOST + 20 + (MOST_OF_SETS if problem.groups else 0))
         self.space.append(modes, np.ascontiguousarray((K @ modes.T - self.sigma * (M @ modes.T)).T))
         self._T = np.zeros((0, 0))
         self.responses(np.zeros((K.shape[0], 0)))
@@ -60,10 +61,14 @@ class Basis:
 
     def responses(self, loads: np.ndarray) -> None:
         """Add A^-1 `loads` (n, c)."""
+        rows = np.ascontiguousarray(loads.T)
+        self.motions(self.space.operator.solve(rows) if len(rows) else rows, rows)
+
+    def motions(self, rows: np.ndarray, loads: np.ndarray) -> None:
+        """Add motions `rows` (c, n), with A times each in `loads` (c, n)."""
         before = len(self._T)
-        if loads.shape[1]:
-            rows = np.ascontiguousarray(loads.T)
-            self.space.append(self.space.operator.solve(rows), rows)
+        if len(rows):
+            self.space.append(rows, loads)
         V = self.space.V
         new = V @ self.space.operator.mass(V[before:]).T
         T = np.zeros((len(V), len(V)))
@@ -113,6 +118,8 @@ def large(
         more = _closer(model, places, room // _CLOSER)
         basis.responses(_placed(total.n, more, np.eye(len(more))))
         places = np.concatenate([places, more])
+    if problem.groups:
+        basis.motions(*without_sets(problem, K, M, basis.sigma, basis.space.V, int(problem.test.number.max())))
     model = built(problem, total, theta, *basis.ritz(), by, stack)
     lowest = model.V[:, : min(model.r, int(problem.test.number.max()) + 2)]
     by_all = static(problem, model.motion, model.bars, basis.sigma, basis.space.operator.columns, lowest)

@@ -1,0 +1,122 @@
+"""Meshes of shells and solids as cards, in named sets; and what is changed in them."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+MATERIALS = {"ALU": (7.0e10, 0.33, 2700.0), "STEEL": (2.1e11, 0.3, 7850.0)}
+
+
+@dataclass
+class Mesh:
+    """Nodes by place, elements (type, nodes) by set, supports by name, sensors (node, direction 1 to 3)."""
+
+    number: dict[tuple[float, float, float], int] = field(default_factory=dict)
+    sets: dict[str, tuple[str, list[tuple[int, ...]], str, float]] = field(default_factory=dict)
+    supports: dict[str, list[int]] = field(default_factory=dict)
+    sensors: list[tuple[int, int]] = field(default_factory=list)
+
+    def node(self, x: float, y: float, z: float) -> int:
+        """The node at a place, a new one where there is none."""
+        return self.number.setdefault(
+            (round(float(x), 7), round(float(y), 7), round(float(z), 7)), len(self.number) + 1
+        )
+
+    def quads(self, name: str, origin, u, v, counts, thickness: float, material: str = "ALU") -> None:
+        """Shells (S4) over origin + s u + t v."""
+        origin, u, v = map(np.array, (origin, u, v))
+        at = lambda i, j: self.node(*(origin + u * i / counts[0] + v * j / counts[1]))
+        own = [(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)) for i, j in np.ndindex(*counts)]
+        self.sets.setdefault(name, ("S4", [], material, thickness))[1].extend(own)
+
+    def bricks(self, name: str, low, high, counts, material: str = "ALU") -> None:
+        """Solids (C3D8I) over a box."""
+        low, size = np.array(low), np.array(high) - np.array(low)
+        at = lambda *i: self.node(*(low + size * np.array(i) / counts))
+        square = ((0, 0), (1, 0), (1, 1), (0, 1))
+        own = [tuple(at(i + a, j + b, k + c) for c in (0, 1) for a, b in square) for i, j, k in np.ndindex(*counts)]
+        self.sets.setdefault(name, ("C3D8I", [], material, 0.0))[1].extend(own)
+
+    def near(self, *places) -> list[int]:
+        """The nodes nearest to places."""
+        at = np.array(list(self.number))
+        return [list(self.number.values())[int(np.argmin(np.linalg.norm(at - np.array(p), axis=1)))] for p in places]
+
+
+@dataclass(frozen=True)
+class Concealed:
+    """What is changed in the solver's input: kind, and the set, support or node that it is of; size: of the change.
+
+    E, rho (by material): factors of the true structure, which the model does not know.
+    """
+
+    kind: str = "control"
+    name: str = ""
+    size: float = 0.0
+    E: dict[str, float] = field(default_factory=dict)
+
+
+def cards(mesh: Mesh, change: Concealed, modes: int = 0) -> str:
+    """The input file; modes: a step for so many, with the displacements of the sensors."""
+    lines = ["*NODE, NSET=ALL", *(f"{n}, {x!r}, {y!r}, {z!r}" for (x, y, z), n in mesh.number.items())]
+    count = 0
+    for name, (kind, elements, _, _) in mesh.sets.items():
+        if (change.kind, change.name) == ("missing", name):
+            continue
+        lines.append(f"*ELEMENT, TYPE={kind}, ELSET={name}")
+        for nodes in elements:
+            count += 1
+            lines.append(f"{count}, {', '.join(map(str, nodes))}")
+    known: set[str] = set()
+    for name, (kind, _, material, thickness) in mesh.sets.items():
+        if (change.kind, change.name) != ("missing", name):
+            lines += _section(name, kind, material, thickness, change, known)
+    for name, nodes in mesh.supports.items():
+        lines += [f"*NSET, NSET={name}", *(f"{n}," for n in nodes)]
+    if change.kind == "mass":
+        lines += [
+            "*ELEMENT, TYPE=MASS, ELSET=EXTRA",
+            f"{count + 1}, {change.name}",
+            "*MASS, ELSET=EXTRA",
+            f"{change.size:.9e}",
+        ]
+    lines += _held(mesh, change, count + 2)
+    if modes:
+        nodes = sorted({n for n, _ in mesh.sensors})
+        lines += ["*NSET, NSET=SEEN", *(f"{n}," for n in nodes), "*STEP", "*FREQUENCY", str(modes)]
+        lines += ["*NODE PRINT, NSET=SEEN", "U", "*END STEP"]
+    return "\n".join(lines) + "\n"
+
+
+def _section(name: str, kind: str, material: str, thickness: float, change: Concealed, known: set[str]) -> list[str]:
+    """A section with a material of the true moduli, for each set by itself in a true structure; known: those written before."""
+    own = change.kind in ("softer", "material", "heavier") and change.name == name
+    of = material
+    if own and change.kind == "material":
+        of = "STEEL" if material == "ALU" else "ALU"
+    E, nu, rho = MATERIALS[of]
+    E *= change.E.get(of, 1.0) * (change.size if own and change.kind == "softer" else 1.0)
+    rho *= change.size if own and change.kind == "heavier" else 1.0
+    called = f"{material}_{name}" if change.E else material
+    lines = (
+        [f"*MATERIAL, NAME={called}", "*ELASTIC", f"{E:.9e}, {nu}", "*DENSITY", f"{rho:.9e}"]
+        if called not in known
+        else []
+    )
+    known.add(called)
+    head = "SHELL" if kind == "S4" else "SOLID"
+    lines.append(f"*{head} SECTION, ELSET={name}, MATERIAL={called}")
+    return lines + ([f"{thickness:.9e}"] if kind == "S4" else [])
+
+
+def _held(mesh: Mesh, change: Concealed, first: int) -> list[str]:
+    lines = []
+    for name, nodes in mesh.supports.items():
+        if change.kind == "loose" and change.name == name:
+            for d in (1, 2, 3) if change.size else ():
+                lines.append(f"*ELEMENT, TYPE=SPRING1, ELSET=LOOSE{d}")
+                lines += [f"{first + 1000 * d + i}, {n}" for i, n in enumerate(nodes)]
+                lines += [f"*SPRING, ELSET=LOOSE{d}", f"{d}", f"{change.size / len(nodes):.9e}"]
+            continue
+        lines += ["*BOUNDARY", f"{name}, 1, 3"]
+    return lines

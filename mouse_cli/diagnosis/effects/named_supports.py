@@ -1,0 +1,158 @@
+"""Named supports of imported matrices that give way: each moves as a rigid body on springs, in one direction or in all."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.effects.released import Free, followed, free_model, static
+from mouse_cli.diagnosis.extend.supports import with_motions
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
+from mouse_cli.model.diagnosis import Site
+from mouse_cli.model.geometry import DIRECTIONS
+from mouse_cli.model.held import Support
+from mouse_cli.model.problem import Problem
+
+_SOFTEST, _STIFFEST = (
+    1e-4,
+    1e3,
+)  # of the stiffness of the structure against the motion: from none left to what no mode sees
+_MOST = 24  # supports
+_FLEXIBLE = 48  # degrees of freedom up to which a support follows the structure as it deforms
+_POINT = 1e-9  # of the size of the structure: extent of a support that cannot turn about itself
+
+
+@dataclass(frozen=True)
+class Motions:
+    """Of one support: pattern (k, a) of its degrees of freedom, labels (a,), and bed (a, a): stiffness of springs of 1 in all."""
+
+    support: Support
+    pattern: np.ndarray
+    labels: tuple[str, ...]
+    bed: np.ndarray
+
+
+def named(model: Reduced, candidate, turning: bool) -> list[Recipe]:
+    """A recipe for each support and direction, for each in all directions on a bed of springs, and for all supports alike."""
+    free = free_model(model)
+    sets = _kinds(free, model.problem.held.supports[:_MOST], turning)
+    if not sets:
+        return []
+    motions = [each for kind in sets for each in kind]
+    s, pattern = _together(motions)
+    motion = static(model, free, s, pattern)
+    K, M, carried = followed(model, free, motion)
+    reading = free.read(motion)
+    start, recipes = model.r, []
+    for kind in sets:
+        for each in kind:
+            which = list(range(start - model.r, start - model.r + len(each.labels)))
+            recipes.append(
+                _recipe(model, candidate, each, which, (K, M, reading, carried), len(kind) * len(sets), turning)
+            )
+            start += len(each.labels)
+    return recipes
+
+
+def _kinds(free: Free, supports: tuple[Support, ...], turning: bool) -> list[list[Motions]]:
+    """Motions of one direction, and, in translation, of all at once."""
+    rigid = [_rigid(free, support) for support in supports]
+    if turning:
+        return [kind for kind in [[m for each in rigid for m in _single(*each, range(3, 6))]] if kind]
+    single = [m for each in rigid for m in _single(*each, range(3))]
+    whole = [m for each in rigid for m in _whole(*each)]
+    return [kind for kind in (single, whole) if kind]
+
+
+def _rigid(free: Free, support: Support) -> tuple[Support, np.ndarray]:
+    """Patterns (k, 6) of a rigid body about the centre of the support."""
+    at = free.problem.structure.geometry
+    pattern = np.zeros((len(support.dofs), 6))
+    if at is None:
+        return support, pattern
+    node, direction = at.node[support.dofs], at.direction[support.dofs]
+    own = node >= 0
+    x = (
+        at.coordinates[node] - at.coordinates[np.unique(node[own])].mean(axis=0)
+        if own.any()
+        else np.zeros((len(node), 3))
+    )
+    for i in np.flatnonzero(own):
+        d = int(direction[i])
+        pattern[i, d] = 1.0
+        if d < 3:
+            pattern[i, 3:] = np.cross(np.eye(3), x[i])[:, d]
+    size = float(np.ptp(at.coordinates, axis=0).max())
+    turns = np.abs(pattern[:, 3:]) > _POINT * size
+    pattern[:, 3:] = np.where(turns | (direction > 2)[:, None], pattern[:, 3:], 0.0)
+    return support, pattern
+
+
+def _single(support: Support, pattern: np.ndarray, directions: range) -> list[Motions]:
+    held = [d for d in directions if pattern[:, d].any()]
+    return [Motions(support, pattern[:, [d]], (DIRECTIONS[d],), np.ones((1, 1))) for d in held]
+
+
+def _whole(support: Support, pattern: np.ndarray) -> list[Motions]:
+    """All directions, on springs of equal stiffness at every node; one stiffness, that of all of them together, in translation.
+
+    Every degree of freedom for itself where they are few, else as a rigid body.
+    """
+    kept = [d for d in range(6) if pattern[:, d].any()]
+    translations = [d for d in kept if d < 3]
+    if len(translations) < 2:
+        return []
+    if len(support.dofs) <= _FLEXIBLE:
+        own = np.flatnonzero(pattern[:, :3].any(axis=1))
+        each = np.eye(len(support.dofs))[:, own]
+        count = np.count_nonzero(pattern[:, translations[0]])
+        return [Motions(support, each, tuple(f"motion {i + 1}" for i in range(len(own))), np.eye(len(own)) / count)]
+    bed = pattern[:, kept].T @ pattern[:, kept]
+    count = bed[0, 0]
+    return [Motions(support, pattern[:, kept], tuple(DIRECTIONS[d] for d in kept), bed / count)]
+
+
+def _together(motions: list[Motions]) -> tuple[np.ndarray, np.ndarray]:
+    """Degrees of freedom of all supports, and patterns (s, a) of all motions."""
+    s = np.unique(np.concatenate([each.support.dofs for each in motions]))
+    columns = []
+    for each in motions:
+        block = np.zeros((len(s), each.pattern.shape[1]))
+        block[np.searchsorted(s, each.support.dofs)] = each.pattern
+        columns.append(block)
+    return s, np.hstack(columns)
+
+
+def _recipe(
+    model: Reduced, candidate, own: Motions, which: list[int], moved: tuple, count: int, turning: bool
+) -> Recipe:
+    K, M, reading, carried = moved
+    r, one = model.r, len(own.labels) == 1
+    at = np.concatenate([np.arange(r), r + np.array(which)])
+    K, M, sensing = K[np.ix_(at, at)], M[np.ix_(at, at)], np.hstack([np.zeros((len(reading), r)), reading[:, which]])
+    resistance = float((np.diag(K)[r:] + lowest(model) * np.diag(M)[r:]).max())
+    unit = "N m/rad" if turning else "N/m"
+    k = Unknown("stiffness of the support", unit, _SOFTEST * resistance, _STIFFEST * resistance)
+    words = own.labels[0] if one else "all directions"
+    site = Site("node", (), None, f"the support {own.support.name}, {words}")
+
+    def change(values: np.ndarray) -> Change:
+        with_springs = K.copy()
+        with_springs[r:, r:] += values[0] * own.bed
+        return Change(with_springs, M, sensing)
+
+    def extend(problem: Problem, values: np.ndarray) -> Problem:
+        return with_motions(problem, own.support.name, own.pattern, own.labels, own.bed, values[0], unit)
+
+    return Recipe(
+        candidate,
+        (k,),
+        change,
+        steps(k, 8)[:, None],
+        lambda values: site,
+        own=len(which),
+        log_prior=-float(np.log(count)),
+        extend=extend,
+        carried=carried.part(which, r),
+    )

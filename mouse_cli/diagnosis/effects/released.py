@@ -1,0 +1,150 @@
+"""A model without its supports, and what motions of them add to the reduced model."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Carried
+from mouse_cli.diagnosis.extend.edit import Edit, moved, moved_channels, moved_functions
+from mouse_cli.diagnosis.likelihoods.modal.directions import projected
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
+from mouse_cli.diagnosis.sites.bars import strained
+from mouse_cli.dynamics.contraction import Stack
+from mouse_cli.model.arrays import Matrix, is_sparse
+from mouse_cli.model.held import freed, places
+from mouse_cli.model.problem import Problem
+from mouse_cli.terms.assembly import Assembly
+from mouse_cli.terms.element_term import ElementTerm
+
+_SHIFT = 1e-3  # of the lowest measured eigenvalue, so that motions that nothing resists need no support
+
+
+@dataclass(frozen=True)
+class Free:
+    """The structure without its supports: `place` of degrees of freedom by label, deck: those of the deck; K, M at theta."""
+
+    problem: Problem
+    assembly: Assembly
+    theta: np.ndarray
+    place: dict[str, int]
+    deck: np.ndarray
+    K: Matrix
+    M: Matrix
+
+    @property
+    def n(self) -> int:
+        """Number of degrees of freedom."""
+        return self.problem.structure.n
+
+    def read(self, motion: np.ndarray) -> np.ndarray:
+        """What sensors read of a motion (n, a)."""
+        return self.problem.test.read(motion)
+
+    def reactions(self, model: Reduced, s: np.ndarray, modes: slice) -> np.ndarray:
+        """Loads (s, m) that modes put on the supports s."""
+        V, f = model.V[:, modes], self.deck
+        return self.K[s][:, f] @ V - (self.M[s][:, f] @ V) * model.eigenvalues[modes]
+
+
+def free_model(model: Reduced) -> Free:
+    """The structure of a model without its supports, at the parameters where its own K and M are taken."""
+    free, total = model.once("without supports", _without_supports)
+    theta = model.theta if model.origin is None else model.origin
+    place = {label: i for i, label in enumerate(free.structure.labels)}
+    f = np.array([place[label] for label in model.problem.structure.labels], int)
+    K, M = (m.tocsr() if is_sparse(m) else m for m in total.matrices(theta))
+    return Free(free, total, theta, place, f, K, M)
+
+
+def static(model: Reduced, free: Free, s: np.ndarray, pattern: np.ndarray) -> np.ndarray:
+    """Motion (n, a) of the structure for motions `pattern` (s, a) of the supports s."""
+    motion, f, (K, M) = np.zeros((free.n, pattern.shape[1])), free.deck, (free.K, free.M)
+    motion[s] = pattern
+    right = _dense(K[f][:, s]) @ pattern, _dense(M[f][:, s]) @ pattern
+    motion[f] = -_solved(K[f][:, f], M[f][:, f], *right, _SHIFT * lowest(model))
+    return motion
+
+
+def followed(model: Reduced, free: Free, motion: np.ndarray) -> tuple[np.ndarray, np.ndarray, Carried]:
+    """K and M (r + a, r + a) that a motion (n, a) adds to those of the model, and how it carries the model along."""
+    f, (K, M) = free.deck, (free.K, free.M)
+    whole = np.zeros((free.n, model.r + motion.shape[1]))
+    whole[f, : model.r], whole[:, model.r :] = model.V, motion
+    blocks = [whole.T @ (matrix @ whole) for matrix in (K, M)]
+    for block in blocks:
+        block[: model.r, : model.r] = 0.0
+    slopes, stack = _slopes(model, free.assembly, free.theta, whole)
+    within = model.V.T @ (M[f][:, f] @ motion[f])
+    none = np.zeros((0, 3, motion.shape[1]))
+    strain = none if model.bars is None else strained(free.problem, model.bars, motion)
+    return *blocks, Carried(within, motion, K @ motion, M @ motion, f, slopes, _across(model, stack, motion), strain)
+
+
+Slopes = tuple[np.ndarray, np.ndarray]
+
+
+def _slopes(model: Reduced, free: Assembly, theta: np.ndarray, whole: np.ndarray) -> tuple[Slopes, Stack]:
+    """See `Carried`. Its static motion is nearly in the space of the coordinates, and the mass that is left to a support beside
+    theirs a small difference: M of the cause must follow the parameters as that of the model does, else M is indefinite.
+    """
+    stack = Stack(free.n, free.p, free.slopes(theta))
+    found = projected(stack, model.directions, whole)
+    for each in found:
+        each[:, : model.r, : model.r] = 0.0
+    return found, stack
+
+
+def _across(model: Reduced, stack: Stack, motion: np.ndarray) -> Callable[[np.ndarray], Slopes]:
+    """See `Carried`; what was asked for last is kept, as a pair of supports is looked at many times."""
+    kept: list[tuple[np.ndarray, Slopes]] = []
+
+    def across(other: np.ndarray) -> Slopes:
+        if not kept or kept[0][0] is not other:
+            b = other.shape[1]
+            both = projected(stack, model.directions, np.hstack([other, motion]))
+            kept[:] = [(other, tuple(each[:, :b, b:] for each in both))]
+        return kept[0][1]
+
+    return across
+
+
+def _without_supports(problem: Problem) -> Problem:
+    """The deck without supports; what bears weight keeps the axial force that it has on its supports."""
+    if problem.held is not None:
+        return _freed(problem)
+    edit = Edit(problem)
+    edit.supports, edit.gravity = [], None
+    terms = [term for term in problem.terms if isinstance(term, ElementTerm)]
+    for s, term in enumerate(terms):
+        if term.axial is not None:
+            own = [(s, i) for i in range(len(edit.sets[s]))]
+            edit.put(own, "preload", np.array([edit.values(element, "preload") for element in own]) + term.axial)
+    return edit.done()
+
+
+def _freed(problem: Problem) -> Problem:
+    """Imported matrices without their named supports."""
+    free, to = freed(problem), places(problem)
+    n = free.structure.n
+    return replace(
+        free,
+        test=None if problem.test is None else moved(problem.test, to, n),
+        frf=tuple(moved_functions(each, to, n) for each in problem.frf),
+        recordings=tuple(moved_channels(each, to) for each in problem.recordings),
+    )
+
+
+def _dense(matrix) -> np.ndarray:
+    return matrix.toarray() if is_sparse(matrix) else matrix
+
+
+def _solved(Kff, Mff, Kfs: np.ndarray, Mfs: np.ndarray, shift: float) -> np.ndarray:
+    """(K + shift M)_ff^-1 (K + shift M)_fs."""
+    right = Kfs + shift * Mfs
+    if not is_sparse(Kff):
+        return np.linalg.solve(Kff + shift * Mff, right)
+    from mouse_cli.terms.mechanisms import definite_factor
+
+    return definite_factor((Kff + shift * Mff).tocsc()).solve(right)

@@ -1,0 +1,119 @@
+"""The deck with one named support of imported matrices on springs: it moves as the columns of a pattern say."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from mouse_cli.diagnosis.extend.edit import moved, moved_functions
+from mouse_cli.diagnosis.extend.matrices import with_entries
+from mouse_cli.diagnosis.extend.points import found
+from mouse_cli.model.arrays import Matrix, is_sparse, upper_triangle
+from mouse_cli.model.held import ElementGroup, Held, applied, freed, places
+from mouse_cli.model.problem import Problem
+from mouse_cli.model.structure import ListedElements
+
+
+def with_motions(
+    problem: Problem, name: str, pattern: np.ndarray, labels: tuple[str, ...], bed: np.ndarray, k: float, unit: str
+) -> Problem:
+    """u_s = P q for the support called `name`, pattern P (k, a) and motions q, with springs k times bed (a, a) against them."""
+    whole, to = freed(problem), places(problem)
+    n, a = whole.structure.n, pattern.shape[1]
+    s = next(each.dofs for each in problem.held.supports if each.name == name)
+    rest = np.setdiff1d(np.arange(n), s)
+    T, number = _followed(n, rest, s, pattern), np.full(n, -1)
+    number[rest] = np.arange(len(rest))
+    structure = _structure(whole, T, rest, tuple(f"{name} {label}" for label in labels))
+    supports = tuple(replace(each, dofs=number[each.dofs]) for each in problem.held.supports if each.name != name)
+    others = np.concatenate([each.dofs for each in supports]) if supports else np.zeros(0, int)
+    kept = np.setdiff1d(np.arange(structure.n), others)
+    elements, A = _listed(whole, T, structure.n)
+    place = np.full(structure.n, -1)
+    place[kept] = np.arange(len(kept))
+    inside = (place[elements.row] >= 0) & (place[elements.col] >= 0)
+    reduced = applied(structure, kept)
+    own = place[number[to]]
+    deck = replace(
+        problem,
+        structure=reduced,
+        elements=_some(elements, inside, place),
+        A=A[np.flatnonzero(inside)],
+        held=Held(structure, supports, kept, _some(elements, ~inside), A[np.flatnonzero(~inside)])
+        if supports
+        else None,
+        groups=tuple(_group(each, T, n) for each in problem.groups),
+        test=None if problem.test is None else moved(problem.test, own, reduced.n),
+        frf=tuple(moved_functions(each, own, reduced.n) for each in problem.frf),
+    )
+    row, col = np.triu_indices(a)
+    at = place[len(rest) + np.arange(a)]
+    parameter = found(f"stiffness of the support {name}", k, unit)
+    return with_entries(deck, parameter, K=(at[row], at[col], bed[row, col]))
+
+
+def _followed(n: int, rest: np.ndarray, s: np.ndarray, pattern: np.ndarray) -> Matrix:
+    """T (n, n - k + a): the rest as it is, the support as its motions move it."""
+    from scipy.sparse import coo_array
+
+    i, j = np.nonzero(pattern)
+    row = np.concatenate([rest, s[i]])
+    col = np.concatenate([np.arange(len(rest)), len(rest) + j])
+    values = np.concatenate([np.ones(len(rest)), pattern[i, j]])
+    return coo_array((values, (row, col)), shape=(n, len(rest) + pattern.shape[1])).tocsr()
+
+
+def _structure(whole: Problem, T: Matrix, rest: np.ndarray, labels: tuple[str, ...]):
+    old = whole.structure
+    parts = {name: getattr(old, name) for name in ("K", "M", "C", "D")}
+    at, more = old.geometry, np.full(len(labels), -1)
+    geometry = None
+    if at is not None:
+        geometry = replace(at, node=np.append(at.node[rest], more), direction=np.append(at.direction[rest], -more))
+    named = tuple(old.labels[i] for i in rest) + labels
+    return replace(
+        old, **{k: None if m is None else _brought(m, T) for k, m in parts.items()}, labels=named, geometry=geometry
+    )
+
+
+def _brought(matrix: Matrix, T: Matrix) -> Matrix:
+    return (T.T @ (matrix @ T)).tocsr() if is_sparse(matrix) else T.T @ (T.T @ matrix).T
+
+
+def _listed(whole: Problem, T: Matrix, n: int) -> tuple[ListedElements, Matrix]:
+    """T' dK T and T' dM T of each parameter, as listed elements (e,) and A (e, p)."""
+    from scipy.sparse import coo_array
+
+    listed, A = whole.elements, whole.A
+    keys, values, owner = [], [], []
+    for j in range(A.shape[1]):
+        column = np.ravel(A[:, [j]].toarray() if is_sparse(A) else A[:, j])
+        for mass in (False, True):
+            own = np.flatnonzero((column != 0) & (listed.is_mass == mass))
+            if not len(own):
+                continue
+            low, high, value = listed.row[own], listed.col[own], column[own]
+            off = low != high
+            at = np.concatenate([low, high[off]]), np.concatenate([high, low[off]])
+            matrix = coo_array((np.append(value, value[off]), at), shape=(T.shape[0],) * 2).tocsr()
+            row, col, entries = upper_triangle((T.T @ matrix @ T).tocsr())
+            keys.append((mass * n + row.astype(np.int64)) * n + col)
+            values.append(entries)
+            owner.append(np.full(len(row), j))
+    if not keys:
+        return ListedElements.none(), np.zeros((0, A.shape[1]))
+    places, index = np.unique(np.concatenate(keys), return_inverse=True)
+    found = coo_array((np.concatenate(values), (index, np.concatenate(owner))), shape=(len(places), A.shape[1])).tocsr()
+    row, col = places // n, places % n
+    return ListedElements(row >= n, row % n, col), found if is_sparse(A) else found.toarray()
+
+
+def _some(elements: ListedElements, which: np.ndarray, place: np.ndarray | None = None) -> ListedElements:
+    row, col = elements.row[which], elements.col[which]
+    if place is not None:
+        row, col = place[row], place[col]
+    return ListedElements(elements.is_mass[which], row, col)
+
+
+def _group(group: ElementGroup, T: Matrix, n: int) -> ElementGroup:
+    whole = {name: getattr(group, name) for name in ("K", "M")}
+    return replace(group, **{k: m if m is None or m.shape[0] != n else _brought(m, T) for k, m in whole.items()})
