@@ -104,12 +104,13 @@ def main() -> None:
             for change in changes(name, mesh, rng):
                 if change.kind not in given.kinds:
                     continue
-                deck = delivered(folder / f"{name}-{seed}-{change.kind}", name, mesh, change, rng)
+                own = np.random.default_rng([seed, list(STRUCTURES).index(name), KINDS.index(change.kind)])
+                deck = delivered(folder / f"{name}-{seed}-{change.kind}", name, mesh, change, own)
                 if given.decks_only:
                     continue
                 document = diagnosed(deck)
                 deck.with_suffix(".json").write_text(json.dumps(document))
-                result, said = outcome(change, document)
+                result, said = outcome(change, document, mesh)
                 counts[change.kind == "control", result] += 1
                 print(f"{name:8} {seed:3} {change.kind:9} {change.name:12} {result:8} {said}", flush=True)
     for (control, result), count in sorted(counts.items()):

@@ -131,9 +131,11 @@ def _recipe(
     r, one = model.r, len(own.labels) == 1
     at = np.concatenate([np.arange(r), r + np.array(which)])
     K, M, sensing = K[np.ix_(at, at)], M[np.ix_(at, at)], np.hstack([np.zeros((len(reading), r)), reading[:, which]])
-    resistance = float((np.diag(K)[r:] + lowest(model) * np.diag(M)[r:]).max())
+    resistance = (np.diag(K)[r:] + lowest(model) * np.diag(M)[r:]) / np.diag(own.bed)
     unit = "N m/rad" if turning else "N/m"
-    k = Unknown("stiffness of the support", unit, _SOFTEST * resistance, _STIFFEST * resistance)
+    k = Unknown(
+        "stiffness of the support", unit, _SOFTEST * float(resistance.min()), _STIFFEST * float(resistance.max())
+    )
     words = own.labels[0] if one else "all directions"
     site = Site("node", (), None, f"the support {own.support.name}, {words}")
 

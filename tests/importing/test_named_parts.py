@@ -1,0 +1,151 @@
+"""Supports and element sets of imported matrices in a diagnosis: what a cause does in few coordinates, in its deck, and by hand."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+from scipy.sparse import csr_matrix, save_npz
+
+from mouse_cli import DeckError, diagnose, read_deck, write_deck
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.model.arrays import dense
+from mouse_cli.terms.assembly import assembly
+
+NODES, FEET = 12, {"FOOT_1": (1, 2, 3), "FOOT_2": (4, 5)}
+BRACES = {"BRACE": ((6, 10), (7, 11), (8, 12), (6, 11)), "FRAME": None}  # pairs of nodes; None: all others
+SENSORS = [f"{n}T{d}" for n in (6, 7, 9, 10, 12) for d in "XYZ"]
+
+
+def truss() -> tuple[np.ndarray, dict[str, np.ndarray], dict[str, np.ndarray]]:
+    """Coordinates (12, 3); K and M (36, 36) of each set: bars of k = 1e6 N/m and 2 kg between all nodes."""
+    rng = np.random.default_rng(5)
+    x = rng.uniform(0, 1, (NODES, 3))
+    K = {name: np.zeros((3 * NODES, 3 * NODES)) for name in BRACES}
+    M = {name: np.zeros((3 * NODES, 3 * NODES)) for name in BRACES}
+    for i in range(NODES):
+        for j in range(i):
+            name = "BRACE" if (j + 1, i + 1) in BRACES["BRACE"] else "FRAME"
+            along = (x[i] - x[j]) / np.linalg.norm(x[i] - x[j])
+            b = np.zeros(3 * NODES)
+            b[3 * i : 3 * i + 3], b[3 * j : 3 * j + 3] = along, -along
+            K[name] += 1e6 * np.outer(b, b)
+            own = [*range(3 * i, 3 * i + 3), *range(3 * j, 3 * j + 3)]
+            M[name][own, own] += 1.0
+    return x, K, M
+
+
+def deck(folder: Path, K: np.ndarray | None = None, M: np.ndarray | None = None, more: str = "") -> Path:
+    """The deck of the truss; its test is of the structure K, M without supports at 1 to 5 held, or of the truss itself."""
+    x, stiff, heavy = truss()
+    whole = {"K": sum(stiff.values()), "M": sum(heavy.values())}
+    files = (
+        whole
+        | {f"K_{name}": each for name, each in stiff.items()}
+        | {f"M_{name}": each for name, each in heavy.items()}
+    )
+    for name, matrix in files.items():
+        save_npz(folder / f"{name}.npz", csr_matrix(matrix))
+    (folder / "dofs.csv").write_text("".join(f"{n},T{d}\n" for n in range(1, NODES + 1) for d in "XYZ"))
+    (folder / "nodes.csv").write_text("".join(f"{n},{','.join(map(repr, at.tolist()))}\n" for n, at in enumerate(x, 1)))
+    held = np.arange(3 * 5) if K is None else np.zeros(0, int)
+    free = np.setdiff1d(np.arange(3 * NODES), held)
+    K, M = (whole["K"], whole["M"]) if K is None else (K, M)
+    kept = free[np.diag(K)[free] < 1e19]
+    w, V = eigh(K[np.ix_(kept, kept)], M[np.ix_(kept, kept)])
+    at = [int(np.flatnonzero(kept == 3 * (int(s[:-2]) - 1) + "XYZ".index(s[-1]))[0]) for s in SENSORS]
+    shapes = V[at, :8] / np.abs(V[at, :8]).max(axis=0)
+    shapes = shapes + 0.005 * np.random.default_rng(1).standard_normal(shapes.shape)
+    rows = "".join("      - [" + ", ".join(f"{v:.5f}" for v in row) + "]\n" for row in shapes)
+    sets = "".join(
+        f"    {name}: {{stiffness: {{file: K_{name}.npz}}, mass: {{file: M_{name}.npz}}}}\n" for name in BRACES
+    )
+    feet = "".join(
+        f"    {name}: {{nodes: [{', '.join(map(str, own))}], directions: [TX, TY, TZ]}}\n" for name, own in FEET.items()
+    )
+    (folder / "truss.yaml").write_text(
+        "mouse: 1\nunits: SI\nmodel:\n  stiffness: {file: K.npz}\n  mass: {file: M.npz}\n  dofs: {file: dofs.csv}\n"
+        f"  nodes: {{file: nodes.csv}}\n  supports:\n{feet}{more}  sets:\n{sets}"
+        "parameters:\n  - {name: E, nominal: 1, sd: 5 %, stiffness: {file: K.npz}}\n"
+        "  - {name: density, nominal: 1, sd: 1 %, mass: {file: M.npz}}\n"
+        f"test:\n  modes:\n    frequency: [{', '.join(f'{f:.6g}' for f in np.sqrt(w[:8]) / 2 / np.pi)}]\n"
+        f"    frequency_sd: 0.1 %\n    dofs: [{', '.join(SENSORS)}]\n    shapes:\n{rows}    shape_sd: 0.5 %\n"
+    )
+    return folder / "truss.yaml"
+
+
+def springs(K: np.ndarray, name: str, k: float) -> np.ndarray:
+    """K with springs k / count at each direction of the nodes of one foot, and the other feet held."""
+    found = K.copy()
+    for foot, nodes in FEET.items():
+        own = [3 * (n - 1) + d for n in nodes for d in range(3)]
+        found[own, own] += k / len(nodes) if foot == name else 1e20
+    return found
+
+
+def test_a_cause_is_the_same_in_few_coordinates_in_its_deck_and_read_back(tmp_path):
+    problem = read_deck(deck(tmp_path))
+    model = reduced(problem, problem.prior.mean)
+    tried = 0
+    for key in ("support-translation", "support-rotation", "stiffness-loss", "stiffness-gain", "member", "added-mass"):
+        for i, recipe in enumerate(model.recipes(registry()[key])):
+            values = np.array([np.exp(np.mean(u.bounds)) if u.log else np.mean(u.bounds) for u in recipe.unknowns])
+            change = recipe.change(values)
+            r, a = model.r, recipe.own
+            K, M = np.diag(np.append(model.eigenvalues, np.zeros(a))), np.diag(np.append(np.ones(r), np.zeros(a)))
+            K, M = K + (0 if change.K is None else change.K), M + (0 if change.M is None else change.M)
+            extended = recipe.extend(problem, values)
+            there = assembly(extended).matrices(extended.prior.mean)
+            expected = eigh(*map(dense, there), eigvals_only=True)[:8]
+            assert np.allclose(eigh(K, M, eigvals_only=True)[:8], expected, rtol=1e-6), recipe.site(values).text
+            if i == 0:
+                write_deck(extended, tmp_path / "again.yaml")
+                again = read_deck(tmp_path / "again.yaml")
+                back = map(dense, assembly(again).matrices(again.prior.mean))
+                assert np.allclose(eigh(*back, eigvals_only=True)[:8], expected, rtol=1e-9)
+            tried += 1
+    assert tried > 20
+
+
+def test_a_foot_on_springs_is_what_springs_at_its_nodes_make(tmp_path):
+    """Springs in the matrices themselves, by hand, against the recipe of the named support in all directions."""
+    problem = read_deck(deck(tmp_path))
+    model = reduced(problem, problem.prior.mean)
+    recipe = next(
+        each
+        for each in model.recipes(registry()["support-translation"])
+        if each.site(np.ones(1)).text == "the support FOOT_1, all directions"
+    )
+    extended = recipe.extend(problem, np.array([3e6]))
+    found = eigh(*map(dense, assembly(extended).matrices(extended.prior.mean)), eigvals_only=True)[:8]
+    _, K, M = truss()
+    K, M = springs(sum(K.values()), "FOOT_1", 3e6), sum(M.values())
+    kept = np.diag(K) < 1e19
+    assert np.allclose(found, eigh(K[kept][:, kept], M[kept][:, kept], eigvals_only=True)[:8], rtol=1e-8)
+
+
+@pytest.mark.parametrize("what", ["brace missing", "foot loose", "control"])
+def test_what_is_missing_is_named_as_the_model_names_it(tmp_path, what):
+    _, K, M = truss()
+    share = 0.02 if what == "brace missing" else 1.0
+    stiff = K["FRAME"] + share * K["BRACE"]
+    heavy = M["FRAME"] + share * M["BRACE"]
+    found = diagnose(read_deck(deck(tmp_path, springs(stiff, "FOOT_2" if what == "foot loose" else "", 2e6), heavy)))
+    sites = [cause.site.text for cause in found.explanations[0].causes]
+    if what == "control":
+        assert found.kind == "nothing-missing"
+    else:
+        assert found.kind == "named"
+        assert sites == [
+            {"brace missing": "element set BRACE", "foot loose": "the support FOOT_2, all directions"}[what]
+        ]
+
+
+@pytest.mark.parametrize(
+    "more", ["    TWICE: {nodes: [3], directions: [TX]}\n", "    ABSENT: {nodes: [77], directions: [TX]}\n"]
+)
+def test_supports_that_fit_nothing_are_refused(tmp_path, more):
+    with pytest.raises(DeckError) as refused:
+        read_deck(deck(tmp_path, more=more))
+    assert [each.code for each in refused.value.diagnostics] == ["MD276"]
