@@ -73,5 +73,6 @@ def laplace(setting: Setting, state: State) -> Laplace:
     z = coordinates.in_prior_units(state.u - coordinates.mean)
     B = in_prior_units(state.T, coordinates.L) / setting.sd[:, None]
     precision, axes = np.linalg.eigh(np.eye(len(z)) + B.T @ B)
+    precision = np.maximum(precision, 1.0)  # the prior's, below which rounding alone brings it
     axes = axes * np.sign(axes[leading(np.abs(axes)), np.arange(len(z))])
     return Laplace(setting, state, z, axes / np.sqrt(precision), state.chi2 + float(z @ z))

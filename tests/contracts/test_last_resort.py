@@ -161,3 +161,18 @@ def test_a_bootstrap_of_what_hardly_varies(capsys, tmp_path):
     asked = ["--replicates", "2", "-j", "1", "-o", str(tmp_path / "out")]
     assert _run(["bootstrap", str(tmp_path / "deck.yaml"), *asked]) in (0, 1, 4, 5)
     assert "MD903" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("deck", "old", "new"),
+    [
+        ("ground_spring_proved", "[[3, 3, 1], [3, 4, -1], [4, 4, 1]]", "[[3, 3, 1e9], [3, 4, -1], [4, 4, 1]]"),
+        ("four_storey_frame", "[-0.37813, -1.0, 1.0, -0.16876]", "[-0.37813, -1.0, 1.0, 99999999]"),
+    ],
+)
+def test_samples_where_the_data_outweigh_the_prior_beyond_rounding(capsys, tmp_path, deck, old, new):
+    text = (DECKS / f"{deck}.yaml").read_text()
+    assert old in text
+    (tmp_path / "deck.yaml").write_text(text.replace(old, new))
+    assert _run(["sample", str(tmp_path / "deck.yaml"), "--steps", "100"]) in (0, 1, 4, 5)
+    assert "MD903" not in capsys.readouterr().err

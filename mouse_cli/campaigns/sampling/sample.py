@@ -155,9 +155,9 @@ def _remarks(found: Sampled, normal: Laplace):
         yield Diagnostic(
             "MD943", WARNING, message, help="measure what tells them apart, or say in the prior what is known"
         )
-    for each in found.parameters:
+    for each in (one for one in found.parameters if one.normal_sd > 0):
         shift, ratio = (each.mean - each.normal_mean) / each.normal_sd, each.sd / each.normal_sd
-        if each.normal_sd > 0 and (abs(shift) > _SHIFTED or not 1 / _WIDER < ratio < _WIDER):
+        if abs(shift) > _SHIFTED or not 1 / _WIDER < ratio < _WIDER:
             message = (
                 f"{each.name}: the mean of the samples lies {shift:+.2g} standard deviations of the run from its value, and their "
                 f"standard deviation is {ratio:.2g} times as large"
