@@ -1,12 +1,33 @@
 """Options of the test run."""
 
 import signal
+from pathlib import Path
 
 import pytest
+from quick import QUICK
+
+_TESTS = Path(__file__).parent
+_QUICK = {name.partition("::")[0] for names in QUICK.values() for name in names}
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--update-golden", action="store_true", help="write the golden files anew, then read the diff")
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """With `-m quick` alone, files without a quick test are not even read."""
+    if config.option.markexpr != "quick" or not collection_path.is_file():
+        return None
+    return not (collection_path.is_relative_to(_TESTS) and str(collection_path.relative_to(_TESTS)) in _QUICK) or None
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark the quick tests."""
+    chosen = {name for names in QUICK.values() for name in names}
+    for item in items:
+        path = item.path.relative_to(_TESTS).as_posix() if item.path.is_relative_to(_TESTS) else ""
+        if path in chosen or f"{path}::{item.name.partition('[')[0]}" in chosen:
+            item.add_marker(pytest.mark.quick)
 
 
 @pytest.fixture

@@ -262,3 +262,13 @@ def test_small_card_deck_needs_numpy_alone():
     deck = PACKAGE.parent / "decks" / "table_5_2.dat"
     run = f"from mouse_cli.cli.main import cli; cli.main(['run', {str(deck)!r}, '-q'], standalone_mode=False)"
     assert not loaded(run) & {"scipy", "yaml", "matplotlib"}
+
+
+def test_quick_tests_are_of_every_package_and_are_there():
+    """`pytest -m quick`: tests/quick.py names files, and tests that they have."""
+    from quick import QUICK
+
+    tests, packages = PACKAGE.parent / "tests", {path.parent.name for path in PACKAGE.glob("*/__init__.py")}
+    assert set(QUICK) == packages and all(QUICK.values())
+    for path, _, name in (each.partition("::") for names in QUICK.values() for each in names):
+        assert f"def {name}(" in (tests / path).read_text() if name else (tests / path).is_file(), path

@@ -1,0 +1,68 @@
+"""Tests that make up `pytest -m quick`, by the package that they test: files, or single tests of one."""
+
+QUICK: dict[str, tuple[str, ...]] = {
+    "batch": (
+        "contracts/test_batch.py::test_a_number_is_as_expected_within_its_tolerance",
+        "contracts/test_batch.py::test_bounds",
+        "contracts/test_batch.py::test_bad_manifests_are_told_of_with_their_place",
+    ),
+    "campaigns": (
+        "reference/test_campaigns.py::test_points_fill_their_ranges",
+        "reference/test_campaigns.py::test_shares_of_a_sum_whose_shares_are_known",
+        "reference/test_campaigns.py::test_values_that_cannot_be_read_are_wrong_usage",
+        "reference/test_campaigns_sample.py::test_autocorrelation_time_of_a_process_whose_time_is_known",
+    ),
+    "cli": ("contracts/test_last_resort.py", "contracts/test_schema.py", "contracts/test_prior_option.py"),
+    "codes": ("reference/test_cards.py::test_every_code_is_explained",),
+    "coupling": (
+        "property/test_coupling_property.py",
+        "reference/test_modify.py",
+        "reference/test_coupling.py::test_assembled_frequencies_are_those_of_textbook_matrices",
+    ),
+    "diagnosis": (
+        "contracts/test_verdict_contract.py",
+        "reference/test_evidence.py::test_of_one_unknown_it_is_its_integral",
+        "reference/test_evidence.py::test_what_the_data_do_not_feel_leaves_it_as_it_is",
+        "reference/test_noise.py",
+        "reference/test_verdict_gates.py",
+        "reference/test_cracks.py",
+        "reference/test_locate.py",
+        "reference/test_search.py",
+    ),
+    "dynamics": (
+        "reference/test_sensitivity.py",
+        "reference/test_frf.py::test_one_degree_of_freedom_in_closed_form",
+        "reference/test_frf.py::test_two_degrees_of_freedom_and_their_derivatives_by_mpmath",
+        "reference/test_complex_modes.py",
+        "reference/test_expansion.py",
+        "reference/test_response.py",
+        "reference/test_modal_damping.py",
+    ),
+    "estimators": ("reference/test_estimators.py", "reference/test_conditioning.py"),
+    "formats": (
+        "contracts/test_bad_input.py",
+        "reference/test_cards.py",
+        "reference/test_yaml.py",
+        "reference/test_edit_oracle.py",
+        "reference/test_matrix_files.py",
+        "reference/test_recordings.py",
+    ),
+    "importing": ("importing/test_import.py::test_bad_input_is_refused_by_file_and_line",),
+    "methods": ("property/test_methods_property.py::test_averaged_flexibility_may_be_indefinite",),
+    "model": ("property/test_correlation_property.py", "reference/test_hold_out.py"),
+    "observables": ("reference/test_chi_square.py", "reference/test_numbers.py"),
+    "page": ("contracts/test_page_drawings.py::test_a_chain_without_positions_is_drawn_over_its_degrees_of_freedom",),
+    "plots": (
+        "contracts/test_plot_command.py::test_what_is_no_answer_is_refused",
+        "contracts/test_plot_command.py::test_bars_are_what_the_models_miss",
+    ),
+    "records": ("reference/test_spectra.py",),
+    "report": ("golden/test_report_golden.py", "contracts/test_sections.py", "contracts/test_explain_report.py"),
+    "terms": (
+        "reference/test_elements_beam.py",
+        "reference/test_elements_joints.py",
+        "reference/test_implied_law.py",
+        "contracts/test_laws.py",
+    ),
+    "updating": ("reference/test_report_tables.py", "reference/test_alternatives.py"),
+}
