@@ -19,7 +19,7 @@ def bars(model: Any) -> str:
 def supports(model: Any) -> str:
     """Without a support that bears."""
     if model.motion is None or not model.problem.mesh.elements:
-        return f"{_MATRICES}, from which what is held was taken out: a spring to the ground stands for what holds it"
+        return f"{_MATRICES}, and model.supports names none: a spring to the ground stands for what holds it"
     kept = set(model.problem.mesh.directions)
     if not any(d in kept for _, d in model.problem.mesh.supports.tolist()):
         return "the model has no supports"

@@ -1,0 +1,46 @@
+"""The blind benchmark of imported models: CalculiX makes a structure with a change, the deck says nothing of it."""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from benchmarks.blind.imported.parts import Concealed
+from benchmarks.blind.imported.scoring import ALARM, CLEAN, NAMED, OPEN, WRONG, outcome
+from benchmarks.blind.imported.structures import STRUCTURES
+from mouse_cli import read_deck
+
+TOP = Path(__file__).resolve().parents[2]
+
+
+@pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (ccx) is not on the path")
+def test_a_deck_of_the_panel_says_nothing_of_the_missing_stiffener(tmp_path):
+    """Imported with its supports; its test has the frequencies of a panel whose stiffener is not there."""
+    command = [sys.executable, "-m", "benchmarks.blind.imported", "--structures", "panel", "--kinds", "missing"]
+    subprocess.run([*command, "--decks-only", "--output", str(tmp_path)], cwd=TOP, check=True, capture_output=True)
+    (path,) = tmp_path.glob("*/panel.yaml")
+    problem = read_deck(path)
+    assert [each.name for each in problem.held.supports] == ["FOOT_1", "FOOT_2", "FOOT_3", "FOOT_4"]
+    assert {group.name for group in problem.groups} == {"SKIN", *(f"STIFFENER_{k}" for k in (1, 2, 3, 4))}
+    assert problem.test.m == 8 and len(problem.parameters) == 2
+
+
+@pytest.mark.parametrize(
+    ("kind", "name", "said", "text", "result"),
+    [
+        ("missing", "RIB_1", "named", "element set RIB_1", NAMED),
+        ("missing", "RIB_1", "named", "element set RIB_2", WRONG),
+        ("loose", "BOLT_1", "named", "the support BOLT_1, all directions", NAMED),
+        ("loose", "BOLT_1", "named", "the support BOLT_10, TZ", WRONG),
+        ("softer", "RIB_1", "unknown", "element set RIB_1", OPEN),
+        ("control", "", "named", "element set RIB_1", ALARM),
+        ("control", "", "nothing-missing", "", CLEAN),
+    ],
+)
+def test_an_answer_is_right_only_with_the_name_of_what_was_changed(kind, name, said, text, result):
+    mesh = STRUCTURES["box"](np.random.default_rng(0))
+    document = {"verdict": {"kind": said, "sites": [{"text": text, "position": None}] if text else []}}
+    assert outcome(Concealed(kind, name), document, mesh)[0] == result
