@@ -136,7 +136,7 @@ def simulate(
         motion[0], z = _begun(plant, start, local, z)
         x[:, n2 + 2 * i :] = motion[0, 2]
         x[:, :n2] += by.hold @ motion[0, 2]
-    seen, out = _Sensors(by, n2, i), np.zeros((P, len(plant.order), t, G))
+    seen, out, jumps = _Sensors(by, n2, i), np.zeros((P, len(plant.order), t, G)), {}
     for k in range(t):
         x[:, n2 : n2 + i] = force[k]
         seen.put(x, out, k)
@@ -148,8 +148,19 @@ def simulate(
         if local:
             over, F, z, moved = _corrected(local, y[:, n2:], by.drop, motion[k, 1:], z)
             x[:, n2 + 2 * i :] = F
-            x[:, :n2] += by.hold @ (F - over)
+            if over is not F:
+                x[:, :n2] += by.hold @ (F - over)
+                jumps[k + 1] = (over - F) / 2
             motion[k + 1, 0], motion[k + 1, 1], motion[k + 1, 2] = moved[:, :r], moved[:, r:], F
+    if jumps:
+        feed = by.outputs[:, :, n2 + i :] + by.outputs[:, :, :n2] @ by.hold
+        for (
+            k,
+            jump,
+        ) in (
+            jumps.items()
+        ):  # within a step: samples on either side share it, so that their sum is the change of velocity
+            out[:, :, k] += feed @ jump
     return out, motion
 
 

@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from mouse_cli.updating.recordings.linear import Linear
+from mouse_cli.updating.recordings.linear import Linear, rigid
 from mouse_cli.updating.recordings.series import Series, quick
 
 _EVERYWHERE = 0.03  # rms of small unknown forces at every degree of freedom, by that of the measured force
@@ -161,22 +161,13 @@ class Spectrum:
         x, v = np.split(states, 2)
         own = series.order == 1
         if own.any():
-            R = self._rigid
+            R = rigid(self.linear.K, self.linear.M, series.slow * series.dt)
             short = (series.measured[:, own].T - series.sensing[own] @ v).mean(axis=1)
             more = R @ np.linalg.lstsq(series.sensing[own] @ R, short, rcond=None)[0]
         else:
             more = -v[:, 0] * series.at_rest
         t = series.dt * np.arange(len(series))
         return np.concatenate([x + more[:, None] * t, v + more[:, None]])
-
-    @property
-    def _rigid(self) -> np.ndarray:
-        """Motions (n, r) that the linear model does not resist, or hardly."""
-        from scipy.linalg import eigh
-
-        values, shapes = eigh(self.linear.K, self.linear.M)
-        slowest = (2 * np.pi / (self.series.slow * self.series.dt)) ** 2
-        return shapes[:, values < slowest]
 
     def motions(self, B: np.ndarray) -> np.ndarray:
         """Lines (l, n) of the most probable motion when unknown forces act through B (n, r), and small ones everywhere.

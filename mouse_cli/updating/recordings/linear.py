@@ -6,6 +6,14 @@ from dataclasses import dataclass
 import numpy as np
 
 
+def rigid(K: np.ndarray, M: np.ndarray, seconds: float) -> np.ndarray:
+    """Motions (n, r) that K (n, n) does not hold: slower than so many seconds a period."""
+    from scipy.linalg import eigh
+
+    values, shapes = eigh(K, M)
+    return shapes[:, values < (2 * np.pi / seconds) ** 2]
+
+
 @dataclass(frozen=True)
 class Linear:
     """M, C, K (n, n) at the prior mean, and k nuisances with a standard normal prior.

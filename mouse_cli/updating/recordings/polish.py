@@ -13,6 +13,7 @@ import numpy as np
 from mouse_cli.dynamics.response import simulate
 from mouse_cli.model.diagnosis import Cause, Size
 from mouse_cli.updating.recordings.hypothesis import Hypothesis, Part
+from mouse_cli.updating.recordings.linear import rigid
 from mouse_cli.updating.recordings.series import REACH, Series, passed, sampled
 
 _DAMPING, _UP, _DOWN = 1e-3, 10.0, 0.2  # of Levenberg and Marquardt
@@ -22,6 +23,7 @@ _LEAST = 64  # samples of a horizon
 _PATIENCE, _BEHIND = 3, 2.0  # steps of a fit whose cost is so many times that of a better one
 _HALVED = 10  # times that a start without stiffness is brought nearer to the mean
 _PERTURBED = 1e-4  # of prior or range
+_SPEEDS, _TRIED = 2.5, 33  # speeds that no channel shows: how far, by their rms, and how many at a time
 
 
 @dataclass(frozen=True)
@@ -152,6 +154,27 @@ class Polish:
                 break
         return self._fit(here, x, states, cost)
 
+    def with_speed(self, x: np.ndarray, states: np.ndarray, internal) -> np.ndarray:
+        """States (2n, G) with that constant speed along motions which nothing holds that serves each segment best.
+
+        Accelerations do not show it, and a mass that is taken to stick, or to slip the other way, has a minimum of its own.
+        """
+        n, model = len(self.h.linear.M), self.h.linear
+        slow = self.series.slow * self.series.dt
+        self.internal = internal
+        for motion in rigid(model.K, model.M, slow).T:
+            reach = _SPEEDS * np.abs(self.spread[n : 2 * n]).max() / np.abs(motion).max()
+            for width in (reach, 2 * reach / _TRIED):
+                steps = np.linspace(-width, width, _TRIED)
+                many = np.repeat(states[None], _TRIED, 0)
+                many[:, n : 2 * n] += (steps[:, None] * motion)[:, :, None]
+                seen = self._simulated(
+                    np.repeat(x[None], _TRIED, 0), np.stack([self.h.padded_states(one) for one in many])
+                )
+                left = np.nan_to_num(((self.measured - seen) ** 2).sum(axis=(1, 2)), nan=np.inf)
+                states = many[left.argmin(axis=0), :, np.arange(states.shape[1])].T
+        return states
+
     def _sound(self, x: np.ndarray) -> np.ndarray:
         """x, its nuisances halved towards their mean until stiffness and mass are definite."""
         k = 0 if self.h.fixed is not None else self.h.linear.k
@@ -245,7 +268,10 @@ def followed(
     beat: float = np.inf,
 ) -> Fit | None:
     """The fit over the first quarters of the segments, then over the whole of them: a short horizon has fewer false minima."""
-    first = Polish(hypothesis, [part.begun() for part in data], spread).fit(x, states, internal)
+    begun = Polish(hypothesis, [part.begun() for part in data], spread)
+    if data[0].series.adrift and not data[0].series.at_rest:
+        states = begun.with_speed(x, states, internal)
+    first = begun.fit(x, states, internal)
     if first is not None:
         x, states = first.x, first.states
     return Polish(hypothesis, data, spread).fit(x, states, internal, beat=beat)

@@ -161,9 +161,11 @@ def _floor(samples: np.ndarray) -> np.ndarray:
 
 
 def steps(series: Series, highest_hz: float) -> Series:
-    """With so many steps in a sample that the highest mode of interest has _RATE in a period; 2 to 16."""
+    """With so many steps in a sample that the highest mode of interest has _RATE in a period; 2 to 16, 4 at least
+    where accelerations of what nothing holds show the moments at which it stops.
+    """
     wanted = _RATE * highest_hz * series.dt
-    return replace(series, factor=int(np.clip(2 ** np.ceil(np.log2(max(wanted, 1.0))), 2, 16)))
+    return replace(series, factor=int(np.clip(2 ** np.ceil(np.log2(max(wanted, 1.0))), 4 if series.adrift else 2, 16)))
 
 
 def reduced(series: Series, model: Uncertain) -> Series:
