@@ -152,16 +152,16 @@ def simulate(
                 x[:, :n2] += by.hold @ (F - over)
                 jumps[k + 1] = (over - F) / 2
             motion[k + 1, 0], motion[k + 1, 1], motion[k + 1, 2] = moved[:, :r], moved[:, r:], F
-    if jumps:
-        feed = by.outputs[:, :, n2 + i :] + by.outputs[:, :, :n2] @ by.hold
-        for (
-            k,
-            jump,
-        ) in (
-            jumps.items()
-        ):  # within a step: samples on either side share it, so that their sum is the change of velocity
-            out[:, :, k] += feed @ jump
+    _shared(out, jumps, by.outputs[:, :, n2 + i :] + by.outputs[:, :, :n2] @ by.hold)
     return out, motion
+
+
+def _shared(out: np.ndarray, jumps: dict[int, np.ndarray], feed: np.ndarray) -> None:
+    """Into `out` what jumps of forces within the step before do to accelerations: samples on either side share each of them, so
+    that their sum is the change of velocity. feed (P, s, r): of sensors by local forces.
+    """
+    for k, jump in jumps.items():
+        out[:, :, k] += feed @ jump
 
 
 class _Sensors:
