@@ -5,12 +5,13 @@ Natural Frequency and Mode Shape, table 8-1) and a chain of equal springs and ma
 """
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from mouse_cli._errors import ERROR, DeckError
-from mouse_cli.formats import read_draft
+from mouse_cli.formats import read_deck, read_draft
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.updating.loop import examine, run
 
@@ -195,3 +196,34 @@ def test_a_mistake_is_answered_with_its_remedy(name):
     fitting = [d for d in told if re.fullmatch(code, d.code) and re.search(remedy, f"{d.message} {d.help} {d.note}")]
     assert fitting, told
     assert sum(d.severity == ERROR for d in told) <= 1, told  # one cause, one error
+
+
+DECKS = sorted((Path(__file__).resolve().parents[2] / "decks").glob("*.yaml"))
+
+
+@pytest.mark.parametrize("path", DECKS, ids=lambda path: path.stem)
+def test_sample_decks_are_not_taken_for_mistakes(path):
+    problem = read_deck(str(path))
+    assert not [d for d in problem.warnings if d.code.startswith("MD45")]
+    examine(problem)
+
+
+def test_a_run_that_ends_below_zero_names_the_property():
+    """A rod of 1e3 N/m beside a spring of 1e4 N/m on 1 kg, and a test of 9e3 N/m: E would have to be -1e9 Pa."""
+    text = """mouse: 1
+units: SI
+model:
+  structure:
+    nodes: {1: [0, 0], 2: [1, 0]}
+    elements:
+      - {id: 1, type: rod, nodes: [1, 2], E: 1.0e+9, A: 1.0e-6}
+      - {id: 2, type: spring, nodes: [2], stiffness: {TX: 1.0e+4}}
+      - {id: 3, type: mass, nodes: [2], mass: 1.0}
+    supports: {1: all}
+    directions: [TX]
+parameters: [{name: E of the rod, elements: 1, property: E, sd: 1.0e+11}]
+test: {modes: {frequency: [15.0988], frequency_sd: 0.1 %}}
+"""
+    result = run(problem_of(text))
+    assert result.status.key == "impossible" and result.exit_code == 1
+    assert "E of the rod became -9.99" in result.status.sentence and "diagnose" in result.status.advice
