@@ -9,8 +9,11 @@ import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
-from benchmarks.mutants.faults import MUTANTS, Mutant
+from benchmarks.mutants import faults
+from benchmarks.mutants.core import CORE
+from benchmarks.mutants.faults import Mutant
 
+MUTANTS = (*faults.MUTANTS, *CORE)
 ROOT = Path(__file__).resolve().parents[2]
 _COPIED = ("mouse_cli", "tests/reference")
 _PASSED, _FAILED = 0, 1  # exit codes of pytest; others: the tests did not run
@@ -50,7 +53,7 @@ def _judged(chosen: list[Mutant], copy: Path, unchecked: bool) -> int:
 
 def killed(one: Mutant, copy: Path) -> bool:
     """Whether a test of a mutant fails in the copy, which is left as it was."""
-    path = copy / "mouse_cli" / "diagnosis" / one.file
+    path = copy / "mouse_cli" / one.file
     text = path.read_text()
     if text.count(one.old) != 1:
         raise SystemExit(f"{one.name}: its text stands {text.count(one.old)} times in {one.file}")

@@ -10,7 +10,7 @@ _EVIDENCE, _NOISE, _GATES, _SEVERAL, _NAMELESS = (
 
 @dataclass(frozen=True)
 class Mutant:
-    """file: below mouse_cli/diagnosis; old: text that it has once; new: text in its place; tests: one of which must fail."""
+    """file: below mouse_cli; old: text that it has once; new: text in its place; tests: one of which must fail."""
 
     name: str
     file: str
@@ -20,9 +20,12 @@ class Mutant:
 
 
 def _of(file: str, tests: str, **faults: tuple[str, str, str]) -> tuple[Mutant, ...]:
-    """Mutants of one file by name: old text, new text, and names of tests in `tests`, separated by spaces."""
+    """Mutants of one file of the engine of diagnosis by name: old text, new text, names of tests in `tests` with spaces between."""
     named = lambda names: tuple(f"{tests}::{name}" for name in names.split())
-    return tuple(Mutant(name.replace("_", "-"), file, old, new, named(own)) for name, (old, new, own) in faults.items())
+    return tuple(
+        Mutant(name.replace("_", "-"), f"diagnosis/{file}", old, new, named(own))
+        for name, (old, new, own) in faults.items()
+    )
 
 
 MUTANTS = (

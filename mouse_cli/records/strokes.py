@@ -17,7 +17,7 @@ def strokes(force: np.ndarray, block: int, pretrigger: int) -> tuple[np.ndarray,
     """
     size = np.abs(force - np.median(force))
     level = _LEVEL * size.max()
-    above = np.flatnonzero(size > level)
+    above = np.flatnonzero(size > level) if block > pretrigger else []  # a shorter block would end before its stroke
     begin, double, free = [], [], 0
     for at in above:
         first = at - pretrigger

@@ -7,7 +7,8 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 from benchmarks.mutants import __main__ as mutants
-from benchmarks.mutants.faults import MUTANTS, Mutant
+from benchmarks.mutants.__main__ import MUTANTS
+from benchmarks.mutants.faults import Mutant
 
 TEST = ("tests/reference/test_noise.py::test_more_than_all_degrees_of_freedom_is_none",)
 
@@ -18,13 +19,15 @@ def test_one_is_killed(capsys):
 
 
 def test_one_that_changes_nothing_is_alive(monkeypatch, capsys):
-    monkeypatch.setattr(mutants, "MUTANTS", (Mutant("same", "noise.py", "RATE = 6.0", "RATE = 12.0 / 2", TEST),))
+    monkeypatch.setattr(
+        mutants, "MUTANTS", (Mutant("same", "diagnosis/noise.py", "RATE = 6.0", "RATE = 12.0 / 2", TEST),)
+    )
     assert mutants.main(["--unchecked"]) == 1
     assert "ALIVE" in capsys.readouterr().out
 
 
 def test_tests_that_do_not_run_kill_nothing(monkeypatch):
-    monkeypatch.setattr(mutants, "MUTANTS", (Mutant("broken", "noise.py", "RATE = 6.0", "RATE = (", TEST),))
+    monkeypatch.setattr(mutants, "MUTANTS", (Mutant("broken", "diagnosis/noise.py", "RATE = 6.0", "RATE = (", TEST),))
     with pytest.raises(SystemExit, match="did not run"):
         mutants.main(["--unchecked"])
 
@@ -32,7 +35,7 @@ def test_tests_that_do_not_run_kill_nothing(monkeypatch):
 @pytest.mark.parametrize("one", MUTANTS, ids=lambda one: one.name)
 def test_every_fault_has_its_place_and_its_tests(one):
     """Its text stands once in its file, and its tests are there."""
-    assert (mutants.ROOT / "mouse_cli" / "diagnosis" / one.file).read_text().count(one.old) == 1 and one.old != one.new
+    assert (mutants.ROOT / "mouse_cli" / one.file).read_text().count(one.old) == 1 and one.old != one.new
     for test in one.tests:
         path, name = test.split("[")[0].split("::")
         assert f"def {name}(" in (mutants.ROOT / path).read_text()

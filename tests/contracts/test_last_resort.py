@@ -176,3 +176,15 @@ def test_samples_where_the_data_outweigh_the_prior_beyond_rounding(capsys, tmp_p
     (tmp_path / "deck.yaml").write_text(text.replace(old, new))
     assert _run(["sample", str(tmp_path / "deck.yaml"), "--steps", "100"]) in (0, 1, 4, 5)
     assert "MD903" not in capsys.readouterr().err
+
+
+def test_a_block_that_is_shorter_than_what_stands_before_a_stroke(capsys, tmp_path):
+    """Four samples a block, ten before the stroke."""
+    t = np.arange(400) / 100
+    force = np.where(np.arange(400) % 100 == 50, 10.0, 0.0)
+    rows = np.column_stack([t, force, np.sin(9 * t)])
+    np.savetxt(tmp_path / "run.csv", rows, delimiter=",", header="t,f,a", comments="")
+    asked = ["--force", "1=f", "--response", "2=a", "--unit", "f=N", "--unit", "a=m/s2", "--impact", "--lines", "2"]
+    assert _run(["spectra", str(tmp_path / "run.csv"), *asked]) in (4, 5)
+    said = capsys.readouterr().err
+    assert "error[MD" in said and "MD903" not in said

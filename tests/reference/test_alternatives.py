@@ -7,6 +7,8 @@ import pytest
 
 from mouse_cli import read_deck, run
 from mouse_cli.cli.main import _run
+from mouse_cli.updating.loop import begin
+from mouse_cli.updating.posterior import laplace
 
 DECKS = Path(__file__).resolve().parents[2] / "decks"
 MIRRORED = (5, 3)  # storeys of a chain held at both ends, and of measured modes
@@ -108,3 +110,17 @@ def test_the_measurement_that_decides_is_named(capsys):
         f"measure the shape of mode 1 at degree of freedom 1: the answer predicts 1.000 there, the other {smaller:.3f}"
         in said
     )
+
+
+def test_the_density_at_its_mode(tmp_path):
+    """One mass on a spring, one sd above its prior, in closed form: J = r^2 + 1, and log evidence -J/2 - ln(1 + B^2)/2."""
+    k, sd, hz = 1000.0, 50.0, 5.2
+    model = "model: {stiffness: {order: 1, entries: [[1, 1, 1000.0]]}, mass: {diagonal: [1]}}"
+    text = f"mouse: 1\n{model}\nparameters: [{{name: k, nominal: {k}, sd: {sd}, stiffness: [[1, 1, 1]]}}]\n"
+    (tmp_path / "deck.yaml").write_text(text + f"test: {{modes: {{frequency: [{hz}], frequency_sd: 0.1}}}}\n")
+    setting, _ = begin(read_deck(tmp_path / "deck.yaml"))
+    normal = laplace(setting, setting.state(np.array([k + sd])))
+    of_test = 8 * np.pi**2 * hz * 0.1
+    cost = (((2 * np.pi * hz) ** 2 - (k + sd)) / of_test) ** 2 + 1
+    assert normal.cost == pytest.approx(cost, rel=1e-9)
+    assert normal.log_evidence == pytest.approx(-cost / 2 - np.log1p((sd / of_test) ** 2) / 2, rel=1e-9)

@@ -79,8 +79,14 @@ class Fit(End):
 
     @property
     def covariance(self) -> np.ndarray:
-        """Of x, unknowns that the data do not feel as wide as their range."""
-        return np.linalg.inv(capped(self.hessian, self.model.width))
+        """Of x, unknowns that the data do not feel as wide as their range; in units of their own, so that these do not matter."""
+        H = capped(self.hessian, self.model.width)
+        unit = 1 / np.sqrt(H.diagonal())
+        scaled = unit[:, None] * H * unit
+        try:
+            return unit[:, None] * np.linalg.inv(scaled) * unit
+        except np.linalg.LinAlgError:  # of two that the data cannot tell apart at all, the sum alone is known
+            return unit[:, None] * np.linalg.pinv(scaled, hermitian=True) * unit
 
 
 def fit(

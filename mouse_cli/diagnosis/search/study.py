@@ -160,9 +160,12 @@ class Study:
         theta = one.model.base.parameters(one.point.x[: self.k])
         try:
             there = Study(self.model.at(theta), self.known, self.kind, self.begun)
-        except IndefiniteError:  # parameters far from their prior, of a fit that explains nothing
+            return there if all(there.recipes(recipe.candidate.key) for recipe in one.recipes) else self
+        except (
+            IndefiniteError,
+            np.linalg.LinAlgError,
+        ):  # parameters far from their prior, of a fit that explains nothing
             return self
-        return there if all(there.recipes(recipe.candidate.key) for recipe in one.recipes) else self
 
     def about(self, one: Fit) -> "Study":
         """The same, or one of the last there were, at parameters from which those of a fit differ by no more than a trifle."""
