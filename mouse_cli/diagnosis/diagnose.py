@@ -33,6 +33,7 @@ from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Ch
 from mouse_cli.model.modal_test import restricted
 from mouse_cli.model.problem import Problem, RunOptions
 from mouse_cli.model.result import Result
+from mouse_cli.updating import refusals
 from mouse_cli.updating.loop import related, run
 
 Notice = Callable[[str], None]
@@ -56,7 +57,10 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choi
     if by_records(problem):
         return diagnose_records(problem, notice, choices)
     recordings = Hearing()
-    found = _by_its_modes(problem, notice, choices, recordings)
+    try:
+        found = _by_its_modes(problem, notice, choices, recordings)
+    except np.linalg.LinAlgError as reason:  # values that span too many powers of ten for any algebra
+        raise refusals.unphysical(problem, str(reason)) from None
     if found.kind != NOTHING or recordings.unexplained is None:
         return found
     by_laws = diagnose_records(problem, notice, choices, recordings.unexplained)

@@ -188,3 +188,10 @@ def test_a_block_that_is_shorter_than_what_stands_before_a_stroke(capsys, tmp_pa
     assert _run(["spectra", str(tmp_path / "run.csv"), *asked]) in (4, 5)
     said = capsys.readouterr().err
     assert "error[MD" in said and "MD903" not in said
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_diagnosis_of_values_beyond_any_algebra(capsys, tmp_path):
+    (tmp_path / "deck.yaml").write_text((DECKS / "ruler_tower.yaml").read_text().replace("E: 2.1e+11", "E: 2.1e+81"))
+    assert _run(["diagnose", str(tmp_path / "deck.yaml"), "--causes", "1"]) in (1, 2, 4, 5)
+    assert "MD903" not in capsys.readouterr().err
