@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+_STEP = 1e-6  # of a factor
+
 
 def rigid(K: np.ndarray, M: np.ndarray, seconds: float) -> np.ndarray:
     """Motions (n, r) that K (n, n) does not hold: slower than so many seconds a period."""
@@ -29,6 +31,12 @@ class Linear:
     slopes: tuple[np.ndarray, np.ndarray, np.ndarray]
     names: tuple[str, ...]
     scaled: Callable[[np.ndarray, float], np.ndarray | None] = lambda z, s: None
+
+    @property
+    def common(self) -> np.ndarray:
+        """How nuisances (k,) begin to move from the mean where M, C and K grow alike; zeros where they cannot."""
+        step = self.scaled(np.zeros(self.k), 1 + _STEP)
+        return np.zeros(self.k) if step is None else step / _STEP
 
     def sound(self, z: np.ndarray) -> bool:
         """Whether at z (k,) every motion has inertia, and stiffness unless it has none at the mean."""

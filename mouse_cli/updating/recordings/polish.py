@@ -22,6 +22,10 @@ _SETTLED = 0.05  # of the cost in nats, at which a step is no more worth its tim
 _LEAST = 64  # samples of a horizon
 _PATIENCE, _BEHIND = 3, 2.0  # steps of a fit whose cost is so many times that of a better one
 _HALVED = 10  # times that a start without stiffness is brought nearer to the mean
+_PROBE, _LESS = (
+    0.1,
+    0.75,
+)  # share of a step at which its curvature is seen; most that the second order may be of the first
 _PERTURBED = 1e-4  # of prior or range
 _SPEEDS, _TRIED = 2.5, 33  # speeds that no channel shows: how far, by their rms, and how many at a time
 
@@ -140,6 +144,8 @@ class Polish:
             if step >= _PATIENCE and cost > _BEHIND * beat:
                 break
             moved, d_states = self._step(here, x, states, damping)
+            if len(x):
+                moved, d_states = self._bent(here, x, states, moved, d_states, damping)
             nx, ns = self.h.gauged(np.clip(x + moved, *self.h.bounds)), states + d_states
             sound = self.h.linear.sound(self.h.whole(nx[None])[0, : self.h.linear.k])
             there = self._point(nx, ns) if sound else here
@@ -245,6 +251,25 @@ class Polish:
         H, g, backs, _ = self._normal(at, x, states, damping)
         moved = np.linalg.solve(H + damping * np.diag(np.diag(H)), g) if len(x) else np.zeros(0)
         return moved, np.stack([b[:, -1] - b[:, :-1] @ moved for b in backs], axis=1)
+
+    def _bent(self, at: _Point, x: np.ndarray, states: np.ndarray, dx: np.ndarray, ds: np.ndarray, damping: float):
+        """A step with its second order, along valleys that bend: parameters that act alike, one of them by its logarithm.
+
+        Geodesic acceleration (M. K. Transtrum, J. P. Sethna, arXiv:1201.5885): with f'' the second derivative of the outputs along
+        the step d, d2 = -(J'J + D)^-1 J' f'' / 2, kept where it is the smaller of both.
+        """
+        near = np.clip(x + _PROBE * dx, *self.h.bounds)
+        seen = self._simulated(near[None], (states + _PROBE * ds)[None])[0]
+        first = at.J @ dx + np.einsum("stgn,ng->stg", at.X, ds)
+        bend = 2 / _PROBE * ((seen - (self.measured - at.residual)) / _PROBE - first)
+        if not np.isfinite(bend).all():
+            return dx, ds
+        along = replace(at, residual=-bend / 2)
+        d2x, d2s = self._step(along, self.h.mean, np.zeros_like(states), damping)
+        size = lambda a, b: float((a @ a) + ((b / self.spread[:, None]) ** 2).sum())
+        if size(d2x, d2s) > _LESS**2 * size(dx, ds):
+            return dx, ds
+        return dx + d2x, ds + d2s
 
     def _fit(self, at: _Point, x: np.ndarray, states: np.ndarray, cost: float) -> Fit:
         H, _, _, logs = self._normal(at, x, states, 0.0)

@@ -15,6 +15,7 @@ from mouse_cli.updating.recordings.hypothesis import Acting, Hypothesis, Place
 
 _APART = 0.15  # of the logarithm of a size, from which on two starts are two
 _FAR = 0.7  # most that ln parameters of a law that is there already move in a first look
+_HELD = 1e3  # times as sure as its prior that a factor of all masses, stiffnesses and dampings is
 _STEP = 1e-3  # of ln parameters, in differences
 _BEGIN = 0.02  # share of the record whose states are not known well, left out
 
@@ -72,10 +73,22 @@ class Regression:
         self.sd = float(np.hypot(1.0, error * np.sqrt((self.y**2).mean())))
         self.y /= self.sd
         self.J = np.stack([self._stacked(column) for column in (*self._nuisances(U), *self._slopes())], axis=1)
-        k = self.J.shape[1]
-        self.Q, self.R = np.linalg.qr(np.vstack([self.J, np.eye(k)]))
-        self.target = np.concatenate([self.y, np.zeros(k)])
+        self._prior = self._held()
+        self.Q, self.R = np.linalg.qr(np.vstack([self.J, self._prior]))
+        self.target = np.concatenate([self.y, np.zeros(len(self._prior))])
         self.target -= self.Q @ (self.Q.T @ self.target)
+
+    def _held(self) -> np.ndarray:
+        """Rows of the prior (k or k + 1, k); where the ground alone moves the model, with its common factor held.
+
+        The recorded motion asks the model as it is for a force, and a model of nothing asks for none.
+        """
+        k = self.J.shape[1]
+        found = np.zeros(k)
+        if self.base.ground:
+            found[: self.base.linear.k] = self.base.linear.common
+        size = np.linalg.norm(found)
+        return np.eye(k) if size == 0 else np.vstack([np.eye(k), _HELD / size * found])
 
     def _answer(self, x: np.ndarray) -> np.ndarray:
         """What the laws of the deck and of the hypothesis, at x (k,), take off the outputs (t, s), at the motion of the record."""
@@ -160,7 +173,7 @@ class Regression:
 
     def share(self, forces: list[np.ndarray]) -> float:
         """Share of what is left that any sum of histories (t,) of a force at the place takes."""
-        s, k = self.spectrum, self.J.shape[1]
+        s, k = self.spectrum, len(self._prior)
         columns = [
             self._stacked(s.history(s.line(F * s.window)[:, None] * self.local.answer) * s.window[:, None])
             for F in forces
@@ -198,7 +211,7 @@ class Regression:
         many, s, tried = np.array(list(law.inner(self.local.place.scale))), self.spectrum, []
         for p, force in zip(many, self.forces(law, variant, many), strict=True):
             column = self._stacked(s.history(-force[:, None] * self.local.answer) * s.window[:, None])
-            own = np.concatenate([column, np.zeros(self.J.shape[1])])
+            own = np.concatenate([column, np.zeros(len(self._prior))])
             own -= self.Q @ (self.Q.T @ own)
             size = float(own @ own)
             factor = float(own @ self.target) / size if size > 0 else 0.0
@@ -216,7 +229,7 @@ class Regression:
         hypothesis, s = self.base.at(law, variant), self.spectrum
         (force,) = self.forces(law, variant, p[None])
         column = self._stacked(s.history(-force[:, None] * self.local.answer) * s.window[:, None])
-        z = np.linalg.solve(self.R, self.Q.T @ np.concatenate([self.y - column, np.zeros(self.J.shape[1])]))
+        z = np.linalg.solve(self.R, self.Q.T @ np.concatenate([self.y - column, np.zeros(len(self._prior))]))
         k, first = self.base.linear.k, self.base.nuisances
         moved = self.begun[first:] + np.clip(z[k:], -_FAR, _FAR)
         x = np.concatenate([z[:k], self.begun[k:first], moved, np.log(p)])

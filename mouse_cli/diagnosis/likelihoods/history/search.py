@@ -213,13 +213,25 @@ def _varied(order: list[Start]) -> list[Start]:
 
 
 def _relatives(study: Study, best: Fit, known: list[Law] | None) -> list[Fit]:
-    """Laws that have no first look of their own, begun from the one they generalise: Iwan's from friction."""
+    """Laws begun from one that comes nearest and does not do: Iwan's from friction, and those of its group with the same sizes."""
     law = best.hypothesis.law
-    relative = laws()["iwan"]
-    if law is None or law.key != "friction" or adequate(best) or (known is not None and relative not in known):
+    if law is None or adequate(best):
         return []
-    kt, slip = np.exp(best.x[-2:])
-    hypothesis = best.hypothesis.without_last.at(relative, 0)
-    x = np.concatenate([best.x[:-2], np.log([1.3 * slip, 1.3 * kt, 0.6, 1.0])])
-    one = fitted(study, Start(hypothesis, x, 0.0))
-    return [] if one is None else [one]
+    bare, count = best.hypothesis.without_last, len(best.hypothesis.parts[-1].unknowns)
+    nuisances, sizes = best.x[:-count], np.exp(best.x[-count:])
+    begun = [(one, i, sizes) for one in laws().values() if _sibling(one, law) for i in range(len(one.variants))]
+    if law.key == "friction":
+        kt, slip = sizes
+        begun.append((laws()["iwan"], 0, np.array([1.3 * slip, 1.3 * kt, 0.6, 1.0])))
+    found = []
+    for one, variant, p in begun:
+        if known is None or one in known:
+            fit = fitted(study, Start(bare.at(one, variant), np.concatenate([nuisances, np.log(p)]), 0.0))
+            found += [] if fit is None else [fit]
+    return found
+
+
+def _sibling(one: Law, law: Law) -> bool:
+    """Whether two laws of one group have the same sizes, so that a first look easily takes one for the other."""
+    names = lambda each: [(size.name, size.unit) for size in each.parameters]
+    return one is not law and one.group == law.group and names(one) == names(law)
