@@ -91,7 +91,10 @@ def _check(recordings: Sequence[Recording], options: SpectraOptions) -> None:
     bad += [c for c in first.channels if c.quantity not in ("force", "moment") and c.role == "input"]
     if bad:
         message = f"channel '{bad[0].name}' is {bad[0].quantity}; functions are of motion per force"
-        _refuse("MD618", message, "leave it out, or correct its quantity and unit")
+        help = "leave it out, or correct its quantity and unit"
+        if bad[0].ground:
+            help = "`mouse diagnose` and `mouse run` take the motion of the ground; for modes use `mouse identify --output-only`"
+        _refuse("MD618", message, help)
     for each in recordings[1:]:
         if abs(each.time_step_s / first.time_step_s - 1) > _SAME_RATE:
             message = f"'{first.title}' has {first.sample_rate_hz:.7g} samples a second, '{each.title}' {each.sample_rate_hz:.7g}"
