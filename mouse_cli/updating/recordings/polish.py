@@ -255,8 +255,8 @@ class Polish:
     def _bent(self, at: _Point, x: np.ndarray, states: np.ndarray, dx: np.ndarray, ds: np.ndarray, damping: float):
         """A step with its second order, along valleys that bend: parameters that act alike, one of them by its logarithm.
 
-        Geodesic acceleration (M. K. Transtrum, J. P. Sethna, arXiv:1201.5885): with f'' the second derivative of the outputs along
-        the step d, d2 = -(J'J + D)^-1 J' f'' / 2, kept where it is the smaller of both.
+        Geodesic acceleration (M. K. Transtrum, J. P. Sethna, arXiv:1201.5885): d2 = -(J'J + D)^-1 J' f'' / 2, f'' the second
+        derivative of the outputs along the step d; kept where it is the smaller of both.
         """
         near = np.clip(x + _PROBE * dx, *self.h.bounds)
         seen = self._simulated(near[None], (states + _PROBE * ds)[None])[0]
@@ -267,9 +267,7 @@ class Polish:
         along = replace(at, residual=-bend / 2)
         d2x, d2s = self._step(along, self.h.mean, np.zeros_like(states), damping)
         size = lambda a, b: float((a @ a) + ((b / self.spread[:, None]) ** 2).sum())
-        if size(d2x, d2s) > _LESS**2 * size(dx, ds):
-            return dx, ds
-        return dx + d2x, ds + d2s
+        return (dx, ds) if size(d2x, d2s) > _LESS**2 * size(dx, ds) else (dx + d2x, ds + d2s)
 
     def _fit(self, at: _Point, x: np.ndarray, states: np.ndarray, cost: float) -> Fit:
         H, _, _, logs = self._normal(at, x, states, 0.0)
