@@ -103,6 +103,8 @@ COMMANDS: dict[str, Asked] = {
     "report": Asked(("result",), ("--markdown", "-o=out/page.html")),
     "plot": Asked(("result",), ("--figure=frequencies", "--figure=mac"), ("-o=out/figures",)),
     "prior": Asked(("result",), (*_SHOWN, "--loosen=k1=5 %", "--loosen=k1=1e308")),
+    "export": Asked(("deck", "large"), (), ("-o=out/model",)),
+    "import": Asked(("inp",), (), ("-o=out/new.yaml",)),
     "explain": Asked(()),
     "list": Asked(()),
 }

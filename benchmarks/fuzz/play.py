@@ -6,6 +6,7 @@ import os
 import resource
 import signal
 import sys
+import tempfile
 import traceback
 from dataclasses import dataclass
 from pathlib import Path
@@ -114,6 +115,8 @@ def _child(arguments: list[str], folder: Path, limits: Limits) -> None:
     os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
     sys.stdout, sys.stderr = (open(number, "w", encoding="utf-8", closefd=False) for number in (1, 2))
     os.environ |= {"TMPDIR": str(folder / "tmp"), "MPLCONFIGDIR": str(folder / "tmp"), "MOUSE_TRACEBACK": "1"}
+    tempfile.tempdir = None  # that of the parent
+    os.environ["XDG_CACHE_HOME"] = str(folder / "tmp")
     os.chdir(folder)
     _bound(limits)
     _watch(folder)

@@ -65,7 +65,8 @@ def _decks() -> list[Seed]:
         else:
             files, kind = _read(path, *named), "large" if path.name.startswith(_HEAVY) else "deck"
         found.append(Seed(path.name, kind, files))
-    return found
+    plate = DECKS / "plate_calculix" / "plate.inp"
+    return [*found, Seed(plate.name, "inp", {plate.name: plate.read_bytes()})]
 
 
 def _arrangements() -> list[Seed]:

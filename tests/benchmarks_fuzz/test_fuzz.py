@@ -41,7 +41,7 @@ def test_an_input_is_the_same_again(tmp_path, sound):
 
 
 def test_every_command_is_asked():
-    assert set(_registry.names("mouse_cli.cli.commands")) - set(COMMANDS) == {"completion"}
+    assert set(_registry.names("mouse_cli.cli.commands")) <= {*COMMANDS, "completion"}
 
 
 @pytest.mark.parametrize(
