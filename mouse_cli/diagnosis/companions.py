@@ -75,7 +75,7 @@ def _explanations(ranking: Ranking) -> Iterator[tuple[float, list[Mechanism]]]:
 
 def _mechanisms(one: Fit) -> list[Mechanism]:
     return [
-        (recipe.candidate.key, recipe.candidate.group, recipe.site(recipe.values(one.c[own])))
+        (recipe.candidate.key, recipe.group(one.c[own]), recipe.site(recipe.values(one.c[own])))
         for recipe, own in zip(one.recipes, one.model.own, strict=True)
     ]
 
@@ -96,7 +96,12 @@ def _matched(wanted: Sequence[Mechanism], among: Sequence[Mechanism], reach: flo
 
 
 def gap(one: Site, other: Site) -> float:
-    """Distance between two sites in m; 0 where they are the same, and infinite where two have no one place, or join other nodes."""
+    """Distance between two sites in m; 0 where they are the same, and infinite where two have no one place, or join other nodes.
+
+    What is spread over elements, as a bed is, has no one place: it is where any of them are.
+    """
+    if one.kind == other.kind == "element" and (one.position is None or other.position is None):
+        return 0.0 if set(one.ids) & set(other.ids) else float("inf")
     joining = one.kind == other.kind == "node" and max(len(one.ids), len(other.ids)) > 1
     if joining or one.position is None or other.position is None:
         return 0.0 if (one.kind, one.ids) == (other.kind, other.ids) else float("inf")

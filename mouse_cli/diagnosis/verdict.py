@@ -116,7 +116,9 @@ def _against_field(ranking: Ranking, model: Reduced, best: Fit, gain: float) -> 
     Both have their probabilities given the data that were fitted; what they predict of the others multiplies these.
     """
     field, p = next((one for one in ranking.fits if one.nameless), None), dict(ranking.groups)
-    more = _gain(held_out(model, ranking.baseline, field)) - gain if field is not None and gain else 0.0
+    if field is None or group(field) not in p:
+        return 1.0
+    more = _gain(held_out(model, ranking.baseline, field)) - gain if gain else 0.0
     kept = p[group(best)] * np.exp(-max(more, 0.0))
     return 1.0 if more <= ODDS else float(kept / (kept + p[group(field)]))
 
@@ -268,4 +270,4 @@ def _cause(recipe, c: np.ndarray, sd: np.ndarray, units: Units) -> Cause:
         for u, v, s in zip(recipe.unknowns, values, sd, strict=True)
     )
     candidate = recipe.candidate
-    return Cause(candidate.key, candidate.group, candidate.title, recipe.site(values), sizes, recipe.law)
+    return Cause(candidate.key, recipe.group(c), candidate.title, recipe.site(values), sizes, recipe.law)

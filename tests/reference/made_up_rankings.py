@@ -21,7 +21,7 @@ def made_up(*groups: str, misfit: float = 20.0, dof: int = 20, z=(0.3, -0.4), na
     problem = SimpleNamespace(parameters=named, structure=BEAM)
     base = SimpleNamespace(L=np.diag([2.0, 0.1]), data=data, problem=problem, first=SimpleNamespace(bars=BARS))
     recipes = tuple(_recipe(name, more.get("own", 0)) for name in groups)
-    field = SimpleNamespace(rival=SimpleNamespace(key=nameless)) if nameless else None
+    field = SimpleNamespace(rival=SimpleNamespace(key=nameless, even=more.pop("even", ""))) if nameless else None
     own = {
         "strained": False,
         "telling": False,
@@ -42,7 +42,13 @@ def _recipe(name: str, own: int):
     site = Site("node", (), (float(x), 0.0, 0.0)) if x else EVERYWHERE
     candidate = SimpleNamespace(group=group, key=group, title=group)
     return SimpleNamespace(
-        candidate=candidate, own=own, values=lambda c: c, site=lambda values: site, at=lambda c: _change(group, bars)
+        candidate=candidate,
+        own=own,
+        unknowns=(group,),
+        values=lambda c: c,
+        group=lambda c: group,
+        site=lambda values: site,
+        at=lambda c: _change(group, bars),
     )
 
 

@@ -4,10 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hermite_beams import Truth, deck
 from made_up_rankings import made_up, ranked
 
 from mouse_cli.diagnosis import verdict as decided
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.diagnosis.verdict import decide, far_parameters, judge, rest
+from mouse_cli.formats import yaml_deck
+from mouse_cli.formats.assemble import assemble
 from mouse_cli.model.diagnosis import (
     BY_DECK,
     BY_MODE,
@@ -267,3 +272,26 @@ def test_the_rest_is_a_share_of_the_misfit_of_the_model_as_it_is():
     found = rest(ranked(made_up("mass", misfit=80.0), made_up(misfit=200.0), p=(0.99, 0.01)))
     assert found.share == pytest.approx(60 / 180) and found.p < 1e-6
     assert rest(ranked(made_up("mass", misfit=44.0), made_up(misfit=200.0), p=(0.99, 0.01))) is None
+
+
+# --- what is another mechanism at an end of its range
+
+
+def test_a_field_counts_as_what_it_is_where_it_does_not_vary(proofs):
+    """A bed that may vary is no rival of a bed, as long as that it varies is the less probable."""
+    bed, uneven = made_up("foundation"), made_up(nameless="field-bed", even="foundation")
+    found = ranked(bed, uneven, BARE, p=(0.9, 0.09, 0.01))
+    assert found.groups[0] == ("foundation", pytest.approx(0.99))
+    assert decide(found)[0] == NAMED
+    assert decide(ranked(bed, made_up(nameless="field-bed"), BARE, p=(0.9, 0.09, 0.01)))[0] == ONE_OF
+    more = ranked(uneven, bed, BARE, p=(0.9, 0.09, 0.01))
+    assert dict(more.groups)["field-bed"] == pytest.approx(0.9)
+
+
+def test_an_oscillator_above_the_band_is_a_mass():
+    """An item on a mount so stiff that it follows the structure, or so soft that it stands still."""
+    problem = assemble(yaml_deck.read(deck(Truth(), modes=6, held=1), "beam.yaml"))
+    hz = problem.test.frequency_hz
+    recipe = Study(reduced(problem, problem.prior.mean)).recipes("oscillator")[0]
+    within = lambda f: recipe.group(recipe.coordinates(np.array([0.01, f, 0.5])))
+    assert [within(f) for f in (1.1 * hz.max(), hz.mean(), 0.9 * hz.min())] == ["mass", "oscillator", "ground-spring"]

@@ -100,6 +100,7 @@ class Recipe:
     prior that this place has. extend(problem, values): the deck with the cause in it. number: which of its candidate's recipes
     it is. carried: how degrees of freedom of its own move the model along, which other causes see. law: how its spring loses
     energy, see `frf/lossy.py`.
+    limit(values): group that it cannot be told from at such values, the end of their range; empty: none, its candidate's own.
     jumps: coordinates, in order, at which the matrices jump, by number of the unknown; there the piece after it begins.
     """
 
@@ -114,6 +115,7 @@ class Recipe:
     number: int = 0
     carried: Carried | None = None
     law: str = ""
+    limit: Callable[[np.ndarray], str] = lambda values: ""
     jumps: dict[int, np.ndarray] = field(default_factory=dict, repr=False)
     starts: tuple[np.ndarray, ...] = ()
     _last: dict[bytes, Change] = field(default_factory=dict, init=False, repr=False, compare=False)
@@ -126,6 +128,10 @@ class Recipe:
             self._last.clear()
             self._last[key] = found
         return self._last[key]
+
+    def group(self, coordinates: np.ndarray) -> str:
+        """Group of mechanisms that it belongs to at coordinates (t,)."""
+        return self.limit(self.values(coordinates)) or self.candidate.group
 
     def values(self, coordinates: np.ndarray) -> np.ndarray:
         """Values (t,) at coordinates (t,)."""

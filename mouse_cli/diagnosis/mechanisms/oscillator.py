@@ -22,6 +22,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     f = Unknown("frequency", "Hz", 0.3 * hz[0], 1.5 * hz[1])
     measured = model.data.test.frequency_hz[model.data.has_frequency]
     found = np.concatenate([steps(f, 14), measured])  # one of those measured may be its own
+    least, most = (measured.min(), measured.max()) if len(measured) else (0.0, np.inf)
 
     def change(sizes: np.ndarray, B: np.ndarray) -> Change:
         arm = np.append(B[0], -1.0)
@@ -32,8 +33,15 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     def extend(problem: Problem, point: Points, place: np.ndarray, mass: float, hz: float) -> Problem:
         return with_oscillator(problem, point, place, mass, mass * (2 * np.pi * hz) ** 2)
 
+    def limit(values: np.ndarray) -> str:
+        """So stiff a mount that it follows the structure makes it a mass; so soft a one that it stands still, a ground spring."""
+        if values[1] > most:
+            return "mass"
+        return "ground-spring" if values[1] < least else ""
+
     points = [replace(p, starts=p.starts[:: max(1, len(p.starts) // _PLACES)]) for p in directions(model)]
-    return [placed(candidate, point, (m, f), (steps(m, 2), found), change, extend, own=1) for point in points]
+    made = [placed(candidate, point, (m, f), (steps(m, 2), found), change, extend, own=1) for point in points]
+    return [replace(one, limit=limit) for one in made]
 
 
 CANDIDATE = Candidate(

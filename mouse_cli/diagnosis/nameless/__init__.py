@@ -16,7 +16,8 @@ class Nameless:
     """key; title: in words; property: STIFFNESS, MASS, BED, FORCE or LAW; meaning: what it is, for the manual.
 
     cells(model): what it changes; None where there are fewer than three. spreads: sd of the field that are integrated over.
-    signs: of a change of rank one, K + sign b b' with the field b; empty: K or M change in proportion to the field.
+    signs: of a change of rank one, K + sign b b' with the field b; empty: K or M change in proportion to the field. even: group of
+    the mechanism that it is where it is the same everywhere; empty: none has a name.
     """
 
     key: str
@@ -26,6 +27,7 @@ class Nameless:
     spreads: tuple[float, ...]
     cells: Callable[[Reduced], Cells | None]
     signs: tuple[int, ...] = ()
+    even: str = ""
 
 
 def registry() -> dict[str, Nameless]:

@@ -73,4 +73,5 @@ NAMELESS = Nameless(
     "out, in units of EI / L^4",
     (10.0, 100.0, 1000.0),
     cells,
+    even="foundation",
 )

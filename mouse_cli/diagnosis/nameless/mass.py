@@ -42,4 +42,5 @@ NAMELESS = Nameless(
     "integrated out",
     (0.03, 0.1, 0.3),
     cells,
+    even="added-mass",
 )

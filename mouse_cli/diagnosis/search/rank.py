@@ -55,8 +55,11 @@ class Ranking:
 
     @property
     def groups(self) -> tuple[tuple[str, float], ...]:
-        """Probability of each group, the largest first; `none` among them, and what has no name by its own key."""
-        return shares([group(one) for one in self.fits], self.probabilities)
+        """Probability of each group, the largest first; `none` among them, and what has no name by its own key.
+
+        A field counts as the mechanism that it is where it does not vary, if that is the more probable of the two.
+        """
+        return shares(_names(self.fits), self.probabilities)
 
     @property
     def named(self) -> list[int]:
@@ -65,12 +68,26 @@ class Ranking:
 
 
 def group(one: Fit) -> str:
-    """Groups of the mechanisms of a fit; the key of a rival that has no name."""
-    return unnamed(one) or _joined(one)
+    """Groups of the mechanisms of a fit, as it found them; the key of a rival that has no name."""
+    parts = zip(one.recipes, one.model.own, strict=True)
+    return unnamed(one) or joined([recipe.group(one.c[own]) for recipe, own in parts])
 
 
 def _joined(one: Fit) -> str:
+    """Groups of its candidates, which share the prior."""
     return joined([recipe.candidate.group for recipe in one.recipes])
+
+
+def _names(fits: tuple[Fit, ...]) -> list[str]:
+    """Groups of fits, the most probable first."""
+    found: list[str] = []
+    even: set[str] = set()  # groups of what acts alike everywhere
+    for one in fits:
+        limit = one.nameless.rival.even if one.nameless else ""
+        found.append(limit if limit in even else group(one))
+        if len(one.recipes) == 1 and len(one.recipes[0].unknowns) == 1:
+            even.add(found[-1])
+    return found
 
 
 def unnamed(one: Fit) -> str | None:
