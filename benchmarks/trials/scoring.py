@@ -26,7 +26,7 @@ class Scored:
     """One deck. said: in words; error: of the sites of what was named truly, over the span, nan without one.
 
     alarm: on a control, anything but nothing missing, or one of several with none among them; probability: that of the name, and
-    `true` whether its groups are those of the truth; rivals: (probability, whether true) of each group of a one-of; field: of
+    `true` whether all of its groups are missing, `complete` whether nothing else is; rivals: (probability, whether true) of each group of a one-of; field: of
     physics without a name, (property right, region right), None where not scored; gain: rms error of held-out frequencies in %,
     of the baseline and of the revised model; suspected: error of the test that the answer suspects.
     """
@@ -40,6 +40,7 @@ class Scored:
     alarm: bool = False
     probability: float = np.nan
     true: bool = False
+    complete: bool = False
     rivals: list[tuple[float, bool]] = field(default_factory=list)
     field: tuple[bool | None, bool | None] = (None, None)
     gain: tuple[float, float] | None = None
@@ -70,7 +71,8 @@ def scored(name: str, trial: Trial, document: dict) -> Scored:
         error,
         alarm=not truth["mechanisms"] and not quiet and bool(told or kind == "unknown"),
         probability=float(verdict["probability"] or np.nan) if kind == "named" else np.nan,
-        true=_complete([group for _, group, _ in told], truth),
+        true=_missing([group for _, group, _ in told], truth),
+        complete=_complete([group for _, group, _ in told], truth),
         rivals=_rivals(document, truth) if kind == "one-of" else [],
         field=_field(verdict, truth) if kind == "unknown" else (None, None),
         gain=_gain(document),
@@ -84,9 +86,20 @@ Told = list[tuple[str, str, tuple[float, ...] | None]]  # physics, group, place
 def _told(verdict: dict, truth: dict) -> Told:
     """What a verdict names or leads with, without what describes an error of the test."""
     split = lambda key: [part for part in (verdict.get(key) or "").split(" + ") if part not in ("", "none")]
-    places = [place(site, truth) for site in verdict.get("sites") or []]
-    found = list(zip(split("physics"), split("group"), places, strict=False))
+    places = [_places(site, truth) for site in verdict.get("sites") or []]
+    found = [
+        (physics, group, at)
+        for physics, group, own in zip(split("physics"), split("group"), places, strict=False)
+        for at in own
+    ]
     return [one for one in found if one[1] != IGNORED.get(truth["error"])]
+
+
+def _places(site: dict, truth: dict) -> list[tuple[float, ...] | None]:
+    """The place of a site; of several nodes each, for that all of them are alike names every one."""
+    each = [place(site | {"ids": [i], "position": None}, truth) for i in site.get("ids") or []]
+    several = site.get("kind") == "node" and len(each) > 1 and not site.get("position") and None not in each
+    return each if several else [place(site, truth)]
 
 
 def place(site: dict, truth: dict) -> tuple[float, ...] | None:
@@ -142,13 +155,17 @@ def _unnamed(kind: str, truth: dict) -> str:
 
 def _complete(groups: list[str], truth: dict) -> bool:
     """Whether groups are those of all mechanisms, no more and no less."""
+    return len(groups) == len(truth["mechanisms"]) and _missing(groups, truth)
+
+
+def _missing(groups: list[str], truth: dict) -> bool:
+    """Whether groups are of mechanisms that are there, each one once."""
     mechanisms = truth["mechanisms"]
-    if len(groups) != len(mechanisms):
-        return False
     if not groups:
-        return True
+        return not mechanisms
     return any(
-        all(_is(("", g, None), own) for g, own in zip(groups, order, strict=True)) for order in permutations(mechanisms)
+        all(_is(("", g, None), own) for g, own in zip(groups, order, strict=True))
+        for order in permutations(mechanisms, len(groups))
     )
 
 

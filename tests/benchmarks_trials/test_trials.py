@@ -149,6 +149,25 @@ def test_the_error_of_a_site_is_over_the_span(pair):
     assert found.error == pytest.approx(0.03) and found.true
 
 
+def test_one_of_two_is_true_and_not_complete(pair):
+    """A name says that something is missing, not that nothing else is."""
+    found = scored("x", pair, verdict("named", "mass", "mass", pair.mechanisms[0].at[0]))
+    assert (found.outcome, found.true, found.complete) == ("part", True, False)
+
+
+def test_supports_that_are_alike_are_named_each():
+    """All three feet of a frame, by one stiffness."""
+    feet = next(trials(1, 1, ["several/frame/three feet"]))
+    nodes = [
+        key for key, at in feet.truth()["nodes"].items() if any(np.allclose(at[:2], m.at[:2]) for m in feet.mechanisms)
+    ]
+    said = verdict("named", "support-rotation", "support", None)
+    said["verdict"]["sites"] = [{"kind": "node", "ids": nodes, "position": None, "text": "all alike"}]
+    assert scored("x", feet, said).outcome == "right"
+    said["verdict"]["sites"][0]["ids"] = nodes[:2]
+    assert scored("x", feet, said).outcome == "part"
+
+
 def test_a_name_on_a_control_is_a_false_alarm():
     control = next(trials(1, 1, ["control/chain/none"]))
     said = scored("x", control, verdict("named", "mass", "mass", 3.0))
