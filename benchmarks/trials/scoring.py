@@ -25,10 +25,10 @@ IGNORED = {"gains": "sensor"}  # groups that describe an error of the test that 
 class Scored:
     """One deck. said: in words; error: of the sites of what was named truly, over the span, nan without one.
 
-    alarm: on a control, anything but nothing missing, or one of several with none among them; probability: that of the name, and
-    `true` whether all of its groups are missing, `complete` whether nothing else is; rivals: (probability, whether true) of each group of a one-of; field: of
-    physics without a name, (property right, region right), None where not scored; gain: rms error of held-out frequencies in %,
-    of the baseline and of the revised model; suspected: error of the test that the answer suspects.
+    alarm: on a control, anything but nothing missing, or one of several with none among them; probability: that of the name, `true`
+    whether all of its groups are missing, `complete` whether nothing else is; rivals: (probability, whether true) of each group
+    of a one-of; field: of physics without a name, (property right, region right), None where not scored; gain: rms error of
+    held-out frequencies in %, of the baseline and of the revised model; suspected: error of the test that the answer suspects.
     """
 
     name: str
