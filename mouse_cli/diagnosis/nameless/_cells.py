@@ -111,17 +111,25 @@ def _known_to(parameter: Parameter, spread: float) -> Parameter:
 
 def felt(model: Reduced, cells: Cells) -> Cells | None:
     """Those with a part in the lowest modes; None where there are too few."""
-    count = min(model.r, int(model.data.test.number.max()) + 2)
-    energy = np.array([np.abs(np.einsum("cr,cd,dr->r", u[:, :count], B, u[:, :count])).max() for u, B in cells.blocks])
-    kept = np.flatnonzero(energy > _TRIFLE * energy.max(initial=0.0))
+    kept = _moving(model, cells.blocks)
     return None if len(kept) < FEWEST else cells.some(kept)
+
+
+def _moving(model: Reduced, blocks: tuple[Block, ...]) -> np.ndarray:
+    """Which blocks have energy in the lowest modes, by index."""
+    count = min(model.r, int(model.data.test.number.max()) + 2)
+    energy = np.array([np.abs(np.einsum("cr,cd,dr->r", u[:, :count], B, u[:, :count])).max() for u, B in blocks])
+    return np.flatnonzero(energy > _TRIFLE * energy.max(initial=0.0))
 
 
 def of_rows(
     model: Reduced, sites: list[Site], at: np.ndarray, unit: str, rows: np.ndarray, sizes: np.ndarray, into: str, extend
 ) -> Cells | None:
-    """Cells of one row of motion (c, r) each, of stiffness or mass `sizes` (c,)."""
-    if len(sites) < FEWEST:
-        return None
+    """Cells of one row of motion (c, r) each, of stiffness or mass `sizes` (c,), those that move in the lowest modes.
+
+    extend(problem, kept, values, ...): the deck with `values` of the rows `kept`, by index; None where no deck can hold them.
+    """
     blocks = tuple((row[None], np.array([[size]])) for row, size in zip(rows, sizes, strict=True))
-    return felt(model, Cells(tuple(sites), at, unit, blocks, into, extend))
+    kept = _moving(model, blocks)
+    put = extend and (lambda problem, values, *how: extend(problem, kept, values, *how))
+    return None if len(kept) < FEWEST else Cells(tuple(sites), at, unit, blocks, into, put).some(kept)

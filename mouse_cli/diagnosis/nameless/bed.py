@@ -56,9 +56,10 @@ def _at_dofs(model: Reduced) -> Cells | None:
     sites = [named_dof(structure, int(i)) for i in own]
     unit = lowest(model) * total_mass(model) / max(len(own), 1) / _FIRST
 
-    def extend(problem: Problem, values: np.ndarray, spread: float) -> Problem:
-        shares = [(site.text, float(v), (np.array([i]), np.array([i]), np.array([unit])))
-                  for site, i, v in zip(sites, own, values, strict=True)]  # fmt: skip
+    def extend(problem: Problem, kept: np.ndarray, values: np.ndarray, spread: float) -> Problem:
+        shares = [
+            (sites[k].text, float(v), (own[[k]], own[[k]], sizes[[k]])) for k, v in zip(kept, values, strict=True)
+        ]
         return with_shares(problem, "bed", shares, spread)
 
     (at, metres), sizes = places(structure), np.full(len(own), unit)

@@ -36,8 +36,8 @@ def _of_dofs(model: Reduced) -> Cells | None:
     sites: list[Site] = [named_dof(structure, int(i)) for i in own]
     sizes = np.full(len(own), _unit(model) / max(len(own), 1) ** 2)
 
-    def extend(problem: Problem, values: np.ndarray, spread: float, sign: int) -> Problem:
-        return with_tie(problem, own, values * np.sqrt(sizes), sign)
+    def extend(problem: Problem, kept: np.ndarray, values: np.ndarray, spread: float, sign: int) -> Problem:
+        return with_tie(problem, own[kept], values * np.sqrt(sizes[kept]), sign)
 
     rows, at = model.V[own], own[:, None].astype(float)
     put = extend if of_matrices(model.problem) else None

@@ -25,9 +25,10 @@ def _diagonal(model: Reduced) -> Cells | None:
     own = np.flatnonzero(mass > 0) if keep is None else np.flatnonzero(keep & (mass > 0))
     sites = [named_dof(model.problem.structure, int(i)) for i in own]
 
-    def extend(problem: Problem, values: np.ndarray, spread: float) -> Problem:
-        shares = [(site.text, float(v), (np.array([i]), np.array([i]), mass[[i]]))
-                  for site, i, v in zip(sites, own, values, strict=True)]  # fmt: skip
+    def extend(problem: Problem, kept: np.ndarray, values: np.ndarray, spread: float) -> Problem:
+        shares = [
+            (sites[k].text, float(v), (own[[k]], own[[k]], mass[own[[k]]])) for k, v in zip(kept, values, strict=True)
+        ]
         return with_shares(problem, "mass", shares, spread)
 
     at, unit = places(model.problem.structure)
