@@ -29,6 +29,7 @@ def made_up(*groups: str, misfit: float = 20.0, dof: int = 20, z=(0.3, -0.4), na
         "elsewhere": (),
         "c": np.zeros(len(groups)),
         "data": data,
+        "groups": [recipe.group(0.0) for recipe in recipes],
     } | more
     model = SimpleNamespace(base=base, k=2, own=[slice(i, i + 1) for i in range(len(groups))])
     point = SimpleNamespace(x=np.asarray(z, float))

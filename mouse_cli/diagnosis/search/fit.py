@@ -43,6 +43,11 @@ class End:
         """Coordinates of the causes."""
         return self.point.x[self.model.k :]
 
+    @property
+    def groups(self) -> list[str]:
+        """Groups of the causes, each where the search left it."""
+        return [recipe.group(self.c[own]) for recipe, own in zip(self.recipes, self.model.own, strict=True)]
+
 
 @dataclass(frozen=True)
 class Fit(End):

@@ -69,8 +69,7 @@ class Ranking:
 
 def group(one: Fit) -> str:
     """Groups of the mechanisms of a fit, as it found them; the key of a rival that has no name."""
-    parts = zip(one.recipes, one.model.own, strict=True)
-    return unnamed(one) or joined([recipe.group(one.c[own]) for recipe, own in parts])
+    return unnamed(one) or joined(one.groups)
 
 
 def _joined(one: Fit) -> str:

@@ -22,10 +22,7 @@ _SETTLED = 0.05  # of the cost in nats, at which a step is no more worth its tim
 _LEAST = 64  # samples of a horizon
 _PATIENCE, _BEHIND = 3, 2.0  # steps of a fit whose cost is so many times that of a better one
 _HALVED = 10  # times that a start without stiffness is brought nearer to the mean
-_PROBE, _LESS = (
-    0.1,
-    0.75,
-)  # share of a step at which its curvature is seen; most that the second order may be of the first
+_PROBE, _LESS = 0.1, 0.75  # share of a step where its curvature is seen; most of the second order by the first
 _PERTURBED = 1e-4  # of prior or range
 _SPEEDS, _TRIED = 2.5, 33  # speeds that no channel shows: how far, by their rms, and how many at a time
 
@@ -88,16 +85,19 @@ class Fit:
         return self.hypothesis.parts
 
     @property
+    def groups(self) -> list[str]:
+        """Groups of its laws."""
+        return [part.law.group for part in self.hypothesis.parts]
+
+    @property
     def causes(self) -> tuple[Cause, ...]:
         """Its laws at their places, with their sizes."""
         sd = np.sqrt(np.abs(np.diag(self.covariance)))[self.hypothesis.nuisances :]
         found = []
         for part, p in self.hypothesis.sizes(self.x[None]):
             own, sd = sd[: len(part.unknowns)], sd[len(part.unknowns) :]
-            sizes = tuple(
-                Size(u.name, u.unit, float(v), float(v * s), u.lower, u.upper)
-                for u, v, s in zip(part.unknowns, p[:, 0], own, strict=True)
-            )
+            values = zip(part.unknowns, p[:, 0], own, strict=True)
+            sizes = tuple(Size(u.name, u.unit, float(v), float(v * s), u.lower, u.upper) for u, v, s in values)
             found.append(Cause(part.law.key, part.law.group, part.title, part.place.site, sizes))
         return tuple(found)
 
