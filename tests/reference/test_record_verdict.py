@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 from two_masses import linear, record
 
 from mouse_cli.cli.main import cli
-from mouse_cli.diagnosis.likelihoods.history.search import Weighed, hidden
+from mouse_cli.diagnosis.likelihoods.history.search import Weighed, doubled, hidden
 from mouse_cli.diagnosis.likelihoods.history.verdict import decided, far, ranked
 from mouse_cli.formats import read_deck
 from mouse_cli.model.diagnosis import Rest
@@ -21,6 +21,7 @@ from mouse_cli.report.verdict_sentences import remains
 from mouse_cli.terms.laws import registry
 from mouse_cli.updating.recordings.adequacy import missing, shift_p, shifted, unlikely
 from mouse_cli.updating.recordings.records import _floor, records
+from mouse_cli.updating.recordings.regression import Start
 from mouse_cli.updating.recordings.study import fitted, study
 from mouse_cli.updating.recordings.uncertain import UNDAMPED, uncertain
 from mouse_cli.updating.recordings.validation import ratio
@@ -268,3 +269,13 @@ def test_what_predicts_worse_or_leaves_its_prior_is_no_name(weighed_laws):
     assert worse.kind == "unknown" and worse.refuted == ("smooth-stiffness",) and "1.2 times" in worse.cautions[0]
     distant = said(0.3, baseline, replace(law, x=np.concatenate([[-6.3], law.x[1:]])))
     assert distant.kind == "unknown" and "k1 is -6.3 prior sd from its mean" in distant.cautions[0]
+
+
+def test_two_laws_of_one_group_at_one_place_are_one(weighed_laws):
+    """Dry friction with and without a spring before it slip alike: their forces add up to one, and no record tells their shares."""
+    here = weighed_laws[1].hypothesis.place
+    there = replace(here, site=replace(here.site, text="elsewhere"))
+    first = weighed_laws[0].hypothesis.placed(here).at(registry()["coulomb"], 0)
+    beside = lambda key, place: Start(first.placed(place).at(registry()[key], 0), np.zeros(0), 0.0)
+    assert doubled(beside("coulomb", here)) and doubled(beside("friction", here))
+    assert not doubled(beside("friction", there)) and not doubled(beside("spring", here))

@@ -154,9 +154,9 @@ def _where(one: Fit) -> tuple[str, str]:
 
 
 def _beside(study: Study, notice: Notice, known: list[Law] | None, first: Fit, others: list[Fit]) -> list[Fit]:
-    """Fits of `first` with a second law; two laws of one kind at one place are one."""
+    """Fits of `first` with a second law; two laws of one group at one place are one."""
     looks = (study.looked(place, study.spectrum, first) for place in study.places)
-    order = [one for one in _varied(starts(looks, known)) if not _doubled(one)]
+    order = [one for one in _varied(starts(looks, known)) if not doubled(one)]
     found: list[Fit] = []
     for start in order[:_SECONDS]:
         notice(_named(start))
@@ -166,9 +166,10 @@ def _beside(study: Study, notice: Notice, known: list[Law] | None, first: Fit, o
     return found
 
 
-def _doubled(start: Start) -> bool:
-    keys = [(part.law.key, part.place.site.text) for part in start.hypothesis.parts]
-    return len({*keys}) < len(keys)
+def doubled(start: Start) -> bool:
+    """Whether two of its laws are of one group at one place: one law in two manners, whose shares no record tells."""
+    groups = [(part.law.group, part.place.site.text) for part in start.hypothesis.parts]
+    return len({*groups}) < len(groups)
 
 
 def _other(study: Study, pair: Fit, tried: list[tuple[str, str]]) -> Fit | None:
