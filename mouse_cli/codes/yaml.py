@@ -149,7 +149,8 @@ CODES = {
     ),
     "MD231": Code(
         "file outside the folder of the deck",
-        "A deck, or a manifest, may name only files in its own folder or below, so that one from elsewhere reads nothing else. "
+        "A deck, a manifest or a job to import may name only files in its own folder or below, so that one from elsewhere reads "
+        "nothing else. "
         "Absolute paths, '..' and links that lead out are refused; so are links that lead out of a folder in which decks were "
         "searched.",
         "Put the file beside the deck and give its name alone; or, where you know what the deck reads, allow it: "

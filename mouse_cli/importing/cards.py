@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 from mouse_cli._errors import ERROR, DeckError, Diagnostic
 from mouse_cli._span import Span
+from mouse_cli.formats import below
 from mouse_cli.formats.data_files import line_span, reject, text_lines
 
 _MOST = 40  # findings that one reading lists
@@ -57,10 +58,13 @@ class Faults:
             raise DeckError(self.found)
 
 
-def cards(path: str) -> list[Card]:
-    """All cards of a file, those of included files among them. Raises DeckError (MD250 to MD267)."""
+def cards(path: str, outside: bool = False) -> list[Card]:
+    """All cards of a file, those of included files among them, which lie below its folder or anywhere (`outside`).
+
+    Raises DeckError (MD231, MD250 to MD267).
+    """
     found: list[Card] = []
-    for line in _lines(path, ()):
+    for line in _lines(path, (), outside):
         if line.text.lstrip().startswith("*"):
             found.append(_card(line))
         elif found:
@@ -72,7 +76,7 @@ def cards(path: str) -> list[Card]:
     return found
 
 
-def _lines(path: str, above: tuple[str, ...]) -> Iterator[Line]:
+def _lines(path: str, above: tuple[str, ...], outside: bool) -> Iterator[Line]:
     """Lines without comments and blank ones; those of keywords with what continues them; those of included files in their place."""
     head: Line | None = None
     for number, text in enumerate(text_lines(path), 1):
@@ -89,19 +93,17 @@ def _lines(path: str, above: tuple[str, ...]) -> Iterator[Line]:
             continue
         line, head = head, None
         if _keyword(line.text) == "INCLUDE":
-            yield from _included(line, path, above)
+            yield from _included(line, path, above, outside)
         else:
             yield line
     if head is not None:
         yield head
 
 
-def _included(line: Line, path: str, above: tuple[str, ...]) -> Iterator[Line]:
+def _included(line: Line, path: str, above: tuple[str, ...], outside: bool) -> Iterator[Line]:
     """Lines of the file that *INCLUDE names: relative to the file that names it, or to the job."""
     name = _options(line.text).get("INPUT", "").strip("\"'")
-    first = above[0] if above else path
-    places = [os.path.join(os.path.dirname(each), name) for each in (path, first)]
-    target = next((place for place in places if name and os.path.isfile(place)), None)
+    target = _named(line, name, path, above[0] if above else path, outside) if name and "\0" not in name else None
     if target is None:
         message = f"the included file '{name[:80]}' does not exist" if name else "*INCLUDE names no file"
         reject("MD266", path, message, "put the file beside the job, or mend INPUT=", line.span)
@@ -109,7 +111,25 @@ def _included(line: Line, path: str, above: tuple[str, ...]) -> Iterator[Line]:
     if any(os.path.samefile(target, each) for each in chain):
         message = f"'{name[:80]}' includes itself, by way of {' > '.join(map(os.path.basename, chain))}"
         reject("MD267", path, message, "take one of the *INCLUDE lines out", line.span)
-    yield from _lines(target, chain)
+    yield from _lines(target, chain, outside)
+
+
+def _named(line: Line, name: str, path: str, job: str, outside: bool) -> str | None:
+    """The file called `name` beside the file `path` or the `job`; None where there is none. Raises DeckError (MD231, MD250)."""
+    refused = None
+    for each in dict.fromkeys((path, job)):
+        place = os.path.join(os.path.dirname(each), name)
+        allowed = below.named if os.path.isabs(name) else below.found
+        try:
+            allowed(os.path.dirname(job), place, outside, "the folder of the job")
+        except below.Refused as error:
+            refused = refused or error
+            continue
+        if os.path.isfile(place):
+            return place
+    if refused is not None:
+        reject(refused.code, path, f"*INCLUDE names '{name[:200]}', {refused}", refused.help, line.span)
+    return None
 
 
 def _card(line: Line) -> Card:

@@ -9,10 +9,13 @@ from mouse_cli.importing.model import InputModel, Material
 from mouse_cli.importing.supports import supports
 
 
-def read(path: str) -> InputModel:
-    """The model of an input file. Raises DeckError (MD250 to MD273) with all that is wrong, by file and line."""
+def read(path: str, outside: bool = False) -> InputModel:
+    """The model of an input file; outside: it may include files outside of its folder.
+
+    Raises DeckError (MD231 to MD273) with all that is wrong, by file and line.
+    """
     model, faults = InputModel(path), Faults()
-    every = cards(path)
+    every = cards(path, outside)
     known = [card for card in every if _understood(card, model, faults)]
     faults.stop()
     _steps(known, model, faults)

@@ -44,9 +44,14 @@ class Imported:
         return "\n".join(found)
 
 
-def imported(path: str, target: Path, system: str | None, cached: bool, say: Callable[[str], None]) -> Imported:
-    """Makes the deck `target` of the input file `path`; say: told what is going on. Raises DeckError, WrittenError."""
-    model = read(path)
+def imported(
+    path: str, target: Path, system: str | None, cached: bool, say: Callable[[str], None], outside: bool = False
+) -> Imported:
+    """Makes the deck `target` of the input file `path`; say: told what is going on. Raises DeckError, WrittenError.
+
+    outside: the file may include others from outside of its folder.
+    """
+    model = read(path, outside)
     if not calculix.available():
         message = "CalculiX (ccx) is not on the path: nothing can export K and M"
         help = "install it (Debian, Ubuntu: apt install calculix-ccx), or export by hand as docs/how-to/import-models.md says"

@@ -377,7 +377,7 @@ def test_every_command_that_reads_decks_may_be_allowed_outside():
     for name in _registry.names("mouse_cli.cli.commands"):
         command = cli.get_command(None, name)
         reads = any(
-            each.param_type_name == "argument" and each.name in ("deck", "decks", "source", "sources")
+            each.param_type_name == "argument" and each.name in ("deck", "decks", "job", "source", "sources")
             for each in command.params
         )
         assert reads == any("--allow-outside" in each.opts for each in command.params), name

@@ -205,6 +205,27 @@ def test_included_files_tell_their_own_name_and_line(tmp_path):
     assert (Path(span.file).name, span.line) == ("part.inc", 2)
 
 
+@pytest.mark.parametrize("way", ["up", "absolute", "link", "nested"])
+def test_no_include_leads_out_of_the_folder_of_the_job(tmp_path, way):
+    """Unless it is allowed; what a file in a folder below includes from the folder of the job is within."""
+    (tmp_path / "job" / "sub").mkdir(parents=True)
+    outside = tmp_path / "part.inc"
+    outside.write_text("*NSET, NSET=MORE\n1, 77\n")
+    (tmp_path / "job" / "link.inc").symlink_to(outside)
+    (tmp_path / "job" / "sub" / "sub.inc").write_text("*INCLUDE, INPUT=../../part.inc\n")
+    name = {"up": "../part.inc", "absolute": str(outside), "link": "link.inc", "nested": "sub/sub.inc"}[way]
+    job = written(tmp_path / "job", BAR + f"*INCLUDE, INPUT={name}\n")
+    with pytest.raises(DeckError, match="MD231") as refused:
+        read(job)
+    assert "--allow-outside" in refused.value.diagnostics[0].help
+    with pytest.raises(DeckError, match="77"):  # of the file itself, which names a node that is not there
+        read(job, outside=True)
+    (tmp_path / "job" / "part.inc").write_text("*NSET, NSET=MORE\n1, 77\n")
+    (tmp_path / "job" / "sub" / "sub.inc").write_text("*INCLUDE, INPUT=../part.inc\n")
+    with pytest.raises(DeckError, match="77"):
+        read(written(tmp_path / "job", BAR + "*INCLUDE, INPUT=sub/sub.inc\n"))
+
+
 def test_keywords_without_effect_are_listed(tmp_path):
     model = read(written(tmp_path, BAR + "*STEP\n*FREQUENCY\n5\n*NODE FILE\nU\n*END STEP\n"))
     assert model.ignored == {"HEADING": 1, "FREQUENCY": 1, "NODE FILE": 1}

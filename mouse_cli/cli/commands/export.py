@@ -2,7 +2,7 @@
 
 import click
 
-from mouse_cli.cli._options import QUIET, options
+from mouse_cli.cli._options import OUTSIDE, QUIET, options, outside
 
 
 @click.command()
@@ -19,6 +19,7 @@ from mouse_cli.cli._options import QUIET, options
 @click.option("--modes", default=12, show_default=True, type=click.IntRange(1), help="With --shapes: how many modes.")
 @click.option("-o", "--output", metavar="FILE", help="Write the cards to FILE instead of standard output.")
 @options(QUIET)
+@options(OUTSIDE)
 def command(
     deck: str,
     program: str | None,
@@ -76,7 +77,7 @@ def _constants(job: str | None) -> dict:
     from mouse_cli.importing.read import read
 
     found = {}
-    for name, material in read(job).materials.items():
+    for name, material in read(job, outside()).materials.items():
         if material.isotropic:
             words = material.elastic.lines[0].words
             found[name] = (material.E, float(words[1]) if len(words) > 1 and words[1] else 0.0, material.rho or None)

@@ -2,7 +2,7 @@
 
 import click
 
-from mouse_cli.cli._options import QUIET, options
+from mouse_cli.cli._options import OUTSIDE, QUIET, options, outside
 
 
 @click.command("import")
@@ -16,6 +16,7 @@ from mouse_cli.cli._options import QUIET, options
 )  # fmt: skip
 @click.option("--no-cache", is_flag=True, help="Run the solver even where an earlier import left its matrices.")
 @options(QUIET)
+@options(OUTSIDE)
 def command(job: str, output: str | None, units: str | None, no_cache: bool, quiet: bool) -> int:
     """Make a deck of JOB, an input file (.inp) of Abaqus or CalculiX.
 
@@ -29,7 +30,7 @@ def command(job: str, output: str | None, units: str | None, no_cache: bool, qui
 
     target = Path(output) if output else Path(Path(job).stem + ".yaml")
     with progress() as (_, tell):
-        found = imported(job, target, units, not no_cache, tell)
+        found = imported(job, target, units, not no_cache, tell, outside())
     if not quiet:
         show_diagnostics(found.remarks)
     say(found.text())
