@@ -138,12 +138,21 @@ def _next_rival(ranking: Ranking, model: Reduced, best: Fit, proof: HeldOut, rea
 
 
 def _unknown(ranking: Ranking, model: Reduced, best: Fit | None, proof, struck: tuple, reasons: tuple) -> Verdict:
-    """No name; what has none is given where its odds over the model as it is are enough for one."""
-    at = next((i for i, one in enumerate(ranking.fits) if one.nameless), None)
-    field = None if at is None else ranking.fits[at]
-    if field is None or not ranking.log_odds[at] > ODDS:
+    """No name; what has none is given where its odds over the model as it is are enough for one.
+
+    Of several that which all data make the most probable, those that the deck holds out among them: a law at one place fits modes
+    one by one, and says nothing of others.
+    """
+    fields = [each for each in zip(ranking.log_odds, ranking.fits, strict=True) if each[1].nameless and each[0] > ODDS]
+    if not fields:
         return Verdict(UNKNOWN, best, proof, struck, reasons=reasons)
-    return Verdict(UNKNOWN, best, proof, struck, field, held_out(model, ranking.baseline, field), reasons)
+    proofs = [held_out(model, ranking.baseline, fields[0][1])]
+    if proofs[0] is not None and proofs[0].kind == BY_DECK:
+        proofs += [held_out(model, ranking.baseline, one) for _, one in fields[1:]]
+    first = int(
+        np.argmax([odds + _gain(own) / ranking.noise_scale for (odds, _), own in zip(fields, proofs, strict=False)])
+    )
+    return Verdict(UNKNOWN, best, proof, struck, fields[first][1], proofs[first], reasons)
 
 
 def leader(ranking: Ranking) -> Fit | None:

@@ -199,6 +199,17 @@ def test_fields_are_scored_by_property_and_region():
     assert scored("x", bed, verdict("unknown", None, None, field=None)).field == (None, None)
 
 
+def test_what_is_held_out_is_predicted_by_the_model_of_the_answer():
+    """Where there is no name that is the one with the field in it, not that of a mechanism which was rejected."""
+    bed = next(trials(1, 1, ["outside/beam/half bed"]))
+    held = lambda after: {"measured_hz": [100.0], "baseline": {"hz": [110.0]}, "revised": {"hz": [after]}}
+    field = {"property": "mass", "sites": [{"ids": [1], "value": 1.0}], "held_out": held(101.0)}
+    said = verdict("unknown", None, None, field=field)
+    assert scored("x", bed, said | {"held_out": held(108.0)}).gain == pytest.approx((10.0, 1.0))
+    said = verdict("one-of", "mass", "mass", 0.1)
+    assert scored("x", bed, said | {"held_out": held(108.0)}).gain == pytest.approx((10.0, 8.0))
+
+
 def test_calibration_error():
     p, true = np.array([0.92] * 10 + [0.55] * 10), np.array([1] * 9 + [0] + [1] * 5 + [0] * 5)
     assert calibration_error(p, true) == pytest.approx(0.5 * 0.02 + 0.5 * 0.05)

@@ -295,3 +295,14 @@ def test_an_oscillator_above_the_band_is_a_mass():
     recipe = Study(reduced(problem, problem.prior.mean)).recipes("oscillator")[0]
     within = lambda f: recipe.group(recipe.coordinates(np.array([0.01, f, 0.5])))
     assert [within(f) for f in (1.1 * hz.max(), hz.mean(), 0.9 * hz.min())] == ["mass", "oscillator", "ground-spring"]
+
+
+def test_of_fields_that_which_predicts_is_given(proofs):
+    """The data that the deck holds out count with those that were fitted."""
+    law, bed = made_up(nameless="law"), made_up(nameless="field-bed")
+    ranking = ranked(law, bed, BARE, p=(0.9, 0.09, 0.01), odds=(60.0, 50.0, 0.0))
+    proofs |= {"law": 0.0, "field-bed": 5.0}
+    assert judge(ranking, True, None).field is law
+    proofs |= {"field-bed": 15.0}
+    found = judge(ranking, True, None)
+    assert (found.kind, found.field) == (UNKNOWN, bed) and found.field_proof.revised.log_predictive_density == 15.0
