@@ -202,7 +202,7 @@ def _field(verdict: dict, truth: dict) -> tuple[bool | None, bool | None]:
 
 
 def _gain(document: dict) -> tuple[float, float] | None:
-    """rms error in % of frequencies held out, before and after, by the model of the answer: where there is no name by the field's."""
+    """rms error in % of frequencies held out, before and after, by the model of the answer: without a name that of the field."""
     field = document["verdict"].get("field") or {}
     held = field.get("held_out") or document.get("held_out") or {}
     before, after = held.get("baseline"), held.get("revised")
