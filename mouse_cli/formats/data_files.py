@@ -68,7 +68,7 @@ def reader(package: str, path: str, what: str) -> Any:
 
     Raises DeckError (MD250, MD251, MD252, MD258) when there is no such file, or none of the formats is its.
     """
-    _check(path)
+    existing(path)
     suffix = os.path.splitext(path)[1].lower().removeprefix(".")
     formats = _registry.discover(package, "FORMAT").values()
     own = [each for each in formats if suffix in (each.suffixes or (each.key,))]
@@ -127,7 +127,8 @@ def text_lines(path: str, encoding: str = "latin-1", errors: str = "strict") -> 
         return stream.read().split("\n")
 
 
-def _check(path: str) -> None:
+def existing(path: str) -> None:
+    """Raise DeckError (MD250) where a path is no file, or one too large for the memory."""
     if not os.path.exists(path):
         reject("MD250", path, "there is no such file", "check the name; paths are relative to the deck")
     if not os.path.isfile(path):

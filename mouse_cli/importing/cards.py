@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from mouse_cli._errors import ERROR, DeckError, Diagnostic
 from mouse_cli._span import Span
 from mouse_cli.formats import below
-from mouse_cli.formats.data_files import line_span, reject, text_lines
+from mouse_cli.formats.data_files import existing, line_span, reject, text_lines
 
 _MOST = 40  # findings that one reading lists
 
@@ -63,6 +63,7 @@ def cards(path: str, outside: bool = False) -> list[Card]:
 
     Raises DeckError (MD231, MD250 to MD267).
     """
+    existing(path)
     found: list[Card] = []
     for line in _lines(path, (), outside):
         if line.text.lstrip().startswith("*"):

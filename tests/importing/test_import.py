@@ -187,6 +187,15 @@ REFUSED = {
 }
 
 
+@pytest.mark.parametrize("job", ["absent.inp", "."])
+def test_a_job_that_is_no_file(tmp_path, monkeypatch, job):
+    """It is a fault of what was given, not of writing the answer."""
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(DeckError) as refused:
+        read(job)
+    assert refused.value.diagnostics[0].code == "MD250"
+
+
 @pytest.mark.parametrize("name", REFUSED)
 def test_bad_input_is_refused_by_file_and_line(tmp_path, name):
     text, code, line = REFUSED[name]
