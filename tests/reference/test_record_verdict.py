@@ -279,3 +279,5 @@ def test_two_laws_of_one_group_at_one_place_are_one(weighed_laws):
     beside = lambda key, place: Start(first.placed(place).at(registry()[key], 0), np.zeros(0), 0.0)
     assert doubled(beside("coulomb", here)) and doubled(beside("friction", here))
     assert not doubled(beside("friction", there)) and not doubled(beside("spring", here))
+    first = weighed_laws[0].hypothesis.placed(here).at(registry()["cubic"], 0)  # the odd term of a series
+    assert doubled(beside("cubic", here)) and not doubled(beside("quadratic", here))

@@ -20,6 +20,7 @@ _FIRST_ORDER = (
     0.02  # of what is missing: error of first looks, where nuisances that leave their prior explain it by first order
 )
 _TAKEN = 0.5  # of what may be noise, that a law leaves at most to be more than it
+_SERIES = "smooth-stiffness"  # group of laws that are terms of one power series
 _END = 0.01  # of the logarithm of a range, from its end
 _ROUNDS, _SECONDS = 3, 4  # laws beside which a second one is sought, and starts of it that are fitted
 
@@ -167,9 +168,13 @@ def _beside(study: Study, notice: Notice, known: list[Law] | None, first: Fit, o
 
 
 def doubled(start: Start) -> bool:
-    """Whether two of its laws are of one group at one place: one law in two manners, whose shares no record tells."""
-    groups = [(part.law.group, part.place.site.text) for part in start.hypothesis.parts]
-    return len({*groups}) < len(groups)
+    """Whether two of its laws are of one group at one place: one law in two manners, whose shares no record tells.
+
+    Smooth stiffness is a power series there: its terms, the even and the odd ones, add up.
+    """
+    laws = [(part.law.key if part.law.group == _SERIES else part.law.group, part.place.site.text)
+            for part in start.hypothesis.parts]  # fmt: skip
+    return len({*laws}) < len(laws)
 
 
 def _other(study: Study, pair: Fit, tried: list[tuple[str, str]]) -> Fit | None:
