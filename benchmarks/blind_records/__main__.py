@@ -3,12 +3,14 @@
 import argparse
 import json
 import tempfile
-from collections import Counter
+from collections.abc import Callable, Iterable
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
+from benchmarks.blind.diagnose import diagnosed
 from benchmarks.blind_records.chain import LAWS, SPLITS, Chain, chains
 from benchmarks.blind_records.decks import answer, write
 from benchmarks.blind_records.verify import verify
@@ -33,10 +35,10 @@ def main() -> None:
             flush=True,
         )
         results = []
-        for case, (known, found) in zip(cases, pool.map(_judged, paths), strict=True):
+        for case, (known, found) in zip(cases, pool.map(judged, paths), strict=True):
             results.append((case, *outcome(known, found), found["seconds"]))
             print(f"  {case.name:36} {results[-1][1]:10} {results[-1][2]}  {found['seconds']:.0f} s", flush=True)
-    print(table(results))
+    print(table(results, LAWS, lambda case: case.law, "all laws"))
 
 
 def _made(case: Chain, folder: Path, half: bool) -> tuple[Path, Path, Path]:
@@ -52,22 +54,11 @@ def _made(case: Chain, folder: Path, half: bool) -> tuple[Path, Path, Path]:
     return path, known, folder / "found" / f"{path.stem}.json"
 
 
-def _judged(paths: tuple[Path, Path, Path]) -> tuple[dict, dict]:
-    """What `mouse diagnose --json` says of a deck, beside the answer."""
-    import resource
-    import subprocess
-    import sys
-
-    deck, known, told = paths
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    done = subprocess.run(
-        [sys.executable, "-m", "mouse_cli", "diagnose", str(deck), "--json", "-q"], capture_output=True, text=True
-    )
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    found = json.loads(done.stdout) if done.returncode in (0, 1) else {"refused": done.stderr}
-    found["seconds"] = seconds
-    told.write_text(json.dumps(found))
+def judged(paths: tuple[Path, Path, Path]) -> tuple[dict, dict]:
+    """Of deck, answer and finding: the answer, and what `mouse diagnose --json` says of the deck, which is kept."""
+    deck, known, finding = paths
+    found = diagnosed(deck)
+    finding.write_text(json.dumps(found))
     return json.loads(known.read_text()), found
 
 
@@ -86,17 +77,18 @@ def outcome(known: dict, found: dict) -> tuple[str, str]:
     return (MISSED if kind == "nothing-missing" else ABSTAINED), said
 
 
-def table(results: list[tuple]) -> str:
-    """Outcomes by law; processor seconds."""
+def table(results: list[tuple], kinds: Iterable[str], of: Callable[[Any], str], every: str) -> str:
+    """Outcomes by kind of a case, `of` it, controls as `none`, and of all that are no controls; processor seconds."""
+    row = lambda title, some: (
+        f"{title:20}" + "".join(f"{[one[1] for one in some].count(name):>11}" for name in OUTCOMES)
+    )
     lines = [f"{'truth':20}" + "".join(f"{name:>11}" for name in OUTCOMES)]
-    for law in (*LAWS, "none"):
-        count = Counter(one[1] for one in results if one[0].law == law)
-        if count:
-            lines.append(f"{law:20}" + "".join(f"{count[name]:>11}" for name in OUTCOMES))
-    faults = [one for one in results if one[0].law != "none"]
-    count = Counter(one[1] for one in faults)
-    lines.append(f"{'all laws':20}" + "".join(f"{count[name]:>11}" for name in OUTCOMES) + f"   of {len(faults)}")
+    for kind in (*kinds, "none"):
+        own = [one for one in results if of(one[0]) == kind]
+        lines += [row(kind, own)] if own else []
+    faults = [one for one in results if of(one[0]) != "none"]
     seconds = [one[3] for one in results]
+    lines.append(row(every, faults) + f"   of {len(faults)}")
     lines.append(f"processor seconds for a diagnosis: median {np.median(seconds):.1f}, largest {max(seconds):.1f}")
     return "\n".join(lines)
 

@@ -48,6 +48,11 @@ def run(chain: Chain, given: np.ndarray, h: float, speed: float = 0.0) -> np.nda
         ops.timeSeries("Path", 1, "-dt", h, "-values", *given.tolist(), "-prependZero")
         ops.pattern("Plain", 1, 1)
         ops.load(chain.driven + 1, 1.0)
+    return recorded(ops, n, len(given), h, "accel", chain.name)
+
+
+def recorded(ops, n: int, steps: int, h: float, what: str, name: str) -> np.ndarray:
+    """Motion `what` (t, n) of nodes 1 to n in so many steps h of the model that stands, by Newmark's average acceleration."""
     ops.constraints("Plain")
     ops.numberer("Plain")
     ops.system("FullGeneral")
@@ -56,10 +61,10 @@ def run(chain: Chain, given: np.ndarray, h: float, speed: float = 0.0) -> np.nda
     ops.integrator("Newmark", 0.5, 0.25)
     ops.analysis("Transient")
     with TemporaryDirectory() as folder:
-        path = Path(folder) / "a.out"
-        ops.recorder("Node", "-file", str(path), "-precision", 12, "-node", *range(1, n + 1), "-dof", 1, "accel")
-        if ops.analyze(len(given), h):
-            raise RuntimeError(f"OpenSees did not finish {chain.name}")
+        path = Path(folder) / "motion.out"
+        ops.recorder("Node", "-file", str(path), "-precision", 12, "-node", *range(1, n + 1), "-dof", 1, what)
+        if ops.analyze(steps, h):
+            raise RuntimeError(f"OpenSees did not finish {name}")
         ops.wipe()
         return np.loadtxt(path).reshape(-1, n)
 

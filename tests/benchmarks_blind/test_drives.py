@@ -10,7 +10,7 @@ from benchmarks.blind.drives.__main__ import outcome
 from benchmarks.blind.drives.decks import answer, write
 from benchmarks.blind.drives.draws import cases, limited, measured
 from benchmarks.blind.drives.exact import Drive, run
-from benchmarks.blind_records.__main__ import _judged as judged
+from benchmarks.blind_records.__main__ import judged
 from mouse_cli.formats import read_deck
 
 H = 1e-3

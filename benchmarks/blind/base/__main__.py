@@ -2,11 +2,7 @@
 
 import argparse
 import json
-import resource
-import subprocess
-import sys
 import tempfile
-from collections import Counter
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
@@ -14,7 +10,7 @@ import numpy as np
 
 from benchmarks.blind.base.decks import answer, write
 from benchmarks.blind.base.storeys import KINDS, Storeys, buildings
-from benchmarks.blind_records.__main__ import OUTCOMES, outcome
+from benchmarks.blind_records.__main__ import judged, outcome, table
 
 _RUNS = 2
 
@@ -30,10 +26,10 @@ def main() -> None:
     results = []
     with ProcessPoolExecutor(given.jobs) as pool:
         paths = list(pool.map(_made, cases, [folder] * len(cases)))
-        for case, (known, found) in zip(cases, pool.map(_judged, paths), strict=True):
+        for case, (known, found) in zip(cases, pool.map(judged, paths), strict=True):
             results.append((case, *outcome(known, found), found["seconds"]))
             print(f"  {case.name:28} {results[-1][1]:10} {results[-1][2]}  {found['seconds']:.0f} s", flush=True)
-    print(tabled(results))
+    print(table(results, KINDS, lambda case: case.kind, "all mechanisms"))
 
 
 def _made(case: Storeys, folder: Path) -> tuple[Path, Path, Path]:
@@ -49,33 +45,6 @@ def _made(case: Storeys, folder: Path) -> tuple[Path, Path, Path]:
     known = folder / "answers" / f"{path.stem}.json"
     known.write_text(json.dumps(answer(case)))
     return path, known, folder / "found" / f"{path.stem}.json"
-
-
-def _judged(paths: tuple[Path, Path, Path]) -> tuple[dict, dict]:
-    deck, known, told = paths
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    command = [sys.executable, "-m", "mouse_cli", "diagnose", str(deck), "--json", "-q"]
-    done = subprocess.run(command, capture_output=True, text=True)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    found = json.loads(done.stdout) if done.returncode in (0, 1) else {"refused": done.stderr}
-    found["seconds"] = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    told.write_text(json.dumps(found))
-    return json.loads(known.read_text()), found
-
-
-def tabled(results: list[tuple]) -> str:
-    """Outcomes by kind; processor seconds."""
-    lines = [f"{'truth':20}" + "".join(f"{name:>11}" for name in OUTCOMES)]
-    for kind in (*KINDS, "none"):
-        count = Counter(one[1] for one in results if one[0].kind == kind)
-        if count:
-            lines.append(f"{kind:20}" + "".join(f"{count[name]:>11}" for name in OUTCOMES))
-    faults = [one for one in results if one[0].kind != "none"]
-    count = Counter(one[1] for one in faults)
-    lines.append(f"{'all mechanisms':20}" + "".join(f"{count[name]:>11}" for name in OUTCOMES) + f"   of {len(faults)}")
-    seconds = [one[3] for one in results]
-    lines.append(f"processor seconds for a diagnosis: median {np.median(seconds):.1f}, largest {max(seconds):.1f}")
-    return "\n".join(lines)
 
 
 def _options() -> argparse.ArgumentParser:

@@ -1,13 +1,10 @@
 """Truths: motions of a building on a moving table from OpenSees, by its own elements, materials and modal damping."""
 
-from pathlib import Path
-from tempfile import TemporaryDirectory
-
 import numpy as np
 
 from benchmarks.blind.base.storeys import RATE, Storeys, table
+from benchmarks.blind_records.opensees import STEPS, limited, recorded
 
-STEPS = 16  # in a sample
 _POINTS = 4000  # of the curve of a softening storey
 
 
@@ -18,13 +15,6 @@ def motions(case: Storeys, run: int) -> tuple[np.ndarray, np.ndarray]:
     if not case.lvdt:
         found = found + given[:, None]
     return given[::STEPS], limited(found)
-
-
-def limited(fine: np.ndarray) -> np.ndarray:
-    """Samples (t, n) behind a steep low pass at 0.45 of the sample rate, as a data acquisition system gives them."""
-    lines = np.fft.rfft(fine, axis=0)
-    keep = np.fft.rfftfreq(len(fine), 1 / STEPS) <= 0.45
-    return np.fft.irfft(lines * keep[:, None], len(fine), axis=0)[::STEPS]
 
 
 def simulated(case: Storeys, given: np.ndarray, h: float, what: str) -> np.ndarray:
@@ -48,20 +38,7 @@ def simulated(case: Storeys, given: np.ndarray, h: float, what: str) -> np.ndarr
     _mechanism(ops, case)
     ops.timeSeries("Path", 1, "-dt", h, "-values", *given.tolist(), "-prependZero")
     ops.pattern("UniformExcitation", 1, 1, "-accel", 1)
-    ops.constraints("Plain")
-    ops.numberer("Plain")
-    ops.system("FullGeneral")
-    ops.test("NormUnbalance", 1e-9, 50)
-    ops.algorithm("Newton")
-    ops.integrator("Newmark", 0.5, 0.25)
-    ops.analysis("Transient")
-    with TemporaryDirectory() as folder:
-        path = Path(folder) / "u.out"
-        ops.recorder("Node", "-file", str(path), "-precision", 12, "-node", *range(1, n + 1), "-dof", 1, what)
-        if ops.analyze(len(given), h):
-            raise RuntimeError(f"OpenSees did not finish {case.name}")
-        ops.wipe()
-        return np.loadtxt(path).reshape(-1, n)
+    return recorded(ops, n, len(given), h, what, case.name)
 
 
 def _mechanism(ops, case: Storeys) -> None:

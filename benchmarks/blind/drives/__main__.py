@@ -10,7 +10,7 @@ import numpy as np
 
 from benchmarks.blind.drives.decks import answer, write
 from benchmarks.blind.drives.draws import Case, cases
-from benchmarks.blind_records.__main__ import _judged as judged
+from benchmarks.blind_records.__main__ import judged
 
 OUTCOMES = ("right", "inexact", "wrong", "abstained", "missed")
 WITHIN = 0.05  # of the true force, for a right answer

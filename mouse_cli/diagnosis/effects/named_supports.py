@@ -1,4 +1,4 @@
-"""Named supports of imported matrices that give way: each moves as a rigid body on springs, in one direction or in all."""
+"""Flexible supports of imported matrices, by name: each moves as a rigid body on springs, in one direction or in all."""
 
 from dataclasses import dataclass
 
