@@ -28,6 +28,7 @@ from mouse_cli.model.proposal import SETTLES as SETTLES
 from mouse_cli.model.proposal import Effort as Effort
 from mouse_cli.model.proposal import Proposal as Proposal
 from mouse_cli.model.result import ChiSquareTest, Result
+from mouse_cli.model.shared_place import SharedPlace, shared_place
 from mouse_cli.model.site import EVERYWHERE as EVERYWHERE
 from mouse_cli.model.site import Site as Site
 
@@ -240,6 +241,13 @@ class Diagnosis:
         """Rival sites of the leader, and the probability of each among its sites; see `elsewhere`."""
         named = self.leader if self.certain is None else None
         return () if named is None else elsewhere(self.explanations, named)
+
+    @property
+    def shared(self) -> SharedPlace | None:
+        """What the rival sites of the leader have in common, where one mechanism moves from site to site; None: nothing."""
+        sites = [self.leader.sites, *(sites for sites, _ in self.elsewhere)] if self.elsewhere else []
+        moved = [one for one in zip(*sites, strict=True) if len(set(one)) > 1]
+        return shared_place(self.problem.mesh, moved[0]) if len(moved) == 1 and self.problem is not None else None
 
     @property
     def baseline(self) -> Explanation | None:

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from mouse_cli.model.diagnosis import EVERYWHERE, ONE_OF, UNKNOWN, Diagnosis, Field, HeldOut, Rest, Score, Site, Untried
+from mouse_cli.model.shared_place import SharedPlace
 from mouse_cli.report.json_values import dof_name
 from mouse_cli.report.verdict_sentences import sentences
 
@@ -26,6 +27,7 @@ def verdict(found: Diagnosis) -> dict[str, Any]:
         "members": dict(found.members) or None,
         "companions": [] if found.certain is None else [_share(*each) for each in found.certain.companions],
         "elsewhere": elsewhere(found.elsewhere),
+        "shared": shared(found.shared),
         "rivals": [name for name, _ in found.rivals] if found.kind == ONE_OF else [],
         "rest": rest(found.rest),
         "field": field(found.field),
@@ -40,6 +42,13 @@ def _share(group: str, p: float) -> dict[str, Any]:
 def elsewhere(found: Elsewhere) -> list[dict[str, Any]]:
     """Rival sites with the probability of each, given the physics."""
     return [{"sites": [site(each) for each in sites], "probability": p} for sites, p in found]
+
+
+def shared(found: SharedPlace | None) -> dict[str, Any]:
+    """What rival sites have in common."""
+    found = found or SharedPlace()
+    extents = {axis: (low, high) for axis, low, high in found.extents}
+    return {axis: extents.get(axis) for axis in "xyz"} | {"nodes": list(found.nodes)}
 
 
 def rest(found: Rest | None) -> dict[str, Any] | None:

@@ -7,6 +7,7 @@ from mouse_cli.report.sections._diagnosis_wording import (
     called,
     companions,
     grouped,
+    in_common,
     inside,
     lacking,
     leaders,
@@ -29,7 +30,7 @@ def sentences(found: Diagnosis) -> tuple[str, ...]:
     if found.kind == NAMED:
         return _named(found)
     if found.kind == ONE_OF:
-        return (_one_of(found), _separating(found))
+        return tuple(filter(None, (_one_of(found), _common(found), _separating(found))))
     return _unknown(found)
 
 
@@ -101,6 +102,13 @@ def _one_of(found: Diagnosis) -> str:
     return f"{likely} the model lacks {what}{f': {inside}' if inside else ''}."
 
 
+def _common(found: Diagnosis) -> str:
+    """What all sites share between which the test does not decide: where to look."""
+    if found.placed or found.shared is None:
+        return ""
+    return f"All of these sites share {in_common(found.shared, found.problem.units)}: an inspection there finds which it is."
+
+
 def _nameless(found: Diagnosis) -> tuple[str, ...]:
     """What has no name, where it is a rival."""
     return (f"a change that has no name ({with_p(found.nameless)})",) if found.nameless > RIVAL else ()
@@ -116,6 +124,12 @@ def _separating(found: Diagnosis) -> str:
     if not best.promise:
         best = max(found.proposals, key=lambda each: each.separation)
         tried = f"the best, {best.text}, has a predicted separation of {separation(best.separation)}"
+        if best.promise:  # it tells the leading one from another than the next
+            first, second = found.proposals[0].between
+            tells = (
+                f"{best.text} tells {first} from {best.between[1]} (predicted separation {separation(best.separation)})"
+            )
+            return f"No measurement that was tried tells {first} from {second}; {tells}."
         return f"None of the measurements that were tried will settle it; {tried}."
     return f"Measure this {aim}: {best.text} (predicted separation {separation(best.separation)}, {best.outlook})."
 

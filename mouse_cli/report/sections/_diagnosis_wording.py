@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from mouse_cli.model.diagnosis import NAMED, Cause, Diagnosis, Explanation, Site, Size, members
 from mouse_cli.model.groups import TITLES, enumerated
+from mouse_cli.model.shared_place import SharedPlace
 from mouse_cli.model.units import Units
 
 LEAST = 0.005  # probability within a group below which a member is not printed
@@ -172,10 +173,30 @@ def whereabouts(one: Explanation, units: Units, elsewhere: tuple[tuple[tuple[Sit
 
 
 def rivals_of_site(elsewhere: tuple[tuple[tuple[Site, ...], float], ...]) -> str:
-    """Rival sites with the probability of each; empty without any."""
+    """Rival sites with the probability of each; empty without any.
+
+    >>> rivals_of_site((((Site("node", (1, 8), text="between nodes 1 and 8"),), 0.4),))
+    '; or between nodes 1 and 8 (probability of this site 0.40)'
+    """
     what = lambda sites: "this site" if len(sites) == 1 else "these sites"
-    told = [f"; or at {_several([*map(place, s)])} (probability of {what(s)} {probable(p)})" for s, p in elsewhere]
+    at = lambda text: text if text.startswith("between") else f"at {text}"
+    told = [f"; or {at(_several([*map(place, s)]))} (probability of {what(s)} {probable(p)})" for s, p in elsewhere]
     return "".join(told)
+
+
+def in_common(found: SharedPlace, units: Units) -> str:
+    """What rival sites share, in words.
+
+    >>> in_common(SharedPlace((("y", 0.0, 0.0), ("z", 8.1, 11.2))), Units("mm", "t", "N"))
+    'y = 0 mm, z = 8.1 to 11.2 mm'
+    """
+    unit = f" {units.of('m')}" if units.declared else ""
+    told = [
+        f"{axis} = {low + 0.0:.4g}{'' if low == high else f' to {high + 0.0:.4g}'}{unit}"
+        for axis, low, high in found.extents
+    ]
+    nodes = f"node{'s' if len(found.nodes) > 1 else ''} {', '.join(map(str, found.nodes))}"
+    return ", ".join([*told, *([nodes] if found.nodes else [])])
 
 
 def _at(site: Site, units: Units) -> str:

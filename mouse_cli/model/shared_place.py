@@ -1,0 +1,52 @@
+"""What rival sites of one mechanism have in common: a wall, a storey, a line, a node."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.model.mesh import Mesh
+from mouse_cli.model.site import Site
+
+_SAME = 1e-6  # of the largest dimension of the structure: within which coordinates are the same
+
+
+@dataclass(frozen=True)
+class SharedPlace:
+    """extents: axis (`x`, `y` or `z`), from and to, in m, of those along which all sites reach alike; nodes (ids) that all touch.
+
+    An axis along which the whole structure reaches no further says nothing, and is left out.
+    """
+
+    extents: tuple[tuple[str, float, float], ...] = ()
+    nodes: tuple[int, ...] = ()
+
+
+def shared_place(mesh: Mesh | None, sites: Sequence[Site]) -> SharedPlace | None:
+    """What `sites` share; None where that is nothing, or one of them is neither nodes nor elements."""
+    found = [None if mesh is None else _nodes(mesh, site) for site in sites]
+    if len(found) < 2 or any(each is None for each in found):
+        return None
+    at = np.array([[mesh.coordinates[own].min(axis=0), mesh.coordinates[own].max(axis=0)] for own in found])
+    low, high = mesh.coordinates.min(axis=0), mesh.coordinates.max(axis=0)
+    near = _SAME * max(float((high - low).max()), 1e-300)
+    extents = tuple(
+        ("xyz"[d], float(at[0, 0, d]), float(at[0, 1, d]))
+        for d in range(3)
+        if np.ptp(at[:, :, d], axis=0).max() <= near and high[d] - low[d] > at[0, 1, d] - at[0, 0, d] + near
+    )
+    nodes = tuple(int(mesh.node_ids[i]) for i in sorted(set.intersection(*map(set, found))))
+    return SharedPlace(extents, nodes) if extents or nodes else None
+
+
+def _nodes(mesh: Mesh, site: Site) -> list[int] | None:
+    """Nodes (indices) of a site; None where it has none."""
+    ids = [i for i in site.ids if not isinstance(i, str)]
+    if site.kind == "node":
+        found = np.flatnonzero(np.isin(mesh.node_ids, ids))
+    elif site.kind == "element":
+        own = [each.nodes[np.isin(each.ids, ids)].ravel() for each in mesh.elements]
+        found = np.unique(np.concatenate(own)) if own else np.zeros(0, int)
+    else:
+        return None
+    return found.tolist() if len(found) else None

@@ -1,0 +1,70 @@
+"""What rival sites have in common, by the coordinates of a frame of two bays and two storeys."""
+
+from types import SimpleNamespace
+
+import numpy as np
+
+from mouse_cli.model.diagnosis import ONE_OF, Cause, Diagnosis, Effort, Explanation, Proposal, Site
+from mouse_cli.model.mesh import ElementSet, Mesh
+from mouse_cli.model.shared_place import SharedPlace, shared_place
+from mouse_cli.model.units import Units
+from mouse_cli.report.verdict_document import shared
+from mouse_cli.report.verdict_sentences import sentences
+
+# nodes 1 to 6 at y = 0: x = 0, 4, 8 at z = 0, then 3; 7 to 12 the same at y = 5; a top node 13
+XYZ = np.array([[x, y, z] for y in (0.0, 5.0) for z in (0.0, 3.0) for x in (0.0, 4.0, 8.0)] + [[4.0, 2.5, 6.0]])
+COLUMNS = ElementSet("beam", np.arange(21, 27), np.array([[i, i + 3] for i in (0, 1, 2, 6, 7, 8)]), {})
+MESH = Mesh(np.arange(1, 14), XYZ, (COLUMNS,), np.zeros((0, 2), int))
+
+
+def brace(one: int, other: int) -> Site:
+    middle = tuple(XYZ[[one - 1, other - 1]].mean(axis=0).tolist())
+    return Site("node", (one, other), middle, f"between nodes {one} and {other}")
+
+
+def test_diagonals_of_neighbouring_bays_share_wall_and_storey():
+    found = shared_place(MESH, (brace(1, 5), brace(2, 6)))
+    assert found == SharedPlace((("y", 0.0, 0.0), ("z", 0.0, 3.0)))
+    assert shared(found) == {"x": None, "y": (0.0, 0.0), "z": (0.0, 3.0), "nodes": []}
+
+
+def test_two_diagonals_of_a_panel_share_the_panel():
+    assert shared_place(MESH, (brace(1, 5), brace(2, 4))).extents == (("x", 0, 4), ("y", 0, 0), ("z", 0, 3))
+
+
+def test_columns_of_a_storey_share_it_and_nothing_else():
+    sites = tuple(Site("element", (i,)) for i in (21, 25))
+    assert shared_place(MESH, sites) == SharedPlace((("z", 0.0, 3.0),))
+
+
+def test_sites_at_one_node_share_it():
+    assert shared_place(MESH, (brace(5, 13), brace(5, 9))) == SharedPlace((), (5,))
+
+
+def test_what_the_whole_structure_does_is_nothing_in_common():
+    assert shared_place(MESH, (brace(1, 13), brace(9, 13))).extents == ()
+    assert shared_place(MESH, (brace(1, 10), brace(3, 13), Site("dof", ("1TX",)))) is None
+    assert shared_place(None, (brace(1, 5), brace(2, 6))) is None
+
+
+def test_the_verdict_says_where_to_look_and_what_tells_some_of_them_apart():
+    """A measurement that parts the leading site from the third is told as such, though none parts it from the second."""
+    cause = lambda site: Cause("brace", "brace", "a spring between two places", site, ())
+    elsewhere = (((brace(2, 4),), 0.4), ((brace(2, 6),), 0.2))
+    told = Explanation((cause(brace(1, 5)),), 20.0, 20, 0.5, 0.0, np.zeros(2), 1.0, elsewhere)
+    text = [each.text for each in (brace(1, 5), brace(2, 4), brace(2, 6))]
+    measured = (
+        Proposal("the frequency of mode 9", (text[0], text[1]), 0.2),
+        Proposal("a sensor more", (text[0], text[2]), 6.0, Effort.SENSOR),
+    )
+    problem = SimpleNamespace(mesh=MESH, units=Units("m", "kg", "N"))
+    answer = Diagnosis(
+        problem, ONE_OF, None, None, (told,), (("brace", 1.0),), placed=False, proposals=measured
+    )  # fmt: skip
+    first, second, third = sentences(answer)
+    assert "between nodes 1 and 5; or between nodes 2 and 4 (probability of this site 0.40)" in first
+    assert second.startswith("All of these sites share y = 0 m, z = 0 to 3 m: ")
+    assert third == (
+        "No measurement that was tried tells between nodes 1 and 5 from between nodes 2 and 4; a sensor more tells "
+        "between nodes 1 and 5 from between nodes 2 and 6 (predicted separation 6.0)."
+    )
