@@ -31,6 +31,7 @@ from mouse_cli.model.result import ChiSquareTest, Result
 from mouse_cli.model.shared_place import SharedPlace, shared_place
 from mouse_cli.model.site import EVERYWHERE as EVERYWHERE
 from mouse_cli.model.site import Site as Site
+from mouse_cli.model.units import Units
 
 NOTHING, NAMED, ONE_OF, UNKNOWN = "nothing-missing", "named", "one-of", "unknown"
 RIVAL = 0.05  # probability of a group, or share of a place, from which on it is listed with the leading one
@@ -61,6 +62,11 @@ class Cause:
     site: Site
     sizes: tuple[Size, ...]
     law: str = ""
+
+    def spelled(self, units: Units) -> "Cause":
+        """With the names of the deck's units, in which its values are; those of SI stay where the deck declares none."""
+        own = tuple(replace(size, unit=units.of(size.unit)) for size in self.sizes)
+        return replace(self, sizes=own) if units.declared else self
 
 
 @dataclass(frozen=True)

@@ -121,3 +121,32 @@ def test_a_linear_cause_is_written_as_a_deck_that_lacks_nothing(tmp_path):
     done = CliRunner().invoke(cli, ["diagnose", deck, "--json", "-q", "-o", revised])
     assert json.loads(done.stdout)["verdict"]["physics"] == "spring"
     assert answer(revised)["verdict"]["kind"] == "nothing-missing"
+
+
+MILLIMETRES = """mouse: 1
+units: mm-t-N
+model:
+  stiffness: {order: 2, entries: [[1, 1, 50], [1, 2, -30], [2, 2, 30]]}
+  mass: {diagonal: [1e-3, 1e-3]}
+  damping: {order: 2, entries: [[1, 1, 6e-3], [1, 2, -3.6e-3], [2, 2, 3.6e-3]]}
+parameters:
+  - {name: k1, nominal: 20, sd: 5 %, stiffness: [[1, 1, 1]]}
+  - {name: k2, nominal: 30, sd: 5 %, stiffness: [[1, 1, 1], [1, 2, -1], [2, 2, 1]]}
+"""
+
+
+def test_sizes_are_in_the_units_of_the_deck(tmp_path):
+    """A cubic spring of 2e8 N/m3 has 0.2 N/mm3, to diagnose and to run alike; reports say which."""
+
+    def law(u, v):
+        F = 2e8 * (u[1] - u[0]) ** 3
+        return np.array([-F, F])
+
+    text = Path(record(tmp_path, law)).read_text()
+    deck, revised = tmp_path / "millimetres.yaml", str(tmp_path / "revised.yaml")
+    deck.write_text(MILLIMETRES + text[text.index("test:") :])
+    done = CliRunner().invoke(cli, ["diagnose", str(deck), "--json", "-q", "-o", revised])
+    size = json.loads(done.stdout)["candidates"][0]["parameters"][0]
+    assert size["unit"] == "N/mm^3" and size["value"] == pytest.approx(0.2, rel=0.05)
+    told = CliRunner().invoke(cli, ["run", revised, "-q"]).stdout
+    assert "N/mm^3" in told and "N/m^3" not in told

@@ -47,7 +47,7 @@ def update_records(problem: Problem, notice: Notice) -> RecordUpdate:
         problem=problem,
         theta=own.model.theta(fit.x[: own.model.own]),
         covariance=scale * _covariance(own.model, fit),
-        laws=replace(fit, covariance=scale * fit.covariance).causes,
+        laws=tuple(one.spelled(problem.units) for one in replace(fit, covariance=scale * fit.covariance).causes),
         residual=ChiSquareTest("residual", fit.misfit, dof, upper_tail(fit.misfit, dof)),
         noise_scale=scale,
         explained=not strained(fit, scale) and (not unlikely(fit) or left is not None),

@@ -43,7 +43,7 @@ def diagnose_records(problem: Problem, notice: Notice, choices: Choices, own: St
         problem=problem,
         result=None,
         innovation=ChiSquareTest("residual", baseline.misfit, dof, upper_tail(baseline.misfit, dof)),
-        explanations=explanations(ranking, own.model),
+        explanations=explanations(ranking, own),
         groups=ranking.groups,
         noise_scale=ranking.noise_scale,
         **vars(decision),

@@ -25,7 +25,6 @@ from mouse_cli.updating.recordings.adequacy import (
 from mouse_cli.updating.recordings.polish import Fit
 from mouse_cli.updating.recordings.regression import allowed
 from mouse_cli.updating.recordings.study import Study
-from mouse_cli.updating.recordings.uncertain import Uncertain
 
 _BETTER = 0.7  # ratio of errors on held-out records, noise taken out, that a name takes
 _WORSE = 1.1  # such a ratio that refutes a law although the records alone do not speak against the model as it is
@@ -158,11 +157,12 @@ def untried(found: Weighed, own: Study, known: list[Law] | None) -> tuple[Untrie
     )
 
 
-def explanations(ranking: Ranking, model: Uncertain) -> tuple[Explanation, ...]:
-    """All fits as reports give them, `model` that of the deck."""
-    return tuple(_explanation(one, float(p), model) for one, p in zip(ranking.fits, ranking.probabilities, strict=True))
+def explanations(ranking: Ranking, own: Study) -> tuple[Explanation, ...]:
+    """All fits as reports give them."""
+    return tuple(_explanation(one, float(p), own) for one, p in zip(ranking.fits, ranking.probabilities, strict=True))
 
 
-def _explanation(one: Fit, probability: float, model: Uncertain) -> Explanation:
-    dof, theta = max(int(one.dof), 1), model.theta(one.x[: model.own])
-    return Explanation(one.causes, one.misfit, dof, upper_tail(one.misfit, dof), one.log_evidence, theta, probability)
+def _explanation(one: Fit, probability: float, own: Study) -> Explanation:
+    dof, theta = max(int(one.dof), 1), own.model.theta(one.x[: own.model.own])
+    causes = tuple(cause.spelled(own.problem.units) for cause in one.causes)
+    return Explanation(causes, one.misfit, dof, upper_tail(one.misfit, dof), one.log_evidence, theta, probability)
