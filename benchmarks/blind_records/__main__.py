@@ -5,16 +5,18 @@ import json
 import tempfile
 from collections.abc import Callable, Iterable
 from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from benchmarks.blind.diagnose import diagnosed
-from benchmarks.blind_records.chain import LAWS, SPLITS, Chain, chains
-from benchmarks.blind_records.decks import answer, write
+from benchmarks.blind_records.chain import LAWS, SPLITS, Chain, chains, generator
+from benchmarks.blind_records.decks import UNITS, Setup, answer, write
 from benchmarks.blind_records.verify import verify
 
+ANY = "any"
 RIGHT, WRONG, ABSTAINED, MISSED = OUTCOMES = ("right", "wrong", "abstained", "missed")
 
 
@@ -29,9 +31,10 @@ def main() -> None:
         (folder / name).mkdir(parents=True, exist_ok=True)
     cases = [one for one in chains(given.split, given.seed, given.count, given.controls) if given.only in one.name]
     with ProcessPoolExecutor(given.jobs) as pool:
-        paths = list(pool.map(_made, cases, [folder] * len(cases), [given.half] * len(cases)))
+        setup = Setup(given.half, given.noise, given.undamped)
+        paths = list(pool.map(partial(_made, folder=folder, setup=setup, quantity=given.quantity), cases))
         print(
-            f"{len(cases)} decks in {folder}, {given.split} split, seed {given.seed}, half the sensors: {given.half}",
+            f"{len(cases)} decks in {folder}, {given.split} split, seed {given.seed}, {given.quantity}, {setup}",
             flush=True,
         )
         results = []
@@ -41,14 +44,16 @@ def main() -> None:
     print(table(results, LAWS, lambda case: case.law, "all laws"))
 
 
-def _made(case: Chain, folder: Path, half: bool) -> tuple[Path, Path, Path]:
+def _made(case: Chain, folder: Path, setup: Setup, quantity: str) -> tuple[Path, Path, Path]:
     """Truth, deck and answer of a case; a truth once made is kept."""
-    from benchmarks.blind_records.opensees import accelerations
+    from benchmarks.blind_records.opensees import motions
 
-    kept = folder / "truths" / f"{case.name}.npy"
+    if quantity == ANY:
+        quantity = str(generator(case.name, "quantity").choice(list(UNITS)))
+    kept = folder / "truths" / f"{case.name}-{quantity}.npy"
     if not kept.exists():
-        np.save(kept, accelerations(case)[1])
-    path = write(folder / "decks", case, np.load(kept), half)
+        np.save(kept, motions(case, quantity))
+    path = write(folder / "decks", case, np.load(kept), setup, quantity)
     known = folder / "answers" / f"{path.stem}.json"
     known.write_text(json.dumps(answer(case)))
     return path, known, folder / "found" / f"{path.stem}.json"
@@ -103,7 +108,15 @@ def _options() -> argparse.ArgumentParser:
     add("--split", choices=SPLITS, default="development", help="structures used while developing, or others")
     add("--count", type=int, default=6, help="structures of each law")
     add("--controls", type=int, default=30, help="structures without a law")
-    add("--half", action="store_true", help="half of the accelerometers")
+    add("--half", action="store_true", help="half of the sensors")
+    add("--noise", type=float, default=0.01, help="of each sensor, by its rms")
+    add("--undamped", action="store_true", help="decks without damping")
+    add(
+        "--quantity",
+        choices=(*UNITS, ANY),
+        default="acceleration",
+        help=f"what sensors read; {ANY}: drawn for each deck",
+    )
     add("--only", default="", help="cases whose names hold this")
     add("--jobs", type=int, default=1, help="processes")
     add("--output", type=Path, help="folder of truths, decks and answers; else a temporary one")

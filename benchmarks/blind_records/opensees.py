@@ -1,4 +1,4 @@
-"""Truths: accelerations of a chain from OpenSees, by its own elements and materials."""
+"""Truths: motions of a chain from OpenSees, by its own elements and materials."""
 
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -8,26 +8,28 @@ import numpy as np
 from benchmarks.blind_records.chain import SAMPLE_RATE, Chain, force
 
 STEPS = 16  # in a sample
+RECORDED = {"acceleration": "accel", "velocity": "vel", "displacement": "disp"}  # what the solver calls a quantity
 _POINTS = 4000  # of the curve of a cubic spring
 
 
-def accelerations(chain: Chain) -> tuple[np.ndarray, np.ndarray]:
-    """Force (t,) and accelerations of the masses (t, n) at SAMPLE_RATE, both limited to the band of the samples."""
+def motions(chain: Chain, quantity: str = "acceleration") -> np.ndarray:
+    """Motions of the masses (t, n) at SAMPLE_RATE, limited to the band of the samples."""
     rate = SAMPLE_RATE * STEPS
-    given = force(chain, rate)
-    found = run(chain, given, 1 / rate)
-    return given[::STEPS], limited(found)
+    return limited(run(chain, force(chain, rate), 1 / rate, what=RECORDED[quantity]))
 
 
 def limited(fine: np.ndarray) -> np.ndarray:
-    """Samples (t, n) behind a steep low pass at 0.45 of the sample rate, as a data acquisition system gives them."""
-    lines = np.fft.rfft(fine, axis=0)
-    keep = np.fft.rfftfreq(len(fine), 1 / STEPS) <= 0.45
-    return np.fft.irfft(lines * keep[:, None], len(fine), axis=0)[::STEPS]
+    """Samples (t, n) behind a steep low pass at 0.45 of the sample rate, as a data acquisition system gives them; mirrored at the
+    ends, where a displacement is not what it was at the beginning.
+    """
+    whole = np.concatenate([fine, fine[::-1]])
+    lines = np.fft.rfft(whole, axis=0)
+    keep = np.fft.rfftfreq(len(whole), 1 / STEPS) <= 0.45
+    return np.fft.irfft(lines * keep[:, None], len(whole), axis=0)[: len(fine) : STEPS]
 
 
-def run(chain: Chain, given: np.ndarray, h: float, speed: float = 0.0) -> np.ndarray:
-    """Accelerations (t, n) at every step h under the force (t,), Newmark's average acceleration; speed: of the first mass at 0."""
+def run(chain: Chain, given: np.ndarray, h: float, speed: float = 0.0, what: str = "accel") -> np.ndarray:
+    """Motion `what` (t, n) at every step h under the force (t,), Newmark's average acceleration; speed: of the first mass at 0."""
     import openseespy.opensees as ops
 
     n = len(chain.m)
@@ -48,7 +50,7 @@ def run(chain: Chain, given: np.ndarray, h: float, speed: float = 0.0) -> np.nda
         ops.timeSeries("Path", 1, "-dt", h, "-values", *given.tolist(), "-prependZero")
         ops.pattern("Plain", 1, 1)
         ops.load(chain.driven + 1, 1.0)
-    return recorded(ops, n, len(given), h, "accel", chain.name)
+    return recorded(ops, n, len(given), h, what, chain.name)
 
 
 def recorded(ops, n: int, steps: int, h: float, what: str, name: str) -> np.ndarray:

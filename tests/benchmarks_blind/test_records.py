@@ -11,7 +11,7 @@ import pytest
 
 from benchmarks.blind_records.__main__ import outcome
 from benchmarks.blind_records.chain import LAWS, chains, force, matrices
-from benchmarks.blind_records.decks import answer, write
+from benchmarks.blind_records.decks import Setup, answer, write
 from mouse_cli.formats import read_deck
 
 TOP = Path(__file__).resolve().parents[2]
@@ -28,12 +28,23 @@ def test_the_truth_solver_meets_closed_forms():
 def test_decks_tell_nothing_of_the_answer(tmp_path):
     for case in chains("development", 5, 1, 1):
         n = len(case.m)
-        path = write(tmp_path, case, np.random.default_rng(1).standard_normal((16384, n)), half=False)
+        path = write(tmp_path, case, np.random.default_rng(1).standard_normal((16384, n)), Setup())
         assert not any(law in path.read_text() + path.name for law in LAWS)
         problem = read_deck(path)
         np.testing.assert_allclose(problem.structure.K, matrices(case.nominal_k))
         assert problem.recordings[0].samples.shape == (16384, n + 1)
         assert np.abs(case.k / case.nominal_k - 1).max() <= 0.02
+
+
+def test_half_of_the_sensors_without_damping_and_with_more_noise(tmp_path):
+    case = chains("development", 5, 1, 0)[0]
+    motion = np.random.default_rng(1).standard_normal((16384, len(case.m)))
+    loud = read_deck(write(tmp_path, case, motion, Setup(half=True, noise=0.05, undamped=True), "velocity"))
+    quiet = read_deck(write(tmp_path, case, motion, Setup(half=True, noise=0.0), "velocity"))
+    assert loud.structure.C is None and quiet.structure.C is not None
+    one, other = loud.recordings[0], quiet.recordings[0]
+    assert one.samples.shape[1] - 1 == (len(case.m) + 1) // 2 and one.channels[-1].quantity == "velocity"
+    assert (one.samples - other.samples)[:, 1:].std(axis=0) == pytest.approx(0.05, rel=0.05)
 
 
 def test_splits_and_seeds_differ():
