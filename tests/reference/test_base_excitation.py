@@ -14,8 +14,8 @@ from mouse_cli.dynamics.response import simulate
 from mouse_cli.formats import read_deck
 from mouse_cli.terms.laws import registry
 from mouse_cli.updating.recordings.ground import derivative
-from mouse_cli.updating.recordings.polish import Segments
 from mouse_cli.updating.recordings.records import records
+from mouse_cli.updating.recordings.segments import Segments
 from mouse_cli.updating.recordings.series import REACH
 from mouse_cli.updating.recordings.study import study
 

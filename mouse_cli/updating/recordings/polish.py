@@ -14,53 +14,17 @@ from mouse_cli.dynamics.response import simulate
 from mouse_cli.model.diagnosis import Cause, Size
 from mouse_cli.updating.recordings.hypothesis import Hypothesis, Part
 from mouse_cli.updating.recordings.linear import rigid
-from mouse_cli.updating.recordings.series import REACH, Series, passed, sampled
+from mouse_cli.updating.recordings.segments import Segments
+from mouse_cli.updating.recordings.series import passed, sampled
 
 _DAMPING, _UP, _DOWN = 1e-3, 10.0, 0.2  # of Levenberg and Marquardt
 _STEPS = 25
 _SETTLED = 0.05  # of the cost in nats, at which a step is no more worth its time
-_LEAST = 64  # samples of a horizon
 _PATIENCE, _BEHIND = 3, 2.0  # steps of a fit whose cost is so many times that of a better one
 _HALVED = 10  # times that a start without stiffness is brought nearer to the mean
 _PROBE, _LESS = 0.1, 0.75  # share of a step where its curvature is seen; most of the second order by the first
 _PERTURBED = 1e-4  # of prior or range
 _SPEEDS, _TRIED = 2.5, 33  # speeds that no channel shows: how far, by their rms, and how many at a time
-
-
-@dataclass(frozen=True)
-class Segments:
-    """G stretches of a record, `length` samples each, from samples `starts` (G,)."""
-
-    series: Series
-    starts: np.ndarray
-    length: int
-
-    def begun(self) -> "Segments":
-        """Their first quarters."""
-        return replace(self, length=max(self.length // 4, min(self.length, _LEAST)))
-
-    @property
-    def force(self) -> np.ndarray:
-        """At every step, with REACH samples on either side of what is compared; the last input is 1 at all times."""
-        factor = self.series.factor
-        steps = (self.length + 2 * REACH - 1) * factor + 1
-        own = np.stack([self.series.fine[(s - REACH) * factor :][:steps] for s in self.starts], axis=2)
-        return np.concatenate([own, np.ones_like(own[:, :1])], axis=1)
-
-    @property
-    def measured(self) -> np.ndarray:
-        """Filtered channels over their sd."""
-        whole = self.series.filtered / self.series.sd
-        return np.stack([whole[s : s + self.length].T for s in self.starts], axis=2)
-
-
-def segments(series: Series, length: int, most: int) -> Segments:
-    """Up to `most` stretches of `length` samples that follow one another, over the whole of the record."""
-    first, last = REACH, len(series) - REACH
-    starts = np.arange(first, last - length + 1, length)
-    if len(starts) > most:
-        starts = starts[np.unique(np.linspace(0, len(starts) - 1, most).round().astype(int))]
-    return Segments(series, starts, length)
 
 
 @dataclass

@@ -13,9 +13,10 @@ from mouse_cli.updating.recordings.deck_laws import acting
 from mouse_cli.updating.recordings.free_force import Spectrum
 from mouse_cli.updating.recordings.hypothesis import Hypothesis, Place
 from mouse_cli.updating.recordings.places import places
-from mouse_cli.updating.recordings.polish import Fit, Segments, followed, segments
+from mouse_cli.updating.recordings.polish import Fit, followed
 from mouse_cli.updating.recordings.records import Records, reduced, steps
 from mouse_cli.updating.recordings.regression import Regression, Start
+from mouse_cli.updating.recordings.segments import Segments, segments
 from mouse_cli.updating.recordings.series import REACH, Series
 from mouse_cli.updating.recordings.uncertain import Uncertain, uncertain
 

@@ -17,9 +17,10 @@ from mouse_cli.model.record_diagnosis import (
     Trace,
 )
 from mouse_cli.updating.recordings.free_force import Spectrum
-from mouse_cli.updating.recordings.polish import Fit, followed, segments
+from mouse_cli.updating.recordings.polish import Fit, followed
 from mouse_cli.updating.recordings.records import reduced
 from mouse_cli.updating.recordings.regression import Regression, stepped
+from mouse_cli.updating.recordings.segments import segments
 from mouse_cli.updating.recordings.series import REACH, Series, passed
 from mouse_cli.updating.recordings.study import Study, begin
 

@@ -1,0 +1,45 @@
+"""Stretches of a record that are simulated side by side."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mouse_cli.updating.recordings.series import REACH, Series
+
+_LEAST = 64  # samples of a horizon
+
+
+@dataclass(frozen=True)
+class Segments:
+    """G stretches of a record, `length` samples each, from samples `starts` (G,)."""
+
+    series: Series
+    starts: np.ndarray
+    length: int
+
+    def begun(self) -> "Segments":
+        """Their first quarters."""
+        return replace(self, length=max(self.length // 4, min(self.length, _LEAST)))
+
+    @property
+    def force(self) -> np.ndarray:
+        """At every step, with REACH samples on either side of what is compared; the last input is 1 at all times."""
+        factor = self.series.factor
+        steps = (self.length + 2 * REACH - 1) * factor + 1
+        own = np.stack([self.series.fine[(s - REACH) * factor :][:steps] for s in self.starts], axis=2)
+        return np.concatenate([own, np.ones_like(own[:, :1])], axis=1)
+
+    @property
+    def measured(self) -> np.ndarray:
+        """Filtered channels over their sd."""
+        whole = self.series.filtered / self.series.sd
+        return np.stack([whole[s : s + self.length].T for s in self.starts], axis=2)
+
+
+def segments(series: Series, length: int, most: int) -> Segments:
+    """Up to `most` stretches of `length` samples that follow one another, over the whole of the record."""
+    first, last = REACH, len(series) - REACH
+    starts = np.arange(first, last - length + 1, length)
+    if len(starts) > most:
+        starts = starts[np.unique(np.linspace(0, len(starts) - 1, most).round().astype(int))]
+    return Segments(series, starts, length)
