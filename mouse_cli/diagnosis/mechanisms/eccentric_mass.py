@@ -8,6 +8,7 @@ from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import total_mass
 from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.attached import Attached, attached
 from mouse_cli.diagnosis.sites.pairs import ends
 from mouse_cli.diagnosis.sites.points import wanted
 from mouse_cli.model.diagnosis import Site
@@ -29,18 +30,21 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     count = min(model.r, int(model.data.test.number.max()) + 2)
     turned = [np.abs(model.node(node)[3:, :count]).max() for node, _ in found]
     chosen = [found[i] for i in sorted(np.argsort(turned, kind="stable")[::-1][:_MOST])]
-    return [_recipe(model, candidate, node, about, len(found)) for node, about in chosen]
+    at = attached(model, [node for node, _ in chosen])
+    return [
+        _recipe(model, candidate, node, each, about, len(found)) for (node, about), each in zip(chosen, at, strict=True)
+    ]
 
 
-def _recipe(model: Reduced, candidate: Candidate, node: int, about: tuple, count: int) -> Recipe:
+def _recipe(model: Reduced, candidate: Candidate, node: int, at: Attached, about: tuple, count: int) -> Recipe:
     unknowns, starts, axes = about
-    rows, number, total = model.node(node), int(model.problem.mesh.node_ids[node]), total_mass(model)
+    number, total = int(model.problem.mesh.node_ids[node]), total_mass(model)
     m = Unknown("mass", "kg", 1e-3 * total, 0.5 * total)
     site = Site("node", (number,), tuple(model.problem.mesh.coordinates[node].tolist()), f"an arm from node {number}")
 
     def change(values: np.ndarray) -> Change:
-        B = at_end(model, rows, arm(values[1:], axes))
-        return Change(M=values[0] * B.T @ B)
+        B = at_end(model, at.rows, arm(values[1:], axes))
+        return Change(K=at.K, M=at.with_mass(values[0] * B.T @ B), sensing=at.sensing)
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         edit = Edit(problem)
@@ -50,7 +54,9 @@ def _recipe(model: Reduced, candidate: Candidate, node: int, about: tuple, count
 
     grid = np.hstack([np.full((len(starts), 1), _BEGIN * total), starts])
     log_prior = -float(np.log(count))
-    return Recipe(candidate, (m, *unknowns), change, grid, lambda values: site, log_prior=log_prior, extend=extend)
+    return Recipe(
+        candidate, (m, *unknowns), change, grid, lambda values: site, at.own, log_prior=log_prior, extend=extend
+    )
 
 
 CANDIDATE = Candidate(

@@ -8,6 +8,7 @@ from mouse_cli.diagnosis.effects.losses import matrices_of
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.attached import attached
 from mouse_cli.diagnosis.sites.points import wanted
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
@@ -43,7 +44,8 @@ def _items(model: Reduced) -> list[tuple]:
 def _recipe(model: Reduced, candidate: Candidate, own: list[tuple], count: int) -> Recipe:
     mesh = model.problem.mesh
     unknowns, grid, axes = arms(model, own[0][2])
-    rows = [(model.node(node), m) for _, _, node, m, _ in own]
+    alone = attached(model, [own[0][2]])[0] if len(own) == 1 else None
+    rows = [(model.node(node) if alone is None else alone.rows, m) for _, _, node, m, _ in own]
     still = sum(m * u[:3].T @ u[:3] for u, m in rows)
     ids = tuple(int(mesh.elements[s].ids[i]) for s, i, *_ in own)
     position = tuple(mesh.coordinates[own[0][2]].tolist()) if len(own) == 1 else None
@@ -51,7 +53,8 @@ def _recipe(model: Reduced, candidate: Candidate, own: list[tuple], count: int) 
 
     def change(values: np.ndarray) -> Change:
         moved = [(at_end(model, u, arm(values, axes)), m) for u, m in rows]
-        return Change(M=sum(m * B.T @ B for B, m in moved) - still)
+        M = sum(m * B.T @ B for B, m in moved) - still
+        return Change(M=M) if alone is None else Change(K=alone.K, M=alone.with_mass(M), sensing=alone.sensing)
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         edit = Edit(problem)
@@ -62,7 +65,8 @@ def _recipe(model: Reduced, candidate: Candidate, own: list[tuple], count: int) 
         return edit.done()
 
     log_prior = -float(np.log(count))
-    return Recipe(candidate, unknowns, change, grid, lambda values: site, log_prior=log_prior, extend=extend)
+    extra = 0 if alone is None else alone.own
+    return Recipe(candidate, unknowns, change, grid, lambda values: site, extra, log_prior=log_prior, extend=extend)
 
 
 CANDIDATE = Candidate(
