@@ -40,7 +40,7 @@ class Case:
     draws: int = 1  # tests of different noise
     choices: tuple[int, ...] = ()  # sites from which sensors are chosen; empty: all
     files: dict[str, str] = field(default_factory=dict)  # that the deck refers to
-    sizes: dict[str, float] = field(default_factory=dict)  # of the cause, by the names that the tool gives them
+    sizes: dict[str, float] = field(default_factory=dict)  # of the mechanism, by the names that the tool gives them
     config: Any = None  # sensors and noise of its own, a Config of `test_data`
 
 

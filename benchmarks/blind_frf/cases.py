@@ -32,7 +32,7 @@ TRUTHS = {
 
 @dataclass(frozen=True)
 class Case:
-    """One beam: `nominal`, what its deck says, and `true`; force and sensors (s,) in m, x: place of the cause, nan without one."""
+    """One beam: `nominal`, what its deck says, and `true`; force and sensors (s,) in m, x: its position, nan without one."""
 
     name: str
     truth: str

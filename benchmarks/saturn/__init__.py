@@ -1,4 +1,4 @@
-"""Saturn V of the 1972 report: five frequencies that no bending beam has, and what may be said of the cause.
+"""Saturn V of the 1972 report: five frequencies that no bending beam has, and what may be said of the mechanism.
 
     python -m benchmarks.saturn --vehicles 12 --seed 1     tables
     python -m benchmarks.saturn --decks DIRECTORY          the decks of each vehicle, to try by hand

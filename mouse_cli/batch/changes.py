@@ -28,7 +28,7 @@ def edited(data: bytes, path: str, options: dict[str, Any]) -> bytes:
         return data
     if not is_yaml(data, path):
         raise _unknown(
-            next(iter(texts)), path, "the deck is of cards: places such as test.modes.shape_sd are of YAML decks"
+            next(iter(texts)), path, "the deck is of cards: paths such as test.modes.shape_sd exist in YAML decks only"
         )
     from mouse_cli.formats.yaml_deck.nodes import compose
 
@@ -149,7 +149,10 @@ def weighed(test: ModalTest, modes: list[int] | None = None, sensors: list[int] 
 
 
 def _unknown(name: str, path: str, note: str) -> DeckError:
-    help = "name an option of `mouse run`, a property, its prior sd as NAME.sd, frequency_sd*, shape_sd*, or a place of the deck"
+    help = (
+        "name an option of `mouse run`, a property, its prior sd as NAME.sd, frequency_sd*, shape_sd*, or the path of a value "
+        "in the deck"
+    )
     return DeckError(Diagnostic("MD932", ERROR, f"'{name}' is nothing that can be varied in {path}: {note}", help=help))
 
 

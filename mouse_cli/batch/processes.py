@@ -51,7 +51,7 @@ def _probe(task: Task) -> None:
         try:
             pool.submit(task, []).result()
         except BrokenProcessPool as error:
-            help = "see what the system says of memory and of limits on processes; begin again with the same command"
+            help = "check the system log for memory and process limits; resume with the same command"
             raise MouseError(Diagnostic("MD909", ERROR, "processes for jobs cannot be started", help=help)) from error
 
 

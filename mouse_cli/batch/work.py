@@ -120,7 +120,7 @@ def _unreadable(job: Job, error: OSError) -> Diagnostic:
 def _unforeseen(job: Job, error: BaseException) -> Diagnostic:
     if isinstance(error, OutOfTime):
         help = "give a longer --time-limit, or run the deck by itself"
-        return Diagnostic("MD910", ERROR, f"{job.deck}: broken off at its limit of time", help=help)
+        return Diagnostic("MD910", ERROR, f"{job.deck}: ended at its time limit", help=help)
     if isinstance(error, MemoryError):
         return Diagnostic("MD512", ERROR, f"{job.deck}: not enough memory for a model of this size")
     return fault(error, job.deck)

@@ -47,7 +47,7 @@ def plan(problem: Problem, over: str, replicates: int, seed: int) -> Plan:
         raise DeckError(_refused("the deck has no modal test, or fits functions too"))
     if not estimator(problem.run.estimator).weighted:
         raise DeckError(
-            _refused(f"the estimator {problem.run.estimator} does not weigh data, so that none counts twice")
+            _refused(f"the estimator {problem.run.estimator} does not weight data, so that none counts twice")
         )
     test, rng = problem.test, np.random.default_rng(seed)
     m = test.m if over != "sensors" else 0

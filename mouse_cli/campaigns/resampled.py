@@ -24,7 +24,7 @@ def summed(problem: Problem, plan: Plan, outcomes: list[Outcome], seed: int) -> 
     first, *rest = (answers.read(each, names, modes) for each in outcomes)
     if not first.found:
         message = f"the deck itself has no answer: {first.ended}"
-        raise NumericalError(Diagnostic("MD935", ERROR, message, help="see what `mouse run` says of it"))
+        raise NumericalError(Diagnostic("MD935", ERROR, message, help="check it with `mouse run`"))
     left_out, drawn = rest[: plan.units], rest[plan.units :]
     foreseen = bootstrap.foreseen(problem, first.theta, plan)
     kept = [each for each in drawn if each.found]
@@ -129,4 +129,4 @@ def _influential(found: Bootstrap) -> Iterator[Diagnostic]:
         unit = strongest(each)
         if unit is not None and abs(each.influence[unit]) > _LARGE:
             message = f"without {found.units[unit]} {each.name} moves by {each.influence[unit]:+.2g} posterior standard deviations"
-            yield Diagnostic("MD938", WARNING, message, help="look at that measurement; the answer rests on it")
+            yield Diagnostic("MD938", WARNING, message, help="check that measurement: the answer depends on it")

@@ -15,20 +15,20 @@ ARRANGEMENTS = (
         "--held-out",
         metavar="DECK",
         multiple=True,
-        help="Of several arrangements: one that is kept from every fit, for the proof. Repeat it for more.",
+        help="Of several configurations: one that is held out of every fit, for validation. Repeatable.",
     ),
     click.option(
         "--changed",
         metavar="DECK",
         multiple=True,
-        help="Of several arrangements: one that was measured after something changed. What changed is sought in these alone, the "
-        "others say how the structure was. Repeat it for more; one that is held out too is named by both.",
+        help="Of several configurations: one that was measured after a change. The change is sought in these only; the "
+        "others give the reference state. Repeatable; one that is held out too is named by both.",
     ),
     click.option(
         "--common-sd",
         metavar="PERCENT",
         type=click.FloatRange(0, 50, min_open=True),
-        help="Of several arrangements: what theory errs in each frequency of all of them alike. "
+        help="Of several configurations: sd of the model error of each frequency, common to all of them. "
         "[default: theory.configurations of the decks, 1 where they give none]",
     ),
 )
@@ -60,12 +60,12 @@ def several(named: Named, output: str | None, plot: str | None) -> bool:
     if not any(named.having(decks)):
         raise click.UsageError("every deck of --changed is held out: leave some to the fit")
     if plot:
-        raise click.UsageError("--plot draws one deck, not several arrangements")
+        raise click.UsageError("--plot draws one deck, not several configurations")
     names = [os.path.basename(deck) for deck in decks]
     if output and len(set(names)) < len(names):
         raise click.UsageError("decks of one name in different folders cannot be written to one folder")
     if output and os.path.exists(output) and not os.path.isdir(output):
-        raise click.UsageError(f"{output} is a file; the decks of arrangements are written to a folder")
+        raise click.UsageError(f"{output} is a file; the decks of several configurations are written to a folder")
     return True
 
 
@@ -105,5 +105,5 @@ def written(found: ArrangementsDiagnosis, folder: str) -> list[str]:
 def told(files: list[str], folder: str) -> str:
     """What became of `-o`."""
     if not files:
-        return f"Nothing was written to {folder}: nothing is missing, or nothing could be told."
-    return f"The arrangements with every cause that was told are in {folder}, {len(files)} decks."
+        return f"Nothing was written to {folder}: nothing is missing, or nothing could be named."
+    return f"The configurations with every named mechanism are in {folder}, {len(files)} decks."

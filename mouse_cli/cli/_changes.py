@@ -19,7 +19,7 @@ CHANGES = (
         "absorbers",
         multiple=True,
         metavar="DOF=KG,HZ[,RATIO]",
-        help="Hang a mass on a spring and a dashpot; `mode2` in place of HZ tunes it to mode 2.",
+        help="Hang a mass on a spring and a dashpot; `mode2` instead of HZ tunes it to mode 2.",
     ),
     click.option(
         "--target",
@@ -33,10 +33,14 @@ CHANGES = (
         "sweeps",
         multiple=True,
         metavar="MODE:THING=SIZE",
-        help="Best places of one mass, spring or absorber.",
+        help="Best locations of one mass, spring or absorber.",
     ),
     click.option("--by", type=click.Choice(["mass", "spring"]), help="What targets are met by. Default: mass."),
-    click.option("--place", metavar="DOF", help="Where targets are to be met. Default: every place in turn."),
+    click.option(
+        "--place",
+        metavar="DOF",
+        help="Location of the change that meets the target. Default: every location, one by one.",
+    ),
 )
 
 
@@ -103,7 +107,7 @@ def _target(text: str, given: dict[str, object]) -> str:
     mode, _, hz = text.partition(sign) if sign else ("", "", "")
     if not mode.strip().isdecimal():
         raise click.BadParameter(f"'{text}' is not MODE<HZ, MODE>HZ or MODE=HZ", param_hint="--target")
-    place = f", place: {_quoted(given['place'])}" if given["place"] else ""
+    place = f", location: {_quoted(given['place'])}" if given["place"] else ""
     return f"mode: {int(mode)}, {sides[sign]}: {_number(hz, '--target')}, by: {given['by'] or 'mass'}{place}"
 
 

@@ -65,7 +65,7 @@ def _idle_options(problem: Problem, changes: dict[str, object]) -> tuple[Diagnos
         given &= _OF_MODES if problem.test is None and problem.frf else set()
     if not given:
         return ()
-    what = "recordings alone" if problem.by_recordings else "functions alone"
+    what = "recordings alone" if problem.by_recordings else "FRFs alone"
     message = f"{', '.join(sorted(given))}: without meaning for a run on {what}"
     return (
         Diagnostic("MD643", WARNING, message, problem.place("run"), help="leave it out; see `mouse explain MD643`"),

@@ -6,7 +6,7 @@ import click
 
 METHOD = (
     click.option(
-        "--method", metavar="METHOD", help="Update by this method in place of the loop; see `mouse list methods`."
+        "--method", metavar="METHOD", help="Update by this method instead of the loop; see `mouse list methods`."
     ),
     click.option("--expand", metavar="EXPANSION", help="With --method: how measured shapes are expanded."),
 )

@@ -31,7 +31,9 @@ RUN = (
     click.option("--partials", type=_POSITIVE, help="Most computations of the partial derivatives (NPARD)."),
     click.option("--passes", type=_POSITIVE, help="Passes of O-7/O-8 before the partials are recomputed (ITERMX)."),
     click.option(
-        "--cycles", type=click.IntRange(min=0), help="Exactly so many cycles, whatever the convergence test says."
+        "--cycles",
+        type=click.IntRange(min=0),
+        help="Exactly so many cycles, whatever the result of the convergence test.",
     ),
     click.option(
         "--convergence",
@@ -94,7 +96,7 @@ READING = (
         "overrides",
         multiple=True,
         metavar="NAME=VALUE",
-        help="A number of a card deck, e.g. NPARD=5 or VAR(5)=0.02, in place of the punched one.",
+        help="A number of a card deck, e.g. NPARD=5 or VAR(5)=0.02, instead of the punched one.",
     ),
 )
 
@@ -127,9 +129,9 @@ def answer_form(schema: str) -> tuple[Callable, ...]:
 
     return (
         click.option(
-            "--json", "form", flag_value="json", help=f"One JSON document ({schema}) in place of the printout."
+            "--json", "form", flag_value="json", help=f"One JSON document ({schema}) instead of the printout."
         ),
-        click.option("--markdown", "form", flag_value="markdown", help="Markdown in place of the printout."),
+        click.option("--markdown", "form", flag_value="markdown", help="Markdown instead of the printout."),
         click.option("--numbers", type=click.Choice(STYLES), help="1.28872+04 as in 1972, or 12887.2."),
     )
 
@@ -160,7 +162,7 @@ def reading(legacy: bool, strip_73_80: bool, overrides: tuple[str, ...]) -> dict
 def earlier(prior: str | None, loosen: tuple[str, ...]) -> dict[str, object]:
     """Arguments of `read_problem` from the options PRIOR. Raises click.BadParameter."""
     if loosen and not prior:
-        raise click.BadParameter("it says what may have changed since the result of --prior", param_hint="--loosen")
+        raise click.BadParameter("it states what may have changed since the result of --prior", param_hint="--loosen")
     loosened: dict[str, float] = {}
     for item in loosen:
         name, _, value = item.rpartition("=")

@@ -16,7 +16,7 @@ RAW = (
         "folder",
         metavar="FOLDER",
         type=click.Path(exists=True, file_okay=False),
-        help="Raw files of the test, for a deck that names none: channels bear names of sensors, or options say which is which.",
+        help="Raw files of the test, for a deck that names none: channels have the names of sensors, or options map them.",
     ),
     *CHANNELS,
 )
@@ -46,9 +46,7 @@ def _refuse_idle(decks: tuple[str, ...], arranged: bool, output: str | None, giv
     idle = [option for key, option in _OF_RAW.items() if given[key]]
     if folder is None:
         if idle:
-            raise click.UsageError(
-                f"{', '.join(idle)} without --recordings FOLDER: a deck says itself which channels it has"
-            )
+            raise click.UsageError(f"{', '.join(idle)} without --recordings FOLDER: a deck names its channels itself")
         return
     if arranged:
         raise click.UsageError("--recordings gives one deck its test; name the files of several in their decks")

@@ -20,7 +20,7 @@ CHANNELS = (
     click.option(
         "--sample-rate",
         type=click.FloatRange(min=0, min_open=True),
-        help="Samples a second, where the file does not say.",
+        help="Sample rate in Hz, where the file has none.",
     ),
     click.option("--time", metavar="CHANNEL", help="The time column. Default: one called t or time."),
 )

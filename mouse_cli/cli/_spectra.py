@@ -33,7 +33,7 @@ def measured_data(source: str, titles: tuple[str, ...], given: dict[str, object]
     """The recordings of a deck, or of a file. Raises DeckError, RecordError and click.UsageError."""
     if source.lower().endswith((".yaml", ".yml")) or source == "-":
         if any(given[key] for key in _OF_FILES):
-            raise click.UsageError("a deck says itself which channels there are; give --force, --unit, ... for files")
+            raise click.UsageError("a deck names its channels itself; give --force, --unit, ... for files")
         return _of_deck(source, titles)
     if titles:
         raise click.UsageError("--recording chooses among those of a deck; a file is one recording")

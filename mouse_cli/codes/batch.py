@@ -17,14 +17,14 @@ CODES = {
     ),
     "MD902": Code(
         "a process died",
-        "The process that ran the deck ended without an answer: the system stopped it for lack of memory, somebody ended it, or a "
+        "The process that ran the deck ended without an answer: the system stopped it for want of memory, a user ended it, or a "
         "library failed. It was tried again by itself and died again, or was alone from the first. Other jobs are not touched, and "
         "the next batch tries it again.",
         "Run the deck by itself; where memory is short, give fewer `--jobs`.",
     ),
     "MD903": Code(
         "fault of mouse",
-        "An unexpected failure within mouse: the message names its kind and its place in the program. Other jobs "
+        "An unexpected failure within mouse: the message names its kind and its location in the program. Other jobs "
         "of a batch are not touched, and the next batch tries the deck again.",
         "Report it with the deck. With `MOUSE_TRACEBACK=1` in the environment, Python's whole account is printed.",
     ),
@@ -50,8 +50,8 @@ CODES = {
     ),
     "MD910": Code(
         "limit of time",
-        "The job was not done within the seconds of `--time-limit` and was broken off. Other jobs are not touched, and the next "
-        "batch tries it again. A single long call of a library ends before it is broken off.",
+        "The job was not done within the seconds of `--time-limit` and was ended. Other jobs are not touched, and the next "
+        "batch tries it again. A single long call of a library completes first.",
         "Give a longer `--time-limit`, or run the deck by itself to see what takes so long.",
     ),
     "MD909": Code(

@@ -14,20 +14,20 @@ CODES = {
     ),
     "MD930": Code(
         "answer that depends on what was varied",
-        "Over the points of a sweep the revised value of the property moves by more than its posterior standard deviation: what "
-        "was varied, and nobody knows exactly, matters more than the errors of the test.",
+        "Over the points of a sweep the revised value of the property moves by more than its posterior standard deviation: the "
+        "assumptions that were varied matter more than the errors of the test.",
         "Find out what was varied, or state the answer with the spread of the sweep.",
     ),
     "MD931": Code(
         "runs without an answer",
         "Some runs of a sweep or a bootstrap ended without an answer: values beyond limits, models that are not physical, too "
-        "few data left. They are left out of what is said of all.",
+        "few data left. They are left out of the summary.",
         "See their codes; vary over a narrower range, or draw fewer at a time.",
     ),
     "MD932": Code(
         "nothing that can be varied",
         "A name of `--vary` is no option of `mouse run`, no property of the deck (`k1`: its prior value, `k1.sd`: its prior "
-        "standard deviation), not `frequency_sd*` or `shape_sd*` (factors of all accuracies), and no place of a single value in "
+        "standard deviation), not `frequency_sd*` or `shape_sd*` (factors of all accuracies), and no path of a single value in "
         "the YAML deck, such as `test.modes.shape_sd` or `model.nodes[3].x`.",
         "Check the name; keys of the deck are joined by points, items of lists are called by their `name` or by number, from 1.",
     ),
@@ -40,32 +40,32 @@ CODES = {
     "MD934": Code(
         "no modes or sensors to draw",
         "A bootstrap draws measured modes and sensors: two of each kind at least. Tests of functions or recordings are not "
-        "drawn, nor is one for an estimator that does not weigh its data, where nothing can count twice.",
+        "drawn, nor is a test for an estimator that does not weight its data, where nothing can count twice.",
         "`mouse identify` makes modes of functions and recordings; with one sensor draw `--over modes`.",
     ),
     "MD935": Code(
         "no answer to begin from",
-        "The run of the deck as it is has no answer, so that there is nothing whose spread could be told.",
-        "See what `mouse run` says of the deck.",
+        "The run of the deck as it is has no answer, so that it has no scatter to estimate.",
+        "Check the deck with `mouse run`.",
     ),
     "MD936": Code(
         "data that disagree among themselves",
-        "Answers from modes or sensors drawn anew spread much more than the stated accuracies account for, more than by chance "
-        "once in 200 times with so few of them: the data disagree among themselves, the model errs, or the accuracies are "
+        "Results of resampled modes or sensors scatter much more than the stated accuracies account for (p < 0.005 for "
+        "their number): the data disagree among themselves, the model errs, or the accuracies are "
         "stated too small. Posterior standard deviations are then too small as well.",
-        "Look at what has the largest influence; state larger standard deviations; see whether the form of the model is "
+        "Check the data of largest influence; state larger standard deviations; see whether the form of the model is "
         "rejected.",
     ),
     "MD937": Code(
         "accuracies stated too large",
-        "Answers from modes or sensors drawn anew spread much less than the stated accuracies account for, less than by chance "
-        "once in 200 times: the data agree better than they are said to.",
+        "Results of resampled modes or sensors scatter much less than the stated accuracies account for (p < 0.005): "
+        "the data agree better than stated.",
         "State smaller standard deviations if the test justifies them; errors that all data share do not show in this.",
     ),
     "MD938": Code(
         "answer that rests on one measurement",
         "Without that mode or sensor a property moves by more than its posterior standard deviation.",
-        "Look at that measurement; measure again what it rests on.",
+        "Check that measurement; repeat it.",
     ),
     "MD940": Code(
         "no package for samples",
@@ -75,11 +75,11 @@ CODES = {
     "MD941": Code(
         "no posterior to sample",
         "The deck lets no property vary, holds no data, or its run has no answer to begin from.",
-        "See what `mouse run` says of the deck.",
+        "Check the deck with `mouse run`.",
     ),
     "MD942": Code(
         "normal density that cannot stand for the posterior",
-        "Draws from the normal density of the run were weighed by the true posterior. The tail of the weights is so heavy "
+        "Draws from the normal density of the run were weighted by the true posterior. The tail of the weights is so heavy "
         "(Pareto k-hat above 0.7) that no practicable number of draws would give its mean (Vehtari et al. 2024; Yao et al. "
         "2018).",
         "Use the samples, and not the standard deviations of `mouse run`.",
@@ -87,14 +87,14 @@ CODES = {
     "MD943": Code(
         "posterior with several modes",
         "Begun from other values of the prior, the search ends elsewhere, and nearly as high: the data and the prior allow "
-        "several answers, such as two springs exchanged. `mouse run` tells of one of them.",
-        "Measure what tells them apart (mode shapes, a mass added on one side), or say in the prior what is known.",
+        "several answers, such as two springs exchanged. `mouse run` reports one of them.",
+        "Measure what separates them (mode shapes, a mass added on one side), or state in the prior what is known.",
     ),
     "MD944": Code(
         "chain too short",
         "The walkers took fewer than 50 autocorrelation times, or do not agree (R-hat of 1.05 or more): quantiles of the "
         "samples are not those of the posterior yet.",
-        "Allow more `--steps`. Where that does not help, the posterior has places between which walkers seldom go.",
+        "Allow more `--steps`. Where that does not help, the posterior has modes between which walkers seldom move.",
     ),
     "MD945": Code(
         "mean or spread of samples other than those of the run",

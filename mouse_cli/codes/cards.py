@@ -48,7 +48,7 @@ CODES = {
     ),
     "MD107": Code(
         "A field past the end of a list is not blank",
-        "A count on the control card says how many values a list has. Fields after the last one "
+        "A count on the control card states how many values a list has. Fields after the last one "
         "would be ignored by FORTRAN in silence; something in them means that the count or the "
         "columns are wrong.",
         "Blank the field, or mend the count (NM, NRS, IROW) on the control card.",
@@ -82,7 +82,7 @@ CODES = {
     "MD112": Code(
         "An element is given twice",
         "Whether the first, the last or the sum was meant cannot be known. In M and K an element "
-        "and its mirror image are one place. Equal values are only a warning.",
+        "and its mirror image are one element. Equal values are only a warning.",
         "Delete one of the two, or insert a missing blank card.",
     ),
     "MD113": Code(
@@ -171,7 +171,7 @@ CODES = {
     ),
     "MD128": Code(
         "Too many errors",
-        "Reading stopped, since so many errors usually have one cause.",
+        "Reading stopped, since so many errors usually have one reason.",
         "Mend the first few and read the deck again.",
     ),
     "MD129": Code(

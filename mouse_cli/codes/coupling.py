@@ -7,7 +7,7 @@ CODES = {
         "a deck for another command",
         "A deck holds one of `model`, `couple` and `modify`: a model with its test; substructures; or changes of another deck's "
         "model. Each is read by commands of its own.",
-        "Ask the command that the message names, or move what stands beside it into a deck of its own.",
+        "Use the command that the message names, or move the other keys into a deck of their own.",
     ),
     "MD701": Code(
         "a name that is no substructure",
@@ -16,13 +16,13 @@ CODES = {
     ),
     "MD702": Code(
         "interfaces whose sides differ",
-        "The two lists of an interface go pair by pair: the first place of one moves with the first of the other.",
-        "Name equally many places on both sides, in the same order.",
+        "The two lists of an interface go pair by pair: the first degree of freedom of one moves with the first of the other.",
+        "Name equally many degrees of freedom on both sides, in the same order.",
     ),
     "MD703": Code(
-        "a place that the part does not have",
-        "A place of a model is a degree of freedom: a label such as `12TY`, `12-TY` where it is read backwards, a number of a "
-        "model of matrices, or the name of a sensor of its modal test. A place of measured functions is the name of a "
+        "a degree of freedom that the part does not have",
+        "A degree of freedom of a model is a label such as `12TY`, `12-TY` where it is read backwards, a number of a "
+        "model of matrices, or the name of a sensor of its modal test. Of measured FRFs it is the name of a "
         "response or of a force.",
         "Name one of those that the note lists. A degree of freedom that is supported cannot be joined: free it first.",
     ),
@@ -52,19 +52,19 @@ CODES = {
     "MD708": Code(
         "a connection that contradicts itself",
         "An item of `connections` or `changes` is a mass, an absorber, or a spring and a dashpot side by side; these may have a "
-        "second end `to`, which is another place.",
+        "second end `to`, at another degree of freedom.",
         "Give each thing an item of its own.",
     ),
     "MD710": Code(
         "a function that was not measured",
-        "Coupling needs every function between the places of a part that are joined or asked for. One is missing, and so is "
-        "the one with response and force exchanged, which reciprocity would put in its place.",
-        "Measure it, or leave the place out. A place without a force can be a response, but cannot be joined.",
+        "Coupling needs every FRF between the degrees of freedom of a part that are joined or requested. One is missing, and "
+        "so is its reciprocal, with response and force exchanged.",
+        "Measure it, or leave the degree of freedom out. One without a force can be a response, but cannot be joined.",
     ),
     "MD711": Code(
         "lines that parts do not share",
-        "All parts are coupled line by line. Measured functions of several parts have no common lines in the band that is asked "
-        "for, or lines were asked for at which nothing was measured.",
+        "All parts are coupled line by line. Measured functions of several parts have no common lines in the requested "
+        "band, or lines were requested at which nothing was measured.",
         "Measure all parts with one spacing of lines, or widen the band. Nothing is interpolated: between lines resonances go "
         "lost.",
     ),
@@ -76,13 +76,14 @@ CODES = {
     ),
     "MD713": Code(
         "an interface that noise decides",
-        "The condition number of the interface flexibility times its relative noise says how far the forces at the interface are "
-        "decided by noise. At the lines that are told it is above 1: there the answer means little.",
-        "Truncate (`truncate: 0.01`), join fewer places, or measure better. The variances in the answer hold to first order only.",
+        "The condition number of the interface flexibility times its relative noise bounds the relative error of the forces at the "
+        "interface. At the listed lines it is above 1: the result there is not reliable.",
+        "Truncate (`truncate: 0.01`), join fewer degrees of freedom, or measure better. The variances in the answer "
+        "hold to first order only.",
     ),
     "MD714": Code(
         "an interface without an answer",
-        "The flexibility of the interface is singular: two conditions say the same, or a part does not move at all where it "
+        "The flexibility of the interface is singular: two conditions are equal, or a part does not move at all where it "
         "is joined.",
         "Leave out the repeated condition, or give `truncate`.",
     ),
@@ -99,9 +100,9 @@ CODES = {
     ),
     "MD718": Code(
         "a mode that cannot be moved there",
-        "A mass at a place lowers mode i at most to the frequency below it at which that place stands still (its "
-        "antiresonance, or the mode below), a spring raises it at most to the one above. The frequency asked for lies beyond.",
-        "Ask for less, choose another place from the table, or change more than one thing.",
+        "A mass at a degree of freedom lowers mode i at most to the frequency below it at which that point stands still (its "
+        "antiresonance, or the mode below), a spring raises it at most to the one above. The target frequency lies beyond.",
+        "Choose a closer target or another location from the table, or change more than one thing.",
     ),
     "MD719": Code(
         "a mode that the model does not have",
@@ -116,6 +117,6 @@ CODES = {
     "MD721": Code(
         "dashpots, loss factors and gyroscopic effects have no part in natural frequencies",
         "Natural frequencies and modal coupling are those without damping.",
-        "Ask for functions, which have all of it.",
+        "Request FRFs, which include all of it.",
     ),
 }

@@ -16,7 +16,7 @@ CODES = {
     ),
     "MD303": Code(
         "element given twice",
-        "K and M are symmetric, so that (i,j) and (j,i) are one place. Two equal values are harmless and only warned of; two "
+        "K and M are symmetric, so that (i,j) and (j,i) are one element. Two equal values are harmless and only warned of; two "
         "different ones contradict each other.",
         "Give each element once, in the upper triangle.",
     ),
@@ -34,7 +34,7 @@ CODES = {
     "MD306": Code(
         "element listed twice", "Each element that may vary is listed once (group RS).", "Delete the repetition."
     ),
-    "MD307": Code("partial derivative given twice", "One place of A is given twice.", "Give each element of A once."),
+    "MD307": Code("partial derivative given twice", "One element of A is given twice.", "Give each element of A once."),
     "MD308": Code(
         "element that no property moves",
         "A listed element has a row of zeros in A: no property changes it, so listing it has no effect.",
@@ -45,7 +45,7 @@ CODES = {
         "A property has a column of zeros in A: it changes no element of K or M, so no test can revise it.",
         "Give its column of A, or leave the property out.",
     ),
-    "MD310": Code("name used twice", "Two parameters bear one name.", "Give each parameter its own name."),
+    "MD310": Code("name used twice", "Two parameters have one name.", "Give each parameter its own name."),
     "MD311": Code(
         "standard deviation of a property",
         "The standard deviation of a property must be positive, or 0 to hold the property at its prior value.",
@@ -53,7 +53,7 @@ CODES = {
     ),
     "MD312": Code(
         "property without standard deviation",
-        "A property whose standard deviation is 0 is certain: it stays at its prior value whatever the test says.",
+        "A property whose standard deviation is 0 is certain: it stays at its prior value whatever the test.",
         "Give a standard deviation if the property may vary.",
     ),
     "MD313": Code(
@@ -69,7 +69,7 @@ CODES = {
     "MD315": Code(
         "logarithm with fixed total mass",
         "Holding the total mass is a linear condition on the parameters; it cannot be kept exactly for logarithms.",
-        "Use lower: 0 in place of transform: log.",
+        "Use lower: 0 instead of transform: log.",
     ),
     "MD316": Code(
         "impossible prior covariance",
@@ -111,13 +111,13 @@ CODES = {
     "MD327": Code("test without data", "The test holds neither a frequency nor a shape component.", "Give one."),
     "MD328": Code(
         "sensor that reads nothing",
-        "The place of a sensor cannot move in its direction: it is supported there, the model has no such direction, or all "
+        "The position of a sensor cannot move in its direction: it is supported there, the model has no such direction, or all "
         "weights are 0. The sensor would read 0 whatever the model does.",
         "Correct its node, point or direction, or leave it out.",
     ),
     "MD329": Code(
-        "sensor on a place that the model does not have",
-        "A sensor is mounted on a node that the model lacks, or on a node or point of a model that is made of bare matrices.",
+        "sensor at a position that the model does not have",
+        "A sensor is mounted on a node that the model does not have, or on a node or point of a model of bare matrices.",
         "Correct the node; for bare matrices give weights of degrees of freedom.",
     ),
     "MD335": Code(
@@ -150,7 +150,7 @@ CODES = {
     ),
     "MD334": Code(
         "unknown estimator",
-        "The deck asks for an estimator that neither mouse nor an installed plug-in has.",
+        "The deck names an estimator that neither mouse nor an installed plug-in has.",
         "Choose one that `mouse list estimators` shows.",
     ),
     "MD333": Code(

@@ -12,7 +12,7 @@ CODES = {
     ),
     "MD441": Code(
         "properties that the two decks do not share",
-        "An earlier result says something of the properties that bear the same names in this deck. None does; or one that "
+        "An earlier result has information on the properties of the same names in this deck. None does; or one that "
         "`--loosen` names is not among those taken over.",
         "Give the properties of both decks the same names.",
     ),

@@ -22,7 +22,7 @@ CODES = {
     ),
     "MD264": Code(
         "nodes without coordinates",
-        "Some degrees of freedom are on nodes that `model.nodes` does not place. Programs add nodes of their own, which is "
+        "Some degrees of freedom are on nodes that `model.nodes` does not define. Programs add nodes of their own, which is "
         "harmless: no sensor is there. Where they are ordinary nodes, the file belongs to another model.",
         "Check that both files are of the same model.",
     ),

@@ -10,10 +10,10 @@ CODES = {
     ),
     "MD431": Code(
         "impossible altered configuration",
-        "An entry of `test.hold_out.altered` adds masses or springs to the structure and gives the frequencies it then has. A "
-        "place of them is no free degree of freedom of the model, or the frequencies are not positive, without accuracies, or "
+        "An entry of `test.hold_out.altered` adds masses or springs to the structure and gives the frequencies it then has. One "
+        "of them is at no free degree of freedom of the model, or the frequencies are not positive, without accuracies, or "
         "their mode numbers do not ascend.",
-        "Name places by node and direction (12TY), masses by node too; give each frequency its mode number and standard deviation.",
+        "Name locations by node and direction (12TY), masses by node too; give each frequency mode number and standard deviation.",
     ),
     "MD432": Code(
         "nothing left to fit",

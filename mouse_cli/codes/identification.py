@@ -6,8 +6,8 @@ CODES = {
     "MD650": Code(
         "no mode found",
         "No pole stayed where it was while the order of the model rose, or none of those that did improved the fit more than "
-        "noise would. `mouse identify` says which were rejected and why.",
-        "Look at the stabilisation diagram (--plot); choose another --band, or measure for longer.",
+        "noise would. `mouse identify` lists the rejected ones with reasons.",
+        "Check the stabilisation diagram (--plot); choose another --band, or measure for longer.",
     ),
     "MD651": Code(
         "too few lines or samples",
@@ -31,7 +31,7 @@ CODES = {
         "poor fit near a mode",
         "Near the mode the fitted functions differ from the measured ones by more than a third of their size. Something else "
         "than this mode is there: another mode, a nonlinearity, or noise.",
-        "Look at the fit (--plot) and at the coherence there.",
+        "Check the fit (--plot) and the coherence there.",
     ),
     "MD655": Code(
         "sets that are not one test",
@@ -53,7 +53,7 @@ CODES = {
     ),
     "MD658": Code(
         "fit errs more than the stated noise",
-        "The errors of the fit are larger than the variances of the functions say: a mode is missing in the model, the structure "
+        "The errors of the fit are larger than the variances of the FRFs: a mode is missing in the model, the structure "
         "is not linear or changed during the test, or windows leak. Where they are, the standard deviations were raised to them.",
         "Trust the raised standard deviations, or find what the modes do not explain.",
     ),
@@ -65,15 +65,15 @@ CODES = {
     "MD681": Code(
         "two modes in one bandwidth, perhaps",
         "Near a mode the fit leaves errors that have its resonance, but are no multiple of its shape: a second mode much less "
-        "than a bandwidth away, which one force could not tell from it. A structure that is not linear, or changed during the "
+        "than a bandwidth away, which one force could not separate from it. A structure that is not linear, or changed during the "
         "test, leaves such errors too.",
-        "Measure with a force at another place as well: two columns tell modes a tenth of a bandwidth apart. Compare two "
+        "Measure with a force at another point as well: two columns separate modes a tenth of a bandwidth apart. Compare two "
         "levels of force.",
     ),
     "MD680": Code(
         "functions without modes",
-        "A diagnosis by frequency response functions first seeks causes by the modes that they show; they show none.",
-        "Look at what `mouse identify` says of the same deck, or give measured modes beside the functions (test.modes).",
+        "A diagnosis by frequency response functions first seeks mechanisms by the modes identified from them; none were found.",
+        "Check the result of `mouse identify` on the same deck, or give measured modes besides the FRFs (test.modes).",
     ),
     "MD682": Code(
         "short record of outputs alone",

@@ -34,7 +34,7 @@ CODES = {
         "data reproduced without a physical model",
         "The method changes single elements of K until the measured modes come out. Nothing in it knows of a structure: modes that "
         "were not measured, and the effect of any change of the structure, are what the arithmetic left.",
-        "Trust it for the fitted modes alone. `mouse compare` shows what it foresees of data held out.",
+        "Trust it for the fitted modes alone. `mouse compare` shows its predictive error on held-out data.",
     ),
     "MD563": Code(
         "stiffness that is not definite",
@@ -49,7 +49,7 @@ CODES = {
     "MD565": Code(
         "update that did not settle",
         "Expanded shapes and stiffness take turns until neither changes; they had not settled when the iterations ended.",
-        "Tie like elements together, give more or better shapes, or doubt the answer by as much as it still changes.",
+        "Tie like elements together, give more or better shapes, or add the remaining change to the uncertainty.",
     ),
     "MD566": Code(
         "method without what it works on",
@@ -70,12 +70,12 @@ CODES = {
     ),
     "MD568": Code(
         "measured modes not reproduced",
-        "The updated model misses a mode that it was fitted to by more than three standard deviations of its frequency.",
-        "The properties that the method may move cannot say what is wrong: `mouse diagnose` looks for what is missing.",
+        "The frequency of a fitted mode differs from the test by more than three standard deviations.",
+        "The properties that the method may change cannot explain the data: use `mouse diagnose`.",
     ),
     "MD569": Code(
-        "held-out data not foreseen",
-        "The updated model misses data that it was not fitted to by more than one per cent and three standard deviations.",
-        "Do not use it beyond the fitted modes; look for what the model lacks by `mouse diagnose`.",
+        "held-out data not predicted",
+        "Held-out data differ from their prediction by more than one per cent and three standard deviations.",
+        "Do not use it beyond the fitted modes; find the missing physics with `mouse diagnose`.",
     ),
 }

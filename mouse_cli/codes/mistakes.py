@@ -6,10 +6,10 @@ CODES = {
     "MD450": Code(
         "the test in other units than the model",
         "All measured frequencies are one common factor away from those of the model, or become equal to them once a value of the "
-        "deck is read in another unit: rad/s, rpm or kHz in place of Hz, E in MPa, density in g/cm3, sections in mm4, springs in "
-        "N/mm. The prior of the parameters is taken into account: it says that no value they may have explains the difference. The "
+        "deck is read in another unit: rad/s, rpm or kHz instead of Hz, E in MPa, density in g/cm3, sections in mm4, springs in "
+        "N/mm. The prior of the parameters is taken into account: it shows that no value they may have explains that. The "
         "message names what fits best, the note what fits as well.",
-        "Do as the message says. If the model is meant to be so far off, give a parameter a prior that allows for it.",
+        "Follow the message. If the model is meant to be so far off, give a parameter a prior that allows for it.",
     ),
     "MD451": Code(
         "a property that no material and no section has",

@@ -11,13 +11,13 @@ CODES = {
     ),
     "MD502": Code(
         "property that the data do not revise",
-        "After the test the standard deviation of the property is what it was before: the data say nothing of it.",
+        "After the test the standard deviation of the property is what it was before: the data do not determine it.",
         "Measure a mode or a point that it moves; `mouse run --print-partials` shows which do.",
     ),
     "MD503": Code(
         "properties determined only together",
         "Two properties are correlated so strongly after the test that only a combination of them is known.",
-        "Trust the combination, not the single values; measure something that tells them apart.",
+        "Trust the combination, not the single values; measure something that separates them.",
     ),
     "MD504": Code(
         "property at its limit",
@@ -27,11 +27,11 @@ CODES = {
     "MD505": Code(
         "property lost its sign",
         "A property that was positive before the test came out zero or negative.",
-        "Use transform: log or lower: 0 if it cannot be negative; doubt the form of the model.",
+        "Use transform: log or lower: 0 if it cannot be negative; check the form of the model.",
     ),
     "MD506": Code(
         "shape compared with another mode",
-        "A measured shape looks like another model mode than the one of its number.",
+        "A measured shape has a higher MAC with another model mode than with the one of its number.",
         "Use --pairing mac, or correct the mode numbers.",
     ),
     "MD507": Code(
@@ -50,7 +50,7 @@ CODES = {
         "No mode of the model is near enough to a measured one in shape and frequency. `mouse correlate` leaves it unpaired; "
         "`mouse run` compares every measured mode with some model mode and warns when the two have nothing in common: MAC "
         "below 0.1 and frequencies more than 50 % apart.",
-        "Look for what the model lacks, or for a mode of the rig; take the mode out of the test until it is understood.",
+        "Look for missing physics, or for a mode of the rig; take the mode out of the test until it is understood.",
     ),
     "MD510": Code(
         "model mode that the test did not find",
@@ -59,7 +59,7 @@ CODES = {
     ),
     "MD518": Code(
         "functions of a model without damping",
-        "Frequency response functions are fitted or foreseen, and the model has no damping anywhere: its resonances are "
+        "Frequency response functions are fitted or predicted, and the model has no damping anywhere: its resonances are "
         "infinite, and lines near a measured resonance pull parameters away from it.",
         "Give elements or a material `loss_factor` (structural), `stiffness_damping` or `mass_damping` (viscous), or dashpots, and "
         "make the amount a parameter with `transform: log`; or give `modal_damping: {ratio: 1 %, sd: 100 %}`; in a deck of "
@@ -81,7 +81,7 @@ CODES = {
         "Before a large model is factorised, the memory that its factor, the vectors of the eigensolution and the adjoint "
         "solutions will take is estimated from the sparsity pattern. It is more than this machine, or the control group of the "
         "process, has.",
-        "Take a machine with more memory, a coarser mesh, or shells and beams in place of solids; fewer modes help a little.",
+        "Take a machine with more memory, a coarser mesh, or shells and beams instead of solids; fewer modes help a little.",
     ),
     "MD512": Code("out of memory", "The model is too large for this machine.", "Use sparse matrices and fewer modes."),
     "MD513": Code(
@@ -101,7 +101,7 @@ CODES = {
         "Measure in those directions too, or rely on the reduction by modes.",
     ),
     "MD516": Code(
-        "shapes that the sensors cannot tell apart",
+        "shapes that the sensors cannot distinguish",
         "Two modes of one side have nearly the same components at the sensors (spatial aliasing). Pairs, MAC and orthogonality of "
         "these modes mean little.",
         "Add sensors where the shapes differ.",

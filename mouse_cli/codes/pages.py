@@ -5,7 +5,7 @@ from mouse_cli.codes import Code
 CODES = {
     "MD920": Code(
         "no document of mouse",
-        "`mouse report` reads the JSON that `mouse run --json` and `mouse diagnose --json` write. The file is no JSON, or says no "
+        "`mouse report` reads the JSON that `mouse run --json` and `mouse diagnose --json` write. The file is no JSON, or has no "
         "`schema` of mouse.",
         "Write the answer with --json and give that file; a deck is not an answer.",
     ),
@@ -16,8 +16,8 @@ CODES = {
         "one of another version needs the mouse that wrote it.",
     ),
     "MD922": Code(
-        "a document that is not what its schema says",
-        "A value of the document is of another type than its schema says: the file was changed, or made by something else.",
+        "a document that does not follow its schema",
+        "A value of the document is of another type than in its schema: the file was changed, or made by something else.",
         "Write the document again; its keys are listed in docs/reference/json.md.",
     ),
 }

@@ -16,6 +16,6 @@ CODES = {
     "MD532": Code(
         "nothing to draw",
         "`--plot` was given, and no figure has anything to show: `mouse run` draws fitted functions and recordings, not modes.",
-        "`mouse plot` draws frequencies, parameters and shapes of an answer in JSON; `--figure` asks for one it has values for.",
+        "`mouse plot` draws frequencies, parameters and shapes of an answer in JSON; `--figure` selects one it has values for.",
     ),
 }

@@ -5,7 +5,7 @@ from mouse_cli.codes import Code
 CODES = {
     "MD600": Code(
         "no such channel",
-        "The deck or the command line names a channel that the file does not hold, or a name that several channels bear.",
+        "The deck or the command line names a channel that the file does not hold, or a name that several channels have.",
         "Give a name of the message, or the number of the channel, counted from 1. Column 3 of a table `A` of a MAT, NPZ or "
         "HDF5 file is `A[3]`; a field of a struct is `struct.field`.",
     ),
@@ -16,7 +16,7 @@ CODES = {
     ),
     "MD602": Code(
         "sample rate unknown",
-        "Nothing says how many samples a second there are: neither the deck, nor the file, nor an evenly spaced time column.",
+        "The sample rate is unknown: neither the deck, nor the file, nor an evenly spaced time column gives it.",
         "Give `sample_rate` in Hz, or name the time column with `time`.",
     ),
     "MD603": Code(
@@ -28,7 +28,7 @@ CODES = {
     "MD604": Code(
         "samples missing",
         "The time column leaps: samples were dropped while recording, or several recordings were joined, or time runs backwards. "
-        "Spectra over such a place are wrong.",
+        "Spectra over such a gap are wrong.",
         "Use a stretch without a leap: `segment: [first, last]`, samples counted from 0, the last one not included.",
     ),
     "MD605": Code(
@@ -39,7 +39,7 @@ CODES = {
     "MD606": Code(
         "channel clipped",
         "Samples stand still at the largest or the smallest value of the channel, reached at once from well below: the amplifier "
-        "or the converter was overloaded. Clipping makes harmonics that look like a nonlinear structure.",
+        "or the converter was overloaded. Clipping makes harmonics that resemble a nonlinear structure.",
         "Measure again with a wider range, use a stretch without it, or leave the channel out.",
     ),
     "MD607": Code(
@@ -59,18 +59,18 @@ CODES = {
     ),
     "MD610": Code(
         "units contradict each other",
-        "The deck says one unit or quantity of a channel or function and its file another, or a unit does not belong to the "
+        "The deck states one unit or quantity of a channel or FRF and its file another, or a unit does not belong to the "
         "quantity. g for m/s2 is a factor of 9.80665 in every mass and stiffness.",
         "Delete `unit` where the file is right; else correct it.",
     ),
     "MD611": Code(
         "unit not understood",
-        "The unit is none that is known, or volts without a sensitivity, or nothing says what kind of function was measured.",
+        "The unit is none that is known, or volts without a sensitivity, or the kind of FRF that was measured is not stated.",
         "Units that are converted: N, kN, lbf; m/s2, mm/s2, g; m/s; m, mm, in; rad; N m; Pa; and V with `sensitivity: 100 mV/g`.",
     ),
     "MD612": Code(
         "no unit given",
-        "Neither deck nor file says in what unit a channel is; the units of the deck, SI where it declares none, were taken.",
+        "Neither deck nor file states the unit of a channel; the units of the deck, SI where it declares none, were taken.",
         "Give `unit`.",
     ),
     "MD613": Code(
@@ -105,10 +105,10 @@ CODES = {
         "Name forces as inputs and responses as outputs; leave other channels out.",
     ),
     "MD619": Code(
-        "forces that cannot be told apart",
+        "forces that cannot be separated",
         "Several forces moved together, or one of them was zero, or the estimator is defined for one force alone; periodic "
         "excitation needs as many experiments as forces.",
-        "Drive the forces with independent signals, or one after another; use --estimator h1 or hv.",
+        "Drive the forces with independent signals, or one at a time; use --estimator h1 or hv.",
     ),
     "MD620": Code(
         "recording shorter than a block",
@@ -143,13 +143,13 @@ CODES = {
     "MD626": Code(
         "no recording of the model in the folder",
         "No file of the folder has channels that are sensors of the model. A channel is a sensor by its name: that of a sensor in "
-        "`test.sensors`, or the label of a degree of freedom, `12TY`; or by what the command line says.",
-        "Say which is which: `--force SENSOR=CHANNEL --response SENSOR=CHANNEL`; or call the sensors of the deck as the channels.",
+        "`test.sensors`, or the label of a degree of freedom, `12TY`; or by an option of the command line.",
+        "Map the channels: `--force SENSOR=CHANNEL --response SENSOR=CHANNEL`; or call the sensors of the deck as the channels.",
     ),
     "MD627": Code(
         "file of the folder passed over",
         "The file can be read, but it is no recording of the model: it holds functions, no channel of it is a sensor, or a force "
-        "was measured and nothing says where it acts.",
+        "was measured and its location is not stated.",
         "Name channels: `--force SENSOR=CHANNEL`, `--response SENSOR=CHANNEL`.",
     ),
 }

@@ -46,12 +46,12 @@ CODES = {
     ),
     "MD410": Code(
         "node that nothing holds",
-        "No element, rigid link or matrix gives the node stiffness, so it has no place in the model.",
+        "No element, rigid link or matrix gives the node stiffness, so it is not part of the model.",
         "Join it to an element, or leave it out.",
     ),
     "MD411": Code(
         "element without length",
-        "Both ends of an element that has a length are at the same place.",
+        "Both ends of an element that has a length are at the same point.",
         "Move a node, mend an offset, or use a spring or joint, which need no length.",
     ),
     "MD412": Code(
@@ -108,7 +108,7 @@ CODES = {
     "MD422": Code(
         "weight without a way to the ground",
         "With `gravity`, the axial forces follow from the weights; some weight gets to no support, or in more than one way that "
-        "the elements do not tell apart.",
+        "the elements do not determine.",
         "Support the structure, or give axial forces as `preload` and leave `gravity` out.",
     ),
     "MD423": Code(
@@ -127,7 +127,7 @@ CODES = {
         "Correct the value, at the element or at the material or section that it comes from.",
     ),
     "MD426": Code(
-        "a beam in space that lacks a constant of its section",
+        "a beam in space without a constant of its section",
         "Without J a beam does not resist torsion, without Iy or Iz it does not bend in that plane; directions that nothing "
         "stiffens are left out of the model without a further word.",
         "Give the constant, or a shape of the section, from which it follows; or keep the directions of a plane alone.",

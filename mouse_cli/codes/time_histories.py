@@ -24,9 +24,9 @@ CODES = {
     "MD644": Code(
         "motion of the ground not understood",
         "The motion of what holds the model (`ground`, `groundTX`) stands among the outputs, or is given as a force, or no degree "
-        "of freedom moves along with it. Or an output is said to be relative to a ground that no input measures. Or it is an "
+        "of freedom moves along with it. Or an output is declared relative to a ground that no input measures. Or it is an "
         "absolute displacement or velocity, while of the ground only a higher derivative is known.",
-        "Name the motion of the ground under `inputs`, with its quantity or unit; say with `moves` what it carries along, and with "
+        "Name the motion of the ground under `inputs`, with its quantity or unit; give `moves`, what it carries along, and with "
         "`frame` whether outputs are absolute or relative.",
     ),
     "MD540": Code(

@@ -12,10 +12,10 @@ CODES = {
     ),
     "MD201": Code(
         "not YAML, or not readable",
-        "The text does not follow the rules of YAML at this place, or the file could not be opened. The "
+        "The text does not follow the rules of YAML here, or the file could not be opened. The "
         "cause is often "
         "a line above: a bracket that was not closed, a missing comma, a colon without a blank after it.",
-        "Check brackets, commas, colons and indentation (blanks, no tabs) at the place and above.",
+        "Check brackets, commas, colons and indentation (blanks, no tabs) here and above.",
     ),
     "MD202": Code(
         "beyond the limits of a deck",
@@ -26,7 +26,7 @@ CODES = {
     ),
     "MD203": Code(
         "tag",
-        "YAML tags (!!python/object, !include, ...) are not read: the key says what its value is.",
+        "YAML tags (!!python/object, !include, ...) are not read: the key determines the type of its value.",
         "Delete the tag.",
     ),
     "MD204": Code(
@@ -77,7 +77,7 @@ CODES = {
         "A list has more or fewer values than another part of the deck requires. Shapes have one row for "
         "each of dofs "
         "and one column for each mode.",
-        "Give as many values as the message says.",
+        "Give as many values as the message states.",
     ),
     "MD217": Code(
         "no form, or several forms",
@@ -107,7 +107,7 @@ CODES = {
         "Give the standard deviation as a number, or give the nominal value.",
     ),
     "MD224": Code(
-        "standard deviation missing or told twice",
+        "standard deviation missing or given twice",
         "A parameter needs a prior standard deviation: how far its value may be from the nominal one. It "
         "comes from sd "
         "or from the diagonal of prior.covariance; when both are given and differ, the covariance is used.",
@@ -133,7 +133,7 @@ CODES = {
         "shapes turned",
         "The list has one row for each mode, where one row for each degree of freedom was expected. As "
         "the counts "
-        "differ there is no doubt, and it was read turned. With as many modes as sensors it could not be "
+        "differ there is no ambiguity, and it was read transposed. With as many modes as sensors it could not be "
         "noticed.",
         "Write one row for each of dofs, one column for each mode, as Table 5-3 prints the modal matrix.",
     ),
@@ -151,7 +151,7 @@ CODES = {
         "file outside the folder of the deck",
         "A deck, a manifest or a job to import may name only files in its own folder or below, so that one from elsewhere reads "
         "nothing else. "
-        "Absolute paths, '..' and links that lead out are refused; so are links that lead out of a folder in which decks were "
+        "Absolute paths, '..' and links out of it are refused; so are links out of a folder in which decks were "
         "searched.",
         "Put the file beside the deck and give its name alone; or, where you know what the deck reads, allow it: "
         "`--allow-outside`.",
@@ -163,8 +163,8 @@ CODES = {
     ),
     "MD251": Code(
         "unknown matrix format",
-        "The suffix tells the format; the message lists those that are read, "
-        "and the how-to `Models from other programs` says more.",
+        "The suffix determines the format; the message lists those that are read, "
+        "and the how-to `Models from other programs` has details.",
         "Convert the file to one of these.",
     ),
     "MD252": Code(
@@ -172,7 +172,7 @@ CODES = {
         "The file does not hold what its format demands: a wrong first line, fewer entries than promised "
         "(truncated), "
         "a row of another length, a word where a number should be.",
-        "Write the file anew.",
+        "Write the file again.",
     ),
     "MD253": Code(
         "matrix not real",
@@ -186,7 +186,7 @@ CODES = {
     ),
     "MD255": Code(
         "matrix file not symmetric",
-        "An element and its mirror image differ by more than rounding, or the file says it is "
+        "An element and its mirror image differ by more than rounding, or the file declares it "
         "skew-symmetric or "
         "Hermitian. Perhaps only one triangle was written under the word 'general'.",
         "Write both triangles; in Matrix Market, or the lower triangle and the word 'symmetric'.",
@@ -194,7 +194,7 @@ CODES = {
     "MD256": Code(
         "matrix file holds NaN or infinity",
         "K and M consist of finite numbers.",
-        "Find out why the program that wrote the file had none, and write it anew.",
+        "Find out why the program that wrote the file had none, and write it again.",
     ),
     "MD257": Code(
         "matrix file of another order",
@@ -209,7 +209,7 @@ CODES = {
     ),
     "MD259": Code(
         "several arrays",
-        "The file holds several matrices, and nothing says which one is meant; or none.",
+        "The file holds several matrices and none is selected; or it holds none.",
         "Name it: {file: ..., variable: NAME}.",
     ),
     "MD290": Code(

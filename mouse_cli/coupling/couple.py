@@ -19,7 +19,7 @@ def couple(coupling: Coupling, notice: Notice = lambda text: None) -> Coupled:
     only_models = not any(part.measured or part.removed for part in coupling.substructures)
     if coupling.synthesis is not None and not only_models:
         named = ", ".join(part.name for part in coupling.substructures if part.measured or part.removed)
-        message = f"natural frequencies are asked for, but {named} has no matrices to add"
+        message = f"natural frequencies are requested, but {named} has no matrices to add"
         raise DeckError(Diagnostic("MD715", ERROR, message, help="leave modes out, or give models"))
     found, interface, warnings = None, None, []
     if coupling.responses:
@@ -41,7 +41,7 @@ def _doubts(interface: InterfaceState) -> list[Diagnostic]:
         return []
     told = f"{int(lost.sum())} of {len(lost)} lines"
     message = f"noise decides the interface at {told}: its condition number times its noise is above 1"
-    return [Diagnostic("MD713", WARNING, message, help="give truncate: 0.01, or join fewer places")]
+    return [Diagnostic("MD713", WARNING, message, help="give truncate: 0.01, or join fewer degrees of freedom")]
 
 
 def _damped(coupling: Coupling) -> bool:

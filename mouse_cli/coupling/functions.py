@@ -189,7 +189,7 @@ def _table(entries: list[tuple[int, int, float]], rows: int, places: np.ndarray)
 def _singular(coupling: Coupling, s: np.ndarray) -> NumericalError:
     """The error for an interface that has no answer at lines s."""
     message = f"the flexibility of the interface is singular at {s[0].imag / (2 * np.pi):.6g} Hz"
-    note = "two conditions say the same, or a part does not move where it is joined"
+    note = "two conditions are equal, or a part does not move where it is joined"
     return NumericalError(
         Diagnostic("MD714", ERROR, f"{message} in '{coupling.title.strip()}'", note=note, help="give truncate: 1e-9")
     )

@@ -91,5 +91,5 @@ def _told(part: Substructure) -> str:
 
 def _apart(message: str) -> DeckError:
     return DeckError(
-        Diagnostic("MD711", ERROR, message, help="leave lines out, or ask for a band in which all was measured")
+        Diagnostic("MD711", ERROR, message, help="leave lines out, or give a band in which all was measured")
     )

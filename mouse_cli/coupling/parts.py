@@ -133,7 +133,7 @@ class Measured:
             f"the function of {names[left[a]]} by a force at {names[right[b]]} was not measured on {self.part.name}"
         )
         note = "nor was the one with response and force exchanged" if self.part.reciprocal else "reciprocal is false"
-        help = "measure it, or leave the place out"
+        help = "measure it, or leave the degree of freedom out"
         raise NumericalError(Diagnostic("MD710", ERROR, message, note=note, help=help))
 
 

@@ -62,7 +62,7 @@ def _needs(target: Target, known: Receptance, weights: Matrix, names: tuple[str,
     if target.place is None:
         order = order[possible[order]][:_SHOWN]
     found = [_checked(target, known, weights[[i]], names[i], after) for i in order]
-    return found or [Need(target, "", *(np.nan,) * 6, "no single place does it")]
+    return found or [Need(target, "", *(np.nan,) * 6, "no single location suffices")]
 
 
 def _values(

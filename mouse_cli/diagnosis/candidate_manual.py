@@ -9,7 +9,7 @@ from mouse_cli.terms.laws import Law
 _HEAD = """# Candidates
 
 What `mouse diagnose` can name. Each is fitted beside all parameters of the deck, wherever it has a meaning; candidates that data
-can hardly tell apart share a group, and the group is decided first. [Diagnosis](../explanation/diagnosis.md) explains how."""
+can hardly distinguish share a group, and the group is decided first. [Diagnosis](../explanation/diagnosis.md) explains how."""
 _NAMELESS = """## Rivals without a name
 
 Changes of the model made of smooth random fields, one kind a row: what the library has no name for looks more like one of these

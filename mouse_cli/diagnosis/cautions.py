@@ -18,8 +18,8 @@ _SMALL = 0.2  # share of all places that the 90 % region may hold to point anywh
 _TOLD = {
     "gains": "every sensor looks off by about {size:.1f} % of what it reads, in all modes alike, which the deck does not state: "
     "calibrate the sensors, or add that much of each component to shape_sd",
-    "places": "every sensor looks out of its place by about {size:.2f} % of the length of its row of bars, which the deck does not "
-    "state: measure where they stand, or add what that makes of the shapes to shape_sd",
+    "places": "every sensor appears misplaced by about {size:.2f} % of the length of its row of bars, which the deck does not "
+    "state: measure the sensor positions, or add the resulting shape error to shape_sd",
     "drift": "the frequencies look off by about {size:.2f} % each, one from another, which the deck does not state (temperature, "
     "amplitude, sensors moved between modes): repeat the test, or add that much to frequency_sd",
 }
@@ -42,7 +42,7 @@ def _errors(ranking: Ranking) -> Iterator[str]:
     for doubt in ranking.doubts:
         if doubt.key == misstated(ranking):
             p = f"P = {doubt.probability:.2f}" if doubt.probability < 0.995 else "P > 0.99"
-            yield f"The test is less accurate than its deck says ({p}): {_TOLD[doubt.key].format(size=100 * doubt.size)}."
+            yield f"The test is less accurate than stated in the deck ({p}): {_TOLD[doubt.key].format(size=100 * doubt.size)}."
 
 
 def _noise(ranking: Ranking) -> Iterator[str]:
@@ -52,8 +52,8 @@ def _noise(ranking: Ranking) -> Iterator[str]:
         named = zip(("frequencies", "shapes"), scatter(best), strict=True)
         parts = " and ".join(f"{name} {factor:.2g} times" for name, factor in named if np.isfinite(factor))
         yield (
-            f"Even the best explanation leaves {parts} the scatter that the deck states. Unless the cause is one that mouse does "
-            "not know, the test is that much less accurate: repeat a measurement to see how far it scatters."
+            f"Even the best explanation leaves {parts} the scatter that the deck states. Unless the mechanism is outside the "
+            "library, the test is less accurate by that factor: repeat a measurement to estimate its scatter."
         )
 
 
@@ -75,8 +75,8 @@ def _elsewhere(verdict: Verdict, location: Location | None) -> Iterator[str]:
         return
     first = region[0].site
     yield (
-        f"The measured shapes by themselves point to {first.text or f'{first.kind} {first.ids}'}, where this cause does not act, "
-        "or not there alone: look at that place before you believe the name."
+        f"The measured shapes by themselves point to {first.text or f'{first.kind} {first.ids}'}, where this mechanism does not "
+        "act, or not alone: inspect that site before you trust the name."
     )
 
 

@@ -182,7 +182,7 @@ def _coarse(deck: Problem) -> tuple[str, ...]:
     sd = deck.test.frequency_sd_hz / deck.test.frequency_hz
     known = np.isfinite(sd)
     found = numerics(deck, deck.prior.mean, deck.test.number[known] - 1, sd[known])
-    return tuple(f"with the cause: {text}" for text in found.remarks)
+    return tuple(f"with the mechanism: {text}" for text in found.remarks)
 
 
 def _proposals(ranking: Ranking, verdict: Verdict) -> tuple[Proposal, ...]:

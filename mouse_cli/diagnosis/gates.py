@@ -15,7 +15,7 @@ SURE = 0.95
 """Posterior probability of a group, and of its site, from which on it is named: no rival is left that would have to be listed."""
 
 STAYS = 0.1
-"""Posterior probability of a group above which it stays a rival of what leads without a name."""
+"""Posterior probability of a group above which it stays a rival of a leading field without a name."""
 
 SAME_SITE = 0.05
 """Distance, over the span of the structure, up to which mechanisms of one group in two explanations are one mechanism."""
@@ -33,7 +33,7 @@ LIKELY, DEMANDED = 0.1, 0.02
 """Probability of no mechanism below which something is likely missing though not proved, and below which it is missing."""
 
 FAR = 5.0
-"""Distance of a parameter from its prior mean, in prior sd, beyond which no fit is believed: such a fit is no name."""
+"""Distance of a parameter from its prior mean, in prior sd, beyond which a fit is rejected: it gives no name."""
 
 
 def prior(count: int) -> float:

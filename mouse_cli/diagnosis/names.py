@@ -49,4 +49,4 @@ def housed(model: Reduced, given: tuple[str, ...] | None) -> None:
         return
     why = "; ".join(f"{name}: {found[name].why(model.first)}" for name in given)
     others = ", ".join(name for name, each in found.items() if model.recipes(each))
-    raise NoSite(f"no candidate that was asked for has a site in this model ({why}); these have one: {others}")
+    raise NoSite(f"no requested candidate has a site in this model ({why}); these have one: {others}")

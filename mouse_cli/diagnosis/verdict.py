@@ -196,12 +196,12 @@ _FAR = (
     "is much too narrow, or the physics is another."
 )
 _OVERTAKEN = (
-    "By the data that were fitted, {} leads what has no name. The data held out reverse that: it predicts them so much worse that "
-    "it is the less probable of the two."
+    "By the fitted data, {} is more probable than a change without a name. The held-out data reverse that: it predicts them so "
+    "much worse that it is the less probable of the two."
 )
 _OWN_MODE = (
-    "This mechanism has a mode of its own at {}, within the measured band, which the test does not have: look for it there; as "
-    "long as it is not seen, the mechanism is not proved."
+    "This mechanism has a mode of its own at {}, within the measured band, which the test does not have: look for it there; "
+    "unless it is measured, the mechanism is not proved."
 )
 
 

@@ -50,7 +50,7 @@ def check(bytes_needed: int, n: int) -> None:
             "MD517",
             ERROR,
             f"a model of {n:,} degrees of freedom needs about {shown(bytes_needed)}, and there are {shown(have)}",
-            help="take a machine with more memory, a coarser mesh, or shells and beams in place of solids",
+            help="take a machine with more memory, a coarser mesh, or shells and beams instead of solids",
         )
     )
 

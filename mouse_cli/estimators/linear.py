@@ -140,7 +140,7 @@ def determined(B: np.ndarray, problem: LinearProblem) -> tuple[np.ndarray, np.nd
         loose = np.abs(problem.expand(null / scale[:, None])) @ np.ones(k)
         loose = loose > 1e-6 * loose.max(initial=0.0)
         raise Unobservable(
-            f"of {k} free directions of the properties only {rank} can be told from the data ({q})", loose
+            f"of {k} free directions of the properties only {rank} can be determined from the data ({q})", loose
         )
     return U, s, Vt, scale
 

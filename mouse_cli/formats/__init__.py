@@ -92,7 +92,7 @@ def is_yaml(data: str | bytes, path: str = "") -> bool:
 
 
 def holds(data: str | bytes, path: str = "") -> str:
-    """What a deck holds in place of a model: `couple` or `modify`; `model` for all others."""
+    """What a deck holds instead of a model: `couple` or `modify`; `model` for all others."""
     found = (
         _OTHERS.search(data.encode("utf-8", "replace") if isinstance(data, str) else data)
         if is_yaml(data, path)

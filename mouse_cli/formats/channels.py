@@ -57,7 +57,7 @@ def channel(pick: Pick, found: Column, units: Units, say: Findings) -> tuple[Cha
     quantity = pick.quantity or known.quantity
     if quantity != known.quantity:
         message = (
-            f"channel '{found.name}' is said to be {quantity}, but its unit, {spelled}, is one of {known.quantity}"
+            f"channel '{found.name}' is declared as {quantity}, but its unit, {spelled}, is one of {known.quantity}"
         )
         say.error("MD610", pick.where, message, "correct quantity or unit")
         return None
@@ -72,7 +72,7 @@ def _unit(pick: Pick, found: Column, say: Findings) -> str | None:
         return pick.unit or found.unit
     if said.quantity == stated.quantity and abs(said.factor / stated.factor - 1) < _SAME:
         return pick.unit
-    message = f"the deck says that channel '{found.name}' is in {pick.unit}; its file says {found.unit}"
+    message = f"the deck states that channel '{found.name}' is in {pick.unit}; its file states {found.unit}"
     note = (
         f"1 {found.unit} is {stated.factor / said.factor:.6g} {pick.unit}" if said.quantity == stated.quantity else ""
     )
@@ -97,7 +97,7 @@ def _calibrated(pick: Pick, found: Column, spelled: str, units: Units, say: Find
     measured = parts[1]
     if pick.quantity and pick.quantity != measured.quantity:
         message = (
-            f"channel '{found.name}' is said to be {pick.quantity}; its sensitivity is that of {measured.quantity}"
+            f"channel '{found.name}' is declared as {pick.quantity}; its sensitivity is that of {measured.quantity}"
         )
         say.error("MD610", pick.where, message, "correct quantity or sensitivity")
         return None
@@ -113,7 +113,7 @@ def _uncalibrated(pick: Pick, found: Column, spelled: str, units: Units, say: Fi
     if not spelled:
         return _named(pick, found, quantity, target(quantity, units)[0]), 1.0
     if not pick.quantity:
-        message = f"channel '{found.name}' is in {spelled}, which does not tell what it measures"
+        message = f"channel '{found.name}' is in {spelled}, which does not determine what it measures"
         say.error(
             "MD611", pick.where, message, "give sensitivity, as 100 mV/g; or quantity, and its numbers stay as they are"
         )

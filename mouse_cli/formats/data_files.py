@@ -17,8 +17,8 @@ _LINES = 12  # times the size of a text file that its lines and numbers take at 
 _LONGEST = 600  # characters of a message
 _WIDEST = 200  # characters of a line that a diagnostic shows
 _DISGUISES = (  # how files begin that are not what their name says
-    (b"<!doctype html", "an HTML page, such as a server sends in place of a file", "fetch the file itself"),
-    (b"<html", "an HTML page, such as a server sends in place of a file", "fetch the file itself"),
+    (b"<!doctype html", "an HTML page, such as a server sends instead of a file", "fetch the file itself"),
+    (b"<html", "an HTML page, such as a server sends instead of a file", "fetch the file itself"),
     (b"<?xml", "an XML file", "export the matrix in one of the formats that are read"),
     (b"\x89png", "a picture (PNG)", "give the file of the matrix, not a plot of it"),
     (b"%pdf", "a PDF document", "give the file that the document was made from"),
@@ -53,7 +53,7 @@ def kept(path: str, promised: int, what: str) -> None:
     held = os.path.getsize(path)
     if promised > held:
         message = f"{what} takes {promised} bytes, and the whole file has {held}"
-        reject("MD252", path, message, "the file is cut short, or its head is wrong: write it anew")
+        reject("MD252", path, message, "the file is cut short, or its head is wrong: write it again")
 
 
 def line_span(path: str, number: int, line: str, part: str = "") -> Span:
@@ -109,7 +109,7 @@ def opened(form: Any, path: str, *arguments: object) -> Any:
 
 def _damaged(form: Any, path: str, error: Exception) -> NoReturn:
     what = str(error).split("\n")[0][:200] or type(error).__name__
-    reject("MD252", path, f"damaged, or not of the format '{form.key}': {what}", "write the file anew")
+    reject("MD252", path, f"damaged, or not of the format '{form.key}': {what}", "write the file again")
 
 
 def rows_of(package: str, path: str, what: str, nothing: str, help: str) -> Any:
@@ -146,7 +146,7 @@ def _head(path: str) -> bytes:
 
 def _undisguised(path: str, head: bytes, suffix: str) -> None:
     if not head:
-        reject("MD252", path, "the file is empty", "write it anew")
+        reject("MD252", path, "the file is empty", "write it again")
     start = head.removeprefix(b"\xef\xbb\xbf").lstrip().lower()
     for mark, what, remedy in _DISGUISES:
         if start.startswith(mark) and not (suffix == "npz" and mark.startswith(b"pk")):

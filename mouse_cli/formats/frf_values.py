@@ -27,11 +27,11 @@ def scaled(
     told = found and {**MOTION, **_TURNED}.get(found[0].quantity)
     known = {name for name in (kind, told, file_kind) if name}
     if len(known) > 1:
-        message = f"the functions are said to be {' and '.join(sorted(known))} at once"
+        message = f"the FRFs are declared as {' and '.join(sorted(known))} at once"
         say.error("MD610", where, message, "correct kind or unit", f"unit: {spelled or stated}" if found else "")
         return None
     if not known:
-        message = "neither deck nor file says whether the functions are receptance, mobility or accelerance"
+        message = "neither deck nor file states whether the FRFs are receptance, mobility or accelerance"
         say.error("MD611", where, message, f"give kind: {', '.join(KINDS)}; or unit, as (m/s2)/N")
         return None
     if found is None:
@@ -57,7 +57,7 @@ def _agree(spelled: str, stated: str, say: Findings, where: Span | None) -> bool
     factors = [above.factor / below.factor for above, below in (said, file)]
     if said[0].quantity == file[0].quantity and abs(factors[0] / factors[1] - 1) < 0.01:
         return True
-    message = f"the deck says that the functions are in {spelled}; their file says {stated}"
+    message = f"the deck states that the FRFs are in {spelled}; their file states {stated}"
     say.error("MD610", where, message, "delete unit, if the file is right; else correct the file")
     return False
 

@@ -71,7 +71,7 @@ class Bulk:
         except ValueError:
             self.refuse(card, f"field {field + 2} of this {card.name} is '{text[:16]}'; expected a number")
 
-    def refuse(self, card: Card, message: str, help: str = "write the file anew") -> None:
+    def refuse(self, card: Card, message: str, help: str = "write the file again") -> None:
         """MD252 at a card."""
         reject("MD252", self.path, message, help, self.where(card))
 

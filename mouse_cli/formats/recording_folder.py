@@ -103,7 +103,7 @@ def read_folder(
             unused |= dict.fromkeys(others)
     if not records:
         message = f"none of {len(names)} files in {folder} is a recording of the model"
-        help = "say which channel is which sensor: --force SENSOR=CHANNEL --response SENSOR=CHANNEL"
+        help = "map channels to sensors: --force SENSOR=CHANNEL --response SENSOR=CHANNEL"
         raise RecordError((Diagnostic("MD626", ERROR, message, Span(folder, 1), help=help), *passed))
     records = _titled(records)
     return RawFolder(tuple(records), _held(records), tuple(unread), tuple(passed), tuple(unused))
@@ -159,11 +159,11 @@ def _picks(contents: Contents, choice: Choice, sensors: Sensors, where: Span) ->
             unused.append(column.name)
     if not any(pick.role == OUTPUT for pick in picks):
         listed = ", ".join(column.name for column in contents.columns[:8])
-        message = f"no response among its channels bears the name of a sensor of the model: {listed}"
+        message = f"no response among its channels has the name of a sensor of the model: {listed}"
         _refuse(
             where,
             message,
-            "say which is which: --response SENSOR=CHANNEL; or name them in the deck: test: {sensors: [...]}",
+            "map them: --response SENSOR=CHANNEL; or name them in the deck: test: {sensors: [...]}",
         )
     return sorted(picks, key=lambda pick: pick.role != INPUT), unused
 
@@ -197,7 +197,7 @@ def _said(
     own = sensor if stroke else sensors.of(column.name)
     if own is None:
         option = "--force" if role == INPUT else "--response"
-        _refuse(where, f"nothing says which sensor channel '{name}' is", f"say so: {option} SENSOR={name}")
+        _refuse(where, f"no sensor is given for channel '{name}' is", f"say so: {option} SENSOR={name}")
     return _pick(role, own, column, names[at[0]], choice, where)
 
 

@@ -93,7 +93,7 @@ def _clock(found: Column, span: tuple[int, int], say: Findings, where: Span | No
         return None
     elif ticks.breaks:
         sample, missing = ticks.breaks[0]
-        more = f", and at {len(ticks.breaks) - 1} more places" if len(ticks.breaks) > 1 else ""
+        more = f", and at {len(ticks.breaks) - 1} more positions" if len(ticks.breaks) > 1 else ""
         message = (
             f"{missing} samples are missing before sample {span[0] + sample} by the time column '{found.name}'{more}"
         )

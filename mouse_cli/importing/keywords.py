@@ -19,7 +19,7 @@ REMEDIES = {
     "PART": "write the input without parts and assemblies: in Abaqus/CAE, Model attributes",
     "INSTANCE": "write the input without parts and assemblies: in Abaqus/CAE, Model attributes",
     "ASSEMBLY": "write the input without parts and assemblies: in Abaqus/CAE, Model attributes",
-    "PARAMETER": "write numbers in place of parameters",
+    "PARAMETER": "write numbers instead of parameters",
     "TRANSFORM": "give the boundary conditions in global directions",
     "SYSTEM": "give the nodes in the global rectangular system",
     "HYPERELASTIC": "give *ELASTIC: the small vibration of the material",

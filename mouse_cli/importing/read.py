@@ -111,7 +111,7 @@ def _element(model: InputModel, card: Card, faults: Faults) -> None:
             message = f"an element of type {kind} has {NODES[kind]} nodes; {len(values) - 1} are given"
             faults.add("MD265", message, first.span, "mend the line or the type")
         if values[0] in model.elements:
-            faults.add("MD265", f"element {values[0]} is given twice", first.span, "number the elements anew")
+            faults.add("MD265", f"element {values[0]} is given twice", first.span, "renumber the elements")
         _nodes_known(model, values[1:], first, faults)
         model.elements[values[0]] = (kind, tuple(values[1:]))
         own.append(values[0])

@@ -54,7 +54,7 @@ def imported(
     model = read(path, outside)
     if not calculix.available():
         message = "CalculiX (ccx) is not on the path: nothing can export K and M"
-        help = "install it (Debian, Ubuntu: apt install calculix-ccx), or export by hand as docs/how-to/import-models.md says"
+        help = "install it (Debian, Ubuntu: apt install calculix-ccx), or export by hand as in docs/how-to/import-models.md"
         raise DeckError(Diagnostic("MD274", ERROR, message, Span(path, 1), help=help))
     solver = calculix.Solver(path, calculix.cache_folder() if cached else None, say)
     found = parts(model, solver)
@@ -63,9 +63,7 @@ def imported(
     remarks = list(model.remarks)
     if not system:
         spoken = (
-            f"taken for {named}, as E and density of its materials are"
-            if named
-            else "not to be told from its materials"
+            f"taken for {named}, as E and density of its materials are" if named else "not determined by its materials"
         )
         remarks.append(
             Diagnostic("MD276", WARNING, f"the units of the job are {spoken}", Span(path, 1), help="give --units")

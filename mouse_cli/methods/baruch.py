@@ -35,10 +35,10 @@ METHOD = Method(
     "min |M^-1/2 (K - K0) M^-1/2| with K X = M X L: K = K0 + D + D', D = (1 - M X X'/2)(M X L - K0 X) X'M",
     "lecture 21-1; Baruch and Bar-Itzhack, AIAA J. 16 (1978) 346",
     (
-        (KEPT, "X L X' is what K has in place of the modes of K0 that X replaces"),
+        (KEPT, "X L X' replaces in K the modes of K0 that are nearest to X"),
         (KEPT, "K = P'K0 P + M X L X'M with P = 1 - X X'M, a sum of semidefinite matrices"),
         (KEPT, "X is made orthogonal to the rigid-body modes of K0, so that D has no force on them"),
-        (LOST, "M X X'M fills every place: degrees of freedom are joined that nothing joins in the structure"),
+        (LOST, "M X X'M is full: degrees of freedom are joined that nothing joins in the structure"),
         (LOST, "modes that were not measured stay those of the model, which was wrong; no element has that stiffness"),
     ),
     (SHAPES,),

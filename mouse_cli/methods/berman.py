@@ -34,7 +34,7 @@ METHOD = Method(
         (KEPT, "each is a term of the sum"),
         (KEPT, "a sum of semidefinite matrices"),
         (KEPT, "and every other motion is without stiffness too"),
-        (LOST, "M x x'M fills every place"),
+        (LOST, "M x x'M is full"),
         (LOST, "there is no stiffness against any motion that was not measured: K has the rank of the test"),
     ),
     (SHAPES,),

@@ -40,7 +40,7 @@ METHOD = Method(
         (PARTLY, "exactly where the shapes are orthogonal as measured; the average moves them else"),
         (LOST, "the average of G and its transpose may have negative eigenvalues when many modes are given (Ross)"),
         (PARTLY, "as good as the measured shapes are orthogonal to them"),
-        (LOST, "M Q fills every place"),
+        (LOST, "M Q is full"),
         (LOST, "there is no stiffness against any motion that was not measured: K has the rank of the test"),
     ),
     (SHAPES,),

@@ -15,7 +15,7 @@ def without_shape(problem: Problem, key: str, test: ModalTest) -> DeckError | No
     if have.all() and test.m:
         return None
     number = int(test.number[~have][0]) if test.m else 0
-    message = f"'{key}' is made of frequencies and shapes, but mode {number} of the test lacks one of the two"
+    message = f"'{key}' is made of frequencies and shapes, but mode {number} of the test has only one of the two"
     help = "give both, hold the mode out (test.hold_out.modes), or take a method that fits frequencies alone"
     return DeckError(Diagnostic("MD560", ERROR, message, problem.place(f"mode {number}"), help=help))
 
@@ -55,7 +55,7 @@ def no_answer(problem: Problem, key: str, reason: str) -> NumericalError:
 def alike(problem: Problem) -> NumericalError:
     """The error for shapes that are dependent once they are expanded and freed of rigid motion."""
     message = "the measured shapes, expanded, are no independent shapes of an elastic structure"
-    help = "measure at points that tell the modes apart: `mouse correlate` shows which look alike"
+    help = "measure at points that separate the modes: `mouse correlate` shows which are alike"
     return NumericalError(Diagnostic("MD516", ERROR, message, problem.place("order"), help=help))
 
 

@@ -15,7 +15,7 @@ def remarks(found: Updated) -> Iterator[Diagnostic]:
     about, checked = found.about, found.checked
     if not about.physical:
         text = f"'{about.key}' reproduces the data without a physical model"
-        yield _warning("MD562", text, "trust it for the fitted modes alone; `mouse compare` shows what it foresees")
+        yield _warning("MD562", text, "trust it for the fitted modes alone; `mouse compare` shows its predictive error")
     if checked.negative:
         text = (
             f"the updated stiffness has {checked.negative} negative eigenvalue(s), down to {-checked.lowest_hz:.5g}i Hz"
@@ -30,7 +30,7 @@ def remarks(found: Updated) -> Iterator[Diagnostic]:
         text = f"the update still changes by {found.change:.2g} after {found.iterations} iterations"
         yield _warning("MD565", text, "tie like elements together, or give better shapes")
     if found.against:
-        yield _warning("MD568", found.against, "`mouse diagnose` looks for what the model lacks")
+        yield _warning("MD568", found.against, "`mouse diagnose` looks for missing physics")
     for one in found.configurations:
         yield from _missed(one)
 

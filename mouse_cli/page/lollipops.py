@@ -31,7 +31,7 @@ def lollipops(document: Part) -> Iterator[Markup]:
     }
     drawn = [_figure(one, places, number) for number, one in enumerate(found[:_MOST], 1)]
     if drawn:
-        ring = " The ring is the place that was located." if places & set(found[0].dofs) else ""
+        ring = " The ring is the located site." if places & set(found[0].dofs) else ""
         test = ", squares of the test" if any(x is not None for one in found for x in one.test) else ""
         yield paragraphs(f"Components over the degrees of freedom: dots of {drawn_model(document)}{test}.{ring}")
         yield listed([one.words for one in named(document) if one.strong])

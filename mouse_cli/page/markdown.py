@@ -98,7 +98,7 @@ def _sizes(one: Part) -> str:
 
 
 def _frequencies(document: Part) -> Iterator[str]:
-    """Before and after: the prior and the revised model; in a diagnosis the model as it is and with the cause, both revised."""
+    """Before and after: the prior and the revised model; in a diagnosis the model as it is and with the mechanism, both revised."""
     found, extended = [part for _, _, part in updates(document)], bool(document.part("extended"))
     if not found:
         return
@@ -110,7 +110,7 @@ def _frequencies(document: Part) -> Iterator[str]:
         off = [signed_per_cent(apart(value, test)) for value in (before.get(label), after)]
         told = (shown(test), shown(before.get(label)), off[0], shown(after), off[1], shown(mode.number("mac"), 4))
         rows.append((escaped(label), *told))
-    names = ("as it is, Hz", "with the cause, Hz") if extended else ("before, Hz", "after, Hz")
+    names = ("as it is, Hz", "with the mechanism, Hz") if extended else ("before, Hz", "after, Hz")
     yield from _told("Frequencies", ("mode", "test, Hz", names[0], "off", names[1], "off", "MAC"), rows, "mode", _LONG)
 
 

@@ -16,4 +16,4 @@ def draw(found: Result | Diagnosis, axes: Any) -> bool:
     return True
 
 
-PLOT = Plot("frf-held-out", 66, "A function held out, measured and foreseen", draw, (Result, Diagnosis))
+PLOT = Plot("frf-held-out", 66, "Held-out FRF, measured and predicted", draw, (Result, Diagnosis))

@@ -39,4 +39,4 @@ def _limits(stiffness: np.ndarray, fitted: np.ndarray, most: float) -> tuple[flo
     return float(both.min() - margin), float(both.max() + margin)
 
 
-PLOT = Plot("law", 30, "Force law at the place of the cause", draw)
+PLOT = Plot("law", 30, "Force law at the site of the mechanism", draw)

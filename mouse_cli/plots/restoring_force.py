@@ -23,7 +23,7 @@ def draw(found: RecordDiagnosis | RecordUpdate, axes: Any) -> bool:
     along, name = (
         (shown.v, "velocity") if _explains(shown.v, shown.law) > _explains(shown.x, shown.law) else (shown.x, "motion")
     )
-    axes.plot(along[own], shown.force[own], ".", color=BEFORE, markersize=1.5, label="asked for by the record")
+    axes.plot(along[own], shown.force[own], ".", color=BEFORE, markersize=1.5, label="implied by the recording")
     axes.plot(along[own], shown.law[own], ".", color=AFTER, markersize=1.5, label=f"{shown.title}, fitted")
     turns, units = _TURNS.search(shown.site), found.problem.units
     rate = "/s" if name == "velocity" else ""
@@ -46,4 +46,4 @@ def _explains(along: np.ndarray, force: np.ndarray, bins: int = 40) -> float:
     return 1 - float(((force - mean[at]) ** 2).mean() / max(force.var(), 1e-300))
 
 
-PLOT = Plot("restoring-force", 35, "Restoring force at the place of the law", draw, (RecordDiagnosis, RecordUpdate))
+PLOT = Plot("restoring-force", 35, "Restoring force at the site of the law", draw, (RecordDiagnosis, RecordUpdate))

@@ -47,7 +47,7 @@ def lost(division: Division, samples: int, rate_hz: float) -> tuple[Diagnostic, 
     lags, blocks = division.usual
     apart, unsure = rate_hz / (2 * division.lags), 100 / np.sqrt(2 * (division.blocks - 1))
     message = (
-        f"{samples} samples at {rate_hz:.6g} Hz are few: {division.blocks} blocks of {2 * division.lags} lags in place of "
+        f"{samples} samples at {rate_hz:.6g} Hz are few: {division.blocks} blocks of {2 * division.lags} lags instead of "
         f"{blocks} of {2 * lags}; modes less than {apart:.3g} Hz apart may run into one, and standard deviations are known to "
         f"{unsure:.0f} %"
     )

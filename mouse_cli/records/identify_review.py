@@ -79,7 +79,7 @@ def reviewed(found: Found, drives: list[Drive]) -> Review:
 def _close(found: Found, kept: list[int]) -> list[Diagnostic]:
     """Doubts where what the fit leaves is that of two modes in one bandwidth."""
     said = "what the fit leaves near the mode at {:.6g} Hz has its resonance and another shape: two modes in one bandwidth?"
-    help = "measure with a force at another place too, or with finer lines; compare two levels of force"
+    help = "measure with a force at another point too, or with finer lines; compare two levels of force"
     another = beside(found)
     poles = [found.fit.model.poles[r] for r in kept if another[r]]
     return [Diagnostic("MD681", ERROR, said.format(abs(pole) / 2 / np.pi), help=help) for pole in poles]
@@ -92,7 +92,7 @@ def _none(others: int) -> Diagnostic:
         else "no stable pole was found in the band"
     )
     return Diagnostic(
-        "MD650", ERROR, message, help="look at the stabilisation diagram: --plot FOLDER; try another --band"
+        "MD650", ERROR, message, help="check the stabilisation diagram: --plot FOLDER; try another --band"
     )
 
 
@@ -145,7 +145,7 @@ def _of_modes(modes: Modes, angles: list[float]) -> tuple[list[Diagnostic], list
             doubts.append(Diagnostic("MD653", ERROR, message, help="measure with finer lines"))
         if modes.error[r] > _POOR:
             message = f"near {name} the fit differs from the functions by {100 * modes.error[r]:.0f} % of their size"
-            doubts.append(Diagnostic("MD654", ERROR, message, help="look at the fit: --plot FOLDER"))
+            doubts.append(Diagnostic("MD654", ERROR, message, help="check the fit: --plot FOLDER"))
         if np.isfinite(angles[r]) and modes.scale[r] != "unit modal mass":
             message = f"the driving point of {name} is {angles[r]:.0f} degrees from that of a structure; its shape has no scale"
             remarks.append(Diagnostic("MD657", WARNING, message, help="check the signs of force cell and sensor"))
@@ -156,7 +156,7 @@ def _misfit(found: Found) -> list[Diagnostic]:
     if not found.stated or not found.misfit > _MISFIT:
         return []
     message = (
-        f"the errors of the fit are {np.sqrt(found.misfit):.3g} times what the stated variances say; "
+        f"the errors of the fit are {np.sqrt(found.misfit):.3g} times the stated variances; "
         f"standard deviations were raised to them at {100 * found.raised:.0f} % of the lines"
     )
     return [Diagnostic("MD658", WARNING, message, help="look for modes that are missing, and for nonlinearity")]

@@ -107,7 +107,7 @@ def _check(recordings: Sequence[Recording], options: SpectraOptions) -> None:
         )
     if options.period and len(recordings) < i:
         message = f"{i} forces need as many periodic experiments; there are {len(recordings)}"
-        _refuse("MD619", message, "excite them in turn or with different signs, and give all recordings")
+        _refuse("MD619", message, "excite them one at a time or with different signs, and give all recordings")
 
 
 def _block(samples: Sequence[tuple[np.ndarray, np.ndarray]], options: SpectraOptions) -> int:
@@ -170,7 +170,9 @@ def _force_windowed(
 def _averaged(first: Recording, averages: float, remarks: list[Diagnostic]) -> None:
     """A coherence of a few averages says nothing."""
     if averages <= len(first.inputs) + 1:
-        message = f"{averages:.3g} averages of {len(first.inputs)} forces leave nothing to tell noise by; variances are not known"
+        message = (
+            f"{averages:.3g} averages of {len(first.inputs)} forces leave no data to estimate the noise: no variances"
+        )
         remarks.append(Diagnostic("MD622", WARNING, message, help="take fewer --lines, or more recordings"))
 
 

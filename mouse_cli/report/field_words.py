@@ -10,7 +10,7 @@ ACTS = {
     MASS: "acts on the mass",
     BED: "acts as a bed, a stiffness from the structure to the ground",
     FORCE: "acts as one spring along a motion of the whole structure",
-    LAW: "acts at one place, by a law that is in no library",
+    LAW: "acts at one site, by a law that is in no library",
 }
 UNITS = {
     STIFFNESS: "per cent",

@@ -39,7 +39,7 @@ def _alone(found: Correlation) -> Iterator[Diagnostic]:
         yield _remark(
             "MD509",
             f"measured mode {test.number[i]} {hz} has no likely partner among the model's modes{near}",
-            "look for what the model lacks, such as something that vibrates on the structure; or for a mode of the test rig",
+            "look for missing physics, such as something that vibrates on the structure; or for a mode of the test rig",
         )
 
 
@@ -65,7 +65,7 @@ def _unclaimed(found: Correlation) -> Iterator[Diagnostic]:
 def _faults(found: Correlation) -> Iterator[Diagnostic]:
     for fault in found.faults:
         yield _remark("MD513", f"{_words(fault, found.sensors)}: mean MAC {fault.mac_before:.3f}, then {fault.mac_after:.3f}",
-                      "look at the sensor and its channel before the model is revised")  # fmt: skip
+                      "check the sensor and its channel before the model is revised")  # fmt: skip
 
 
 def _words(fault: SensorFault, sensors: tuple[str, ...]) -> str:
@@ -75,9 +75,9 @@ def _words(fault: SensorFault, sensors: tuple[str, ...]) -> str:
     if fault.kind == REVERSED:
         return f"sensor {names[0]} looks mounted backwards"
     if fault.kind == GAIN:
-        return f"sensor {names[0]} reads {fault.gain:.3g} times what the model and the other sensors let expect"
+        return f"sensor {names[0]} reads {fault.gain:.3g} times the prediction of the model and the other sensors"
     return (
-        f"sensor {names[0]} contradicts the model and all other sensors (it reads {fault.gain:.3g} times what they let expect); "
+        f"sensor {names[0]} contradicts the model and all other sensors (it reads {fault.gain:.3g} times their prediction); "
         "without it"
     )
 
@@ -93,7 +93,7 @@ def _alike(found: Correlation) -> Iterator[Diagnostic]:
             yield _remark(
                 "MD516",
                 f"{side} modes {numbers[i]} and {numbers[j]} look alike at the sensors (MAC {likeness[i, j]:.2f})",
-                "add sensors where they differ; until then the frequencies alone tell them apart",
+                "add sensors where they differ; until then only the frequencies separate them",
             )
 
 

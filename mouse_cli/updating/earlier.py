@@ -109,7 +109,7 @@ def _new_data(problem: Problem, found: dict, path: str) -> None:
 def _doubts(found: dict, path: str) -> tuple[Diagnostic, ...]:
     if not found.get("exit_code"):
         return ()
-    message = f"the prior is that of {path}, of which the run says: {str(found.get('message'))[:300]}"
+    message = f"the prior is that of {path}, of which the run reports: {str(found.get('message'))[:300]}"
     return (Diagnostic("MD443", WARNING, message, help="state in --loosen how far its values may be wrong"),)
 
 

@@ -47,7 +47,7 @@ def unknown_estimator(problem: Problem, reason: str) -> DeckError:
 def no_test(problem: Problem) -> DeckError:
     """The error for a deck that states no test, and so nothing to revise the model by."""
     message = f"the deck '{problem.title.strip()}' holds no test: there is nothing to revise the model by"
-    help = "add `test:` with measured modes or functions, or ask for `mouse modes`"
+    help = "add `test:` with measured modes or functions, or use `mouse modes`"
     if problem.recordings:
         message = f"the test of '{problem.title.strip()}' holds recordings alone, and neither modes nor functions"
         help = "`mouse run` revises by recordings; `mouse identify` makes modes of them, `mouse spectra` functions"

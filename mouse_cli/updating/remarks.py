@@ -37,7 +37,7 @@ def _too_good(result: Result) -> Iterator[Diagnostic]:
     if result.residual.dof >= _FEW and result.residual.p > 1 - REJECT:
         yield _remark(
             "MD507",
-            f"the data agree with the model better than their accuracies let expect (chi-square {result.residual.chi2:.3g} on "
+            f"the data agree with the model better than their stated accuracies imply (chi-square {result.residual.chi2:.3g} on "
             f"{result.residual.dof} degrees of freedom)",
             help="check the stated accuracies: if they are too large, so are the revised standard deviations",
         )
@@ -60,7 +60,7 @@ def _silent(result: Result) -> Iterator[Diagnostic]:
             unit = " of its value" if parameter.transform == "log" else ""
             yield _remark(
                 "MD502",
-                f"the data say nothing of {parameter.name}: its standard deviation is {after:.4g}{unit}, before the test "
+                f"the data do not determine {parameter.name}: its standard deviation is {after:.4g}{unit}, before the test "
                 f"{before:.4g}",
                 parameter.span,
                 "measure a mode or a point that it moves",
@@ -88,7 +88,7 @@ def _limits(result: Result) -> Iterator[Diagnostic]:
                 "MD504",
                 f"{parameter.name} stopped at its limit, {value:.6g}; its standard deviation is not meaningful there",
                 parameter.span,
-                "if the limit is not physical, widen it; if it is, look for what else the model lacks",
+                "if the limit is not physical, widen it; if it is, look for missing physics",
             )
 
 
@@ -114,7 +114,7 @@ def _places(result: Result) -> Iterator[Diagnostic]:
         if best != mode and likeness[i, best] > 0.8 and likeness[i, mode] < 0.5:
             yield _remark(
                 "MD506",
-                f"the shape measured for mode {test.number[i]} looks like model mode {best + 1} (MAC "
+                f"the shape measured for mode {test.number[i]} resembles model mode {best + 1} (MAC "
                 f"{likeness[i, best]:.2f}), but was compared with mode {mode + 1} (MAC {likeness[i, mode]:.2f})",
                 help="use --pairing mac",
             )
@@ -132,7 +132,7 @@ def _strangers(result: Result) -> Iterator[Diagnostic]:
                     "MD509",
                     f"measured mode {test.number[i]} at {test.frequency_hz[i]:.5g} Hz has no likely partner: {when} the revision "
                     f"it was compared with model mode {model.modes[i] + 1} at {hz:.5g} Hz, MAC {model.mac[i]:.2f}",
-                    help="look at it with `mouse correlate`, and leave it out of the test until it is understood",
+                    help="check it with `mouse correlate`, and leave it out of the test until it is understood",
                 )
                 break
 

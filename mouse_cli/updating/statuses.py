@@ -11,7 +11,7 @@ STATUSES = {
         "not-converged",
         "Not converged: all {cycles} computations of the partial derivatives are used up; outside their confidence limits: "
         "{exceedances} of {data} data ({allowed} allowed).",
-        "Allow more partials (NPARD), or look at the data marked *: one wrong datum is enough, and many speak against the form "
+        "Allow more partials (NPARD), or check the data marked *: one wrong datum is enough, and many contradict the form "
         "of the model.",
         UNTRUSTED,
     ),
@@ -32,7 +32,7 @@ STATUSES = {
     "no-descent": Status(
         "no-descent",
         "Stopped: no step along the partial derivatives improves the fit any more, and the mode is not reached.",
-        "Check for mode shapes that change places (pairing) and for data that contradict each other.",
+        "Check for mode shapes that swap order (pairing) and for data that contradict each other.",
         UNTRUSTED,
     ),
     "diverged": Status(
@@ -52,7 +52,7 @@ STATUSES = {
     "impossible": Status(
         "impossible",
         "Stopped at values that cannot be: {reason}.",
-        "The data pull the property to nothing to make up for something that the model lacks: ask `mouse diagnose`, check units "
+        "The data pull the property to nothing to compensate for missing physics: use `mouse diagnose`, check units "
         "and supports. transform: log or limits keep it positive; more partials do not help.",
         UNTRUSTED,
     ),

@@ -1,4 +1,4 @@
-"""The blind cases of space frames and storey buildings: OpenSees on closed forms, decks that say nothing of the cause."""
+"""The blind cases of space frames and storey buildings: OpenSees on closed forms, decks that say nothing of the mechanism."""
 
 import importlib.util
 import json

@@ -213,7 +213,7 @@ REMARKS = [  # code, changes of CHAIN, words
     (
         "MD502",
         [(BOTH, BOTH + "  - {name: idle, nominal: 1, sd: 0.1, stiffness: [[1, 1, 1.0e-6]]}\n")],
-        "say nothing of idle",
+        "do not determine idle",
     ),
     (
         "MD503",
@@ -234,12 +234,12 @@ REMARKS = [  # code, changes of CHAIN, words
             ("0.02\n", "0.02\n    scale: none\n"),
             ("anchored", "anchored, pairing: number"),
         ],
-        "looks like model mode 2",
+        "resembles model mode 2",
     ),
     (
         "MD507",
         [("frequency_sd: 1 %", "frequency_sd: 50 %"), ("shape_sd: 0.02", "shape_sd: 5")],
-        "better than their accuracies",
+        "better than their stated accuracies imply",
     ),
     ("MD508", [("recursion: anchored", "recursion: anchored, fix_total_mass: true")], "no property moves a mass"),
     (

@@ -231,7 +231,7 @@ def sizes(recipe):
 
 
 def changed(model, recipe, values):
-    """K, M and sensing of the reduced model with the cause."""
+    """K, M and sensing of the reduced model with the mechanism."""
     K, M, S = Model(model, (recipe,)).added(np.append(model.z, recipe.coordinates(values)))
     K[: model.r, : model.r] += np.diag(model.eigenvalues)
     M[: model.r, : model.r] += np.eye(model.r)

@@ -68,12 +68,12 @@ def test_printout_begins_with_the_answers(told):
 def test_nothing_is_written_where_nothing_is_named(told):
     code, out, _ = told(SOUND, "-o", "revised.yaml")
     assert code == 0
-    assert out.rstrip().endswith("Nothing was written to revised.yaml: no cause is named.")
+    assert out.rstrip().endswith("Nothing was written to revised.yaml: no mechanism is named.")
     assert not Path("revised.yaml").exists()
 
 
 def test_the_extended_deck_runs(told):
-    """What -o writes is a deck with the cause in it, and the form of that model is accepted."""
+    """What -o writes is a deck with the mechanism in it, and the form of that model is accepted."""
     from mouse_cli.updating import run
 
     code, out, _ = told(SPRING, "-o", "revised.yaml")
@@ -170,7 +170,7 @@ def test_the_model_of_a_rival_runs(told):
 
     code, out, _ = told(str(DECKS / "three_storey_building.yaml"), "-o", "revised.yaml", "--without", "oscillator")
     assert code == 1
-    assert "which leads and is not proved, is in revised.yaml" in out
+    assert "the most probable one, not proved, is in revised.yaml" in out
     assert run(read_deck("revised.yaml")).status.key == "converged"
 
 

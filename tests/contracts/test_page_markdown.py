@@ -56,7 +56,7 @@ def test_verdict_first_then_tables(name):
 def test_numbers_are_those_of_the_document():
     told = summary(Part(document("named"), "answer.json"))
     assert "The model lacks a spring to the ground: degree of freedom 2" in told
-    assert "| mode | test, Hz | as it is, Hz | off | with the cause, Hz |" in told
+    assert "| mode | test, Hz | as it is, Hz | off | with the mechanism, Hz |" in told
     for key in ("baseline", "extended"):
         assert all(f"| {mode['revised_hz']:.5g} |" in told for mode in document("named")[key]["modes"])
     assert f"stiffness {document('named')['candidates'][0]['parameters'][0]['value']:.4g} `N/m`" in told

@@ -120,7 +120,7 @@ def test_the_deck_is_written_where_nothing_is_missing(told):
     code, out, err = told("deck.yaml", "--recordings", "raw", "--force", "1=hammer", "-o", "measured.yaml")
     assert code == 0
     assert out.rstrip().endswith(
-        "No cause is named. The deck with what was measured is in measured.yaml; `mouse diagnose` accepts it."
+        "No mechanism is named. The deck with what was measured is in measured.yaml; `mouse diagnose` accepts it."
     )
     assert [each.title for each in read_deck("measured.yaml").recordings] == ["run1"]
     assert "held out from every fit" not in err  # one record alone: its end is held out, as ever

@@ -127,7 +127,7 @@ def mutated(path: list, value: object) -> dict:
 
 def test_the_shipped_file_is_the_generated_one():
     shipped = (PACKAGE / "formats" / "yaml_deck" / "deck.schema.json").read_text(encoding="utf-8")
-    assert json.loads(shipped) == schema(), "write the file anew by mouse explain schema"
+    assert json.loads(shipped) == schema(), "write the file again by mouse explain schema"
     jsonschema.Draft202012Validator.check_schema(schema())
 
 

@@ -142,7 +142,7 @@ def test_a_short_record_says_what_is_lost():
     omega, _, _ = vibrating.modes(0.01)
     found = identify_recording(recorded(count=1125), (4.0, 70.0))
     assert [each.code for each in found.remarks] == ["MD682"]
-    assert "1125 samples at 150 Hz are few: 20 blocks of 28 lags in place of 40 of 60" in found.remarks[0].message
+    assert "1125 samples at 150 Hz are few: 20 blocks of 28 lags instead of 40 of 60" in found.remarks[0].message
     z = (found.modes.frequency_hz - omega[near(found)] / 2 / np.pi) / found.modes.frequency_sd_hz
     assert found.modes.m >= 1 and np.abs(z).max() < 4
 

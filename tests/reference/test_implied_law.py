@@ -19,7 +19,7 @@ OSCILLATOR = (0.3, 3.5)  # kg, Hz
 
 
 def _truth(cause: str) -> tuple[np.ndarray, np.ndarray]:
-    """Frequencies in Hz and shapes of the chain with the cause at its second degree of freedom."""
+    """Frequencies in Hz and shapes of the chain with the mechanism at its second degree of freedom."""
     k, m = K.copy(), np.eye(4)
     if cause == "ground-spring":
         k[1, 1] += 400

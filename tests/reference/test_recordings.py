@@ -328,7 +328,7 @@ def test_no_units():
 def test_file_and_deck_must_agree(tmp_path):
     table(tmp_path / "run.csv", T, FORCE, MOTION, head="t,force (N),acc (g)")
     test = "recordings: [{file: run.csv, inputs: {1: force}, outputs: {2: {channel: acc, unit: m/s2}}}]"
-    assert found(tmp_path, test, "MD610") == "the deck says that channel 'acc' is in m/s2; its file says g"
+    assert found(tmp_path, test, "MD610") == "the deck states that channel 'acc' is in m/s2; its file states g"
     test = "recordings: [{file: run.csv, inputs: {1: {channel: force, quantity: moment}}, outputs: {2: acc}}]"
     assert "its unit, N, is one of force" in found(tmp_path, test, "MD610")
 
@@ -338,7 +338,7 @@ def test_sensitivity(tmp_path):
     table(tmp_path / "run.csv", T, FORCE, 0.1 * MOTION, head="t,force (N),acc (V)")
     test = "recordings: [{file: run.csv, inputs: {1: force}, outputs: {2: {channel: acc, sensitivity: 100 mV/g}}}]"
     assert problem(tmp_path, test).recordings[0].samples[:, 1] == pytest.approx(9.80665 * MOTION, abs=1e-6)
-    assert "does not tell what it measures" in found(tmp_path, RUN, "MD611")
+    assert "does not determine what it measures" in found(tmp_path, RUN, "MD611")
 
 
 def test_units_of_the_deck(tmp_path):

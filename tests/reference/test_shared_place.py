@@ -49,7 +49,7 @@ def test_what_the_whole_structure_does_is_nothing_in_common():
 
 def test_the_verdict_says_where_to_look_and_what_tells_some_of_them_apart():
     """A measurement that parts the leading site from the third is told as such, though none parts it from the second."""
-    cause = lambda site: Cause("brace", "brace", "a spring between two places", site, ())
+    cause = lambda site: Cause("brace", "brace", "a spring between two points", site, ())
     elsewhere = (((brace(2, 4),), 0.4), ((brace(2, 6),), 0.2))
     told = Explanation((cause(brace(1, 5)),), 20.0, 20, 0.5, 0.0, np.zeros(2), 1.0, elsewhere)
     text = [each.text for each in (brace(1, 5), brace(2, 4), brace(2, 6))]

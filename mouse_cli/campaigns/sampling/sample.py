@@ -66,7 +66,7 @@ def _posed(problem: Problem) -> Problem:
 def _nothing(problem: Problem, result: Result) -> Diagnostic:
     why = result.status.sentence if not result.status.answered else "no property may vary, or nothing was measured"
     message = f"the deck '{problem.title.strip()}' has no posterior to sample: {why}"
-    return Diagnostic("MD941", ERROR, message, problem.place("order"), help="see what `mouse run` says of it")
+    return Diagnostic("MD941", ERROR, message, problem.place("order"), help="check it with `mouse run`")
 
 
 def _found(setting: Setting, result: Result) -> np.ndarray:
@@ -153,7 +153,7 @@ def _remarks(found: Sampled, normal: Laplace):
         shares = ", ".join(f"{each.share:.2g}" for each in found.modes)
         message = f"the posterior has {len(found.modes)} modes, with shares {shares} of the samples; a run knows of one"
         yield Diagnostic(
-            "MD943", WARNING, message, help="measure what tells them apart, or say in the prior what is known"
+            "MD943", WARNING, message, help="measure what separates them, or state in the prior what is known"
         )
     for each in (one for one in found.parameters if one.normal_sd > 0):
         shift, ratio = (each.mean - each.normal_mean) / each.normal_sd, each.sd / each.normal_sd

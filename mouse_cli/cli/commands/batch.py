@@ -20,7 +20,7 @@ _REPORTS = (
 @options(folder("mouse-results"), JOBS)
 @click.option(
     "--command", "asked", type=click.Choice(("run", "check", "diagnose")), default="run", show_default=True,
-    help="What is asked of decks that no manifest names.",
+    help="Command for decks that no manifest names.",
 )  # fmt: skip
 @options(CLUSTER, _REPORTS, OUTSIDE, QUIET, RUN)
 def command(

@@ -13,7 +13,7 @@ from mouse_cli.cli._options import OUTSIDE, QUIET, RUN, answer_form, options
     "--over", type=click.Choice(("modes", "sensors", "both")), default="modes", show_default=True, help="What is drawn."
 )
 @click.option("--replicates", type=click.IntRange(2, 100_000), default=200, show_default=True, help="Tests drawn.")
-@click.option("--jackknife", is_flag=True, help="Leave each out in turn, and draw none.")
+@click.option("--jackknife", is_flag=True, help="Jackknife only: leave each out once, and resample none.")
 @click.option("--seed", type=click.IntRange(0), default=1, show_default=True, help="Of the random numbers.")
 @options(folder("mouse-bootstrap"), JOBS, CLUSTER, answer_form("mouse.campaign/1"), TABLE, OUTSIDE, QUIET, RUN)
 def command(

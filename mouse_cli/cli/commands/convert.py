@@ -11,7 +11,7 @@ from mouse_cli.cli._options import PRIOR, READING, earlier, options, reading
     "-o", "--output", metavar="FILE", help="Write to FILE (.dat: cards, .yaml: YAML) instead of standard output."
 )
 @click.option("--to", type=click.Choice(["cards", "yaml"]), help="The format to write; by default the other one.")
-@click.option("--lossy", is_flag=True, help="Write cards even when they cannot hold everything; what is lost is said.")
+@click.option("--lossy", is_flag=True, help="Write cards even when they cannot hold everything; losses are reported.")
 @options(PRIOR, READING)
 def command(
     deck: str,

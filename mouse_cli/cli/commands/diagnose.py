@@ -18,7 +18,13 @@ _CONSIDERED = (
         "--candidates", metavar="NAMES", help="Consider these alone, with commas between; see `mouse list candidates`."
     ),
     click.option("--without", metavar="NAMES", help="Consider all but these."),
-    click.option("--causes", type=click.IntRange(1, 4), default=4, show_default=True, help="Most causes together."),
+    click.option(
+        "--causes",
+        type=click.IntRange(1, 4),
+        default=4,
+        show_default=True,
+        help="Largest number of mechanisms together.",
+    ),
 )
 
 
@@ -28,7 +34,7 @@ _CONSIDERED = (
     "-o",
     "--output",
     metavar="FILE",
-    help="Write the model with the cause in it as a YAML deck; of several arrangements, to a folder.",
+    help="Write the model with the mechanism in it as a YAML deck; of several configurations, to a folder.",
 )
 @options(answer_form("mouse.diagnosis/1"))
 @click.option(
@@ -215,11 +221,11 @@ def _written(found, output: str, files: list[str]) -> str:
     from mouse_cli.model.diagnosis import NAMED, ONE_OF
 
     if files and not found.extended:
-        return f"No cause is named. The deck with what was measured is in {files[-1]}; `mouse diagnose` accepts it."
+        return f"No mechanism is named. The deck with what was measured is in {files[-1]}; `mouse diagnose` accepts it."
     if files and found.kind == ONE_OF:
-        lead = f"The model with {found.best.title}, which leads and is not proved,"
+        lead = f"The model with {found.best.title}, the most probable one, not proved,"
         return f"{lead} is in {files[-1]}; `mouse run` accepts it."
     if files:
         return f"The extended model is in {files[-1]}; `mouse run` accepts it."
-    why = "its cause cannot be put into a deck" if found.kind in (NAMED, ONE_OF) else "no cause is named"
+    why = "its mechanism cannot be put into a deck" if found.kind in (NAMED, ONE_OF) else "no mechanism is named"
     return f"Nothing was written to {output}: {why}."

@@ -10,7 +10,7 @@ from mouse_cli.cli._options import OUTSIDE, QUIET, options, outside
 @click.option(
     "--for", "program", type=click.Choice(["abaqus", "ansys", "calculix", "nastran"]), help="Whose cards to write."
 )
-@click.option("--result", metavar="RESULT", help="What `mouse run --json` found: its values in place of the deck's.")
+@click.option("--result", metavar="RESULT", help="What `mouse run --json` found: its values instead of the deck's.")
 @click.option(
     "--job", metavar="FILE", help="The input file (.inp) that the deck was imported from, for constants of materials."
 )

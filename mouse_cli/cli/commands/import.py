@@ -12,7 +12,7 @@ from mouse_cli.cli._options import OUTSIDE, QUIET, options, outside
 )
 @click.option(
     "--units", type=click.Choice(["SI", "mm-t-N", "mm-kg-mN", "m-t-kN", "in-lbf", "ft-lbf"]),
-    help="Of the job; by default as its materials speak for.",
+    help="Of the job; by default deduced from its materials.",
 )  # fmt: skip
 @click.option("--no-cache", is_flag=True, help="Run the solver even where an earlier import left its matrices.")
 @options(QUIET)

@@ -24,7 +24,7 @@ from mouse_cli.cli._options import PRIOR, QUIET, READING, answer, earlier, optio
 @click.option(
     "--chain",
     metavar="FILE",
-    help="Write the samples to FILE.npz. A walk that was broken off goes on from FILE.npz.part.",
+    help="Write the samples to FILE.npz. An interrupted chain resumes from FILE.npz.part.",
 )
 @options(answer("mouse.sample/1"))
 @options(PRIOR, QUIET)

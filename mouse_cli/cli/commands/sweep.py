@@ -14,11 +14,9 @@ _MOST = 100_000
 @click.option(
     "--vary", "varied", multiple=True, required=True, metavar="NAME=VALUES",
     help="a,b,c or low:high:count or log:low:high:count; NAME: an option of run, a property (its prior value), PROPERTY.sd, "
-    "frequency_sd*, shape_sd*, or a place of the deck such as test.modes.shape_sd. Repeat it for a grid.",
+    "frequency_sd*, shape_sd*, or the path of a value in the deck such as test.modes.shape_sd. Repeat it for a grid.",
 )  # fmt: skip
-@click.option(
-    "--points", type=click.IntRange(1, _MOST), help="So many points that fill the ranges, in place of a grid."
-)
+@click.option("--points", type=click.IntRange(1, _MOST), help="So many points that fill the ranges, instead of a grid.")
 @click.option(
     "--design", type=click.Choice(("sobol", "latin-hypercube")), default="sobol", show_default=True, help="Of --points."
 )

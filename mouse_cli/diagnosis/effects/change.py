@@ -44,7 +44,7 @@ def felt(lost: np.ndarray, residual: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Change:
-    """K, M, C, D (r + a, r + a) that are added, a degrees of freedom of the cause's own behind the r of the model; None: none.
+    """K, M, C, D (r + a, r + a) that are added, a degrees of freedom of the mechanism's own behind the r of the model; None: none.
 
     C is viscous damping, D structural, K times a loss factor: both are felt by functions alone. spring: stiffness of the part that
     may lose energy by a law of its own; None: what is added.

@@ -65,7 +65,7 @@ def _under(model: Reduced, candidate: Candidate, name: str, Kg: np.ndarray, coun
     factor = Unknown("times 9.81 m/s2", "1", *(_STOREYS if stacked else _BARS))
 
     def site(values: np.ndarray) -> Site:
-        tall = f", as if storeys were {1 / values[0]:.3g} times as high as the deck says" if stacked else ""
+        tall = f", as if storeys were {1 / values[0]:.3g} times as high as in the deck" if stacked else ""
         return Site("structure", text=f"the whole structure, downward {name}{tall}")
 
     return Recipe(

@@ -107,8 +107,8 @@ CANDIDATE = Candidate(
     "added-mass",
     "added mass along bars",
     "added-mass",
-    "mass per length that the model does not know (liquid that moves along, ice, cladding), on all bars, from an end on or "
-    "between two places; on all bars alike it is what a larger density would be",
+    "added mass per length (entrained liquid, ice, cladding), on all bars, from an end on or "
+    "between two points; on all bars alike it equals a larger density",
     recipes,
     line_masses,
 )

@@ -77,9 +77,9 @@ def _with_spring(problem: Problem, key: np.ndarray, site: Site, k: float) -> Pro
 
 CANDIDATE = Candidate(
     "brace",
-    "a spring between two places",
+    "a spring between two points",
     "brace",
-    "a brace, cable, strut or tie that joins two places which nothing joins in the model: K + k b'b, b their elongation along the "
+    "a brace, cable, strut or tie that joins two points which nothing joins in the model: K + k b'b, b their elongation along the "
     "line between them; floors of a row of storeys, or masses of a chain, that are not neighbours: their relative motion",
     recipes,
 )

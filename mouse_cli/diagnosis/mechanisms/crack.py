@@ -55,8 +55,8 @@ CANDIDATE = Candidate(
     "crack",
     "an open crack",
     "local-stiffness",
-    "an open edge crack across a bar of rectangular section: it gives way in bending about a point off the axis, and a little in "
-    "tension and shear, by its depth (linear fracture mechanics)",
+    "an open edge crack across a bar of rectangular section: a compliance in bending about a point off the axis, and a little "
+    "in tension and shear, by its depth (linear fracture mechanics)",
     recipes,
     bars,
 )

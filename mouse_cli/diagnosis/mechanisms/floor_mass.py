@@ -84,7 +84,7 @@ CANDIDATE = Candidate(
     "floor-mass",
     "added mass on a floor or a set of bars",
     "added-mass",
-    "mass per length that the model does not know on all bars of one level, of one section or of one entry of the deck: a slab, "
+    "added mass per length on all bars of one level, of one section or of one entry of the deck: a slab, "
     "cladding, a load that stands there",
     recipes,
 )

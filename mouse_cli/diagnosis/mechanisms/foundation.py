@@ -155,6 +155,6 @@ CANDIDATE = Candidate(
     "an elastic foundation",
     "foundation",
     "springs per length under bars (soil, cushion, cable bed) that the model does not have, under all of a line, from an end on or "
-    "between two places: under all bars alike all modes rise by the same square of the frequency",
+    "between two points: under all bars alike all modes rise by the same square of the frequency",
     recipes,
 )

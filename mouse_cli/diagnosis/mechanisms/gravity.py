@@ -15,6 +15,6 @@ CANDIDATE = Candidate(
     "gravity",
     "gravity (P-delta)",
     "gravity",
-    "the weight above each storey or column pushes it further over as it leans, which takes stiffness away, most of it below",
+    "the weight above each storey or column pushes it further over as it sways (P-delta): less stiffness, most of it below",
     recipes,
 )

@@ -27,6 +27,6 @@ CANDIDATE = Candidate(
     "ground-spring",
     "a spring to the ground",
     "ground-spring",
-    "a support, cable or contact that ties one place to the surroundings: K + k B'B",
+    "a support, cable or contact that ties one point to the surroundings: K + k B'B",
     recipes,
 )

@@ -69,7 +69,7 @@ CANDIDATE = Candidate(
     "items",
     "the mass of items that the deck has as massless",
     "items",
-    "what is attached at known places (point masses of 0 kg in the deck) has a mass after all, and an extent: one item, or all of "
+    "added masses at known positions (point masses of 0 kg in the deck), with an extent: one item, or all of "
     "one entry of the deck alike: M + m (T'T + r^2 R'R) for the translations T and rotations R of each node",
     recipes,
 )

@@ -128,9 +128,9 @@ def _recipe(model: Reduced, candidate: Candidate, bar: int, end: int, count: int
 
 CANDIDATE = Candidate(
     "joint",
-    "a joint that gives way",
+    "a flexible joint",
     "local-stiffness",
-    "a connection of bars (bolts, weld, corner, or a splice anywhere along them) that the model takes as rigid and that turns in "
+    "a connection of bars (bolts, weld, corner, or a splice anywhere along them) that the model takes as rigid and that rotates in "
     "proportion to the moment",
     recipes,
     bars,

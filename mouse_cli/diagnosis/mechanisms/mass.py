@@ -27,6 +27,6 @@ CANDIDATE = Candidate(
     "mass",
     "a lumped mass",
     "mass",
-    "something heavy at one place that the model does not know: M + m B'B for the translations B of the place",
+    "an added mass at one point that the model lacks: M + m B'B for the translations B of the point",
     recipes,
 )

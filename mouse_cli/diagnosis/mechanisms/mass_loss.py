@@ -53,6 +53,6 @@ CANDIDATE = Candidate(
     "mass-loss",
     "a point mass that has lost a part of itself",
     "mass-loss",
-    "something attached that is lighter than the deck says, or is gone: M - d M_e of one point mass",
+    "an attached mass that is lighter than in the deck, or gone: M - d M_e of one point mass",
     recipes,
 )

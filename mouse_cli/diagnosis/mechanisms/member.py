@@ -16,7 +16,7 @@ CANDIDATE = Candidate(
     "member",
     "a softer member",
     "local-stiffness",
-    "a beam, a straight row of beams or rods, or all members of one section that are softer as a whole than the model says, all "
+    "a beam, a straight row of beams or rods, or all members of one section that are softer as a whole than modelled, all "
     "of A, Iy, Iz and J by one factor, alone or with the mass of the section: a wrong section, corrosion, a member that is missing",
     recipes,
     members,

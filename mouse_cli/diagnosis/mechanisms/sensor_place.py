@@ -61,7 +61,7 @@ def _deflected(problem: Problem, element: tuple[int, int], share: float) -> np.n
 
 CANDIDATE = Candidate(
     "sensor-place",
-    "a sensor out of its place",
+    "a misplaced sensor",
     "sensor",
     "one sensor stands up to 2 % of the length of its row of bars away from where the deck has it",
     recipes,

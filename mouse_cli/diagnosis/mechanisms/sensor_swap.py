@@ -25,6 +25,6 @@ CANDIDATE = Candidate(
     "sensor-swap",
     "two sensors exchanged",
     "sensor",
-    "the readings of two sensors stand in each other's place in all modes",
+    "the readings of two sensors are exchanged in all modes",
     recipes,
 )

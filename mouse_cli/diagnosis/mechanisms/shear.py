@@ -16,7 +16,7 @@ CANDIDATE = Candidate(
     "shear",
     "shear flexibility",
     "shear",
-    "bars give way in shear (Timoshenko): frequencies of high modes fall with the square of their wave number, low ones stay",
+    "shear flexibility of bars (Timoshenko): frequencies of high modes fall with the square of their wave number, low ones stay",
     recipes,
     bars,
 )

@@ -1,4 +1,4 @@
-"""A part that is stiffer than the model says: a stretch of a bar, another element, a spring of a model of matrices."""
+"""A part that is stiffer than modelled: a stretch of a bar, another element, a spring of a model of matrices."""
 
 from dataclasses import replace
 
@@ -38,8 +38,8 @@ CANDIDATE = Candidate(
     "stiffness-gain",
     "a local gain of stiffness",
     "added-stiffness",
-    "a stretch of a bar, a member, or another element, that is stiffer than the model says: a doubler or a gusset, an infill, a "
-    "repair, a thicker section; held to be ten times less likely than any other cause, a part with a parameter of its own a "
+    "a stretch of a bar, a member, or another element, that is stiffer than modelled: a doubler or a gusset, an infill, a "
+    "repair, a thicker section; a priori ten times less probable than any other mechanism, a part with a parameter of its own a "
     "hundred times",
     recipes,
 )

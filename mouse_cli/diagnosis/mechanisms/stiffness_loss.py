@@ -23,7 +23,7 @@ CANDIDATE = Candidate(
     "stiffness-loss",
     "a softer stretch or element",
     "local-stiffness",
-    "a stretch of a bar, another element or a spring that is softer than the model says: damage, a weaker section, another "
+    "a stretch of a bar, another element or a spring that is softer than modelled: damage, a weaker section, another "
     "material",
     recipes,
 )

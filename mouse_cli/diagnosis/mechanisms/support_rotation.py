@@ -14,9 +14,9 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
 
 CANDIDATE = Candidate(
     "support-rotation",
-    "a support that gives way in rotation",
+    "a rotationally flexible support",
     "support",
-    "what the model clamps turns a little (base plate, foundation, clamp); in one bar close to a smaller EI of all of it",
+    "a clamp of the model rotates with the moment (base plate, foundation, clamp); in one bar close to a smaller EI of the whole",
     recipes,
     supports,
 )

@@ -14,7 +14,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
 
 CANDIDATE = Candidate(
     "support-translation",
-    "a support that gives way in translation",
+    "a translationally flexible support",
     "support",
     "what the model holds rigidly moves along the direction of a reaction (soil, bearing, test stand)",
     recipes,

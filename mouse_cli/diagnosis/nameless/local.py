@@ -76,10 +76,10 @@ def _implied(base: Lawful, z: np.ndarray) -> np.ndarray:
 
 NAMELESS = Nameless(
     "law",
-    "one force of an unknown law at one place",
+    "one force of an unknown law at one site",
     LAW,
-    "a stiffness of its own in each mode at one place, or between two neighbours: the law of a mount, a support or a joint that "
-    "depends on frequency or amplitude; its place and its spread are integrated out, in units of the static stiffness there",
+    "a stiffness of its own in each mode at one site, or between two neighbours: the law of a mount, a support or a joint that "
+    "depends on frequency or amplitude; its site and its spread are integrated out, in units of the static stiffness there",
     (0.3, 3.0, 30.0, 300.0),
     lambda model: None,
 )

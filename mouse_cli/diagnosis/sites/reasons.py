@@ -23,7 +23,7 @@ def supports(model: Any) -> str:
     kept = set(model.problem.mesh.directions)
     if not any(d in kept for _, d in model.problem.mesh.supports.tolist()):
         return "the model has no supports"
-    return "no support with mass beside it bears a load in the measured modes"
+    return "no support with mass next to it carries a load in the measured modes"
 
 
 def bases(model: Any) -> str:
@@ -37,7 +37,7 @@ def bases(model: Any) -> str:
         return "storeys are not alone, or not all above one node that is held"
     if base(model.problem) is None:
         return "its supports are one node, or let it turn"
-    return "no motion of all supports together bears a load in the measured modes"
+    return "no motion of all supports together carries a load in the measured modes"
 
 
 def members(model: Any) -> str:

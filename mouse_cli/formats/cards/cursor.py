@@ -117,7 +117,7 @@ class Cursor:
             f"{label} was lost with columns 73-80 ({self.place(index, field, group)})",
             self.span(index, field),
             "without those columns the field is cut short, or gone",
-            "punch the card anew" if group.is_input else f"give it by --set '{label}=VALUE', or punch the card anew",
+            "punch the card again" if group.is_input else f"give it by --set '{label}=VALUE', or punch the card again",
         )
 
     def _refuse_end(self, group: Group, items: int) -> None:

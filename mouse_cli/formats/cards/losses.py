@@ -164,7 +164,7 @@ def _options(found: Losses, run: RunOptions) -> None:
                 f"run the cards with {option}",
             )
     if run.fix_total_mass:
-        found.error("MD148", "the total mass is held fixed, which cards cannot ask for")
+        found.error("MD148", "the total mass is held fixed, which cards cannot express")
 
 
 def _names(found: Losses, problem: Problem) -> None:

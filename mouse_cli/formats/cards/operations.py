@@ -54,12 +54,12 @@ _WORDS = {
     ),
     "O-7": (
         "revised properties",
-        "p* = p + W (y - h(p)), y measured and h predicted. `mouse explain replaced` and `mouse explain anchored` say what is kept "
+        "p* = p + W (y - h(p)), y measured and h predicted. `mouse explain replaced` and `mouse explain anchored` give what stays "
         "from pass to pass.",
     ),
     "O-8": (
         "another pass",
-        "p* takes the place of p, and O-7 is done ITERMX times with one T; `passes` of a YAML deck.",
+        "p* replaces p, and O-7 is done ITERMX times with one T; `passes` of a YAML deck.",
     ),
     "O-9": ("changes of the elements", "dk = A (p* - p): what the listed elements of K and M change by."),
     "O-10": ("revised matrices", "K and M with these changes, for the next O-1."),

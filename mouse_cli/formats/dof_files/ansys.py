@@ -15,11 +15,11 @@ def _read(path: str) -> list[tuple[int, str, str, str]]:
         )
         if equation < 1 or equation in found:
             message = "expected an equation number that stands once, a node and a direction"
-            reject("MD252", path, message, "write the file anew", line_span(path, number, line))
+            reject("MD252", path, message, "write the file again", line_span(path, number, line))
         found[equation] = (number, line, words[1], words[2])
     if found and max(found) != len(found):
         reject(
-            "MD252", path, f"equations 1 to {max(found)} are expected; {len(found)} are named", "write the file anew"
+            "MD252", path, f"equations 1 to {max(found)} are expected; {len(found)} are named", "write the file again"
         )
     return [found[equation] for equation in sorted(found)]
 

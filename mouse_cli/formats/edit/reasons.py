@@ -9,9 +9,9 @@ _FAULTS = (
     (r"^ *(\*+) *$", "asterisks are FORTRAN's overflow mark: the number did not fit", "give the number"),
     (r"(\t)", "a tab is not a card code", "replace the tab with blanks"),
     (r"([^\x20-\x7e])", "only printable ASCII characters can be punched", "retype the character"),
-    (r"(,)", "a comma has no place in a field", "put the number in its columns; nothing separates fields"),
+    (r"(,)", "a comma is not allowed in a field", "put the number in its columns; nothing separates fields"),
     (r"(?i)([+-]?(?:nan|inf(?:inity)?))", "it is not a number", "give a finite number"),
-    (r"(_)", "an underscore has no place in a number", "delete the underscore"),
+    (r"(_)", "an underscore is not allowed in a number", "delete the underscore"),
 )  # fmt: skip
 _INTEGER_FAULTS = (
     (r"(\.)", "an integer has no decimal point", "give an integer, right justified"),
@@ -39,8 +39,8 @@ _REAL_FAULTS = (
 )
 _LAST_FAULTS = (
     (r"([+-]) *[+-]", "there are two signs", "leave one sign"),
-    (r"([^0-9+\-.EeDd ])", "this character has no place in a number", "retype the number"),
-    (r"([A-Za-z])", "this letter has no place here", "retype the number"),
+    (r"([^0-9+\-.EeDd ])", "this character is not allowed in a number", "retype the number"),
+    (r"([A-Za-z])", "this letter is not allowed here", "retype the number"),
     (r"^ *([+-]) *$", "there is a sign, but no digit", "punch the number, or leave the field blank"),
     (r"(\.)", "there is a point, but no digit", "punch the number, or leave the field blank"),
 )

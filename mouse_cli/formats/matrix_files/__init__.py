@@ -28,7 +28,7 @@ LARGEST_DENSE = 500  # smaller matrices are kept dense: sparse bookkeeping would
 # Mirror images may differ by so much of the geometric mean of their diagonals: printed digits, no slip.
 ROUNDING = 1e-8
 _BOTH_TRIANGLES = (
-    "give both triangles, or say in the file that it is symmetric: "
+    "give both triangles, or declare it symmetric in the file: "
     "Matrix Market 'symmetric', Harwell-Boeing RSA, DMIG form 6"
 )
 
@@ -103,10 +103,10 @@ def choose(path: str, variable: str | None, names: list[str]) -> str:
     if variable is None and len(names) == 1:
         return names[0]
     if not names:
-        reject("MD259", path, "the file holds no matrix; expected one", "write the file anew, or give another one")
+        reject("MD259", path, "the file holds no matrix; expected one", "write the file again, or give another one")
     if variable is None:
         message = f"the file holds {len(names)} matrices ({known}); expected one"
-        reject("MD259", path, message, "say which: {file: ..., variable: NAME}")
+        reject("MD259", path, message, "select one: {file: ..., variable: NAME}")
     same = [name for name in names if name == variable] or [n for n in names if n.lower() == variable.lower()]
     if len(same) != 1:
         reject("MD260", path, f"the file holds no '{variable[:40]}'; it holds {known}", "give one of these")

@@ -28,7 +28,7 @@ class Columns:
         if bad.any():
             span = self.where(int(np.flatnonzero(bad)[0]))
             message = f"whole numbers from {low} are expected as in {self.layout}"
-            reject("MD252", self.path, message, "write the file anew", span)
+            reject("MD252", self.path, message, "write the file again", span)
         return values.astype(np.int64)
 
     def where(self, row: int) -> Span:
@@ -43,8 +43,8 @@ class Columns:
         """Name the first line that is not `width` numbers."""
         for number, line in enumerate(self.lines, 1):
             if line.strip() and not line.startswith(self.comment) and not self._is_row(line):
-                reject("MD252", self.path, message, "write the file anew", line_span(self.path, number, line))
-        reject("MD252", self.path, message, "write the file anew")
+                reject("MD252", self.path, message, "write the file again", line_span(self.path, number, line))
+        reject("MD252", self.path, message, "write the file again")
 
     def _is_row(self, line: str) -> bool:
         words = line.replace(",", " ").replace("D", "E").split()

@@ -29,7 +29,7 @@ def _read(path: str, variable: str | None) -> Contents:
     _real_and_square(bulk, headers[name])
     row, col, values, lines = _entries(bulk, columns.get(name, []))
     if not len(values):
-        reject("MD252", path, f"matrix {name} has no columns", "write the file anew", bulk.where(headers[name]))
+        reject("MD252", path, f"matrix {name} has no columns", "write the file again", bulk.where(headers[name]))
     places, index = np.unique(np.concatenate([row, col]), return_inverse=True)
     n = order(path, len(places), "number of rows")
     where = lambda i: bulk.where(lines[i])

@@ -13,7 +13,7 @@ from mouse_cli.formats.matrix_files import MAX_ORDER, MatrixFormat
 from mouse_cli.formats.matrix_files.triangles import completed
 from mouse_cli.model.arrays import Matrix
 
-_HELP = "write it anew: HBMAT,fname,matrix,,ASCII,STIFF"
+_HELP = "write it again: HBMAT,fname,matrix,,ASCII,STIFF"
 _FIELD = re.compile(r"(\d*)[IEDFG](\d+)")
 
 

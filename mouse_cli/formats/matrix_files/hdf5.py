@@ -64,7 +64,7 @@ def read(path: str, variable: str | None) -> Matrix:
     except DeckError:
         raise
     except Exception as error:  # h5py reports damage as whatever its parts raise
-        reject("MD252", path, f"not a readable HDF5 file: {str(error)[:200]}", "write it anew")
+        reject("MD252", path, f"not a readable HDF5 file: {str(error)[:200]}", "write it again")
 
 
 def _matrix(path: str, h5py: Any, file: Any, variable: str | None) -> Matrix:

@@ -33,7 +33,7 @@ def _ended(path: str) -> str | BytesIO:
     with open(path, "rb") as stream:
         for part in iter(lambda: stream.read(_CHUNK), b""):
             if b"\0" in part:
-                reject("MD252", path, "not a Matrix Market file: a zero byte stands in it", "write the file anew")
+                reject("MD252", path, "not a Matrix Market file: a zero byte stands in it", "write the file again")
             last = part[-1:]
         if last == b"\n":
             return path
@@ -65,7 +65,7 @@ def _check_header(path: str) -> None:
     room(path, 16 * min(least // _SHORTEST_VALUE, rest))
     if least > rest + 1:
         message = f"the size line '{line[:60]}' promises at least {least} bytes, but {rest} follow"
-        reject("MD252", path, message, "the file is truncated, or its size line wrong: write it anew", span)
+        reject("MD252", path, message, "the file is truncated, or its size line wrong: write it again", span)
 
 
 def _check_banner(path: str, words: list[str], banner: bytes) -> None:

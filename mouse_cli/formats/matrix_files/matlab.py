@@ -23,7 +23,7 @@ def _read(path: str, variable: str | None) -> Matrix:
         if isinstance(error, DeckError):
             raise
         message = f"cut short, or not a MATLAB file: {str(error)[:200]}"
-        reject("MD252", path, message, "write it anew: save('model.mat', 'K', 'M')")
+        reject("MD252", path, message, "write it again: save('model.mat', 'K', 'M')")
 
 
 def _version_5(path: str, variable: str | None) -> Matrix:

@@ -122,7 +122,7 @@ def _check(stream: BinaryIO, at: int, parts: list[Element], order: str) -> None:
         raise ValueError(f"the array at byte {at} is of no class, {kind}")
     wanted = _PARTS[kind] + (_NUMBERS,) * (is_complex and kind in (_SPARSE, *_NUMERIC))
     if len(parts) < len(wanted) or any(part[0] not in types for part, types in zip(parts, wanted, strict=False)):
-        raise ValueError(f"the array at byte {at} lacks a part of its class, {kind}")
+        raise ValueError(f"the array at byte {at} has no complete class,  {kind}")
     if kind != _OPAQUE and (parts[0][2] != 8 or not 8 <= parts[1][2] <= 128):
         raise ValueError(f"the array at byte {at} has no flags, or less than 2 or more than 32 dimensions")
     if kind in _HOLDERS or kind == _TEXT:

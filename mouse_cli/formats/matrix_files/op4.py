@@ -10,7 +10,7 @@ from mouse_cli.formats.matrix_files import MAX_ORDER, MatrixFormat, choose, reje
 from mouse_cli.formats.matrix_files.op4_records import Damaged, Header, Strings, binary_matrices, text_matrices
 from mouse_cli.model.arrays import Matrix
 
-_HELP = "write it anew: ASSIGN OUTPUT4='k.op4',FORM=FORMATTED (or UNFORMATTED) and OUTPUT4 K//..."
+_HELP = "write it again: ASSIGN OUTPUT4='k.op4',FORM=FORMATTED (or UNFORMATTED) and OUTPUT4 K//..."
 
 
 def _read(path: str, variable: str | None) -> Matrix:

@@ -79,11 +79,11 @@ def _nodes(path: str, lines: list[str], number: int) -> list[tuple[int, int, int
             )
         return found
     except ValueError:
-        reject("MD252", path, f"data set {number} has a node that cannot be read", "export the geometry anew")
+        reject("MD252", path, f"data set {number} has a node that cannot be read", "export the geometry again")
 
 
 def _short(path: str, node: int) -> None:
-    reject("MD252", path, f"node {node} has no three coordinates", "export the geometry anew")
+    reject("MD252", path, f"node {node} has no three coordinates", "export the geometry again")
 
 
 def _systems(path: str, lines: list[str]) -> dict[int, _System]:
@@ -99,5 +99,5 @@ def _systems(path: str, lines: list[str]) -> dict[int, _System]:
                 reject("MD252", path, f"coordinate system {label} is spherical", "export cartesian or cylindrical ones")
             found[label] = _System(kind, rows[:3], rows[3])
     except (ValueError, IndexError):
-        reject("MD252", path, "data set 2420 cannot be read", "export the geometry anew")
+        reject("MD252", path, "data set 2420 cannot be read", "export the geometry again")
     return found

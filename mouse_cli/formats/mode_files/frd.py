@@ -23,7 +23,7 @@ def _read(path: str) -> ModeTable:
         if name == "DISP":
             found.append((_number(path, lines, head, _VALUES), _displacements(path, lines, head)))
     if not found:
-        help = "ask for them: *NODE FILE with U below *FREQUENCY"
+        help = "request them: *NODE FILE with U below *FREQUENCY"
         reject("MD624", path, "the file has no mode shapes: displacements of a *FREQUENCY step", help)
     nodes = sorted({node for _, values in found for node in values})
     raw = np.array([[values.get(node, (np.nan,) * 3) for node in nodes] for _, values in found])
@@ -64,7 +64,7 @@ def _displacements(path: str, lines: list[str], head: int) -> dict[int, tuple[fl
 
 def _damaged(path: str, lines: list[str], at: int, message: str) -> None:
     """Raise DeckError (MD252) with the line, from 0."""
-    reject("MD252", path, message, "write the results anew, as text", line_span(path, at + 1, lines[at]))
+    reject("MD252", path, message, "write the results again, as text", line_span(path, at + 1, lines[at]))
 
 
 FORMAT = ModeFormat("frd", _read)

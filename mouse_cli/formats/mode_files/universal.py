@@ -175,7 +175,7 @@ def _damaged(path: str, first: int, lines: list[str], at: int, message: str) -> 
     """Raise DeckError (MD252) with the line."""
     shown = lines[at][:120].rstrip() if 0 <= at < len(lines) else ""
     reject(
-        "MD252", path, message, "export the modes anew", Span(path, first + max(at, 0), 1, max(1, len(shown)), shown)
+        "MD252", path, message, "export the modes again", Span(path, first + max(at, 0), 1, max(1, len(shown)), shown)
     )
 
 

@@ -23,7 +23,7 @@ def _read(path: str) -> Rows:
                 found.append((at, line, label.split()[:1] + line.split()))
             if len(body) % 2:
                 at, line = body[-1]
-                reject("MD252", path, "a node without coordinates", "write the file anew", line_span(path, at, line))
+                reject("MD252", path, "a node without coordinates", "write the file again", line_span(path, at, line))
     return found
 
 
@@ -50,7 +50,7 @@ def _data_sets(path: str) -> Iterator[tuple[int, list[str]]]:
             "MD252",
             path,
             "the data set that begins here does not end",
-            "write the file anew",
+            "write the file again",
             line_span(path, begun, ""),
         )
 

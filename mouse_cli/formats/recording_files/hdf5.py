@@ -76,7 +76,7 @@ def _members(
 ) -> Iterator[tuple[str, Any]]:
     """`group.name` of every member, and the member itself, each once; links are passed over."""
     if depth > _DEEPEST:
-        reject("MD252", path, f"groups are nested deeper than {_DEEPEST}", "write the file anew")
+        reject("MD252", path, f"groups are nested deeper than {_DEEPEST}", "write the file again")
     for name in group:
         if isinstance(group.get(name, getlink=True), h5py.HardLink):
             item = group[name]

@@ -86,7 +86,7 @@ def _spans(path: str, style: _Style, lines: list[str]) -> Iterator[tuple[int, in
     ends = [i for i, line in enumerate(lines) if line.startswith(_END)]
     heads = [i + 1 for i in ends if i + 1 < len(lines) and style.cells(lines[i + 1])[0] == _X]
     if not heads:
-        reject("MD252", path, f"the file has {_HEADLESS}", "the file is cut short, or damaged: write it anew")
+        reject("MD252", path, f"the file has {_HEADLESS}", "the file is cut short, or damaged: write it again")
     first = ends[0] + 1 if ends[0] + 1 != heads[0] else 0
     for head, following in zip(heads, [*heads[1:], len(lines)], strict=True):
         last = next((i for i in range(head + 1, following) if lines[i].startswith("Channels")), following)
@@ -102,7 +102,7 @@ def _segment(path: str, style: _Style, lines: list[str], first: int, head: int, 
     at = [j for j in range(wide) if titles[j] != _X]
     if not at:
         reject(
-            "MD252", path, "the segment has no channel", "write the file anew", line_span(path, head + 1, lines[head])
+            "MD252", path, "the segment has no channel", "write the file again", line_span(path, head + 1, lines[head])
         )
     if len(at) > MOST_COLUMNS:
         reject("MD258", path, f"the segment has more than {MOST_COLUMNS} channels", "divide it")
@@ -176,7 +176,7 @@ def _cut(path: str, name: str, values: np.ndarray, count: int | None, head: int)
     held = int(np.flatnonzero(~np.isnan(values))[-1]) + 1 if not np.isnan(values).all() else 0
     if held < count:
         message = f"channel '{name[:40]}' has {held} samples; the head of its segment, above line {head + 1}, promises {count}"
-        reject("MD252", path, message, "the file is cut short: copy it anew", line_span(path, head + 1, name))
+        reject("MD252", path, message, "the file is cut short: copy it again", line_span(path, head + 1, name))
     return values[:held]
 
 

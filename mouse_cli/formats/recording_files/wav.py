@@ -48,13 +48,13 @@ def _check(path: str) -> None:
 def _check_channels(path: str, channels: int) -> None:
     if not 0 < channels <= _MOST_CHANNELS:
         message = f"the head promises {channels} channels; at most {_MOST_CHANNELS} are read"
-        reject("MD258", path, message, "the head is damaged: write the file anew")
+        reject("MD258", path, message, "the head is damaged: write the file again")
 
 
 def _check_samples(path: str, promised: int, held: int) -> None:
     if promised > held:
         message = f"the head promises {promised} bytes of samples; {held} follow"
-        reject("MD252", path, message, "the file is cut short, or its head was never finished: write it anew")
+        reject("MD252", path, message, "the file is cut short, or its head was never finished: write it again")
 
 
 FORMAT = RecordingFormat("wav", _read)

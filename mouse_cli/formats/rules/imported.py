@@ -17,7 +17,7 @@ def masses(draft: Draft, K: Matrix, M: Matrix) -> None:
     negative = np.flatnonzero(~(mass >= 0))
     for i in negative[:_LISTED]:
         message = f"mass of degree of freedom {_name(draft, i)} is {mass[i]:.8g}; it must not be negative"
-        draft.error("MD304", message, draft.where_order, help="export the mass matrix anew")
+        draft.error("MD304", message, draft.where_order, help="export the mass matrix again")
     massless = np.flatnonzero(mass == 0)
     if not len(massless):
         return

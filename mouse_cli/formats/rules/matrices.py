@@ -12,7 +12,7 @@ from mouse_cli.model.arrays import Matrix, is_sparse, sparse_symmetric
 LARGEST_DENSE = 1500  # orders up to this are kept as dense arrays: eigh of the whole matrix is then the fastest way
 _LISTED = 3  # findings of one kind that are told one by one where one cause is likely to make many
 _SINGULAR = 1e-13  # smallest over largest eigenvalue of M, scaled to a unit diagonal, that rounding alone can make
-_MASSIVE = "give the elements a density, add masses (with inertia where a node turns), or keep fewer `directions`"
+_MASSIVE = "give the elements a density, add masses (with inertia where a node rotates), or keep fewer `directions`"
 
 
 def matrix(draft: Draft, source: Entries | Matrix, name: str) -> Matrix | None:
@@ -48,7 +48,7 @@ def _mirror_images(draft: Draft, entries: Entries, name: str) -> None:
             continue
         one, other = entries.values[first], entries.values[i]
         message = f"{name}({row},{col}) is given twice, first as {one:.8g}, then as {other:.8g}"
-        note = "an element and its mirror image are one place"
+        note = "an element and its mirror image are one element"
         if one == other:
             draft.warn("MD303", message, entries.where(i), note, "give each element once")
         else:

@@ -82,7 +82,7 @@ def _shapes(draft: Draft, test: TestDraft) -> None:
     if largest > 0 and sd >= _BLIND * largest:
         s, m = np.argwhere(known)[0]
         message = (
-            f"shape_sd is {sd:g}, and the largest component of all shapes {largest:.4g}: the shapes would say nothing"
+            f"shape_sd is {sd:g}, and the largest component of all shapes {largest:.4g}: the shapes would not count"
         )
         draft.warn(
             "MD453",

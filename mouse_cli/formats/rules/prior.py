@@ -62,7 +62,7 @@ def _one(draft: Draft, parameter: Parameter) -> None:
             "MD315",
             f"{name} has transform log, but the total mass can be held fixed only for transform identity",
             where,
-            help="use limits (lower: 0) in place of the logarithm",
+            help="use limits (lower: 0) instead of the logarithm",
         )
 
 

@@ -139,7 +139,7 @@ def _silent(draft: Draft, sensor: SensorDraft, geometry: Geometry, node: int, di
         distance = np.linalg.norm(geometry.coordinates[geometry.node[alike]] - geometry.coordinates[node], axis=1)
         note = f"the nearest degree of freedom in its direction is {geometry.labels()[alike[np.argmin(distance)]]}"
     message = f"{sensor.words} reads nothing: node {geometry.node_ids[node]} cannot move in its direction"
-    draft.error("MD328", message, sensor.where, note, "correct place or direction, or leave the sensor out")
+    draft.error("MD328", message, sensor.where, note, "correct position or direction, or leave the sensor out")
 
 
 def _sum(draft: Draft, sensor: SensorDraft, geometry: Geometry | None, place: dict[str, int], n: int) -> Reading | None:

@@ -100,7 +100,7 @@ def _moving(item: Section, sensor: SensorDraft) -> SensorDraft:
     node = item.nodes["moves"]
     if sensor.ground is None:
         message = (
-            f"{item.what('moves')} says what the ground carries along, but {sensor.words} is no motion of the ground"
+            f"{item.what('moves')} states what the ground carries along, but {sensor.words} is no motion of the ground"
         )
         item.document.error("MD644", node, message, "delete moves, or call the sensor ground")
         return sensor

@@ -32,7 +32,10 @@ def _connection(section: Section, places: Places) -> Connection | None:
         return None
     if to == at:
         return document.error(
-            "MD708", section.nodes["to"], f"{section.called} joins a place to itself", "leave to out, for the ground"
+            "MD708",
+            section.nodes["to"],
+            f"{section.called} joins a degree of freedom to itself",
+            "leave to out, for the ground",
         )
     name = section.value("name") or next(kind for kind in _KINDS if kind in section)
     return Connection(name, at, to, where=document.span(section.node), **values)

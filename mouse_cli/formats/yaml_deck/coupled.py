@@ -54,7 +54,7 @@ def read(text: str | bytes, path: str, outside: bool = False) -> Coupling:
 
 
 def opened(text: str | bytes, path: str, key: str, outside: bool = False) -> Section:
-    """The top of a deck that holds `key` in place of a model. Raises DeckError."""
+    """The top of a deck that holds `key` instead of a model. Raises DeckError."""
     document, root = compose(text, path, outside)
     section = Section(document, root, "deck")
     section.value("mouse")
@@ -170,7 +170,7 @@ def lines(section: Section) -> Lines:
     if band is None or step is None:
         return Lines(None, band)
     if not 0 < step < np.inf or not np.isfinite(band).all() or (band[1] - band[0]) / step > MOST_LINES:
-        message = f"{below.called} asks for lines from {band[0]:g} to {band[1]:g} Hz, {step:g} Hz apart"
+        message = f"{below.called} requests lines from {band[0]:g} to {band[1]:g} Hz, {step:g} Hz apart"
         below.document.error(
             "MD614", below.node, message, f"give a positive step that makes at most {MOST_LINES} lines"
         )
@@ -216,8 +216,8 @@ def _sense(section: Section, coupling: Coupling) -> None:
         )
     measured = any(part.measured for part in parts)
     if coupling.responses and coupling.lines.frequency_hz is None and not measured:
-        message = "functions are asked for, but no lines, and no part is measured"
+        message = "FRFs are requested, but no lines, and no part is measured"
         document.error("MD707", section.node, message, "give lines: {band: [lowest, highest], step: Hz}")
     if not coupling.responses and measured:
-        message = "a part is given by functions, so that the answer can only be functions, and none are asked for"
+        message = "a part is given by FRFs, so that the result can only be FRFs, and none are requested"
         document.error("MD707", section.node, message, "give responses: {substructure: degrees of freedom}")

@@ -63,7 +63,7 @@ class Places:
                 f"{len(side)} of {key.value}" for side, (key, _) in zip(sides, node.value, strict=True)
             )
             message = f"{what} joins {counts}; the two lists go pair by pair"
-            return self.document.error("MD702", node, message, "name equally many places on both sides")
+            return self.document.error("MD702", node, message, "name equally many degrees of freedom on both sides")
         return list(zip(*sides, strict=True))
 
     def substructure(self, node: Node, what: str) -> int | None:
@@ -81,7 +81,9 @@ class Places:
         return None if None in found or not found else found
 
     def _one(self, which: int, node: Node, what: str) -> Point | None:
-        name = yaml_values.text(self.document, node, f"a place in {what}", "a degree of freedom, by number or by label")
+        name = yaml_values.text(
+            self.document, node, f"a degree of freedom in {what}", "a degree of freedom, by number or by label"
+        )
         if name is None:
             return None
         places = self._found[which]
@@ -99,7 +101,7 @@ class Places:
         why = f"of which {of} has no function" if part.measured else f"which is no degree of freedom of {of}"
         note = f"there are {', '.join(near)}{' ...' if len(known) > len(near) else ''}"
         message = f"{what} names '{name[:40]}', {why}"
-        self.document.error("MD703", node, message, "name a place that is there", note)
+        self.document.error("MD703", node, message, "name a degree of freedom that is there", note)
 
     def filled(self) -> tuple[Substructure, ...]:
         """The substructures with the places that were named."""

@@ -74,7 +74,7 @@ class Rows:
             return None
         node, (ids, coordinates) = self.section.nodes["nodes"], found
         if self.dofs is None:
-            message = "model.nodes says where nodes are, but nothing says which degree of freedom is on which"
+            message = "model.nodes gives the positions of nodes, but not the degrees of freedom on them"
             return self._error(node, message, "give model.dofs")
         absent = np.setdiff1d(self.dofs.node[self.dofs.direction >= 0], ids)
         if len(absent):

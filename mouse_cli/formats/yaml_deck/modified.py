@@ -32,7 +32,7 @@ def read(text: str | bytes, path: str, problem: Problem | None = None, outside: 
     asked, count = lines(below), below.value("count")
     if responses and asked.frequency_hz is None:
         help = "give lines: {band: [lowest, highest], step: Hz}"
-        document.error("MD707", below.node, "functions are asked for, but no lines", help)
+        document.error("MD707", below.node, "FRFs are requested, but no lines", help)
     if document.incomplete:
         raise DeckError(document.diagnostics)
     return Modification(

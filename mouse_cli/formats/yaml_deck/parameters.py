@@ -71,7 +71,7 @@ def _sd(section: Section, nominal: float, variance: float | None) -> float | Non
     sd = fraction_of(document, node, section.what("sd"), abs(nominal), "the nominal value, which is 0")
     if sd is None or variance is None or np.isclose(sd, from_covariance, rtol=1e-6, atol=0):
         return sd
-    both = f"{section.what('sd')} is {sd:.8g}, but prior.covariance says {from_covariance:.8g}"
+    both = f"{section.what('sd')} is {sd:.8g}, but prior.covariance has {from_covariance:.8g}"
     document.warn("MD224", node, f"{both}; the covariance is used", "give one of the two")
     return from_covariance
 

@@ -48,8 +48,8 @@ def _for_others(deck: Section) -> None:
     """Raise DeckError (MD700) for a deck that holds no model, but what other commands read."""
     for key in ("couple", "modify"):
         if key in deck:
-            message = f"the deck holds {key} in place of a model"
-            deck.document.error("MD700", deck.nodes[key], message, f"ask `mouse {key}` for its answer")
+            message = f"the deck holds {key} instead of a model"
+            deck.document.error("MD700", deck.nodes[key], message, f"use `mouse {key}`")
             raise DeckError(deck.document.diagnostics)
 
 

@@ -22,7 +22,7 @@ def identified(found: Identification) -> str:
         "test:",
         *_placed(found.sensors),
         "  modes:",
-        f"    number: {number}  # say which modes of the model they are, or run with pairing: mac",
+        f"    number: {number}  # state which modes of the model they are, or run with pairing: mac",
         f"    frequency: {wrapped(map(maybe, modes.frequency_hz), 4)}  # Hz",
         f"    frequency_sd: {wrapped(map(maybe, modes.frequency_sd_hz), 4)}  # Hz",
     ]

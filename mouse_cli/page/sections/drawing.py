@@ -1,4 +1,4 @@
-"""Mode shapes drawn on the structure, the place that was located marked; over degrees of freedom where there are no positions."""
+"""Mode shapes drawn on the structure, the located site marked; over degrees of freedom where there are no positions."""
 
 from collections.abc import Iterator, Sequence
 
@@ -15,7 +15,7 @@ from mouse_cli.report.reading import Part
 
 _MOST_SMALL, _MOST_LINES = 12, 20_000  # drawings in the row of all modes, and lines in all of them
 
-_LOCATED = {"one-of": "the place that leads, which the test does not settle"}
+_LOCATED = {"one-of": "the most probable site, which the test does not settle"}
 
 
 def drawing(document: Part) -> Iterator[Markup]:
@@ -50,7 +50,7 @@ def _places(marked: Sequence[Mark]) -> Iterator[Markup]:
     strong, rivals = (list(dict.fromkeys(m.words for m in marked if m.strong is of)) for of in (True, False))
     yield tag("ol", *(tag("li", words) for words in strong)) if len(strong) > 1 else listed(strong)
     if rivals:
-        yield tag("details", tag("summary", f"Other places: {len(rivals)}"), listed(rivals))
+        yield tag("details", tag("summary", f"Other sites: {len(rivals)}"), listed(rivals))
 
 
 def _name(shape: Shape) -> str:
@@ -100,8 +100,8 @@ def _legend(found: Scene, marked: Sequence[Mark], document: Part) -> Markup:
         ("still", "at rest", True),
         ("moved", name, bool(found.shapes)),
         ("test", "the test, at its sensors", tested),
-        ("ring", _LOCATED.get(kind, "the place that was located"), any(mark.strong for mark in marked)),
-        ("ring rival", "other places, fainter the less probable", any(not mark.strong for mark in marked)),
+        ("ring", _LOCATED.get(kind, "the located site"), any(mark.strong for mark in marked)),
+        ("ring rival", "other sites, fainter the less probable", any(not mark.strong for mark in marked)),
     ]
     items = [
         tag("li", tag("span", class_=f"key {looks}", aria_hidden="true"), words) for looks, words, on in rows if on

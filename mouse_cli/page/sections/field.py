@@ -34,7 +34,7 @@ def field(document: Part) -> Iterator[Markup]:
 def title(found: Part) -> str:
     """What the field is of."""
     kind = found.text("property")
-    known = {"bed": "Bed stiffness", "force": "Force of unknown law", "law": "Stiffness at one place, mode by mode,"}
+    known = {"bed": "Bed stiffness", "force": "Force of unknown law", "law": "Stiffness at one site, mode by mode,"}
     return known.get(kind, f"Change of {kind}") + " without a name"
 
 

@@ -32,7 +32,7 @@ def frequencies(document: Part) -> Iterator[Markup]:
             (f"mode {m.label('mode')}", m.number("test_hz"), m.number("prior_hz"), m.number("revised_hz"))
             for m in modes
         ]
-        yield differences(f"off-{key}", f"What {name} misses of the measured frequencies", rows)
+        yield differences(f"off-{key}", f"Frequency error of {name}", rows)
         yield table(f"modes-{key}", f"Natural frequencies of test and {name}", _HEADS, map(_row, modes))
 
 

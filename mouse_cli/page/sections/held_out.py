@@ -36,7 +36,7 @@ def _score(name: str, score: Part) -> str:
     if error is None or covered is None:
         return ""
     within = f"{100 * covered:.0f} % lie within its 90 % intervals"
-    return f"{name[0].upper()}{name[1:]} misses them by {100 * error:.2g} % (rms); {within}."
+    return f"Frequency error of {name}: {100 * error:.2g} % (rms); {within}."
 
 
 def _padded(values: list[float | None], count: int) -> list[float | None]:
@@ -57,4 +57,4 @@ def _row(label: str, measured, hz, sd, revised, revised_sd) -> tuple[object, ...
     )
 
 
-SECTION = PageSection("held-out", 35, "Is it true?", held_out)
+SECTION = PageSection("held-out", 35, "Validation", held_out)

@@ -47,7 +47,9 @@ def _titled(one: Part, title: str) -> list[Part]:
 
 def _words(part: Part) -> str:
     value = part.number("rms_percent")
-    return f"{shown(value, 3)} %{', fitted' if part.flag('fitted') else ''}" if value is not None else "lacks a mode"
+    return (
+        f"{shown(value, 3)} %{', fitted' if part.flag('fitted') else ''}" if value is not None else "has no such mode"
+    )
 
 
 def _row(one: Part) -> tuple[object, ...]:

@@ -7,7 +7,7 @@ from mouse_cli.page.section import PageSection
 from mouse_cli.page.tables import table
 from mouse_cli.report.reading import Part
 
-_HEADS = ("measure", "between", "predicted separation, nats", "outlook")
+_HEADS = ("measure", "between", "predicted separation, log evidence", "outlook")
 
 
 def proposals(document: Part) -> Iterator[Markup]:

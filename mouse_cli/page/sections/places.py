@@ -12,7 +12,7 @@ from mouse_cli.page.sections._words import paragraphs, place, shares
 from mouse_cli.page.tables import Cell, table
 from mouse_cli.report.reading import Part
 
-_DEEP = 40.0  # nats below the best place: less probable ones lie at the edge
+_DEEP = 40.0  # log probability below the best place: less probable ones lie at the edge
 
 
 def where(document: Part) -> Iterator[Markup]:
@@ -32,7 +32,7 @@ def _posterior(location: Part) -> Iterator[Markup]:
     rows = [(place(p.part("site")), probable(p.number("probability")), p.number("probability")) for p in found]
     likely = [row for row in rows if (row[2] or 0.0) >= 1e-3] or rows[:5]
     yield shares("place-posterior", "Probability of each site", "If one force made the measured shapes.", likely)
-    heads = ("site", "motion", "probability", "nats below the best")
+    heads = ("site", "motion", "probability", "log probability below the best")
     yield table("places", "Sites, the most probable first", heads, map(_row, found))
 
 

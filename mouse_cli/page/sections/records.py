@@ -67,7 +67,7 @@ def _force(found: Part) -> Iterator[Markup]:
     for key in ("motion", "velocity") if found else ():
         along = found.numbers(key)
         drawn = [
-            Line("asked for by the record", "measured", _pairs(along, force), dots=True),
+            Line("implied by the recording", "measured", _pairs(along, force), dots=True),
             Line("the fitted law", "revised", _pairs(along, law), dots=True),
         ]
         title = f"Restoring force over {key}: {found.text('title')}, {found.text('place')}"

@@ -47,4 +47,4 @@ def _shaded(value: float) -> Cell:
     return Cell(value, f"{value:.3f}", shade(value)) if value == value else Cell(None, "–")
 
 
-SECTION = PageSection("shapes", 60, "Likeness of mode shapes", shapes)
+SECTION = PageSection("shapes", 60, "Mode shape correlation (MAC)", shapes)

@@ -18,7 +18,7 @@ def shared_errors(document: Part) -> Iterator[Markup]:
         mode = Cell(each.number("mode"), each.label("mode"))
         rows.append((mode, Cell(value, words), Cell(sd, "–" if sd is None else f"{shown(100 * sd, 3)} %")))
     heads = ("mode", "measured minus model", "sd")
-    yield table("shared", "Error of theory that all arrangements share, by mode", heads, rows)
+    yield table("shared", "Model error shared by all configurations, by mode", heads, rows)
 
 
 SECTION = PageSection("shared-errors", 55, "Shared errors", shared_errors)

@@ -12,8 +12,8 @@ from mouse_cli.report.reading import Part
 _FORM = {
     "accepted": "The data do not contradict the form of the model.",
     "rejected": "The form of the model is rejected: the data show what the model lacks, lie farther from the prior than it "
-    "allows, or are less accurate than they are said to be. Do not trust the revised values.",
-    "untested": "Nothing is said of the form of the model: the data leave nothing to test it by, or there is no answer.",
+    "allows, or are less accurate than stated. Do not trust the revised values.",
+    "untested": "The form of the model is not tested: the data leave no degrees of freedom, or there is no answer.",
 }
 _UNKNOWN = "Something is missing that no candidate explains. Do not name a mechanism."
 _SEVERAL = {
@@ -116,7 +116,7 @@ def _refuted(document: Part) -> str:
     """Documents of arrangements name one cause, those of a diagnosis a list of groups."""
     one = isinstance(document.values.get("refuted"), str)
     against = document.text("refuted") if one else ", ".join(document.labels("refuted"))
-    return f"Data that were held out speak against: {against}." if against else ""
+    return f"Refuted by held-out data: {against}." if against else ""
 
 
 def _misstated(document: Part) -> str:

@@ -24,7 +24,7 @@ def matrices(layout: Layout, properties: Properties) -> Matrices:
 
 ELEMENT = ElementType(
     "joint",
-    "semi-rigid joint or contact (x normal, y and z tangential) to which rigid arms lead from both nodes",
+    "semi-rigid joint or contact (x normal, y and z tangential) with rigid arms to both nodes",
     (2,),
     directional("stiffness", "N/m", "N m/rad"),
     matrices,

@@ -33,7 +33,7 @@ ELEMENT = ElementType(
         ),
         "density": Property("density", "kg/m3", 0.0),
         "diameter": Property("diameter of the nugget", "m", positive=True),
-        "softness": Property("factor of compliance by sheets that give way beside the nugget", "1", 1.0, True),
+        "softness": Property("factor of compliance of the flexible sheets around the nugget", "1", 1.0, True),
     },
     matrices,
     {**beam.ORIENTATION, **beam.OFFSETS},

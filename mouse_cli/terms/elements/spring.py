@@ -5,7 +5,7 @@ from mouse_cli.terms.elements._axes import AXES_OPTION, directional, stiffness
 
 ELEMENT = ElementType(
     "spring",
-    "springs on the relative motion of two nodes, direction by direction, as if they were at one place; one node: to ground",
+    "springs on the relative motion of two nodes, direction by direction, as if they coincided; one node: to ground",
     (1, 2),
     directional("stiffness", "N/m", "N m/rad"),
     stiffness,

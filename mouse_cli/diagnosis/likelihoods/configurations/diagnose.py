@@ -212,7 +212,7 @@ def _check(problems: tuple[Problem, ...]) -> None:
                 Diagnostic(
                     "MD691",
                     ERROR,
-                    "arrangements are diagnosed by their measured modes, and held out as a whole; "
+                    "configurations are diagnosed by their measured modes, and held out as a whole;  "
                     + ("this deck has none" if each.test is None else "this deck holds out a part of its test"),
                     each.place("test"),
                     help="give test.modes without hold_out; name whole decks with --held-out",
@@ -226,7 +226,7 @@ def _check(problems: tuple[Problem, ...]) -> None:
                     ERROR,
                     f"its parameters are not those of {first.source.path} ({names}, with their values, sd and transforms)",
                     each.place("parameters"),
-                    help="write the same parameters and prior in every arrangement",
+                    help="write the same parameters and prior in every configuration",
                 )
             )
         if each.theory != first.theory:
@@ -236,7 +236,7 @@ def _check(problems: tuple[Problem, ...]) -> None:
                     ERROR,
                     f"its errors of theory are not those of {first.source.path}",
                     each.place("theory"),
-                    help="write the same theory in every arrangement: they are models of one structure",
+                    help="write the same theory in every configuration: they are models of one structure",
                 )
             )
 

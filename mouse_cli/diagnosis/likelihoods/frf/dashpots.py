@@ -27,7 +27,7 @@ DASHPOT = Candidate(
     "dashpot",
     "a dashpot to the ground",
     "damping",
-    "viscous damping between one place and the surroundings (seal, cable, damper): C + c B'B; sought in functions alone, which "
+    "viscous damping between one point and the surroundings (seal, cable, damper): C + c B'B; sought in FRFs only, which "
     "show it",
     lambda model, candidate: [],
 )

@@ -77,7 +77,7 @@ LOSSY_PART = Candidate(
     "lossy-part",
     "a part that loses energy",
     "local-damping",
-    "a stretch of a bar, another element or a spring that dissipates more than the rest, as stiff as the deck says (rubbing "
-    "joint, damping layer, damper between two parts): D + eta K_e, or C + eta K_e / omega_0; sought in functions alone",
+    "a stretch of a bar, another element or a spring that dissipates more than the rest, with the stiffness of the deck (rubbing "
+    "joint, damping layer, damper between two parts): D + eta K_e, or C + eta K_e / omega_0; sought in FRFs only",
     lambda model, candidate: [],
 )

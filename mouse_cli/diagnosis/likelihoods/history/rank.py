@@ -169,7 +169,7 @@ def _anew(found: Ranking, seen: list[Seen], scale: float) -> Ranking:
 
 
 _MORE = (
-    "the recordings ask for more than a linear mechanism: the best leaves {:.3g} times the variance of their noise, and they did "
+    "the recordings demand more than a linear mechanism: the best leaves {:.3g} times the variance of their noise, and they did "
     "not judge between linear mechanisms"
 )
 _JUDGED = "recordings judged too, beside all else that was measured, {} in all: {}"

@@ -112,7 +112,7 @@ def _left(study: Study, one: Fit) -> Noise | None:
 
 
 def _singles(study: Study, notice: Notice, known: list[Law] | None, baseline: Fit) -> list[Fit]:
-    notice(f"{len(study.places)} places, first look")
+    notice(f"{len(study.places)} sites, first pass")
     error = _FIRST_ORDER if strained(baseline) else 0.0
     order = starts((study.looked(place, study.spectrum, error=error) for place in study.places), known)
     found, best = [], baseline

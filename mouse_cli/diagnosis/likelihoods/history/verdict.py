@@ -130,7 +130,7 @@ def far(one: Fit, scale: float) -> tuple[str, ...]:
 
 def _distant(distant: tuple[str, ...]) -> str:
     return (
-        f"No fit is believed whose parameters are more than {FAR:g} prior sd from their mean: {'; '.join(distant)}. "
+        f"No fit is accepted whose parameters are more than {FAR:g} prior sd from their mean: {'; '.join(distant)}. "
         "Check the deck there before you look for missing physics, or widen the prior if it was stated too narrow."
     )
 

@@ -8,16 +8,16 @@ _KIND = Key("choice", "what the functions of the answer are", "receptance", choi
 _RATIO = Key("number", "of critical damping", "0; tuned: Den Hartog's", low=0)
 SECTIONS = {
     "couple": Section(
-        "Substructures put together or taken apart; `mouse couple` answers.",
+        "Substructuring: coupling and decoupling of substructures by `mouse couple`.",
         {
             "substructures": Key("map substructure", "the parts, by name", required=True),
             "interfaces": Key(
-                "joined", "places that move together, such as {left: [3TX, 3TY], right: [1TX, 1TY]}", "none"
+                "joined", "degrees of freedom that move together, such as {left: [3TX, 3TY], right: [1TX, 1TY]}", "none"
             ),
             "connections": Key(
-                "list connection", "masses, springs, dashpots, absorbers at places or between them", "none"
+                "list connection", "masses, springs, dashpots, absorbers at degrees of freedom or between them", "none"
             ),
-            "responses": Key("points", "where functions are asked for", "no functions"),
+            "responses": Key("points", "where FRFs are requested", "no functions"),
             "forces": Key("points", "where forces act", "where responses are"),
             "lines": Key("section lines", "frequencies of the functions", "those measured"),
             "kind": _KIND,
@@ -42,14 +42,14 @@ SECTIONS = {
             "measured": Key("flag", "the functions of its `test.frf` stand for it, and not its model", "false"),
             "measurement": Key("text", "title of those functions, where it holds several", "the only ones"),
             "functions": Key("path", "file of functions that names response and force of each, without a deck"),
-            "kind": Key("choice", "of the functions in the file", "as the file says", choices=tuple(KINDS)),
+            "kind": Key("choice", "of the functions in the file", "as in the file", choices=tuple(KINDS)),
             "remove": Key("flag", "the part is taken away from the others (decoupling)", "false"),
             "reciprocal": Key("flag", "a function that is missing is that with response and force exchanged", "true"),
         },
         needs=(("deck",), ("functions",)),
     ),
     "connection": Section(
-        "Something with one degree of freedom, at a place or between two.",
+        "A connection of one degree of freedom, at a point or between two.",
         {
             "name": Key("text", "what the printout calls it", "what it is"),
             "mass": Key("number", "mass or inertia", "none", "kg"),
@@ -71,7 +71,9 @@ SECTIONS = {
         {
             "mass": Key("number", "its mass", "", "kg", required=True, low=0),
             "frequency": Key("number", "natural frequency while its foot is held", "", "Hz", low=0),
-            "tuned_to": Key("whole", "in place of frequency: mode of the model that Den Hartog's rule calms", low=1),
+            "tuned_to": Key(
+                "whole", "instead of frequency: mode of the model that is tuned by Den Hartog's rule", low=1
+            ),
             "damping_ratio": _RATIO,
         },
         needs=(("frequency",), ("tuned_to",)),
@@ -99,9 +101,9 @@ SECTIONS = {
             "deck": Key("path", "deck of the model, below the folder of this one", required=True),
             "changes": Key("list connection", "what is added; negative masses and springs are taken away", "none"),
             "targets": Key("list target", "which mass or spring moves a mode to a frequency", "none"),
-            "sweeps": Key("list sweep", "one mass, spring or absorber tried at every place", "none"),
-            "places": Key("dofs", "places that targets and sweeps try", "all degrees of freedom that translate"),
-            "responses": Key("dofs", "where functions are asked for", "no functions"),
+            "sweeps": Key("list sweep", "one mass, spring or absorber tried at every location", "none"),
+            "places": Key("dofs", "locations that targets and sweeps try", "all degrees of freedom that translate"),
+            "responses": Key("dofs", "where FRFs are requested", "no functions"),
             "forces": Key("dofs", "where forces act", "where responses are"),
             "lines": Key("section lines", "frequencies of the functions"),
             "kind": _KIND,
@@ -116,12 +118,12 @@ SECTIONS = {
             ABOVE: Key("number", "it is to lie there or higher", "", "Hz", low=0),
             EXACTLY: Key("number", "it is to lie there", "", "Hz", low=0),
             "by": Key("choice", "a mass, or a spring to the ground", MASS, choices=(MASS, SPRING)),
-            "place": Key("text", "degree of freedom", "every place in turn"),
+            "place": Key("text", "degree of freedom", "every location, one by one"),
         },
         needs=((BELOW,), (ABOVE,), (EXACTLY,)),
     ),
     "sweep": Section(
-        "One thing tried at every place.",
+        "One change tried at every location.",
         {
             "mode": Key("whole", "number of the mode, rigid-body modes counted", required=True, low=1),
             "by": Key("choice", "what is tried", MASS, choices=(MASS, SPRING, ABSORBER)),

@@ -4,7 +4,7 @@ from mouse_cli.formats.yaml_deck.kinds import Key, Section
 
 SECTIONS = {
     "hold_out": Section(
-        "Data that no fit uses and that a good model foresees: `mouse diagnose` judges by them.",
+        "Data that no fit uses and that a good model predicts: `mouse diagnose` validates by them.",
         {
             "modes": Key("wholes", "mode numbers of the test, as in `number`", "none"),
             "sensors": Key("dofs", "sensors of the test, as in `dofs`", "none"),

@@ -65,7 +65,7 @@ SECTIONS = {
         "Values kept in a file.",
         {
             "file": Key(
-                "path", f"{_FILES}, or of the kind that the key says, below the folder of the deck", required=True
+                "path", f"{_FILES}, or of the kind that the key states, below the folder of the deck", required=True
             ),
             "variable": _VARIABLE,
         },

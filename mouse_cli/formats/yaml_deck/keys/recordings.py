@@ -15,7 +15,7 @@ SECTIONS = {
         {
             "file": Key("path", "file at or below the deck: csv, txt, lvm, mat, npz, wav, h5, tdms, uff, unv", required=True),
             "title": Key("text", "what the report and `hold_out` call it", "the name of the file, and its segment"),
-            "sample_rate": Key("number", "samples a second", "what the file says", unit="Hz"),
+            "sample_rate": Key("number", "samples a second", "the value in the file", unit="Hz"),
             "time": Key("text", "channel that holds the time in s", "a column called t or time, where there is one"),
             "segment": Key("span", "first sample and the one after the last, from 0", "the whole file"),
             "inputs": Key(
@@ -33,7 +33,7 @@ SECTIONS = {
             "quantity": Key(
                 "choice", "what it measures", "by its unit; else force of inputs, acceleration of others", choices=QUANTITIES
             ),
-            "unit": Key("text", "of its numbers: N, kN, lbf, m/s2, mm/s2, g, m, mm, V, ...", "what the file says"),
+            "unit": Key("text", "of its numbers: N, kN, lbf, m/s2, mm/s2, g, m, mm, V, ...", "the value in the file"),
             "sensitivity": Key("text", "of a transducer recorded in volts, as 100 mV/g", "none"),
             "frame": Key("choice", "of an output: in space, or relative to the ground", "`frame` of the recording", choices=FRAMES),
             "moves": Key(
@@ -49,13 +49,13 @@ SECTIONS = {
             "file": Key("path", "file below the folder of the deck: csv, txt, mat, npz, h5, uff, unv", "none: given here"),
             "title": Key("text", "what the report and `hold_out` call it", "the name of the file"),
             "kind": Key(
-                "choice", "displacement, velocity or acceleration per force", "by `unit`, or as the file says", choices=tuple(KINDS)
+                "choice", "displacement, velocity or acceleration per force", "by `unit`, or as in the file", choices=tuple(KINDS)
             ),
-            "unit": Key("text", _FRF_UNIT, "what the file says, else units of the deck"),
+            "unit": Key("text", _FRF_UNIT, "the value in the file, else units of the deck"),
             "frequency": Key(
                 "text or numbers", "channel of the frequencies, or they themselves", "one called f, freq, ..., else the first", "Hz"
             ),
-            "input": Key("text", "where the force acts, for a file that does not say: a sensor as in `outputs`"),
+            "input": Key("text", "where the force acts, for a file that does not state it: a sensor as in `outputs`"),
             "inputs": Key("renames", "forces of a file that names them: {sensor: name in the file}", "all, under their names"),
             "outputs": Key(
                 "functions", "{sensor: channel, ...}; of a file that names them {sensor: its name}", "all, under their names"
@@ -74,7 +74,7 @@ SECTIONS = {
                 "sd", "of the gain of each response and of each force, which are then estimated: `2 %`, or 0.02", "they are known"
             ),
             "decay_rate": Key(
-                "number", "a of an exponential window e^(-a t) on force and response", "what the file says, else 0", "1/s", low=0
+                "number", "a of an exponential window e^(-a t) on force and response", "the value in the file, else 0", "1/s", low=0
             ),
             "averages": Key("number", "effective number of independent averages, which makes accuracies of coherences", low=1),
         },

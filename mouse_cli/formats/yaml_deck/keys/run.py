@@ -42,7 +42,9 @@ SECTIONS = {
             ),
             "partials": _option("partials", "whole", "most computations of the partial derivatives (NPARD)", low=1),
             "passes": _option("passes", "whole", "passes of O-7 and O-8 for each of them (ITERMX)", low=1),
-            "cycles": _option("cycles", "whole", "exactly so many cycles, whatever the convergence test says", low=0),
+            "cycles": _option(
+                "cycles", "whole", "exactly so many cycles, whatever the result of the convergence test", low=0
+            ),
             "convergence": _option(
                 "convergence",
                 "choice",

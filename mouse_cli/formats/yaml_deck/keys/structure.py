@@ -110,7 +110,7 @@ SECTIONS = {
     ),
     "cross_section": Section(
         "A cross section: a shape, or its properties; a property that is given replaces that of the shape. "
-        "Width is along local y, height along local z, which is upward unless an element says otherwise.",
+        "Width is along local y, height along local z, which is upward unless an element states otherwise.",
         {
             "A": Key("number", "area", unit="m2"),
             "Iy": Key("number", "second moment of area about local y (bending in the local x-z plane)", unit="m4"),
@@ -139,7 +139,7 @@ SECTIONS = {
     "rigid_link": Section(
         "Dependent nodes move with an independent one as if a rigid bar joined them.",
         {
-            "independent": Key("whole", "the node that leads", required=True),
+            "independent": Key("whole", "the node that the others follow", required=True),
             "dependent": Key("ids", "the nodes that follow", required=True),
             "directions": Key("direction", "in which they follow", "all that are kept"),
         },
