@@ -44,13 +44,83 @@ def pair(test_shapes: np.ndarray, test_hz: np.ndarray, shapes: np.ndarray, hz: n
     Shapes decide where they can, frequencies where shapes are alike. test_shapes (s, m), test_hz (m,) may hold NaN;
     shapes (s, k), hz (k,).
     """
-    apart = distance(mac(test_shapes, shapes), test_hz, hz)
-    nearest = apart.argmin(axis=1)
-    if len(set(nearest.tolist())) == len(nearest):  # no two want the same one: nothing to settle
-        return nearest
-    from scipy.optimize import linear_sum_assignment
+    return paired(distance(mac(test_shapes, shapes), test_hz, hz))
 
-    return linear_sum_assignment(apart)[1]
+
+class Measured:
+    """Measured modes that are compared with those of many models: shapes (s, m) and hz (m,) may hold NaN."""
+
+    def __init__(self, shapes: np.ndarray, hz: np.ndarray):
+        have = np.isfinite(shapes)
+        x = np.where(have, shapes, 0.0)
+        self._x, self._size, self._have = x.T.copy(), np.square(x).sum(axis=0)[:, None], have.T.astype(float)
+        self._hz, self._log = hz, np.log(hz)[:, None]
+        self._plain = bool(np.isfinite(hz).all() and (self._size > 0).all())
+
+    def pair(self, shapes: np.ndarray, hz: np.ndarray) -> np.ndarray:
+        """As `pair`, of finite `shapes` (s, k) and hz (k,)."""
+        size = self._size * (self._have @ np.square(shapes))
+        if not self._plain or not (size > 0).all() or not (hz > 0).all():
+            likeness = np.divide((self._x @ shapes) ** 2, size, out=np.zeros_like(size), where=size > 0)
+            return paired(distance(likeness, self._hz, hz))
+        detuning = np.minimum(2 * np.abs(np.log(hz) - self._log), 1e3)
+        return paired(1.0 - (self._x @ shapes) ** 2 / size + detuning)
+
+
+def paired(apart: np.ndarray) -> np.ndarray:
+    """Column (m,) of each row of `apart` (m, k) so that their sum is least and no two are the same; of k rows where k < m."""
+    if not apart.size:
+        return np.zeros(0, int)
+    nearest = apart.argmin(axis=1)
+    wanted = nearest.tolist()
+    if len(set(wanted)) == len(wanted):  # no two want the same one: nothing to settle
+        return nearest
+    if len(apart) > apart.shape[1]:  # the columns choose
+        return np.argsort(paired(apart.T))
+    return _settled(apart, wanted)
+
+
+def _settled(cost: np.ndarray, wanted: list[int]) -> np.ndarray:
+    """The same by shortest augmenting paths (Jonker and Volgenant 1987), from what each row wants where no other had it before.
+
+    scipy.optimize has it too; to import that takes as long as a thousand of these.
+    """
+    row_price, price = cost.min(axis=1), np.zeros(cost.shape[1])
+    owner = np.full(cost.shape[1], -1)
+    waiting = []
+    for row, column in enumerate(wanted):
+        if owner[column] < 0:
+            owner[column] = row
+        else:
+            waiting.append(row)
+    for row in waiting:
+        _augment(cost, row_price, price, owner, row)
+    found = np.empty(len(cost), int)
+    found[owner[owner >= 0]] = np.flatnonzero(owner >= 0)
+    return found
+
+
+def _augment(cost: np.ndarray, row_price: np.ndarray, price: np.ndarray, owner: np.ndarray, first: int) -> None:
+    """Gives row `first` a column along the shortest path of reduced costs to a free one; prices and `owner` are overwritten."""
+    least, before = np.full(len(price), np.inf), np.full(len(price), -1)
+    open_, row, last, length = np.ones(len(price), bool), first, -1, 0.0
+    while True:
+        way = length + cost[row] - row_price[row] - price
+        nearer = open_ & (way < least)
+        least[nearer], before[nearer] = way[nearer], last
+        last = int(np.argmin(np.where(open_, least, np.inf)))
+        length = least[last]
+        if owner[last] < 0:
+            break
+        open_[last], row = False, owner[last]
+    passed = np.flatnonzero(~open_)
+    row_price[owner[passed]] += length - least[passed]
+    price[passed] -= length - least[passed]
+    row_price[first] += length
+    while last >= 0:
+        earlier = before[last]
+        owner[last] = first if earlier < 0 else owner[earlier]
+        last = earlier
 
 
 def match(apart: np.ndarray, limit: float = LIKELY) -> np.ndarray:
@@ -59,11 +129,9 @@ def match(apart: np.ndarray, limit: float = LIKELY) -> np.ndarray:
     The assignment of least total `apart` (m, k), where to leave a measured mode without partner costs `limit`: no pair is
     farther apart than that.
     """
-    from scipy.optimize import linear_sum_assignment
-
     m, k = apart.shape
     alone = np.full((m, m), limit)  # m places for modes that stay alone
-    found = linear_sum_assignment(np.hstack([apart, alone]))[1]
+    found = paired(np.hstack([apart, alone]))
     return np.where(found < k, found, -1)
 
 

@@ -1,6 +1,7 @@
 """A parameter of a cause or of a law, before any test."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -15,7 +16,7 @@ class Unknown:
     upper: float
     log: bool = True
 
-    @property
+    @cached_property
     def bounds(self) -> tuple[float, float]:
         """Range of the coordinate: the logarithm or the value."""
         return (float(np.log(self.lower)), float(np.log(self.upper))) if self.log else (self.lower, self.upper)

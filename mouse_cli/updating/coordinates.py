@@ -5,6 +5,7 @@ vary - a parameter without standard deviation, the total mass when it is held - 
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -27,11 +28,20 @@ class Coordinates:
 
     def value(self, u: np.ndarray) -> np.ndarray:
         """Values (p,) in the units of the properties."""
+        if self._linear:
+            return np.array(u, float)
         return np.where(self.logarithmic, np.exp(np.where(self.logarithmic, u, 0.0)), u)
 
     def slope(self, u: np.ndarray) -> np.ndarray:
         """d(value)/du (p,)."""
+        if self._linear:
+            return np.ones(len(u))
         return np.where(self.logarithmic, self.value(u), 1.0)
+
+    @cached_property
+    def _linear(self) -> bool:
+        """Whether u is the value of every parameter."""
+        return not self.logarithmic.any()
 
     def in_prior_units(self, x: np.ndarray) -> np.ndarray:
         """z (k,) with x = L z, for a change x (p,) of u."""

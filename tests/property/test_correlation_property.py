@@ -1,10 +1,10 @@
 """What holds for any shapes: MAC knows neither scale nor sign, and pairs do not depend on the order of modes."""
 
 import numpy as np
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from mouse_cli.dynamics.correlation import comac, distance, ecomac, mac, match, pair, subspace_cosines
+from mouse_cli.dynamics.correlation import Measured, comac, distance, ecomac, mac, match, pair, paired, subspace_cosines
 
 seeds = st.integers(0, 2**32 - 1)
 
@@ -66,3 +66,23 @@ def test_no_pair_is_farther_apart_than_allowed(seed, limit):
     found = match(apart, limit)
     assert all(apart[i, j] <= limit for i, j in enumerate(found) if j >= 0)
     assert len(set(found[found >= 0])) == (found >= 0).sum()
+
+
+@settings(deadline=None)  # the first example imports scipy.optimize
+@given(seeds, st.integers(1, 8), st.integers(1, 12), st.booleans())
+def test_the_assignment_is_that_of_scipy(seed, m, k, crowded):
+    from scipy.optimize import linear_sum_assignment
+
+    rng = np.random.default_rng(seed)
+    apart = rng.random((m, k))
+    if crowded:  # all rows want much the same columns
+        apart = apart[:1] + 0.05 * rng.random((m, k))
+    np.testing.assert_array_equal(paired(apart), linear_sum_assignment(apart)[1])
+
+
+@given(seeds)
+def test_measured_modes_kept_for_many_models_are_paired_alike(seed):
+    _, test, test_hz, model, hz = drawn(seed)
+    np.testing.assert_array_equal(Measured(test, test_hz).pair(model, hz), pair(test, test_hz, model, hz))
+    test_hz[seed % 3], hz[seed % 2] = np.nan, 0.0
+    np.testing.assert_array_equal(Measured(test, test_hz).pair(model, hz), pair(test, test_hz, model, hz))

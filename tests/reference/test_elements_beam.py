@@ -232,3 +232,27 @@ def test_release_of_one_beam_is_the_pinned_end_of_the_other():
     ]
     found = hertz(mesh(plain.coordinates, sets, [(0, CLAMPED), (n, CLAMPED)], directions=XY))
     assert found[:3] == pytest.approx(bending(roots("clamped-pinned")), rel=2e-4)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.31, 0.5, 1.0])
+def test_inertia_of_a_bar_that_is_kinked_or_parted_by_quadrature(share):
+    from mouse_cli.terms.elements import _beam
+
+    l = mpmath.mpf("0.7")
+    a = share * l
+    N = [
+        lambda x: 1 - 3 * (x / l) ** 2 + 2 * (x / l) ** 3,
+        lambda x: x * (1 - x / l) ** 2,
+        lambda x: 3 * (x / l) ** 2 - 2 * (x / l) ** 3,
+        lambda x: x * (x / l) * (x / l - 1),
+    ]
+    psi = lambda x: max(x - a, 0) - (l - a) * N[2](x) - N[3](x)
+    chi = lambda x: (x > a) - x / l
+    integral = lambda f: float(mpmath.quad(f, [0, a]) + mpmath.quad(f, [a, l]))
+    across, own = _beam.kinked(0.7, share)
+    np.testing.assert_allclose(across, [integral(lambda x, n=n: n(x) * psi(x)) for n in N], atol=1e-15)
+    np.testing.assert_allclose(own, integral(lambda x: psi(x) ** 2), atol=1e-15)
+    along, parting = _beam.parted(0.7, share)
+    linear = (lambda x: 1 - x / l, lambda x: x / l)
+    np.testing.assert_allclose(along, [integral(lambda x, n=n: n(x) * chi(x)) for n in linear], atol=1e-15)
+    np.testing.assert_allclose(parting, integral(lambda x: chi(x) ** 2), atol=1e-15)

@@ -1,7 +1,10 @@
 """What a cause does to a model: changes of K, M and of what sensors read, in the coordinates of the reduced model."""
 
+from bisect import bisect_right
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
+from math import inf, nextafter
 from typing import Any
 
 import numpy as np
@@ -16,20 +19,26 @@ class Softening:
     """Bars (c,), none twice, that give way by what is added to their flexibility (c, 3, 3), or to that in bending alone (c, 2, 2).
 
     Several causes add up in one bar. residual (c, 3, 3): strains of each that forces in it make beyond the coordinates; None: none.
+    lost (c, 3, 3): change of their stiffness by this cause alone, where that is known already.
     """
 
     bars: np.ndarray
     added: np.ndarray
     residual: np.ndarray | None = None
+    lost: np.ndarray | None = None
 
     def __post_init__(self) -> None:
-        given, added = self.added, np.zeros((len(self.added), 3, 3))
-        added[:, : given.shape[1], : given.shape[1]] = given
-        object.__setattr__(self, "added", added)
+        given = self.added
+        if given.shape[1] < 3:
+            added = np.zeros((len(given), 3, 3))
+            added[:, : given.shape[1], : given.shape[1]] = given
+            object.__setattr__(self, "added", added)
 
 
 def residual(parts: list[Softening], bars: np.ndarray) -> np.ndarray | None:
     """That of `bars` (c,), sorted, of which `parts` are; None where they have none."""
+    if all(part.residual is None for part in parts):
+        return None
     found = np.zeros((len(bars), 3, 3))
     for part in parts:
         if part.residual is not None:
@@ -141,7 +150,12 @@ class Recipe:
         """Coordinates (t,) of values (t,)."""
         return np.array([np.log(v) if u.log else v for u, v in zip(self.unknowns, values, strict=True)])
 
-    @property
+    @cached_property
+    def _pieces(self) -> dict[int, list[float]]:
+        """Where the matrices jump, by number of the unknown, between both ends of the world."""
+        return {j: [-inf, *at.tolist(), inf] for j, at in self.jumps.items()}
+
+    @cached_property
     def bounds(self) -> np.ndarray:
         """Ranges (t, 2) of the coordinates."""
         return np.array([u.bounds for u in self.unknowns]).reshape(-1, 2)
@@ -151,10 +165,10 @@ class Recipe:
 
         Central; one-sided, (-3 f0 + 4 f1 - f2) / 2 h, where a step would leave the range or cross a jump.
         """
-        ends = np.concatenate([[-np.inf], self.jumps.get(j, np.zeros(0)), [np.inf]])
-        i = int(np.searchsorted(ends, coordinate, side="right"))
+        ends = self._pieces.get(j, (-inf, inf))
+        i = bisect_right(ends, coordinate)
         lower, upper = self.unknowns[j].bounds
-        low, high = max(lower, ends[i - 1]), min(upper, np.nextafter(ends[i], -np.inf))
+        low, high = max(lower, ends[i - 1]), min(upper, nextafter(ends[i], -inf))
         if low <= coordinate - step and coordinate + step <= high:
             return [(coordinate + step, 0.5 / step), (coordinate - step, -0.5 / step)]
         h = step if coordinate + 2 * step <= high else -step

@@ -14,6 +14,7 @@ from mouse_cli.diagnosis.sites.bars import Bars
 from mouse_cli.diagnosis.sites.lines import Line
 from mouse_cli.diagnosis.sites.points import wanted
 from mouse_cli.model.problem import Problem
+from mouse_cli.terms.elements import _beam as beam
 
 _STARTS = 15  # places to begin from on a line
 _ENDS = 12  # ends of lines that a search in few coordinates knows to bend
@@ -80,11 +81,35 @@ def hinged(bars: Bars, bar: int, share: float, added: np.ndarray) -> Change:
     These are what its moments and force do at the hinge: `added` of the angle between the ends, and of the elongation.
     """
     own, strain, R = np.array([bar]), bars.strain[bar], None
+    left = bars.rigid(own, added)
+    lost = left - bars.whole[own]
     if bars.residual is not None:
         R = bars.residual[own]
-        strain = np.linalg.solve(np.eye(3) + R[0] @ bars.lost(own, added[None])[0], strain)
-    angle, _, gap = added @ bars.rigid(own, added)[0] @ strain
-    return Change(M=bars.jumped(bar, share, angle, gap), softening=Softening(own, added[None], R))
+        strain = np.linalg.solve(np.eye(3) + R[0] @ lost[0], strain)
+    jumps = (added @ left[0])[[0, 2]] @ strain
+    return Change(M=_jumped(bars, bar, share, jumps), softening=Softening(own, added[None], R, lost))
+
+
+def _jumped(bars: Bars, bar: int, at: float, jumps: np.ndarray) -> np.ndarray:
+    """Change of M (r, r) where a bar is kinked and parted at a share of its length, by an angle and a gap, `jumps` (2, r)."""
+    length = float(bars.length[bar])
+    bent, turning = beam.kinked(length, at)
+    along, parting = beam.parted(length, at)
+    if bars.released[bar] and (turned := _turned(bars, bar, at)).any():
+        M_turned = beam.consistent(bars.length[[bar]])[0] @ turned
+        bent, turning = bent + M_turned, turning + (2 * bent + M_turned) @ turned
+    across = 0.5 * np.array([[turning], [parting]]) * jumps
+    across[0] += bent @ bars.ends[bar]
+    across[1] += along @ bars.axial[bar]
+    half = (bars.line_mass[bar] * across).T @ jumps
+    return half + half.T
+
+
+def _turned(bars: Bars, bar: int, at: float) -> np.ndarray:
+    """Motion (4,) of the ends of one bar that a unit angle at a share of its length makes: ends that are hinged turn."""
+    kink = np.array([1.0, 2 * at - 1, 0.0])
+    x = kink - bars.flexibility[bar] @ bars.whole[bar] @ kink
+    return np.round([0.0, (x[1] - x[0]) / 2, 0.0, (x[0] + x[1]) / 2], 12)
 
 
 def with_hinge(

@@ -90,13 +90,26 @@ class Bars:
 
     def lost(self, bars: np.ndarray, added: np.ndarray) -> np.ndarray:
         """Change (c, 3, 3) of the stiffness of `bars` (c,) when `added` comes to their flexibility."""
-        return self.rigid(bars, added) - self.rigid(bars)
+        return self.rigid(bars, added) - self.whole[bars]
 
     def rigid(self, bars: np.ndarray | slice = slice(None), added: np.ndarray | float = 0.0) -> np.ndarray:
         """N (N'F N)^-1 N' (..., c, 3, 3) of `bars`, `added` to their flexibility F."""
-        P, F = self.bears[bars], self.flexibility[bars] + added
+        F = self.flexibility[bars] + added
+        if not self.released[bars].any():
+            return np.linalg.inv(F)
+        P = self.bears[bars]
         size = np.trace(F, axis1=-2, axis2=-1)[..., None, None]
         return P @ np.linalg.inv(P @ F @ P + size * (np.eye(3) - P)) @ P
+
+    @cached_property
+    def released(self) -> np.ndarray:
+        """Bars (b,) of which an end does not bear some force."""
+        return (self.bears != np.eye(3)).any(axis=(1, 2))
+
+    @cached_property
+    def whole(self) -> np.ndarray:
+        """Stiffness (b, 3, 3) of the bars as they are."""
+        return self.rigid()
 
     def strained(self, bars: np.ndarray, core: np.ndarray) -> np.ndarray:
         """Matrix (r, r) of stiffnesses `core` (c, 3, 3) on the natural strains of `bars` (c,)."""
@@ -107,25 +120,6 @@ class Bars:
         """Matrix (r, r) of the 4 x 4 `blocks` (c, 4, 4) on the ends of `bars`."""
         rows = self.ends[bars]
         return rows.reshape(-1, rows.shape[-1]).T @ (blocks @ rows).reshape(-1, rows.shape[-1])
-
-    def jumped(self, bar: int, at: float, angle: np.ndarray, gap: np.ndarray) -> np.ndarray:
-        """Change of M (r, r) where a bar is kinked and parted at a share of its length, by `angle` and `gap` (r,)."""
-        found = np.zeros((2, len(angle), len(angle)))
-        parts = (angle, self.ends[bar], beam.kinked), (gap, self.axial[bar], beam.parted)
-        for M, (jump, ends, inertia) in zip(found, parts, strict=True):
-            across, own = inertia(self.length[[bar]], at)
-            if inertia is beam.kinked and (turned := self._turned(bar, at)).any():
-                M_turned = beam.consistent(self.length[[bar]]) @ turned
-                across, own = across + M_turned, own + (2 * across + M_turned) @ turned
-            crossed = np.outer(across[0] @ ends, jump)
-            M += crossed + crossed.T + own[0] * np.outer(jump, jump)
-        return self.line_mass[bar] * (found[0] + found[1])
-
-    def _turned(self, bar: int, at: float) -> np.ndarray:
-        """Motion (4,) of the ends of one bar that a unit angle at a share of its length makes: ends that are hinged turn."""
-        kink = np.array([1.0, 2 * at - 1, 0.0])
-        x = kink - self.flexibility[bar] @ self.rigid(np.array([bar]))[0] @ kink
-        return np.round([0.0, (x[1] - x[0]) / 2, 0.0, (x[0] + x[1]) / 2], 12)
 
     def deflection(self, bar: int, at: float) -> np.ndarray:
         """w (r,) at the share `at` of the length of one bar."""

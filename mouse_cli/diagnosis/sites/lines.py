@@ -1,5 +1,6 @@
 """Bars that continue one another: places along them are distances from the beginning of the line."""
 
+from bisect import bisect_right
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -18,17 +19,31 @@ class Line:
     bars: Any
     members: np.ndarray
 
-    @property
+    @cached_property
     def length(self) -> float:
         """Length in m."""
         return float(self.bars.length[self.members].sum())
 
     def at(self, s: float) -> tuple[int, float]:
         """The bar, and the share of its length, at the distance s."""
-        first = self.bars.before[self.members]
-        i = int(np.clip(np.searchsorted(first, s, side="right") - 1, 0, len(first) - 1))
-        bar = int(self.members[i])
-        return bar, float(np.clip((s - first[i]) / self.bars.length[bar], 0.0, 1.0))
+        bars, first, lengths = self._listed
+        i = max(bisect_right(first, s) - 1, 0)
+        return bars[i], min(max((float(s) - first[i]) / lengths[i], 0.0), 1.0)
+
+    @cached_property
+    def _listed(self) -> tuple[list[int], list[float], list[float]]:
+        """Bars, distances at which they begin, and their lengths."""
+        return tuple(each.tolist() for each in (self.members, self.start, self.extent))
+
+    @cached_property
+    def start(self) -> np.ndarray:
+        """Distances (c,) at which the bars begin."""
+        return self.bars.before[self.members]
+
+    @cached_property
+    def extent(self) -> np.ndarray:
+        """Lengths (c,) of the bars."""
+        return self.bars.length[self.members]
 
     def parted(self, nodes: set[int]) -> list["Line"]:
         """Its parts between `nodes` (indices) that it passes."""

@@ -53,11 +53,10 @@ def stretch(line: Line, values: np.ndarray) -> tuple[float, float]:
 
 def covered(line: Line, first: float, last: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Bars that lie within, if only in part, and the shares of their lengths between which they do."""
-    bars, members = line.bars, line.members
-    a = np.clip((first - bars.before[members]) / bars.length[members], 0.0, 1.0)
-    b = np.clip((last - bars.before[members]) / bars.length[members], 0.0, 1.0)
+    a = np.minimum(np.maximum((first - line.start) / line.extent, 0.0), 1.0)
+    b = np.minimum(np.maximum((last - line.start) / line.extent, 0.0), 1.0)
     within = b > a
-    return members[within], a[within], b[within]
+    return line.members[within], a[within], b[within]
 
 
 def bent(line: Line, touched: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:

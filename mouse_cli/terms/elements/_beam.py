@@ -6,6 +6,7 @@ Bending in the local x-y plane has Iz and kappa_y, in the x-z plane Iy and kappa
 """
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -28,6 +29,10 @@ PLANES = (  # of bending: local degrees of freedom w1, slope1, w2, slope2, and t
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(4)  # exact to degree 7; products of shapes have degree 6
 _SINGULAR = 1e-10  # of eigenvalues of a matrix with unit diagonal
 POINTS, WEIGHTS = (_POINTS + 1) / 2, _WEIGHTS / 2
+_POWERS = np.array([2, 3, 2, 3])  # of the length in integrals of shapes that have their derivatives at the ends
+_CUBIC = np.array(
+    [[1.0, 0, -3, 2], [0, 1, -2, 1], [0, 0, 3, -2], [0, 0, -1, 1]]
+)  # shapes on a unit length, by powers of x
 
 
 @dataclass(frozen=True)
@@ -116,17 +121,33 @@ def integral(shape: np.ndarray, value: np.ndarray) -> np.ndarray:
     return value[:, None, None] * (shape.transpose(0, 2, 1) @ (WEIGHTS[:, None] * shape))
 
 
-def kinked(length: np.ndarray, share: float) -> tuple[np.ndarray, np.ndarray]:
-    """Integrals over the length of N psi (e, 4) and psi^2 (e,): inertia of a bar that is kinked at a share of its length.
+def kinked(length: np.ndarray | float, share: float) -> tuple[np.ndarray, np.ndarray | float]:
+    """Integrals over the length of N psi (..., 4) and psi^2: inertia of bars that are kinked at a share of their length (...).
 
     Its deflection is N q + psi times the angle of the kink, N the cubic shapes, psi(x) = (x - a)_+ - (l - a) N_3 - N_4, which
-    neither moves nor turns the ends. Exact for the degree that there is, on either side of a = share l.
+    neither moves nor turns the ends. With a = share l, integral of (x - a)_+ x^n = 1/(n+2) - a/(n+1) + a^(n+2)/((n+1)(n+2)).
     """
-    x, weights = _halves(share)
-    N = np.stack([1 - 3 * x**2 + 2 * x**3, x - 2 * x**2 + x**3, 3 * x**2 - 2 * x**3, x**3 - x**2])
-    psi = np.maximum(x - share, 0.0) - (1 - share) * N[2] - N[3]
-    both = length[:, None] ** np.array([2, 3, 2, 3]) * (N @ (weights * psi))
-    return both, length**3 * float(psi**2 @ weights)
+    past, M, rest = _past(), _unit_mass(), 1 - share
+    beyond = past @ share ** np.arange(6)  # of N (x - a)_+
+    both = beyond - rest * M[2] - M[3]
+    own = rest**3 / 3 - 2 * (rest * beyond[2] + beyond[3]) + rest**2 * M[2, 2] + 2 * rest * M[2, 3] + M[3, 3]
+    return np.asarray(length)[..., None] ** _POWERS * both, length**3 * float(own)
+
+
+@cache
+def _past() -> np.ndarray:
+    """Integrals of the cubic shapes on a unit length times (x - a)_+ as coefficients (4, 6) of the powers of a."""
+    n = np.arange(4)
+    powers = np.zeros((4, 6))
+    powers[:, 0], powers[:, 1] = 1 / (n + 2), -1 / (n + 1)
+    powers[n, n + 2] += 1 / ((n + 1) * (n + 2))
+    return _CUBIC @ powers
+
+
+@cache
+def _unit_mass() -> np.ndarray:
+    """Integrals of products of the cubic shapes on a unit length (4, 4)."""
+    return consistent(np.ones(1))[0]
 
 
 def consistent(length: np.ndarray) -> np.ndarray:
@@ -134,17 +155,11 @@ def consistent(length: np.ndarray) -> np.ndarray:
     return integral(shapes(length, np.zeros(len(length)))[0], length)
 
 
-def parted(length: np.ndarray, share: float) -> tuple[np.ndarray, np.ndarray]:
-    """The same (e, 2), (e,) of a bar that is parted there: along it, it moves by N u + chi times the gap, chi = H(x - a) - x/l."""
-    x, weights = _halves(share)
-    chi = (x > share) - x
-    return length[:, None] * (np.stack([1 - x, x]) @ (weights * chi)), length * float(chi**2 @ weights)
-
-
-def _halves(share: float) -> tuple[np.ndarray, np.ndarray]:
-    """Points and weights on either side of a share of the length."""
-    x = np.concatenate([share * POINTS, share + (1 - share) * POINTS])
-    return x, np.concatenate([share * WEIGHTS, (1 - share) * WEIGHTS])
+def parted(length: np.ndarray | float, share: float) -> tuple[np.ndarray, np.ndarray | float]:
+    """The same (..., 2) of bars that are parted there: along it, it moves by N u + chi times the gap, chi = H(x - a) - x/l."""
+    rest, part = 1 - share, 1 - share**2
+    both = np.array([rest**2 / 2 - 1 / 6, part / 2 - 1 / 3])
+    return np.asarray(length)[..., None] * both, length * (rest - part + 1 / 3)
 
 
 def released(releases: dict | None) -> np.ndarray:

@@ -4,7 +4,7 @@ from copy import copy
 
 import numpy as np
 
-from mouse_cli.dynamics.correlation import pair
+from mouse_cli.dynamics.correlation import Measured
 from mouse_cli.dynamics.frequency import eigenvalue
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.theory import Theory
@@ -32,6 +32,10 @@ class Data:
         self.scaled = test.scale != "none"
         self.slack = 0.0  # by which log_sd is larger than that of the test as it was
         self.by_shape = self.has_shape.size > 0 and int(self.has_shape.sum(axis=0).min()) >= 2
+        self._measured = Measured(test.shapes, test.frequency_hz)
+        self._last = 2 * int(test.number.max(initial=0)) + 6
+        self._rigid = 1e-3 * np.nanmin(test.frequency_hz, initial=np.inf)
+        self._whole = bool(self.has_frequency.all() and self.has_shape.all())
 
     def loosened(self, of_frequencies: np.ndarray, of_shapes: np.ndarray) -> "Data":
         """The same data with further errors: sd of ln f (m,), and of shapes (s, m) at their own scale."""
@@ -74,15 +78,14 @@ class Data:
         """Index (m,) of the model mode that each measured one is, for shapes `seen` (s, k): by shape, or by number."""
         if not self.by_shape:
             return self.test.number - 1
-        reach = min(len(eigenvalues), 2 * int(self.test.number.max()) + 6)
+        reach = min(len(eigenvalues), self._last)
         hz = np.sqrt(np.maximum(eigenvalues[:reach], 0.0)) / (2 * np.pi)
-        hz[hz < 1e-3 * np.nanmin(self.test.frequency_hz, initial=np.inf)] = 0.0
-        return pair(self.test.shapes, self.test.frequency_hz, seen[:, :reach], hz)
+        hz[hz < self._rigid] = 0.0
+        return self._measured.pair(seen[:, :reach], hz)
 
     def residual(self, eigenvalues: np.ndarray, seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Whitened residual (q,), measured minus model, for eigenvalues (m,) and shapes `seen` (s, m); scales a (m,)."""
-        with np.errstate(divide="ignore"):
-            off = (self._log - 0.5 * np.log(np.maximum(eigenvalues, 1e-300))) / self.sd_log
+        off = (self._log - 0.5 * np.log(np.maximum(eigenvalues, 1e-300))) / self.sd_log
         f = seen * self._w
         size = np.einsum("sm,sm->m", f, f)
         along = np.einsum("sm,sm->m", f, self._y)
@@ -105,4 +108,6 @@ class Data:
         return self._stacked(d_log, moved)
 
     def _stacked(self, of_frequencies: np.ndarray, of_shapes: np.ndarray) -> np.ndarray:
+        if self._whole:
+            return np.concatenate([of_frequencies, of_shapes.reshape(self.s * self.m, *of_shapes.shape[2:])])
         return np.concatenate([of_frequencies[self.has_frequency], of_shapes[self.has_shape]])

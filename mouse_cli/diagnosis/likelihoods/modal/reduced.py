@@ -74,12 +74,12 @@ class Reduced:
         """K and M (r, r) at z (k,)."""
         key = z.tobytes()
         if key not in self._at:
-            step = self.step(z)
-            K, M = (step @ d.reshape(len(step), self.r**2) for d in (self.dK, self.dM))
-            K[:: self.r + 1] += self.eigenvalues
-            M[:: self.r + 1] += 1.0
+            step, r = self.step(z), self.r
+            K, M = (step @ d.reshape(len(step), r**2) for d in (self.dK, self.dM))
+            K[:: r + 1] += self.eigenvalues
+            M[:: r + 1] += 1.0
             self._at.clear()
-            self._at[key] = K.reshape(self.r, self.r), M.reshape(self.r, self.r)
+            self._at[key] = K.reshape(r, r), M.reshape(r, r)
         return self._at[key]
 
     def step(self, z: np.ndarray) -> np.ndarray:
@@ -105,7 +105,8 @@ class Reduced:
     def moved(self, z: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """dK/dz u and dM/dz u (k, r, m) for motion u (r, m)."""
         by = self.rates(z)
-        return tuple(np.tensordot(by, d @ u, 1) for d in (self.dK, self.dM))
+        found = (by @ (d @ u).reshape(len(d), u.size) for d in (self.dK, self.dM))
+        return tuple(each.reshape(len(by), *u.shape) for each in found)
 
     @cached_property
     def along(self) -> np.ndarray:

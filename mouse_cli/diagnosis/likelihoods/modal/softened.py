@@ -22,11 +22,16 @@ class Softened:
         if not parts:
             return np.zeros(0, int), np.zeros((0, 3, 3))
         if len(parts) == 1:
-            lost = self.base.bars.lost(parts[0].bars, parts[0].added)
-            return parts[0].bars, lost if parts[0].residual is None else felt(lost, parts[0].residual)
-        bars, at = np.unique(np.concatenate([part.bars for part in parts]), return_inverse=True)
+            (part,) = parts
+            lost = self.base.bars.lost(part.bars, part.added) if part.lost is None else part.lost
+            return part.bars, lost if part.residual is None else felt(lost, part.residual)
+        touched = np.zeros(len(self.base.bars), bool)
+        for part in parts:
+            touched[part.bars] = True
+        bars, place = np.flatnonzero(touched), np.cumsum(touched) - 1
         total = np.zeros((len(bars), 3, 3))
-        np.add.at(total, at, np.concatenate([part.added for part in parts]))
+        for part in parts:  # in which none is there twice
+            total[place[part.bars]] += part.added
         lost, left = self.base.bars.lost(bars, total), residual(parts, bars)
         return bars, lost if left is None else felt(lost, left)
 
