@@ -6,6 +6,7 @@ TITLES = {  # of groups with more than one member; others are called as their me
     "axial": "an axial force",
     "clearance": "a clearance",
     "friction": "friction",
+    "ground-spring": "a spring to the ground",
     "local-stiffness": "a local loss of stiffness",
     "sensor": "a faulty sensor",
     "shear": "shear or rotary inertia",

@@ -140,6 +140,24 @@ MODELS = {
 """,
         [(5, "TX"), (9, "TX"), (15, "TX"), (23, "TY")],
     ),
+    "pinned": (
+        f"""
+  structure:
+    nodes:
+      - {{line: {{from: 1, to: 9, start: [0, 0], end: [0, 2]}}}}
+      - {{line: {{from: 11, to: 19, start: [3, 0], end: [3, 2]}}}}
+      - {{line: {{from: 20, to: 26, start: [0.375, 2], end: [2.625, 2]}}}}
+    {STEEL}
+    sections: {{bar: {{rectangle: [0.04, 0.05]}}}}
+    elements:
+      - {{id: 1-8, type: beam, nodes: 1-9, material: steel, section: bar}}
+      - {{id: 11-18, type: beam, nodes: 11-19, material: steel, section: bar}}
+      - {{id: 21-28, type: beam, nodes: [9, 20-26, 19], material: steel, section: bar}}
+    supports: {{1: [TX, TY], 11: [TX, TY]}}
+    plane: XY
+""",
+        [(5, "TX"), (9, "TX"), (15, "TX"), (23, "TY")],
+    ),
     "storeys": (
         """
   structure:
@@ -202,13 +220,13 @@ def deck(name: str, folder) -> "Problem":  # noqa: F821
 
 
 _E = "parameters:\n  - {name: E, material: steel, property: E, sd: 3 %}\n"
-_PARAMETERS = dict.fromkeys(("cantilever", "free", "portal", "space", "tower", "frame", "weighed"), _E)
+_PARAMETERS = dict.fromkeys(("cantilever", "free", "portal", "space", "tower", "frame", "weighed", "pinned"), _E)
 _PARAMETERS["laden"] = _E + "  - {name: tip, elements: 43, property: mass, sd: 30 %}\n"
 _PARAMETERS["frame"] = _E + "  - {name: load, elements: 41-44, property: nonstructural_mass, sd: 20 %}\n"
 _PARAMETERS["storeys"] = "parameters:\n  - {name: storey, elements: 1-5, property: TX, factor: true, sd: 10 %}\n"
 _PARAMETERS["masses"] = "parameters:\n  - {name: k, elements: 11-13, property: TX, sd: 10 %}\n"
 SUPPORTS = {"support-rotation", "support-translation", "rocking"}
-OWN = {"frame": SUPPORTS | {"member", "added-mass", "taper"}, "weighed": SUPPORTS}
+OWN = {"frame": SUPPORTS | {"member", "added-mass", "taper"}, "weighed": SUPPORTS, "pinned": {"support-restraint"}}
 CASES = [(name, key) for name in MODELS for key in registry() if key in OWN.get(name, {key})]
 
 

@@ -50,6 +50,18 @@ def attached(model: Reduced, nodes: list[int]) -> list[Attached]:
     return [_beyond(model, node, X, K, M) for node, X in zip(nodes, _moved(static, nodes), strict=True)]
 
 
+def flexibility(model: Reduced, motions: tuple[tuple[int, int], ...], rows: np.ndarray) -> np.ndarray:
+    """R (c, c): what coordinates leave out of b_i A^-1 b_j', b the `motions` (node, direction), with `rows` (c, r) in them."""
+    static, nodes = model.static, sorted({node for node, _ in motions})
+    if static is None or 6 * len(nodes) * static.motion.n > NUMBERS:
+        return np.zeros((len(motions), len(motions)))
+    moved = dict(zip(nodes, _moved(static, nodes), strict=True))
+    X = np.stack([moved[node][:, d] for node, d in motions], axis=1)
+    at = [6 * nodes.index(node) + d for node, d in motions]
+    left = (_at(static, nodes) @ X)[at] - rows / (model.eigenvalues - static.shift) @ rows.T
+    return 0.5 * (left + left.T)
+
+
 def _at(static: Static, nodes: list[int]):
     """B (6 c, n) of nodes, sparse."""
     return sparse_rows(static.motion, (6 * np.array(nodes)[:, None] + np.arange(6)).ravel())

@@ -26,6 +26,13 @@ def supports(model: Any) -> str:
     return "no support with mass next to it carries a load in the measured modes"
 
 
+def turning(model: Any) -> str:
+    """Without a support that is free to turn."""
+    if model.motion is None or not len(model.problem.mesh.supports):
+        return supports(model)
+    return "no support of this model turns in the measured modes"
+
+
 def bases(model: Any) -> str:
     """Without a base that moves as one."""
     if model.motion is None or not len(model.problem.mesh.supports):
