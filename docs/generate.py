@@ -1,5 +1,5 @@
-"""Writes the generated pages: docs/reference/{cli,yaml,elements,methods,candidates,codes,statuses,estimators}.md, and the card part
-of the manual.
+"""Writes the generated pages: docs/reference/{cli,yaml,elements,methods,candidates,codes,statuses,estimators}.md, the card part
+of the manual, and the map of the layers, docs/explanation/layers.svg.
 
 Run it from anywhere after a change of an option, a deck key, a card, a diagnostic code or a status:
 
@@ -13,9 +13,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 DOCS = Path(__file__).resolve().parent
-sys.path.insert(0, str(DOCS.parent))
+sys.path[:0] = [str(DOCS.parent), str(DOCS)]
 
 import click  # noqa: E402
+import layers_map  # noqa: E402
 from click.testing import CliRunner  # noqa: E402
 
 from mouse_cli._registry import discover  # noqa: E402
@@ -53,6 +54,7 @@ def told(*arguments: str) -> str:
 def pages() -> dict[Path, str]:
     """Every generated page, whole, by its path."""
     return {
+        DOCS / "explanation" / "layers.svg": layers_map.drawing(),
         DOCS / "manual.md": manual((DOCS / "manual.md").read_text("utf-8")),
         DOCS / "reference" / "cli.md": "\n".join(_cli()),
         DOCS / "reference" / "yaml.md": f"{_NOTE}\n{told('explain', 'yaml')}",

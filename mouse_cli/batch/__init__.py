@@ -1,1 +1,1 @@
-"""Many decks: jobs from names or a manifest, done by processes, kept as one file each, summed up. See `mouse batch`."""
+"""Many decks: jobs from names or a manifest, run by processes, kept as one file each, summarised. See `mouse batch`."""

@@ -1,1 +1,1 @@
-"""Many runs of one deck: sweeps of what is not known exactly, bootstraps of the test, samples of the posterior."""
+"""Many runs of one deck: sweeps over assumptions, bootstrap of the test, samples of the posterior."""

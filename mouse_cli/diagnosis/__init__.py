@@ -1,4 +1,4 @@
-"""From a model and a test that do not agree to what the model left out: locate, name, model, prove."""
+"""From a model and a test that disagree to the missing physics: locate, name, model, validate."""
 
 from mouse_cli.diagnosis.diagnose import diagnose
 

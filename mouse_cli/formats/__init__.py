@@ -1,4 +1,4 @@
-"""Decks in and out: the format is told by the content, and only the reader that is needed is loaded."""
+"""Decks in and out: the format is recognised by the content, and only the reader that is needed is loaded."""
 
 import os
 import re

@@ -1,1 +1,1 @@
-"""Data only, frozen: what a deck says and what a run found. Shapes are checked here and nowhere else."""
+"""Data only, frozen: the content of a deck and the result of a run. Shapes are checked here and nowhere else."""

@@ -1,1 +1,1 @@
-"""One file, one kind of measurement: what was measured, and what a model predicts for it."""
+"""One file, one kind of measurement: measured values and their prediction by a model."""

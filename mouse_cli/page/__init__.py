@@ -1,4 +1,4 @@
-"""Documents of answers as pages to look at: reads JSON documents only, never models."""
+"""HTML pages of results: reads JSON documents only, never models."""
 
 from mouse_cli.page.markdown import summary
 from mouse_cli.page.page import DOCUMENTS, page

@@ -1,1 +1,1 @@
-"""From recordings to measured data with their covariance: spectra, modal identification, signs of nonlinearity."""
+"""From recordings to measured data with their covariance: spectra, modal identification, nonlinearity indicators."""
