@@ -16,6 +16,7 @@ from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 
 _SMALL = 1e-4  # change of J, relative to 1 + its share of rounding, that ends the search
+_TRIFLE = 1e-5 * _SMALL  # what a step promises likewise, below which no shorter one is tried: rounding undoes it
 MOST = 40
 _GIVE_UP = 1e8
 _HOPE = 4.0  # times the gain that a full step promises: what a search may gain at most, unless it gains more
@@ -127,9 +128,10 @@ def descended(
         hope = min(_AHEAD, most - step_number) * gained if step_number >= min(_LEAST, most // 3) else np.inf
         if J - hope > reach and J - _HOPE * float(slope @ _step(H, slope, 1e-6, scale, at.x, lower, upper)) > reach:
             break
-        moved = False
-        while damping < _GIVE_UP:
+        moved, promised = False, np.inf
+        while damping < _GIVE_UP and promised > _TRIFLE * (1 + 1e-3 * J):
             step = _step(H, slope, damping, scale, at.x, lower, upper)
+            promised = float(slope @ step)
             there = model.point(np.clip(at.x + step, lower, upper))
             cost = np.inf if there is None else _cost(there, k)
             if cost <= J:

@@ -30,6 +30,7 @@ class Model(Softened):
         self.own = [slice(a, b) for a, b in pairwise(cut)]
         self.bounds = np.concatenate([np.zeros((0, 2)), *(recipe.bounds for recipe in recipes)])
         self.width = self.bounds[:, 1] - self.bounds[:, 0]
+        self._slopes: tuple[Point, np.ndarray] | None = None
         last, self.places = base.r, []
         for recipe in recipes:
             self.places.append(np.concatenate([np.arange(base.r), last + np.arange(recipe.own)]).astype(int))
@@ -143,7 +144,12 @@ class Model(Softened):
         return Point(x, eigenvalues, X, seen, modes, residual, a)
 
     def jacobian(self, at: Point) -> np.ndarray:
-        """d(prediction)/dx (q, k + t), whitened."""
+        """d(prediction)/dx (q, k + t), whitened; that of the last point is kept."""
+        if self._slopes is None or self._slopes[0] is not at:
+            self._slopes = at, self._jacobian(at)
+        return self._slopes[1]
+
+    def _jacobian(self, at: Point) -> np.ndarray:
         X, m = at.X, at.modes
         forces, inertia, sensed = (
             np.concatenate(pair) for pair in zip(self._by_deck(at), self._by_causes(at), strict=True)
