@@ -258,6 +258,19 @@ def test_version_needs_no_numpy():
     assert not loaded(run) & {"numpy", "scipy", "yaml", "matplotlib"}
 
 
+def test_help_needs_no_numpy_and_has_the_words_of_the_commands():
+    from click import Context, Group, HelpFormatter
+
+    from mouse_cli.cli.main import cli
+
+    run = "from mouse_cli.cli.main import cli; cli.main(['--help'], standalone_mode=False)"
+    assert not loaded(run) & {"numpy", "scipy", "yaml", "matplotlib"}
+    told, of_click = HelpFormatter(width=78), HelpFormatter(width=78)
+    cli.format_commands(Context(cli), told)
+    Group.format_commands(cli, Context(cli), of_click)
+    assert told.getvalue() == of_click.getvalue()
+
+
 def test_small_card_deck_needs_numpy_alone():
     deck = PACKAGE.parent / "decks" / "table_5_2.dat"
     run = f"from mouse_cli.cli.main import cli; cli.main(['run', {str(deck)!r}, '-q'], standalone_mode=False)"
