@@ -107,7 +107,7 @@ def _target(text: str, given: dict[str, object]) -> str:
     mode, _, hz = text.partition(sign) if sign else ("", "", "")
     if not mode.strip().isdecimal():
         raise click.BadParameter(f"'{text}' is not MODE<HZ, MODE>HZ or MODE=HZ", param_hint="--target")
-    place = f", location: {_quoted(given['place'])}" if given["place"] else ""
+    place = f", place: {_quoted(given['place'])}" if given["place"] else ""
     return f"mode: {int(mode)}, {sides[sign]}: {_number(hz, '--target')}, by: {given['by'] or 'mass'}{place}"
 
 

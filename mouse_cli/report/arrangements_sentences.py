@@ -17,7 +17,7 @@ from mouse_cli.report.verdict_sentences import remains
 
 _VERDICTS = {
     NOTHING: "Nothing is missing that these configurations could show: the model, with its parameters revised, explains them.",
-    NAMED: "The model lacks what follows, each identified with all before it in the model; what then remains may be noise.",
+    NAMED: "The model lacks what follows, each identified with all before it in the model; the remainder is consistent with noise.",
     ONE_OF: "The model lacks what follows, each identified with all before it in the model, not all of it settled; what then "
     "remains may be noise.",
     UNKNOWN: "More remains than noise, and no candidate explains it. Do not trust the revised parameters.",
@@ -31,7 +31,7 @@ def sentences(found: ArrangementsDiagnosis) -> tuple[str, ...]:
     if found.kind == UNKNOWN and found.field is not None:
         first = list(field_sentences(found.field))
     elif found.remaining is not None:
-        first.append(f"Of what follows none is proved: with all of it in the model {remains(found.remaining)}.")
+        first.append(f"None of the following is proved: with all of it in the model {remains(found.remaining)}.")
     steps = [f"{number}. {_step(turn, found.kind != UNKNOWN)}" for number, turn in enumerate(found.turns, 1)]
     return (*first, *steps)
 

@@ -52,7 +52,7 @@ def dataset(answer: Any) -> Any:
         variables = dict(_variables(_model(document), coordinates))
         found = xarray.Dataset(variables, coordinates, _attributes(document))
     except (KeyError, TypeError, ValueError, AttributeError) as error:
-        told = f"the document is not what its schema says: {type(error).__name__} {error}"
+        told = f"the document does not follow its schema: {type(error).__name__} {error}"
         raise rejected("MD922", told[:200]) from error
     if not variables:
         told = f"{document.get('schema', 'the answer')} has nothing by parameter, mode, degree of freedom or line"

@@ -124,7 +124,7 @@ def updates(document: Part) -> list[tuple[str, str, Part]]:
     if document.text("schema") == "mouse.result/1":
         return [("model", "the model", document)]
     if document.text("schema") == "mouse.arrangements/1":
-        return [("all", "the model with all causes", document)]
+        return [("all", "the model with all mechanisms", document)]
     both = (("baseline", "the model as it is"), ("extended", "the extended model"))
     return [(key, name, document.part(key)) for key, name in both if document.part(key)]
 

@@ -48,7 +48,7 @@ def _nothing(found: Diagnosis) -> str:
     if not found.result.residual.dof:
         told = (
             "Nothing is missing that this test could show, and it could show little: its parameters can follow all of its data, so "
-            "that only how far they move from the prior speaks of what is missing."
+            "that only their shift from the prior shows what is missing."
         )
     return told if status.exit_code == 0 else f"{told} But its revision is not to be trusted. {status.sentence}"
 
@@ -116,7 +116,7 @@ def _nameless(found: Diagnosis) -> tuple[str, ...]:
 
 def _separating(found: Diagnosis) -> str:
     if isinstance(found, RecordDiagnosis):
-        return "Another level of excitation tells most laws apart."
+        return "Another level of excitation separates most laws."
     aim = "to separate them" if len(leaders(found)) > 1 else "to settle it"
     if not found.proposals:
         return f"No measurement can be proposed {aim}."
@@ -126,10 +126,8 @@ def _separating(found: Diagnosis) -> str:
         tried = f"the best, {best.text}, has a predicted separation of {separation(best.separation)}"
         if best.promise:  # it tells the leading one from another than the next
             first, second = found.proposals[0].between
-            tells = (
-                f"{best.text} tells {first} from {best.between[1]} (predicted separation {separation(best.separation)})"
-            )
-            return f"No measurement that was tried tells {first} from {second}; {tells}."
+            tells = f"{best.text} separates {first} from {best.between[1]} (predicted separation {separation(best.separation)})"
+            return f"No measurement that was tried separates {first} from {second}; {tells}."
         return f"None of the measurements that were tried will settle it; {tried}."
     return f"Measure this {aim}: {best.text} (predicted separation {separation(best.separation)}, {best.outlook})."
 

@@ -62,7 +62,7 @@ def test_printout_begins_with_the_answers(told):
     assert code == 1
     assert lines[0] == "DIAGNOSIS"
     assert lines[1].startswith("The model lacks a spring to the ground: degree of freedom 2")
-    assert [line for line in lines if line.endswith("?")][:4] == ["WHERE?", "WHAT?", "HOW MUCH?", "IS IT TRUE?"]
+    assert [line for line in lines if line.endswith("?")][:4] == ["WHERE?", "WHAT?", "HOW MUCH?", "VALIDATED?"]
 
 
 def test_nothing_is_written_where_nothing_is_named(told):

@@ -101,7 +101,7 @@ def test_wheel_has_the_whole_package_and_nothing_else(source, wheel):
     inside = names(wheel)
     package = {name for name in below(source) if name.startswith("mouse_cli/")}
     assert {name for name in inside if not name.startswith(_INFO)} == package
-    assert {Path(name).suffix for name in package} == {".py", ".json", ".css", ".js"}
+    assert {Path(name).suffix for name in package} == {".py", ".json", ".css", ".js", ".typed"}
     own = {
         f"{_INFO}/{name}"
         for name in ("METADATA", "RECORD", "WHEEL", "entry_points.txt", "licenses/LICENSE", "top_level.txt")

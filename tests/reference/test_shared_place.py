@@ -65,6 +65,6 @@ def test_the_verdict_says_where_to_look_and_what_tells_some_of_them_apart():
     assert "between nodes 1 and 5; or between nodes 2 and 4 (probability of this site 0.40)" in first
     assert second.startswith("All of these sites share y = 0 m, z = 0 to 3 m: ")
     assert third == (
-        "No measurement that was tried tells between nodes 1 and 5 from between nodes 2 and 4; a sensor more tells "
+        "No measurement that was tried separates between nodes 1 and 5 from between nodes 2 and 4; a sensor more separates "
         "between nodes 1 and 5 from between nodes 2 and 6 (predicted separation 6.0)."
     )

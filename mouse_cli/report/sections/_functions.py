@@ -30,7 +30,7 @@ def functions(fits: tuple[FrfFit, ...]) -> Iterator[Block]:
         )
         yield Text(
             f"Over the noise {'that was assumed' if fit.assumed else 'of the measurement'} the root mean square of what "
-            f"they leave is {_each(fit, '{}')}: 1 is noise alone.",
+            f"they leave is {_each(fit, '{}')}: 1 is noise only.",
             tuple(fit.rms_sd(model.H) for model in fit.models),
         )
         alike = [fit.fdac(model.H) for model in fit.models]

@@ -18,12 +18,12 @@ def answers(found: ArrangementsDiagnosis, options: Options) -> Iterator[Block]:
         yield Text(
             f"Refuted by the configurations held out, which are predicted worse with it than without: {found.refuted}."
         )
-    yield Heading("What is left?", 2)
+    yield Heading("Remainder", 2)
     yield Text(
         f"Chi-square {found.chi2:.1f} on {found.dof}, goodness of fit {p_value(found.p)}. "
         "Sizes with all mechanisms in the model are under Parameters; those above are as each was identified."
     )
-    yield Heading("Is it true?", 2)
+    yield Heading("Validated?", 2)
     yield Text(_true(found))
 
 

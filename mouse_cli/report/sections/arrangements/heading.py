@@ -24,7 +24,7 @@ def heading(found: ArrangementsDiagnosis, options: Options) -> Iterator[Block]:
     yield Text(f"Fitted: {', '.join(each.source.path for each in found.problems)}.")
     if found.changed is not None:
         own = [each.source.path for each, has in zip(found.problems, found.changed, strict=True) if has]
-        yield Text(f"Mechanisms are sought in what changed alone: {', '.join(own)}.")
+        yield Text(f"Mechanisms are sought in the changed configurations only: {', '.join(own)}.")
 
 
 SECTION = Section("arrangements-heading", 20, "Decks", heading, (ArrangementsDiagnosis,))

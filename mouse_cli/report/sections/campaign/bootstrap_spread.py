@@ -10,7 +10,7 @@ from mouse_cli.report.sections._wording import LEFT, counted, deck_table
 _COLUMNS = (
     Column("run"),
     Column("posterior sd"),
-    Column("foreseen sd"),
+    Column("predicted sd"),
     Column("bootstrap sd"),
     Column("jackknife sd"),
     Column("bias"),
@@ -37,7 +37,7 @@ def spread(found: Bootstrap, options: Options) -> Iterator[Block]:
     if rows:
         yield Table((Column("mode", "Hz"), *_COLUMNS), rows).without_empty_columns()
     yield Text(
-        "Foreseen is the standard deviation of the bootstrap were the stated accuracies right and the errors independent; it "
+        "Predicted is the standard deviation of the bootstrap were the stated accuracies right and the errors independent; it "
         "differs from the posterior one, to which the prior contributes."
     )
 

@@ -14,7 +14,7 @@ def remarks(found: Sweep | Bootstrap, options: Options) -> Iterator[Block]:
     if not found.warnings and isinstance(found, Sweep):
         yield Text("No property moves by more than one posterior standard deviation.")
     if not found.warnings and isinstance(found, Bootstrap):
-        yield Text("The answers spread as the stated accuracies let expect, and rest on no single measurement.")
+        yield Text("The scatter agrees with the stated accuracies, and no single measurement dominates.")
 
 
 SECTION = Section("campaign-remarks", 60, "Remarks", remarks, (Sweep, Bootstrap))

@@ -24,7 +24,7 @@ def moved(found: Sweep, options: Options) -> Iterator[Block]:
         yield Table(columns, rows).without_empty_columns()
     yield Text(
         "Lengths are in posterior standard deviations, the median of those found. A share is that of the variance over the points "
-        "which a quantity explains by itself; what is left is due to several together."
+        "which a quantity explains by itself; the rest is due to interactions."
     )
 
 

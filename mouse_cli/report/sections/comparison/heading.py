@@ -14,8 +14,8 @@ def heading(found: Compared, options: Options) -> Iterator[Block]:
     test = found.problem.test
     if test is not None:
         yield Text(
-            f"Each method was given {counted(test.m, 'measured mode')} at {counted(test.s, 'sensor')}, and foresees what was held "
-            "out."
+            f"Each method was given {counted(test.m, 'measured mode')} at {counted(test.s, 'sensor')}, and predicts the held-out "
+            "data."
         )
     columns = (
         Column("method", align=LEFT),

@@ -11,7 +11,7 @@ def remarks(found: Compared, options: Options) -> Iterator[Block]:
     """One paragraph a method."""
     for update in found.updates:
         told = "; ".join(f"{remark.code}: {remark.message}" for remark in update.warnings)
-        yield Text(f"{update.about.key}: {told or 'nothing speaks against it'}.")
+        yield Text(f"{update.about.key}: {told or 'no remarks'}.")
 
 
 SECTION = Section("comparison-remarks", 40, "Remarks", remarks, (Compared,))

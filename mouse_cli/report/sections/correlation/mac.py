@@ -21,7 +21,7 @@ def assurance(found: Correlation, options: Options) -> Iterator[Block]:
     yield Matrix(
         "auto-MAC of the model at the sensors", _rounded(found.auto_model), model, model, corner=("model", "model")
     )
-    yield Text("Off the diagonal an auto-MAC near 1 means that the sensors cannot tell two modes apart.")
+    yield Text("Off the diagonal an auto-MAC near 1 means that the sensors cannot distinguish two modes.")
     if found.subspaces:
         yield _close(found)
         yield Text(

@@ -9,9 +9,8 @@ from mouse_cli.report.section import Options, Section
 from mouse_cli.report.sections._wording import LEFT
 
 SHARP = (
-    "A standard deviation above the magnitude says that the frequency of the peak is uncertain by more than its width; there "
-    "the first "
-    "order tells no more."
+    "A standard deviation above the magnitude means that the frequency of the peak is uncertain by more than its width; "
+    "the first order is not valid there."
 )
 
 

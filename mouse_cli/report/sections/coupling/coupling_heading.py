@@ -19,7 +19,7 @@ def heading(found: Coupled, options: Options) -> Iterator[Block]:
     yield Text(
         f"{_joined(len(coupling.interfaces))}Receptances Y of the parts become those of the whole by Y - Y B' (B Y B' + "
         f"1/z)^-1 B Y, with "
-        "B the conditions between places and z the dynamic stiffnesses of connections."
+        "B the conditions of compatibility and z the dynamic stiffnesses of connections."
     )
     if coupling.connections:
         names = [(coupling.name(one.at), coupling.name(one.to) if one.to else "") for one in coupling.connections]
@@ -31,13 +31,14 @@ def heading(found: Coupled, options: Options) -> Iterator[Block]:
 def _joined(pairs: int) -> str:
     if not pairs:
         return ""
-    return "One pair of places moves together. " if pairs == 1 else f"{pairs} pairs of places move together. "
+    what = "One pair of degrees of freedom moves" if pairs == 1 else f"{pairs} pairs of degrees of freedom move"
+    return f"{what} together. "
 
 
 def _parts(coupling: Coupling) -> Table:
     columns = (
         Column("part", align=LEFT, literal=True), Column("known by", align=LEFT), Column("source", align=LEFT, literal=True),
-        Column("degrees of freedom"), Column("places used"), Column("", align=LEFT),
+        Column("degrees of freedom"), Column("degrees of freedom used"), Column("", align=LEFT),
     )  # fmt: skip
     rows = tuple(
         (

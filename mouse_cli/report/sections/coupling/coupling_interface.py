@@ -28,8 +28,7 @@ def interface(found: Coupled, options: Options) -> Iterator[Block]:
     if (state.noise > 0).any():
         lost = np.count_nonzero(state.condition * state.noise > 1)
         yield Text(
-            f"Condition number times noise tells by how much errors of the measured flexibility may change the forces at the "
-            f"interface: "
+            "Condition number times noise bounds the relative error of the forces at the interface: "
             f"it is above 1 at {counted(lost, 'line')} of {len(hz)}."
         )
     elif np.isnan(state.noise).any():

@@ -1,4 +1,4 @@
-"""Best places for a mass, a spring or an absorber."""
+"""Best locations for a mass, a spring or an absorber."""
 
 from collections.abc import Iterator
 
@@ -43,4 +43,4 @@ def _absorbers(each: Swept) -> Table:
     )
 
 
-SECTION = Section("modified-sweeps", 40, "Best places", sweeps, (Modified,))
+SECTION = Section("modified-sweeps", 40, "Best locations", sweeps, (Modified,))

@@ -49,7 +49,7 @@ def answers(found: Diagnosis, options: Options) -> Iterator[Block]:
     """The verdict and what it stands or falls with, then the answers one by one."""
     yield Text(" ".join(sentences(found)))
     yield from (Text(text) for text in found.cautions)
-    for question, told in (("Where?", _where), ("What?", _what), ("How much?", _how_much), ("Is it true?", _true)):
+    for question, told in (("Where?", _where), ("What?", _what), ("How much?", _how_much), ("Validated?", _true)):
         yield Heading(question, 2)
         yield from told(found)
 
@@ -131,7 +131,7 @@ def _what(found: Diagnosis) -> Iterator[Block]:
     else:
         yield Text(
             f"No candidate is adequate. The nearest, {best.title}, has a goodness of fit of {p_value(best.p)}{_noise(found)}; "
-            "that it is nearest does not make it the cause."
+            "nearest does not mean adequate."
         )
 
 
@@ -159,10 +159,10 @@ def _unsettled(found: Diagnosis) -> str:
         return f"No mechanism is probable enough to be named: that takes a probability of {_SURE:g}."
     if not np.isfinite(measured.shapes).any() and any(cause.physics == "oscillator" for cause in best.causes):
         return (
-            f"{_capital(best.title)} leads with {with_p(found.probability)}, but a list of frequencies alone does not prove "
-            "that the structure has a mode which the model has not. Mode shapes would."
+            f"{_capital(best.title)} is the most probable, with {with_p(found.probability)}, but frequencies without shapes do "
+            "not prove that the structure has a mode which the model has not. Mode shapes would."
         )
-    return f"{_capital(best.title)} leads with {with_p(found.probability)}, but the data do not bear it out as a name."
+    return f"{_capital(best.title)} is the most probable, with {with_p(found.probability)}, but without enough support for a name."
 
 
 def _open(found: Diagnosis) -> str:
@@ -170,7 +170,7 @@ def _open(found: Diagnosis) -> str:
     if not found.probability < _DEMANDED:
         return ""
     told = with_p(found.probability)
-    return f" The data demand no mechanism, and do not rule out those that lead the table either: that there is none has {told}."
+    return f" The data demand no mechanism, and do not exclude the first of the table either: that there is none has {told}."
 
 
 def _noise(found: Diagnosis) -> str:
@@ -207,7 +207,7 @@ def _true(found: Diagnosis) -> Iterator[Block]:
         yield Text(f"{told}: {' and '.join(_errors(base))}.{_predicted_frf(found)}")
         return
     number = int(np.isfinite(held.measured_hz).sum())
-    extended = {NAMED: "the extended model", ONE_OF: f"{found.best.title}, which leads,"}.get(
+    extended = {NAMED: "the extended model", ONE_OF: f"{found.best.title}, the most probable one,"}.get(
         found.kind, f"{found.best.title}, the nearest,"
     )
     within = ""
@@ -226,7 +226,7 @@ def _predicted_frf(found: Diagnosis) -> str:
     told = ""
     for fit in found.held_frf:
         left = " and ".join(f"{fit.rms_sd(model.H):.3g} times their noise ({model.name})" for model in fit.models)
-        told += f" FRFs that no fit has seen, {len(fit.test.frequency_hz)} lines: what is left is {left}."
+        told += f" FRFs that no fit has seen, {len(fit.test.frequency_hz)} lines: the residual is {left}."
     return told
 
 
@@ -254,7 +254,7 @@ def _errors(base: Score, after: Score | None = None) -> Iterator[str]:
 def _proof(found: Diagnosis, held: HeldOut) -> str:
     base, after = held.baseline, held.revised
     if found.kind == UNKNOWN:
-        return "It is no proof of anything, as none explains the data that were fitted."
+        return "It validates nothing, as none explains the fitted data."
     fails = []
     if not after.log_predictive_density - base.log_predictive_density > _GAIN:
         fails.append("the density gains too little")
@@ -269,17 +269,15 @@ def _proof(found: Diagnosis, held: HeldOut) -> str:
     if of_frequencies and not after.covered >= _COVERED:
         fails.append("too few frequencies lie within the intervals")
     if fails:
-        return f"That is no full proof: {', and '.join(fails)}."
+        return f"Validation is incomplete: {', and '.join(fails)}."
     if found.kind != NAMED:
         return "A better prediction does not make a name of it."
     if held.kind == BY_MODE:
         return (
             "The extended model passes, but its mechanism was chosen with all modes: measure the structure with a known change, "
-            "such as an added mass, hold that out in the deck, and ask again."
+            "such as an added mass, hold that out in the deck, and diagnose again."
         )
-    return (
-        "The extended model passes. A better prediction is needed for a name to be right; it does not prove it alone."
-    )
+    return "The extended model passes. A better prediction is necessary for a name, not sufficient."
 
 
 def _capital(text: str) -> str:

@@ -16,8 +16,8 @@ def detection(found: Diagnosis, options: Options) -> Iterator[Block]:
     if found.noise_scale > 1 and found.kind != NOTHING:
         yield Text(
             f"The best explanation leaves {found.noise_scale:.3g} times the variance that the test states, and the evidence is "
-            "weighed with variances as much larger. Far above 1, the test is less accurate than it says, or the explanation is not "
-            "the whole of it."
+            "computed with variances larger by that factor. Far above 1, the test is less accurate than stated, or the explanation "
+            "is incomplete."
         )
 
 

@@ -58,7 +58,7 @@ def _probability(found: Diagnosis) -> str:
         return "No probability is given, as no candidate explains the data."
     return (
         "The probability is that of the hypothesis among all that were tried, none included, with equal prior shares for groups "
-        "that data can hardly tell apart."
+        "that data can hardly distinguish."
     )
 
 

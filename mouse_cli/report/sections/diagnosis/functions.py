@@ -33,7 +33,7 @@ def fitted(found: Diagnosis, options: Options) -> Iterator[Block]:
 
 
 def _said(told: bool) -> str:
-    return "" if told else "hardly told by the functions"
+    return "" if told else "hardly determined by the FRFs"
 
 
 SECTION = Section("diagnosis-functions", 74, "Frequency response functions, before and after", fitted, (Diagnosis,))

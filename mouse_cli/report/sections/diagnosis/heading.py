@@ -36,9 +36,7 @@ def _how(found: Diagnosis) -> str:
     which = "all candidates" if asked.candidates is None else f"of all candidates only {', '.join(asked.candidates)}"
     named = system(found.problem.units)
     units = (
-        f"units of the deck: {named}"
-        if named
-        else "the deck does not say its units: numbers are in those it is written in"
+        f"units of the deck: {named}" if named else "the deck declares no units: numbers are in those it is written in"
     )
     return f"Considered: {which}; {causes}. Estimator: {run.estimator}, recursion: {run.recursion}; {units}."
 

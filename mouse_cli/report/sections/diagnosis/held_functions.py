@@ -14,7 +14,7 @@ def held_out(found: Diagnosis, options: Options) -> Iterator[Block]:
     yield from covered(found.held_frf)
     for fit in found.held_frf:
         if len(fit.models) > 1 and fit.median_db(fit.revised) > fit.median_db(fit.prior):
-            yield Text("The cause makes the error of functions that no fit has seen larger: that speaks against it.")
+            yield Text("The mechanism increases the error of held-out FRFs: that is evidence against it.")
 
 
 SECTION = Section("diagnosis-held-functions", 84, "Frequency response functions held out", held_out, (Diagnosis,))

@@ -34,7 +34,7 @@ def proposals(found: Diagnosis, options: Options) -> Iterator[Block]:
     )
     yield Table(_COLUMNS, tuple(rows))
     yield Text(
-        "First what separates the two that lead: what will settle it with the least effort before what takes more. Separation is "
+        "First what separates the two most probable: decisive measurements of least effort first. Separation is "
         "half the squared distance of what the two predict, over what is uncertain in both and in the measurement: above 4 it will "
         "settle it, below 1 it will not. It is predicted to first order, with accuracies like those of this test."
     )

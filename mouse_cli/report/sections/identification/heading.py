@@ -23,9 +23,11 @@ def heading(found: Identification, options: Options) -> Iterator[Block]:
     yield Table((Column("", align=LEFT), Column("", align=LEFT)), tuple(rows))
     sensors = counted(len(found.sensors), "sensor")
     if found.exit_code == 0:
-        yield Text(f"{counted(found.modes.m, 'mode')} at {sensors}; nothing speaks against them.")
+        yield Text(f"{counted(found.modes.m, 'mode')} at {sensors}; no warnings.")
     elif found.modes.m:
-        yield Text(f"{counted(found.modes.m, 'mode')} at {sensors}, with doubts: see the remarks before they are used.")
+        yield Text(
+            f"{counted(found.modes.m, 'mode')} at {sensors}, with warnings: see the remarks before they are used."
+        )
     else:
         yield Text("No mode was identified: see the remarks.")
 

@@ -20,7 +20,7 @@ def answers(found: RecordDiagnosis, options: Options) -> Iterator[Block]:
         ("Where?", _where(found)),
         ("What?", _what(found)),
         ("How much?", _how_much(found)),
-        ("Is it true?", _true(found)),
+        ("Validated?", _true(found)),
     ):
         yield Heading(question, 2)
         yield Text(told)
@@ -28,7 +28,7 @@ def answers(found: RecordDiagnosis, options: Options) -> Iterator[Block]:
 
 def _where(found: RecordDiagnosis) -> str:
     if found.kind == NOTHING and found.noise:
-        return "Nowhere: no force that follows from the motion of any site explains what is left."
+        return "Nowhere: no force that follows from the motion of any site explains the residual."
     if found.kind == NOTHING:
         return "Nowhere: model and records are consistent within their accuracies."
     if found.kind in (NAMED, ONE_OF):
@@ -71,11 +71,11 @@ def _noise(found: RecordDiagnosis) -> str:
     """What is left and is taken for noise, and why."""
     noise = found.noise
     sizes = ", ".join(f"{name} {size:.3g}" for name, size in zip(found.channels, noise.size, strict=True))
-    level = "the level does not vary enough to tell whether it grows with the motion"
+    level = "the level does not vary enough to show whether it grows with the motion"
     if noise.grows == noise.grows:
         level = "it does not grow with the motion"
     return (
-        f"What is left (rms: {sizes}) has a spectrum of its own, and is taken for noise, of disturbing forces, hum or drift: "
+        f"The residual (rms: {sizes}) has a spectrum of its own, and is taken for noise, of disturbing forces, hum or drift: "
         f"no law at any site takes more than {100 * noise.explained:.2g} % of it, and {level}."
     )
 
@@ -90,7 +90,7 @@ def _true(found: RecordDiagnosis) -> str:
     if not found.scores:
         return "Not proved: the records are too short to hold anything out."
     told = " ".join(_proof(one) for one in found.scores)
-    return f"Records that no fit has seen, rms of what is left of the outputs: {told}"
+    return f"Held-out records, rms residual of the outputs: {told}"
 
 
 def _proof(one: RecordScore) -> str:

@@ -20,7 +20,7 @@ def heading(found: Sampled, options: Options) -> Iterator[Block]:
         (round(100 * found.acceptance), round(found.tau, 1), round(kept / found.tau)),
     )
     trusted = "may stand" if not found.doubtful else "must not stand"
-    several = f" The posterior has {len(found.modes)} places of highest density." if len(found.modes) > 1 else ""
+    several = f" The posterior has {len(found.modes)} modes." if len(found.modes) > 1 else ""
     yield Text(
         f"Pareto k-hat of {found.draws} draws from the normal density of the run: {{}}.{several} That density {trusted} for the "
         "posterior.",

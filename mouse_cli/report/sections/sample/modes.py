@@ -12,15 +12,15 @@ def modes(found: Sampled, options: Options) -> Iterator[Block]:
     if len(found.modes) < 2:
         return
     own = tuple(Column(p.name, p.unit, literal=True) for p in found.result.problem.parameters)
-    columns = (Column("place"), *own, Column("J"), Column("share"))
+    columns = (Column("mode"), *own, Column("J"), Column("share"))
     rows = tuple(
         (i, *(float(value) for value in each.theta[: len(own)]), each.cost, each.share)
         for i, each in enumerate(found.modes, 1)
     )
     yield Table(columns, rows)
     yield Text(
-        "J is chi-square of the data with that of the prior; the share is that of the samples nearest to the place."
+        "J is chi-square of the data with that of the prior; the share is that of the samples nearest to the mode."
     )
 
 
-SECTION = Section("sample-modes", 40, "Places of highest density", modes, (Sampled,))
+SECTION = Section("sample-modes", 40, "Modes of the posterior", modes, (Sampled,))

@@ -32,7 +32,7 @@ def heading(result: SpectraResult, options: Options) -> Iterator[Block]:
         yield Text(_averaged(each))
         if each.frf.decay_rate:
             yield Text(
-                "The exponential window adds {} 1/s to the decay rate zeta omega of every mode. A .npz says so, and `test.frf` "
+                "The exponential window adds {} 1/s to the decay rate zeta omega of every mode. A .npz records it, and `test.frf` "
                 "takes it into account; subtract it from decay rates that are identified elsewhere.",
                 (each.frf.decay_rate,),
             )

@@ -18,10 +18,8 @@ def remarks(found: Updated, options: Options) -> Iterator[Block]:
 def _sound(found: Updated) -> str:
     """What an answer without remarks is worth."""
     if any(not one.fitted for one in found.configurations):
-        return (
-            "Nothing speaks against this model: it is physical, reproduces what was fitted, and foresees what was not."
-        )
-    return "Nothing speaks against this model, which is physical and reproduces what was fitted; nothing was held out as a proof."
+        return "The model is physical, reproduces the fitted data and predicts the held-out data."
+    return "The model is physical and reproduces the fitted data; no data were held out for validation."
 
 
 SECTION = Section("update-remarks", 60, "Remarks", remarks, (Updated,))
