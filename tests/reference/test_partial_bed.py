@@ -71,6 +71,8 @@ def test_a_bed_under_a_part_is_named_with_its_extent(first, last):
     assert f"end at element {1 if first == 0 else 30}" in found.best.causes[0].site.text
     assert abs(covered.value - (last - first)) < 0.04
     assert abs(stiffness.value - BED) < 3 * stiffness.sd
+    ids = np.array(found.best.causes[0].site.ids)
+    assert abs((ids.min() - 1) / 30 - first) < 0.07 and abs(ids.max() / 30 - last) < 0.07  # none that has no bed
 
 
 @pytest.mark.parametrize(("first", "last"), [(0.3, 0.65), (0.15, 0.4)])

@@ -9,8 +9,8 @@ from mouse_cli.diagnosis.extend.edit import Edit, every_beam
 from mouse_cli.diagnosis.extend.places import beams_within, split
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
-from mouse_cli.diagnosis.sites.intervals import Interval
-from mouse_cli.diagnosis.sites.lines import Line, from_end
+from mouse_cli.diagnosis.sites.intervals import Interval, from_end
+from mouse_cli.diagnosis.sites.lines import Line
 from mouse_cli.diagnosis.sites.preload import runs
 from mouse_cli.diagnosis.sites.reasons import line_masses
 from mouse_cli.model.diagnosis import EVERYWHERE, Site
@@ -55,14 +55,14 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
 def _partly(candidate: Candidate, run: Line, wet: Wet, m: Unknown, back: bool, share: float) -> Recipe:
     """Over a part of a row, from its beginning or (`back`) from its end."""
     covered = Unknown("covered share of the length", "1", 0.05, 0.95, log=False)
-    L, ids = run.length, run.bars.ids[run.members]
+    L = run.length
 
     def change(values: np.ndarray) -> Change:
         s = L * (1 - values[1] if back else values[1])
         return Change(M=values[0] * wet.part(s, back))
 
     def site(values: np.ndarray) -> Site:
-        return Site("element", tuple(ids.tolist()), None, from_end(ids, values[1], back))
+        return from_end(run, values[1], back)
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         s = L * (1 - values[1] if back else values[1])

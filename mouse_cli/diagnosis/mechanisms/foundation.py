@@ -10,8 +10,8 @@ from mouse_cli.diagnosis.extend.places import beams_within, split
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import Bars
-from mouse_cli.diagnosis.sites.intervals import Interval
-from mouse_cli.diagnosis.sites.lines import Line, elements, from_end
+from mouse_cli.diagnosis.sites.intervals import Interval, from_end
+from mouse_cli.diagnosis.sites.lines import Line, elements
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.elements import _beam as beam
@@ -72,15 +72,14 @@ def _partly(candidate: Candidate, line: Line, planes: tuple[int, ...], back: boo
     """Under a part of a line, from its beginning or (`back`) from its end."""
     k = _stiffness(line.bars, line.length)
     covered = Unknown("covered share of the length", "1", 0.05, 0.95, log=False)
-    L, ids = line.length, line.bars.ids[line.members]
+    L = line.length
     bed = Wet(line, across if len(planes) > 1 else deflections)
 
     def edge(values: np.ndarray) -> float:
         return L * (1 - values[1] if back else values[1])
 
     def site(values: np.ndarray) -> Site:
-        text = f"{from_end(ids, values[1], back)}, local {' and '.join('yz'[p] for p in planes)}"
-        return Site("element", tuple(ids.tolist()), None, text)
+        return from_end(line, values[1], back, f", local {' and '.join('yz'[p] for p in planes)}")
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         edit, middle = Edit(problem), np.array(line.bars.point(*line.at(edge(values))))

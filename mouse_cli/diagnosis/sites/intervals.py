@@ -45,10 +45,20 @@ class Interval:
     def site(self, share: float, before: float, more: str = "") -> Site:
         """Its elements, where its middle is, and it in words, with `more` behind."""
         first, last = self.ends(share, before)
-        bars, L = self.line.bars, self.line.length
-        touched, _, _ = covered(self.line, first, last)
-        here = self.line.site((first + last) / 2)
-        ids = np.unique(bars.ids[touched]).tolist()
-        a, b = bars.ids[self.line.members[[0, -1]]]
+        (a, b), L = self.line.bars.ids[self.line.members[[0, -1]]], self.line.length
         where = f"{first / L:.2f} to {last / L:.2f} of the length from the end at element {a} towards element {b}"
-        return Site("element", tuple(ids), here.position, where + more)
+        return _between(self.line, first, last, where + more)
+
+
+def from_end(line: Line, share: float, back: bool, more: str = "") -> Site:
+    """Likewise a share of a line from its beginning on, or (`back`) from its end."""
+    a, b = line.bars.ids[line.members[[-1, 0] if back else [0, -1]]]
+    first = (1 - share) * line.length if back else 0.0
+    where = f"{share:.2f} of the length from the end at element {a} towards element {b}"
+    return _between(line, first, first + share * line.length, where + more)
+
+
+def _between(line: Line, first: float, last: float, where: str) -> Site:
+    touched, _, _ = covered(line, first, last)
+    ids = np.unique(line.bars.ids[touched]).tolist()
+    return Site("element", tuple(ids), line.site((first + last) / 2).position, where)

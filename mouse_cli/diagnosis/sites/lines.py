@@ -113,12 +113,6 @@ def whole(line: Line) -> np.ndarray:
     return np.array([i for twins in own for i in twins], int)
 
 
-def from_end(ids: np.ndarray, share: float, back: bool) -> str:
-    """A part of a row of elements `ids` (c,) in words: from its beginning, or (`back`) from its end."""
-    first, last = (ids[-1], ids[0]) if back else (ids[0], ids[-1])
-    return f"{share:.2f} of the length from the end at element {first} towards element {last}"
-
-
 def elements(ids: tuple[int, ...]) -> str:
     """Elements in words: `element 3`, `elements 1 to 30`."""
     numbers = sorted(ids)
