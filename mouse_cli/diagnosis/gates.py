@@ -23,6 +23,9 @@ SAME_SITE = 0.05
 ODDS = 3.0
 """Log of the odds over no mechanism, noise larger than stated integrated out, that a name takes."""
 
+MATERIAL = 3.0
+"""Log evidence that each further mechanism of a set, or part of a mechanism, must gain."""
+
 GATE = 1e-3
 """p-value of a misfit, of a shift of the parameters or of both below which it is not chance."""
 

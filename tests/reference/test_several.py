@@ -11,8 +11,9 @@ from mouse_cli.diagnosis.gates import log_prior, prior
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.diagnosis.search.descents import best
+from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.diagnosis.search.rank import _log_prior
-from mouse_cli.diagnosis.search.several import MATERIAL, adequate, key, material, same_kind
+from mouse_cli.diagnosis.search.several import MATERIAL, _fewer, adequate, key, material, same_kind
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
@@ -106,6 +107,22 @@ def test_what_is_not_needed_is_material_to_nothing():
     assert material(of(-90.0, "shear", "taper"), [one, other])
 
 
+def test_what_came_first_is_dropped_where_the_rest_does_without_it():
+    """A softer stretch, then the true spring and the true mass: the first is needless, and the pair had not been found."""
+    beam = problem(Truth(springs=((0.55, 40.0),), masses=((0.8, 0.05),)))
+    study = Study(reduced(beam, beam.prior.mean), {name: registry()[name] for name in LOCAL})
+    names, values = (
+        ("stiffness-loss", "ground-spring", "mass"),
+        ((0.1, 0.1, 0.2 * LENGTH), (30 * EI / LENGTH**3, 0.5 * LENGTH), (0.05 * MASS * LENGTH, 0.8 * LENGTH)),
+    )
+    recipes = tuple(study.recipes(name)[0] for name in names)
+    c = np.concatenate([one.coordinates(np.array(own)) for one, own in zip(recipes, values, strict=True)])
+    three = fit(study.kind(study.model, recipes), c)
+    two = max(_fewer(study, [three], [best(study, name) for name in LOCAL]), key=lambda one: one.log_evidence)
+    assert key(two) == ("ground-spring", "mass") and adequate(two)
+    assert not material(three, [two])
+
+
 def single(candidate: str, group: str):
     """A fit of one mechanism of that group."""
     recipe = SimpleNamespace(candidate=SimpleNamespace(key=candidate, group=group))
@@ -154,14 +171,18 @@ def test_adequate_is_a_p_value_of_a_twentieth():
     assert adequate(SimpleNamespace(misfit=31.40, dof=20)) and not adequate(SimpleNamespace(misfit=31.42, dof=20))
 
 
-def test_three_flexible_feet_that_differ_are_told_from_three_alike():
-    """All alike lead as one mechanism, beside which none of them can be flexible once more: the set begins from each by itself."""
-    truth = Truth(springs=((4 / 30, 600.0), (0.5, 1500.0), (26 / 30, 4000.0)))
+FEET = ((5, 600.0), (16, 1500.0), (27, 4000.0))  # nodes of a beam of 30 elements, and springs below them in EI / L^3
+
+
+@pytest.mark.parametrize("flexible", [(0, 1, 2), (0, 1), (0, 2), (1,)])
+def test_feet_that_give_way_are_named_each_with_a_stiffness_of_its_own(flexible):
+    """As many as do: one beside them that is stiff, here of 1e9 EI / L^3, is none of them."""
+    truth = Truth(springs=tuple(((n - 1) / 30, k if i in flexible else 1e9) for i, (n, k) in enumerate(FEET)))
     held = "    supports: {5: [TY], 16: [TY], 27: [TY]}\n"
     found = diagnose(problem(truth, held, free=True), choices=Choices(("support-translation", "mass")))
-    own = sorted(found.best.causes, key=lambda cause: cause.site.ids)
-    assert found.kind == NAMED and [cause.site.ids for cause in own] == [(5,), (16,), (27,)]
-    unit = EI / LENGTH**3
-    for cause, (_, stiffness) in zip(own, truth.springs, strict=True):
-        (size,) = cause.sizes
-        assert abs(size.value - stiffness * unit) < max(4 * size.sd, 0.02 * stiffness * unit)
+    (cause,) = found.best.causes
+    assert found.kind == NAMED and cause.site.ids == tuple(FEET[i][0] for i in flexible)
+    assert len(found.extended.parameters) == 2 + len(flexible) and not found.extended_result.rejected
+    for size, i in zip(cause.sizes, flexible, strict=True):
+        true = FEET[i][1] * EI / LENGTH**3
+        assert abs(size.value - true) < max(4 * size.sd, 0.02 * true)

@@ -8,6 +8,7 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.search import study as searched
 from mouse_cli.diagnosis.search import superposed
 from mouse_cli.diagnosis.search.descents import tried
+from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.diagnosis.search.superposed import KEPT, Alone, chosen
 from mouse_cli.dynamics.eigen import dense_solution
@@ -72,3 +73,20 @@ def test_what_the_deck_alone_decides_is_built_once_for_all_parameters():
     first = model.once("the deck", lambda problem: built.append(problem) or problem)
     again = there.once("the deck", lambda problem: built.append(problem) or problem)
     assert first[1] is again[1] and len(built) == 1
+
+
+def test_what_is_there_adapts_to_what_is_looked_at():
+    """A mass half too large, which makes up for a spring: beside the true spring it is right again, and nothing is left.
+
+    Held as it is, it would hide which spring is the true one, and whether it is a spring.
+    """
+    study = Study(chain_with({5: 0.4}, {16: 4e3}))
+    number = next(one.number for one in study.recipes("mass") if one.site(one.grid[0]).ids == ("6",))
+    there = study.with_cause((), "mass", number)
+    (mass,) = there.recipes
+    first = fit(there, mass.coordinates(np.array([0.6])), most=0)
+    spring = next(one for one in study.recipes("ground-spring") if one.site(one.grid[0]).ids == ("17",))
+    both = study.with_cause(first.recipes, "ground-spring", spring.number)
+    at = both.point(np.concatenate([first.point.x, spring.coordinates(np.array([4e3]))]))
+    assert study.foreseen(at, first.point.x, first.recipes) < 10
+    assert study.foreseen(at) > 500  # the deck's parameters alone

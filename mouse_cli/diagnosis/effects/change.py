@@ -111,6 +111,7 @@ class Recipe:
     energy, see `frf/lossy.py`.
     limit(values): group that it cannot be told from at such values, the end of their range; empty: none, its candidate's own.
     jumps: coordinates, in order, at which the matrices jump, by number of the unknown; there the piece after it begins.
+    parts: names of several things, each with the unknown of the same number, of which there are recipes with fewer; empty: none.
     """
 
     candidate: Any
@@ -127,6 +128,7 @@ class Recipe:
     limit: Callable[[np.ndarray], str] = lambda values: ""
     jumps: dict[int, np.ndarray] = field(default_factory=dict, repr=False)
     starts: tuple[np.ndarray, ...] = ()
+    parts: tuple[str, ...] = ()
     _last: dict[bytes, Change] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def at(self, coordinates: np.ndarray) -> Change:

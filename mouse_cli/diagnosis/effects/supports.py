@@ -1,6 +1,7 @@
 """Supports that give way: the motion of each, as a degree of freedom of its own beside those of the reduced model."""
 
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 
@@ -17,6 +18,8 @@ from mouse_cli.model.problem import Problem
 _LOADED = 0.02  # share of the largest reaction of its kind below which a support is not loaded
 _TOGETHER = 16  # supports that may give way alike
 _MOST = 48  # supports that are looked at: those that bear most
+_STARTS = {1: 6, 2: 4}  # stiffnesses to begin from, of one, and of each of two
+_APART = 4  # supports of one direction up to which any of them may give way together, each with a stiffness of its own
 
 
 @dataclass(frozen=True)
@@ -44,23 +47,24 @@ class Released:
 
 def yielding(model: Reduced, candidate: Candidate, turning: bool) -> list[Recipe]:
     """In translation or in rotation: a recipe for each support that the measured modes load, for all alike, and for those of one
-    node, or of all alike, in both directions that bear most, each with a stiffness of its own.
+    node, or of all alike, in both directions that bear most, each with a stiffness of its own; and for any of few in one direction,
+    each with a stiffness of its own: what was built alike, or stands on one ground, gives way together though not alike.
     """
     if model.problem.held is not None:
         return named(model, candidate, turning)
     found = released(model, range(3, 6) if turning else range(3))
     if found is None:
         return []
-    single, alike = _sets(found)
-    recipes = []
-    for kind in (single, alike):
-        share = -float(np.log(len(kind) * (1 + bool(alike)))) if kind else 0.0
-        recipes += [_recipe(model, candidate, found, which, turning, share) for which in kind]
-    return recipes
+    kinds = [kind for kind in _sets(found) if kind]
+    return [
+        _recipe(model, candidate, found, which, turning, -float(np.log(len(kind) * len(kinds))))
+        for kind in kinds
+        for which in kind
+    ]
 
 
-def _sets(found: Released) -> tuple[list[list[list[int]]], list[list[list[int]]]]:
-    """Supports by number that give way together, in lists of one stiffness each: of single nodes, and of all."""
+def _sets(found: Released) -> tuple[list[list[list[int]]], ...]:
+    """Supports by number that give way together, in lists of one stiffness each: single nodes, all alike, several apart."""
     by: dict[int, list[int]] = {}
     for i, (_, d) in enumerate(found.held):
         by.setdefault(d, []).append(i)
@@ -72,7 +76,9 @@ def _sets(found: Released) -> tuple[list[list[list[int]]], list[list[list[int]]]
     alike = [[own] for own in many.values()]
     if len(strongest) == 2 and all(d in many for d in strongest):
         alike.append([many[d] for d in strongest])
-    return [[[i]] for i in range(len(found.held))] + both, alike
+    few = [own for own in by.values() if len(own) <= _APART]
+    apart = [[[i] for i in some] for own in few for n in range(2, len(own) + 1) for some in combinations(own, n)]
+    return [[[i]] for i in range(len(found.held))] + both, alike, apart
 
 
 def released(model: Reduced, kinds: range) -> Released | None:
@@ -120,12 +126,11 @@ def _recipe(
 ) -> Recipe:
     """sets: supports by number, those of each list with one stiffness."""
     unit, which = "N m/rad" if turning else "N/m", [i for own in sets for i in own]
-    k = [Unknown(_called(found, own, sets), unit, *_range(model, found, own, turning)) for own in sets]
+    k = [Unknown(_called(model, found, own, sets), unit, *_range(model, found, own, turning)) for own in sets]
     K, M, reading = found.some(which, model.r)
-    number = np.repeat(np.arange(len(sets)), [len(own) for own in sets])
-    own_dofs = np.arange(model.r, len(K))
+    number, own_dofs = np.repeat(np.arange(len(sets)), [len(own) for own in sets]), np.arange(model.r, len(K))
     sensing = np.hstack([np.zeros((len(reading), model.r)), reading])
-    site = _site(model.problem, [found.held[i] for i in which])
+    site = _site(model.problem, [found.held[i] for i in which], len(which) > len(sets))
 
     def change(values: np.ndarray) -> Change:
         with_springs = K.copy()
@@ -148,18 +153,31 @@ def _recipe(
         candidate,
         tuple(k),
         change,
-        product(*(steps(each, 6 if len(sets) == 1 else 4) for each in k)),
+        product(*(steps(each, _STARTS.get(len(sets), 3)) for each in k)),
         lambda values: site,
         own=len(which),
         log_prior=share,
         extend=extend,
         carried=found.carried.part(which, model.r),
+        parts=_parts(model, found, which) if len(which) == len(sets) else (),
     )
 
 
-def _called(found: Released, own: list[int], sets: list[list[int]]) -> str:
-    """What a stiffness is called."""
-    return "stiffness of the support" + (f", {DIRECTIONS[found.held[own[0]][1]]}" if len(sets) > 1 else "")
+def _parts(model: Reduced, found: Released, which: list[int]) -> tuple[str, ...]:
+    """Names of supports of one direction; none of several directions."""
+    names = [(model.problem.mesh.node_ids[node], DIRECTIONS[d]) for node, d in (found.held[i] for i in which)]
+    return tuple(f"{node}{d}" for node, d in names) if len({d for _, d in names}) == 1 else ()
+
+
+def _called(model: Reduced, found: Released, own: list[int], sets: list[list[int]]) -> str:
+    """What a stiffness is called: one of several by its direction, or by its node."""
+    if len(sets) == 1:
+        return "stiffness of the support"
+    node, d = found.held[own[0]]
+    apart = len({found.held[i][1] for each in sets for i in each}) == 1
+    return (
+        f"stiffness of the support{f' of node {model.problem.mesh.node_ids[node]}' if apart else f', {DIRECTIONS[d]}'}"
+    )
 
 
 def _range(model: Reduced, found: Released, own: list[int], turning: bool) -> tuple[float, float]:
@@ -171,10 +189,11 @@ def _range(model: Reduced, found: Released, own: list[int], turning: bool) -> tu
     return (EI / L, 1e4 * EI / L) if turning else (10 * EI / L**3, 1e6 * EI / L**3)
 
 
-def _site(problem: Problem, held: list[tuple[int, int]]) -> Site:
+def _site(problem: Problem, held: list[tuple[int, int]], alike: bool = True) -> Site:
     ids = tuple(dict.fromkeys(int(problem.mesh.node_ids[node]) for node, _ in held))
     direction = " and ".join(dict.fromkeys(DIRECTIONS[d] for _, d in held))
     if len(ids) > 1:
-        return Site("node", ids, None, f"the supports of nodes {', '.join(map(str, ids))}, {direction}, all alike")
+        how = "all alike" if alike else "each with a stiffness of its own"
+        return Site("node", ids, None, f"the supports of nodes {', '.join(map(str, ids))}, {direction}, {how}")
     position = tuple(problem.mesh.coordinates[held[0][0]].tolist())
     return Site("node", ids, position, f"the support of node {ids[0]}, {direction}")

@@ -16,7 +16,8 @@ CANDIDATE = Candidate(
     "support-translation",
     "a translationally flexible support",
     "support",
-    "what the model holds rigidly moves along the direction of a reaction (soil, bearing, test stand)",
+    "what the model holds rigidly moves along the direction of a reaction (soil, bearing, test stand), at one support, at all "
+    "alike, or at any of few, each with a stiffness of its own",
     recipes,
     supports,
 )

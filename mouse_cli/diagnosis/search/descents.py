@@ -8,6 +8,7 @@ from mouse_cli.diagnosis.likelihoods.modal.unseen import unseen
 from mouse_cli.diagnosis.search.escape import shifted, uncrossed
 from mouse_cli.diagnosis.search.fit import MOST, Fit, descended, fit
 from mouse_cli.diagnosis.search.optima import NEAR, distinct, within
+from mouse_cli.diagnosis.search.pared import pared
 from mouse_cli.diagnosis.search.starts import cost
 from mouse_cli.diagnosis.search.study import BRIEF, MOVED, Study, weighed_beside
 
@@ -46,7 +47,7 @@ def best(study: Study, name: str, reach: float = np.inf) -> Fit | None:
 
     reach: misfit above which no fit matters, and is left as it was found.
     """
-    found = distinct(tried(study, name, None, _STARTS, reach=reach))
+    found = distinct([pared(one, study) for one in tried(study, name, None, _STARTS, reach=reach)])
     return summed([settled(shifted(one), study) if one.misfit < reach else one for one in found], reach)
 
 
@@ -64,7 +65,7 @@ def tried(
     near_by = first.approached(name, before, others, _SLACK * reach)
     tied = 0 if beside is not None or not near_by else sum(left < near_by[0][0] + _TIED for left, _, _ in near_by)
     count = max(count, min(tied, _TIES))
-    chosen = near_by[:count] if first is study else _weighed(study, others, name, near_by, count)
+    chosen = near_by[:count] if first is study else _weighed(study, before, others, name, near_by, count)
     ways = [(first, *each) for each in chosen] + (
         [] if others else [(study, *each) for each in _screened(study, name, reach)]
     )
@@ -90,10 +91,11 @@ def _screened(study: Study, name: str, reach: float) -> list[tuple[float, int, l
     return [each for n, each in enumerate(ends[:_TIES]) if n < _STARTS or each[0] < ends[0][0] + _TIED]
 
 
-def _weighed(study: Study, others: tuple, name: str, near_by: list, count: int) -> list:
+def _weighed(study: Study, before: np.ndarray, others: tuple, name: str, near_by: list, count: int) -> list:
     """The `count` of `near_by` that misfit least in all coordinates, from where they ended or the prior mean; and the first of all.
 
-    In few coordinates the true place may be behind several others. Parameters adapt to first order.
+    In few coordinates the true place may be behind several others. Parameters, and
+    what is there `before`, adapt to first order.
     """
     if len(near_by) <= count:
         return near_by
@@ -101,7 +103,7 @@ def _weighed(study: Study, others: tuple, name: str, near_by: list, count: int) 
     for _, i, (end, *_) in near_by[: weighed_beside(others)]:
         whole = study.with_cause(others, name, i)
         points = [whole.point(x) for x in (end, np.concatenate([np.zeros(k), end[k:]]))]
-        cost = min((study.foreseen(at) for at in points if at is not None), default=np.inf)
+        cost = min((study.foreseen(at, before, whole.recipes[:-1]) for at in points if at is not None), default=np.inf)
         left.append(cost - 2 * whole.recipes[-1].log_prior)
     best = np.argsort(left, kind="stable")[:count].tolist()
     return [near_by[j] for j in (best if 0 in best else [*best, 0])]

@@ -9,10 +9,12 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from mouse_cli.diagnosis.gates import MATERIAL
 from mouse_cli.diagnosis.search.descents import settled, summed, tried
 from mouse_cli.diagnosis.search.escape import shifted, walked
-from mouse_cli.diagnosis.search.fit import Fit, fit
+from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
 from mouse_cli.diagnosis.search.optima import NEAR, within
+from mouse_cli.diagnosis.search.pared import pared
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.updating.chi_square import upper_tail
 
@@ -29,7 +31,6 @@ _LIMITS = (  # groups of which one is the other at an end of its range: a crack 
     {"ground-spring", "oscillator"},
 )
 _ADEQUATE = 0.05  # p-value of the misfit below which a further mechanism is sought
-MATERIAL = 3.0  # log evidence that each further mechanism must gain
 
 Found = dict[tuple[str, ...], Fit]  # the best fit of each set of candidates
 
@@ -59,7 +60,10 @@ def several(study: Study, singles: list[Fit], most: int) -> list[Fit]:
             _keep(larger, _exchanged(study, best))
         for best in _best_of(larger, 1):
             _swap(study, best, larger)
-        growing = [one for one in _finished(study, larger) if material(one, smaller)]
+        finished = _finished(study, larger)
+        fewer = _fewer(study, finished, smaller)
+        found, smaller = _replaced(found, fewer), _replaced(smaller, fewer)
+        growing = [one for one in finished if material(one, smaller)]
         if not growing:
             break
         found, smaller, count = found + growing, smaller + growing, count + 1
@@ -139,15 +143,37 @@ def material(one: Fit, smaller: list[Fit]) -> bool:
     return not parts or one.log_evidence - max(parts) > MATERIAL
 
 
+def _replaced(found: list[Fit], better: list[Fit]) -> list[Fit]:
+    """All of both, but for what one of the same kind in `better` is better than."""
+    known = {key(one) for one in better}
+    return [one for one in found if key(one) not in known] + better
+
+
+def _fewer(study: Study, sets: list[Fit], smaller: list[Fit]) -> list[Fit]:
+    """What is left of the best of `sets` without one of its mechanisms, wherever that is more probable than all of its kind before.
+
+    What was added last may have brought the others to where they do without one that came earlier.
+    """
+    parts: Found = {}
+    for best in sorted(sets, key=lambda one: -one.log_evidence)[:1]:
+        for i in range(len(best.recipes)):
+            _keep(parts, _without(best, i, MOST, within([best])))
+    before = {key(one): one.log_evidence for one in sorted(smaller, key=lambda one: one.log_evidence)}
+    better = {name: one for name, one in parts.items() if one.log_evidence > before.get(name, -np.inf) + 1.0}
+    return [one for one in _finished(study, better) if material(one, smaller)]
+
+
 def _finished(study: Study, found: Found) -> list[Fit]:
-    return [summed([settled(walked(shifted(one), study), study)]) for one in _best_of(found, _FINISHED)]
+    return [summed([settled(walked(shifted(pared(one, study)), study), study)]) for one in _best_of(found, _FINISHED)]
 
 
 def _best_of(found: Found, count: int) -> list[Fit]:
     return sorted(found.values(), key=lambda one: -one.log_evidence)[:count]
 
 
-def _keep(found: Found, one: Fit) -> None:
+def _keep(found: Found, one: Fit | None) -> None:
+    if one is None:
+        return
     other = found.get(key(one))
     if other is None or one.log_evidence > other.log_evidence:
         found[key(one)] = one
@@ -207,8 +233,10 @@ def _exchanged(study: Study, one: Fit, names: tuple[str, ...] | None = None) -> 
     return one
 
 
-def _without(one: Fit, i: int) -> Fit | None:
-    """The fit without its mechanism number i, the others and the parameters as they are: begun anew they would make up for it."""
+def _without(one: Fit, i: int, most: int = 0, reach: float = np.inf) -> Fit | None:
+    """The fit without its mechanism number i, in at most so many steps: with none the others and the parameters are as they are,
+    for begun anew they would make up for it. reach: as `fit` has it.
+    """
     rest = (*one.recipes[:i], *one.recipes[i + 1 :])
     c = np.concatenate([np.zeros(0), *(one.c[own] for j, own in enumerate(one.model.own) if j != i)])
-    return fit(type(one.model)(one.model.base, rest), c, one.point.x[: one.model.k], 0)
+    return fit(type(one.model)(one.model.base, rest), c, one.point.x[: one.model.k], most, reach)

@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Recipe
+from mouse_cli.diagnosis.evidence import capped
 from mouse_cli.diagnosis.likelihoods.modal.lowest import lowest
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
@@ -20,6 +21,7 @@ _LOOKS, _MOST, BRIEF = 12, 40, 4  # brief descents at least, at most, and their 
 _WEIGHED = 12  # ends of brief descents that are weighed in all coordinates
 MOVED = 5e-3  # share of parameters within which causes weigh alike
 _ABOUT = 4  # studies at other parameters that are kept
+_NOWHERE = np.zeros(0)
 _COARSE = 24  # coordinates at least for a first look
 
 
@@ -43,6 +45,7 @@ class Study:
         self._made: dict[str, list[Recipe]] = {}
         self._about: list[Study] = [self]
         self._looked: dict[tuple, list[tuple[float, int, np.ndarray]]] = {}
+        self._following: dict[tuple, tuple[np.ndarray, np.ndarray]] = {}
 
     def recipes(self, name: str) -> list[Recipe]:
         """What candidate `name` can do, and where; made when first asked for."""
@@ -79,7 +82,7 @@ class Study:
         key = (name, before.tobytes(), *((each.candidate.key, each.number) for each in others))
         if key not in self._looked:
             points = self._points(name, before, others)
-            found = [(self.foreseen(at), recipe.number, at.x) for recipe, _, at in points]
+            found = [(self.foreseen(at, before, others), recipe.number, at.x) for recipe, _, at in points]
             self._looked[key] = sorted(found, key=lambda item: item[0])
             if not others and len(points) > KEPT:
                 self._alone[name] = by_itself(points, self.kind(self.model).point(np.zeros(self.k)))
@@ -89,6 +92,8 @@ class Study:
         """Recipe, number of the size and point of what candidate `name` does beside `others`, where that is worth a look."""
         worth, found = self._worth(name, before, others), []
         for recipe in self.recipes(name):
+            if others and len(recipe.parts) > 1:  # several grow one by one beside others
+                continue
             trial, place = self.kind(self.model, (*others, recipe)), text(recipe)
             for i, values in enumerate(recipe.grid):
                 if worth is None or (place, i) in worth:
@@ -104,7 +109,7 @@ class Study:
         at, alone = self.kind(self.model, others).point(before), self.begun._alone.get(name)
         if at is None or alone is None:
             return None
-        return chosen(alone, at.residual, before[: self.k], *self._adapted)
+        return chosen(alone, at.residual, before[: self.k], *self._adapted(before, others))
 
     def approached(
         self, name: str, before: np.ndarray, beside: tuple[Recipe, ...], reach: float = np.inf
@@ -128,18 +133,26 @@ class Study:
         kept = {id(end) for _, end in spread([(i, one.point.x) for i, _, one in led], trials, most)}
         return [(cost(one), i, [one.point.x, x]) for i, x, one in led if id(one.point.x) in kept]
 
-    @cached_property
-    def _adapted(self) -> tuple[np.ndarray, np.ndarray]:
-        """T (q, k), and (T'T + I)^-1 [T', -I] (k, q + k): how far the deck's parameters follow a residual."""
-        plain = self.kind(self.model)
-        T = plain.jacobian(plain.point(np.zeros(self.k)))
-        return T, np.linalg.solve(T.T @ T + np.eye(self.k), np.hstack([T.T, -np.eye(self.k)]))
+    def _adapted(self, before: np.ndarray, others: tuple[Recipe, ...]) -> tuple[np.ndarray, np.ndarray]:
+        """T (q, k + t), and (T'T + P)^-1 [T', -P] (k + t, q + k): how far the deck's parameters, and t coordinates of the causes
+        `others` that are there `before`, follow a residual. P: their prior; coordinates are as wide as their ranges at most.
+        """
+        key = (before.tobytes(), *((each.candidate.key, each.number) for each in others)) if others else ()
+        if key not in self._following:
+            model = self.kind(self.model, others)
+            at = model.point(before if others else np.zeros(self.k))
+            if at is None:
+                return self._adapted(np.zeros(self.k), ())
+            T = model.jacobian(at)
+            H = capped(T.T @ T + np.diag(np.arange(T.shape[1]) < self.k), model.width)
+            self._following[key] = T, np.linalg.solve(H, np.hstack([T.T, -np.eye(T.shape[1], self.k)]))
+        return self._following[key]
 
-    def foreseen(self, at: Point) -> float:
-        """The misfit that is left of `at` when the deck's parameters adapt, to first order."""
-        T, adapted = self._adapted
+    def foreseen(self, at: Point, before: np.ndarray = _NOWHERE, others: tuple[Recipe, ...] = ()) -> float:
+        """The misfit that is left of `at` when the deck's parameters, and causes that are there `before`, adapt to first order."""
+        T, adapted = self._adapted(before, others)
         step = adapted @ np.concatenate([at.residual, at.x[: self.k]])
-        left, z = at.residual - T @ step, at.x[: self.k] + step
+        left, z = at.residual - T @ step, at.x[: self.k] + step[: self.k]
         return float(left @ left + z @ z)
 
     def own(self, recipes: tuple[Recipe, ...]) -> tuple[Recipe, ...]:

@@ -40,12 +40,12 @@ def chosen(
 ) -> set[tuple[str, int]]:
     """The most promising of `alone` beside causes that leave `residual` (q,) at the deck's parameters z (k,).
 
-    T (q, k), adapted (k, q + k): how far these follow, to first order; see `Study`.
+    T (q, k + t), adapted (k + t, q + k): how far these, and t coordinates of the causes, follow to first order; see `Study`.
     """
     q = len(residual)
     R = alone.residuals + (residual - alone.none)
     steps = R @ adapted[:, :q].T + adapted[:, q:] @ z
-    left = ((R - steps @ T.T) ** 2).sum(axis=1) + ((z + steps) ** 2).sum(axis=1)
+    left = ((R - steps @ T.T) ** 2).sum(axis=1) + ((z + steps[:, : len(z)]) ** 2).sum(axis=1)
     most = max(_EACH, KEPT // len({text for text, _ in alone.at}))
     taken: dict[str, int] = {}
     found: set[tuple[str, int]] = set()
