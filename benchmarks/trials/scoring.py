@@ -18,6 +18,7 @@ RIGHT, PART, MISPLACED, WRONG, ABSTAINED, MISSED, REFUSED = OUTCOMES = (
     "missed",  # nothing is missing, it says
     "refused",  # no answer
 )
+ALIKE = {"compliance": "force"}  # changes of rank one, a force in truths whatever its sign
 IGNORED = {"gains": "sensor"}  # groups that describe an error of the test that the deck does not state
 
 
@@ -187,10 +188,11 @@ def _field(verdict: dict, truth: dict) -> tuple[bool | None, bool | None]:
     properties = {name for own in mechanisms for name in own["properties"]}
     if not found or not properties:
         return None, None
+    right = ALIKE.get(found["property"], found["property"]) in properties
     boxes = [box for own in mechanisms for box in own["regions"]]
     largest = max(found["sites"], key=lambda one: abs(one["value"]), default=None)
     if not boxes or largest is None:
-        return found["property"] in properties, None
+        return right, None
     own = [str(i).rstrip("TRXYZ-") for i in largest["ids"]]
     book = truth["elements"] if any(i in truth["elements"] for i in own) else truth["nodes"]
     at = np.mean([book[i][:2] for i in own if i in book] or [[np.inf, np.inf]], axis=0)
@@ -198,7 +200,7 @@ def _field(verdict: dict, truth: dict) -> tuple[bool | None, bool | None]:
         np.hypot(*(at - np.clip(at, np.minimum(low, high), np.maximum(low, high))))
         for low, high in np.array(boxes)[..., :2]
     ]
-    return found["property"] in properties, bool(min(gaps) <= REGION * truth["span"])
+    return right, bool(min(gaps) <= REGION * truth["span"])
 
 
 def _gain(document: dict) -> tuple[float, float] | None:

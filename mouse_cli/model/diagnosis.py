@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mouse_cli.model.field import BED as BED
+from mouse_cli.model.field import COMPLIANCE as COMPLIANCE
 from mouse_cli.model.field import FORCE as FORCE
 from mouse_cli.model.field import LAW as LAW
 from mouse_cli.model.field import MASS as MASS

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 from mouse_cli.model.prediction import HeldOut
 from mouse_cli.model.site import Site
 
-STIFFNESS, MASS, BED, FORCE, LAW = "stiffness", "mass", "bed", "force", "law"  # of what kind physics without a name is
+# Of what kind physics without a name is.
+STIFFNESS, MASS, BED, FORCE, COMPLIANCE, LAW = "stiffness", "mass", "bed", "force", "compliance", "law"
 
 
 @dataclass(frozen=True)
@@ -19,10 +20,10 @@ class FieldValue:
 
 @dataclass(frozen=True)
 class Field:
-    """Physics that has no name: a smooth change of `property` (STIFFNESS, MASS, BED) along the structure, or a spring (FORCE).
+    """Physics that has no name: a smooth change of `property` along the structure, or one spring or joint of it.
 
-    Values of a FORCE are the motion along which that one spring acts, of no sign of its own. Those of a LAW are of one place, a
-    value for each mode, in units of the static stiffness there; they have no length.
+    Values of a FORCE are the motion along which one spring acts, of a COMPLIANCE the motion that the structure makes besides, of
+    no sign of their own. Those of a LAW are of one place, a value for each mode, in units of the static stiffness there.
     spread: sd of its values; length: over which they are correlated, in m or in steps from site to site (`unit`).
     log_evidence_over_named: by which it leads everything that has a name; held_out: how the model with it predicts what no fit
     has seen.

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from mouse_cli.model.diagnosis import BED, FORCE, LAW, MASS, STIFFNESS, Field, FieldValue, HeldOut
+from mouse_cli.model.diagnosis import BED, COMPLIANCE, FORCE, LAW, MASS, STIFFNESS, Field, FieldValue, HeldOut
 from mouse_cli.report.sections._diagnosis_wording import nats, place
 
 ACTS = {
@@ -10,6 +10,7 @@ ACTS = {
     MASS: "acts on the mass",
     BED: "acts as a bed, a stiffness from the structure to the ground",
     FORCE: "acts as one spring along a motion of the whole structure",
+    COMPLIANCE: "acts as one flexible joint: the whole structure can make a motion that the model does not let it make",
     LAW: "acts at one site, by a law that is in no library",
 }
 UNITS = {
@@ -17,6 +18,7 @@ UNITS = {
     MASS: "per cent",
     BED: "EI/L^4",
     FORCE: "of that motion",
+    COMPLIANCE: "of that motion",
     LAW: "of the static stiffness there",
 }  # of values as they are printed
 _MOST = 0.5  # of the largest value: neighbours above it belong to where most of the field is

@@ -1,6 +1,7 @@
 """The verdict of a diagnosis in plain Python values: the same keys for every kind of test."""
 
 from collections.abc import Sequence
+from math import isfinite
 from typing import Any
 
 from mouse_cli.model.diagnosis import EVERYWHERE, ONE_OF, UNKNOWN, Diagnosis, Field, HeldOut, Rest, Score, Site, Untried
@@ -64,7 +65,7 @@ def field(found: Field | None) -> dict[str, Any] | None:
         "property": found.property,
         "sites": [site(each.site) | {"value": each.value, "sd": each.sd} for each in found.values],
         "spread": found.spread,
-        "length": found.length,
+        "length": found.length if isfinite(found.length) else None,
         "unit": found.unit,
         "log_evidence_over_named": found.log_evidence_over_named,
         "held_out": None if found.held_out is None else held_out(found.held_out),

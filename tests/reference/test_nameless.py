@@ -277,7 +277,7 @@ def test_its_evidence_is_the_mean_over_spreads_and_lengths():
         assert best - np.log(count) - 1e-6 <= one.log_evidence <= best + 1e-6
 
 
-@pytest.mark.parametrize("key", ["field-stiffness", "field-mass", "field-bed", "force"])
+@pytest.mark.parametrize("key", ["field-stiffness", "field-mass", "field-bed", "force", "compliance"])
 def test_what_a_field_moves_is_what_differences_of_its_matrices_do(key):
     """Central differences of K and M, times a motion, along the deck's parameters and the field."""
     problem = assemble(yaml_deck.read(deck(Truth(), True), "beam.yaml"))

@@ -13,11 +13,11 @@ from mouse_cli.diagnosis.nameless._cells import Cells
 
 @dataclass(frozen=True)
 class Nameless:
-    """key; title: in words; property: STIFFNESS, MASS, BED, FORCE or LAW; meaning: what it is, for the manual.
+    """key; title: in words; property: STIFFNESS, MASS, BED, FORCE, COMPLIANCE or LAW; meaning: what it is, for the manual.
 
     cells(model): what it changes; None where there are fewer than three. spreads: sd of the field that are integrated over.
-    signs: of a change of rank one, K + sign b b' with the field b; empty: K or M change in proportion to the field. even: group of
-    the mechanism that it is where it is the same everywhere; empty: none has a name.
+    signs: of a change of rank one along the field (`_tied`), 1 a spring, -1 a compliance; empty: K or M change in proportion to
+    it. even: group of the mechanism that it is where it is the same everywhere; empty: none has a name.
     """
 
     key: str

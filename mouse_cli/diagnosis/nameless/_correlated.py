@@ -3,6 +3,7 @@
 import numpy as np
 
 _LEFT, _COLUMNS = 1e-4, 200  # share of the variance that the factor may leave, and its columns at most
+_FLAT = 1e-6  # share of the largest extent below which there is none along an axis
 KEPT, MOST = 0.995, 16  # share of the variance that is kept, and eigenvectors at most
 
 
@@ -22,6 +23,14 @@ def leading(at: np.ndarray, length: float) -> np.ndarray:
     size, W = size[::-1], W[:, ::-1]
     kept = min(MOST, int(np.searchsorted(np.cumsum(size) / len(at), KEPT)) + 1)
     return F @ W[:, :kept]
+
+
+def affine(at: np.ndarray) -> np.ndarray:
+    """A constant and a slope along each axis (c, 1 + a) over places `at` (c, d), of mean square one; a axes have an extent."""
+    slopes = at - at.mean(axis=0)
+    size = np.sqrt((slopes**2).mean(axis=0))
+    kept = size > _FLAT * size.max(initial=0.0)
+    return np.hstack([np.ones((len(at), 1)), slopes[:, kept] / size[kept]])
 
 
 def extent(at: np.ndarray) -> float:

@@ -12,9 +12,11 @@ import numpy as np
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.nameless import Nameless
 from mouse_cli.diagnosis.nameless._cells import Cells
+from mouse_cli.diagnosis.nameless._correlated import affine
 from mouse_cli.model.diagnosis import Field, FieldValue, HeldOut
 
 LENGTHS = (0.08, 0.2, 0.5)  # correlation lengths, of the extent of the cells
+MOTIONS = (0.2, 0.5, np.inf)  # those of a motion about one that is affine; infinite: it is affine
 
 
 @dataclass(frozen=True)
@@ -38,7 +40,8 @@ class Smooth:
 
 def smooth(rival: Nameless, cells: Cells, spread: float, share: float, sign: int = 0) -> Smooth:
     """The field of that spread, correlated over that share of the extent of its cells."""
-    length, P = cells.correlated(share)
+    length, P = (share, affine(cells.at)) if np.isinf(share) else cells.correlated(share)
+    P = np.hstack([affine(cells.at), P]) if rival.signs and np.isfinite(share) else P
     return Smooth(rival, cells, spread * P, spread, length, sign)
 
 

@@ -1,7 +1,8 @@
-"""A change of stiffness of rank one: a spring that moves with the structure as a whole, along a motion that nobody knows.
+"""A change of stiffness of rank one along a motion of the whole structure that nobody knows.
 
-K + sign b b', b = w'R: R (w, r) the smooth fields of motion. Soil on which a building rocks, an outrigger, or a strut between
-distant parts change K by one such term, which no field of stiffness along the structure can.
+A spring that moves with the structure adds K + b b', b = w'R: R (w, r) the smooth fields of motion. Soil on which a building rocks
+adds flexibility instead, K^-1 + h h' with the smooth motion h = w'R that it lets the structure make. By Sherman and Morrison,
+K - g g' / (1 + h'g) with g = K h, which is not smooth where K is not, and stays positive definite whatever h.
 """
 
 from dataclasses import dataclass
@@ -15,26 +16,43 @@ from mouse_cli.diagnosis.nameless._field import Fielded, Smooth
 
 @dataclass(frozen=True, kw_only=True)
 class Tied(Fielded):
-    """A reduced model with such a spring: z = [z of the deck (k,), w]; of_field: R (w, r)."""
+    """A reduced model with such a change: z = [z of the deck (k,), w]; of_field: R (w, r)."""
+
+    @property
+    def R(self) -> np.ndarray:
+        """Motion of each w in the coordinates of the model (w, r)."""
+        return self.of_field
 
     def matrices(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """K and M (r, r) at z."""
         K, M = Reduced.matrices(self, z)
-        b = z[self.deck :] @ self.of_field
-        return K + self.nameless.sign * np.outer(b, b), M
+        b = z[self.deck :] @ self.R
+        if self.nameless.sign < 0:
+            g = K @ b
+            return K - np.outer(g, g) / (1 + b @ g), M
+        return K + np.outer(b, b), M
 
     def slopes(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """dK/dz and dM/dz (k + w, r, r)."""
-        dK, dM = Reduced.slopes(self, z)
-        half = np.einsum("wi,j->wij", self.of_field, z[self.deck :] @ self.of_field)
-        dK[self.deck :] = self.nameless.sign * (half + np.swapaxes(half, 1, 2))
-        return dK, dM
+        return self.moved(z, np.eye(self.r))
 
     def moved(self, z: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """dK/dz u and dM/dz u (k + w, r, m) for motion u (r, m)."""
         dK, dM = Reduced.moved(self, z, u)
-        b, R = z[self.deck :] @ self.of_field, self.of_field
-        dK[self.deck :] = self.nameless.sign * (R[:, :, None] * (b @ u) + b[:, None] * (R @ u)[:, None])
+        own = slice(self.deck, None)
+        b = z[own] @ self.R
+        if self.nameless.sign > 0:
+            dK[own] = self.R[:, :, None] * (b @ u) + b[:, None] * (self.R @ u)[:, None]
+            return dK, dM
+        K = Reduced.matrices(self, z)[0]
+        g, dg = K @ b, Reduced.moved(self, z, b[:, None])[0][..., 0]  # dg (k + w, r)
+        size = 1 + b @ g
+        d_size = dg @ b
+        dg[own] = self.R @ K
+        d_size[own] = 2 * self.R @ g
+        gu = g @ u
+        dK -= (dg[:, :, None] * gu + g[:, None] * (dg @ u)[:, None]) / size
+        dK += np.outer(g, gu) * (d_size / size**2)[:, None, None]
         return dK, dM
 
 

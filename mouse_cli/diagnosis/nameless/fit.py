@@ -9,7 +9,7 @@ from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.nameless import Nameless, registry
 from mouse_cli.diagnosis.nameless._cells import Cells
-from mouse_cli.diagnosis.nameless._field import LENGTHS, fielded, found, smooth
+from mouse_cli.diagnosis.nameless._field import LENGTHS, MOTIONS, fielded, found, smooth
 from mouse_cli.diagnosis.nameless._tied import tied
 from mouse_cli.diagnosis.nameless.local import best_law
 from mouse_cli.diagnosis.search.descents import idealised
@@ -65,7 +65,8 @@ class Spread:
     @property
     def grid(self) -> list[tuple[float, float, int]]:
         """Spreads, correlation lengths and signs that are integrated over."""
-        return list(product(self.rival.spreads, LENGTHS, self.rival.signs or (0,)))
+        lengths = MOTIONS if self.rival.signs else LENGTHS
+        return list(product(self.rival.spreads, lengths, self.rival.signs or (0,)))
 
 
 def _spreads(base) -> list[Spread]:
@@ -89,13 +90,16 @@ def _spreads(base) -> list[Spread]:
 
 def _integrated(base, start: Fit, field: Spread, kind: type[Model], reach: float) -> Fit | None:
     fits: list[Fit] = []
+    before: dict[tuple[float, int], np.ndarray] = {}  # the end of the fit with the spread below
     for spread, share, sign in field.grid:
         model = kind(field.over(base, spread, share, sign))
         found: list[Fit] = []
-        for x in _starts(model, start, sign):
+        for x in _starts(model, start, sign, before.get((share, sign))):
             one = fit(model, np.zeros(0), x, _STEPS, min(reach, within(found, NEAR)) if found else reach)
             found += [] if one is None else [one]
-        fits += sorted(found, key=lambda one: -one.log_evidence)[:1]
+        ended = sorted(found, key=lambda one: -one.log_evidence)[:1]
+        before.update(((share, sign), _values(one)) for one in ended)
+        fits += ended
     if not fits:
         return None
     best = max(fits, key=lambda one: one.log_evidence)
@@ -105,11 +109,25 @@ def _integrated(base, start: Fit, field: Spread, kind: type[Model], reach: float
     return replace(ideal, log_evidence=float(total + twice + ideal.log_evidence - best.log_evidence))
 
 
-def _starts(model: Model, start: Fit, sign: int) -> list[np.ndarray]:
-    """Where to begin: without the field; of a change of rank one, which has no slope there, from the best of its components."""
+def _values(one: Fit) -> np.ndarray:
+    """Unknowns of a field (w,) for a spread of one, after those of the deck (k,)."""
+    x, k = one.point.x.copy(), one.model.base.first.deck
+    x[k:] *= one.nameless.spread
+    return x
+
+
+def _starts(model: Model, start: Fit, sign: int, before: np.ndarray | None) -> list[np.ndarray]:
+    """Where to begin: without the field; of a change of rank one, which has no slope there, from the best of its components.
+
+    before: `_values` of a fit with another spread, from where such a change begins too.
+    """
     known = start.point.x[: start.model.k]
     count = model.base.L.shape[1] - len(known)
     if not sign:
         return [np.append(known, np.zeros(count))]
     points = [model.point(np.append(known, w)) for w in np.eye(count)]
-    return [at.x for at in sorted((at for at in points if at is not None), key=lambda at: at.chi2)[:_TRIED]]
+    found = [at.x for at in sorted((at for at in points if at is not None), key=lambda at: at.chi2)[:_TRIED]]
+    if before is not None:
+        spread = model.base.nameless.spread
+        found.insert(0, np.append(before[: len(known)], before[len(known) :] / spread))
+    return found

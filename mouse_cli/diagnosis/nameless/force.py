@@ -52,9 +52,9 @@ NAMELESS = Nameless(
     "force",
     "a spring along an unknown motion of the structure",
     FORCE,
-    "stiffness that ties all parts together along one motion, or is lost along it: K + b b' or K - b b' with a smooth random "
-    "field b, whose spread and correlation length are integrated out (soil that rocks, outrigger, strut between distant parts)",
+    "stiffness that ties all parts together along one motion: K + b b' with a smooth random field b, whose spread and correlation "
+    "length are integrated out (outrigger, strut between distant parts, overall bending)",
     (0.3, 1.0, 3.0),
     cells,
-    (1, -1),
+    (1,),
 )

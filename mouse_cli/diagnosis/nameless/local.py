@@ -1,6 +1,7 @@
 """An unknown law at one place: a support, a mount or a joint whose stiffness depends on frequency or amplitude."""
 
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 
@@ -9,12 +10,15 @@ from mouse_cli.diagnosis.localise.force import Scores, log_prior, scores
 from mouse_cli.diagnosis.nameless import Nameless
 from mouse_cli.diagnosis.nameless._by_mode import Lawful, OneLaw
 from mouse_cli.diagnosis.nameless._cells import Cells
+from mouse_cli.diagnosis.nameless._correlated import leading
 from mouse_cli.diagnosis.nameless._field import Smooth
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.dynamics.frequency import eigenvalue
 from mouse_cli.model.diagnosis import LAW, Site
 
 _STEPS, _FEWEST = 30, 3  # of a fit; modes with a frequency and a shape that make a law
+_OCTAVES = (0.0, 1.0, 3.0)  # over which a law is correlated; 0: each mode has a value of its own
+_SMOOTH = 1e-3  # share of the largest singular value below which a start follows no component of a law
 _RIGID = 1e-6  # share of the eigenvalue of the highest measured mode below which a mode is rigid
 
 
@@ -30,44 +34,60 @@ def best_law(model: Reduced) -> Fit | None:
     weight = -0.5 * (found.matches.cost + found.matches.volume()) + log_prior(found.channels)
     place = int(np.argmax(weight))
     places = float(np.logaddexp.reduce(weight) - weight[place] + log_prior(found.channels)[place])
-    fits = [_at(model, found, place, spread) for spread in NAMELESS.spreads]
-    fits = [one for one in fits if one is not None]
+    grid = list(product(NAMELESS.spreads, _OCTAVES))
+    fits = [one for one in (_at(model, found, place, *each) for each in grid) if one is not None]
     if not fits:
         return None
     best = max(fits, key=lambda one: one.log_evidence)
-    total = np.logaddexp.reduce([one.log_evidence for one in fits]) - np.log(len(NAMELESS.spreads))
+    total = np.logaddexp.reduce([one.log_evidence for one in fits]) - np.log(len(grid))
     return replace(best, log_evidence=float(total + places))
 
 
-def _at(model: Reduced, found: Scores, place: int, spread: float) -> Fit | None:
+def _at(model: Reduced, found: Scores, place: int, spread: float, octaves: float) -> Fit | None:
     """The fit of a law at one place, its values in units of the static stiffness there."""
     row, z = found.rows[place], found.matches.z[place]
-    number = model.data.test.number
+    number = _numbers(model)
     elastic = model.eigenvalues > _RIGID * model.eigenvalues[min(int(number.max()), model.r) - 1]
     unit = 1 / float((row[elastic] ** 2 / model.eigenvalues[elastic]).sum())
     channel, i = found.find(place)
-    sites = tuple(_of_mode(channel.site(i), channel.name, int(n), hz) for n, hz in _modes(model))
-    cells = Cells(sites, number[:, None].astype(float), "modes", (), "K")
-    field = Smooth(NAMELESS, cells, spread * np.eye(len(number)), spread, 0.0)
+    hz = dict(zip(model.data.test.number.tolist(), model.data.test.frequency_hz.tolist(), strict=True))
+    sites = tuple(_of_mode(channel.site(i), channel.name, n, hz.get(n)) for n in number.tolist())
+    at = _octaves(model, number)
+    cells = Cells(sites, at[:, None], "octaves", (), "K")
+    P = leading(cells.at, octaves) if octaves else np.eye(len(number))
+    field = Smooth(NAMELESS, cells, spread * P, spread, octaves)
     own = {name: getattr(model, name) for name in Reduced.__dataclass_fields__}
-    none = np.zeros((len(number), model.r, model.r))
+    none = np.zeros((P.shape[1], model.r, model.r))
     base = Lawful(**own, nameless=field, of_field=none, row=np.sqrt(unit) * row, numbers=number)
-    return fit(OneLaw(base), np.zeros(0), np.concatenate([z, _implied(base, z) / spread]), _STEPS)
+    known = np.isin(number, model.data.test.number)
+    start = np.linalg.lstsq(spread * P[known], _implied(base, z), rcond=_SMOOTH)[0]
+    return fit(OneLaw(base), np.zeros(0), np.concatenate([z, start]), _STEPS)
 
 
-def _modes(model: Reduced) -> list[tuple[int, float]]:
-    return list(zip(model.data.test.number.tolist(), model.data.test.frequency_hz.tolist(), strict=True))
+def _numbers(model: Reduced) -> np.ndarray:
+    """Numbers of the modes that were measured, then of those that the deck holds out: a law that is smooth predicts these too."""
+    test, held = model.data.test, model.problem.hold_out
+    out = held.test.number if held is not None and held.test is not None else test.number[:0]
+    return np.concatenate([test.number, np.setdiff1d(out, test.number)])
 
 
-def _of_mode(site: Site, channel: str, number: int, hz: float) -> Site:
+def _octaves(model: Reduced, number: np.ndarray) -> np.ndarray:
+    """Where modes lie on a logarithmic scale of frequency, by the model: what was measured of those held out stays unknown."""
+    lam = model.eigenvalues[np.minimum(number, model.r) - 1]
+    return 0.5 * np.log2(np.maximum(lam, _RIGID * lam.max()))
+
+
+def _of_mode(site: Site, channel: str, number: int, hz: float | None) -> Site:
     where = site.text or f"{site.kind} {', '.join(map(str, site.ids))}"
-    return replace(site, text=f"{where} ({channel}), mode {number} at {hz:.4g} Hz")
+    return replace(
+        site, text=f"{where} ({channel}), mode {number} " + ("held out" if hz is None else f"at {hz:.4g} Hz")
+    )
 
 
 def _implied(base: Lawful, z: np.ndarray) -> np.ndarray:
     """Values (m,) that each measured frequency asks for at z, as `localise/implied_law.py` reads them; 0 without a frequency."""
-    K, M = Reduced.matrices(base, np.append(z, np.zeros(len(base.numbers))))
-    values = np.zeros(len(base.numbers))
+    K, M = Reduced.matrices(base, np.append(z, np.zeros(len(base.of_field))))
+    values = np.zeros(base.data.m)
     for i, hz in enumerate(base.data.test.frequency_hz):
         if np.isfinite(hz):
             values[i] = -1 / float(base.row @ np.linalg.solve(K - eigenvalue(hz) * M, base.row))
@@ -79,7 +99,8 @@ NAMELESS = Nameless(
     "one force of an unknown law at one site",
     LAW,
     "a stiffness of its own in each mode at one site, or between two neighbours: the law of a mount, a support or a joint that "
-    "depends on frequency or amplitude; its site and its spread are integrated out, in units of the static stiffness there",
+    "depends on frequency or amplitude; its site, its spread, in units of the static stiffness there, and its correlation over "
+    "none, one or three octaves are integrated out",
     (0.3, 3.0, 30.0, 300.0),
     lambda model: None,
 )

@@ -1,8 +1,9 @@
 """Physics without a name along the structure, and candidates that were left out, as sections of every diagnosis print them."""
 
 from collections.abc import Iterator, Sequence
+from math import inf
 
-from mouse_cli.model.diagnosis import Field, Untried
+from mouse_cli.model.diagnosis import LAW, Field, Untried
 from mouse_cli.model.units import Units
 from mouse_cli.report.blocks import Block, Column, Table, Text
 from mouse_cli.report.field_words import UNITS, factor, telling
@@ -15,6 +16,7 @@ _NAMES = {
     "mass": "change of mass",
     "bed": "bed stiffness",
     "force": "motion",
+    "compliance": "motion",
     "law": "stiffness",
 }
 
@@ -28,8 +30,10 @@ def field_blocks(field: Field | None, units: Units) -> Iterator[Block]:
     told = [f"{counted(count - few, 'site')} with negligible values (below two sd) left out."] if few < count else []
     unit = units.of("m") if field.unit == "m" else field.unit
     spread = f"{factor(field) * field.spread:.2g} {UNITS[field.property]}"
-    along = f" along the structure with sd {spread} and are correlated over {field.length:.2g} {unit}"
-    told.append(f"The values scatter{along if field.length else f' from mode to mode with sd {spread}'}.")
+    along = "from mode to mode" if field.property == LAW else "along the structure"
+    over = f" and are correlated over {field.length:.2g} {unit}" if 0 < field.length < inf else ""
+    straight = ", along a straight line" if field.length == inf else ""
+    told.append(f"The values scatter {along} with sd {spread}{over}{straight}.")
     yield Text(" ".join(told))
 
 
