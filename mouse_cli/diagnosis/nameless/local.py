@@ -103,4 +103,5 @@ NAMELESS = Nameless(
     "none, one or three octaves are integrated out",
     (0.3, 3.0, 30.0, 300.0),
     lambda model: None,
+    even="ground-spring",
 )
