@@ -207,7 +207,7 @@ def test_limit_leaves_no_standard_deviation() -> None:
         ("anchored", "accepted", "The model explains the data."),
         ("rejected", "rejected", "The form of the model is rejected: the data show"),
         ("sparse", "rejected", "The form of the model is rejected: it fits the data only with values"),
-        ("unobservable", "untested", "Nothing is said of the form of the model: the run gave no answer."),
+        ("unobservable", "untested", "The form of the model is not tested: the run gave no answer."),
         ("noisy", "accepted", "the run has not come to its end"),
     ],
 )

@@ -32,7 +32,7 @@ def command(
     strip_73_80: bool,
     overrides: tuple[str, ...],
 ) -> int:
-    """Update the model of DECK by several methods, and see which foresees what it was not given.
+    """Update the model of DECK by several methods, and see the predictive error of each on held-out data.
 
     Fits the modes of the test, predicts those of `hold_out`, then the changed structures. Judges nothing: exit 0.
     """

@@ -25,21 +25,6 @@ def counted(count: int, one: str, many: str = "") -> str:
     return f"{count} {one if count == 1 else many or one + 's'}"
 
 
-def chance(p: float) -> str:
-    """How often a probability is met.
-
-    >>> chance(0.656), chance(0.012), chance(0.0004), chance(1e-12)
-    ('66 times in 100', '12 times in 1000', '4 times in 10 000', 'less than once in a million')
-    """
-    if p >= 0.995:
-        return "practically always"
-    for least, of, in_words in ((5, 100, "100"), (5, 1000, "1000"), (1, 10_000, "10 000")):
-        times = round(p * of)
-        if times >= least:
-            return f"{'once' if times == 1 else f'{times} times'} in {in_words}"
-    return "less than once in a million" if p < 1e-6 else "less than once in 10 000"
-
-
 def deck_table(problem: Problem) -> Table:
     """Which program, title and deck."""
     rows = ("program", f"mouse {__version__}"), ("title", problem.title.strip()), ("source", problem.source.path)

@@ -36,7 +36,7 @@ def _deciding(result: Result) -> str:
     """The measurement at which the answer and the other that leads differ most."""
     telling = result.alternatives.deciding
     if telling is None:
-        return "No shape of the measured modes tells them apart: measure further modes, or with a known mass added to one side."
+        return "No shape of the measured modes separates them: measure further modes, or with a known mass added to one side."
     mode, dof, here, there = telling
     label = result.problem.structure.labels[dof]
     return (

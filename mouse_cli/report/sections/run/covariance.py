@@ -17,7 +17,7 @@ def covariance(result: Result, options: Options) -> Iterator[Block]:
     if result.covariance is None:
         yield Text(
             f"The covariance of {len(result.problem.parameters)} properties was not formed; `print_covariance: true` in the deck "
-            "or --print-covariance asks for it. Their standard deviations stand above."
+            "or --print-covariance forms it. Their standard deviations stand above."
         )
         return
     labels, correlation = names(result.problem), _correlation(result)

@@ -33,7 +33,7 @@ def damping(forecast: Forecast, options: Options) -> Iterator[Block]:
         "is 0 for a shape whose points move in phase or against it, and up to 1."
     )
     if found.error > 0:
-        yield Text("The poles are off by at most {}, relative, as their residuals tell.", (found.error,))
+        yield Text("The poles are off by at most {}, relative, by their residuals.", (found.error,))
 
 
 SECTION = Section("forecast-damping", 55, "Damping", damping, (Forecast,))

@@ -22,8 +22,8 @@ _PAIRINGS = {
     "mac": "each measured mode is the model's mode that is most like it in shape (MAC) and frequency",
 }
 _RULES = {
-    "ratio": "exceedances are held against non-exceedances",
-    "fraction": "exceedances are held against all data",
+    "ratio": "ratio of exceedances to non-exceedances",
+    "fraction": "share of exceedances in all data",
 }
 _UNUSED = "not used by this recursion"
 _STEPS = {

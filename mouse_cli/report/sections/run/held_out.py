@@ -27,7 +27,7 @@ def held_out(result: Result, options: Options) -> Iterator[Block]:
     held = result.problem.hold_out
     if held is None:
         return
-    yield Text(f"Held out, and used by no fit: {told(held)}. `mouse diagnose` tells how well they are foreseen.")
+    yield Text(f"Held out, and used by no fit: {told(held)}. `mouse diagnose` reports the predictive error.")
     if held.test is not None and result.status.answered:
         rows = _foreseen(result, held.test)
         if rows:

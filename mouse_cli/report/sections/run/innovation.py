@@ -1,11 +1,12 @@
-"""Before the cycles: could this model, as uncertain as it is said to be, have given these data?"""
+"""Before the cycles: are the data consistent with the prediction of the prior model and its uncertainty?"""
 
 from collections.abc import Iterator
 
 from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block, Text
 from mouse_cli.report.section import Options, Section
-from mouse_cli.report.sections._wording import chance, test_table
+from mouse_cli.report.sections._diagnosis_wording import p_value
+from mouse_cli.report.sections._wording import test_table
 
 
 def innovation(result: Result, options: Options) -> Iterator[Block]:
@@ -16,14 +17,14 @@ def innovation(result: Result, options: Options) -> Iterator[Block]:
         yield Text("The data leave nothing to test.")
     elif test.rejects:
         yield Text(
-            f"The prior model does not foresee these data: by chance they would lie so far from it {chance(test.p)}. The form of "
-            "the model, the prior standard deviations or the accuracies of the test are wrong, or the differences are too large "
-            "for first-order partial derivatives."
+            f"The data are inconsistent with the prediction of the prior model ({p_value(test.p)}). The form of the model, prior "
+            "standard deviations or the accuracies of the test are wrong, or the differences are too large for first-order "
+            "partial derivatives."
         )
     else:
         yield Text(
-            f"The data lie no farther from the prior model than its uncertainty and the accuracies of the test let expect: by "
-            f"chance they would lie farther {chance(test.p)}."
+            "The data are consistent with the prediction of the prior model, its uncertainty and the accuracies of the test "
+            f"({p_value(test.p)})."
         )
 
 

@@ -6,7 +6,8 @@ from mouse_cli.estimators import estimator
 from mouse_cli.model.result import NO_ANSWER, Result
 from mouse_cli.report.blocks import Block, Heading, Text
 from mouse_cli.report.section import Options, Section
-from mouse_cli.report.sections._wording import chance, test_table
+from mouse_cli.report.sections._diagnosis_wording import p_value
+from mouse_cli.report.sections._wording import test_table
 
 _UNFINISHED = {
     "stalled": "more data lie outside their limits than chance allows",
@@ -46,35 +47,29 @@ def verdict(result: Result, options: Options) -> Iterator[Block]:
 def _residual(result: Result) -> str:
     test = result.residual
     if test.dof == 0:
-        return (
-            "Residual: there are no more data than properties, so nothing is left over that could contradict the model."
-        )
+        return "Residual: there are no more data than properties, so no residual can contradict the model."
     if test.rejects:
         within = " within their limits" if result.at_limit.any() else ""
         return (
-            f"Residual: no values of these properties{within} explain the data; by chance a misfit as large as what remains "
-            f"would come {chance(test.p)}."
+            f"Residual: inconsistent with the accuracies of the test for any values of the properties{within} "
+            f"({p_value(test.p)})."
         )
-    return (
-        "Residual: what no values of these properties explain is no more than the accuracies of the test let expect; by "
-        f"chance it would be larger {chance(test.p)}."
-    )
+    return f"Residual: consistent with the accuracies of the test ({p_value(test.p)})."
 
 
 def _prior_shift(result: Result) -> str:
     test = result.prior_shift
     if test.dof == 0 and estimator(result.problem.run.estimator).uses_prior:
-        return "Prior shift: not tested, for the data say nothing of the properties."
+        return "Prior shift: not tested, for the data do not determine the properties."
     if test.dof == 0:
-        return "Prior shift: not tested, for the prior takes no part in this estimate."
+        return "Prior shift: not tested, for this estimator uses no prior."
     if test.rejects:
         return (
-            "Prior shift: the values that fit the data lie farther from the prior values than their standard deviations allow; by "
-            f"chance that would come {chance(test.p)}."
+            "Prior shift: the values that fit the data are inconsistent with prior values and standard deviations "
+            f"({p_value(test.p)})."
         )
     return (
-        "Prior shift: the values that fit the data agree with the prior values and their standard deviations; by chance they "
-        f"would lie farther off {chance(test.p)}."
+        f"Prior shift: the revised values are consistent with prior values and standard deviations ({p_value(test.p)})."
     )
 
 
@@ -83,23 +78,22 @@ def _conclusion(result: Result) -> str:
     form = result.model_form
     if form == "rejected" and result.residual.rejects:
         return (
-            "The form of the model is rejected: the data show what the model lacks, or are less accurate than they are said to "
-            "be. The revised properties make up for something else; do not trust them."
+            "The form of the model is rejected: the data show what the model lacks, or are less accurate than stated. The "
+            "revised properties compensate for something else; do not trust them."
         )
     if form == "rejected":
         return (
-            "The form of the model is rejected: it fits the data only with values of its properties that were held to be out of "
-            "the question. Either the prior standard deviations are too small, or the properties make up for something that "
-            "the model lacks."
+            "The form of the model is rejected: it fits the data only with values of its properties that the prior excludes. "
+            "Either the prior standard deviations are too small, or the properties compensate for missing physics."
         )
     if form == "untested":
-        reason = "the run gave no answer" if not result.status.answered else "the run broke off"
+        reason = "the run gave no answer" if not result.status.answered else "the run was interrupted"
         if result.status.exit_code < NO_ANSWER:
             reason = "the data leave nothing to test it by"
-        return f"Nothing is said of the form of the model: {reason}."
+        return f"The form of the model is not tested: {reason}."
     if result.status.exit_code:
         return (
-            "The data do not contradict the form of the model, as far as its first-order partial derivatives tell; but "
+            "The data do not contradict the form of the model, to first order; but "
             f"{_UNFINISHED.get(result.status.key, 'the run has not come to its end')}, and its values are not to be "
             "trusted yet."
         )
