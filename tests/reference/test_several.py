@@ -10,6 +10,7 @@ from mouse_cli.diagnosis import diagnose
 from mouse_cli.diagnosis.gates import log_prior, prior
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.diagnosis.search import several as search
 from mouse_cli.diagnosis.search.descents import best
 from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.diagnosis.search.rank import _log_prior
@@ -186,3 +187,18 @@ def test_feet_that_give_way_are_named_each_with_a_stiffness_of_its_own(flexible)
     for size, i in zip(cause.sizes, flexible, strict=True):
         true = FEET[i][1] * EI / LENGTH**3
         assert abs(size.value - true) < max(4 * size.sd, 0.02 * true)
+
+
+@pytest.mark.parametrize(("misfit", "gain", "sought"), [(130.0, -1.0, 0), (130.0, 1.0, 1), (200.0, -1.0, 1)])
+def test_beside_one_that_is_not_refuted_no_sets_are_sought_that_promise_nothing(monkeypatch, misfit, gain, sought):
+    """130 on 100 has p = 0.024, 200 has 1e-8: the second is sought beside anything at all."""
+    single = SimpleNamespace(misfit=misfit, dof=100, log_evidence=-80.0)
+    asked = []
+    beside = lambda study, first, partners, found: found.update(
+        {("a", "b"): SimpleNamespace(log_evidence=first.log_evidence + gain)}
+    )
+    monkeypatch.setattr(search, "_beside", beside)
+    monkeypatch.setattr(search, "pairs", lambda study, singles: asked.append(1) or [])
+    monkeypatch.setattr(search, "same_kind", lambda *given: [])
+    assert search.several(SimpleNamespace(known=()), [single], 2) == []
+    assert len(asked) == sought

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from mouse_cli.diagnosis.gates import MATERIAL
+from mouse_cli.diagnosis.gates import GATE, MATERIAL
 from mouse_cli.diagnosis.search.descents import settled, summed, tried
 from mouse_cli.diagnosis.search.escape import shifted, walked
 from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
@@ -46,7 +46,13 @@ def adequate(one: Fit, least: float = _ADEQUATE) -> bool:
 
 
 def several(study: Study, singles: list[Fit], most: int) -> list[Fit]:
-    """Sets of two mechanisms, and of more up to `most` as long as the best set leaves more than noise and gains."""
+    """Sets of two mechanisms, and of more up to `most` as long as the best set leaves more than noise and gains.
+
+    Where one alone is not refuted (GATE), sets are sought only beside those that come near it, and further if one of them gains.
+    """
+    rivals = [one for one in singles if one.misfit <= within(singles)]
+    if any(adequate(one, GATE) for one in singles) and not _gains(study, rivals):
+        return []
     found = pairs(study, singles)
     smaller, growing = singles + found, found
     alike = same_kind(study, singles, most, within(smaller)) if most > 2 or not any(map(adequate, found)) else []
@@ -69,6 +75,17 @@ def several(study: Study, singles: list[Fit], most: int) -> list[Fit]:
         found, smaller, count = found + growing, smaller + growing, count + 1
     known = {key(one) for one in found}
     return found + [one for one in alike if key(one) not in known and material(one, smaller + alike)]
+
+
+def _gains(study: Study, singles: list[Fit]) -> bool:
+    """Whether a further mechanism beside one of `singles` gains anything, in a first try of few steps."""
+    least = max(one.log_evidence for one in singles)
+    for first in sorted(singles, key=lambda one: -one.log_evidence)[:_WIDE]:
+        found: Found = {}
+        _beside(study, first, study.known, found)
+        if any(two.log_evidence > least for two in found.values()):
+            return True
+    return False
 
 
 def pairs(study: Study, singles: list[Fit]) -> list[Fit]:
