@@ -189,16 +189,20 @@ def test_feet_that_give_way_are_named_each_with_a_stiffness_of_its_own(flexible)
         assert abs(size.value - true) < max(4 * size.sd, 0.02 * true)
 
 
-@pytest.mark.parametrize(("misfit", "gain", "sought"), [(130.0, -1.0, 0), (130.0, 1.0, 1), (200.0, -1.0, 1)])
+@pytest.mark.parametrize(
+    ("misfit", "gain", "sought"), [(130.0, -1.0, 0), (130.0, 2.9, 0), (130.0, 3.1, 1), (200.0, -1.0, 1)]
+)
 def test_beside_one_that_is_not_refuted_no_sets_are_sought_that_promise_nothing(monkeypatch, misfit, gain, sought):
     """130 on 100 has p = 0.024, 200 has 1e-8: the second is sought beside anything at all."""
-    single = SimpleNamespace(misfit=misfit, dof=100, log_evidence=-80.0)
+    cause = lambda name: SimpleNamespace(candidate=SimpleNamespace(key=name))
+    single = SimpleNamespace(misfit=misfit, dof=100, log_evidence=-80.0, recipes=[cause("a")])
     asked = []
     beside = lambda study, first, partners, found: found.update(
-        {("a", "b"): SimpleNamespace(log_evidence=first.log_evidence + gain)}
+        {("a", "b"): SimpleNamespace(log_evidence=first.log_evidence + gain, recipes=[cause("a"), cause("b")])}
     )
     monkeypatch.setattr(search, "_beside", beside)
     monkeypatch.setattr(search, "pairs", lambda study, singles: asked.append(1) or [])
     monkeypatch.setattr(search, "same_kind", lambda *given: [])
+    monkeypatch.setattr(search, "_finished", lambda study, found: list(found.values()))
     assert search.several(SimpleNamespace(known=()), [single], 2) == []
     assert len(asked) == sought

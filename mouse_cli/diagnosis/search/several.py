@@ -78,12 +78,13 @@ def several(study: Study, singles: list[Fit], most: int) -> list[Fit]:
 
 
 def _gains(study: Study, singles: list[Fit]) -> bool:
-    """Whether a further mechanism beside one of `singles` gains anything, in a first try of few steps."""
+    """Whether a further mechanism beside one of `singles` gains what it must, those fitted to the end that gain in few steps."""
     least = max(one.log_evidence for one in singles)
     for first in sorted(singles, key=lambda one: -one.log_evidence)[:_WIDE]:
         found: Found = {}
         _beside(study, first, study.known, found)
-        if any(two.log_evidence > least for two in found.values()):
+        better = {name: two for name, two in found.items() if two.log_evidence > least}
+        if any(material(two, singles) for two in _finished(study, better)):
             return True
     return False
 
