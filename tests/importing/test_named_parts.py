@@ -108,6 +108,26 @@ def test_a_cause_is_the_same_in_few_coordinates_in_its_deck_and_read_back(tmp_pa
     assert tried > 20
 
 
+def test_nothing_is_left_of_a_set_that_is_missing_however_stiff_its_material_turns_out(tmp_path):
+    """The truss without its brace, by hand, all else 1.1 times as stiff: the recipe, and the deck that it makes, at E = 1.1."""
+    problem = read_deck(deck(tmp_path))
+    theta = np.array([1.1, 1.0])
+    model = reduced(problem, problem.prior.mean).at(theta)
+    recipe = next(
+        each for each in model.recipes(registry()["member"]) if each.site(np.ones(1)).text == "element set BRACE"
+    )
+    _, K, M = truss()
+    kept = np.arange(15, 36)
+    expected = eigh(1.1 * K["FRAME"][np.ix_(kept, kept)], M["FRAME"][np.ix_(kept, kept)], eigvals_only=True)
+    gone = recipe.unknowns[0].upper
+    change = recipe.change(np.array([gone]))
+    found = eigh(np.diag(model.eigenvalues) + change.K, np.eye(model.r) + change.M, eigvals_only=True)
+    assert np.allclose(found, expected, rtol=1e-5)
+    extended = recipe.extend(problem, np.array([gone]))
+    there = assembly(extended).matrices(np.array([*theta, 1 - gone]))
+    assert np.allclose(eigh(*map(dense, there), eigvals_only=True), expected, rtol=1e-5)
+
+
 def test_a_foot_on_springs_is_what_springs_at_its_nodes_make(tmp_path):
     """Springs in the matrices themselves, by hand, against the recipe of the named support in all directions."""
     problem = read_deck(deck(tmp_path))

@@ -1,9 +1,11 @@
 """Named element sets of imported matrices that lose, or gain, stiffness or mass as a whole."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
-from mouse_cli.diagnosis.extend.matrices import Entries, with_entries
+from mouse_cli.diagnosis.extend.matrices import Entries, with_entries, with_part_left
 from mouse_cli.diagnosis.extend.points import found as new_parameter
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.sets import within
@@ -12,32 +14,49 @@ from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.held import ElementGroup
 from mouse_cli.model.problem import Problem
 
-_MISSING, _HEAVIER = Unknown("share lost", "1", 0.02, 0.999), Unknown("share gained", "1", 0.02, 20.0)
+_GONE = (
+    1 - 1e-9
+)  # share lost of a set that is missing: a thousandth of a stiff plate still holds what it is fastened to
+_MISSING, _HEAVIER = Unknown("share lost", "1", 0.02, _GONE), Unknown("share gained", "1", 0.02, 20.0)
 _FELT = 1e-6  # share of the energy of a mode below which a set has no part in it
+_FOLLOWS = 1e-6  # relative error up to which what a parameter does is that of whole sets
+
+
+@dataclass(frozen=True)
+class _Part:
+    """What a set gives to one matrix: stored (n, n), at the nominal parameters; own (r, r), where causes are weighed.
+
+    slopes (p,): how its share grows with each parameter.
+    """
+
+    stored: Matrix
+    own: np.ndarray
+    slopes: np.ndarray
+
+    def entries(self, sign: int) -> Entries:
+        """Of `stored`, times `sign`."""
+        row, col, values = upper_triangle(self.stored)
+        return row, col, sign * values
+
+
+_Set = tuple[ElementGroup, _Part | None, _Part | None]  # what it gives to K and to M
 
 
 def listed(model: Reduced) -> list[tuple[str, Entries, np.ndarray]]:
     """Sets with stiffness: name, entries of -K in the matrices of the model, and K (r, r)."""
-    parts = [(group, within(model.problem, group.K)) for group in model.problem.groups]
-    return [(text(group), _entries(K, -1), model.project(K)) for group, K in parts if K is not None]
+    return [(text(group), K.entries(-1), K.own) for group, K, _ in _sets(model) if K is not None]
 
 
 def missing(model: Reduced, candidate) -> list[Recipe]:
     """K - d K_s and M - d M_s of each set that has both: a part that is missing, in part or as a whole, or thinner."""
-    found = []
-    for group in model.problem.groups:
-        K, M = (within(model.problem, each) for each in (group.K, group.M))
-        if K is not None and M is not None:
-            found.append((group, -model.project(K), -model.project(M), _entries(K, -1), _entries(M, -1)))
-    return [_recipe(candidate, _MISSING, one, len(found), "and its mass, lost") for one in _that_bear(model, found)]
+    found = [each for each in _sets(model) if None not in each[1:] and _bears(model, each[1].own)]
+    return [_missing(candidate, *each, len(found)) for each in found]
 
 
 def heavier(model: Reduced, candidate) -> list[Recipe]:
     """M + d M_s of each set: a lining, a filling, something that is fastened all over it."""
-    parts = [(group, within(model.problem, group.M)) for group in model.problem.groups]
-    none = np.zeros((model.r, model.r))
-    found = [(group, none, model.project(M), None, _entries(M, 1)) for group, M in parts if M is not None]
-    return [_recipe(candidate, _HEAVIER, one, len(found), "in mass, gained") for one in found]
+    found = [(group, M) for group, _, M in _sets(model) if M is not None]
+    return [_heavier(candidate, *each, len(found)) for each in found]
 
 
 def text(group: ElementGroup) -> str:
@@ -45,18 +64,30 @@ def text(group: ElementGroup) -> str:
     return f"element set {group.name}"
 
 
-def _recipe(candidate, share: Unknown, one: tuple, count: int, what: str) -> Recipe:
-    group, K, M, stiff, heavy = one
-    site = Site("dof", (), None, text(group))
-
+def _missing(candidate, group: ElementGroup, K: _Part, M: _Part, count: int) -> Recipe:
     def extend(problem: Problem, values: np.ndarray) -> Problem:
-        given = {name: each for name, each in (("K", stiff), ("M", heavy)) if each is not None}
-        return with_entries(problem, new_parameter(f"share of {text(group)} {what}", values[0], "1"), **given)
+        left = new_parameter(f"share of {text(group)} that is left, and of its mass", 1 - values[0], "1")
+        return with_part_left(problem, left, K=(K.entries(1), K.slopes), M=(M.entries(1), M.slopes))
 
+    return _recipe(candidate, _MISSING, group, count, (K.own, M.own), -1, extend)
+
+
+def _heavier(candidate, group: ElementGroup, M: _Part, count: int) -> Recipe:
+    def extend(problem: Problem, values: np.ndarray) -> Problem:
+        share = new_parameter(f"share of {text(group)} in mass, gained", values[0], "1")
+        return with_entries(problem, share, M=M.entries(1))
+
+    return _recipe(candidate, _HEAVIER, group, count, (np.zeros_like(M.own), M.own), 1, extend)
+
+
+def _recipe(candidate, share: Unknown, group: ElementGroup, count: int, of: tuple, sign: int, extend) -> Recipe:
+    """of: K and M (r, r) that are added, times `sign`, for a share of 1."""
+    K, M = of
+    site = Site("dof", (), None, text(group))
     return Recipe(
         candidate,
         (share,),
-        lambda values: Change(K=values[0] * K, M=values[0] * M),
+        lambda values: Change(K=sign * values[0] * K, M=sign * values[0] * M),
         steps(share, 4)[:, None],
         lambda values: site,
         log_prior=-float(np.log(count)),
@@ -64,13 +95,40 @@ def _recipe(candidate, share: Unknown, one: tuple, count: int, what: str) -> Rec
     )
 
 
-def _that_bear(model: Reduced, found: list[tuple]) -> list[tuple]:
-    """Those that hold a share of the energy of a measured mode."""
+def _sets(model: Reduced) -> list[_Set]:
+    """All sets; a parameter such as E of a material moves what its sets give, and a set that is missing goes with it."""
+    of_each = []
+    for name, slopes in (("K", model.dK), ("M", model.dM)):
+        stored = [within(model.problem, getattr(group, name)) for group in model.problem.groups]
+        own = [None if each is None else model.project(each) for each in stored]
+        of_each.append(_moved(model, stored, own, slopes))
+    return list(zip(model.problem.groups, *of_each, strict=True))
+
+
+def _moved(model: Reduced, stored: list, own: list, slopes: np.ndarray) -> list[_Part | None]:
+    """slopes (k, r, r): of the matrix, along the directions of the model.
+
+    What parameter j does is sum_s a_js X_s where it is that of whole sets; X_s is then (1 + sum_j a_js (theta_j - nominal_j)) X_s.
+    """
+    there = [i for i, each in enumerate(own) if each is not None]
+    parameters = model.problem.parameters
+    a = np.zeros((len(parameters), len(own)))
+    if there and len(parameters):
+        blocks = np.array([own[i].ravel() for i in there])
+        sizes = np.linalg.norm(blocks, axis=1).clip(1e-300)
+        does = model.along.T @ slopes.reshape(len(slopes), -1)
+        found = np.linalg.lstsq((blocks / sizes[:, None]).T, does.T, rcond=None)[0].T
+        error = np.linalg.norm(does - found @ (blocks / sizes[:, None]), axis=1)
+        a[:, there] = np.where((error <= _FOLLOWS * np.linalg.norm(does, axis=1))[:, None], found / sizes, 0.0)
+    step = model.theta - np.array([each.nominal for each in parameters])
+    return [
+        None if each is None else _Part(matrix, (1 + step @ a[:, i]) * each, a[:, i])
+        for i, (matrix, each) in enumerate(zip(stored, own, strict=True))
+    ]
+
+
+def _bears(model: Reduced, K: np.ndarray) -> bool:
+    """Whether a set holds a share of the energy of a measured mode."""
     count = min(model.r, int(model.data.test.number.max()) + 1)
     scale = np.maximum(model.eigenvalues[:count], 1e-9 * model.eigenvalues[-1])
-    return [one for one in found if (-np.diag(one[1])[:count] / scale).max() > _FELT]
-
-
-def _entries(matrix: Matrix, sign: int) -> Entries:
-    row, col, values = upper_triangle(matrix)
-    return row, col, sign * values
+    return bool((np.diag(K)[:count] / scale).max() > _FELT)

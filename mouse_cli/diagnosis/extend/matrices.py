@@ -44,6 +44,42 @@ def with_entries(problem: Problem, parameter: Parameter, K: Entries = _NONE, M: 
     return replace(deck, structure=replace(structure, **changed), elements=elements, A=A)
 
 
+def with_part_left(
+    problem: Problem, left: Parameter, K: tuple[Entries, np.ndarray], M: tuple[Entries, np.ndarray]
+) -> Problem:
+    """The deck with a part of it, its entries in K and M, times `left`, so that none of it is there at 0.
+
+    With the entries: how the share of the part grows with each parameter (p,), which then moves what is left of it alone.
+    """
+    structure, listed = problem.structure, problem.elements
+    keys = zip(listed.is_mass.tolist(), listed.row.tolist(), listed.col.tolist(), strict=True)
+    place = {key: i for i, key in enumerate(keys)}
+    changed, A = {}, problem.A
+    for name, (entries, slopes) in (("K", K), ("M", M)):
+        changed[name] = plus(getattr(structure, name), entries, -1.0)
+        rows, cols, values = entries
+        at = [place.get((name == "M", i, j), -1) for i, j in zip(rows.tolist(), cols.tolist(), strict=True)]
+        known = np.array(at, int) >= 0
+        A = _less(A, np.array(at, int)[known], (1 - left.nominal) * values[known], slopes)
+    deck = replace(problem, structure=replace(structure, **changed), A=A)
+    return with_entries(deck, left, K[0], M[0])
+
+
+def _less(A: Matrix, at: np.ndarray, values: np.ndarray, slopes: np.ndarray) -> Matrix:
+    """A (e, p) without `values` times `slopes` (p,) in the rows `at`."""
+    wide = np.zeros(A.shape[1])
+    wide[: len(slopes)] = slopes
+    own = np.flatnonzero(wide)
+    if not is_sparse(A):
+        found = np.array(A)
+        found[np.ix_(at, own)] -= np.outer(values, wide[own])
+        return found
+    from scipy.sparse import coo_array
+
+    each = np.repeat(at, len(own)), np.tile(own, len(at))
+    return (A - coo_array((np.outer(values, wide[own]).ravel(), each), shape=A.shape)).tocsr()
+
+
 def with_shares(problem: Problem, what: str, shares: list[tuple[str, float, Entries]], sd: float) -> Problem:
     """The deck with each of `shares` (where, value, entries) of its matrix `what` as a parameter N(value, sd)."""
     for where, value, entries in shares:

@@ -7,8 +7,11 @@ from mouse_cli.dynamics.solver import EigenSolver
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.problem import Problem
 
-MOST_OF_SETS = 60  # coordinates for them
+MOST_OF_SETS = 120  # coordinates for them
 _GONE = 0.95  # share of a set that is taken away: its own motions stay finite
+_MISSING = (
+    1 - 1e-6
+)  # share of a set that is taken away with its mass: its own motions keep their frequencies, and stay finite
 _LEFT = 1e-6  # of the A-norm of a motion: what is left of it beside the space, below which it is in it
 
 
@@ -18,23 +21,30 @@ def without_sets(
     """Motions X (c, n) and A X, A = K - sigma M: of the lowest `last` modes without each set what V (d, n), V A V' = I, leaves.
 
     Of each set those combinations with the largest A-norm: between them and the modes of the whole, a set that is softer in any
-    share moves as a Ritz vector does that is right to second order at both ends.
+    share moves as a Ritz vector does that is right to second order at both ends. A set with mass is taken away once in part, and
+    once as a whole.
     """
-    n, each = K.shape[0], max(2, MOST_OF_SETS // len(problem.groups))
+    n, each = K.shape[0], max(2, MOST_OF_SETS // (2 * len(problem.groups)))
     found, loads = [np.zeros((0, n))], [np.zeros((0, n))]
-    for group in problem.groups[: MOST_OF_SETS // each]:
+    for group in problem.groups[: MOST_OF_SETS // (2 * each)]:
         own = [within(problem, matrix) for matrix in (group.K, group.M)]
-        if own[0] is None:
-            continue
-        lighter = M if own[1] is None else M - _GONE * own[1]
+        for X in _modes_without(K, M, own, last):
+            rows, forces = _apart(X, lambda x: (K @ x.T - sigma * (M @ x.T)).T, V, each)
+            found.append(rows)
+            loads.append(forces)
+    return np.concatenate(found), np.concatenate(loads)
+
+
+def _modes_without(K: Matrix, M: Matrix, own: list[Matrix | None], last: int) -> list[np.ndarray]:
+    """Modes X (m, n) without a set that gives `own` to K and M: the most of it, and all of it if it has mass."""
+    found = []
+    for gone in () if own[0] is None else (_GONE,) if own[1] is None else (_GONE, _MISSING):
+        lighter = M if own[1] is None else M - gone * own[1]
         try:
-            X = EigenSolver().solve((K - _GONE * own[0]).tocsr(), lighter.tocsr(), last).shapes[:, :last]
+            found.append(EigenSolver().solve((K - gone * own[0]).tocsr(), lighter.tocsr(), last).shapes[:, :last].T)
         except (IndefiniteError, np.linalg.LinAlgError):
             continue
-        rows, forces = _apart(X.T, lambda x: (K @ x.T - sigma * (M @ x.T)).T, V, each)
-        found.append(rows)
-        loads.append(forces)
-    return np.concatenate(found), np.concatenate(loads)
+    return found
 
 
 def _apart(X: np.ndarray, A, V: np.ndarray, most: int) -> tuple[np.ndarray, np.ndarray]:
