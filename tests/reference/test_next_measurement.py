@@ -1,5 +1,7 @@
 """Predicted separation of two explanations, against dense eigensolutions of both models by scipy."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.linalg import eigh
@@ -11,6 +13,7 @@ from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.diagnosis.validate.measurements import SHAPE_SD, measurements
 from mouse_cli.diagnosis.validate.next_measurement import chosen_places, order, proposals, separated
+from mouse_cli.formats import read_deck
 from mouse_cli.model.diagnosis import Effort, Proposal
 
 HELD = 4e4  # N/m, of the spring to the ground that the model lacks
@@ -119,3 +122,37 @@ def test_shapes_are_proposed_at_the_fewest_places_that_separate():
 def test_shapes_that_are_alike_are_no_proof():
     h = np.linspace(0.2, 1.0, 6)
     assert chosen_places((h, np.zeros((6, 6))), (3 * h, np.zeros((6, 6))), 6, 1)[1] == pytest.approx(0.0, abs=1e-3)
+
+
+def test_supports_of_a_model_are_released_once(tmp_path, monkeypatch):
+    """A column on its foot, two masses as rivals on it: each model makes its supports once, however many are let go."""
+    path = tmp_path / "column.yaml"
+    path.write_text(COLUMN)
+    deck = read_deck(str(path))
+    base, mass, asked = reduced(deck, deck.prior.mean), registry()["mass"], []
+    recipe = mass.recipes(base, mass)[0]
+    found = [fit(Model(base, (recipe,)), recipe.coordinates(np.array([1.0, at])), most=3) for at in (0.5, 2.5)]
+    counted = lambda of: lambda model, candidate: asked.append(candidate.key) or of(model, candidate)
+    made = registry()
+    for name in ("support-translation", "support-rotation"):
+        made[name] = replace(made[name], recipes=counted(made[name].recipes))
+    monkeypatch.setattr("mouse_cli.diagnosis.validate.measurements.registry", lambda: made)
+    several = [each for each in measurements(found[0]) if each.kind == "released"]
+    assert len(several) > 1
+    for each in several:
+        separated(*found, each)
+    assert len(asked) <= 2 * len({id(one.model.base) for one in found})
+
+
+COLUMN = """\
+mouse: 1
+model:
+  structure:
+    nodes: {line: {from: 1, to: 7, start: [0, 0], end: [0, 3]}}
+    elements:
+      - {id: 1-6, type: beam, nodes: 1-7, E: 2.1e+11, G: 8.1e+10, density: 7850, A: 0.01, Iz: 1.0e-5, Iy: 1.0e-5, J: 1.0e-5}
+    supports: {1: all}
+    plane: XY
+test:
+  modes: {number: [1, 2], frequency: [20, 130], frequency_sd: 1 %}
+"""

@@ -27,6 +27,9 @@ SHAPE_SD = 0.02  # of the largest component: accuracy of shapes that were not me
 
 Altered = Callable[[Fit], tuple[Recipe, ...] | None]
 Read = Callable[[Point, Fit, np.ndarray], np.ndarray | None]
+Yielding = dict[
+    int, tuple[Reduced, list[Recipe]]
+]  # models by id, and recipes of their supports that give way, made once
 
 
 @dataclass(frozen=True)
@@ -60,8 +63,9 @@ def measurements(one: Fit) -> Iterator[Measurement]:
     for place in places(base, directions):
         text = f"{own} {place.text} held fixed"
         yield Measurement("held", text, Effort.SUPPORT, place.altered(K=holding), logarithms, sd)
-    for i, text in _supports(base):
-        yield Measurement("released", f"{own} {text} let go", Effort.SUPPORT, _released(i), logarithms, sd)
+    known: Yielding = {}
+    for i, text in _supports(base, known):
+        yield Measurement("released", f"{own} {text} let go", Effort.SUPPORT, _released(i, known), logarithms, sd)
     if base.data.has_shape.any():
         noise = float(np.nanmedian(test.shape_sd / np.nanmax(np.abs(test.shapes), axis=0)))
         measured = {base.problem.structure.labels[dof] for dof in test.dofs}
@@ -173,26 +177,26 @@ def _true_reading(k: int) -> Read:
     return read
 
 
-def _supports(base: Reduced) -> list[tuple[int, str]]:
+def _supports(base: Reduced, known: Yielding) -> list[tuple[int, str]]:
     """Numbers, among all recipes of supports that give way, of those of one support alone, and what each is called."""
-    found = [(i, each.site(np.ones(1))) for i, each in enumerate(_yielding(base)) if len(each.unknowns) == 1]
+    found = [(i, each.site(np.ones(1))) for i, each in enumerate(_yielding(base, known)) if len(each.unknowns) == 1]
     return [(i, site.text) for i, site in found if len(site.ids) == 1][:_SUPPORTS]
 
 
-def _yielding(base: Reduced) -> list[Recipe]:
-    known = registry()
-    return [
-        recipe for key in ("support-translation", "support-rotation") for recipe in known[key].recipes(base, known[key])
-    ]
+def _yielding(base: Reduced, known: Yielding) -> list[Recipe]:
+    if id(base) not in known:
+        of = [registry()[key] for key in ("support-translation", "support-rotation")]
+        known[id(base)] = base, [recipe for each in of for recipe in each.recipes(base, each)]
+    return known[id(base)][1]
 
 
-def _released(which: int) -> Altered:
+def _released(which: int, known: Yielding) -> Altered:
     """The model without a support; None where a cause lets supports go already."""
 
     def made(fitted: Fit) -> tuple[Recipe, ...] | None:
         if any(recipe.carried is not None for recipe in fitted.recipes):
             return None
-        recipe = _yielding(fitted.model.base)[which]
+        recipe = _yielding(fitted.model.base, known)[which]
         loose = recipe.change(np.zeros(1))
         return (replace(recipe, unknowns=(), change=lambda values: loose, grid=np.zeros((1, 0))),)
 
