@@ -106,13 +106,13 @@ def _calibration(results: list[Scored]) -> str:
         for one in results
         if np.isfinite(one.probability) and one.truth["class"] != "outside"
     ]
-    complete = [(one.probability, one.complete) for one in results if np.isfinite(one.probability)]
+    complete = [(one.alone, one.complete) for one in results if np.isfinite(one.probability)]
     rivals = [pair for one in results for pair in one.rivals]
     parts = []
     for title, pairs in (
         ("Names: what is named is missing", named),
         ("Names, without truths outside of the library", inside),
-        ("Names, and nothing else is missing, which a name does not say", complete),
+        ("Names: nothing else is missing, as likely as nothing is beside what is named", complete),
         ("Rivals of a one-of", rivals),
     ):
         p, true = np.array([x for x, _ in pairs], dtype=float), np.array([y for _, y in pairs], dtype=float)

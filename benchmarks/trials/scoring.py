@@ -27,9 +27,10 @@ class Scored:
     """One deck. said: in words; error: of the sites of what was named truly, over the span, nan without one.
 
     alarm: on a control, anything but nothing missing, or one of several with none among them; probability: that of the name, `true`
-    whether all of its groups are missing, `complete` whether nothing else is; rivals: (probability, whether true) of each group
-    of a one-of; field: of physics without a name, (property right, region right), None where not scored; gain: rms error of
-    held-out frequencies in %, of the baseline and of the revised model; suspected: error of the test that the answer suspects.
+    whether all of its groups are missing; alone: that nothing else is, `complete` whether that is so; rivals: (probability,
+    whether true) of each group of a one-of; field: of physics without a name, (property right, region right), None where not
+    scored; gain: rms error of held-out frequencies in %, of the baseline and of the revised model; suspected: error of the test
+    that the answer suspects.
     """
 
     name: str
@@ -41,6 +42,7 @@ class Scored:
     alarm: bool = False
     probability: float = np.nan
     true: bool = False
+    alone: float = np.nan
     complete: bool = False
     rivals: list[tuple[float, bool]] = field(default_factory=list)
     field: tuple[bool | None, bool | None] = (None, None)
@@ -73,6 +75,7 @@ def scored(name: str, trial: Trial, document: dict) -> Scored:
         alarm=not truth["mechanisms"] and not quiet and bool(told or kind == "unknown"),
         probability=float(verdict["probability"] or np.nan) if kind == "named" else np.nan,
         true=_missing([group for _, group, _ in told], truth),
+        alone=_alone(verdict) if kind == "named" else np.nan,
         complete=_complete([group for _, group, _ in told], truth),
         rivals=_rivals(document, truth) if kind == "one-of" else [],
         field=_field(verdict, truth) if kind == "unknown" else (None, None),
@@ -88,11 +91,10 @@ def _told(verdict: dict, truth: dict) -> Told:
     """What a verdict names or leads with, without what describes an error of the test."""
     split = lambda key: [part for part in (verdict.get(key) or "").split(" + ") if part not in ("", "none")]
     places = [_places(site, truth) for site in verdict.get("sites") or []]
-    found = [
-        (physics, group, at)
-        for physics, group, own in zip(split("physics"), split("group"), places, strict=False)
-        for at in own
-    ]
+    physics, groups = split("physics"), split("group")
+    at = groups.index("support") if "support" in groups else 0  # which counts once in a group, at however many supports
+    groups[at:at] = groups[at : at + 1] * (len(physics) - len(groups))
+    found = [(name, group, at) for name, group, own in zip(physics, groups, places, strict=False) for at in own]
     return [one for one in found if one[1] != IGNORED.get(truth["error"])]
 
 
@@ -157,6 +159,12 @@ def _unnamed(kind: str, truth: dict) -> str:
 def _complete(groups: list[str], truth: dict) -> bool:
     """Whether groups are those of all mechanisms, no more and no less."""
     return len(groups) == len(truth["mechanisms"]) and _missing(groups, truth)
+
+
+def _alone(verdict: dict) -> float:
+    """Probability that what is named is all that is missing: that of the name, and of nothing beside it where that is open."""
+    beside = {one["group"]: one["probability"] for one in verdict.get("companions") or []}
+    return float(verdict["probability"]) * (beside.get("none", 0.0) if beside else 1.0)
 
 
 def _missing(groups: list[str], truth: dict) -> bool:

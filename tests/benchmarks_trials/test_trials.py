@@ -150,9 +150,25 @@ def test_the_error_of_a_site_is_over_the_span(pair):
 
 
 def test_one_of_two_is_true_and_not_complete(pair):
-    """A name says that something is missing, not that nothing else is."""
-    found = scored("x", pair, verdict("named", "mass", "mass", pair.mechanisms[0].at[0]))
+    """A name says that something is missing, not that nothing else is; how probable that is, what may act beside it says."""
+    beside = [{"group": "mass", "probability": 0.7}, {"group": "none", "probability": 0.3}]
+    said = lambda **more: scored("x", pair, verdict("named", "mass", "mass", pair.mechanisms[0].at[0], **more))
+    found = said(companions=beside)
     assert (found.outcome, found.true, found.complete) == ("part", True, False)
+    assert found.alone == pytest.approx(0.3 * found.probability)
+    assert said(companions=beside[:1]).alone == 0.0
+    assert said().alone == said(companions=[]).alone == found.probability
+
+
+def test_supports_that_are_named_one_by_one_count_each():
+    """They are one group, and three mechanisms."""
+    feet = next(trials(1, 1, ["several/frame/three feet"]))
+    said = verdict("named", " + ".join(["support-rotation"] * 3), "support")
+    said["verdict"]["sites"] = [
+        {"kind": "node", "ids": [], "position": list(own.at), "text": ""} for own in feet.mechanisms
+    ]
+    found = scored("x", feet, said)
+    assert (found.outcome, found.true, found.complete) == ("right", True, True)
 
 
 def test_supports_that_are_alike_are_named_each():
