@@ -26,16 +26,16 @@ from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.problem import Problem, RunOptions
 from mouse_cli.model.structure import ListedElements, Structure
 from mouse_cli.updating import run
-from mouse_cli.updating.loop import _begin
+from mouse_cli.updating.loop import begin
 
 N, FEW, MORE = 140, 2, 10
 
 
 def timed(action) -> float:
     """Seconds of one call."""
-    start = time.perf_counter()
+    start = time.process_time()
     action()
-    return time.perf_counter() - start
+    return time.process_time() - start
 
 
 def chain(springs: int, modes: int, sensors: int) -> Problem:
@@ -77,7 +77,7 @@ def cycles(problem: Problem, count: int) -> Problem:
 
 def by_itself(problem: Problem) -> Callable[[], None]:
     """One cycle from the prior: eigensolution, partials, estimate."""
-    setting, start = _begin(problem)
+    setting, start = begin(problem)
 
     def cycle() -> None:
         state = setting.state(start.u)

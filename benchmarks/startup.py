@@ -1,5 +1,6 @@
-"""Start-up: whole processes of mouse against a Python that imports numpy."""
+"""Start-up: processor time of whole processes of mouse against a Python that imports numpy."""
 
+import argparse
 import os
 import subprocess
 import sys
@@ -17,6 +18,17 @@ def process(*command: str) -> None:
     subprocess.run(command, env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
 
 
-for name, command in (("mouse --version", (MOUSE, "--version")), ("mouse run, 4 DOF", (MOUSE, "run", DECK))):
-    a, b, ratio = paired(lambda c=command: process(*c), lambda: process(sys.executable, "-c", "import numpy"), 15)
+COMMANDS = {
+    "mouse --version": ("--version",),
+    "mouse --help": ("--help",),
+    "mouse check, 4 DOF": ("check", DECK),
+    "mouse run, 4 DOF": ("run", DECK),
+}
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("--rounds", type=int, default=15)
+rounds = parser.parse_args().rounds
+for name, words in COMMANDS.items():
+    a, b, ratio = paired(
+        lambda w=words: process(MOUSE, *w), lambda: process(sys.executable, "-c", "import numpy"), rounds
+    )
     print(f"{name:18} {a * 1e3:6.0f} ms   import numpy {b * 1e3:6.0f} ms   ratio {ratio:.2f}")
