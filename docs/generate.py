@@ -79,7 +79,7 @@ def manual(page: str) -> str:
 def _cli() -> Iterator[str]:
     yield _NOTE
     yield "# Commands\n"
-    yield "`-` in place of a deck is standard input. The answer goes to standard output, everything else to standard error.\n"
+    yield "`-` instead of a deck is standard input. The answer goes to standard output, everything else to standard error.\n"
     yield f"```\n{told('--help')}```\n"
     context = click.Context(cli)
     for name in cli.list_commands(context):
@@ -131,7 +131,7 @@ def _estimators() -> Iterator[str]:
     yield "# Estimators and recursions\n"
     yield "See [estimators](../explanation/estimators.md) and [recursions](../explanation/recursions.md) for what they mean.\n"
     yield "## Estimators\n"
-    yield "| `--estimator` | name | equation | weighs data by R | uses the prior |"
+    yield "| `--estimator` | name | equation | weights data by R | uses the prior |"
     yield "|---|---|---|---|---|"
     for key, row in discover("mouse_cli.estimators", "ESTIMATOR").items():
         flags = " | ".join("yes" if flag else "no" for flag in (row.weighted, row.uses_prior))

@@ -12,7 +12,7 @@ JOBS = (
         "limit_s",
         metavar="SECONDS",
         type=click.FloatRange(0, min_open=True),
-        help="Break off jobs that take longer.",
+        help="End jobs that take longer.",
     ),
 )
 CLUSTER = (

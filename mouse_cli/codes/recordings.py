@@ -75,7 +75,7 @@ CODES = {
     ),
     "MD613": Code(
         "channel stands still",
-        "For many samples in a row the channel keeps one value that is neither zero nor an extreme: the transmission broke off.",
+        "For many samples in a row the channel keeps one value that is neither zero nor an extreme: the transmission stopped.",
         "Use a stretch before or after it.",
     ),
     "MD614": Code(

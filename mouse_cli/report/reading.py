@@ -109,7 +109,7 @@ def read(data: bytes, file: str, schemas: tuple[str, ...] = ANSWERS) -> Part:
         found = found.get("document")
         if not isinstance(found, dict):
             raise rejected(
-                "MD920", f"{file} is a job without an answer: its deck was rejected, only checked, or broke off"
+                "MD920", f"{file} is a job without an answer: its deck was rejected, only checked, or interrupted"
             )
     schema = found.get("schema") if isinstance(found, dict) else None
     if not isinstance(schema, str) or not schema.startswith("mouse."):

@@ -108,7 +108,7 @@ def test_exit_codes():
             "two",
             "an open crack (element 12, 0.43 m from node 1) and shear flexibility (the whole structure): probability 0.99.",
         ),
-        ("two", "depth over height 0.7 (sd 0.02, at the end of the range held possible)"),
+        ("two", "depth over height 0.7 (sd 0.02, at the limit of its range)"),
         ("two", "No force at a single site makes the measured shapes"),
         (
             "two",

@@ -167,7 +167,7 @@ def test_an_oscillator_slower_than_its_stretch_is_no_finding(tmp_path):
     assert hidden(one, 1.0) is None
     assert "longer than the stretch" in hidden(one, 0.3)[1]
     one.x[-3] = one.hypothesis.bounds[1][-3]
-    assert "end of the range" in hidden(one, 1.0)[1]
+    assert "limit of its range" in hidden(one, 1.0)[1]
 
 
 def test_noise_of_channels_is_no_error_of_a_model():

@@ -40,7 +40,7 @@ def command(
 ) -> int:
     """Run, check or diagnose DECKS: files, folders, patterns, manifests.
 
-    Answers that are there already, of decks and files that have not changed, are not sought again.
+    Existing answers of decks and files that have not changed are kept: the same command resumes a batch.
 
     Exit 3: a job missed what its manifest expects. Else the highest of the jobs' own: 5, 4, 1, 0.
     """

@@ -33,9 +33,9 @@ def command(
     quiet: bool,
     **given: object,
 ) -> int:
-    """Draw the modes or sensors of the test of DECK anew, and say how far the answer spreads and what it rests on.
+    """Bootstrap of DECK: resample modes or sensors of its test, report the scatter and the influence of each measurement.
 
-    Each replicate is a job as of `mouse batch`: answers that are there already are not sought again.
+    Each replicate is a job as of `mouse batch`: existing answers are kept.
 
     Exit code: that of the run of DECK itself.
     """

@@ -22,7 +22,7 @@ def command(
     strip_73_80: bool,
     overrides: tuple[str, ...],
 ) -> int:
-    """Find what is wrong with DECKS (files, folders, '-') without running them.
+    """Report errors in DECKS (files, folders, '-') without running them.
 
     Findings go to standard error, a count line to standard output.
 

@@ -26,7 +26,7 @@ def command(
 ) -> int:
     """Convert DECK to the other format, cards to YAML or back.
 
-    With --prior the YAML deck holds what an earlier test left as its prior. Exit 4 when cards cannot hold what the deck says.
+    With --prior the YAML deck has the posterior of an earlier test as its prior. Exit 4 when cards cannot hold the deck.
     """
     from mouse_cli.cli._decks import read_problem
     from mouse_cli.cli._terminal import deliver, show_diagnostics

@@ -24,9 +24,9 @@ def command(
     strip_73_80: bool,
     overrides: tuple[str, ...],
 ) -> int:
-    """Compare the test of DECK with its model before any revision.
+    """Test-analysis correlation of DECK before any update.
 
-    Pairs of modes, MAC, COMAC, orthogonality, sensors that look faulty, modes without partner. Judges nothing: exit 0.
+    Mode pairs, MAC, COMAC, orthogonality, sensors that look faulty, modes without partner. Judges nothing: exit 0.
     """
     from mouse_cli.cli._decks import read_problem
     from mouse_cli.cli._terminal import deliver, json_text, progress, show_diagnostics

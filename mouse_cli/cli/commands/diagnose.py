@@ -65,11 +65,11 @@ def command(
     quiet: bool,
     **given: object,
 ) -> int:
-    """Say what the model of DECKS lacks, judged by its test, or by the raw files of --recordings FOLDER.
+    """Identify the physics missing from the model of DECKS, by its test or by the raw files of --recordings FOLDER.
 
-    Several DECKS are arrangements of one structure, such as masses at other places: their causes are told one after another.
+    Several DECKS are configurations of one structure, such as moved masses: mechanisms are identified sequentially.
 
-    Where, what, how much, whether it is true. Exit 0: nothing is missing. 1: something is. 2: no site. 4: rejected. 5: no answer.
+    Site, mechanism, size, validation. Exit 0: nothing is missing. 1: something is. 2: no site. 4: rejected. 5: no answer.
     """
     from mouse_cli.cli._terminal import deliver
 

@@ -31,9 +31,9 @@ def command(
     output: str | None,
     quiet: bool,
 ) -> int:
-    """Write what DECK says of materials, sections, springs and masses as an include file of a finite-element program.
+    """Write materials, sections, springs and masses of DECK as an include file of a finite-element program.
 
-    Every value has a comment with its posterior and standard deviation; what has no card is said in a comment.
+    Every value has a comment with its posterior and standard deviation; what has no card is listed in a comment.
     """
     from mouse_cli.cli._decks import after_result, read_problem
     from mouse_cli.cli._terminal import deliver, show_diagnostics

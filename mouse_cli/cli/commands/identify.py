@@ -36,9 +36,9 @@ def command(
     quiet: bool,
     **given: object,
 ) -> int:
-    """Natural frequencies, damping and mode shapes that recordings or frequency response functions show.
+    """Identify natural frequencies, damping and mode shapes from recordings or frequency response functions.
 
-    SOURCE: a YAML deck, or files of functions or time histories; several are repeats, or have their forces in turn. Without
+    SOURCE: a YAML deck, or files of FRFs or time histories; several are repeats, or have one force each. Without
     forces, or with --output-only, the outputs alone are used. Exit 0: modes found. 1: none, or none to be trusted. 4: rejected.
     """
     from mouse_cli.cli._identify import identified, write

@@ -125,7 +125,7 @@ KINDS: dict[str, Callable[[], Iterator[tuple[str, str]]]] = {
 @click.command()
 @click.argument("kind", type=click.Choice(sorted(KINDS)), required=False)
 def command(kind: str | None) -> int:
-    """List what there is to choose from: estimators, recursions, codes, card groups and so on."""
+    """List names: estimators, recursions, codes, card groups and so on."""
     for name in [kind] if kind else sorted(KINDS):
         if not kind:
             click.echo(f"{name}:")

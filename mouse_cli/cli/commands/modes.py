@@ -24,9 +24,9 @@ def command(
     strip_73_80: bool,
     overrides: tuple[str, ...],
 ) -> int:
-    """Frequencies and shapes of DECK before any test, and their uncertainty.
+    """Natural frequencies and mode shapes of DECK before any test, with their uncertainty.
 
-    The standard deviations follow from those of the properties.
+    The standard deviations are propagated from those of the properties.
     """
     from mouse_cli.cli._decks import read_problem, without_laws
     from mouse_cli.cli._terminal import deliver, json_text, progress, show_diagnostics

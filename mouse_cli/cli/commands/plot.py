@@ -12,7 +12,7 @@ import click
 def command(result: str, output: str, figures: tuple[str, ...]) -> int:
     """Draw figures of RESULT, which `mouse run --json` or `mouse diagnose --json` wrote.
 
-    Frequencies, parameters, MAC, causes, places, mode shapes, convergence: those for which RESULT has values. A single figure by
+    Frequencies, parameters, MAC, mechanisms, sites, mode shapes, convergence: those for which RESULT has values. A single figure by
     --figure. Exit 0 whatever the verdict is.
     """
     from mouse_cli.cli._decks import deck_bytes, shown

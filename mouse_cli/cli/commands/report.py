@@ -10,8 +10,8 @@ import click
 def command(result: str, markdown: bool, output: str | None) -> int:
     """Make an HTML page of RESULT, which `run`, `diagnose`, `compare` or `modes` with --json, or `mouse batch` wrote.
 
-    One file that needs no network: verdict, mode shapes drawn on the structure, frequencies, parameters, functions, causes,
-    places, convergence. Exit 0 whatever the verdict is.
+    One file that needs no network: verdict, mode shapes drawn on the structure, frequencies, parameters, FRFs,
+    mechanisms, sites, convergence. Exit 0 whatever the verdict is.
     """
     from mouse_cli.cli._decks import deck_bytes, shown
     from mouse_cli.cli._terminal import deliver

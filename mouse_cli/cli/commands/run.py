@@ -32,7 +32,7 @@ def command(
     overrides: tuple[str, ...],
     **given: object,
 ) -> int:
-    """Revise the model of DECK (cards or YAML, '-': standard input) by its test.
+    """Update the model of DECK (cards or YAML, '-': standard input) by its test.
 
     Exit 0: converged, and the model explains the data. 1: do not trust the answer. 4: deck rejected. 5: no answer.
     """

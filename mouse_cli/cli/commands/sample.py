@@ -48,7 +48,7 @@ def command(
 ) -> int:
     """Sample the posterior of DECK: its prior and the likelihood of its test, as `mouse run` has them.
 
-    Says whether the standard deviations of `mouse run` may stand for the posterior. Needs the extra `sampling`.
+    Checks the standard deviations of `mouse run` against the posterior. Needs the extra `sampling`.
 
     Exit 0: the chain is long enough, and the model explains the data. 1: do not trust it. 4: deck rejected. 5: no answer.
     """

@@ -25,10 +25,10 @@ def command(
     quiet: bool,
     **given,
 ) -> int:
-    """Frequency response functions of the recordings of SOURCE, a YAML deck or a file of measured data.
+    """Estimate frequency response functions from the recordings of SOURCE, a YAML deck or a file of measured data.
 
-    Recordings of a deck that have the same channels are averaged together. The table says of each function how many lines and
-    averages it has, its median coherence, and its noise.
+    Recordings of a deck that have the same channels are averaged together. The table lists lines, averages,
+    median coherence and noise of each FRF.
     """
     from mouse_cli.cli._spectra import measured_data, spectra_options
     from mouse_cli.cli._terminal import json_text, say, show_diagnostics

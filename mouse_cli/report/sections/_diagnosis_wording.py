@@ -214,7 +214,7 @@ def sized(cause: Cause) -> str:
 
 def _size(size: Size) -> str:
     unit = "" if size.unit in ("", "1") else f" {size.unit}"
-    edge = "" if size.lower * 1.001 < size.value < size.upper * 0.999 else ", at the end of the range held possible"
+    edge = "" if size.lower * 1.001 < size.value < size.upper * 0.999 else ", at the limit of its range"
     return f"{size.name} {size.value:.4g}{unit} (sd {size.sd:.2g}{edge})"
 
 

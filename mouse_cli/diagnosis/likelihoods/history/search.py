@@ -102,7 +102,7 @@ def hidden(one: Fit, horizon_s: float) -> tuple[str, str] | None:
             if low or np.log(size.upper / value) < reach:
                 return (
                     part.law.key,
-                    f"{part.place.site.text}: its {size.name} ends at the end of the range held possible",
+                    f"{part.place.site.text}: its {size.name} ends at the limit of its range",
                 )
     return None
 

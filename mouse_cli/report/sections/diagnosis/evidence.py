@@ -25,7 +25,7 @@ _SIZED = (
     Column("value"),
     Column("sd"),
     Column("unit", align=LEFT),
-    Column("held possible from"),
+    Column("range from"),
     Column("to"),
 )
 

@@ -32,8 +32,8 @@ def places(found: Diagnosis, options: Options) -> Iterator[Block]:
     yield Text(
         "One force that the model lacks, whatever its law, would make the measured shapes if it acted there. Of "
         f"{counted(len(location.places), 'site')} that were tried, {region} {'holds' if region == 1 else 'hold'} 90 % of the "
-        f"probability, and {tied} {'lies' if tied == 1 else 'lie'} within {TIE:g} nats of the best, which the shapes hardly tell "
-        f"apart; {left}."
+        f"probability, and {tied} {'lies' if tied == 1 else 'lie'} within {TIE:g} in log evidence of the "
+        f"best, which the shapes hardly distinguish; {left}."
     )
 
 

@@ -32,8 +32,8 @@ def frequencies(found: Sampled, options: Options) -> Iterator[Block]:
     if rows:
         yield Table(_COLUMNS, tuple(rows)).without_empty_columns()
         yield Text(
-            "The 95 % interval is of the model's own frequency; a new measurement of the same accuracy would lie within the last "
-            "two columns 95 times in 100."
+            "The 95 % interval is of the model's own frequency; a new measurement of the same accuracy lies within the last two "
+            "columns with probability 0.95."
         )
 
 
