@@ -8,7 +8,7 @@ from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.extend.matrices import Entries, with_entries, with_part_left
 from mouse_cli.diagnosis.extend.points import found as new_parameter
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.likelihoods.modal.sets import within
+from mouse_cli.diagnosis.likelihoods.modal.sets import following, within
 from mouse_cli.model.arrays import Matrix, upper_triangle
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.held import ElementGroup
@@ -19,7 +19,6 @@ _GONE = (
 )  # share lost of a set that is missing: a thousandth of a stiff plate still holds what it is fastened to
 _MISSING, _HEAVIER = Unknown("share lost", "1", 0.02, _GONE), Unknown("share gained", "1", 0.02, 20.0)
 _FELT = 1e-6  # share of the energy of a mode below which a set has no part in it
-_FOLLOWS = 1e-6  # relative error up to which what a parameter does is that of whole sets
 
 
 @dataclass(frozen=True)
@@ -98,33 +97,14 @@ def _recipe(candidate, share: Unknown, group: ElementGroup, count: int, of: tupl
 def _sets(model: Reduced) -> list[_Set]:
     """All sets; a parameter such as E of a material moves what its sets give, and a set that is missing goes with it."""
     of_each = []
-    for name, slopes in (("K", model.dK), ("M", model.dM)):
+    for name in "KM":
+        slopes, factors = following(model, name)
         stored = [within(model.problem, getattr(group, name)) for group in model.problem.groups]
-        own = [None if each is None else model.project(each) for each in stored]
-        of_each.append(_moved(model, stored, own, slopes))
+        of_each.append([
+            None if each is None else _Part(each, factors[i] * model.project(each), slopes[:, i])
+            for i, each in enumerate(stored)
+        ])  # fmt: skip
     return list(zip(model.problem.groups, *of_each, strict=True))
-
-
-def _moved(model: Reduced, stored: list, own: list, slopes: np.ndarray) -> list[_Part | None]:
-    """slopes (k, r, r): of the matrix, along the directions of the model.
-
-    What parameter j does is sum_s a_js X_s where it is that of whole sets; X_s is then (1 + sum_j a_js (theta_j - nominal_j)) X_s.
-    """
-    there = [i for i, each in enumerate(own) if each is not None]
-    parameters = model.problem.parameters
-    a = np.zeros((len(parameters), len(own)))
-    if there and len(parameters):
-        blocks = np.array([own[i].ravel() for i in there])
-        sizes = np.linalg.norm(blocks, axis=1).clip(1e-300)
-        does = model.along.T @ slopes.reshape(len(slopes), -1)
-        found = np.linalg.lstsq((blocks / sizes[:, None]).T, does.T, rcond=None)[0].T
-        error = np.linalg.norm(does - found @ (blocks / sizes[:, None]), axis=1)
-        a[:, there] = np.where((error <= _FOLLOWS * np.linalg.norm(does, axis=1))[:, None], found / sizes, 0.0)
-    step = model.theta - np.array([each.nominal for each in parameters])
-    return [
-        None if each is None else _Part(matrix, (1 + step @ a[:, i]) * each, a[:, i])
-        for i, (matrix, each) in enumerate(zip(stored, own, strict=True))
-    ]
 
 
 def _bears(model: Reduced, K: np.ndarray) -> bool:

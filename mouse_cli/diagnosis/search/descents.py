@@ -16,6 +16,9 @@ _STARTS = 3  # fits of a candidate to the end, from different optima
 _SLACK = 1.5  # times the misfit that matters in all coordinates: what matters in few
 _TIED, _TIES = 6.0, 8  # misfit above the best up to which other places are as good, and how many of them are fitted
 _SETTLE = 3  # times that causes are weighed anew
+_OF_SETS = (
+    1e-5  # share of parameters within which what element sets give is alike: of a missing one nothing must be left
+)
 _FEW = 16  # places and sizes that are looked at in all coordinates
 
 
@@ -28,10 +31,11 @@ def idealised(one: Fit) -> Fit:
 def settled(one: Fit, study: Study) -> Fit:
     """The fit with no modes crosswise, and its causes weighed at the parameters that it found, not where the search began."""
     one = uncrossed(one)
+    trifle = _OF_SETS if study.model.first.problem.groups else MOVED
     for _ in range(_SETTLE):
         theta = one.model.base.parameters(one.point.x[: one.model.k])
         before = one.model.base.theta
-        if not one.recipes or np.all(np.abs(theta - before) <= MOVED * np.abs(before)):
+        if not one.recipes or np.all(np.abs(theta - before) <= trifle * np.abs(before)):
             break
         there = study.at(one)
         base = there.model.judged_by(one.model.base.data)

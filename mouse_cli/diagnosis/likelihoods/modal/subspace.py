@@ -119,7 +119,7 @@ def large(
         basis.responses(_placed(total.n, more, np.eye(len(more))))
         places = np.concatenate([places, more])
     if problem.groups:
-        basis.motions(*without_sets(problem, K, M, basis.sigma, basis.space.V, int(problem.test.number.max())))
+        basis.motions(*without_sets(model, K, M, basis.sigma, basis.space.V, int(problem.test.number.max())))
     model = built(problem, total, theta, *basis.ritz(), by, stack)
     lowest = model.V[:, : min(model.r, int(problem.test.number.max()) + 2)]
     by_all = static(problem, model.motion, model.bars, basis.sigma, basis.space.operator.columns, lowest)
