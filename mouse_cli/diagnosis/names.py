@@ -6,6 +6,7 @@ from mouse_cli.diagnosis.mechanisms import registry as mechanisms
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.laws import Law
 from mouse_cli.terms.laws import registry as laws
+from mouse_cli.updating.recordings.channels import misreadings
 
 
 def by_records(problem: Problem) -> bool:
@@ -15,12 +16,17 @@ def by_records(problem: Problem) -> bool:
 
 def known() -> dict[str, Candidate | Law]:
     """Everything that has a name, by key; what both kinds of data show as the mechanism."""
-    return dict(sorted((laws() | mechanisms()).items()))
+    return dict(sorted((by_recordings() | mechanisms()).items()))
 
 
 def considered(problem: Problem) -> dict[str, Candidate | Law]:
     """Those that the data of a deck can show."""
-    return laws() if by_records(problem) else mechanisms()
+    return by_recordings() if by_records(problem) else mechanisms()
+
+
+def by_recordings() -> dict[str, Law]:
+    """What recordings show: laws of forces, and errors of their channels."""
+    return laws() | misreadings()
 
 
 def chosen(problem: Problem, given: tuple[str, ...], without: bool) -> tuple[str, ...]:

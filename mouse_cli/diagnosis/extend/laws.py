@@ -11,6 +11,7 @@ from mouse_cli.diagnosis.extend.matrices import of_matrices
 from mouse_cli.diagnosis.extend.points import Ends, add_dashpot, add_mass, add_oscillator, add_spring
 from mouse_cli.model.local_law import LocalLaw
 from mouse_cli.model.problem import Problem
+from mouse_cli.updating.recordings.channels import Misreading
 from mouse_cli.updating.recordings.hypothesis import Part
 from mouse_cli.updating.recordings.polish import Fit
 
@@ -19,6 +20,8 @@ def extended(problem: Problem, best: Fit) -> Problem | None:
     """The deck with the causes of a fit in it: laws, and what is linear as parameters; None where one cannot be put into a deck."""
     deck, laws = problem, list(problem.laws)
     for part, values in best.hypothesis.sizes(best.x[None]):
+        if isinstance(part.law, Misreading):
+            return None
         if not part.law.linear:
             laws.append(_law(part, values[:, 0]))
             continue

@@ -175,7 +175,7 @@ class Spectrum:
         Forces of circular normal distribution with covariance Q: u = H f + H Q (SH)' (SH Q SH' + R)^-1 (y - S H f).
         """
         size = np.sqrt((self._loads**2).mean(axis=0).sum())
-        unit = B / np.linalg.norm(B, axis=0)
+        unit = B / np.maximum(np.linalg.norm(B, axis=0), 1e-300)
         Q = size**2 * (_EVERYWHERE**2 * np.eye(len(B)) + _HERE**2 * unit @ unit.T)
         R = np.diag(self.series.sd**2)
         G = self.SH @ Q

@@ -8,6 +8,7 @@ import numpy as np
 from mouse_cli.dynamics.response import LocalForces, Plant
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.terms.laws import Law, Scale, Unknown
+from mouse_cli.updating.recordings.channels import Read, read
 from mouse_cli.updating.recordings.linear import Linear
 from mouse_cli.updating.recordings.series import Series
 
@@ -15,7 +16,7 @@ from mouse_cli.updating.recordings.series import Series
 @dataclass(frozen=True)
 class Place:
     """Where a law may act. B (m,): the motion in the coordinates of the simulation; motion (n,): by the degrees of freedom of the
-    deck; ground: whether its other end is the ground.
+    deck; ground: whether its other end is the ground. channel: number of a channel instead, outputs before forces.
     """
 
     site: Site
@@ -23,6 +24,7 @@ class Place:
     ground: bool
     scale: Scale
     motion: np.ndarray
+    channel: int = -1
 
 
 @dataclass(frozen=True)
@@ -185,6 +187,10 @@ class Hypothesis:
         jump = [i for i, one in enumerate(every) if one.law.implicit]
         return LocalForces(forces, {i: implicit(every[i], shaped[i]) for i in jump})
 
+    def read(self, many: np.ndarray, series: Series) -> Read:
+        """What the channels of a series read at x (P, k)."""
+        return read(self.sizes(many), len(series.order), series.force.shape[1], len(many))
+
     def plant(self, many: np.ndarray, series: Series) -> Plant:
         """The linear part at x (P, k), with the matrices of linear laws in it."""
         x, a = self.whole(many), self.extra
@@ -198,7 +204,7 @@ class Hypothesis:
         sensing = np.pad(series.sensing, ((0, 0), (0, a)))
         own = [np.repeat(part.place.B[None] @ series.base, part.extra, 0) for part in self.parts]
         felt = replace(series, inputs=np.pad(series.inputs, ((0, a), (0, 0))), base=np.concatenate([series.base, *own]))
-        inputs = felt.loads(M)
+        inputs = felt.loads(M) / self.read(many, series).force[:, None, :]
         constant = np.einsum("pni,pi->pn", inputs, x[:, self.linear.k : self.nuisances] * self.offset)
         return Plant(M, C, K, np.concatenate([inputs, constant[:, :, None]], axis=2), local, sensing, series.order)
 

@@ -79,7 +79,7 @@ class Polish:
     """The fit of one hypothesis to segments of records alike; spread (2n,): sd of initial states before the test."""
 
     def __init__(self, hypothesis: Hypothesis, data: list[Segments], spread: np.ndarray):
-        self.h, self.series = hypothesis, data[0].series
+        self.h, self.series, self.data = hypothesis, data[0].series, data
         self.spread = hypothesis.padded_states(spread)
         self.force = np.concatenate([part.force for part in data], axis=2)
         self.measured = np.concatenate([part.measured for part in data], axis=2)
@@ -173,14 +173,23 @@ class Polish:
         return _Point(residual, J, X)
 
     def _simulated(self, many: np.ndarray, begin: np.ndarray) -> np.ndarray:
-        """Filtered sensors over their sd (P, s, t, G)."""
+        """Filtered sensors over their sd (P, s, t, G), as their channels read them.
+
+        What a channel is late is taken off the record and not put into the simulation, so that any delay is exact.
+        """
         series, z = self.series, None
         if self.internal is not None:
             z = [None if one is None else np.repeat(one[:, None], len(many), 1) for one in self.internal]
         plant, local = self.h.plant(many, series), self.h.local(many)
         with np.errstate(all="ignore"):
             out, _ = simulate(plant, series.dt / series.factor, self.force, begin, local, z)
-        return sampled(out, series.factor) / series.sd[None, :, None, None]
+        found, read = sampled(out, series.factor) / series.sd[None, :, None, None], self.h.read(many, series)
+        found *= read.gain[:, :, None, None]
+        for at in np.unique(read.delay, axis=0):
+            if at.any():
+                prompt = np.concatenate([part.earlier(at).measured for part in self.data], axis=2)
+                found[(read.delay == at).all(axis=1)] += self.measured - prompt
+        return found
 
     def _cost(self, at: _Point, x: np.ndarray, states: np.ndarray) -> float:
         prior = (((x - self.h.mean) / self.h.sd) ** 2).sum() + ((states / self.spread[:, None]) ** 2).sum()

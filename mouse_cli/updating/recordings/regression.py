@@ -5,11 +5,12 @@ u is known. u is taken from the record, so that the fit has a closed form; it gi
 """
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mouse_cli.terms.laws import Law, registry
+from mouse_cli.updating.recordings.channels import corrected
 from mouse_cli.updating.recordings.free_force import Spectrum
 from mouse_cli.updating.recordings.hypothesis import Acting, Hypothesis, Place
 
@@ -52,8 +53,9 @@ class Regression:
     """
 
     def __init__(self, spectrum: Spectrum, hypothesis: Hypothesis, begun: np.ndarray | None = None, error: float = 0.0):
-        self.spectrum, self.base = spectrum, hypothesis
+        self.base = hypothesis
         self.begun = np.zeros(hypothesis.nuisances) if begun is None else begun
+        self.spectrum = spectrum = _as_measured(spectrum, hypothesis, self.begun)
         place = hypothesis.place
         others = [*(one.B for one in hypothesis.known), *(part.place.B for part in hypothesis.parts)]
         U = spectrum.motions(np.stack([place.B, *others], axis=1))
@@ -69,10 +71,10 @@ class Regression:
         self.kept = slice(edge, t - edge - int(_BEGIN * t))
         self.missing = spectrum.missing + self._answer(self.begun)
         self.sd = 1.0
-        self.y = self._stacked(self.missing)
+        self.y = self.stacked(self.missing)
         self.sd = float(np.hypot(1.0, error * np.sqrt((self.y**2).mean())))
         self.y /= self.sd
-        self.J = np.stack([self._stacked(column) for column in (*self._nuisances(U), *self._slopes())], axis=1)
+        self.J = np.stack([self.stacked(column) for column in (*self._nuisances(U), *self._slopes())], axis=1)
         self._prior = self._held()
         self.Q, self.R = np.linalg.qr(np.vstack([self.J, self._prior]))
         self.target = np.concatenate([self.y, np.zeros(len(self._prior))])
@@ -138,8 +140,22 @@ class Regression:
                 found[:, :, wanted[i]] = z
         return found
 
-    def _stacked(self, columns: np.ndarray) -> np.ndarray:
+    def stacked(self, columns: np.ndarray) -> np.ndarray:
+        """Outputs (t, s) as the fit sees them, in sd."""
         return self.spectrum.weighed(columns)[self.kept].ravel() / self.sd
+
+    def projected(self, column: np.ndarray) -> np.ndarray:
+        """What nuisances do not follow of a stacked column."""
+        own = np.concatenate([column, np.zeros(len(self._prior))])
+        return own - self.Q @ (self.Q.T @ own)
+
+    def begin(self, column: np.ndarray, own: np.ndarray) -> tuple[np.ndarray, float]:
+        """x (k,) with the nuisances that go with a law whose answer is a stacked column, and its ln parameters `own`; its chi2."""
+        left = self.target - self.projected(column)
+        z = np.linalg.solve(self.R, self.Q.T @ np.concatenate([self.y - column, np.zeros(len(self._prior))]))
+        k, first = self.base.linear.k, self.base.nuisances
+        moved = self.begun[first:] + np.clip(z[k:], -_FAR, _FAR)
+        return np.concatenate([z[:k], self.begun[k:first], moved, own]), float(left @ left)
 
     def _nuisances(self, U: np.ndarray) -> Iterator[np.ndarray]:
         """Answers (t, s) to forces -(dK u + iw dC u + dM a) of each nuisance, a = -w^2 u and what the ground adds."""
@@ -175,7 +191,7 @@ class Regression:
         """Share of what is left that any sum of histories (t,) of a force at the place takes."""
         s, k = self.spectrum, len(self._prior)
         columns = [
-            self._stacked(s.history(s.line(F * s.window)[:, None] * self.local.answer) * s.window[:, None])
+            self.stacked(s.history(s.line(F * s.window)[:, None] * self.local.answer) * s.window[:, None])
             for F in forces
         ]
         A = np.vstack([np.stack(columns, axis=1), np.zeros((k, len(forces)))])
@@ -210,9 +226,8 @@ class Regression:
         """Up to `most` sizes of the law, that which leaves least first, each far from those before it in what is not linear."""
         many, s, tried = np.array(list(law.inner(self.local.place.scale))), self.spectrum, []
         for p, force in zip(many, self.forces(law, variant, many), strict=True):
-            column = self._stacked(s.history(-force[:, None] * self.local.answer) * s.window[:, None])
-            own = np.concatenate([column, np.zeros(len(self._prior))])
-            own -= self.Q @ (self.Q.T @ own)
+            column = self.stacked(s.history(-force[:, None] * self.local.answer) * s.window[:, None])
+            own = self.projected(column)
             size = float(own @ own)
             factor = float(own @ self.target) / size if size > 0 else 0.0
             if factor > 0:
@@ -228,12 +243,17 @@ class Regression:
         """The nuisances that go with sizes p (q,) of a law."""
         hypothesis, s = self.base.at(law, variant), self.spectrum
         (force,) = self.forces(law, variant, p[None])
-        column = self._stacked(s.history(-force[:, None] * self.local.answer) * s.window[:, None])
-        z = np.linalg.solve(self.R, self.Q.T @ np.concatenate([self.y - column, np.zeros(len(self._prior))]))
-        k, first = self.base.linear.k, self.base.nuisances
-        moved = self.begun[first:] + np.clip(z[k:], -_FAR, _FAR)
-        x = np.concatenate([z[:k], self.begun[k:first], moved, np.log(p)])
+        column = self.stacked(s.history(-force[:, None] * self.local.answer) * s.window[:, None])
+        x, _ = self.begin(column, np.log(p))
         return Start(hypothesis, np.clip(x, *hypothesis.bounds), left)
+
+
+def _as_measured(spectrum: Spectrum, hypothesis: Hypothesis, x: np.ndarray) -> Spectrum:
+    """The record as its channels should have read it, by the errors that the hypothesis has at x (k,)."""
+    if not hypothesis.parts:
+        return spectrum
+    series = corrected(spectrum.series, hypothesis.read(x[None], spectrum.series))
+    return spectrum if series is spectrum.series else replace(spectrum, series=series)
 
 
 def _force(matrices: tuple[np.ndarray, ...], w: np.ndarray, X: np.ndarray, carried: np.ndarray | float) -> np.ndarray:

@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mouse_cli.updating.recordings.channels import earlier
 from mouse_cli.updating.recordings.series import REACH, Series
 
 _LEAST = 64  # samples of a horizon
@@ -20,6 +21,11 @@ class Segments:
     def begun(self) -> "Segments":
         """Their first quarters."""
         return replace(self, length=max(self.length // 4, min(self.length, _LEAST)))
+
+    def earlier(self, seconds: np.ndarray) -> "Segments":
+        """The same of channels so many seconds (s,) earlier."""
+        measured = earlier(self.series.measured, self.series.dt, seconds)
+        return replace(self, series=replace(self.series, measured=measured))
 
     @property
     def force(self) -> np.ndarray:

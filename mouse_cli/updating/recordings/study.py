@@ -9,6 +9,7 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
 from mouse_cli.updating.recordings.accuracy import accurate
 from mouse_cli.updating.recordings.basis import LARGEST
+from mouse_cli.updating.recordings.channels import SCALE, channel_sites
 from mouse_cli.updating.recordings.deck_laws import acting
 from mouse_cli.updating.recordings.free_force import Spectrum
 from mouse_cli.updating.recordings.hypothesis import Hypothesis, Place
@@ -49,6 +50,9 @@ class Study:
     def __post_init__(self) -> None:
         self.spectrum = Spectrum(self.look, self.model.linear)
         self.places = places(self.problem, self.spectrum, self.model.basis, self.band)
+        still = np.zeros(self.model.basis.shape[1]), False, SCALE, np.zeros(len(self.model.basis))
+        sites = channel_sites(self.records.outputs, self.records.inputs)
+        self.channels = [Place(site, *still, channel=i) for i, site in sites]
         self._at: dict[tuple, tuple[Fit | None, Regression]] = {}
 
     def at(self, place: Place, series: Series | None = None, first: Fit | None = None) -> Regression:

@@ -16,6 +16,7 @@ from mouse_cli.model.record_diagnosis import (
     Surface,
     Trace,
 )
+from mouse_cli.updating.recordings.channels import earlier
 from mouse_cli.updating.recordings.free_force import Spectrum
 from mouse_cli.updating.recordings.polish import Fit, followed
 from mouse_cli.updating.recordings.records import reduced
@@ -85,8 +86,8 @@ def free_run(study: Study, held: Series, one: Fit, found: Fit | None) -> np.ndar
     z = [np.zeros((one.law.states, 1, 1, 1)) for one in h.acting(one.x)]
     with np.errstate(all="ignore"):
         out, _ = simulate(h.plant(x, held), held.dt / held.factor, force, start[None], h.local(x), z)
-    answer = np.full(held.measured.shape, np.nan)
-    answer[: len(part)] = out[0, :, :: held.factor, 0].T
+    answer, read = np.full(held.measured.shape, np.nan), h.read(x, held)
+    answer[: len(part)] = earlier(read.gain[0] * out[0, :, :: held.factor, 0].T, held.dt, -read.delay[0])
     return answer
 
 

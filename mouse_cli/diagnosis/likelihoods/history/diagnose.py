@@ -12,6 +12,7 @@ from mouse_cli.model.record_diagnosis import RecordDiagnosis
 from mouse_cli.model.result import ChiSquareTest
 from mouse_cli.terms.laws import registry
 from mouse_cli.updating.chi_square import upper_tail
+from mouse_cli.updating.recordings.channels import misreadings
 from mouse_cli.updating.recordings.records import named, records
 from mouse_cli.updating.recordings.signs import linearity
 from mouse_cli.updating.recordings.study import Study, study
@@ -27,9 +28,8 @@ def diagnose_records(problem: Problem, notice: Notice, choices: Choices, own: St
     """
     own = study(problem, records(problem)) if own is None else own
     found = own.records
-    known = (
-        None if choices.candidates is None else [law for key, law in registry().items() if key in choices.candidates]
-    )
+    every = registry() | misreadings(own.look.dt)
+    known = None if choices.candidates is None else [law for key, law in every.items() if key in choices.candidates]
     searched = weighed(own, notice, known, choices.causes)
     baseline, ranking = searched.baseline, ranked(searched)
     notice("records that no fit has seen")

@@ -9,9 +9,12 @@ from mouse_cli.model.record_diagnosis import Noise
 from mouse_cli.terms.laws import Law
 from mouse_cli.terms.laws import registry as laws
 from mouse_cli.updating.recordings.adequacy import adequate, innovation, missing, strained, unlikely, with_noise
+from mouse_cli.updating.recordings.channels import Misreading, misreadings
+from mouse_cli.updating.recordings.hypothesis import Place
+from mouse_cli.updating.recordings.misread import misread
 from mouse_cli.updating.recordings.noise import doubtful, noise
 from mouse_cli.updating.recordings.polish import Fit
-from mouse_cli.updating.recordings.regression import Start, starts
+from mouse_cli.updating.recordings.regression import Regression, Start, starts
 from mouse_cli.updating.recordings.study import Study, fitted
 from mouse_cli.updating.refusals import not_simulated
 
@@ -114,7 +117,7 @@ def _left(study: Study, one: Fit) -> Noise | None:
 def _singles(study: Study, notice: Notice, known: list[Law] | None, baseline: Fit) -> list[Fit]:
     notice(f"{len(study.places)} sites, first pass")
     error = _FIRST_ORDER if strained(baseline) else 0.0
-    order = starts((study.looked(place, study.spectrum, error=error) for place in study.places), known)
+    order = _looked(study, lambda place: study.looked(place, study.spectrum, error=error), known)
     found, best = [], baseline
     for count, start in enumerate(_varied(order), 1):
         if count > _POLISHED and (adequate(best) or count > _MORE):
@@ -127,6 +130,17 @@ def _singles(study: Study, notice: Notice, known: list[Law] | None, baseline: Fi
     if not adequate(best):
         found += _again(study, best)
     return found + _relatives(study, best, known)
+
+
+def _looked(study: Study, look: Callable[[Place], Regression], known: list[Law] | None) -> list[Start]:
+    """Every law at every place, and every error of a channel, that which leaves least first."""
+    keys = None if known is None else {law.key for law in known}
+    errors = [one for key, one in misreadings(study.look.dt).items() if keys is None or key in keys]
+    laws = None if known is None else [law for law in known if not isinstance(law, Misreading)]
+    every = starts((look(place) for place in study.places), laws)
+    if errors and study.channels:
+        every += misread(look(study.places[0]), study.channels, errors)
+    return sorted(every, key=lambda one: one.left)
 
 
 def _named(start: Start) -> str:
@@ -156,8 +170,8 @@ def _where(one: Fit) -> tuple[str, str]:
 
 def _beside(study: Study, notice: Notice, known: list[Law] | None, first: Fit, others: list[Fit]) -> list[Fit]:
     """Fits of `first` with a second law; two laws of one group at one place are one."""
-    looks = (study.looked(place, study.spectrum, first) for place in study.places)
-    order = [one for one in _varied(starts(looks, known)) if not doubled(one)]
+    order = _looked(study, lambda place: study.looked(place, study.spectrum, first), known)
+    order = [one for one in _varied(order) if not doubled(one)]
     found: list[Fit] = []
     for start in order[:_SECONDS]:
         notice(_named(start))

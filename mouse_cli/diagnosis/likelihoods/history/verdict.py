@@ -22,6 +22,7 @@ from mouse_cli.updating.recordings.adequacy import (
     strained,
     unlikely,
 )
+from mouse_cli.updating.recordings.channels import Misreading, misreadings
 from mouse_cli.updating.recordings.polish import Fit
 from mouse_cli.updating.recordings.regression import allowed
 from mouse_cli.updating.recordings.study import Study
@@ -146,10 +147,11 @@ def _sites(one: Fit) -> set[tuple[str, str]]:
 
 def untried(found: Weighed, own: Study, known: list[Law] | None) -> tuple[Untried, ...]:
     """Laws that were left out (`known`: those that were not), have no site in the model, or were fitted and never shown."""
-    every = registry().values()
-    left = [law for law in every if known is not None and law not in known]
+    every = (registry() | misreadings()).values()
+    left = [law for law in every if known is not None and law.key not in {one.key for one in known}]
     shown = {part.law.key for one in found.fits for part in one.hypothesis.parts}
-    homeless = [law for law in every if law not in left and not any(allowed(place, [law]) for place in own.places)]
+    placed = lambda law: own.channels if isinstance(law, Misreading) else [p for p in own.places if allowed(p, [law])]
+    homeless = [law for law in every if law not in left and not placed(law)]
     return (
         *(Untried(law.key, "left out by the options of the diagnosis") for law in left),
         *(Untried(law.key, "no site in this model") for law in homeless if law.key != "iwan"),
