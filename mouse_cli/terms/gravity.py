@@ -7,6 +7,7 @@ from mouse_cli.model.mesh import Mesh
 from mouse_cli.terms.constraints import Motion
 from mouse_cli.terms.element_matrices import ElementMatrices
 from mouse_cli.terms.faults import NoLoadPath
+from mouse_cli.terms.joined import parts
 from mouse_cli.terms.mechanisms import definite_factor
 
 _SHIFT = 1e-13  # of the diagonal of K, so that motions that gravity does no work on need no support
@@ -84,11 +85,7 @@ def _carried(
     mesh: Mesh, edges: np.ndarray, cut: int, grounded: np.ndarray, weight: np.ndarray, down: np.ndarray
 ) -> float:
     """Tension in edge number `cut`: weight of the nodes that lose the ground with it, positive where they hang."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    k, left = len(grounded), np.delete(edges, cut, axis=0)
-    _, part = connected_components(coo_array((np.ones(len(left)), tuple(left.T)), shape=(k, k)), directed=False)
+    part = parts(np.delete(edges, cut, axis=0), len(grounded))
     ends = edges[cut]
     held = [bool(grounded[part == part[end]].any()) for end in ends]
     if held[0] == held[1]:

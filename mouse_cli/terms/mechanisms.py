@@ -8,6 +8,7 @@ from mouse_cli.terms.constraints import Motion
 from mouse_cli.terms.element_matrices import ElementMatrices
 from mouse_cli.terms.elements._axes import arm
 from mouse_cli.terms.faults import Mechanism, Remark, floating
+from mouse_cli.terms.joined import parts
 
 LARGEST = 200_000  # degrees of freedom; larger models are not searched
 _BLOCK, _PASSES, _SHIFT = 8, 6, 1e-12
@@ -96,17 +97,12 @@ def _free(K: np.ndarray, motions: np.ndarray) -> np.ndarray:
 
 def _parts(mesh: Mesh) -> list[np.ndarray]:
     """Nodes of each part that elements and links join, those without any left out."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     pairs = [e.nodes[:, [i, i + 1]] for e in mesh.elements for i in range(e.nodes.shape[1] - 1)]
     pairs += [np.array([[link.independent, link.dependent]]) for link in mesh.links]
     pairs = np.concatenate([*pairs, np.zeros((0, 2), int)])
-    k = len(mesh.node_ids)
-    joined = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(k, k))
-    count, part = connected_components(joined, directed=False)
+    part = parts(pairs, len(mesh.node_ids))
     order = np.argsort(part, kind="stable")
-    return np.split(order, np.searchsorted(part[order], np.arange(1, count)))
+    return np.split(order, np.searchsorted(part[order], np.arange(1, part.max(initial=0) + 1)))
 
 
 def _rigid(

@@ -41,8 +41,10 @@ def arm(values: np.ndarray, axes: list[int]) -> np.ndarray:
 
 def at_end(model: Reduced, rows: np.ndarray, vector: np.ndarray) -> np.ndarray:
     """Motion (3, r) of the end of an arm (3,) from that (6, r) of its node."""
-    kept = np.isin(np.arange(3), model.problem.mesh.directions)
-    return rows[:3] + kept[:, None] * np.cross(rows[3:], vector, axisa=0).T
+    x, y, z = vector
+    turned = np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])  # times a vector: its product with that of the arm
+    turned[[d for d in range(3) if d not in model.problem.mesh.directions]] = 0.0
+    return rows[:3] + turned @ rows[3:]
 
 
 def with_arm(edit: Edit, node: int, vector: np.ndarray) -> int:
