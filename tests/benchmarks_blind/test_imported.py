@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from benchmarks.blind.imported.__main__ import visible
 from benchmarks.blind.imported.parts import Concealed
 from benchmarks.blind.imported.scoring import ALARM, CLEAN, NAMED, OPEN, WRONG, outcome
 from benchmarks.blind.imported.structures import STRUCTURES
@@ -26,6 +27,15 @@ def test_a_deck_of_the_panel_says_nothing_of_the_missing_stiffener(tmp_path):
     assert [each.name for each in problem.held.supports] == ["FOOT_1", "FOOT_2", "FOOT_3", "FOOT_4"]
     assert {group.name for group in problem.groups} == {"SKIN", *(f"STIFFENER_{k}" for k in (1, 2, 3, 4))}
     assert problem.test.m == 8 and len(problem.parameters) == 2
+
+
+@pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (ccx) is not on the path")
+def test_a_heavier_pad_on_the_ground_is_not_to_be_seen_and_a_softer_one_is():
+    """Its nodes are held or nearly so: what it weighs moves nothing."""
+    mesh = STRUCTURES["bracket"](np.random.default_rng(0))
+    seen = {kind: visible(mesh, Concealed(kind, "PAD_1", size, {"ALU": 1.01})) for kind, size in
+            {"control": 1.0, "heavier": 2.0, "softer": 0.5}.items()}  # fmt: skip
+    assert seen["control"] < 1e-6 < seen["heavier"] < 1 < 100 < seen["softer"]
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ import numpy as np
 from benchmarks.blind.imported.parts import Concealed, Mesh
 
 NAMED, OPEN, WRONG, CLEAN, ALARM = "named", "open", "wrong", "clean", "alarm"
+UNSEEN = "unseen"  # open, where the test does not show the change
 _NEAR = 0.1  # of the size of the structure: how far from a node that bears more a mass may be named
 
 
