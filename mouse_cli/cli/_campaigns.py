@@ -2,6 +2,7 @@
 
 import click
 
+from mouse_cli.cli._answers import answer_text
 from mouse_cli.cli._options import run_changes
 
 TABLE = (click.option("--csv", "csv_file", metavar="FILE", help="Write a long table, one line a run and quantity."),)
@@ -27,9 +28,8 @@ def deck_of(deck: str, given: dict[str, object], quiet: bool) -> tuple:
 def told(found: object, form: str | None, numbers: str | None, csv_file: str | None) -> None:
     """Print the report or the document of a campaign, and write its table."""
     from mouse_cli.campaigns import tables
-    from mouse_cli.cli._terminal import deliver, json_text
-    from mouse_cli.report import document, written
+    from mouse_cli.cli._terminal import deliver
 
     if csv_file:
         deliver(tables.text(found), csv_file, "")
-    deliver(json_text(document(found)) if form == "json" else written(found, form or "printout", numbers), None, "")
+    deliver(answer_text(found, form, numbers), None, "")

@@ -5,6 +5,7 @@ from math import isfinite
 
 import click
 
+from mouse_cli.cli._answers import keep_full
 from mouse_cli.model.modal_test import SCALES
 from mouse_cli.model.problem import CONFIDENCES, CONVERGENCE_RULES, PAIRINGS, RECURSIONS, STEPS
 
@@ -132,6 +133,13 @@ def answer_form(schema: str) -> tuple[Callable, ...]:
             "--json", "form", flag_value="json", help=f"One JSON document ({schema}) instead of the printout."
         ),
         click.option("--markdown", "form", flag_value="markdown", help="Markdown instead of the printout."),
+        click.option(
+            "--full",
+            is_flag=True,
+            expose_value=False,
+            callback=keep_full,
+            help="Everything: evidence, cycles, matrices and covariances too, as the printout of 1972.",
+        ),
         click.option("--numbers", type=click.Choice(STYLES), help="1.28872+04 as in 1972, or 12887.2."),
     )
 

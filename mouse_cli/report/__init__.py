@@ -3,6 +3,7 @@
 A subject is an answer of any of the `kinds`.
 """
 
+from dataclasses import replace
 from importlib import import_module
 from typing import Any
 
@@ -13,20 +14,21 @@ __all__ = ["Options", "document", "markdown", "printout", "written"]
 
 
 def written(subject: Any, form: str, numbers: str | None = None, options: Options | None = None) -> str:
-    """The report of `subject` in a `form` of `report.renderers`, numbers in its own style or in another.
+    """The report of `subject` in a `form` of `report.renderers`, in its own style of numbers and to its own place, or to others.
 
     Raises ValueError for a form or a style that does not exist.
 
     >>> import mouse_cli
     >>> text = mouse_cli.written(mouse_cli.run(mouse_cli.read_deck("decks/sound_chain.yaml")), "markdown")
     >>> text.splitlines()[0]
-    '## Modal Optimization Using Statistical Evaluators'
+    '## Verdict'
     """
     from mouse_cli.report.numbers import Numbers
     from mouse_cli.report.renderers import renderer
     from mouse_cli.report.section import blocks
 
-    chosen = renderer(form)
+    chosen, options = renderer(form), options or Options()
+    options = options if options.level is not None else replace(options, level=chosen.level)
     return chosen.render(blocks(subject, options), Numbers(numbers or chosen.numbers))
 
 

@@ -1,6 +1,6 @@
 """What a report is made of, whatever it will look like: headings, texts, tables, matrices and verbatim lines."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -30,21 +30,30 @@ class Text:
 
 @dataclass(frozen=True)
 class Column:
-    """Head of a table's column; `literal`: the name is someone's own (a property's) and keeps its letters."""
+    """Head of a table's column; `literal`: the name is someone's own (a property's) and keeps its letters.
+
+    digits: those that count, where a form shortens numbers; 0: as it shortens most.
+    """
 
     name: str
     unit: str = ""
     align: str = "right"
     literal: bool = False
+    digits: int = 0
 
 
 @dataclass(frozen=True)
 class Table:
-    """Rows of cells under columns. A table too wide for its page is printed in parts that repeat the first `keys` columns."""
+    """Rows of cells under columns. A table too wide for its page is printed in parts that repeat the first `keys` columns.
+
+    kept: so many rows count, the others are folded in a short report, 0: all count; rest: what the others are.
+    """
 
     columns: tuple[Column, ...]
     rows: tuple[tuple[Cell, ...], ...]
     keys: int = 1
+    kept: int = 0
+    rest: str = ""
 
     def __post_init__(self) -> None:
         for row in self.rows:
@@ -55,7 +64,7 @@ class Table:
         """The same table without the columns that hold nothing in any row; the first `keys` columns stay."""
         kept = [j for j in range(len(self.columns)) if j < self.keys or any(not is_blank(row[j]) for row in self.rows)]
         rows = tuple(tuple(row[j] for j in kept) for row in self.rows)
-        return Table(tuple(self.columns[j] for j in kept), rows, self.keys)
+        return replace(self, columns=tuple(self.columns[j] for j in kept), rows=rows)
 
 
 @dataclass(frozen=True)

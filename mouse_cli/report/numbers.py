@@ -10,7 +10,7 @@ STYLES = ("legacy", "modern")
 
 @dataclass(frozen=True)
 class Numbers:
-    """Writes numbers in one of STYLES, always with six significant digits.
+    """Writes numbers in one of STYLES, with six significant digits; `digits`: modern ones with so many.
 
     >>> [Numbers("legacy")(v) for v in (12887.2, -0.670209, 0.0, 3)]
     ['1.28872+04', '-6.70209-01', '0.00000+00', '3']
@@ -19,6 +19,7 @@ class Numbers:
     """
 
     style: str = "legacy"
+    digits: int = 6
 
     def __post_init__(self) -> None:
         if self.style not in STYLES:
@@ -33,7 +34,7 @@ class Numbers:
             return ""
         if isinf(value):
             return "infinite" if value > 0 else "-infinite"
-        return self._legacy(value) if self.style == "legacy" else f"{value + 0.0:.6g}"
+        return self._legacy(value) if self.style == "legacy" else f"{value + 0.0:.{self.digits}g}"
 
     @staticmethod
     def _legacy(value: float) -> str:

@@ -76,7 +76,7 @@ def test_json_keeps_the_contract(capsys):
 def test_every_option_that_changes_a_number_is_echoed(capsys):
     options = ["--recursion", "replaced", "--scale", "unit", "--confidence", "90", "--partials", "7", "--passes", "2"]
     options += ["--convergence", "fraction", "--step", "second-order", "--limit-sd", "2.5", "--pairing", "number"]
-    _, printout, _ = code(capsys, "run", SOUND, *options)
+    _, printout, _ = code(capsys, "run", SOUND, *options, "--full")
     _, out, _ = code(capsys, "run", SOUND, *options, "--json")
     echoed = json.loads(out)["options"]
     for name, value in zip(options[::2], options[1::2], strict=True):
@@ -312,7 +312,11 @@ RECORDED = "t,hammer (N),acc (g)\n" + "\n".join(
     [
         (("--force", "hammer", "--lines", "20", "-o", "frf.npz"), 0, "independent averages"),
         (("--force", "hammer", "--lines", "20", "--json"), 0, "mouse.spectra/1"),
-        (("--force", "hammer", "--lines", "20", "--period", "101", "--markdown"), 0, "over periods of 101 samples"),
+        (
+            ("--force", "hammer", "--lines", "20", "--period", "101", "--markdown", "--full"),
+            0,
+            "over periods of 101 samples",
+        ),
         (("--force", "hammer", "--lines", "4000"), 4, "MD620"),
         (("--force", "hammer", "--period", "50"), 4, "does not repeat itself after 50 samples"),
         (("--force", "nothing"), 4, "MD600"),

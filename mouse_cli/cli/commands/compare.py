@@ -2,6 +2,7 @@
 
 import click
 
+from mouse_cli.cli._answers import answer_text
 from mouse_cli.cli._options import QUIET, READING, answer, options, reading
 
 
@@ -38,9 +39,8 @@ def command(
     """
     from mouse_cli.cli._decks import read_problem
     from mouse_cli.cli._methods import checked
-    from mouse_cli.cli._terminal import deliver, json_text, progress, show_diagnostics
+    from mouse_cli.cli._terminal import deliver, progress, show_diagnostics
     from mouse_cli.methods.update import compare
-    from mouse_cli.report import document, written
 
     how = checked(keys, how)
     problem = read_problem(deck, **reading(legacy, strip_73_80, overrides))
@@ -48,6 +48,5 @@ def command(
         show_diagnostics(problem.warnings)
     with progress() as (_, say):
         found = compare(problem, keys, how, say)
-    text = json_text(document(found)) if form == "json" else written(found, form or "printout", numbers or "modern")
-    deliver(text, output, deck)
+    deliver(answer_text(found, form, numbers or "modern"), output, deck)
     return 0

@@ -2,6 +2,7 @@
 
 import click
 
+from mouse_cli.cli._answers import answer_text
 from mouse_cli.cli._options import QUIET, READING, answer, options, reading
 
 
@@ -29,8 +30,7 @@ def command(
     Mode pairs, MAC, COMAC, orthogonality, sensors that look faulty, modes without partner. Judges nothing: exit 0.
     """
     from mouse_cli.cli._decks import read_problem
-    from mouse_cli.cli._terminal import deliver, json_text, progress, show_diagnostics
-    from mouse_cli.report import document, written
+    from mouse_cli.cli._terminal import deliver, progress, show_diagnostics
     from mouse_cli.updating.correlate import correlate
 
     _check_method(method, exact)
@@ -39,8 +39,7 @@ def command(
         found = correlate(problem, method, exact, say)
     if not quiet:
         show_diagnostics((*problem.warnings, *found.warnings))
-    text = json_text(document(found)) if form == "json" else written(found, form or "printout", numbers or "modern")
-    deliver(text, output, deck)
+    deliver(answer_text(found, form, numbers or "modern"), output, deck)
     return 0
 
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import click
 
+from mouse_cli.cli._answers import answer_text
 from mouse_cli.cli._options import OUTSIDE, QUIET, answer, options, outside
 from mouse_cli.model.coupling import Coupling
 
@@ -39,11 +40,10 @@ def command(
     Exit 1: noise decides the interface at more than a few lines.
     """
     from mouse_cli.cli._decks import deck_bytes, shown
-    from mouse_cli.cli._terminal import deliver, json_text, progress, show_diagnostics
+    from mouse_cli.cli._terminal import deliver, progress, show_diagnostics
     from mouse_cli.coupling import couple
     from mouse_cli.formats.frf_files import write_frf
     from mouse_cli.formats.yaml_deck import coupled
-    from mouse_cli.report import document, written
 
     _require_plots(plot)
     coupling = _with_results(coupled.read(deck_bytes(deck), shown(deck), outside()), priors)
@@ -58,8 +58,7 @@ def command(
     if written_to:
         write_frf(found.functions, written_to, coupling.units)
     _draw(found, plot)
-    form, numbers = how["form"] or "printout", how["numbers"] or "modern"
-    deliver(json_text(document(found)) if form == "json" else written(found, form, numbers), how["output"], deck)
+    deliver(answer_text(found, how["form"], how["numbers"] or "modern"), how["output"], deck)
     return int(any(d.code == "MD713" for d in found.warnings))
 
 

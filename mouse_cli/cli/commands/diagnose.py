@@ -7,11 +7,12 @@ from textwrap import fill
 import click
 
 from mouse_cli._texts import shown
+from mouse_cli.cli._answers import answer_text
 from mouse_cli.cli._arrangements import ARRANGEMENTS, Named, diagnosed, several, told, written
 from mouse_cli.cli._options import QUIET, READING, answer_form, options, reading
 from mouse_cli.cli._raw_folder import RAW, asked_of_folder
 
-_WIDTH = 132  # columns of the printout
+_WIDTH = 100  # columns of a terminal
 _FORMS = {".json": "json", ".md": "markdown"}
 _CONSIDERED = (
     click.option(
@@ -83,7 +84,7 @@ def command(
     files = _revised(found, output, problems[0] if raw["folder"] else None)
     for path in reports:
         deliver(_text(found, _form(path), numbers, output, files), path, decks[0])
-    deliver(_text(found, form or "printout", numbers, output, files), None, decks[0])
+    deliver(_text(found, form, numbers, output, files), None, decks[0])
     if plot:
         from mouse_cli.plots import draw
 
@@ -179,9 +180,9 @@ def _check_places(deck: str, output: str | None, plot: str | None, reports: tupl
         require(plot)
 
 
-def _form(path: str) -> str:
+def _form(path: str) -> str | None:
     """That of a report, by the suffix of its file."""
-    return _FORMS.get(os.path.splitext(path)[1].lower(), "printout")
+    return _FORMS.get(os.path.splitext(path)[1].lower())
 
 
 def _revised(found, output: str | None, measured=None) -> list[str]:
@@ -201,16 +202,15 @@ def _arranged(found) -> bool:
     return isinstance(found, ArrangementsDiagnosis)
 
 
-def _text(found, form: str, numbers: str | None, output: str | None, files: list[str]) -> str:
+def _text(found, form: str | None, numbers: str | None, output: str | None, files: list[str]) -> str:
     """The answer in the form asked for, and what became of `-o`."""
     from mouse_cli.cli._terminal import json_text
     from mouse_cli.report import document
-    from mouse_cli.report import written as report
 
     if form == "json":
         decks = {"revised_decks": files} if _arranged(found) else {"revised_deck": files[-1] if files else None}
         return json_text(document(found) | decks)
-    text = report(found, form, numbers or "modern")
+    text = answer_text(found, form, numbers or "modern")
     if output is None:
         return text
     sentence = told(files, output) if _arranged(found) else _written(found, output, files)

@@ -4,6 +4,7 @@ import os
 
 import click
 
+from mouse_cli.cli._answers import answer_text
 from mouse_cli.cli._options import OUTSIDE, answer_form, options
 from mouse_cli.cli._recording_options import CHANNELS, SEGMENT, SPECTRA
 
@@ -66,12 +67,12 @@ def command(
 def _answer(found, form: str | None, numbers: str | None, output: str | None, files: list[str]) -> None:
     """Print the answer, and what became of `-o`."""
     from mouse_cli.cli._terminal import json_text, say
-    from mouse_cli.report import document, written
+    from mouse_cli.report import document
 
     if form == "json":
         say(json_text(document(found) | {"deck": files[-1] if files else None}))
         return
-    text = written(found, form or "printout", numbers or "modern")
+    text = answer_text(found, form, numbers or "modern")
     if output:
         text += (
             f"\nThe modes are in {files[-1]}.\n"

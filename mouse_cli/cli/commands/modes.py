@@ -2,6 +2,7 @@
 
 import click
 
+from mouse_cli.cli._answers import answer_text
 from mouse_cli.cli._options import PRIOR, QUIET, READING, answer, earlier, options, reading
 
 
@@ -29,8 +30,7 @@ def command(
     The standard deviations are propagated from those of the properties.
     """
     from mouse_cli.cli._decks import read_problem, without_laws
-    from mouse_cli.cli._terminal import deliver, json_text, progress, show_diagnostics
-    from mouse_cli.report import document, written
+    from mouse_cli.cli._terminal import deliver, progress, show_diagnostics
     from mouse_cli.updating import forecast
 
     problem = read_problem(deck, **earlier(prior, loosen), **reading(legacy, strip_73_80, overrides))
@@ -38,5 +38,5 @@ def command(
         show_diagnostics((*problem.warnings, *without_laws(problem, modes=True)))
     with progress() as (_, say):
         found = forecast(problem, count, say)
-    deliver(json_text(document(found)) if form == "json" else written(found, form or "printout", numbers), output, deck)
+    deliver(answer_text(found, form, numbers, problem.source.format == "cards"), output, deck)
     return 0

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import click
 
+from mouse_cli.cli._answers import answer_text
 from mouse_cli.cli._changes import CHANGES, changes_text
 from mouse_cli.cli._options import PRIOR, QUIET, READING, answer, earlier, options, outside, reading
 
@@ -27,9 +28,8 @@ def command(
     Exit 1: a target cannot be met.
     """
     from mouse_cli.cli._decks import without_laws
-    from mouse_cli.cli._terminal import deliver, json_text, progress, show_diagnostics
+    from mouse_cli.cli._terminal import deliver, progress, show_diagnostics
     from mouse_cli.coupling import modify
-    from mouse_cli.report import document, written
 
     if plot:
         from mouse_cli.plots import require
@@ -44,11 +44,7 @@ def command(
         from mouse_cli.plots import draw
 
         draw(found, plot)
-    deliver(
-        json_text(document(found)) if form == "json" else written(found, form or "printout", numbers or "modern"),
-        output,
-        deck,
-    )
+    deliver(answer_text(found, form, numbers or "modern"), output, deck)
     return int(_missed(found))
 
 

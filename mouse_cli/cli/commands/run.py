@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable
 
 import click
 
+from mouse_cli.cli._answers import answer_text
 from mouse_cli.cli._methods import METHOD, by_method, chosen
 from mouse_cli.cli._options import PRIOR, QUIET, READING, RUN, answer, earlier, options, reading, run_changes
 
@@ -88,9 +89,14 @@ def _problems(deck: str, stacked: bool, changes: dict, begun: dict, how: dict) -
 def _text(results: list, form: str | None, numbers: str | None, stacked: bool) -> str:
     """The answer in the form asked for."""
     from mouse_cli.cli._terminal import json_text
-    from mouse_cli.report import document, written
+    from mouse_cli.report import document
 
     if form == "json":
         documents = [document(result) for result in results]
         return json_text({"schema": "mouse.results/1", "cases": documents} if stacked else documents[0])
-    return "\n".join(written(result, form or "printout", numbers) for result in results)
+    return "\n".join(answer_text(result, form, numbers, _of_1972(result.problem)) for result in results)
+
+
+def _of_1972(problem) -> bool:
+    """Whether the printout is to be that of 1972: of its cards, and within its limits."""
+    return problem.source.format == "cards" or problem.run.legacy

@@ -2,6 +2,7 @@
 
 import click
 
+from mouse_cli.cli._answers import answer_text
 from mouse_cli.cli._options import PRIOR, QUIET, READING, answer, earlier, options, reading
 
 
@@ -54,9 +55,8 @@ def command(
     """
     from mouse_cli.campaigns.sampling.sample import sample
     from mouse_cli.cli._decks import read_problem, without_laws
-    from mouse_cli.cli._terminal import deliver, json_text, progress, show_diagnostics
+    from mouse_cli.cli._terminal import deliver, progress, show_diagnostics
     from mouse_cli.model.sampled import Sampling
-    from mouse_cli.report import document, written
 
     problem = read_problem(deck, **earlier(prior, loosen), **reading(legacy, strip_73_80, overrides))
     if not quiet:
@@ -67,5 +67,5 @@ def command(
         from mouse_cli.campaigns.sampling.chain_file import write
 
         write(chain, found)
-    deliver(json_text(document(found)) if form == "json" else written(found, form or "printout", numbers), output, deck)
+    deliver(answer_text(found, form, numbers), output, deck)
     return found.exit_code

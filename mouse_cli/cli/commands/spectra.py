@@ -2,6 +2,7 @@
 
 import click
 
+from mouse_cli.cli._answers import answer_text
 from mouse_cli.cli._options import OUTSIDE, answer_form, options
 from mouse_cli.cli._recording_options import CHANNELS, SEGMENT, SPECTRA
 
@@ -31,10 +32,9 @@ def command(
     median coherence and noise of each FRF.
     """
     from mouse_cli.cli._spectra import measured_data, spectra_options
-    from mouse_cli.cli._terminal import json_text, say, show_diagnostics
+    from mouse_cli.cli._terminal import say, show_diagnostics
     from mouse_cli.formats.frf_files import write_frf
     from mouse_cli.records.measurements import measure
-    from mouse_cli.report import document, written
 
     how = spectra_options(given)
     data = measured_data(source, titles, given)
@@ -48,8 +48,5 @@ def command(
                 f"the recordings make {len(found.measured)} sets of functions ({names}); choose one with --recording"
             )
         write_frf(found.measured[0].frf, output, data.units)
-    if form == "json":
-        say(json_text(document(found)))
-    else:
-        say(written(found, form or "printout", numbers or "modern"), end="")
+    say(answer_text(found, form, numbers or "modern").rstrip("\n"))
     return 0

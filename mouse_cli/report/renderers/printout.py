@@ -22,19 +22,19 @@ def render(blocks: Iterable[Block], numbers: Numbers, width: int = WIDTH) -> str
 
 
 def _heading(block: Heading, numbers: Numbers, width: int) -> list[str]:
-    text = wrap(_printable(block.text).upper(), width)
+    text = wrap(printable(block.text).upper(), width)
     return ["*" * width, *text, "*" * width] if block.level == 1 else text
 
 
 def _text(block: Text, numbers: Numbers, width: int) -> list[str]:
-    return wrap(_printable(block.filled(numbers)), width)
+    return wrap(printable(block.filled(numbers)), width)
 
 
-def _lines(block: Lines, numbers: Numbers, width: int) -> list[str]:
+def stand(block: Lines, numbers: Numbers, width: int) -> list[str]:
     """As they stand; a longer line goes on in the next one, marked by a dot."""
     out: list[str] = []
     for line in block.lines:
-        line = _printable(line.expandtabs()).rstrip()
+        line = printable(line.expandtabs()).rstrip()
         out.append(line[:width])
         out += [". " + line[i : i + width - 2] for i in range(width, len(line), width - 2)]
     return out
@@ -46,7 +46,7 @@ def _table(block: Table, numbers: Numbers, width: int) -> list[str]:
 
 def _matrix(block: Matrix, numbers: Numbers, width: int) -> list[str]:
     unit = f" ({block.unit})" if block.unit else ""
-    name = wrap(_printable(f"{block.name}{unit}").upper(), width)
+    name = wrap(printable(f"{block.name}{unit}").upper(), width)
     return [*name, "", *_grids(matrix_grids(block, numbers, width))]
 
 
@@ -56,11 +56,11 @@ def _grids(grids: Iterable[Grid]) -> list[str]:
     for grid in grids:
         if out:
             out.append("")
-        out += [_printable(line) for line in grid.lines()]
+        out += [printable(line) for line in grid.lines()]
     return out
 
 
-def _printable(text: str) -> str:
+def printable(text: str) -> str:
     """`text` with one visible character per column: nothing in a deck may move the printer's carriage."""
     return "".join(c if c.isprintable() else " " for c in text)
 
@@ -68,7 +68,7 @@ def _printable(text: str) -> str:
 _RENDER: dict[type, Callable[..., list[str]]] = {
     Heading: _heading,
     Text: _text,
-    Lines: _lines,
+    Lines: stand,
     Table: _table,
     Matrix: _matrix,
 }

@@ -7,8 +7,10 @@ from mouse_cli._errors import Diagnostic
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import ChiSquareTest
 from mouse_cli.report.blocks import Column, Table, Text
+from mouse_cli.report.section import Options
 
 LEFT = "left"  # side at which a column of words starts
+_BRIEF = 3  # remarks of a short report
 
 
 def names(problem: Problem) -> tuple[str, ...]:
@@ -42,8 +44,13 @@ def test_table(tests: tuple[ChiSquareTest, ...]) -> Table:
     return Table(columns, tuple((t.name, t.chi2, t.dof, t.p if t.dof else None) for t in tests))
 
 
-def remarks(found: Iterable[Diagnostic]) -> Iterator[Text]:
-    """One paragraph a remark, with its advice."""
-    for remark in found:
-        advice = f" {remark.help[0].upper()}{remark.help[1:]}." if remark.help else ""
-        yield Text(f"{remark.code}: {remark.message}.{advice}")
+def remarks(found: Iterable[Diagnostic], options: Options) -> Iterator[Text]:
+    """One paragraph a remark, with its place and advice; in a short report the first ones in brief, and how many more."""
+    found = tuple(found)
+    for remark in found[:_BRIEF] if options.short else found:
+        place = f" ({remark.span})" if remark.span else ""
+        parts = () if options.short else (remark.note, remark.help)
+        more = "".join(f" {part[0].upper()}{part[1:]}." for part in parts if part)
+        yield Text(f"{remark.code}{place}: {remark.message}.{more}")
+    if options.short and len(found) > _BRIEF:
+        yield Text(f"and {len(found) - _BRIEF} more; `--full`")

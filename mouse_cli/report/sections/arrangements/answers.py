@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from mouse_cli.model.arrangements import ArrangementsDiagnosis
 from mouse_cli.report.arrangements_sentences import sentences
 from mouse_cli.report.blocks import Block, Heading, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import VERDICT, Options, Section
 from mouse_cli.report.sections._diagnosis_wording import p_value
 from mouse_cli.report.sections._field import field_blocks
 
@@ -43,4 +43,4 @@ def _true(found: ArrangementsDiagnosis) -> str:
     )
 
 
-SECTION = Section("arrangements-answers", 10, "Diagnosis", answers, (ArrangementsDiagnosis,))
+SECTION = Section("arrangements-answers", 10, "Diagnosis", answers, (ArrangementsDiagnosis,), place=VERDICT)

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from mouse_cli.model.arrangements import ArrangementsDiagnosis
 from mouse_cli.report.blocks import Block, Column, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._wording import LEFT
 
 _COLUMNS = (
@@ -30,4 +30,4 @@ def parameters(found: ArrangementsDiagnosis, options: Options) -> Iterator[Block
     yield Table(_ERRORS, tuple((e.mode, f"{100 * e.value:.2f}", f"{100 * e.sd:.2g}") for e in found.shared))
 
 
-SECTION = Section("arrangements-parameters", 50, "Parameters", parameters, (ArrangementsDiagnosis,))
+SECTION = Section("arrangements-parameters", 50, "Parameters", parameters, (ArrangementsDiagnosis,), place=RESULT)

@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.model.campaign import Bootstrap
 from mouse_cli.report.blocks import Block, Column, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._wording import LEFT, counted
 
 
@@ -26,4 +26,4 @@ def influence(found: Bootstrap, options: Options) -> Iterator[Block]:
     yield Text(f"By how many posterior standard deviations each property moves when that is left out.{rest}")
 
 
-SECTION = Section("bootstrap-influence", 20, "Influence of modes and sensors", influence, (Bootstrap,))
+SECTION = Section("bootstrap-influence", 20, "Influence of modes and sensors", influence, (Bootstrap,), place=RESULT)

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from mouse_cli.model.campaign import Bootstrap, Spread
 from mouse_cli.report.blocks import Block, Column, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._wording import LEFT, counted, deck_table
 
 _COLUMNS = (
@@ -55,4 +55,4 @@ def _row(each: Spread) -> tuple[float, ...]:
     )
 
 
-SECTION = Section("bootstrap-spread", 10, "Bootstrap", spread, (Bootstrap,))
+SECTION = Section("bootstrap-spread", 10, "Bootstrap", spread, (Bootstrap,), place=RESULT)

@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.model.campaign import Moved, Sweep
 from mouse_cli.report.blocks import Block, Column, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._wording import LEFT
 
 
@@ -40,4 +40,4 @@ def _row(each: Moved, varied: tuple[str, ...]) -> tuple:
     )
 
 
-SECTION = Section("sweep-moved", 20, "What moves", moved, (Sweep,))
+SECTION = Section("sweep-moved", 20, "What moves", moved, (Sweep,), place=RESULT)

@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.model.updated import Compared
 from mouse_cli.report.blocks import Block, Column, Heading, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections.update.frequencies import cleared
 
 
@@ -39,4 +39,4 @@ def frequencies(found: Compared, options: Options) -> Iterator[Block]:
     )
 
 
-SECTION = Section("comparison-frequencies", 30, "Frequencies", frequencies, (Compared,))
+SECTION = Section("comparison-frequencies", 30, "Frequencies", frequencies, (Compared,), place=RESULT)

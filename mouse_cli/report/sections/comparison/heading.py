@@ -29,4 +29,4 @@ def heading(found: Compared, options: Options) -> Iterator[Block]:
         yield Text(f"{key} has no answer: {why[0].code}: {why[0].message}.")
 
 
-SECTION = Section("comparison-heading", 10, "Comparison of methods of updating", heading, (Compared,))
+SECTION = Section("comparison-heading", 10, "Methods", heading, (Compared,))

@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.model.correlation import ALONE, Correlation
 from mouse_cli.report.blocks import Block, Cell, Column, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 
 _COLUMNS = (
     Column("test mode"),
@@ -47,4 +47,4 @@ def _measured(found: Correlation, i: int) -> tuple[Cell, ...]:
     return int(test.number[i]), j + 1, test_hz, hz, *away, likeness, factor, float(found.visible[j])
 
 
-SECTION = Section("correlation-frequencies", 20, "Pairs of modes", frequencies, (Correlation,))
+SECTION = Section("correlation-frequencies", 20, "Pairs of modes", frequencies, (Correlation,), place=RESULT)

@@ -21,4 +21,4 @@ def heading(found: Correlation, options: Options) -> Iterator[Block]:
     )
 
 
-SECTION = Section("correlation-heading", 10, "Test against model", heading, (Correlation,))
+SECTION = Section("correlation-heading", 10, "Deck", heading, (Correlation,))

@@ -3,15 +3,14 @@
 from collections.abc import Iterator
 
 from mouse_cli.model.correlation import Correlation
-from mouse_cli.report.blocks import Block, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.blocks import Block
+from mouse_cli.report.section import RESULT, Options, Section
+from mouse_cli.report.sections._wording import remarks as worded
 
 
 def remarks(found: Correlation, options: Options) -> Iterator[Block]:
     """One paragraph a remark."""
-    for remark in (*found.problem.warnings, *found.warnings):
-        advice = f" {remark.help[0].upper()}{remark.help[1:]}." if remark.help else ""
-        yield Text(f"{remark.code}: {remark.message}.{advice}")
+    yield from worded((*found.warnings, *found.problem.warnings), options)
 
 
-SECTION = Section("correlation-remarks", 70, "Remarks", remarks, (Correlation,))
+SECTION = Section("correlation-remarks", 70, "Remarks", remarks, (Correlation,), place=RESULT)

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from mouse_cli.formats.frf_values import response_unit
 from mouse_cli.model.coupled import Coupled, Peak
 from mouse_cli.report.blocks import Block, Column, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._wording import LEFT
 
 SHARP = (
@@ -25,7 +25,7 @@ def functions(found: Coupled, options: Options) -> Iterator[Block]:
     )
     units = found.coupling.units
     yield peak_table(found.peaks, response_unit(frf.kind, units) if units.declared else "")
-    if any(peak.sd > 0 for peak in found.peaks):
+    if any(peak.sd > 0 for peak in found.peaks) and not options.short:
         yield Text(
             "Standard deviations are those that measured functions and the properties of models carry to the whole, to first "
             "order; parts "
@@ -45,4 +45,6 @@ def peak_table(peaks: tuple[Peak, ...], unit: str) -> Table:
     return Table(columns, rows, 2).without_empty_columns()
 
 
-SECTION = Section("coupling-functions", 30, "Frequency response functions of the whole", functions, (Coupled,))
+SECTION = Section(
+    "coupling-functions", 30, "Frequency response functions of the whole", functions, (Coupled,), place=RESULT
+)

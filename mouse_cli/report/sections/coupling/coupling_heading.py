@@ -77,4 +77,4 @@ def connections(each: tuple[Connection, ...], names: list[tuple[str, str]]) -> T
     return Table(columns, rows, 2).without_empty_columns()
 
 
-SECTION = Section("coupling-heading", 10, "Coupled structures", heading, (Coupled,))
+SECTION = Section("coupling-heading", 10, "Parts and connections", heading, (Coupled,))

@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.model.coupled import Coupled, CoupledModes
 from mouse_cli.report.blocks import Block, Column, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._wording import LEFT, counted
 
 
@@ -27,10 +27,11 @@ def modes(found: Coupled, options: Options) -> Iterator[Block]:
             "What truncation makes of them: error of each frequency, in per cent, with the stated number of modes kept of "
             "every part."
         )
-        yield _errors(whole)
+        yield _errors(whole, options.short)
 
 
-def _errors(whole: CoupledModes) -> Table:
+def _errors(whole: CoupledModes, short: bool) -> Table:
+    """One line a reduction; short: with the worst mode alone."""
     elastic = [i for i in range(len(whole.frequencies_hz)) if i >= whole.rigid]
     columns = (
         Column("reduction", align=LEFT, literal=True),
@@ -44,7 +45,8 @@ def _errors(whole: CoupledModes) -> Table:
         error = [float(100 * each.error[i]) for i in elastic]
         worst = float(np.abs(error).max()) if elastic else np.nan
         rows.append((each.method, each.keep, each.coordinates, worst, *error))
-    return Table(columns, tuple(rows), 3)
+    shown = 4 if short else len(columns)
+    return Table(columns[:shown], tuple(row[:shown] for row in rows), 3)
 
 
-SECTION = Section("coupling-modes", 40, "Natural frequencies of the whole", modes, (Coupled,))
+SECTION = Section("coupling-modes", 40, "Natural frequencies of the whole", modes, (Coupled,), place=RESULT)

@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.model.modified import Modified
 from mouse_cli.report.blocks import Block, Column, Matrix, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 
 _CORRELATED = 10  # modes whose correlations are shown
 
@@ -16,7 +16,8 @@ def frequencies(found: Modified, options: Options) -> Iterator[Block]:
     before, after, shifts = found.before, found.after, found.shifts
     columns = (
         Column("mode"), Column("frequency", "Hz"), Column("standard deviation", "Hz"), Column("was mode"), Column("at", "Hz"),
-        Column("with sd", "Hz"), Column("shift", "Hz"), Column("sd of the shift", "Hz"), Column("mac"),
+        Column("with sd", "Hz"), Column("shift", "Hz", digits=4), Column("sd of the shift", "Hz", digits=3),
+        Column("MAC", digits=4),
     )  # fmt: skip
     rows = []
     for i, hz in enumerate(after.frequencies_hz):
@@ -42,7 +43,7 @@ def frequencies(found: Modified, options: Options) -> Iterator[Block]:
         yield Text(
             "A mode without a number before is new, such as that of an absorber, or unlike all that were looked at."
         )
-    if found.modification.problem.parameters:
+    if found.modification.problem.parameters and not options.short:
         yield from _correlations(found)
 
 
@@ -59,4 +60,4 @@ def _correlations(found: Modified) -> Iterator[Block]:
     )
 
 
-SECTION = Section("modified-frequencies", 20, "Natural frequencies", frequencies, (Modified,))
+SECTION = Section("modified-frequencies", 20, "Natural frequencies", frequencies, (Modified,), place=RESULT)

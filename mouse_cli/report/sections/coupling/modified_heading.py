@@ -27,8 +27,6 @@ def heading(found: Modified, options: Options) -> Iterator[Block]:
         places = asked.part.places
         names = [(places[one.at.place], places[one.to.place] if one.to else "") for one in found.connections]
         yield connections(found.connections, names)
-    else:
-        yield Text("Nothing is changed.")
 
 
-SECTION = Section("modified-heading", 10, "Modified structure", heading, (Modified,))
+SECTION = Section("modified-heading", 10, "Changes", heading, (Modified,))

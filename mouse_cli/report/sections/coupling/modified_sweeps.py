@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from mouse_cli.model.coupling import ABSORBER, MASS
 from mouse_cli.model.modified import Modified, Swept
 from mouse_cli.report.blocks import Block, Column, Heading, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._wording import LEFT
 
 _SHOWN = 12  # places of a sweep
@@ -43,4 +43,4 @@ def _absorbers(each: Swept) -> Table:
     )
 
 
-SECTION = Section("modified-sweeps", 40, "Best locations", sweeps, (Modified,))
+SECTION = Section("modified-sweeps", 40, "Best locations", sweeps, (Modified,), place=RESULT)

@@ -8,7 +8,7 @@ import numpy as np
 from mouse_cli.model.coupling import MASS, Target
 from mouse_cli.model.modified import Modified, Need
 from mouse_cli.report.blocks import Block, Column, Heading, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._wording import LEFT
 
 
@@ -49,4 +49,4 @@ def _answer(target: Target, needs: list[Need], unit: str, confidence: int) -> It
         yield Text("Negative values are to be taken away.")
 
 
-SECTION = Section("modified-targets", 30, "What it takes", targets, (Modified,))
+SECTION = Section("modified-targets", 30, "What it takes", targets, (Modified,), place=RESULT)

@@ -18,7 +18,7 @@ from mouse_cli.model.diagnosis import (
 )
 from mouse_cli.report.blocks import Block, Column, Heading, Table, Text
 from mouse_cli.report.field_words import held_words
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import VERDICT, Options, Section
 from mouse_cli.report.sections._diagnosis_wording import (
     called,
     companions,
@@ -284,4 +284,4 @@ def _capital(text: str) -> str:
     return text[:1].upper() + text[1:]
 
 
-SECTION = Section("diagnosis-answers", 10, "Diagnosis", answers, (Diagnosis,))
+SECTION = Section("diagnosis-answers", 10, "Diagnosis", answers, (Diagnosis,), place=VERDICT)

@@ -4,13 +4,14 @@ from collections.abc import Iterator
 
 from mouse_cli.model.diagnosis import UNKNOWN, Diagnosis, Explanation
 from mouse_cli.report.blocks import Block, Cell, Column, Heading, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._diagnosis_wording import nats, nats_over_none, probable, where
 from mouse_cli.report.sections._field import untried_text
 from mouse_cli.report.sections._wording import LEFT
 
 _LEAST, _MOST = 1e-3, 30  # probability of explanations that are listed, and how many; a few are, however improbable
 _ALWAYS = 8
+_COUNTS, _FEW = 0.01, 5  # the same of a short report
 _JUDGED = (
     Column("candidate", align=LEFT),
     Column("group", align=LEFT),
@@ -36,6 +37,9 @@ def evidence(found: Diagnosis, options: Options) -> Iterator[Block]:
         yield Text("No candidate has a meaning for this model.")
         yield from untried_text(found.untried)
         return
+    if options.short:
+        yield _brief(found)
+        return
     likely = sum(one.probability >= _LEAST for one in found.explanations)
     shown = found.explanations[: min(max(likely, _ALWAYS), _MOST)]
     yield Table(_JUDGED, tuple(_judged(found, one) for one in shown)).without_empty_columns()
@@ -51,6 +55,15 @@ def evidence(found: Diagnosis, options: Options) -> Iterator[Block]:
     if rows:
         yield Heading("Sizes", 2)
         yield Table(_SIZED, rows, keys=2)
+
+
+def _brief(found: Diagnosis) -> Table:
+    """The most probable explanations; the others are folded."""
+    likely = sum(one.probability >= _COUNTS for one in found.explanations)
+    rows = tuple(_judged(found, one) for one in found.explanations)
+    rest = "" if found.kind == UNKNOWN else f"of probability below {_COUNTS:g}"
+    table = Table(_JUDGED, rows, kept=_FEW if found.kind == UNKNOWN else max(likely, 2), rest=rest)
+    return table.without_empty_columns()
 
 
 def _probability(found: Diagnosis) -> str:
@@ -76,4 +89,4 @@ def _sized(one: Explanation) -> Iterator[tuple[Cell, ...]]:
             yield one.physics, name, value, sd, size.unit, lower, upper
 
 
-SECTION = Section("diagnosis-evidence", 40, "Evidence", evidence, (Diagnosis,))
+SECTION = Section("diagnosis-evidence", 40, "Evidence", evidence, (Diagnosis,), place=RESULT)

@@ -9,7 +9,7 @@ from mouse_cli.model.diagnosis import NAMED, Diagnosis
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block, Cell, Column, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._diagnosis_wording import likeness, per_cent, with_cause
 
 
@@ -58,4 +58,4 @@ def _against(result: Result, test: ModalTest) -> np.ndarray:
     return found
 
 
-SECTION = Section("diagnosis-fitted", 70, "Fitted data, before and after", fitted, (Diagnosis,))
+SECTION = Section("diagnosis-fitted", 70, "Fitted data, before and after", fitted, (Diagnosis,), place=RESULT)

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from mouse_cli.model.diagnosis import Diagnosis, Effort
 from mouse_cli.report.blocks import Block, Column, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._diagnosis_wording import separation
 from mouse_cli.report.sections._wording import LEFT
 
@@ -40,4 +40,4 @@ def proposals(found: Diagnosis, options: Options) -> Iterator[Block]:
     )
 
 
-SECTION = Section("diagnosis-next", 50, "Next measurement", proposals, (Diagnosis,))
+SECTION = Section("diagnosis-next", 50, "Next measurement", proposals, (Diagnosis,), place=RESULT)

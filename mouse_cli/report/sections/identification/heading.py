@@ -4,13 +4,13 @@ from collections.abc import Iterator
 
 from mouse_cli import __version__
 from mouse_cli.model.identification import Identification
-from mouse_cli.report.blocks import Block, Column, Table, Text
+from mouse_cli.report.blocks import Block, Column, Table
 from mouse_cli.report.section import Options, Section
-from mouse_cli.report.sections._wording import LEFT, counted
+from mouse_cli.report.sections._wording import LEFT
 
 
 def heading(found: Identification, options: Options) -> Iterator[Block]:
-    """Source, method, every number of the method, and the outcome."""
+    """Source, method, every number of the method."""
     rows = [
         ("program", f"mouse {__version__}"),
         ("title", found.title),
@@ -21,15 +21,6 @@ def heading(found: Identification, options: Options) -> Iterator[Block]:
         *[(name, value if isinstance(value, str) else f"{value:.6g}") for name, value in found.details.items()],
     ]
     yield Table((Column("", align=LEFT), Column("", align=LEFT)), tuple(rows))
-    sensors = counted(len(found.sensors), "sensor")
-    if found.exit_code == 0:
-        yield Text(f"{counted(found.modes.m, 'mode')} at {sensors}; no warnings.")
-    elif found.modes.m:
-        yield Text(
-            f"{counted(found.modes.m, 'mode')} at {sensors}, with warnings: see the remarks before they are used."
-        )
-    else:
-        yield Text("No mode was identified: see the remarks.")
 
 
-SECTION = Section("identification-heading", 10, "Modal identification", heading, (Identification,))
+SECTION = Section("identification-heading", 10, "Source and method", heading, (Identification,))

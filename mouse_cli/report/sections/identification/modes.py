@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.model.identification import Identification
 from mouse_cli.report.blocks import Block, Column, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._wording import LEFT
 
 _COLUMNS = (
@@ -51,4 +51,4 @@ def modes(found: Identification, options: Options) -> Iterator[Block]:
     )
 
 
-SECTION = Section("identification-modes", 20, "Modes", modes, (Identification,))
+SECTION = Section("identification-modes", 20, "Modes", modes, (Identification,), place=RESULT)

@@ -3,15 +3,14 @@
 from collections.abc import Iterator
 
 from mouse_cli.model.identification import Identification
-from mouse_cli.report.blocks import Block, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.blocks import Block
+from mouse_cli.report.section import RESULT, Options, Section
+from mouse_cli.report.sections._wording import remarks as worded
 
 
 def remarks(found: Identification, options: Options) -> Iterator[Block]:
     """One paragraph a remark, doubts first."""
-    for remark in (*found.doubts, *found.remarks):
-        advice = f" {remark.help[0].upper()}{remark.help[1:]}." if remark.help else ""
-        yield Text(f"{remark.code}: {remark.message}.{advice}".replace("{", "{{").replace("}", "}}"))
+    yield from worded((*found.doubts, *found.remarks), options)
 
 
-SECTION = Section("identification-remarks", 60, "Remarks", remarks, (Identification,))
+SECTION = Section("identification-remarks", 60, "Remarks", remarks, (Identification,), place=RESULT)

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, elsewhere
 from mouse_cli.model.record_diagnosis import AS_IT_IS, WITH_CAUSE, RecordDiagnosis, RecordScore
 from mouse_cli.report.blocks import Block, Heading, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import VERDICT, Options, Section
 from mouse_cli.report.sections._diagnosis_wording import leaders, p_value, rivals_of_site, sized, where, with_p, within
 from mouse_cli.report.sections._field import field_blocks
 from mouse_cli.report.verdict_sentences import remains, sentences
@@ -108,4 +108,4 @@ def _capital(text: str) -> str:
     return text[:1].upper() + text[1:]
 
 
-SECTION = Section("record-answers", 10, "Diagnosis", answers, (RecordDiagnosis,))
+SECTION = Section("record-answers", 10, "Diagnosis", answers, (RecordDiagnosis,), place=VERDICT)

@@ -5,7 +5,8 @@ from collections.abc import Iterator
 from mouse_cli.model.record_diagnosis import RecordDiagnosis
 from mouse_cli.model.record_update import RecordUpdate
 from mouse_cli.report.blocks import Block, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
+from mouse_cli.report.sections._wording import remarks as worded
 
 
 def remarks(found: RecordDiagnosis | RecordUpdate, options: Options) -> Iterator[Block]:
@@ -14,9 +15,7 @@ def remarks(found: RecordDiagnosis | RecordUpdate, options: Options) -> Iterator
         yield Text(f"{text[:1].upper()}{text[1:]}.")
     for each in getattr(found, "untried", ()):
         yield Text(f"Not considered: {each.physics} ({each.reason}).")
-    for remark in found.problem.warnings:
-        place = f" ({remark.span})" if remark.span else ""
-        yield Text(f"{remark.code}{place}: {remark.message}.")
+    yield from worded(found.problem.warnings, options)
 
 
-SECTION = Section("record-remarks", 90, "Remarks", remarks, (RecordDiagnosis, RecordUpdate))
+SECTION = Section("record-remarks", 90, "Remarks", remarks, (RecordDiagnosis, RecordUpdate), place=RESULT)

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from mouse_cli.model.record_update import RecordUpdate
 from mouse_cli.report.blocks import Block, Column, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import VERDICT, Options, Section
 from mouse_cli.report.sections._wording import LEFT
 
 
@@ -58,4 +58,4 @@ def _laws(found: RecordUpdate) -> Iterator[Block]:
     yield Table(columns, tuple(rows))
 
 
-SECTION = Section("record-update", 10, "Update by recordings", update, (RecordUpdate,))
+SECTION = Section("record-update", 10, "Update by recordings", update, (RecordUpdate,), place=VERDICT)

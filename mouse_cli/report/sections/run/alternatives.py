@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block, Cell, Column, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._wording import LEFT
 
 
@@ -45,4 +45,4 @@ def _deciding(result: Result) -> str:
     )
 
 
-SECTION = Section("alternatives", 105, "Other values that fit as well", alternatives)
+SECTION = Section("alternatives", 105, "Other values that fit as well", alternatives, place=RESULT)

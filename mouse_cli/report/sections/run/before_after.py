@@ -7,7 +7,7 @@ import numpy as np
 from mouse_cli.dynamics.frequency import frequency_hz
 from mouse_cli.model.result import Result, Snapshot
 from mouse_cli.report.blocks import Block, Column, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 
 _COLUMNS = (
     Column("mode"),
@@ -16,8 +16,18 @@ _COLUMNS = (
     Column("difference", "per cent"),
     Column("revised frequency", "Hz"),
     Column("difference", "per cent"),
-    Column("prior MAC"),
-    Column("revised MAC"),
+    Column("prior MAC", digits=4),
+    Column("revised MAC", digits=4),
+)
+_SHORT = (
+    Column("mode"),
+    Column("measured", "Hz"),
+    Column("before", "Hz"),
+    Column("error", "per cent"),
+    Column("after", "Hz"),
+    Column("error", "per cent"),
+    Column("MAC before", digits=4),
+    Column("MAC after", digits=4),
 )
 
 
@@ -32,8 +42,11 @@ def before_after(result: Result, options: Options) -> Iterator[Block]:
     rows = tuple(
         (int(number), *(float(column[i]) for column in columns)) for i, number in enumerate(result.problem.test.number)
     )
-    yield Table(_COLUMNS, rows).without_empty_columns()
-    if np.isfinite(test).any():
+    yield Table(_SHORT if options.short else _COLUMNS, rows).without_empty_columns()
+    if np.isfinite(test).any() and options.short:
+        rms = [f"{_root_mean_square(off):.3g} %" for off in (off_before, off_after)]
+        yield Text(f"Errors are model minus test; rms {rms[0]} before, {rms[1]} after.")
+    elif np.isfinite(test).any():
         yield Text(
             "Differences are model minus test; their root mean square is {} per cent before and {} per cent after.",
             (_root_mean_square(off_before), _root_mean_square(off_after)),
@@ -49,4 +62,4 @@ def _root_mean_square(values: np.ndarray) -> float:
     return float(np.sqrt(np.nanmean(values**2)))
 
 
-SECTION = Section("before-after", 115, "Test against model, before and after", before_after)
+SECTION = Section("before-after", 115, "Test against model, before and after", before_after, place=RESULT)

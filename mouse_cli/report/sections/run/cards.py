@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from mouse_cli._errors import RULER
 from mouse_cli.model.result import Forecast, Result
 from mouse_cli.report.blocks import Block, Lines
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import APPENDIX, Options, Section
 
 
 def cards(subject: Result | Forecast, options: Options) -> Iterator[Block]:
@@ -18,4 +18,4 @@ def cards(subject: Result | Forecast, options: Options) -> Iterator[Block]:
     yield Lines(ruler + tuple(f"{i:{digits}}   {line}" for i, line in enumerate(source.lines, 1)))
 
 
-SECTION = Section("cards", 20, "Echo of the cards", cards, (Result, Forecast))
+SECTION = Section("cards", 20, "Echo of the cards", cards, (Result, Forecast), place=APPENDIX)

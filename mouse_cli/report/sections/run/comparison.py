@@ -8,7 +8,7 @@ from mouse_cli.dynamics.frequency import frequency_hz
 from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block, Cell, Column, Table, Text
 from mouse_cli.report.measured import NOT_MEASURED, eigenvalue_index, positions, shape_index
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import APPENDIX, Options, Section
 from mouse_cli.report.sections._wording import counted
 
 
@@ -102,4 +102,4 @@ def _eigenvectors(result: Result) -> Table:
     return Table(columns, rows, keys=2).without_empty_columns()
 
 
-SECTION = Section("comparison", 90, "Comparison of eigenvalues and eigenvectors", comparison)
+SECTION = Section("comparison", 90, "Comparison of eigenvalues and eigenvectors", comparison, place=APPENDIX)

@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block, Column, Matrix, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import APPENDIX, Options, Section
 from mouse_cli.report.sections._wording import LEFT, names
 
 
@@ -46,4 +46,4 @@ def _correlation(result: Result) -> np.ndarray:
     return result.covariance / sd[:, None] / sd
 
 
-SECTION = Section("covariance", 110, "Covariance of the revised properties", covariance)
+SECTION = Section("covariance", 110, "Covariance of the revised properties", covariance, place=APPENDIX)

@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.model.result import Cycle, Result
 from mouse_cli.report.blocks import Block, Cell, Column, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import APPENDIX, Options, Section
 from mouse_cli.report.sections._wording import LEFT
 
 
@@ -66,4 +66,4 @@ def _largest_change(result: Result, before: Cycle | None, cycle: Cycle) -> tuple
     return float(moved[largest]), result.problem.parameters[largest].name
 
 
-SECTION = Section("cycles", 50, "Cycles", cycles)
+SECTION = Section("cycles", 50, "Cycles", cycles, place=APPENDIX)

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from mouse_cli.model.result import Forecast
 from mouse_cli.report.blocks import Block, Column, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 
 
 def damping(forecast: Forecast, options: Options) -> Iterator[Block]:
@@ -36,4 +36,4 @@ def damping(forecast: Forecast, options: Options) -> Iterator[Block]:
         yield Text("The poles are off by at most {}, relative, by their residuals.", (found.error,))
 
 
-SECTION = Section("forecast-damping", 55, "Damping", damping, (Forecast,))
+SECTION = Section("forecast-damping", 55, "Damping", damping, (Forecast,), place=RESULT)

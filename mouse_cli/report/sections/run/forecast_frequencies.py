@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from mouse_cli.dynamics.frequency import eigenvalue
 from mouse_cli.model.result import Forecast
 from mouse_cli.report.blocks import Block, Column, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._wording import counted
 
 
@@ -28,4 +28,4 @@ def frequencies(forecast: Forecast, options: Options) -> Iterator[Block]:
     yield Text(f"The model has {rigid}.")
 
 
-SECTION = Section("forecast-frequencies", 50, "Natural frequencies", frequencies, (Forecast,))
+SECTION = Section("forecast-frequencies", 50, "Natural frequencies", frequencies, (Forecast,), place=RESULT)

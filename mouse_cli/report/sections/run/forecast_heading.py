@@ -19,4 +19,4 @@ def heading(forecast: Forecast, options: Options) -> Iterator[Block]:
     )
 
 
-SECTION = Section("forecast-heading", 10, "Natural frequencies and mode shapes", heading, (Forecast,))
+SECTION = Section("forecast-heading", 10, "Model", heading, (Forecast,))

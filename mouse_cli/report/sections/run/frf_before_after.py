@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._functions import functions
 
 
@@ -13,4 +13,6 @@ def frf_before_after(result: Result, options: Options) -> Iterator[Block]:
     yield from functions(result.frf)
 
 
-SECTION = Section("frf-before-after", 116, "Frequency response functions, before and after", frf_before_after)
+SECTION = Section(
+    "frf-before-after", 116, "Frequency response functions, before and after", frf_before_after, place=RESULT
+)

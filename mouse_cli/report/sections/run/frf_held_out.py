@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._functions import covered, functions
 
 
@@ -14,4 +14,4 @@ def frf_held_out(result: Result, options: Options) -> Iterator[Block]:
     yield from covered(result.held_frf)
 
 
-SECTION = Section("frf-held-out", 118, "Frequency response functions held out", frf_held_out)
+SECTION = Section("frf-held-out", 118, "Frequency response functions held out", frf_held_out, place=RESULT)

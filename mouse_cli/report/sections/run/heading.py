@@ -7,7 +7,7 @@ from mouse_cli.estimators import estimator
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block, Cell, Column, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import APPENDIX, Options, Section
 from mouse_cli.report.sections._wording import LEFT, counted
 from mouse_cli.updating.loop import RECURSIONS
 
@@ -144,4 +144,4 @@ def _limits(problem: Problem) -> tuple[tuple[Cell, ...], ...]:
     )
 
 
-SECTION = Section("heading", 10, "Modal Optimization Using Statistical Evaluators", heading)
+SECTION = Section("heading", 10, "Modal Optimization Using Statistical Evaluators", heading, place=APPENDIX)

@@ -10,7 +10,7 @@ from mouse_cli.model.hold_out import HoldOut
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block, Column, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._wording import counted
 
 _COLUMNS = (
@@ -67,4 +67,4 @@ def _foreseen(result: Result, test: ModalTest) -> tuple[tuple[int | float, ...],
     return tuple(rows)
 
 
-SECTION = Section("held-out", 117, "Data held out", held_out)
+SECTION = Section("held-out", 117, "Data held out", held_out, place=RESULT)

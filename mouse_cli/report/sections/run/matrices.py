@@ -7,7 +7,7 @@ import numpy as np
 from mouse_cli.model.arrays import dense, is_sparse, upper_triangle
 from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block, Column, Heading, Matrix, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import APPENDIX, Options, Section
 from mouse_cli.report.sections._wording import LEFT, counted
 
 _MOST_ENTRIES = 20  # of a matrix that elements of a structure make, which are seldom read one by one
@@ -82,4 +82,4 @@ def _elements(result: Result, name: str, moved: np.ndarray, before, after, most:
     yield Table(columns, rows)
 
 
-SECTION = Section("matrices", 70, "Stiffness and mass matrices after optimization", matrices)
+SECTION = Section("matrices", 70, "Stiffness and mass matrices after optimization", matrices, place=APPENDIX)

@@ -7,7 +7,7 @@ import numpy as np
 from mouse_cli.model.arrays import dense
 from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block, Matrix
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import APPENDIX, Options, Section
 from mouse_cli.report.sections._wording import names
 
 
@@ -27,4 +27,6 @@ def matrices_before(result: Result, options: Options) -> Iterator[Block]:
     yield Matrix("[A], elements by properties", dense(problem.A), problem.elements.labels(), properties)
 
 
-SECTION = Section("matrices-before", 35, "Stiffness and mass matrices before optimization", matrices_before)
+SECTION = Section(
+    "matrices-before", 35, "Stiffness and mass matrices before optimization", matrices_before, place=APPENDIX
+)

@@ -8,7 +8,7 @@ from mouse_cli.dynamics.frequency import frequency_hz, sd_frequency_hz
 from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block, Column, Matrix, Table, Text
 from mouse_cli.report.measured import NOT_MEASURED, eigenvalue_index
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import APPENDIX, Options, Section
 from mouse_cli.report.sections._wording import counted
 
 
@@ -86,4 +86,4 @@ def _signed(result: Result) -> np.ndarray:
     return shapes * sign
 
 
-SECTION = Section("modes", 80, "Eigenvalues and eigenvectors", modes)
+SECTION = Section("modes", 80, "Eigenvalues and eigenvectors", modes, place=APPENDIX)

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block, Matrix, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import APPENDIX, Options, Section
 from mouse_cli.report.sections._wording import names
 
 
@@ -25,4 +25,4 @@ def partials(result: Result, options: Options) -> Iterator[Block]:
         yield Text("Of a property with the transform log, T is the derivative by its natural logarithm.")
 
 
-SECTION = Section("partials", 60, "Partial derivatives at the revised model", partials)
+SECTION = Section("partials", 60, "Partial derivatives at the revised model", partials, place=APPENDIX)

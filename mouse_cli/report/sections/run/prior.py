@@ -8,7 +8,7 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import Forecast, Result
 from mouse_cli.report.blocks import Block, Column, Heading, Matrix, Table, Text
 from mouse_cli.report.measured import NOT_MEASURED, eigenvalue_index, positions
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import APPENDIX, Options, Section
 from mouse_cli.report.sections._wording import LEFT, names
 
 
@@ -117,4 +117,4 @@ def _shapes(result: Result) -> Iterator[Block]:
         yield Matrix("their standard deviations", shown, positions(result), modes, corner=corner)
 
 
-SECTION = Section("prior", 30, "Before the test", prior, (Result, Forecast))
+SECTION = Section("prior", 30, "Before the test", prior, (Result, Forecast), place=APPENDIX)

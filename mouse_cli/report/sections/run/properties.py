@@ -2,38 +2,52 @@
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block, Cell, Column, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._wording import LEFT
 
 
 def properties(result: Result, options: Options) -> Iterator[Block]:
-    """One line a property."""
+    """One line a property; of a short report those that moved most, by their standard deviations, where not all have room."""
     if not result.status.answered:
         yield Text("The run gave no answer; the properties stand unrevised.")
         return
+    confidence = result.problem.run.confidence
     columns = (
         Column("property", align=LEFT),
         Column("unit", align=LEFT),
-        Column("prior"),
-        Column("revised"),
-        Column("change"),
+        Column("before" if options.short else "prior"),
+        Column("after" if options.short else "revised"),
+        *(() if options.short else (Column("change"),)),
         Column("change", "per cent"),
-        Column("sd before"),
-        Column("sd after"),
-        Column("interval from"),
-        Column("interval to"),
+        Column("sd before", digits=3),
+        Column("sd after", digits=3),
+        Column(f"{confidence} % from" if options.short else "interval from"),
+        Column("to" if options.short else "interval to"),
         Column("limit", align=LEFT),
     )
-    rows = tuple(_row(result, i) for i in range(len(result.problem.parameters)))
-    yield Table(columns, rows).without_empty_columns()
-    yield Text(f"The interval holds the property with {result.problem.run.confidence} per cent confidence.")
+    order = np.arange(len(result.problem.parameters))
+    if options.short and len(order) > options.rows:
+        order = np.argsort(-np.abs(_moved(result)), kind="stable")
+    rows = tuple(_row(result, int(i), options.short) for i in order)
+    yield Table(columns, rows, rest="that moved less").without_empty_columns()
+    if not options.short:
+        yield Text(f"The interval holds the property with {confidence} per cent confidence.")
     if result.at_limit.any():
         yield Text("A property at its limit has no standard deviation: the limit, and not the test, decides it.")
 
 
-def _row(result: Result, i: int) -> tuple[Cell, ...]:
+def _moved(result: Result) -> np.ndarray:
+    """Changes (p,) in prior standard deviations, 0 of properties that are held."""
+    sd = result.problem.prior.sd
+    change = result.revised.theta - result.prior.theta
+    return np.divide(change, sd, out=np.zeros_like(sd), where=sd > 0)
+
+
+def _row(result: Result, i: int, short: bool) -> tuple[Cell, ...]:
     """Line of property i."""
     parameter, before, after = result.problem.parameters[i], result.prior.theta[i], result.revised.theta[i]
     free = not result.at_limit[i]
@@ -43,7 +57,7 @@ def _row(result: Result, i: int) -> tuple[Cell, ...]:
         parameter.unit,
         float(before),
         float(after),
-        float(after - before),
+        *(() if short else (float(after - before),)),
         float(100 * (after - before) / abs(before)) if before else None,
         float(result.problem.prior.sd[i]),
         float(result.sd_theta[i]) if free else None,
@@ -53,4 +67,4 @@ def _row(result: Result, i: int) -> tuple[Cell, ...]:
     )
 
 
-SECTION = Section("properties", 100, "Revised properties", properties)
+SECTION = Section("properties", 100, "Revised properties", properties, place=RESULT)

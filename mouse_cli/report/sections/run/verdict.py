@@ -4,8 +4,8 @@ from collections.abc import Iterator
 
 from mouse_cli.estimators import estimator
 from mouse_cli.model.result import NO_ANSWER, Result
-from mouse_cli.report.blocks import Block, Heading, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.blocks import Block, Text
+from mouse_cli.report.section import VERDICT, Options, Section
 from mouse_cli.report.sections._diagnosis_wording import p_value
 from mouse_cli.report.sections._wording import test_table
 
@@ -16,10 +16,18 @@ _UNFINISHED = {
 
 
 def verdict(result: Result, options: Options) -> Iterator[Block]:
-    """Status, tests of the model's form, conclusion, warnings."""
-    yield Text(result.status.sentence)
-    if result.status.advice:
-        yield Text(result.status.advice)
+    """Conclusion, status, tests of the model's form."""
+    yield Text(_conclusion(result))
+    if result.alternatives is not None and result.alternatives.doubtful:
+        most = max(each.share for each in result.alternatives.others)
+        yield Text(
+            f"These values are not the only ones that fit: others hold {100 * most:.0f} per cent of the posterior. Do not use them "
+            "before a measurement has decided."
+        )
+    yield Text(" ".join(filter(None, (result.status.sentence, result.status.advice))))
+    if options.short:
+        yield Text(_tests(result))
+        return
     yield test_table((result.innovation, result.residual, result.prior_shift))
     yield Text(_residual(result))
     yield Text(_prior_shift(result))
@@ -28,20 +36,17 @@ def verdict(result: Result, options: Options) -> Iterator[Block]:
             f"The partial derivatives of this answer have an estimated relative error of {result.partials_error:.0e}; `--exact` "
             "computes them to rounding."
         )
-    yield Text(_conclusion(result))
-    if result.alternatives is not None and result.alternatives.doubtful:
-        most = max(each.share for each in result.alternatives.others)
-        yield Text(
-            f"These values are not the only ones that fit: others hold {100 * most:.0f} per cent of the posterior. Do not use them "
-            "before a measurement has decided."
-        )
-    remarks = (*result.problem.warnings, *result.warnings)
-    if remarks:
-        yield Heading("Warnings", 2)
-    for remark in remarks:
-        place = f" ({remark.span})" if remark.span else ""
-        more = "".join(f" {part[0].upper()}{part[1:]}." for part in (remark.note, remark.help) if part)
-        yield Text(f"{remark.code}{place}: {remark.message}.{more}")
+
+
+def _tests(result: Result) -> str:
+    """The tests of the model's form on one line."""
+    fit, shift = result.residual, result.prior_shift
+    parts = [f"goodness of fit {p_value(fit.p)} (chi-square {fit.chi2:.4g} on {fit.dof})"] if fit.dof else []
+    parts += [f"shift from the prior {p_value(shift.p)}"] if shift.dof else []
+    before = result.innovation
+    parts += [f"before the revision {p_value(before.p)}"] if before.dof else []
+    text = "; ".join(parts) or "nothing is left to test the model by"
+    return f"{text[0].upper()}{text[1:]}."
 
 
 def _residual(result: Result) -> str:
@@ -100,4 +105,4 @@ def _conclusion(result: Result) -> str:
     return "The model explains the data."
 
 
-SECTION = Section("verdict", 120, "Verdict", verdict)
+SECTION = Section("verdict", 120, "Verdict", verdict, place=VERDICT)

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from mouse_cli.model.sampled import Sampled
 from mouse_cli.report.blocks import Block, Column, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 
 _COLUMNS = (
     Column("mode"),
@@ -37,4 +37,4 @@ def frequencies(found: Sampled, options: Options) -> Iterator[Block]:
         )
 
 
-SECTION = Section("sample-frequencies", 30, "Natural frequencies", frequencies, (Sampled,))
+SECTION = Section("sample-frequencies", 30, "Natural frequencies", frequencies, (Sampled,), place=RESULT)

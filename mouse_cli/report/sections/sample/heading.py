@@ -1,4 +1,4 @@
-"""Heading of samples of a posterior: program, deck, how long the chain is, what the normal density is worth."""
+"""Heading of samples of a posterior: program, deck, how long the chain is."""
 
 from collections.abc import Iterator
 
@@ -19,13 +19,6 @@ def heading(found: Sampled, options: Options) -> Iterator[Block]:
         f"{counted(found.evaluations, 'model')} solved.",
         (round(100 * found.acceptance), round(found.tau, 1), round(kept / found.tau)),
     )
-    trusted = "may stand" if not found.doubtful else "must not stand"
-    several = f" The posterior has {len(found.modes)} modes." if len(found.modes) > 1 else ""
-    yield Text(
-        f"Pareto k-hat of {found.draws} draws from the normal density of the run: {{}}.{several} That density {trusted} for the "
-        "posterior.",
-        (round(found.k_hat, 2),),
-    )
 
 
-SECTION = Section("sample-heading", 10, "Posterior by samples", heading, (Sampled,))
+SECTION = Section("sample-heading", 10, "Sampling", heading, (Sampled,))

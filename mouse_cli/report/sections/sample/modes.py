@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from mouse_cli.model.sampled import Sampled
 from mouse_cli.report.blocks import Block, Column, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 
 
 def modes(found: Sampled, options: Options) -> Iterator[Block]:
@@ -23,4 +23,4 @@ def modes(found: Sampled, options: Options) -> Iterator[Block]:
     )
 
 
-SECTION = Section("sample-modes", 40, "Modes of the posterior", modes, (Sampled,))
+SECTION = Section("sample-modes", 40, "Modes of the posterior", modes, (Sampled,), place=RESULT)

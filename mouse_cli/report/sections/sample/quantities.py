@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from mouse_cli.model.sampled import Sampled
 from mouse_cli.report.blocks import Block, Column, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._wording import LEFT
 
 _COLUMNS = (
@@ -40,4 +40,4 @@ def properties(found: Sampled, options: Options) -> Iterator[Block]:
     yield Text("Intervals are between quantiles of the samples, with equal shares on either side.")
 
 
-SECTION = Section("sample-properties", 20, "Properties", properties, (Sampled,))
+SECTION = Section("sample-properties", 20, "Properties", properties, (Sampled,), place=RESULT)

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from mouse_cli.model.spectra import SpectraResult
 from mouse_cli.report.blocks import Block, Column, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._wording import LEFT
 
 
@@ -34,4 +34,4 @@ def functions(result: SpectraResult, options: Options) -> Iterator[Block]:
     )
 
 
-SECTION = Section("spectra-functions", 20, "Their accuracy", functions, (SpectraResult,))
+SECTION = Section("spectra-functions", 20, "Their accuracy", functions, (SpectraResult,), place=RESULT)

@@ -3,11 +3,11 @@
 from collections.abc import Iterator
 
 from mouse_cli import __version__
-from mouse_cli.model.spectra import MeasuredFrf, SpectraResult
+from mouse_cli.model.spectra import SpectraResult
 from mouse_cli.records.frf_estimators import estimator
 from mouse_cli.report.blocks import Block, Column, Table, Text
 from mouse_cli.report.section import Options, Section
-from mouse_cli.report.sections._wording import LEFT, counted
+from mouse_cli.report.sections._wording import LEFT
 
 
 def heading(result: SpectraResult, options: Options) -> Iterator[Block]:
@@ -29,7 +29,6 @@ def heading(result: SpectraResult, options: Options) -> Iterator[Block]:
         rows.append(("skipped", f"{how.skip} samples at the beginning"))
     yield Table((Column("", align=LEFT), Column("", align=LEFT)), tuple(rows))
     for each in result.measured:
-        yield Text(_averaged(each))
         if each.frf.decay_rate:
             yield Text(
                 "The exponential window adds {} 1/s to the decay rate zeta omega of every mode. A .npz records it, and `test.frf` "
@@ -38,14 +37,4 @@ def heading(result: SpectraResult, options: Options) -> Iterator[Block]:
             )
 
 
-def _averaged(each: MeasuredFrf) -> str:
-    blocks = counted(each.blocks, "block")
-    spacing = each.sample_rate_hz / each.block_samples
-    return (
-        f"{', '.join(each.recordings)}: {blocks} of {each.block_samples} samples at {each.sample_rate_hz:.6g} Hz, "
-        f"lines {spacing:.5g} Hz apart, {each.averages:.4g} independent averages."
-        + (f" The force counts as 0 after {each.force_window} samples of each block." if each.force_window else "")
-    )
-
-
-SECTION = Section("spectra-heading", 10, "Frequency response functions", heading, (SpectraResult,))
+SECTION = Section("spectra-heading", 10, "Source and averaging", heading, (SpectraResult,))

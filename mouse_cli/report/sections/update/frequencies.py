@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from mouse_cli.model.updated import Foreseen, Updated
 from mouse_cli.report.blocks import Block, Column, Heading, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 
 _ROUNDING = 1e-6  # per cent
 _COLUMNS = (
@@ -41,4 +41,6 @@ def cleared(percent: float) -> float:
     return 0.0 if abs(percent) < _ROUNDING else percent
 
 
-SECTION = Section("update-frequencies", 30, "Test against model, before and after", frequencies, (Updated,))
+SECTION = Section(
+    "update-frequencies", 30, "Test against model, before and after", frequencies, (Updated,), place=RESULT
+)

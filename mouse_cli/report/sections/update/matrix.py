@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from mouse_cli.model.arrays import dense
 from mouse_cli.model.updated import Updated
 from mouse_cli.report.blocks import Block, Matrix
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import APPENDIX, Options, Section
 
 
 def matrix(found: Updated, options: Options) -> Iterator[Block]:
@@ -15,4 +15,4 @@ def matrix(found: Updated, options: Options) -> Iterator[Block]:
         yield Matrix("updated stiffness matrix", dense(found.K), labels, labels)
 
 
-SECTION = Section("update-matrix", 50, "Updated stiffness matrix", matrix, (Updated,))
+SECTION = Section("update-matrix", 50, "Updated stiffness matrix", matrix, (Updated,), place=APPENDIX)

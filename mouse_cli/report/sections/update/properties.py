@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.model.updated import Updated
 from mouse_cli.report.blocks import Block, Column, Table, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._wording import LEFT, counted
 
 _COLUMNS = (
@@ -41,4 +41,4 @@ def properties(found: Updated, options: Options) -> Iterator[Block]:
             )
 
 
-SECTION = Section("update-properties", 40, "Revised properties", properties, (Updated,))
+SECTION = Section("update-properties", 40, "Revised properties", properties, (Updated,), place=RESULT)

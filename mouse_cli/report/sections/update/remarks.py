@@ -4,15 +4,15 @@ from collections.abc import Iterator
 
 from mouse_cli.model.updated import Updated
 from mouse_cli.report.blocks import Block, Text
-from mouse_cli.report.section import Options, Section
+from mouse_cli.report.section import VERDICT, Options, Section
 from mouse_cli.report.sections._wording import remarks as worded
 
 
 def remarks(found: Updated, options: Options) -> Iterator[Block]:
     """One paragraph a remark."""
-    yield from worded((*found.problem.warnings, *found.warnings))
     if not found.warnings:
         yield Text(_sound(found))
+    yield from worded((*found.warnings, *found.problem.warnings), options)
 
 
 def _sound(found: Updated) -> str:
@@ -22,4 +22,4 @@ def _sound(found: Updated) -> str:
     return "The model is physical and reproduces the fitted data; no data were held out for validation."
 
 
-SECTION = Section("update-remarks", 60, "Remarks", remarks, (Updated,))
+SECTION = Section("update-remarks", 60, "Verdict", remarks, (Updated,), place=VERDICT)
