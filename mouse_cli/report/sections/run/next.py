@@ -21,7 +21,7 @@ def commands(result: Result, options: Options) -> Iterator[Block]:
 def _next(result: Result) -> Iterator[tuple[str, str]]:
     """What helps with such an answer."""
     if result.rejected:
-        yield "mouse diagnose {}", "what the model lacks: where, what, how much"
+        yield "mouse diagnose {}", "what the model lacks, and where"
     if result.status.exit_code:
         yield "mouse correlate {}", "pairs of modes, sensors that look faulty"
     if result.status.exit_code < NO_ANSWER:
