@@ -138,7 +138,7 @@ def answer_form(schema: str) -> tuple[Callable, ...]:
             is_flag=True,
             expose_value=False,
             callback=keep_full,
-            help="Everything: evidence, cycles, matrices and covariances too, as the printout of 1972.",
+            help="The whole report instead of one screen: evidence, cycles, matrices, covariances.",
         ),
         click.option("--numbers", type=click.Choice(STYLES), help="1.28872+04 as in 1972, or 12887.2."),
     )

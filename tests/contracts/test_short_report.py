@@ -12,7 +12,7 @@ from mouse_cli import report
 from mouse_cli.cli.main import _run
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.report.blocks import Column, Heading, Table, Text
-from mouse_cli.report.renderers.screen import WIDTH
+from mouse_cli.report.renderers.screen import WIDEST
 from mouse_cli.report.section import APPENDIX, RESULT, VERDICT, Options, blocks, folded, sections
 from mouse_cli.updating import run
 
@@ -48,7 +48,7 @@ def five_by_six(softer: float):
 def test_a_run_of_five_parameters_and_six_modes_is_a_screen(softer: float) -> None:
     """Whether the model explains the data or not."""
     lines = report.written(run(five_by_six(softer)), "screen").splitlines()
-    assert len(lines) <= SCREEN and max(map(len, lines)) <= WIDTH
+    assert len(lines) <= SCREEN and max(map(len, lines)) <= WIDEST
     assert lines[0] == "VERDICT" and ("rejected" in lines[1]) == (softer < 1)
     for wanted in ("spring 5", "FROM", "MEASURED", "MORE", "--full"):
         assert any(wanted in line for line in lines)
@@ -59,7 +59,7 @@ def test_short_report_of_a_run(name: str) -> None:
     """The verdict leads; the rest is named, and is in the whole report."""
     found = report_examples.result(name)
     lines = report.written(found, "screen").splitlines()
-    assert lines[0] == "VERDICT" and max(map(len, lines)) <= WIDTH
+    assert lines[0] == "VERDICT" and max(map(len, lines)) <= WIDEST
     more = " ".join(lines[lines.index("MORE") + 1 :])
     whole = report.printout(found)
     for title in more.removesuffix(".").partition("adds: ")[2].split("; "):
@@ -69,7 +69,7 @@ def test_short_report_of_a_run(name: str) -> None:
 @pytest.mark.parametrize("name", DIAGNOSES)
 def test_short_report_of_a_diagnosis(name: str) -> None:
     lines = report.written(DIAGNOSES[name](), "screen").splitlines()
-    assert lines[0] == "DIAGNOSIS" and lines[1] and max(map(len, lines)) <= WIDTH
+    assert lines[0] == "DIAGNOSIS" and lines[1] and max(map(len, lines)) <= WIDEST
 
 
 @pytest.mark.parametrize("form", ["screen", "printout", "markdown"])

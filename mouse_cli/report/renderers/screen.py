@@ -12,13 +12,13 @@ from mouse_cli.report.renderers._rounding import rounded
 from mouse_cli.report.renderers.printout import printable, stand
 from mouse_cli.report.section import RESULT
 
-WIDTH = 100  # columns of a terminal
+WIDTH, WIDEST = 100, 120  # columns of text, and of tables and lines that are to be copied
 _DIGITS = 5  # of numbers in sentences
 _WIDE = (Table, Matrix)
 
 
 def render(blocks: Iterable[Block], numbers: Numbers, width: int = WIDTH) -> str:
-    """The report as text, every line at most `width` columns, without trailing blanks; empty lines before headings alone."""
+    """The report as text, text at most `width` columns wide, without trailing blanks; empty lines before headings alone."""
     lines: list[str] = []
     before: Block | None = None
     for block in blocks:
@@ -43,13 +43,13 @@ def _rendered(block: Block, numbers: Numbers, width: int) -> list[str]:
         case Text():
             return wrap(printable(block.filled(numbers)), width, break_on_hyphens=False)
         case Lines():
-            return stand(block, numbers, width)
+            return stand(block, numbers, WIDEST)
         case Table():
             short = block if numbers.style == "legacy" else rounded(_units(block))
-            return _compact(table_grids(short, numbers, width))
+            return _compact(table_grids(short, numbers, WIDEST))
         case Matrix():
             unit = f" ({block.unit})" if block.unit else ""
-            return [*wrap(printable(f"{block.name}{unit}"), width), *_compact(matrix_grids(block, numbers, width))]
+            return [*wrap(printable(f"{block.name}{unit}"), width), *_compact(matrix_grids(block, numbers, WIDEST))]
 
 
 def _units(table: Table) -> Table:

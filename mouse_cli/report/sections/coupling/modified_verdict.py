@@ -1,4 +1,4 @@
-"""Changes in brief: whether the targets can be met, and which mode moves most."""
+"""Changes in brief: whether the targets can be met, which mode moves most, and best locations."""
 
 from collections.abc import Iterator
 from itertools import groupby
@@ -27,7 +27,10 @@ def verdict(found: Modified, options: Options) -> Iterator[Block]:
             f"The changes move mode {i + 1} most, by {{}} Hz (sd {{}}) to {{}} Hz.",
             (float(shift[i]), float(found.shifts.sd_hz[i]), float(found.after.frequencies_hz[i])),
         )
-    elif not found.connections:
+    for each in found.swept:
+        if each.places:
+            yield Text(f"A {each.sweep.means} does most for mode {each.sweep.mode} at {each.places[0].name}.")
+    if not (found.connections or found.needs or found.swept):
         yield Text("Nothing is changed.")
 
 
