@@ -18,7 +18,7 @@ def influence(found: Bootstrap, options: Options) -> Iterator[Block]:
         return
     strength = np.nan_to_num(np.abs(table)).max(axis=0)
     order = np.argsort(-strength, kind="stable")
-    columns = (Column("without", align=LEFT), *(Column(each.name, "sd", literal=True) for each in shown))
+    columns = (Column("without", align=LEFT), *(Column(each.name, "sd", literal=True, digits=4) for each in shown))
     rows = tuple((found.units[i], *(round(float(v), 3) for v in table[:, i])) for i in order[: options.elements])
     yield Table(columns, rows)
     more = len(found.units) - len(rows)

@@ -12,8 +12,8 @@ from mouse_cli.report.sections._wording import LEFT
 
 def moved(found: Sweep, options: Options) -> Iterator[Block]:
     """One line a property, then one a frequency."""
-    head = (Column("from"), Column("to"), Column("moves by", "sd"), Column("most by", align=LEFT))
-    shares = tuple(Column(f"share of {name}", literal=True) for name in found.varied)
+    head = (Column("from"), Column("to"), Column("moves by", "sd", digits=4), Column("most by", align=LEFT))
+    shares = tuple(Column(f"share of {name}", literal=True, digits=3) for name in found.varied)
     if found.parameters:
         first = (Column("property", align=LEFT), Column("unit", align=LEFT))
         rows = tuple((each.name, each.unit, *_row(each, found.varied)) for each in found.parameters[: options.elements])

@@ -19,7 +19,8 @@ def sweeps(found: Modified, options: Options) -> Iterator[Block]:
         unit = units.of("N/m" if sweep.means not in (MASS, ABSORBER) else "kg")
         article = "an" if sweep.means == ABSORBER else "a"
         yield Heading(f"{article} {sweep.means} of {sweep.size:g} {unit}, for mode {sweep.mode}", 2)
-        yield Text(f"Mode {sweep.mode} lies at {{}} Hz without it.", (each.before_hz,))
+        if not options.short:
+            yield Text(f"Mode {sweep.mode} lies at {{}} Hz without it.", (each.before_hz,))
         yield _absorbers(each) if sweep.means == ABSORBER else _moved(each)
         if sweep.means == ABSORBER:
             yield Text(
