@@ -12,7 +12,7 @@ from mouse_cli.cli._arrangements import ARRANGEMENTS, Named, diagnosed, several,
 from mouse_cli.cli._options import QUIET, READING, answer_form, options, reading
 from mouse_cli.cli._raw_folder import RAW, asked_of_folder
 
-_WIDTH = 100  # columns of a terminal
+_WIDTH = 120  # columns of what is to be copied
 _FORMS = {".json": "json", ".md": "markdown"}
 _CONSIDERED = (
     click.option(

@@ -14,7 +14,9 @@ def verdict(found: Identification, options: Options) -> Iterator[Block]:
     if found.exit_code == 0:
         yield Text(f"{counted(found.modes.m, 'mode')} at {sensors}; no warnings.")
     elif found.modes.m:
-        yield Text(f"{counted(found.modes.m, 'mode')} at {sensors}, with warnings: see the remarks before they are used.")
+        yield Text(
+            f"{counted(found.modes.m, 'mode')} at {sensors}, with warnings: see the remarks before they are used."
+        )
     else:
         yield Text("No mode was identified: see the remarks.")
 
