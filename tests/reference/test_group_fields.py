@@ -154,3 +154,22 @@ parameters:
 test:
   modes: {{frequency: [{hz}], frequency_sd: 1 %}}
 """
+
+
+def test_configurations_share_the_cells_that_all_of_them_have():
+    """The second lacks one of four and has another instead: as many, but of three sites alike, in the order of the first."""
+    from mouse_cli.diagnosis.nameless._cells import Cells
+    from mouse_cli.diagnosis.nameless.fit import _shared
+    from mouse_cli.model.site import Site
+
+    def cells(ids: list[int]) -> Cells:
+        sites = tuple(Site("element", (i,)) for i in ids)
+        blocks = tuple((np.full((1, 2), float(i)), np.eye(1)) for i in ids)
+        return Cells(sites, np.array(ids, float)[:, None], "m", blocks, "K")
+
+    first, none, second = _shared([cells([1, 2, 3, 4]), None, cells([2, 5, 4, 1])])
+    assert none is None
+    for each in (first, second):
+        assert [site.ids[0] for site in each.sites] == [1, 2, 4]
+        assert [float(rows[0, 0]) for rows, _ in each.blocks] == [1.0, 2.0, 4.0]
+    assert _shared([cells([1, 2, 3]), cells([3, 4, 5])]) == (None, None)

@@ -1,5 +1,6 @@
 """Every rival without a name fitted to the data, its spread and its correlation length integrated out."""
 
+from collections import Counter
 from dataclasses import dataclass, replace
 from itertools import product
 
@@ -8,7 +9,7 @@ import numpy as np
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.nameless import Nameless, registry
-from mouse_cli.diagnosis.nameless._cells import Cells
+from mouse_cli.diagnosis.nameless._cells import FEWEST, Cells
 from mouse_cli.diagnosis.nameless._field import LENGTHS, MOTIONS, fielded, found, smooth
 from mouse_cli.diagnosis.nameless._tied import tied
 from mouse_cli.diagnosis.nameless.local import best_law
@@ -70,21 +71,41 @@ class Spread:
 
 
 def _spreads(base) -> list[Spread]:
-    """Those that have the same cells wherever they act."""
+    """Of each rival that acts somewhere, over the cells that all configurations share in which it can act."""
     found = []
     for rival in registry().values():
         cells: list[Cells | None] = []
-        sizes: set[int] = set()
+        base.each(
+            lambda part, has, rival=rival, cells=cells: (cells.append(rival.cells(part) if has else None), part)[1]
+        )
+        shared = _shared(cells)
+        if any(shared):
+            found.append(Spread(rival, shared))
+    return found
 
-        def look(part: Reduced, has: bool, rival=rival, cells=cells, sizes=sizes) -> Reduced:
-            own = rival.cells(part) if has else None
-            cells.append(own)
-            sizes |= {len(own) if own else 0} if has else set()
-            return part
 
-        base.each(look)
-        if len(sizes) == 1 and sizes != {0}:
-            found.append(Spread(rival, tuple(cells)))
+def _shared(cells: list[Cells | None]) -> tuple[Cells | None, ...]:
+    """Those of the same sites: a configuration may lack parts, or hold still what moves in another."""
+    own = [_places(each) for each in cells if each]
+    common = [key for key in (own[0] if own else {}) if all(key in each for each in own)]
+    if len(common) < FEWEST:
+        return (None,) * len(cells)
+    places = iter(own)
+    return tuple(each and _some(each, [at[key] for at in [next(places)] for key in common]) for each in cells)
+
+
+def _some(cells: Cells, kept: list[int]) -> Cells:
+    return cells if kept == list(range(len(cells))) else cells.some(np.array(kept))
+
+
+def _places(cells: Cells) -> dict[tuple, int]:
+    """Index of each cell by its site, and by which of the cells there it is: an element bends in two planes."""
+    seen: Counter = Counter()
+    found = {}
+    for i, site in enumerate(cells.sites):
+        key = (site.kind, site.ids)
+        found[(*key, seen[key])] = i
+        seen[key] += 1
     return found
 
 
