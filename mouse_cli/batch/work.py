@@ -35,7 +35,7 @@ def perform(job: Job, folder: str, limit_s: float | None = None) -> Outcome:
     except OSError as error:
         return keep(job, Answer("", 4, (_unreadable(job, error),), None), path)
     except Exception as error:  # of what keeps answers, not of what finds them
-        return outcome(job, Answer("", 5, (_unforeseen(job, error),), None), path)
+        return outcome(job, Answer("", 5, (_unexpected(job, error),), None), path)
 
 
 def keep(job: Job, answer: Answer, path: str) -> Outcome:
@@ -62,7 +62,7 @@ def _timed(job: Job, data: bytes, identity: str, limit_s: float | None) -> Answe
     except MouseError as error:
         exit_code, diagnostics, document = error.exit_code, error.diagnostics, None
     except (Exception, OutOfTime) as error:  # it must not stop the other jobs; it is sought again by the next batch
-        exit_code, diagnostics, document, identity = 5, (_unforeseen(job, error),), None, ""
+        exit_code, diagnostics, document, identity = 5, (_unexpected(job, error),), None, ""
     return Answer(identity, exit_code, diagnostics, document, time.perf_counter() - begun)
 
 
@@ -117,7 +117,7 @@ def _unreadable(job: Job, error: OSError) -> Diagnostic:
     return Diagnostic("MD250", ERROR, message, help="check the file and its permissions")
 
 
-def _unforeseen(job: Job, error: BaseException) -> Diagnostic:
+def _unexpected(job: Job, error: BaseException) -> Diagnostic:
     if isinstance(error, OutOfTime):
         help = "give a longer --time-limit, or run the deck by itself"
         return Diagnostic("MD910", ERROR, f"{job.deck}: ended at its time limit", help=help)

@@ -71,7 +71,7 @@ def jobs(deck: str, plan: Plan, base: dict, outside: bool) -> list[Job]:
     return [Job(deck, options=base | more, outside=outside) for more in ({}, *drawn)]
 
 
-def foreseen(problem: Problem, theta: np.ndarray, plan: Plan) -> tuple[np.ndarray, np.ndarray]:
+def predicted(problem: Problem, theta: np.ndarray, plan: Plan) -> tuple[np.ndarray, np.ndarray]:
     """Standard deviations (p,) of parameters and (m,) of frequencies over replicates, to first order, were all accuracies right."""
     from mouse_cli.dynamics.frequency import frequency_hz, sd_frequency_hz
 

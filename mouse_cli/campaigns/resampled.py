@@ -26,10 +26,10 @@ def summed(problem: Problem, plan: Plan, outcomes: list[Outcome], seed: int) -> 
         message = f"the deck itself has no answer: {first.ended}"
         raise NumericalError(Diagnostic("MD935", ERROR, message, help="check it with `mouse run`"))
     left_out, drawn = rest[: plan.units], rest[plan.units :]
-    foreseen = bootstrap.foreseen(problem, first.theta, plan)
+    predicted = bootstrap.predicted(problem, first.theta, plan)
     kept = [each for each in drawn if each.found]
     parameters = tuple(
-        _spread(each.name, each.unit, (first.theta[i], first.sd[i], foreseen[0][i]), [a.theta[i] for a in kept],
+        _spread(each.name, each.unit, (first.theta[i], first.sd[i], predicted[0][i]), [a.theta[i] for a in kept],
                 [a.theta[i] for a in left_out], plan)
         for i, each in enumerate(problem.parameters)
     )  # fmt: skip
@@ -38,7 +38,7 @@ def summed(problem: Problem, plan: Plan, outcomes: list[Outcome], seed: int) -> 
         _spread(
             str(number),
             "Hz",
-            (first.hz[i], sd[i], foreseen[1][i]),
+            (first.hz[i], sd[i], predicted[1][i]),
             [a.hz[i] for a in kept],
             [a.hz[i] for a in left_out],
             plan,
@@ -70,8 +70,8 @@ def _frequency_sd(outcome: Outcome) -> list[float]:
 def _spread(
     name: str, unit: str, run: tuple[float, float, float], drawn: list[float], left_out: list[float], plan: Plan
 ) -> Spread:
-    """`run`: value, posterior sd and what was foreseen."""
-    value, sd, foreseen = (float(each) for each in run)
+    """`run`: value, posterior sd and what was predicted."""
+    value, sd, predicted = (float(each) for each in run)
     x, without = np.array(drawn, float), np.array(left_out, float)
     x = x[np.isfinite(x)]
     samples = [part[np.isfinite(part)] for part in (without[: plan.m], without[plan.m :]) if len(part)]
@@ -80,9 +80,9 @@ def _spread(
     jackknife = intervals.jackknife_sd(samples) if samples else np.nan
     if len(x) < 2:
         none = np.full(2, np.nan)
-        return Spread(name, unit, value, sd, foreseen, np.nan, np.nan, none, none, jackknife, influence)
+        return Spread(name, unit, value, sd, predicted, np.nan, np.nan, none, none, jackknife, influence)
     return Spread(
-        name, unit, value, sd, foreseen, float(x.std(ddof=1)), float(x.mean() - value), intervals.percentile(x),
+        name, unit, value, sd, predicted, float(x.std(ddof=1)), float(x.mean() - value), intervals.percentile(x),
         intervals.bca(x, value, samples), jackknife, influence,
     )  # fmt: skip
 
@@ -94,7 +94,7 @@ def strongest(spread: Spread) -> int | None:
 
 
 def limits(plan_units: int) -> tuple[float, float]:
-    """Between what sd / foreseen of n units lies 99 times in 100, as chi / sqrt(n - 1) does."""
+    """Between what sd / predicted of n units lies 99 times in 100, as chi / sqrt(n - 1) does."""
     from scipy.stats import chi2
 
     dof = max(1, plan_units - 1)
@@ -105,7 +105,7 @@ def limits(plan_units: int) -> tuple[float, float]:
 def _remarks(found: Bootstrap, plan: Plan) -> Iterator[Diagnostic]:
     """What a careful reader of a bootstrap should know."""
     low, high = limits(min(each for each in (plan.m, plan.s) if each))
-    ratios = [(s.sd / s.foreseen, s.name) for s in found.parameters if s.foreseen > 0 and np.isfinite(s.sd)]
+    ratios = [(s.sd / s.predicted, s.name) for s in found.parameters if s.predicted > 0 and np.isfinite(s.sd)]
     if ratios and max(ratios)[0] > high:
         ratio, name = max(ratios)
         message = f"{name} spreads {ratio:.2g} times as far as the accuracies of the test account for"

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from mouse_cli._errors import WARNING, Diagnostic
-from mouse_cli.model.updated import Foreseen, Updated
+from mouse_cli.model.updated import Predicted, Updated
 
 _SDS, _PERCENT = 3.0, 1.0
 
@@ -35,7 +35,7 @@ def remarks(found: Updated) -> Iterator[Diagnostic]:
         yield from _missed(one)
 
 
-def _missed(one: Foreseen) -> Iterator[Diagnostic]:
+def _missed(one: Predicted) -> Iterator[Diagnostic]:
     """Frequencies that are off by more than their accuracy."""
     with np.errstate(invalid="ignore"):
         off = one.revised_hz / one.test_hz - 1

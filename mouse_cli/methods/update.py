@@ -1,4 +1,4 @@
-"""One deck, one method: what the method needs, its answer, what becomes of its guarantees, and what the answer foresees."""
+"""One deck, one method: what the method needs, its answer, what becomes of its guarantees, and its predictions."""
 
 from dataclasses import replace
 
@@ -8,13 +8,13 @@ from mouse_cli._errors import MouseError
 from mouse_cli.dynamics.eigen import IndefiniteError
 from mouse_cli.dynamics.solver import Notice
 from mouse_cli.methods import ELEMENTS, FUNCTIONS, PARAMETERS, SHAPES, Method, method, refusals, registry
-from mouse_cli.methods.foreseen import Modes, as_test, changed, foreseen, modes
 from mouse_cli.methods.found import Found
 from mouse_cli.methods.given import Given
+from mouse_cli.methods.predicted import Modes, as_test, changed, modes, predicted
 from mouse_cli.methods.remarks import remarks
 from mouse_cli.model.arrays import Matrix, dense, is_sparse
 from mouse_cli.model.problem import Problem
-from mouse_cli.model.updated import Checked, Compared, Foreseen, Updated
+from mouse_cli.model.updated import Checked, Compared, Predicted, Updated
 from mouse_cli.terms.assembly import assembly as assemble
 from mouse_cli.updating import mistakes
 from mouse_cli.updating import refusals as deck_refusals
@@ -122,18 +122,18 @@ def _judged(given: Given, chosen: Method, found: Found) -> Updated:
     return replace(answer, warnings=tuple(remarks(answer)))
 
 
-def _configurations(given: Given, found: Found, prior: Modes, revised: Modes) -> list[Foreseen]:
+def _configurations(given: Given, found: Found, prior: Modes, revised: Modes) -> list[Predicted]:
     """Fitted modes, modes held out, altered structures."""
     problem, told = given.problem, []
     held = problem.hold_out
     if problem.test is not None:
-        told.append(foreseen(problem, "fitted", True, problem.test, prior, revised))
+        told.append(predicted(problem, "fitted", True, problem.test, prior, revised))
     if held is not None and held.test is not None:
-        told.append(foreseen(problem, "held out", False, held.test, prior, revised))
+        told.append(predicted(problem, "held out", False, held.test, prior, revised))
     for altered in held.altered if held is not None else ():
         highest = int(altered.number.max())
         sides = [modes(problem, *changed(*pair, altered), highest) for pair in ((given.K, given.M), (found.K, found.M))]
-        told.append(foreseen(problem, altered.title, False, as_test(problem, altered), *sides))
+        told.append(predicted(problem, altered.title, False, as_test(problem, altered), *sides))
     return told
 
 

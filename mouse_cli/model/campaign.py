@@ -66,7 +66,7 @@ class Sweep:
 class Spread:
     """One parameter or frequency: the value of the run and its posterior sd, and what resampling of the test makes of it.
 
-    foreseen: standard deviation of the resampled values, to first order, were the stated accuracies right; sd: what it is.
+    predicted: standard deviation of the resampled values, to first order, were the stated accuracies right; sd: what it is.
     bias: mean less the value. percentile, bca (2,): 95 per cent intervals. jackknife: sd by leaving out one at a time; influence:
     what leaving out each mode and sensor changes, in posterior sd.
     """
@@ -75,7 +75,7 @@ class Spread:
     unit: str
     value: float
     posterior_sd: float
-    foreseen: float
+    predicted: float
     sd: float
     bias: float
     percentile: np.ndarray

@@ -1,4 +1,4 @@
-"""Data of a test that no fit uses: modes, sensors and configurations that a model must foresee."""
+"""Data of a test that no fit uses: modes, sensors and configurations that a model must predict."""
 
 from dataclasses import dataclass, field
 

@@ -26,7 +26,7 @@ class Quantity:
     """One parameter or natural frequency: the mean and sd of the normal density, and those of the samples.
 
     quantiles (5,): 2.5, 16, 50, 84 and 97.5 per cent. tau: integrated autocorrelation time in steps; size: effective sample size;
-    r_hat: split, rank-normalised, over walkers. measured, foreseen (2,): of a frequency, the measured one, and between what a new
+    r_hat: split, rank-normalised, over walkers. measured, predicted (2,): of a frequency, the measured one, and between what a new
     measurement of the stated accuracy would lie with 95 per cent.
     """
 
@@ -41,7 +41,7 @@ class Quantity:
     size: float
     r_hat: float
     measured: float = np.nan
-    foreseen: np.ndarray | None = None
+    predicted: np.ndarray | None = None
 
 
 @dataclass(frozen=True)

@@ -50,7 +50,7 @@ class Moved:
 
 
 @dataclass(frozen=True)
-class Foreseen:
+class Predicted:
     """k modes of one configuration: mode numbers, Hz as measured with sd, before and after; mac (k,), NaN without shapes.
 
     fitted: the method has used them.
@@ -106,7 +106,7 @@ class Updated:
     change: float
     converged: bool
     moved: tuple[Moved, ...]
-    configurations: tuple[Foreseen, ...]
+    configurations: tuple[Predicted, ...]
     checked: Checked
     conditioning: Conditioning | None = None
     names: tuple[str, ...] = ()

@@ -34,7 +34,7 @@ def summary(document: Part) -> str:
         *_frequencies(document),
         *_parameters(document),
     ]
-    blocks += [*_records(document), *_methods(document), *_foreseen(document)]
+    blocks += [*_records(document), *_methods(document), *_predicted(document)]
     remarks = [*document.texts("remarks"), *document.texts("warnings")]
     if remarks:
         blocks += _folds(_counted(remarks, "remark"), _listed(remarks[:_MOST]))
@@ -150,7 +150,7 @@ def _methods(document: Part) -> Iterator[str]:
     yield _table(("missed, % rms", *map(escaped, titles)), rows)
 
 
-def _foreseen(document: Part) -> Iterator[str]:
+def _predicted(document: Part) -> Iterator[str]:
     """Natural frequencies of `mouse modes`."""
     modes = document.parts("modes") if document.text("schema") == "mouse.modes/1" else []
     rows = [(escaped(m.label("mode")), shown(m.number("hz")), shown(m.number("sd_hz"), 3)) for m in modes]

@@ -1,4 +1,4 @@
-"""One function that no fit has seen: the one that the last model foresees worst."""
+"""One function that no fit has seen: the one that the last model predicts worst."""
 
 from typing import Any
 

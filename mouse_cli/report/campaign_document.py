@@ -86,7 +86,7 @@ def _spread(each: Spread, units: tuple[str, ...]) -> dict[str, Any]:
         "unit": each.unit,
         "value": each.value,
         "posterior_sd": each.posterior_sd,
-        "foreseen_sd": each.foreseen,
+        "foreseen_sd": each.predicted,
         "sd": each.sd,
         "bias": each.bias,
         "percentile_95": each.percentile,

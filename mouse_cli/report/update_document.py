@@ -5,7 +5,7 @@ from typing import Any
 from mouse_cli import __version__
 from mouse_cli.model.arrays import dense
 from mouse_cli.model.conditioning import Conditioning
-from mouse_cli.model.updated import Compared, Foreseen, Updated
+from mouse_cli.model.updated import Compared, Predicted, Updated
 from mouse_cli.report.json_values import dof_name, plain
 
 SCHEMA, COMPARISON = "mouse.update/1", "mouse.comparison/1"
@@ -43,7 +43,7 @@ def _update(found: Updated) -> dict[str, Any]:
     }
 
 
-def _configuration(one: Foreseen) -> dict[str, Any]:
+def _configuration(one: Predicted) -> dict[str, Any]:
     rows = zip(one.number, one.test_hz, one.test_sd_hz, one.prior_hz, one.revised_hz, one.mac, strict=True)
     keys = ("mode", "test_hz", "test_sd_hz", "prior_hz", "revised_hz", "mac")
     modes = [dict(zip(keys, row, strict=True)) for row in rows]

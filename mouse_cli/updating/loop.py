@@ -158,12 +158,12 @@ def _result(trace: Trace, start: State, status: Status, estimator: Estimator, in
     slope = setting.coordinates.slope(end.u)
     wanted = problem.run.print_covariance or len(slope) <= MOST_COVARIANCE
     covariance = estimate.covariance() * np.outer(slope, slope) if wanted else None
-    foreseen = np.sum(in_prior_units(start.T, setting.coordinates.L) ** 2, axis=1)
+    predicted = np.sum(in_prior_units(start.T, setting.coordinates.L) ** 2, axis=1)
     return Result(
         problem=problem,
         status=status,
         cycles=tuple(trace.cycles),
-        prior=_snapshot(start, foreseen),
+        prior=_snapshot(start, predicted),
         revised=_snapshot(end, estimate.predicted_variance(end.T)),
         y=setting.y,
         sd=setting.sd,

@@ -104,7 +104,7 @@ class Beam:
             chi2, prior, more = chi2 + found["innovation"]["chi2"], out, []
         return found, prior, chi2
 
-    def foreseen(self, state: str, layouts, prior: str = "", bare: bool = False) -> tuple[np.ndarray, np.ndarray]:
+    def predicted(self, state: str, layouts, prior: str = "", bare: bool = False) -> tuple[np.ndarray, np.ndarray]:
         """Relative errors (layouts, 5) of frequencies by `mouse modes`, and their sd with that of the test."""
         out, errors, sds = str(self.folder / "modes.json"), [], []
         for layout in layouts:
@@ -155,10 +155,10 @@ def test_identified_frequencies_are_the_peaks(beam):
 def test_ten_layouts_foresee_the_other_ten(beam, healthy):
     _, prior, chi2 = healthy
     assert chi2 < 67.5  # 95 % of chi-square on 50 degrees of freedom: each layout as foreseen from those before it
-    errors, sds = beam.foreseen("healthy", HELD, prior)
-    before, _ = beam.foreseen("healthy", HELD, bare=True)
+    errors, sds = beam.predicted("healthy", HELD, prior)
+    before, _ = beam.predicted("healthy", HELD, bare=True)
     _, bare, _ = beam.sequence("bare", "healthy", FITTED, bare=True)
-    revised, _ = beam.foreseen("healthy", HELD, bare, bare=True)
+    revised, _ = beam.predicted("healthy", HELD, bare, bare=True)
     assert rms(before) > 0.08
     assert rms(revised) > 0.01  # a beam without masses, as well as E, clamp and sensor can stand for them
     assert rms(errors) < 0.0065
@@ -209,8 +209,8 @@ def test_what_went_is_of_the_size_stated_and_its_place_is_foreseen(beam, healthy
     sd = [each["posterior_sd"] for each in found["parameters"]][4:]
     assert int(np.argmax(np.array(lost) / sd)) == 0
     assert 0.01 < lost[0] < 0.0296 + 0.01
-    before, _ = beam.foreseen("damaged", HELD, healthy[1])
-    after, sds = beam.foreseen("damaged", HELD, prior)
+    before, _ = beam.predicted("damaged", HELD, healthy[1])
+    after, sds = beam.predicted("damaged", HELD, prior)
     assert rms(before) > 0.011
     assert rms(after) < 0.0055
     assert (np.abs(after) < 1.645 * sds).mean() > 0.8

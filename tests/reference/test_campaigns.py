@@ -230,10 +230,10 @@ def test_bootstrap_and_jackknife_of_a_linear_problem_are_the_closed_form(tmp_pat
     assert k["most_influential"] == f"mode {np.abs(influence).argmax() + 1}"
     sd = 8 * pi**2 * read_deck(path).test.frequency_hz * read_deck(path).test.frequency_sd_hz
     information = np.sum((SIZES / sd) ** 2)
-    foreseen = np.sqrt(5 / 6 * information) / (
+    predicted = np.sqrt(5 / 6 * information) / (
         1 / 100.0**2 + information
     )  # sd of the sum of what each datum moves, times 1 - 1/6
-    assert k["foreseen_sd"] == pytest.approx(foreseen, rel=1e-6)
+    assert k["foreseen_sd"] == pytest.approx(predicted, rel=1e-6)
     assert sum(row["kind"] == "replicate" for row in csv.DictReader(Path("t.csv").read_text().splitlines())) == 60 * (
         1 + 6
     )

@@ -88,5 +88,5 @@ def test_what_is_there_adapts_to_what_is_looked_at():
     spring = next(one for one in study.recipes("ground-spring") if one.site(one.grid[0]).ids == ("17",))
     both = study.with_cause(first.recipes, "ground-spring", spring.number)
     at = both.point(np.concatenate([first.point.x, spring.coordinates(np.array([4e3]))]))
-    assert study.foreseen(at, first.point.x, first.recipes) < 10
-    assert study.foreseen(at) > 500  # the deck's parameters alone
+    assert study.predicted(at, first.point.x, first.recipes) < 10
+    assert study.predicted(at) > 500  # the deck's parameters alone

@@ -8,7 +8,7 @@ import pytest
 
 from mouse_cli.formats import read_deck
 from mouse_cli.methods.update import compare, update
-from mouse_cli.model.updated import Foreseen, Updated
+from mouse_cli.model.updated import Predicted, Updated
 from mouse_cli.updating import forecast
 
 DECKS = Path(__file__).resolve().parents[2] / "decks"
@@ -26,7 +26,7 @@ def updated(key: str) -> Updated:
     return update(deck(), key)
 
 
-def configurations(key: str) -> tuple[Foreseen, Foreseen, Foreseen]:
+def configurations(key: str) -> tuple[Predicted, Predicted, Predicted]:
     """Fitted modes 1 to 3, modes 4 and 5, the structure with the mass and the spring."""
     return updated(key).configurations
 

@@ -122,10 +122,10 @@ def _frequencies(result: Result, hz: np.ndarray, rng: np.random.Generator):
         chain = hz[:, :, i]
         sd = test.frequency_sd_hz[i]
         noise = rng.standard_normal(chain.shape) * (sd if np.isfinite(sd) else np.nan)
-        foreseen = np.quantile(chain + noise, (0.025, 0.975)) if np.isfinite(sd) else None
+        predicted = np.quantile(chain + noise, (0.025, 0.975)) if np.isfinite(sd) else None
         spread = mode["sd_hz"] if mode["sd_hz"] is not None else np.nan
         found = _quantity(str(mode["mode"]), "Hz", (mode["revised_hz"], spread), chain)
-        yield replace(found, measured=float(test.frequency_hz[i]), foreseen=foreseen)
+        yield replace(found, measured=float(test.frequency_hz[i]), predicted=predicted)
 
 
 def _quantity(name: str, unit: str, normal: tuple[float, float], chain: np.ndarray) -> Quantity:

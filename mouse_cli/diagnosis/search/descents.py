@@ -107,7 +107,7 @@ def _weighed(study: Study, before: np.ndarray, others: tuple, name: str, near_by
     for _, i, (end, *_) in near_by[: weighed_beside(others)]:
         whole = study.with_cause(others, name, i)
         points = [whole.point(x) for x in (end, np.concatenate([np.zeros(k), end[k:]]))]
-        cost = min((study.foreseen(at, before, whole.recipes[:-1]) for at in points if at is not None), default=np.inf)
+        cost = min((study.predicted(at, before, whole.recipes[:-1]) for at in points if at is not None), default=np.inf)
         left.append(cost - 2 * whole.recipes[-1].log_prior)
     best = np.argsort(left, kind="stable")[:count].tolist()
     return [near_by[j] for j in (best if 0 in best else [*best, 0])]

@@ -82,7 +82,7 @@ class Study:
         key = (name, before.tobytes(), *((each.candidate.key, each.number) for each in others))
         if key not in self._looked:
             points = self._points(name, before, others)
-            found = [(self.foreseen(at, before, others), recipe.number, at.x) for recipe, _, at in points]
+            found = [(self.predicted(at, before, others), recipe.number, at.x) for recipe, _, at in points]
             self._looked[key] = sorted(found, key=lambda item: item[0])
             if not others and len(points) > KEPT:
                 self._alone[name] = by_itself(points, self.kind(self.model).point(np.zeros(self.k)))
@@ -148,7 +148,7 @@ class Study:
             self._following[key] = T, np.linalg.solve(H, np.hstack([T.T, -np.eye(T.shape[1], self.k)]))
         return self._following[key]
 
-    def foreseen(self, at: Point, before: np.ndarray = _NOWHERE, others: tuple[Recipe, ...] = ()) -> float:
+    def predicted(self, at: Point, before: np.ndarray = _NOWHERE, others: tuple[Recipe, ...] = ()) -> float:
         """The misfit that is left of `at` when the deck's parameters, and causes that are there `before`, adapt to first order."""
         T, adapted = self._adapted(before, others)
         step = adapted @ np.concatenate([at.residual, at.x[: self.k]])

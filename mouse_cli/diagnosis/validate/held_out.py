@@ -130,7 +130,7 @@ def held_out(model: Reduced, baseline: Fit, best: Fit | None) -> HeldOut | None:
     held = model.problem.hold_out
     if held is None or not (held.altered or len(held.modes) or len(held.sensors)):
         return cross_validated(model, baseline, best)
-    parts = {"baseline": _foreseen(held, baseline), "revised": best and _foreseen(held, best)}
+    parts = {"baseline": _predicted(held, baseline), "revised": best and _predicted(held, best)}
     labels, kept = [], []
     for i, (title, own) in enumerate(parts["baseline"]):
         if own is not None and (best is None or parts["revised"][i][1] is not None):
@@ -144,7 +144,7 @@ def held_out(model: Reduced, baseline: Fit, best: Fit | None) -> HeldOut | None:
     return HeldOut(BY_DECK, tuple(labels), measured, score(found["baseline"]), revised)
 
 
-def _foreseen(held: HoldOut, one: Fit) -> list[tuple[str, Prediction | None]]:
+def _predicted(held: HoldOut, one: Fit) -> list[tuple[str, Prediction | None]]:
     """Title of each case that was held out, and what the model of `one` says of it."""
     base, found = one.model.base, []
     if held.test is not None and held.test.m:

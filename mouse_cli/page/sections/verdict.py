@@ -66,7 +66,7 @@ def sentence(document: Part) -> str:
     """What was found."""
     found, schema = document.part("verdict"), document.text("schema")
     if schema in _UNJUDGED:
-        return _compared(document) if document.parts("methods") else _foreseen(document)
+        return _compared(document) if document.parts("methods") else _predicted(document)
     return _told(document, found) if found else _run(document)
 
 
@@ -84,7 +84,7 @@ def _compared(document: Part) -> str:
     return f"Of {count} methods {best} predicts best what it was not given: {shown(errors[best], 3)} % rms at most."
 
 
-def _foreseen(document: Part) -> str:
+def _predicted(document: Part) -> str:
     hz = [x for mode in document.parts("modes") if (x := mode.number("hz"))]
     if not hz:
         return "No natural frequency."

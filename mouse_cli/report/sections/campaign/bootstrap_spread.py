@@ -47,7 +47,7 @@ def _row(each: Spread) -> tuple[float, ...]:
     return (
         each.value,
         each.posterior_sd,
-        each.foreseen,
+        each.predicted,
         each.sd,
         each.jackknife,
         each.bias,

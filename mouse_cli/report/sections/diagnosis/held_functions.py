@@ -9,7 +9,7 @@ from mouse_cli.report.sections._functions import covered, functions
 
 
 def held_out(found: Diagnosis, options: Options) -> Iterator[Block]:
-    """The same tables as of those that were fitted, and whether the cause foresees them better."""
+    """The same tables as of those that were fitted, and whether the mechanism predicts them better."""
     yield from functions(found.held_frf)
     yield from covered(found.held_frf)
     for fit in found.held_frf:

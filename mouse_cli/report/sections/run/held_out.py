@@ -29,7 +29,7 @@ def held_out(result: Result, options: Options) -> Iterator[Block]:
         return
     yield Text(f"Held out, and used by no fit: {told(held)}. `mouse diagnose` reports the predictive error.")
     if held.test is not None and result.status.answered:
-        rows = _foreseen(result, held.test)
+        rows = _predicted(result, held.test)
         if rows:
             yield Table(_COLUMNS, rows).without_empty_columns()
 
@@ -49,7 +49,7 @@ def told(held: HoldOut) -> str:
     return "; ".join(parts)
 
 
-def _foreseen(result: Result, test: ModalTest) -> tuple[tuple[int | float, ...], ...]:
+def _predicted(result: Result, test: ModalTest) -> tuple[tuple[int | float, ...], ...]:
     """One line for each held-out mode that is among the modes computed, none of which is a fitted one."""
     model = result.revised
     free = np.setdiff1d(np.arange(len(model.eigenvalues)), model.modes)

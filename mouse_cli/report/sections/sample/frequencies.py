@@ -25,7 +25,7 @@ def frequencies(found: Sampled, options: Options) -> Iterator[Block]:
     rows = []
     for each in found.frequencies:
         low, high = float(each.quantiles[0]), float(each.quantiles[-1])
-        new = (None, None) if each.foreseen is None else tuple(float(value) for value in each.foreseen)
+        new = (None, None) if each.predicted is None else tuple(float(value) for value in each.predicted)
         rows.append(
             (int(each.name), each.measured, each.normal_mean, each.normal_sd, each.mean, each.sd, low, high, *new)
         )

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from mouse_cli.model.updated import Foreseen, Updated
+from mouse_cli.model.updated import Predicted, Updated
 from mouse_cli.report.blocks import Block, Column, Heading, Table, Text
 from mouse_cli.report.section import RESULT, Options, Section
 
@@ -30,7 +30,7 @@ def frequencies(found: Updated, options: Options) -> Iterator[Block]:
             yield Text("Root mean square difference of the updated model: {} per cent.", (cleared(one.rms_percent),))
 
 
-def _row(one: Foreseen, i: int) -> tuple:
+def _row(one: Predicted, i: int) -> tuple:
     test, prior, revised = (float(values[i]) for values in (one.test_hz, one.prior_hz, one.revised_hz))
     off = [cleared(100 * (hz / test - 1)) for hz in (prior, revised)]
     return int(one.number[i]), test, prior, off[0], revised, off[1], float(one.mac[i])

@@ -12,7 +12,7 @@ _HEADS = ("mode", "frequency, Hz", "sd, Hz", "sd")
 _MOST = 1000  # modes of the table
 
 
-def foreseen(document: Part) -> Iterator[Markup]:
+def predicted(document: Part) -> Iterator[Markup]:
     """A table of the modes of `mouse modes`."""
     if document.text("schema") != "mouse.modes/1":
         return
@@ -28,4 +28,4 @@ def _row(mode: Part) -> tuple[object, ...]:
     return (Cell(mode.number("mode"), mode.label("mode")), hz, Cell(sd, shown(sd, 3)), Cell(share, words))
 
 
-SECTION = PageSection("foreseen", 41, "Natural frequencies", foreseen)
+SECTION = PageSection("foreseen", 41, "Natural frequencies", predicted)

@@ -11,7 +11,7 @@ from mouse_cli.model.arrays import Matrix, dense, is_sparse
 from mouse_cli.model.hold_out import Altered
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.problem import Problem
-from mouse_cli.model.updated import Foreseen
+from mouse_cli.model.updated import Predicted
 from mouse_cli.updating.state import reference_eigenvalue, solve
 
 _LARGE = 300  # degrees of freedom
@@ -66,7 +66,7 @@ def _whole(K: np.ndarray, M: np.ndarray) -> EigenSolution:
     return dense_solution(K, M)
 
 
-def foreseen(problem: Problem, title: str, fitted: bool, test: ModalTest, prior: Modes, revised: Modes) -> Foreseen:
+def predicted(problem: Problem, title: str, fitted: bool, test: ModalTest, prior: Modes, revised: Modes) -> Predicted:
     """The modes of `test` by both models, paired by number or by shape as the run options say."""
     hz, shapes, alike = [], [], np.full(test.m, np.nan)
     for model in (prior, revised):
@@ -77,7 +77,7 @@ def foreseen(problem: Problem, title: str, fitted: bool, test: ModalTest, prior:
     have = np.isfinite(test.shapes).sum(axis=0) >= 2
     if have.any():
         alike = np.where(have & np.isfinite(hz[1]), mac(test.shapes, shapes[1]).diagonal(), np.nan)
-    return Foreseen(title, fitted, test.number, test.frequency_hz, test.frequency_sd_hz, *hz, alike)
+    return Predicted(title, fitted, test.number, test.frequency_hz, test.frequency_sd_hz, *hz, alike)
 
 
 def _paired(problem: Problem, test: ModalTest, rigid: int, model: Modes) -> np.ndarray:
