@@ -26,6 +26,13 @@ def supports(model: Any) -> str:
     return "no support with mass next to it carries a load in the measured modes"
 
 
+def translations(model: Any) -> str:
+    """Without an end of a member that moves along two axes."""
+    if model.motion is None or not model.problem.mesh.elements:
+        return f"{_MATRICES}, so that directions are not known"
+    return "no end of a member of this model moves along more than one axis"
+
+
 def turning(model: Any) -> str:
     """Without a support that is free to turn."""
     if model.motion is None or not len(model.problem.mesh.supports):
