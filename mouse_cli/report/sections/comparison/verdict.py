@@ -1,4 +1,4 @@
-"""The comparison in brief: which method predicts best what it was not given, and against which nothing speaks."""
+"""The comparison in brief: which method predicts best what it was not given, and which raise no objection."""
 
 from collections.abc import Iterator
 
@@ -20,9 +20,9 @@ def verdict(found: Compared, options: Options) -> Iterator[Block]:
         yield Text("Nothing was held out: agreement with the modes that were fitted does not rank the methods.")
     sound = [update.about.key for update in found.updates if not update.warnings]
     if sound:
-        yield Text(f"Nothing speaks against the answers of {', '.join(sound)}.")
+        yield Text(f"No objection to the answers of {', '.join(sound)}.")
     else:
-        yield Text(f"Something speaks against the answer of each of {len(found.updates)} methods: see the remarks.")
+        yield Text(f"There is an objection to the answer of each of {len(found.updates)} methods: see the remarks.")
 
 
 def _predicted(update: Updated) -> float:
