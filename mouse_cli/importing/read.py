@@ -32,7 +32,13 @@ def read(path: str, outside: bool = False) -> InputModel:
     _materials(model, faults)
     grouped(model, faults)
     faults.stop()
+    model.kept = [card for card in model.kept if not _damps(card)]
     return model
+
+
+def _damps(card: Card) -> bool:
+    """Whether a card has dashpots for elements, which give nothing to K and M and whose *DASHPOT is not kept."""
+    return card.keyword == "ELEMENT" and card.options.get("TYPE", "").startswith("DASHPOT")
 
 
 def _understood(card: Card, model: InputModel, faults: Faults) -> bool:

@@ -145,6 +145,15 @@ def test_springs_masses_and_sets_within_sets(tmp_path):
 
 
 @solver
+def test_a_dashpot_is_listed_and_left_out(tmp_path):
+    """It is of no effect on K and M; CalculiX refuses its element without it."""
+    more = "*ELEMENT, TYPE=DASHPOTA, ELSET=DAMPER\n12, 9, 1\n*DASHPOT, ELSET=DAMPER\n\n10.\n"
+    deck, said = imported(tmp_path, BAR + more)
+    assert {group.name for group in read_deck(deck).groups} == {"LOW", "HIGH"}
+    assert "*DASHPOT" in said
+
+
+@solver
 def test_a_written_deck_reads_back_with_supports_and_sets(tmp_path):
     deck, _ = imported(tmp_path, BAR)
     problem = read_deck(deck)
@@ -233,6 +242,24 @@ def test_no_include_leads_out_of_the_folder_of_the_job(tmp_path, way):
     (tmp_path / "job" / "sub" / "sub.inc").write_text("*INCLUDE, INPUT=../part.inc\n")
     with pytest.raises(DeckError, match="77"):
         read(written(tmp_path / "job", BAR + "*INCLUDE, INPUT=sub/sub.inc\n"))
+
+
+def test_motions_of_the_ground_and_sensitivities_leave_K_and_M_as_they_are(tmp_path):
+    step = "*STEP\n*SENSITIVITY\n*BASE MOTION, DOF=1, AMPLITUDE=A\n*DESIGN RESPONSE, NAME=D\nMASS\n*END STEP\n"
+    assert {"SENSITIVITY", "BASE MOTION", "DESIGN RESPONSE"} < set(read(written(tmp_path, BAR + step)).ignored)
+
+
+def test_sets_may_overlap_that_have_no_section(tmp_path):
+    """A group bears the name of the first of the smallest sets that are all of it; larger sets divide nothing."""
+    sets = "*ELSET, ELSET=ALL\n1, 2\n*ELSET, ELSET=TIP\n2\n*MATERIAL"
+    model = read(written(tmp_path, BAR.replace("*MATERIAL", sets)))
+    assert [group.name for group in model.groups] == ["LOW", "HIGH"] and not model.remarks
+
+
+def test_a_material_of_no_section_is_a_remark_with_its_line(tmp_path):
+    model = read(written(tmp_path, BAR + "*MATERIAL, NAME=SPARE\n*ELASTIC\n7.0e10, 0.3\n*DENSITY\n2700.\n"))
+    (remark,) = model.remarks
+    assert (remark.code, remark.span.line) == ("MD271", 31) and "SPARE" in remark.message
 
 
 def test_keywords_without_effect_are_listed(tmp_path):
