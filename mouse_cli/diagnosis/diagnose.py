@@ -10,7 +10,7 @@ from mouse_cli.diagnosis.extend.deck import extended
 from mouse_cli.diagnosis.likelihoods.frf.compared import compared
 from mouse_cli.diagnosis.likelihoods.frf.deck import with_damping
 from mouse_cli.diagnosis.likelihoods.frf.identified import with_modes
-from mouse_cli.diagnosis.likelihoods.frf.rank import heard
+from mouse_cli.diagnosis.likelihoods.frf.rank import ranked_by_frf
 from mouse_cli.diagnosis.likelihoods.history.diagnose import diagnose_records
 from mouse_cli.diagnosis.likelihoods.history.rank import Hearing
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
@@ -77,7 +77,7 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices, recordings
     enough = 0.0 if model.places is None else ENOUGH
     result, remarks = _update(problem, kept, notice, _guess(model), enough, solver)
     measured = given.test is not None
-    ranking = rank(model, _known(choices), choices.causes, lambda found: recordings(heard(found, measured)))
+    ranking = rank(model, _known(choices), choices.causes, lambda found: recordings(ranked_by_frf(found, measured)))
     verdict, as_it_is = judge(ranking, result.rejected and measured, model), ranking.baseline
     kind, best, missing = verdict.kind, verdict.best, verdict.kind != NOTHING
     location = locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None

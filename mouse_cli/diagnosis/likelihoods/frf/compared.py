@@ -71,9 +71,9 @@ def _by_modes(one: Fit, tests: Tests) -> Fit:
     return replace(one, model=model, point=replace(one.point, x=x), hessian=hessian)
 
 
-def _beside(tests: Tests, found: list[tuple[str, str, Fit]], heard: Tests) -> tuple[FrfFit, ...]:
-    """One for each of `tests`, with the models of fits of `heard`, each with its key and its name."""
-    views = [_modelled(one, tests, heard, key, name) for key, name, one in found]
+def _beside(tests: Tests, found: list[tuple[str, str, Fit]], fitted: Tests) -> tuple[FrfFit, ...]:
+    """One for each of `tests`, with the models of fits of `fitted`, each with its key and its name."""
+    views = [_modelled(one, tests, fitted, key, name) for key, name, one in found]
     fits = []
     for test, *models in zip(tests, *views, strict=True):
         sd, assumed = accuracy(test)
@@ -83,12 +83,12 @@ def _beside(tests: Tests, found: list[tuple[str, str, Fit]], heard: Tests) -> tu
     return tuple(fits)
 
 
-def _modelled(one: Fit, tests: Tests, heard: Tests, key: str, name: str) -> list[Modelled]:
-    """The functions of a fit of `heard` at all lines of `tests`."""
+def _modelled(one: Fit, tests: Tests, fitted: Tests, key: str, name: str) -> list[Modelled]:
+    """The functions of a fit of `fitted` at all lines of `tests`."""
     found = [Modelled(key, name, np.full(t.H.shape, np.nan, complex), np.full(t.H.shape, np.nan)) for t in tests]
     if not tests:
         return found
-    x, covariance = _carried(one, heard, _over(one, tests, slice(0, 1)), tests)
+    x, covariance = _carried(one, fitted, _over(one, tests, slice(0, 1)), tests)
     root, banded = np.linalg.cholesky(covariance), sum(test.H.size for test in tests) * len(x) <= _MOST
     for first in range(0, max(len(test.omega) for test in tests), _LINES):
         at = slice(first, first + _LINES)
@@ -128,9 +128,9 @@ def _parted(model: FrfModel, jacobian: np.ndarray) -> list[np.ndarray]:
     return found
 
 
-def _carried(one: Fit, heard: Tests, model: FrfModel, tests: Tests) -> tuple[np.ndarray, np.ndarray]:
-    """x and its covariance for `model` of `tests`: gains of chains that the fit of `heard` has not are as held likely before."""
-    before, after = _chains(one.model, heard), _chains(model, tests)
+def _carried(one: Fit, fitted: Tests, model: FrfModel, tests: Tests) -> tuple[np.ndarray, np.ndarray]:
+    """x and its covariance for `model` of `tests`: gains of chains that the fit of `fitted` has not are as held likely before."""
+    before, after = _chains(one.model, fitted), _chains(model, tests)
     P = np.zeros((model.k + model.t, one.model.k + one.model.t))
     P[: model.lossy, : model.lossy] = np.eye(model.lossy)
     P[model.measured :, one.model.measured :] = np.eye(len(model.theory) + model.t)

@@ -151,8 +151,8 @@ class Judge:
         return [(trial, x) for _, trial, x in sorted(tried, key=lambda item: item[0])[:_PLACES]]
 
 
-def heard(modal: Ranking, measured: bool) -> Ranking:
-    """The ranking `modal` of what modes say, judged anew by the FRFs of the test; `modal` itself where there are none.
+def ranked_by_frf(modal: Ranking, measured: bool) -> Ranking:
+    """The ranking `modal` by modes, ranked again by the FRFs of the test; `modal` itself where there are none.
 
     measured: the modes were measured beside the FRFs, and both judge; else the FRFs showed them, and judge alone.
     """
