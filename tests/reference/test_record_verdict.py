@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 from two_masses import linear, record
 
 from mouse_cli.cli.main import cli
-from mouse_cli.diagnosis.likelihoods.history.search import Weighed, doubled, hidden
+from mouse_cli.diagnosis.likelihoods.history.search import Weighed, alike, doubled, hidden
 from mouse_cli.diagnosis.likelihoods.history.verdict import decided, far, ranked
 from mouse_cli.formats import read_deck
 from mouse_cli.model.diagnosis import Rest
@@ -281,3 +281,15 @@ def test_two_laws_of_one_group_at_one_place_are_one(weighed_laws):
     assert not doubled(beside("friction", there)) and not doubled(beside("spring", here))
     first = weighed_laws[0].hypothesis.placed(here).at(registry()["cubic"], 0)  # the odd term of a series
     assert doubled(beside("cubic", here)) and not doubled(beside("quadratic", here))
+
+
+def test_laws_like_one_that_is_adequate_are_fitted_too(weighed_laws):
+    """Of noisy records an adequate law may be wrong: the same law elsewhere and other laws at its site are fitted before a name."""
+    here = weighed_laws[1].hypothesis.place
+    there = replace(here, site=replace(here.site, text="elsewhere"))
+    bare = weighed_laws[0].hypothesis
+    at = lambda key, place: Start(bare.placed(place).at(registry()[key], 0), np.zeros(0), 0.0)
+    gap, cubic, far_gap, _ = order = [at(key, place) for place in (here, there) for key in ("gap", "cubic")]
+    assert alike(order, [gap], ("gap", here.site.text)) == [cubic, far_gap]
+    assert alike(order, [gap, cubic, far_gap], ("gap", here.site.text)) == []
+    assert alike(order, [gap], ("gap", "nowhere")) == [far_gap]

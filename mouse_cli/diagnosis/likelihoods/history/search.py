@@ -22,6 +22,7 @@ _POLISHED, _MORE, _AGAIN = 4, 12, 8  # starts that are fitted; where none of the
 _FIRST_ORDER = (
     0.02  # of what is missing: error of first looks, where nuisances that leave their prior explain it by first order
 )
+_ALIKE = 6  # starts that are fitted although an adequate law was found, as they are like it
 _TAKEN = 0.5  # of what may be noise, that a law leaves at most to be more than it
 _SERIES = "smooth-stiffness"  # group of laws that are terms of one power series
 _END = 0.01  # of the logarithm of a range, from its end
@@ -118,18 +119,35 @@ def _singles(study: Study, notice: Notice, known: list[Law] | None, baseline: Fi
     notice(f"{len(study.places)} sites, first pass")
     error = _FIRST_ORDER if strained(baseline) else 0.0
     order = _looked(study, lambda place: study.looked(place, study.spectrum, error=error), known)
-    found, best = [], baseline
-    for count, start in enumerate(_varied(order), 1):
+    found, best, tried, order = [], baseline, [], _varied(order)
+    for count, start in enumerate(order, 1):
         if count > _POLISHED and (adequate(best) or count > _MORE):
             break
         notice(_named(start))
+        tried.append(start)
         one = fitted(study, start, best.cost if found else np.inf)
         if one is not None:
             found.append(one)
             best = min(best, one, key=innovation)
     if not adequate(best):
         found += _again(study, best)
+    elif best is not baseline:
+        for start in alike(order, tried, _where(best)):
+            notice(_named(start))
+            one = fitted(study, start, best.cost)
+            found += [] if one is None else [one]
     return found + _relatives(study, best, known)
+
+
+def alike(order: list[Start], tried: list[Start], leader: tuple[str, str]) -> list[Start]:
+    """Starts that were not tried yet and are most like the leader, law and site: other laws at its site, and its law elsewhere.
+
+    Where data are few or noisy a law explains them that is not true, and a first look may have had the true one behind others.
+    """
+    place = lambda one: (one.hypothesis.law.key, one.hypothesis.place.site.text)
+    gone = {place(one) for one in tried}
+    shares = lambda at: at not in gone and (at[0] == leader[0]) != (at[1] == leader[1])
+    return [one for one in order if shares(place(one))][:_ALIKE]
 
 
 def _looked(study: Study, look: Callable[[Place], Regression], known: list[Law] | None) -> list[Start]:
