@@ -49,16 +49,18 @@ def yielding(model: Reduced, candidate: Candidate, turning: bool) -> list[Recipe
     """In translation or in rotation: a recipe for each support that the measured modes load, for all alike, and for those of one
     node, or of all alike, in both directions that bear most, each with a stiffness of its own; and for any of few in one direction,
     each with a stiffness of its own: what was built alike, or stands on one ground, gives way together though not alike.
+
+    Half of the prior is that of one support, half that of several.
     """
     if model.problem.held is not None:
         return named(model, candidate, turning)
     found = released(model, range(3, 6) if turning else range(3))
     if found is None:
         return []
-    kinds = [kind for kind in _sets(found) if kind]
+    single, *together = [kind for kind in _sets(found) if kind]
     return [
-        _recipe(model, candidate, found, which, turning, -float(np.log(len(kind) * len(kinds))))
-        for kind in kinds
+        _recipe(model, candidate, found, which, turning, -float(np.log(len(kind) * some * (1 + bool(together)))))
+        for kind, some in [(single, 1), *((kind, len(together)) for kind in together)]
         for which in kind
     ]
 
