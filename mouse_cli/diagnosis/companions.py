@@ -7,9 +7,11 @@ probability of a mechanism is the sum of those of all explanations that have its
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
+from math import erf, sqrt
 
 import numpy as np
 
+from mouse_cli.diagnosis.effects.change import PLACE
 from mouse_cli.diagnosis.gates import SAME_SITE, SURE
 from mouse_cli.diagnosis.likelihoods.modal.scales import span
 from mouse_cli.diagnosis.search.fit import Fit
@@ -49,6 +51,19 @@ def placed(one: Fit) -> float:
     """Share of the evidence of a fit that is at its own sites, or so near that they are one (SAME_SITE)."""
     own, reach = _mechanisms(one), SAME_SITE * span(one.model.base)
     return 1 - sum(share for other, share in one.elsewhere if _matched(own, _mechanisms(other), reach) is None)
+
+
+def loose(one: Fit, which: tuple[int, ...] | None = None) -> tuple[tuple[str, float], ...]:
+    """Title, and posterior sd (m) of the place along its line, of each mechanism (of those numbered `which`) whose place is less
+    sure than a name is: that it is as near as two that are one (SAME_SITE).
+    """
+    sd, reach = np.sqrt(np.diag(one.covariance))[one.model.k :], SAME_SITE * span(one.model.base)
+    found = []
+    for i, (recipe, own) in enumerate(zip(one.recipes, one.model.own, strict=True)):
+        for unknown, s in zip(recipe.unknowns, sd[own], strict=True):
+            if unknown.name == PLACE and erf(reach / (s * sqrt(2))) < SURE and (which is None or i in which):
+                found.append((recipe.candidate.title, float(s)))
+    return tuple(found)
 
 
 def _summed(which: tuple[int, ...], own: list[Mechanism], every, reach: float) -> Shared:

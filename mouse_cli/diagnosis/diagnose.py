@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli.diagnosis.cautions import cautions, misstated
+from mouse_cli.diagnosis.companions import loose
 from mouse_cli.diagnosis.extend.deck import extended
 from mouse_cli.diagnosis.likelihoods.frf.compared import compared
 from mouse_cli.diagnosis.likelihoods.frf.deck import with_damping
@@ -116,8 +117,10 @@ def _tried(ranking: Ranking) -> dict[str, object]:
 
 
 def _open(verdict: Verdict) -> dict[str, object]:
-    """What is certain where companions are open, and whether the site is no longer."""
-    return {"certain": verdict.certain and certain(verdict.best, verdict.certain), "placed": verdict.placed}
+    """What is certain where companions are open, whether the site is no longer, and where a place is not."""
+    open_ = {"certain": verdict.certain and certain(verdict.best, verdict.certain), "placed": verdict.placed}
+    sure = verdict.certain and verdict.certain.which
+    return open_ | {"loose": loose(verdict.best, sure) if verdict.kind == NAMED else ()}
 
 
 def _by_modes(problem: Problem) -> Problem:

@@ -188,6 +188,7 @@ class Diagnosis:
     where there is one, beside those fitted and those held out; damping: of the structure, as functions show it. field: physics
     without a name where the answer is UNKNOWN; rest: what a named mechanism leaves unexplained; untried: candidates left out;
     certain: what is named where its companions are open; placed: False of ONE_OF whose rivals are sites of one mechanism.
+    loose: titles of mechanisms that are named with more certainty than where they act, and the posterior sd (m) of that.
     """
 
     problem: Problem
@@ -217,6 +218,7 @@ class Diagnosis:
     untried: tuple[Untried, ...] = ()
     certain: Certain | None = None
     placed: bool = True
+    loose: tuple[tuple[str, float], ...] = ()
 
     @property
     def best(self) -> Explanation | None:

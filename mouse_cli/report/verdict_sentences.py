@@ -1,6 +1,7 @@
 """The verdict of a diagnosis in sentences: the same in printout, JSON document and page, for every kind of test."""
 
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, Diagnosis, Explanation, Rest
+from mouse_cli.model.groups import enumerated
 from mouse_cli.model.record_diagnosis import RecordDiagnosis
 from mouse_cli.report.field_words import field_sentences
 from mouse_cli.report.sections._diagnosis_wording import (
@@ -63,14 +64,21 @@ def _named(found: Diagnosis) -> tuple[str, ...]:
         )
         p = f" ({with_p(found.probability)})" if len(best.causes) == 1 else f": {with_p(found.probability)}"
         first = f"{begin} {lacking(best)}{p}{_rest(found.rest)}."
-        return tuple(filter(None, (first, other, _companions(found))))
+        return tuple(filter(None, (first, other, _loose(found), _companions(found))))
     first = f"{begin} {called(found)} ({with_p(found.probability)}): {members}{_rest(found.rest)}."
     at = f"If it is {best.title}, it acts here: {where(best)}{rivals_of_site(found.elsewhere)}."
-    return tuple(filter(None, (first, at, _companions(found))))
+    return tuple(filter(None, (first, at, _loose(found), _companions(found))))
 
 
 def _companions(found: Diagnosis) -> str:
     return f"What acts beside it is open: {companions(found)}." if found.certain else ""
+
+
+def _loose(found: Diagnosis) -> str:
+    """How well the place of a mechanism is known where that is less certain than the mechanism."""
+    unit = found.problem.units.of("m") if found.loose else ""
+    each = [f"that of {title} has a standard deviation of {sd:.2g} {unit}" for title, sd in found.loose]
+    return f"The position is less certain: {enumerated(each)}." if each else ""
 
 
 def _rest(rest: Rest | None) -> str:

@@ -1,12 +1,17 @@
 """Mechanisms that most explanations share: rankings made up here."""
 
+from types import SimpleNamespace
+
+import numpy as np
 import pytest
-from made_up_rankings import made_up, ranked
+from made_up_rankings import BEAM, made_up, ranked
 
 from mouse_cli.diagnosis import verdict as decided
-from mouse_cli.diagnosis.companions import shared
+from mouse_cli.diagnosis.companions import loose, shared
+from mouse_cli.diagnosis.effects.change import PLACE, Unknown
 from mouse_cli.diagnosis.verdict import decide
-from mouse_cli.model.diagnosis import NAMED, ONE_OF
+from mouse_cli.model.diagnosis import NAMED, ONE_OF, Cause, Diagnosis, Explanation, Site
+from mouse_cli.report.verdict_sentences import sentences
 
 
 @pytest.fixture(autouse=True)
@@ -74,3 +79,20 @@ def test_a_certain_mechanism_has_to_explain():
 def test_sites_without_coordinates_are_the_same_by_their_numbers():
     one, other = made_up("mass", "axial"), made_up("mass")
     assert found(one, other, p=(0.6, 0.37, 0.03)).probability == pytest.approx(0.97)
+
+
+@pytest.mark.parametrize(("sd", "loose_"), [(0.0255, False), (0.0256, True)])
+def test_a_place_is_as_certain_as_a_name_or_is_said_to_be_less(sd, loose_):
+    """0.95 of a Gaussian is within 1.95996 standard deviations (tables), and 0.05 of the span of 1 m is as near as one site."""
+    unknowns = (Unknown("mass", "kg", 0.1, 10.0), Unknown(PLACE, "m", 0.0, 0.8, log=False))
+    recipe = SimpleNamespace(candidate=SimpleNamespace(title="a lumped mass"), unknowns=unknowns)
+    model = SimpleNamespace(k=1, own=[slice(0, 2)], base=SimpleNamespace(problem=SimpleNamespace(structure=BEAM)))
+    one = SimpleNamespace(recipes=(recipe,), model=model, covariance=np.diag([1.0, 4.0, sd**2]))
+    assert loose(one) == ((("a lumped mass", pytest.approx(sd)),) if loose_ else ())
+    assert loose(one, which=(1,)) == ()
+    cause = Cause("mass", "mass", "a lumped mass", Site("node", (), (0.4, 0.0, 0.0), "x = 0.4"), ())
+    told = (Explanation((cause,), 20.0, 20, 0.5, 0.0, np.zeros(1), 1.0),)
+    problem = SimpleNamespace(units=SimpleNamespace(of=str))
+    answer = Diagnosis(problem, NAMED, None, None, told, (("mass", 1.0),), loose=loose(one))
+    said = [text for text in sentences(answer) if "position is less certain" in text]
+    assert bool(said) == loose_ and all("0.026" in text for text in said)

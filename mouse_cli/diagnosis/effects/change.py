@@ -13,6 +13,8 @@ from mouse_cli.model.diagnosis import EVERYWHERE, Site
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.unknown import Unknown
 
+PLACE = "place"  # name of an unknown that is a distance along a line of bars, m
+
 
 @dataclass(frozen=True)
 class Softening:

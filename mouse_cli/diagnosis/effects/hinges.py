@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Softening, Unknown, product
+from mouse_cli.diagnosis.effects.change import PLACE, Change, Recipe, Softening, Unknown, product
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.places import element_at, hinge
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
@@ -55,7 +55,7 @@ def places(
     chosen, found = lines(model), []
     total = sum(line.length for line in chosen)
     for line in chosen:
-        where = Unknown("place", "m", 0.0, line.length, log=False)
+        where = Unknown(PLACE, "m", 0.0, line.length, log=False)
         at = line.starts(_STARTS, line.length / total)
 
         def change(values: np.ndarray, line=line) -> Change:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product, steps
+from mouse_cli.diagnosis.effects.change import PLACE, Change, Recipe, Unknown, product, steps
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.sites.lines import Line, elements
 from mouse_cli.model.diagnosis import Site
@@ -147,7 +147,7 @@ def _lines(model: Reduced, direction: int | None) -> list[Points]:
             return here if direction is None else replace(here, text=f"{here.text}, {DIRECTIONS[direction]}")
 
         starts = np.concatenate([[0.0], run.starts(2 * _EACH, run.length / total), [run.length]])
-        where = Unknown("place", "m", 0.0, run.length, log=False)
+        where = Unknown(PLACE, "m", 0.0, run.length, log=False)
         dofs = (0, 1, 2) if direction is None else (direction,)
         found.append(Points((where,), starts[:, None], motion, site, run.length / bars.span, dofs))
     return found

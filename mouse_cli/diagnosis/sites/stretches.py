@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Softening, Unknown, product, steps
+from mouse_cli.diagnosis.effects.change import PLACE, Change, Recipe, Softening, Unknown, product, steps
 from mouse_cli.diagnosis.effects.hinges import lines
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.places import beams_within, element_at
@@ -26,7 +26,7 @@ def _recipe(model: Reduced, candidate: Candidate, line: Line, share: float, stif
     L = line.length
     d = Unknown("stiffness added" if stiffer else "flexibility added", "1", 0.02, 3.0)
     w = Unknown("width over length", "1", 0.05, 0.4)
-    x = Unknown("place", "m", 0.0, L, log=False)
+    x = Unknown(PLACE, "m", 0.0, L, log=False)
 
     def change(values: np.ndarray) -> Change:
         touched, a, b = covered(line, *stretch(line, values))
