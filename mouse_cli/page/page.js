@@ -65,3 +65,13 @@ for (const box of document.querySelectorAll(".table")) {
   button.addEventListener("click", () => copy(table, button));
   box.after(button);
 }
+
+// Evidence is folded: a link to a section opens it, and paper shows all of it.
+function unfold() {
+  const found = location.hash && document.getElementById(location.hash.slice(1))?.querySelector(":scope > details");
+  if (found) found.open = true;
+}
+addEventListener("hashchange", unfold);
+unfold();
+for (const link of document.querySelectorAll("nav a")) link.addEventListener("click", () => setTimeout(unfold));
+addEventListener("beforeprint", () => { for (const each of document.querySelectorAll("details")) each.open = true; });

@@ -10,12 +10,16 @@ from mouse_cli.report.reading import Part
 
 @dataclass(frozen=True)
 class PageSection:
-    """`build(document)` yields what the section shows, nothing when the document has nothing of it; order: its place."""
+    """`build(document)` yields what the section shows, nothing when the document has nothing of it.
+
+    order: among all sections. folded: closed until it is asked for, as evidence is.
+    """
 
     key: str
     order: int
     title: str
     build: Callable[[Part], Iterable[Markup]]
+    folded: bool = True
 
 
 def sections(document: Part) -> Iterator[tuple[PageSection, Markup]]:
@@ -25,4 +29,5 @@ def sections(document: Part) -> Iterator[tuple[PageSection, Markup]]:
         body = [piece for piece in section.build(document) if piece]
         if body:
             head = tag("h2", section.title, id=f"{section.key}-title")
-            yield section, tag("section", head, *body, id=section.key, aria_labelledby=f"{section.key}-title")
+            inside = (tag("details", tag("summary", head), *body),) if section.folded else (head, *body)
+            yield section, tag("section", *inside, id=section.key, aria_labelledby=f"{section.key}-title")

@@ -36,7 +36,7 @@ def opened(browser, tmp_path):
     """Opens an answer's page; what it says on the console and what it asks for is collected beside it."""
     contexts = []
 
-    def open_page(name: str, **settings):
+    def open_page(name: str, unfolded: bool = True, **settings):
         path = tmp_path / f"{name}.html"
         path.write_text(made(name), "utf-8")
         settings = {"reduced_motion": "reduce", **settings}
@@ -46,6 +46,8 @@ def opened(browser, tmp_path):
         found.on("pageerror", lambda error: said.append(str(error)))
         found.on("request", lambda request: asked.append(request.url))
         found.goto(path.as_uri())
+        if unfolded:
+            found.evaluate("for (const each of document.querySelectorAll('details')) each.open = true")
         return found, said, asked
 
     yield open_page
@@ -75,6 +77,23 @@ def test_every_control_and_nothing_asked_for(opened, name):
     for _ in range(2 * found.locator(".play").count()):
         found.locator(".play").press("Enter")
     assert said == [] and len(asked) == 1
+
+
+@pytest.mark.parametrize(("width", "height"), [(1280, 900), (390, 844)])
+@pytest.mark.parametrize("name", NAMES)
+def test_folded_it_is_short_and_begins_with_the_answer(opened, name, width, height):
+    """Verdict and, where there is a structure, its drawing begin on the first screen; a link opens what is folded."""
+    found, said, _ = opened(name, unfolded=False, viewport={"width": width, "height": height})
+    assert found.evaluate("document.documentElement.scrollHeight") <= 2.5 * height
+    for part in (".verdict", ".ring:not(.rival)") if name in ("drawn",) else (".verdict",):
+        box = found.locator(part).first.bounding_box()
+        assert box["y"] + box["height"] <= height
+    folded = found.locator("main > section > details").first
+    if folded.count():
+        key = folded.evaluate("each => each.parentElement.id")
+        found.locator(f"nav a[href='#{key}']").click()
+        found.wait_for_function("key => document.getElementById(key).querySelector('details').open", arg=key)
+    assert said == []
 
 
 def test_sorting(opened):

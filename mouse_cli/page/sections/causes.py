@@ -49,7 +49,7 @@ def _judged(key: str, which: str, document: Part) -> Iterator[Markup]:
 
 def _row(one: Part) -> tuple[object, ...]:
     probability, p = one.number("probability"), one.number("p")
-    sizes = ", ".join(map(_size, one.parts("parameters"))) or "–"
+    sizes = ", ".join(map(size, one.parts("parameters"))) or "–"
     return (
         one.text("title") or one.text("physics"),
         one.text("group"),
@@ -63,9 +63,10 @@ def _row(one: Part) -> tuple[object, ...]:
     )
 
 
-def _size(size: Part) -> str:
-    unit = "" if size.text("unit") in ("", "1") else f" {size.text('unit')}"
-    return f"{size.text('name')} {shown(size.number('value'), 4)}{unit} (sd {shown(size.number('sd'), 2)})"
+def size(found: Part) -> str:
+    """Name, value and standard deviation."""
+    unit = "" if found.text("unit") in ("", "1") else f" {found.text('unit')}"
+    return f"{found.text('name')} {shown(found.number('value'), 4)}{unit} (sd {shown(found.number('sd'), 2)})"
 
 
 SECTION = PageSection("causes", 20, "Mechanisms", causes)

@@ -42,7 +42,8 @@ def drawing(document: Part) -> Iterator[Markup]:
     each = _MOST_LINES // max(len(found.lines), len(found.positions), 1)
     chosen = found.shapes[: min(_MOST_SMALL, each)]
     if len(found.shapes) > 1 and chosen:
-        yield tag("div", *(_one(found, shape, marked, i) for i, shape in enumerate(chosen, 1)), class_="gallery")
+        each = tag("div", *(_one(found, shape, marked, i) for i, shape in enumerate(chosen, 1)), class_="gallery")
+        yield tag("details", tag("summary", f"{len(chosen)} modes side by side"), each)
 
 
 def _places(marked: Sequence[Mark]) -> Iterator[Markup]:
@@ -109,4 +110,4 @@ def _legend(found: Scene, marked: Sequence[Mark], document: Part) -> Markup:
     return tag("ul", *items, class_="legend")
 
 
-SECTION = PageSection("drawing", 15, "Mode shapes", drawing)
+SECTION = PageSection("drawing", 15, "Mode shapes", drawing, folded=False)

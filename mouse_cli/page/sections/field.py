@@ -87,4 +87,4 @@ def _along(every: list[Part]) -> tuple[np.ndarray, str]:
     return np.arange(1.0, len(every) + 1), "number of the site"
 
 
-SECTION = PageSection("field", 15, "Physics without a name", field)
+SECTION = PageSection("field", 15, "Physics without a name", field, folded=False)

@@ -6,6 +6,7 @@ from mouse_cli.page.html import Markup, tag
 from mouse_cli.page.numbers import probable, shown
 from mouse_cli.page.section import PageSection
 from mouse_cli.page.sections._words import listed, paragraphs, place, places
+from mouse_cli.page.sections.causes import size
 from mouse_cli.page.tables import Cell, table
 from mouse_cli.report.reading import Part
 
@@ -47,12 +48,19 @@ def verdict(document: Part) -> Iterator[Markup]:
         yield paragraphs(document.text("advice"), form(document))
     yield listed([*further(document), *document.texts("cautions")])
     yield paragraphs(_refuted(document), _misstated(document))
-    yield table(
-        "tests",
-        "Tests of the model's form",
-        ("test", "chi-square", "degrees of freedom", "p-value"),
-        _tests(document),
-    )
+    yield paragraphs(_size(document))
+    heads = ("test", "chi-square", "degrees of freedom", "p-value")
+    tests = table("tests", "Tests of the model's form", heads, _tests(document))
+    if tests:
+        yield tag("details", tag("summary", "Tests of the model's form"), tests)
+
+
+def _size(document: Part) -> str:
+    """The size of a mechanism that is named, of one deck."""
+    if document.part("verdict").text("kind") != "named" or not document.parts("candidates"):
+        return ""
+    sizes = ", ".join(map(size, document.parts("candidates")[0].parts("parameters")))
+    return sizes and f"{sizes[0].upper()}{sizes[1:]}."
 
 
 def mark(document: Part) -> tuple[str, str]:
@@ -175,4 +183,4 @@ def _tests(document: Part) -> Iterator[tuple[object, ...]]:
             )
 
 
-SECTION = PageSection("verdict", 10, "Verdict", verdict)
+SECTION = PageSection("verdict", 10, "Verdict", verdict, folded=False)
