@@ -48,9 +48,21 @@ def shared(ranking: Ranking, first: Fit) -> Shared | None:
 
 
 def placed(one: Fit) -> float:
-    """Share of the evidence of a fit that is at its own sites, or so near that they are one (SAME_SITE)."""
+    """Share of the evidence of a fit at its own sites, or so near that they are one (SAME_SITE), or at these and more parts.
+
+    A foot that gives way does so too where another, hardly, is counted with it.
+    """
     own, reach = _mechanisms(one), SAME_SITE * span(one.model.base)
-    return 1 - sum(share for other, share in one.elsewhere if _matched(own, _mechanisms(other), reach) is None)
+    apart = lambda other: _matched(own, _mechanisms(other), reach) is None and not _among(one, other)
+    return 1 - sum(share for other, share in one.elsewhere if apart(other))
+
+
+def _among(one: Fit, other: Fit) -> bool:
+    """Whether the mechanisms of two fits are the same, but for parts that those of `other` have besides."""
+    pairs = list(zip(one.recipes, other.recipes, strict=False))
+    return len(one.recipes) == len(other.recipes) and all(
+        own.candidate.key == its.candidate.key and own.parts and set(own.parts) <= set(its.parts) for own, its in pairs
+    )
 
 
 def loose(one: Fit, which: tuple[int, ...] | None = None) -> tuple[tuple[str, float], ...]:

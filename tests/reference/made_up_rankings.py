@@ -37,7 +37,8 @@ def made_up(*groups: str, misfit: float = 20.0, dof: int = 20, z=(0.3, -0.4), na
 
 
 def _recipe(name: str, own: int):
-    """A mechanism whose physics is called as its group, `group@x`, `group@x:first-last` of bars."""
+    """A mechanism whose physics is called as its group, `group@x`, `group@x:first-last` of bars; `group/a/b` of parts a and b."""
+    name, *parts = name.split("/")
     group, _, place = name.partition("@")
     x, _, bars = place.partition(":")
     site = Site("node", (), (float(x), 0.0, 0.0)) if x else EVERYWHERE
@@ -46,6 +47,7 @@ def _recipe(name: str, own: int):
         candidate=candidate,
         own=own,
         unknowns=(group,),
+        parts=tuple(parts),
         values=lambda c: c,
         group=lambda c: group,
         site=lambda values: site,

@@ -85,6 +85,14 @@ def test_a_name_takes_a_site_as_sure_as_itself(proofs, where, share, kind):
     assert (found.kind, found.placed) == (kind, kind == NAMED)
 
 
+@pytest.mark.parametrize(("others", "kind"), [("/left/right", NAMED), ("/right", ONE_OF), ("/right/third", ONE_OF)])
+def test_a_part_is_sure_where_others_may_act_with_it(proofs, others, kind):
+    """A foot that turns does so too in the explanation that has another foot besides, and not where another turns instead."""
+    other = made_up(f"support@0.9{others}")
+    found = judged(made_up("support@0.1/left", elsewhere=((other, 0.4),)), BARE, p=(0.99, 0.01))
+    assert (found.kind, found.placed) == (kind, kind == NAMED)
+
+
 def test_one_of_several_sites_is_told_as_such():
     spring = lambda x: Cause("ground-spring", "ground-spring", "a spring", Site("dof", (x,)), ())
     told = Explanation((spring(2),), 20.0, 20, 0.5, 0.0, np.zeros(2), 0.999, (((spring(7).site,), 0.3),))

@@ -13,11 +13,20 @@ from mouse_cli.diagnosis.nameless._cells import Cells
 from mouse_cli.diagnosis.nameless._correlated import leading
 from mouse_cli.diagnosis.nameless._field import Smooth
 from mouse_cli.diagnosis.search.fit import Fit, fit
+from mouse_cli.diagnosis.sites.channels import FORCE, HINGE, PAIR, SLIDE, STRETCH, TIE
 from mouse_cli.dynamics.frequency import eigenvalue
 from mouse_cli.model.diagnosis import LAW, Site
 
 _STEPS, _FEWEST = 30, 3  # of a fit; modes with a frequency and a shape that make a law
 _OCTAVES = (0.0, 1.0, 3.0)  # over which a law is correlated; 0: each mode has a value of its own
+_EVEN = {
+    FORCE: "ground-spring",
+    HINGE: "local-stiffness",
+    SLIDE: "local-stiffness",
+    STRETCH: "local-stiffness",
+    PAIR: "local-stiffness",
+    TIE: "brace",
+}  # groups of what a law is that does not vary
 _SMOOTH = 1e-3  # share of the largest singular value below which a start follows no component of a law
 _RIGID = 1e-6  # share of the eigenvalue of the highest measured mode below which a mode is rigid
 
@@ -55,7 +64,7 @@ def _at(model: Reduced, found: Scores, place: int, spread: float, octaves: float
     at = _octaves(model, number)
     cells = Cells(sites, at[:, None], "octaves", (), "K")
     P = leading(cells.at, octaves) if octaves else np.eye(len(number))
-    field = Smooth(NAMELESS, cells, spread * P, spread, octaves)
+    field = Smooth(replace(NAMELESS, even=_EVEN.get(channel.name, "")), cells, spread * P, spread, octaves)
     own = {name: getattr(model, name) for name in Reduced.__dataclass_fields__}
     none = np.zeros((P.shape[1], model.r, model.r))
     base = Lawful(**own, nameless=field, of_field=none, row=np.sqrt(unit) * row, numbers=number)
@@ -103,5 +112,4 @@ NAMELESS = Nameless(
     "none, one or three octaves are integrated out",
     (0.3, 3.0, 30.0, 300.0),
     lambda model: None,
-    even="ground-spring",
 )
