@@ -11,7 +11,8 @@ from mouse_cli.diagnosis.likelihoods.modal.scales import lowest, total_mass
 from mouse_cli.diagnosis.nameless import Nameless
 from mouse_cli.diagnosis.nameless._cells import FEWEST, Cells, of_rows
 from mouse_cli.diagnosis.nameless._groups import places
-from mouse_cli.diagnosis.sites.points import named_dof, wanted
+from mouse_cli.diagnosis.nameless._motions import translations
+from mouse_cli.diagnosis.sites.points import named_dof
 from mouse_cli.model.diagnosis import BED
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.elements import _beam as beam
@@ -49,10 +50,7 @@ def _under_bars(model: Reduced) -> Cells | None:
 
 
 def _at_dofs(model: Reduced) -> Cells | None:
-    structure, keep = model.problem.structure, wanted(model)
-    own = np.arange(structure.n) if keep is None else np.flatnonzero(keep)
-    if structure.geometry is not None:
-        own = own[structure.geometry.direction[own] < 3]
+    structure, own = model.problem.structure, translations(model)
     sites = [named_dof(structure, int(i)) for i in own]
     unit = lowest(model) * total_mass(model) / max(len(own), 1) / _FIRST
 
