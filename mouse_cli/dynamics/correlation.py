@@ -72,55 +72,11 @@ def paired(apart: np.ndarray) -> np.ndarray:
     if not apart.size:
         return np.zeros(0, int)
     nearest = apart.argmin(axis=1)
-    wanted = nearest.tolist()
-    if len(set(wanted)) == len(wanted):  # no two want the same one: nothing to settle
+    if len(set(nearest.tolist())) == len(nearest):  # no two want the same one: nothing to settle
         return nearest
-    if len(apart) > apart.shape[1]:  # the columns choose
-        return np.argsort(paired(apart.T))
-    return _settled(apart, wanted)
+    from scipy.optimize import linear_sum_assignment
 
-
-def _settled(cost: np.ndarray, wanted: list[int]) -> np.ndarray:
-    """The same by shortest augmenting paths (Jonker and Volgenant 1987), from what each row wants where no other had it before.
-
-    scipy.optimize has it too; to import that takes as long as a thousand of these.
-    """
-    row_price, price = cost.min(axis=1), np.zeros(cost.shape[1])
-    owner = np.full(cost.shape[1], -1)
-    waiting = []
-    for row, column in enumerate(wanted):
-        if owner[column] < 0:
-            owner[column] = row
-        else:
-            waiting.append(row)
-    for row in waiting:
-        _augment(cost, row_price, price, owner, row)
-    found = np.empty(len(cost), int)
-    found[owner[owner >= 0]] = np.flatnonzero(owner >= 0)
-    return found
-
-
-def _augment(cost: np.ndarray, row_price: np.ndarray, price: np.ndarray, owner: np.ndarray, first: int) -> None:
-    """Gives row `first` a column along the shortest path of reduced costs to a free one; prices and `owner` are overwritten."""
-    least, before = np.full(len(price), np.inf), np.full(len(price), -1)
-    open_, row, last, length = np.ones(len(price), bool), first, -1, 0.0
-    while True:
-        way = length + cost[row] - row_price[row] - price
-        nearer = open_ & (way < least)
-        least[nearer], before[nearer] = way[nearer], last
-        last = int(np.argmin(np.where(open_, least, np.inf)))
-        length = least[last]
-        if owner[last] < 0:
-            break
-        open_[last], row = False, owner[last]
-    passed = np.flatnonzero(~open_)
-    row_price[owner[passed]] += length - least[passed]
-    price[passed] -= length - least[passed]
-    row_price[first] += length
-    while last >= 0:
-        earlier = before[last]
-        owner[last] = first if earlier < 0 else owner[earlier]
-        last = earlier
+    return linear_sum_assignment(apart)[1]
 
 
 def match(apart: np.ndarray, limit: float = LIKELY) -> np.ndarray:

@@ -87,7 +87,7 @@ def test_a_mode_that_no_fit_holds_has_a_line_all_the_same(capsys, tmp_path):
     (tmp_path / "deck.yaml").write_text(UNRELATED)
     assert _run(["diagnose", str(tmp_path / "deck.yaml"), "--causes", "1"]) in (0, 1)
     table = capsys.readouterr().out.partition("FITTED DATA")[2].split("\n")
-    assert any(line.split() == ["2", "1.75"] for line in table)
+    assert any(line.split() == ["2", "1.7500"] for line in table)
 
 
 def test_no_modes_are_kept_of_parts(tmp_path):

@@ -93,3 +93,10 @@ def test_iwan_dissipates_by_the_power_of_segalman():
         x = A * np.sin(np.linspace(0, 4 * np.pi, 8001))
         energy.append(np.trapezoid(along(law, p, x, {})[4000:], x[4000:]))
     assert np.log(energy[1] / energy[0]) / np.log(8) == pytest.approx(2 + power, rel=0.05)
+
+
+def test_friction_that_is_not_seen_to_slip_is_a_spring():
+    """Its slip force is within two sd of none and of infinite on a logarithmic scale."""
+    friction = registry()["friction"]
+    assert friction.seen_as(np.array([0.001, 3.0])) == registry()["spring"].group
+    assert friction.seen_as(np.array([0.001, 0.1])) == "friction"

@@ -321,7 +321,7 @@ def test_command(rng, tmp_path):
     np.savetxt(
         path, np.column_stack([np.arange(8192) / FS, x, y]), delimiter=",", header="t,hammer (N),acc (g)", comments=""
     )
-    told = run(path, "--force", "1=hammer", "--response", "2=acc", "--lines", 256, "-o", tmp_path / "frf.npz")
+    told = run(path, "--full", "--force", "1=hammer", "--response", "2=acc", "--lines", 256, "-o", tmp_path / "frf.npz")
     assert told.exception is None and "h1: noise on the responses" in told.output
     deck = tmp_path / "deck.yaml"
     deck.write_text(

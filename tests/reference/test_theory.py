@@ -65,7 +65,7 @@ def asked(*arguments: str) -> tuple[str, dict]:
     out = Path(arguments[0]).with_suffix(".json")
     told = io.StringIO()
     with contextlib.redirect_stdout(told):
-        assert _run(["diagnose", *arguments, "-q", "--report", str(out)]) in (0, 1)
+        assert _run(["diagnose", *arguments, "-q", "--full", "--report", str(out)]) in (0, 1)
     return " ".join(told.getvalue().split()), json.loads(out.read_text())
 
 

@@ -10,6 +10,7 @@ from mouse_cli.model.unknown import Unknown
 
 SIGNS = ({"sign": 1.0}, {"sign": -1.0})
 PLAIN = ({},)
+UNSEEN = 0.5  # sd of the logarithm of a size from which on 0 or infinity is within two of them
 
 
 @dataclass(frozen=True)
@@ -49,6 +50,7 @@ class Law:
     apart as words. homogeneous: indices of parameters with which F grows in proportion. grid: values of each other parameter
     that a first search tries. implicit(v, F before, free, drop, p) -> F, F at the end: of a step, for a law whose force jumps
     with the velocity, see dynamics.response.Implicit. at: `anywhere` or `ground` where it acts only between a point and the ground.
+    limit: index of the unknown that a record must show, and the group of what the law is where it does not.
     """
 
     key: str
@@ -66,6 +68,11 @@ class Law:
     at: str = "anywhere"
     odd: bool = True
     implicit: Callable | None = None
+    limit: tuple[int, str] | None = None
+
+    def seen_as(self, log_sd: np.ndarray) -> str:
+        """Its group where its unknowns are known to those sd (q,) of their logarithms; that of its limit where one is not seen."""
+        return self.group if self.limit is None or log_sd[self.limit[0]] < UNSEEN else self.limit[1]
 
     @property
     def linear(self) -> bool:

@@ -32,4 +32,5 @@ LAW = Law(
     homogeneous=(0, 1),
     grid=24,
     states=1,
+    limit=(1, "linear-stiffness"),  # what never slips is a spring
 )

@@ -51,7 +51,7 @@ class Fit:
     @property
     def groups(self) -> list[str]:
         """Groups of its laws."""
-        return [part.law.group for part in self.hypothesis.parts]
+        return [cause.group for cause in self.causes]
 
     @property
     def causes(self) -> tuple[Cause, ...]:
@@ -62,7 +62,8 @@ class Fit:
             own, sd = sd[: len(part.unknowns)], sd[len(part.unknowns) :]
             values = zip(part.unknowns, p[:, 0], own, strict=True)
             sizes = tuple(Size(u.name, u.unit, float(v), float(v * s), u.lower, u.upper) for u, v, s in values)
-            found.append(Cause(part.law.key, part.law.group, part.title, part.place.site, sizes))
+            group = part.law.seen_as(own)
+            found.append(Cause(part.law.key, group, part.title, part.place.site, sizes))
         return tuple(found)
 
 

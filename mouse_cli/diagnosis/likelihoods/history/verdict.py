@@ -142,7 +142,7 @@ def _refuted(best: Fit, ratio: float) -> str:
 
 
 def _sites(one: Fit) -> set[tuple[str, str]]:
-    return {(part.law.group, part.place.site.text) for part in one.hypothesis.parts}
+    return {(cause.group, cause.site.text) for cause in one.causes}
 
 
 def untried(found: Weighed, own: Study, known: list[Law] | None) -> tuple[Untried, ...]:
