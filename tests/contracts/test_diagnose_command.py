@@ -125,11 +125,13 @@ def test_a_corrected_sensor_stays_corrected_beside_what_is_held_out(told, fault)
 
 
 def test_reports_beside_the_answer(told):
-    code, out, _ = told(SPRING, "--report", "a.md", "--report", "a.json", "--report", "a.txt")
+    code, out, _ = told(SPRING, "--report", "a.md", "--report", "a.json", "--report", "a.html", "--report", "a.txt")
     assert code == 1
     assert Path("a.txt").read_text() == out
     assert Path("a.md").read_text().startswith("## Diagnosis")
     assert json.loads(Path("a.json").read_text())["schema"] == "mouse.diagnosis/1"
+    page = Path("a.html").read_text()
+    assert page.lower().startswith("<!doctype html>") and "The model lacks" in page
 
 
 def test_candidates_that_are_considered(told):

@@ -13,7 +13,7 @@ from mouse_cli.cli._options import QUIET, READING, answer_form, options, reading
 from mouse_cli.cli._raw_folder import RAW, asked_of_folder
 
 _WIDTH = 120  # columns of what is to be copied
-_FORMS = {".json": "json", ".md": "markdown"}
+_FORMS = {".json": "json", ".md": "markdown", ".html": "html"}
 _CONSIDERED = (
     click.option(
         "--candidates", metavar="NAMES", help="Consider these alone, with commas between; see `mouse list candidates`."
@@ -43,7 +43,7 @@ _CONSIDERED = (
     "reports",
     metavar="FILE",
     multiple=True,
-    help="Write the answer to FILE too: .json, .md, else the printout.",
+    help="Write the answer to FILE too: .json, .md, .html (a page), else the printout.",
 )
 @click.option(
     "--plot", metavar="PATH", help="Write figures: to a folder, or to one file (.pdf, .png, .svg). Needs matplotlib."
@@ -210,6 +210,10 @@ def _text(found, form: str | None, numbers: str | None, output: str | None, file
     if form == "json":
         decks = {"revised_decks": files} if _arranged(found) else {"revised_deck": files[-1] if files else None}
         return json_text(document(found) | decks)
+    if form == "html":
+        from mouse_cli.page import page, read
+
+        return page(read(json_text(document(found)).encode(), "the answer"))
     text = answer_text(found, form, numbers or "modern")
     if output is None:
         return text
