@@ -1,5 +1,7 @@
 """Axial forces under gravity (P-delta): they follow the nominal properties, whatever parameters say later."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from mouse_cli.model.arrays import Matrix, is_sparse
@@ -12,6 +14,7 @@ from mouse_cli.terms.mechanisms import definite_factor
 
 _SHIFT = 1e-13  # of the diagonal of K, so that motions that gravity does no work on need no support
 _BALANCED = 1e-6  # share of the weight that may stay unbalanced
+_ROUNDS = 8  # solutions at most, each of what the ones before left unbalanced
 
 
 def axial_forces(mesh: Mesh, sets: list[ElementMatrices], motion: Motion, K: Matrix) -> dict[int, np.ndarray]:
@@ -48,16 +51,27 @@ def _weights(mesh: Mesh, sets: list[ElementMatrices]) -> np.ndarray:
 
 
 def displacements(K: Matrix, f: np.ndarray) -> np.ndarray:
-    """K^-1 f. Raises NoLoadPath where K does not resist f."""
+    """K^-1 f. Raises NoLoadPath where K does not resist f.
+
+    What the shift leaves unbalanced is put on again: less each time, but for what nothing resists. It is much on fine meshes, where
+    the diagonal is many orders of magnitude above the stiffness of the whole.
+    """
+    solve, u = _shifted(K), np.zeros(len(f))
+    for _ in range(_ROUNDS):
+        u = u + solve(f - K @ u)
+        if np.linalg.norm(K @ u - f) <= _BALANCED * np.linalg.norm(f):
+            return u
+    raise NoLoadPath("nothing supports the structure against gravity")
+
+
+def _shifted(K: Matrix) -> Callable[[np.ndarray], np.ndarray]:
+    """Solves with K + _SHIFT diag(K)."""
     if is_sparse(K):
         from scipy.sparse import diags_array
 
-        u = definite_factor(K + _SHIFT * diags_array(K.diagonal())).solve(f)
-    else:
-        u = np.linalg.solve(K + _SHIFT * np.diag(K.diagonal()), f)
-    if np.linalg.norm(K @ u - f) > _BALANCED * np.linalg.norm(f):
-        raise NoLoadPath("nothing supports the structure against gravity")
-    return u
+        return definite_factor(K + _SHIFT * diags_array(K.diagonal())).solve
+    moved = K + _SHIFT * np.diag(K.diagonal())
+    return lambda f: np.linalg.solve(moved, f)
 
 
 def _stacks(

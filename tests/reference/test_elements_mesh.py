@@ -376,3 +376,18 @@ def test_diagonal_mass_is_positive_everywhere():
     assert np.count_nonzero(M - np.diag(M.diagonal())) == 0
     assert M.diagonal().min() > 0
     assert eigensolution(K, M).eigenvalues.min() > 0
+
+
+@pytest.mark.parametrize("sparse", [False, True])
+def test_what_stands_on_something_soft_has_a_load_path(sparse):
+    """1e9 N/m on 1 N/m: closed form 1 m and 1e-9 m more; without the soft one nothing holds it."""
+    from scipy.sparse import csc_array
+
+    from mouse_cli.terms.gravity import displacements
+
+    of = csc_array if sparse else np.asarray
+    link = 1e9 * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    held = link + np.diag([1.0, 0.0])
+    assert displacements(of(held), np.array([0.0, 1.0])) == pytest.approx([1.0, 1.0 + 1e-9], rel=1e-6)
+    with pytest.raises(faults.NoLoadPath):
+        displacements(of(link), np.array([0.0, 1.0]))
