@@ -50,7 +50,7 @@ def shared(ranking: Ranking, first: Fit) -> Shared | None:
 def placed(one: Fit) -> float:
     """Share of the evidence of a fit at its own sites, or so near that they are one (SAME_SITE), or at these and more parts.
 
-    A foot that gives way does so too where another, hardly, is counted with it.
+    A foot is flexible too where another, hardly so, is counted with it.
     """
     own, reach = _mechanisms(one), SAME_SITE * span(one.model.base)
     apart = lambda other: _matched(own, _mechanisms(other), reach) is None and not _among(one, other)

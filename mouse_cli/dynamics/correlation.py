@@ -61,8 +61,8 @@ class Measured:
         """As `pair`, of finite `shapes` (s, k) and hz (k,)."""
         size = self._size * (self._have @ np.square(shapes))
         if not self._plain or not (size > 0).all() or not (hz > 0).all():
-            likeness = np.divide((self._x @ shapes) ** 2, size, out=np.zeros_like(size), where=size > 0)
-            return paired(distance(likeness, self._hz, hz))
+            alike = np.divide((self._x @ shapes) ** 2, size, out=np.zeros_like(size), where=size > 0)
+            return paired(distance(alike, self._hz, hz))
         detuning = np.minimum(2 * np.abs(np.log(hz) - self._log), 1e3)
         return paired(1.0 - (self._x @ shapes) ** 2 / size + detuning)
 

@@ -10,7 +10,7 @@ from mouse_cli.diagnosis.search.study import Study
 
 
 def pared(one: Fit, study: Study) -> Fit:
-    """The fit without such parts as gain less than MATERIAL: a foot that hardly gives way is none of those that do."""
+    """The fit without such parts as gain less than MATERIAL: a foot that is hardly flexible is none of those that are."""
     if not any(len(recipe.parts) > 1 for recipe in one.recipes):
         return one
     best = max(_fewer(one, study.about(one)), key=lambda each: each.log_evidence, default=None)
