@@ -18,7 +18,7 @@ PLACE = "place"  # name of an unknown that is a distance along a line of bars, m
 
 @dataclass(frozen=True)
 class Softening:
-    """Bars (c,), none twice, that give way by what is added to their flexibility (c, 3, 3), or to that in bending alone (c, 2, 2).
+    """Bars (c,), none twice, softened by what is added to their flexibility (c, 3, 3), or to that in bending alone (c, 2, 2).
 
     Several causes add up in one bar. residual (c, 3, 3): strains of each that forces in it make beyond the coordinates; None: none.
     lost (c, 3, 3): change of their stiffness by this cause alone, where that is known already.

@@ -1,4 +1,4 @@
-"""Places along bars where something gives way in bending."""
+"""Places along bars where something is softer in bending."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -28,7 +28,7 @@ def lines(model: Reduced) -> list[Line]:
 
 
 def ends(model: Reduced) -> np.ndarray:
-    """Pairs of moments (c, r) by which ends of lines give way where others begin, those first that bear most; few at most."""
+    """Pairs of moments (c, r) by which ends of lines turn where others begin, those first that bear most; few at most."""
     bars = model.bars
     if bars is None:
         return np.zeros((0, model.r))
@@ -123,7 +123,7 @@ def with_hinge(
     parting: float = 0.0,
     off: float = 0.0,
 ) -> Problem:
-    """The deck with a spring (N m/rad) at `share` of a bar, in its plane, and springs (N/m) across and along it if it gives way so.
+    """The deck with a spring (N m/rad) at `share` of a bar, in its plane, and springs (N/m) across and along it if that is asked.
 
     off: distance from the axis of the point about which it turns.
     """

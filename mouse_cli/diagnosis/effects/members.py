@@ -1,6 +1,6 @@
 """Members that lose or gain stiffness as a whole, all of A, Iy, Iz and J by one factor, and their mass with it.
 
-In the coordinates of a large model, what they leave out of a member gives way with it, see `sites/left_out.py`.
+In the coordinates of a large model, what they leave out of a member deforms with it, see `sites/left_out.py`.
 """
 
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""Supports that give way: the motion of each, as a degree of freedom of its own beside those of the reduced model."""
+"""Flexible supports: the motion of each, as a degree of freedom of its own beside those of the reduced model."""
 
 from dataclasses import dataclass
 from itertools import combinations
@@ -16,10 +16,12 @@ from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
 
 _LOADED = 0.02  # share of the largest reaction of its kind below which a support is not loaded
-_TOGETHER = 16  # supports that may give way alike
+_TOGETHER = 16  # supports that may be flexible alike
 _MOST = 48  # supports that are looked at: those that bear most
 _STARTS = {1: 6, 2: 4}  # stiffnesses to begin from, of one, and of each of two
-_APART = 4  # supports of one direction up to which any of them may give way together, each with a stiffness of its own
+_APART = (
+    4  # supports of one direction up to which any of them may be flexible together, each with a stiffness of its own
+)
 
 
 @dataclass(frozen=True)
@@ -66,7 +68,7 @@ def yielding(model: Reduced, candidate: Candidate, turning: bool) -> list[Recipe
 
 
 def _sets(found: Released) -> tuple[list[list[list[int]]], ...]:
-    """Supports by number that give way together, in lists of one stiffness each: single nodes, all alike, several apart."""
+    """Supports by number that are flexible together, in lists of one stiffness each: single nodes, all alike, several apart."""
     by: dict[int, list[int]] = {}
     for i, (_, d) in enumerate(found.held):
         by.setdefault(d, []).append(i)

@@ -137,7 +137,7 @@ def _look(model, measured, update: Fit, z: np.ndarray, scale: float, pairs, coun
     near = np.minimum(misfit[one], misfit[other])
     kept = np.argsort(near, kind="stable")[
         :_PAIRS
-    ]  # a force at either end of where something gives way is no bad guess
+    ]  # a force at either end of where something is softer is no bad guess
     one, other = one[kept], other[kept]
     between = [
         left((model.V[one[i : i + _EACH]] - model.V[other[i : i + _EACH]]) @ matcher.X)

@@ -1,4 +1,4 @@
-"""A support that gives way in rotation."""
+"""A rotationally flexible support."""
 
 from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.effects.supports import yielding

@@ -2,7 +2,7 @@
 
 Bending of a bar of length l in a plane, in its natural strains e = [v_s'q, (2/l) v_a'q], v_s = [0, -1, 0, 1],
 v_a = [1, l/2, -1, l/2] on q = [w1, slope1, w2, slope2]: K = E'F^-1 E with the flexibility F = diag(l/EI, l/(3EI) (1 + phi)).
-A bending moment at 2 x/l - 1 = eta does work on [1, eta], so whatever gives way there adds c [1, eta]' [1, eta] to F. The third
+A bending moment at 2 x/l - 1 = eta does work on [1, eta], so whatever is softer there adds c [1, eta]' [1, eta] to F. The third
 strain is the elongation, with l/EA. Forces that a released end does not bear are none: K = E'N (N'F N)^-1 N'E, N those it bears.
 """
 

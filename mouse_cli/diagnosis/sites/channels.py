@@ -1,7 +1,7 @@
 """Through what one force may act on a model, and where: a row B (r,) of the work it does in each coordinate.
 
 force: along or across a bar, or in a direction of a node, or on a degree of freedom; moment: about an axis of a node. Pairs of
-equal and opposite ones: hinge, the bending moments where a bar gives way; slide, the shear forces there; stretch, those along a
+equal and opposite ones: hinge, the bending moments where a bar is softer; slide, the shear forces there; stretch, those along a
 bar; pair, between two nodes or degrees of freedom that are coupled in K; tie, between two that nothing joins.
 """
 

@@ -1,6 +1,6 @@
 """What a model in few coordinates lacks where a part of it changes: the static flexibility that the coordinates leave out.
 
-A bar that gives way changes the stiffness by L on its natural strains e = E q. Of what the coordinates leave out, x, with its
+A softer bar changes the stiffness by L on its natural strains e = E q. Of what the coordinates leave out, x, with its
 stiffness A = K - sigma M, least energy makes E x = -R L (E q + E x), R = E A^-1 E' - E V (V'A V)^-1 V'E': the bar feels
 (I + R L)^-1 e, and the coordinates L (I + R L)^-1 (residual flexibility, MacNeal 1971; Craig and Kurdila 2006, ch. 17). Members
 of several elements, and springs between nodes: `left_out.py`.

@@ -27,9 +27,7 @@ SHAPE_SD = 0.02  # of the largest component: accuracy of shapes that were not me
 
 Altered = Callable[[Fit], tuple[Recipe, ...] | None]
 Read = Callable[[Point, Fit, np.ndarray], np.ndarray | None]
-Yielding = dict[
-    int, tuple[Reduced, list[Recipe]]
-]  # models by id, and recipes of their supports that give way, made once
+Yielding = dict[int, tuple[Reduced, list[Recipe]]]  # models by id, and recipes of their flexible supports, made once
 
 
 @dataclass(frozen=True)
@@ -178,7 +176,7 @@ def _true_reading(k: int) -> Read:
 
 
 def _supports(base: Reduced, known: Yielding) -> list[tuple[int, str]]:
-    """Numbers, among all recipes of supports that give way, of those of one support alone, and what each is called."""
+    """Numbers, among all recipes of flexible supports, of those of one support alone, and what each is called."""
     found = [(i, each.site(np.ones(1))) for i, each in enumerate(_yielding(base, known)) if len(each.unknowns) == 1]
     return [(i, site.text) for i, site in found if len(site.ids) == 1][:_SUPPORTS]
 

@@ -10,7 +10,7 @@ _KAPPA = 0.9  # of a round section
 
 
 def matrices(layout: Layout, properties: Properties) -> Matrices:
-    """Timoshenko beam of diameter d: A = pi d^2/4, I = pi d^4/64, J = 2 I; E and G over `softness` for sheets that give way."""
+    """Timoshenko beam of diameter d: A = pi d^2/4, I = pi d^4/64, J = 2 I; E and G over `softness` for sheets that are flexible."""
     p, zero = properties, np.zeros(len(layout))
     A = np.pi * p["diameter"] ** 2 / 4
     I = A * p["diameter"] ** 2 / 16

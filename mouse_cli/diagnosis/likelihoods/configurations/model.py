@@ -157,7 +157,7 @@ class Arranged:
 
 
 def lowest_of(part: Reduced) -> Reduced:
-    """A configuration in its lowest coordinates, and those by which ends of lines give way: every fit solves all configurations.
+    """A configuration in its lowest coordinates, and those by which ends of lines turn: every fit solves all configurations.
 
     What the coordinates left out would add to a change of the highest measured mode n goes with (n / r)^4 of it.
     """

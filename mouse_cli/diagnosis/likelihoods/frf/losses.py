@@ -69,7 +69,7 @@ class Losses:
         return found
 
     def _softer(self, parts: list, changes: list[Change], springs: list[np.ndarray], g: np.ndarray, z: np.ndarray):
-        """Bars that give way: complex flexibilities in series, less what they are without losses of their own."""
+        """Softer bars: complex flexibilities in series, less what they are without losses of their own."""
         bars, at = np.unique(np.concatenate([part.bars for _, part in parts]), return_inverse=True)
         total, start = np.zeros((len(g), len(bars), 3, 3), complex), 0
         for i, part in parts:

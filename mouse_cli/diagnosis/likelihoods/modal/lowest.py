@@ -8,7 +8,7 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 
 
 def lowest(model: Reduced, count: int) -> Reduced:
-    """A model in its `count` lowest coordinates, and those by which ends of lines give way; itself where there are no more."""
+    """A model in its `count` lowest coordinates, and those by which ends of lines turn; itself where there are no more."""
     if count >= model.r:
         return model
     bent = ends(model)[:, count:] / (model.eigenvalues[count:] + scales.lowest(model))
