@@ -4,7 +4,6 @@ import numpy as np
 
 _LEFT, _COLUMNS = 1e-4, 200  # share of the variance that the factor may leave, and its columns at most
 _FLAT = 1e-6  # share of the largest extent below which there is none along an axis
-_FEW = 500  # places whose distances are all computed
 KEPT, MOST = 0.995, 16  # share of the variance that is kept, and eigenvectors at most
 
 
@@ -44,10 +43,6 @@ def spacing(at: np.ndarray) -> float:
     places = np.unique(at, axis=0)
     if len(places) < 2:
         return 0.0
-    if len(places) <= _FEW:
-        apart = np.linalg.norm(places[:, None] - places, axis=2)
-        np.fill_diagonal(apart, np.inf)
-        return float(np.median(apart.min(axis=1)))
     from scipy.spatial import cKDTree
 
     return float(np.median(cKDTree(places).query(places, 2)[0][:, 1]))
