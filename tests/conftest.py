@@ -4,7 +4,13 @@ import signal
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, settings
 from quick import QUICK
+
+settings.register_profile(
+    "mouse", deadline=None, suppress_health_check=[HealthCheck.too_slow]
+)  # no test fails for load
+settings.load_profile("mouse")
 
 _TESTS = Path(__file__).parent
 _QUICK = {name.partition("::")[0] for names in QUICK.values() for name in names}

@@ -1,6 +1,7 @@
 """Tests that make up `pytest -m quick`, by the package that they test: files, or single tests of one."""
 
 QUICK: dict[str, tuple[str, ...]] = {
+    "api": ("contracts/test_typed_api.py::test_what_a_notebook_shows",),
     "batch": (
         "contracts/test_batch.py::test_a_number_is_as_expected_within_its_tolerance",
         "contracts/test_batch.py::test_bounds",

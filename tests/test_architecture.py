@@ -16,6 +16,7 @@ RANKS = {
     "cli": 8,
     "batch": 7,
     "campaigns": 7,
+    "api": 7,
     "page": 7,
     "report": 6,
     "plots": 6,

@@ -44,6 +44,11 @@ def compare(
     """The answers of the methods `keys` (none: of all) to `problem`; a method that the deck does not serve is told with its reason.
 
     Raises ValueError for an unknown method, DeckError where no method has an answer.
+
+    >>> import mouse_cli
+    >>> found = mouse_cli.compare(mouse_cli.read_deck("decks/table_5_2.yaml"))
+    >>> [each.about.key for each in found.updates][:3], list(found.refused)
+    (['baruch', 'berman', 'equation-error'], ['generic', 'response-function'])
     """
     answers, refused = [], {}
     for key in keys or tuple(registry()):

@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mouse_cli._notebook import Shown
 from mouse_cli.model.diagnosis import (
     NAMED,
     NOTHING,
@@ -85,7 +86,7 @@ class SharedError:
 
 
 @dataclass(frozen=True)
-class ArrangementsDiagnosis:
+class ArrangementsDiagnosis(Shown):
     """The answer for several arrangements of one structure.
 
     problems: their decks, as they are; changed: which of them have the causes that were sought, None for all; extended: with every

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli._errors import Diagnostic
+from mouse_cli._notebook import Shown
 from mouse_cli.model.problem import Problem
 
 
@@ -49,7 +50,7 @@ class Moved:
 
 
 @dataclass(frozen=True)
-class Sweep:
+class Sweep(Shown):
     """points[i] are the values of the `varied` quantities at which answers[i] was found."""
 
     problem: Problem
@@ -85,7 +86,7 @@ class Spread:
 
 
 @dataclass(frozen=True)
-class Bootstrap:
+class Bootstrap(Shown):
     """over: `modes`, `sensors` or `both`. answer: of the deck itself. units: names of what is drawn or left out.
 
     left_out, replicates: the runs; counts: how often each unit was drawn in each replicate.

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli._errors import Diagnostic
+from mouse_cli._notebook import Shown
 from mouse_cli.model.problem import Problem
 
 REVERSED, SWAPPED, GAIN, STRANGE = "reversed", "swapped", "gain", "strange"  # kinds of sensor faults
@@ -71,7 +72,7 @@ class Expanded:
 
 
 @dataclass(frozen=True)
-class Correlation:
+class Correlation(Shown):
     """The answer of `correlate`: m measured modes at s sensors against the lowest k modes of the prior model.
 
     frequencies_hz (k,); visible (k,): length of each model shape at the sensors, over that of the largest. modes (m,): partner of

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli._errors import Diagnostic
+from mouse_cli._notebook import Shown
 from mouse_cli.model.coupling import Coupling
 from mouse_cli.model.frf_test import FrfTest
 
@@ -58,7 +59,7 @@ class CoupledModes:
 
 
 @dataclass(frozen=True)
-class Coupled:
+class Coupled(Shown):
     """The answer. functions: of the whole, in the kind asked for, or None, and their peaks; interface: at its lines; modes:
     None where a part has none."""
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mouse_cli._notebook import Shown
 from mouse_cli.model.field import BED as BED
 from mouse_cli.model.field import COMPLIANCE as COMPLIANCE
 from mouse_cli.model.field import FORCE as FORCE
@@ -176,7 +177,7 @@ class Choices:
 
 
 @dataclass(frozen=True)
-class Diagnosis:
+class Diagnosis(Shown):
     """The answer of `diagnose`.
 
     kind: one of NOTHING, NAMED, ONE_OF, UNKNOWN. result: the update of the model as it is; best: the explanation named, or the

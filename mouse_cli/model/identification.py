@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mouse_cli._errors import Diagnostic
+from mouse_cli._notebook import Shown
 from mouse_cli.model.arrays import Matrix, dense
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.problem import Problem
@@ -83,7 +84,7 @@ class Modes:
 
 
 @dataclass(frozen=True)
-class Identification:
+class Identification(Shown):
     """Modes that a test shows, and what was rejected.
 
     method: what found them; band_hz; misfit: mean square of fitted errors over stated sd, NaN where none was stated or output-only;

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli._errors import Diagnostic
+from mouse_cli._notebook import Shown
 from mouse_cli.model.coupled import Peak
 from mouse_cli.model.coupling import Connection, Modification, Sweep, Target
 from mouse_cli.model.frf_test import FrfTest
@@ -77,7 +78,7 @@ class ModifiedFunctions:
 
 
 @dataclass(frozen=True)
-class Modified:
+class Modified(Shown):
     """The answer. connections: the changes as they act, absorbers tuned; labels of the modified model are those of `after`."""
 
     modification: Modification

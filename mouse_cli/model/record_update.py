@@ -5,6 +5,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from mouse_cli._notebook import Shown
 from mouse_cli.model.diagnosis import Cause
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.record_diagnosis import Noise, RecordScore, Surface, Trace
@@ -12,7 +13,7 @@ from mouse_cli.model.result import ChiSquareTest
 
 
 @dataclass(frozen=True)
-class RecordUpdate:
+class RecordUpdate(Shown):
     """The answer of `run` for recordings: the parameters of the deck, and those of its laws, by simulation of its records.
 
     theta (p,), covariance (p, p): posterior, the covariance times noise_scale, by which the stated variances were multiplied so

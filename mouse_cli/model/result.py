@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mouse_cli._errors import Diagnostic
+from mouse_cli._notebook import Shown
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.conditioning import Conditioning
 from mouse_cli.model.frf_fit import FrfFit
@@ -111,7 +112,7 @@ class Alternatives:
 
 
 @dataclass(frozen=True)
-class Result:
+class Result(Shown):
     """The answer of `run`.
 
     y, sd, labels (q,): the data at the scale of the theory; test_shapes (s, m) and shape_factor (m,) likewise.
@@ -186,7 +187,7 @@ class Result:
 
 
 @dataclass(frozen=True)
-class Forecast:
+class Forecast(Shown):
     """Answer of `modes`: natural frequencies and shapes of the prior model with the uncertainty the prior gives them.
 
     frequencies_hz, sd_hz (k,); shapes, shape_sd (n, k), mass-normalised, largest component positive. damped: of a model that has

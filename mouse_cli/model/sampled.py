@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli._errors import Diagnostic
+from mouse_cli._notebook import Shown
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import Result
 
@@ -63,7 +64,7 @@ class Chain:
 
 
 @dataclass(frozen=True)
-class Sampled:
+class Sampled(Shown):
     """The chain after `burn` of `steps` steps. result: of the run it began from; k_hat: of `draws` from the normal density of that.
 
     long_enough: 50 autocorrelation times at least, and walkers that agree. acceptance: share of the steps that were taken.

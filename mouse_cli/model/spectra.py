@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from mouse_cli._errors import Diagnostic
+from mouse_cli._notebook import Shown
 from mouse_cli.model.frf_test import FrfTest
 
 WINDOWS = ("hann", "hamming", "blackmanharris", "flattop", "uniform", "exponential")
@@ -75,7 +76,7 @@ class MeasuredFrf:
 
 
 @dataclass(frozen=True)
-class SpectraResult:
+class SpectraResult(Shown):
     """What `mouse spectra` found: one item for each set of recordings with the same channels."""
 
     title: str

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mouse_cli._errors import Diagnostic
+from mouse_cli._notebook import Shown
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.conditioning import Conditioning
 from mouse_cli.model.problem import Problem
@@ -90,7 +91,7 @@ class Checked:
 
 
 @dataclass(frozen=True)
-class Updated:
+class Updated(Shown):
     """The answer of one method. configurations: what was fitted first, then what was held out.
 
     solutions: eigensolutions or iterations that it took; change: relative, in the last one. conditioning: for least squares.
@@ -120,7 +121,7 @@ class Updated:
 
 
 @dataclass(frozen=True)
-class Compared:
+class Compared(Shown):
     """The answers of several methods to one deck, and what refused the others, by key."""
 
     problem: Problem

@@ -13,10 +13,12 @@ from mouse_cli.report.section import Options
 __all__ = ["Options", "document", "markdown", "printout", "written"]
 
 
-def written(subject: Any, form: str, numbers: str | None = None, options: Options | None = None) -> str:
+def written(
+    subject: Any, form: str, numbers: str | None = None, options: Options | None = None, *, short: bool = False
+) -> str:
     """The report of `subject` in a `form` of `report.renderers`, in its own style of numbers and to its own place, or to others.
 
-    Raises ValueError for a form or a style that does not exist.
+    short: verdict and results alone. Raises ValueError for a form or a style that does not exist.
 
     >>> import mouse_cli
     >>> text = mouse_cli.written(mouse_cli.run(mouse_cli.read_deck("decks/sound_chain.yaml")), "markdown")
@@ -25,10 +27,11 @@ def written(subject: Any, form: str, numbers: str | None = None, options: Option
     """
     from mouse_cli.report.numbers import Numbers
     from mouse_cli.report.renderers import renderer
-    from mouse_cli.report.section import blocks
+    from mouse_cli.report.section import RESULT, blocks
 
     chosen, options = renderer(form), options or Options()
-    options = options if options.level is not None else replace(options, level=chosen.level)
+    if short or options.level is None:
+        options = replace(options, level=RESULT if short else chosen.level)
     return chosen.render(blocks(subject, options), Numbers(numbers or chosen.numbers))
 
 

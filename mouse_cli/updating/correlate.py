@@ -77,6 +77,11 @@ def correlate(
     exact: measured components stay as they are where the method would smooth them. notice is called with a sentence as each
     phase of a large model begins. Raises DeckError for a deck without a test, NumericalError where no eigensolution, or no
     such expansion, exists.
+
+    >>> import mouse_cli
+    >>> found = mouse_cli.correlate(mouse_cli.read_deck("decks/cantilever.yaml"))
+    >>> (found.modes + 1).tolist(), found.mac.diagonal().round(3).tolist()
+    ([1, 2, 3], [1.0, 0.999, 0.998])
     """
     if problem.test is None:
         raise refusals.no_test(problem)

@@ -11,6 +11,7 @@ from mouse_cli.dynamics.frf_slopes import Change
 from mouse_cli.dynamics.sensitivity import modal_partials
 from mouse_cli.dynamics.solver import EigenSolver, Notice
 from mouse_cli.estimators.linear import in_prior_units
+from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import DampedModes, Forecast
 from mouse_cli.terms.assembly import Assembly
@@ -27,6 +28,11 @@ def forecast(problem: Problem, count: int | None = None, notice: Notice = lambda
     """The lowest `count` modes with first-order standard deviations: cov(y) = T S T'.
 
     notice is called with a sentence as each phase of a large model begins. Raises NumericalError.
+
+    >>> import mouse_cli
+    >>> found = mouse_cli.modes(mouse_cli.read_deck("decks/cantilever.yaml"), 3)
+    >>> found.frequencies_hz.round(2).tolist(), found.sd_hz.round(2).tolist()
+    ([3.78, 24.83, 71.46], [0.09, 0.6, 1.67])
     """
     problem = with_modal_damping(problem)
     assembly = assemble(problem)
@@ -38,20 +44,7 @@ def forecast(problem: Problem, count: int | None = None, notice: Notice = lambda
     k = min(count or len(solution.eigenvalues), len(solution.eigenvalues))
     modes, dofs = np.arange(k), np.arange(problem.structure.n)
     sign = np.sign(solution.shapes[np.abs(solution.shapes).argmax(axis=0), np.arange(len(solution.eigenvalues))])
-    prior = coordinates(problem, assembly)
-    pattern = forces(assembly.n, assembly.p, assembly.slopes(problem.prior.mean))
-    sd_shape = np.zeros((len(dofs), k))
-    if len(dofs) > _MOST:
-        at = np.zeros(0, int) if problem.test is None else np.unique(problem.test.dofs)
-        partials = modal_partials(solution, K, M, modes, at, pattern)
-        root, sd_shape[:] = _root(partials.d_lambda, prior), np.nan
-        sd_shape[at] = np.reshape([_sd(each, prior) for each in partials.d_shape], (k, len(at))).T
-    else:
-        root = _root(np.zeros((k, assembly.p)), prior)
-        for i in modes:  # mode by mode: the partials of all shapes at once would be n times larger than the model
-            partials = modal_partials(solution, K, M, modes[i : i + 1], dofs, pattern)
-            root[i] = _root(partials.d_lambda, prior)[0]
-            sd_shape[:, i] = _sd(partials.d_shape[0], prior)
+    root, sd_shape = _propagated(problem, assembly, solution, K, M, modes, dofs)
     hz = solution.frequencies_hz[:k]
     rigid = solution.rigid(reference_eigenvalue(problem, solution.eigenvalues))
     elastic = (hz > 0) & (modes >= rigid)
@@ -59,6 +52,27 @@ def forecast(problem: Problem, count: int | None = None, notice: Notice = lambda
     sd_hz = np.linalg.norm(root_hz, axis=1)
     damped = _damped(problem, assembly, Dynamics(K, M, *assembly.damping(problem.prior.mean)), solution, k - rigid)
     return Forecast(problem, hz, sd_hz, (solution.shapes * sign)[:, :k], sd_shape, rigid, damped, root_hz)
+
+
+def _propagated(
+    problem: Problem, assembly: Assembly, solution: EigenSolution, K: Matrix, M: Matrix, modes: np.ndarray, dofs: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
+    """The prior through the partials: a root (k, q) of the covariance of the eigenvalues, and sds (n, k) of the shapes."""
+    prior = coordinates(problem, assembly)
+    pattern = forces(assembly.n, assembly.p, assembly.slopes(problem.prior.mean))
+    sd_shape = np.zeros((len(dofs), len(modes)))
+    if len(dofs) > _MOST:
+        at = np.zeros(0, int) if problem.test is None else np.unique(problem.test.dofs)
+        partials = modal_partials(solution, K, M, modes, at, pattern)
+        root, sd_shape[:] = _root(partials.d_lambda, prior), np.nan
+        sd_shape[at] = np.reshape([_sd(each, prior) for each in partials.d_shape], (len(modes), len(at))).T
+    else:
+        root = _root(np.zeros((len(modes), assembly.p)), prior)
+        for i in modes:  # mode by mode: the partials of all shapes at once would be n times larger than the model
+            partials = modal_partials(solution, K, M, modes[i : i + 1], dofs, pattern)
+            root[i] = _root(partials.d_lambda, prior)[0]
+            sd_shape[:, i] = _sd(partials.d_shape[0], prior)
+    return root, sd_shape
 
 
 def _damped(
