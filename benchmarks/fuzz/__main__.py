@@ -1,13 +1,16 @@
 """Command line: damaged inputs through every command, counted, resumable; the first input of every fault is kept.
 
-python -m benchmarks.fuzz --inputs 1000 --out fuzz           1000 inputs for each command
+python -m benchmarks.fuzz --inputs 1000 --out fuzz           1000 inputs for each command, 100 to 200 of those that take long
 python -m benchmarks.fuzz --commands run,check --seed 7
 python -m benchmarks.fuzz --again run:123 --out fuzz         one input anew, in a folder of its own
 """
 
 import argparse
+import gc
+import importlib
 import json
 import os
+import pkgutil
 import random
 import re
 import shutil
@@ -16,13 +19,17 @@ import tempfile
 import time
 from collections import Counter
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import asdict
+from itertools import takewhile
 from pathlib import Path
 
 from benchmarks.fuzz.commands import COMMANDS, arguments
 from benchmarks.fuzz.mutate import damaged
-from benchmarks.fuzz.play import Limits, Outcome, play
+from benchmarks.fuzz.play import Limits, Outcome, chained, play
 from benchmarks.fuzz.seeds import Seed, seeds
+
+_CHAIN = 50  # inputs of one child
 
 
 def main(given: list[str] | None = None) -> int:
@@ -34,7 +41,8 @@ def main(given: list[str] | None = None) -> int:
     if options.again:
         command, _, index = options.again.partition(":")
         return _again(command, int(index), options, sound)
-    print(f"seed {options.seed}, {options.inputs} inputs for each of {len(options.commands)} commands", flush=True)
+    total = sum(_share(options, command) for command in options.commands)
+    print(f"seed {options.seed}, {total} inputs of {len(options.commands)} commands", flush=True)
     options.out.mkdir(parents=True, exist_ok=True)
     children = [_worker(k, options, sound) for k in range(options.jobs)]
     broken = sum(os.waitpid(child, 0)[1] != 0 for child in children)
@@ -48,7 +56,9 @@ def _options(given: list[str] | None) -> argparse.Namespace:
     parser.add_argument(
         "--commands", type=lambda text: text.split(","), default=list(COMMANDS), help=", ".join(COMMANDS)
     )
-    parser.add_argument("--inputs", type=int, default=100, help="for each command (100)")
+    parser.add_argument(
+        "--inputs", type=int, default=100, help="for each command (100), fewer for those that take long"
+    )
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument(
         "--out", type=Path, default=Path("fuzz"), help="log and faults (fuzz); what is there is not done again"
@@ -64,17 +74,20 @@ def _options(given: list[str] | None) -> argparse.Namespace:
 
 
 def _warm() -> None:
-    """What the children would else load, each of them."""
-    import scipy.linalg
+    """What the children would else load, each of them; kept out of the reach of collections, which would copy its pages."""
+    import matplotlib.figure
+    import scipy.optimize
     import scipy.sparse.linalg
     import scipy.stats
 
-    from mouse_cli import _registry
-    from mouse_cli.cli.main import cli
+    import mouse_cli
 
-    for name in _registry.names("mouse_cli.cli.commands"):
-        cli.get_command(None, name)
-    assert scipy.stats and scipy.linalg and scipy.sparse.linalg
+    for module in pkgutil.walk_packages(mouse_cli.__path__, "mouse_cli."):
+        if not module.name.endswith("__main__"):
+            with suppress(ImportError):  # of an optional library
+                importlib.import_module(module.name)
+    assert scipy.stats and scipy.optimize and scipy.sparse.linalg and matplotlib.figure
+    gc.freeze()
 
 
 def _worker(number: int, options: argparse.Namespace, sound: list[Seed]) -> int:
@@ -93,17 +106,40 @@ def _worker(number: int, options: argparse.Namespace, sound: list[Seed]) -> int:
 def _work(number: int, options: argparse.Namespace, sound: list[Seed]) -> None:
     done = {(row["command"], row["index"]) for row in _rows(options)}
     limits = Limits(options.cpu, options.memory)
+    left = [
+        (command, index)
+        for index in range(number, options.inputs, options.jobs)
+        for command in options.commands
+        if (command, index) not in done and index < _share(options, command)
+    ]
+    left.sort(key=lambda job: job[1] / _share(options, job[0]))
     with open(options.out / f"log-{options.seed}-{number}.jsonl", "a", buffering=1) as log:
-        for index in range(number, options.inputs, options.jobs):
-            for command in options.commands:
-                if (command, index) in done:
-                    continue
-                with tempfile.TemporaryDirectory(prefix="fuzz") as folder:
-                    words = made(command, index, options.seed, sound, Path(folder))
-                    outcome = play(words, Path(folder), limits)
-                    if outcome.fault:
-                        _kept(options.out, command, index, words, outcome, Path(folder))
-                log.write(json.dumps({"command": command, "index": index, **asdict(outcome)}) + "\n")
+        make = lambda job, folder: made(*job, options.seed, sound, folder)
+        while left:
+            cheap = list(takewhile(lambda job: COMMANDS[job[0]].cost == 1, left[:_CHAIN]))
+            for outcome in chained(cheap, make, limits) if cheap else ():
+                log.write(_row(*left.pop(0), outcome))
+            if left:
+                command, index = left.pop(0)
+                log.write(_row(command, index, _alone(command, index, options, sound, limits)))
+
+
+def _alone(command: str, index: int, options: argparse.Namespace, sound: list[Seed], limits: Limits) -> Outcome:
+    with tempfile.TemporaryDirectory(prefix="fuzz") as folder:
+        words = made(command, index, options.seed, sound, Path(folder))
+        outcome = play(words, Path(folder), limits)
+        if outcome.fault:
+            _kept(options.out, command, index, words, outcome, Path(folder))
+        return outcome
+
+
+def _row(command: str, index: int, outcome: Outcome) -> str:
+    return json.dumps({"command": command, "index": index, **asdict(outcome)}) + "\n"
+
+
+def _share(options: argparse.Namespace, command: str) -> int:
+    """How many inputs a command is given."""
+    return max(1, options.inputs // COMMANDS[command].cost)
 
 
 def made(command: str, index: int, seed: int, sound: list[Seed], folder: Path) -> list[str]:
@@ -151,7 +187,11 @@ def _rows(options: argparse.Namespace) -> Iterator[dict]:
 
 
 def _summary(options: argparse.Namespace) -> int:
-    rows = [row for row in _rows(options) if row["command"] in options.commands and row["index"] < options.inputs]
+    rows = [
+        row
+        for row in _rows(options)
+        if row["command"] in options.commands and row["index"] < _share(options, row["command"])
+    ]
     print(f"{'command':<10}{'inputs':>8}{'faults':>8}{'most s':>8}{'most MB':>9}  exit codes")
     for command in options.commands:
         own = [row for row in rows if row["command"] == command]

@@ -25,12 +25,16 @@ _DECKS = ("deck", "deck", "deck", "large", "records")
 
 @dataclass(frozen=True)
 class Asked:
-    """kinds: of inputs, often as often as they are named; options: some of them are given; always: what is given each time."""
+    """kinds: of inputs, often as often as they are named; options: some of them are given; always: what is given each time.
+
+    cost: of an input, by which there are fewer of them.
+    """
 
     kinds: tuple[str, ...]
     options: tuple[str, ...] = ()
     always: tuple[str, ...] = ()
     most: int = 2
+    cost: int = 1
 
 
 COMMANDS: dict[str, Asked] = {
@@ -42,14 +46,20 @@ COMMANDS: dict[str, Asked] = {
     "modes": Asked(_DECKS, (*_READ, *_SHOWN, "-n=2", "-n=99999999")),
     "correlate": Asked(_DECKS, (*_READ, *_SHOWN, "--expand=serep", "--expand=guyan", "--expand=dynamic", "--exact")),
     "run": Asked(
-        _DECKS, (*_LOOP, *_READ, *_SHOWN, "--method=baruch", "--method=generic", "--stacked", "-o=out/answer"), most=3
+        _DECKS,
+        (*_LOOP, *_READ, *_SHOWN, "--method=baruch", "--method=generic", "--stacked", "-o=out/answer"),
+        most=3,
+        cost=5,
     ),
     "compare": Asked(("deck",), (*_READ, *_SHOWN, "--method=baruch", "--method=kabe", "--expand=serep")),
-    "sample": Asked(("deck",), (*_READ, *_SHOWN, "--walkers=16", "--seed=0", "--chain=out/chain"), ("--steps=100",)),
+    "sample": Asked(
+        ("deck",), (*_READ, *_SHOWN, "--walkers=16", "--seed=0", "--chain=out/chain"), ("--steps=100",), cost=3
+    ),
     "bootstrap": Asked(
         ("deck",),
         (*_LOOP, *_SHOWN, "--over=sensors", "--over=both", "--jackknife", "--csv=out/t.csv"),
         ("--replicates=3", "-j=1", "-o=out/b", "--time-limit=8"),
+        cost=5,
     ),
     "sweep": Asked(
         ("deck",),
@@ -68,9 +78,10 @@ COMMANDS: dict[str, Asked] = {
             *_LOOP,
         ),
         ("-j=1", "-o=out/r", "--time-limit=8"),
+        cost=10,
     ),
     "diagnose": Asked(
-        (*["deck"] * 15, "records"), (*_READ, *_SHOWN, "--without=crack", "-o=out/new.yaml"), ("--causes=1",)
+        (*["deck"] * 15, "records"), (*_READ, *_SHOWN, "--without=crack", "-o=out/new.yaml"), ("--causes=1",), cost=8
     ),
     "couple": Asked(("couple",), (*_SHOWN, "--functions=out/f.npz", "--functions=out/f.unv", "--truncate=0.01")),
     "modify": Asked(
@@ -101,9 +112,21 @@ COMMANDS: dict[str, Asked] = {
         most=4,
     ),
     "report": Asked(("result",), ("--markdown", "-o=out/page.html")),
-    "plot": Asked(("result",), ("--figure=frequencies", "--figure=mac"), ("-o=out/figures",)),
+    "plot": Asked(("result",), ("--figure=frequencies", "--figure=mac"), ("-o=out/figures",), cost=4),
     "prior": Asked(("result",), (*_SHOWN, "--loosen=k1=5 %", "--loosen=k1=1e308")),
-    "export": Asked(("deck", "large"), (), ("-o=out/model",)),
+    "export": Asked(
+        ("deck", "deck", "inp", "large"),
+        (
+            "--shapes=out/a.unv",
+            "--shapes=out/a.vtk",
+            "--modes=3",
+            "--first=0",
+            "--first=1e9",
+            "--for=ansys",
+            "--for=nastran",
+        ),
+        ("--for=calculix", "-o=out/model"),
+    ),
     "import": Asked(("inp",), (), ("-o=out/new.yaml",)),
     "explain": Asked(()),
     "list": Asked(()),
@@ -112,14 +135,17 @@ _VARIED = ("k1 k2 k k1.sd confidence cycles recursion estimator test.modes.frequ
            "shape_sd* parameters.0.sd parameters[0].sd model.mass title passes partials limit_sd "
            "test.modes.frequency").split()  # fmt: skip
 _TOPICS = "MD104 MD903 NPARD KONF O-2 bayes anchored exit cards yaml schema converged crack beam table-3-1 elements methods".split()
+_LISTS = "candidates codes commands elements estimators methods plots statuses".split()
 
 
 def arguments(rng: random.Random, command: str, main: str) -> list[str]:
     """A command line for `in/MAIN`."""
     asked = COMMANDS[command]
     if not asked.kinds:
-        topic = rng.choice(_TOPICS)
+        topic = rng.choice(_LISTS if command == "list" else _TOPICS)
         at = rng.randrange(len(topic) + 1)
+        if rng.random() < 0.3:
+            return [command, topic]
         return [
             command,
             topic[:at] + rng.choice(("", "x", "-", "9" * 20, "€", "\n", "[", "*")) + topic[at + rng.randrange(3) :],

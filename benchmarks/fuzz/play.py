@@ -4,11 +4,14 @@ import faulthandler
 import json
 import os
 import resource
+import shutil
 import signal
 import sys
 import tempfile
+import time
 import traceback
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 _MB = 2**20
@@ -17,6 +20,8 @@ _HANG = 120  # wall seconds
 _WRITES = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND
 _CHANGES = {"os.rename": (0, 1), "os.remove": (0,), "os.mkdir": (0,), "os.rmdir": (0,), "os.link": (1,), "os.symlink": (1,),
             "os.truncate": (0,), "os.chmod": (0,), "shutil.rmtree": (0,), "socket.connect": (1,)}  # fmt: skip
+_BESIDE = ("os.remove", "os.rmdir")  # their second argument is the folder that a path stands in, -1 for the present one
+_watched: list[Path | None] = []  # the last: the folder of the input, None while the watch itself writes
 
 
 @dataclass(frozen=True)
@@ -50,6 +55,10 @@ def play(arguments: list[str], folder: Path, limits: Limits) -> Outcome:
     own = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     cpu, memory = usage.ru_utime + usage.ru_stime, max(0.0, usage.ru_maxrss / 1024 - own)
     code = os.waitstatus_to_exitcode(status)
+    return _outcome(arguments, folder, code, cpu, memory, limits)
+
+
+def _outcome(arguments: list[str], folder: Path, code: int, cpu: float, memory: float, limits: Limits) -> Outcome:
     fault, place = _judged(folder, code, cpu, memory, limits, "--json" in arguments and "--markdown" not in arguments)
     return Outcome(code, round(cpu, 2), round(memory), fault, place)
 
@@ -110,16 +119,23 @@ def _sound(text: str) -> bool:
 
 
 def _child(arguments: list[str], folder: Path, limits: Limits) -> None:
+    _bound(limits)
+    _watched.append(folder)
+    _watch()
+    os._exit(said(arguments, folder))
+
+
+def said(arguments: list[str], folder: Path) -> int:
+    """The exit code of `mouse ARGUMENTS` in this process, whose output, folder for temporary files and cache are `folder`'s."""
     for number, name in ((1, "stdout"), (2, "stderr")):
-        os.dup2(os.open(folder / name, os.O_WRONLY | os.O_CREAT | os.O_TRUNC), number)
-    os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
+        opened = os.open(folder / name, os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
+        os.dup2(opened, number)
+        os.close(opened)
     sys.stdout, sys.stderr = (open(number, "w", encoding="utf-8", closefd=False) for number in (1, 2))
     os.environ |= {"TMPDIR": str(folder / "tmp"), "MPLCONFIGDIR": str(folder / "tmp"), "MOUSE_TRACEBACK": "1"}
     tempfile.tempdir = None  # that of the parent
     os.environ["XDG_CACHE_HOME"] = str(folder / "tmp")
     os.chdir(folder)
-    _bound(limits)
-    _watch(folder)
     code = _RAISED
     try:
         from mouse_cli.cli.main import _run
@@ -132,7 +148,51 @@ def _child(arguments: list[str], folder: Path, limits: Limits) -> None:
         (folder / "tmp" / "raised").write_text(_innermost(error))
     sys.stdout.flush()
     sys.stderr.flush()
-    os._exit(code)
+    return code
+
+
+def chained(jobs: list, made: Callable[[object, Path], list[str]], limits: Limits) -> Iterator[Outcome]:
+    """Outcomes of the first of `jobs`, one after another in one child, up to one with a fault, which is to be played alone.
+
+    made: writes a job's input to a folder, and gives its arguments. The memory of each is that of the largest so far.
+    """
+    reading, writing = os.pipe()
+    sys.stdout.flush()
+    with tempfile.TemporaryDirectory(prefix="fuzz") as top:
+        if (pid := os.fork()) == 0:
+            os.close(reading)
+            _chain(jobs, made, limits, Path(top), writing)
+        os.close(writing)
+        with open(reading) as rows:
+            for row in rows:
+                yield Outcome(**json.loads(row))
+        os.waitpid(pid, 0)
+
+
+def _chain(jobs: list, made: Callable, limits: Limits, top: Path, writing: int) -> None:
+    resource.setrlimit(resource.RLIMIT_AS, (int((limits.memory + 3000) * _MB),) * 2)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (200 * _MB,) * 2)
+    _watch()
+    start = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    for number, job in enumerate(jobs):
+        folder = top / str(number)
+        for name in ("out", "tmp"):
+            (folder / name).mkdir(parents=True)
+        arguments = made(job, folder)
+        signal.setitimer(signal.ITIMER_PROF, limits.cpu)
+        signal.alarm(_HANG)
+        before = time.process_time()
+        _watched.append(folder)
+        code = said(arguments, folder)
+        _watched.clear()
+        cpu, memory = time.process_time() - before, (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - start) / 1024
+        found = _outcome(arguments, folder, code, cpu, memory, limits)
+        if found.fault:
+            break
+        os.write(writing, (json.dumps(asdict(found)) + "\n").encode())
+        os.chdir(top)
+        shutil.rmtree(folder, ignore_errors=True)
+    os._exit(0)
 
 
 def _bound(limits: Limits) -> None:
@@ -146,30 +206,34 @@ def _bound(limits: Limits) -> None:
     signal.alarm(_HANG)
 
 
-def _watch(folder: Path) -> None:
-    """Whatever is written, made or taken away outside of `out` and `tmp`, said in the file `outside`."""
-    allowed = tuple(f"{os.path.realpath(folder / name)}{os.sep}" for name in ("out", "tmp"))
-    root, listening = os.path.realpath(folder), [True]
+def _watch() -> None:
+    """Whatever is written, made or taken away outside of the answers and `tmp` of a watched folder, said in its file `outside`."""
 
-    def outside(path: object) -> bool:
+    def outside(path: object, beside: object) -> bool:
         if not isinstance(path, str | bytes | os.PathLike):
             return False
-        real = os.path.realpath(os.fsdecode(path))
+        start = f"/proc/self/fd/{beside}" if isinstance(beside, int) and beside >= 0 else ""
+        real = os.path.realpath(os.path.join(start, os.fsdecode(path)))
+        allowed = tuple(
+            f"{os.path.realpath(_watched[-1] / name)}{os.sep}" for name in ("out", "tmp", "stdout", "stderr")
+        )
         return real != os.devnull and f"{real}{os.sep}" not in allowed and not real.startswith(allowed)
 
     def hook(event: str, given: tuple) -> None:
-        if not listening[0]:
+        if not _watched or _watched[-1] is None or event not in ("open", *_CHANGES):
             return
         if event == "open":
             paths = given[:1] if given[2] and given[2] & _WRITES else ()
         else:
-            paths = tuple(given[k] for k in _CHANGES.get(event, ()))
-        if any(outside(path) for path in paths):
-            listening[0] = False
-            with open(os.path.join(root, "outside"), "w") as file:
+            paths = tuple(given[k] for k in _CHANGES[event])
+        beside = given[1] if event in _BESIDE else None
+        if any(outside(path, beside) for path in paths):
+            folder = _watched[-1]
+            _watched.append(None)
+            with open(folder / "outside", "w") as file:
                 file.write(f"{event} {paths}\n")
                 file.write("".join(traceback.format_stack()[:-1]))
-            listening[0] = True
+            _watched.pop()
 
     sys.addaudithook(hook)
 

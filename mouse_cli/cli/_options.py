@@ -178,7 +178,7 @@ def earlier(prior: str | None, loosen: tuple[str, ...]) -> dict[str, object]:
             loosened[name.strip()] = sd = float(value)
         except ValueError:
             sd = -1.0
-        if not (name and isfinite(sd) and sd >= 0):
+        if not (name and 0 <= sd < 1e150):  # its square is a variance
             raise click.BadParameter(f"'{item}' is not NAME=SD", param_hint="--loosen")
     return {"prior": prior, "loosened": loosened}
 
