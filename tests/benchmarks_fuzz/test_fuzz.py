@@ -28,7 +28,27 @@ def test_no_faults_and_nothing_twice(tmp_path, capfd):
     log = next(tmp_path.glob("log-*"))
     before = log.read_text()
     assert fuzz.main([*asked, "--inputs", "3"]) == 0, capfd.readouterr().out
-    assert log.read_text().startswith(before) and len(log.read_text().splitlines()) == 3 * len(QUICK.split(","))
+    assert log.read_text().startswith(before)
+    assert len(log.read_text().splitlines()) == sum(3 if COMMANDS[name].cost == 1 else 1 for name in QUICK.split(","))
+
+
+def test_one_after_another_is_as_alone(tmp_path, sound):
+    """Inputs in one child end as each in a child of its own; the one that writes elsewhere ends the chain."""
+    jobs = [("check", 3), ("modify", 0), ("explain", 1), ("list", 0)]
+    make = lambda job, folder: fuzz.made(*job, 1, sound, folder)
+    together = [one.exit for one in play.chained(jobs, make, play.Limits())]
+    alone = []
+    for number, job in enumerate(jobs):
+        (tmp_path / str(number)).mkdir()
+        words = make(job, tmp_path / str(number))
+        alone.append(play.play(words, tmp_path / str(number), play.Limits()).exit)
+    assert together == alone
+
+
+def test_a_fault_ends_the_chain(tmp_path, monkeypatch):
+    does = {"a": lambda: 0, "b": lambda: [][1], "c": lambda: 0}
+    monkeypatch.setattr("mouse_cli.cli.main._run", lambda arguments: does[arguments[0]]())
+    assert len(list(play.chained(["a", "b", "c"], lambda job, folder: [job], play.Limits()))) == 1
 
 
 def test_an_input_is_the_same_again(tmp_path, sound):
