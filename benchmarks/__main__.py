@@ -13,6 +13,7 @@ from pathlib import Path
 from benchmarks._paired import seconds
 
 SMALL = {  # words of each at its smallest size; None: it has one size, or needs what may not be installed
+    "ambiguity": ("1", "--kinds", "twins"),
     "batch": ("20",),
     "batch_kills": ("--kills", "1", "--decks", "20"),
     "batch_workers": None,

@@ -59,11 +59,13 @@ def play(arguments: list[str], folder: Path, limits: Limits) -> Outcome:
 
 
 def _outcome(arguments: list[str], folder: Path, code: int, cpu: float, memory: float, limits: Limits) -> Outcome:
-    fault, place = _judged(folder, code, cpu, memory, limits, "--json" in arguments and "--markdown" not in arguments)
+    fault, place = _judged(arguments, folder, code, cpu, memory, limits)
     return Outcome(code, round(cpu, 2), round(memory), fault, place)
 
 
-def _judged(folder: Path, code: int, cpu: float, memory: float, limits: Limits, document: bool) -> tuple[str, str]:
+def _judged(
+    arguments: list[str], folder: Path, code: int, cpu: float, memory: float, limits: Limits
+) -> tuple[str, str]:
     said = (folder / "stderr").read_text(errors="replace")
     if (folder / "outside").exists():
         return "outside", (folder / "outside").read_text().split("\n")[0]
@@ -77,10 +79,12 @@ def _judged(folder: Path, code: int, cpu: float, memory: float, limits: Limits, 
         return "memory", ""
     if code not in (0, 1, 2, 3, 4, 5):
         return "silent", f"exit {code}"
-    if code in (4, 5) and "error[MD" not in said and (folder / "stdout").stat().st_size < 100:
+    why = "[MD" if "--strict" in arguments else "error[MD"
+    if code in (4, 5) and why not in said and (folder / "stdout").stat().st_size < 100:
         return "silent", f"exit {code} without an error"
     if "Warning:" in said:
         return "warning", _place(said, "", "Warning:")
+    document = "--json" in arguments and "--markdown" not in arguments
     if document and code in (0, 1) and not _sound((folder / "stdout").read_text(errors="replace")):
         return "document", ""
     return "", ""

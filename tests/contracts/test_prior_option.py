@@ -182,7 +182,7 @@ def test_an_untrusted_result_is_taken_with_a_warning(decks, capsys):
     assert "MD443" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("loosen", ["k", "k=-1", "k=nan", "=3", "k=x"])
+@pytest.mark.parametrize("loosen", ["k", "k=-1", "k=nan", "k=1e308", "=3", "k=x"])
 def test_loosen_is_a_name_and_a_number(decks, loosen):
     (decks / "first.json").write_text(json.dumps(run(decks, str(decks / "0.yaml"))))
     arguments = ["run", str(decks / "1.yaml"), "--prior", str(decks / "first.json"), "--loosen", loosen]

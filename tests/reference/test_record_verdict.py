@@ -195,6 +195,11 @@ def test_floor_of_a_spectrum_is_the_sd_of_white_noise():
     np.testing.assert_allclose(found, 1.0, rtol=0.03)
 
 
+@pytest.mark.parametrize("samples", [1, 2, 40])
+def test_a_few_samples_have_a_floor(samples):
+    assert np.isfinite(_floor(np.random.default_rng(7).standard_normal((samples, 3)))).all()
+
+
 def test_candidates_have_one_registry_of_names(tmp_path):
     """Options mean the same for every kind of data; what these data cannot show is refused with what they can."""
     deck = record(tmp_path, linear)

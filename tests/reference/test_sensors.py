@@ -143,6 +143,7 @@ def test_all_sensors_measure_when_dofs_says_nothing(tmp_path):
         ("MD328", "3-TY", "1-TY", "1-TY", "node 1 cannot move"),
         ("MD329", "node: 2, direction: TY", "node: 9, direction: TY", "{name: a1", "node 9, which the model does not have"),
         ("MD329", "3-TY", "7TY", "7TY", "numbers near to it: 3, 2, 1"),
+        ("MD329", "3-TY", f"{10**30}TY", f"{10**30}TY", "numbers near to it: 3, 2, 1"),
         ("MD225", "3-TY", "3TV", "3TV", "no label of the model and no sensor"),
         ("MD225", "2TZ: 0.5", "2TV: 0.5", "{name: pair", "sensor pair names '2TV'"),
         ("MD324", "3-TY", "2TY", "2TY", "measured twice"),

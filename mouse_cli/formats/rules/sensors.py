@@ -125,7 +125,9 @@ def _node(draft: Draft, sensor: SensorDraft, geometry: Geometry, number: int) ->
     found = np.flatnonzero(geometry.node_ids == number)
     if len(found):
         return int(found[0])
-    near = geometry.node_ids[np.argsort(np.abs(geometry.node_ids - number), kind="stable")[:3]]
+    near = sorted(geometry.node_ids.tolist(), key=lambda known: abs(known - number))[
+        :3
+    ]  # of any size, as Python has them
     message = f"{sensor.words} is mounted on node {number}, which the model does not have"
     draft.error("MD329", message, sensor.where, f"numbers near to it: {', '.join(map(str, near))}", "correct the node")
     return None

@@ -154,9 +154,11 @@ def _floor(samples: np.ndarray) -> np.ndarray:
     The lowest tenth of means of _LINES neighbouring lines, times what it falls short of the level of white noise on average.
     """
     t = len(samples)
-    window = np.hanning(t)[:, None]
+    window = np.hanning(t + 2)[1:-1, None]
     power = np.abs(np.fft.rfft((samples - samples.mean(axis=0)) * window, axis=0)) ** 2 / (window**2).sum()
-    groups = power[1 : 1 + (len(power) - 1) // _LINES * _LINES].reshape(-1, _LINES, power.shape[1]).mean(axis=1)
+    power = power[1:] if len(power) > 1 else power
+    lines = min(_LINES, len(power))  # a few samples have fewer
+    groups = power[: len(power) // lines * lines].reshape(-1, lines, power.shape[1]).mean(axis=1)
     return np.sqrt(np.quantile(groups, 0.1, axis=0) * _LOWEST)
 
 
