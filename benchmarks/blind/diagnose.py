@@ -10,10 +10,14 @@ from pathlib import Path
 LIMIT = 600  # s, by the clock
 
 
-def diagnosed(deck: Path) -> dict:
-    """The document of `mouse diagnose --json`, and `seconds` of the processor; `refused` with the message where there is none."""
+def diagnosed(deck: Path, extended: Path | None = None) -> dict:
+    """The document of `mouse diagnose --json`, and `seconds` of the processor; `refused` with the message where there is none.
+
+    extended: where the extended model goes.
+    """
     one = os.environ | dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
     command = [sys.executable, "-m", "mouse_cli", "diagnose", "--json", str(deck)]
+    command += ["-o", str(extended)] if extended else []
     start = _seconds()
     try:
         done = subprocess.run(command, capture_output=True, text=True, env=one, timeout=LIMIT)

@@ -19,4 +19,9 @@ CODES = {
         "Shapes are written at nodes with coordinates, and the degrees of freedom of the deck are on none.",
         "Give the model `nodes` and `dofs`.",
     ),
+    "MD483": Code(
+        "a deck that is not of the job",
+        "A complete job is the input file with its sets and supports revised, and the deck names others, or no element sets.",
+        "Give as --job the input file that `mouse import` made the deck of.",
+    ),
 }

@@ -19,7 +19,8 @@ def export(model: InputModel, scaled: Iterable[int] = ()) -> str:
         if id(card) not in owners:
             lines += card.text()
     for i, group in enumerate(model.groups):
-        lines += _section(group, i, SCALE if i in scaled else 1.0)
+        factor = SCALE if i in scaled else 1.0
+        lines += section(group, f"MOUSE_{i}", factor, factor)
     return "\n".join([*lines, *_MATRICES]) + "\n"
 
 
@@ -65,63 +66,64 @@ def _joined(model: InputModel) -> set[int]:
     return {int(word) for word in words if word.isdigit()} & set(model.nodes)
 
 
-def _section(group: Group, i: int, factor: float) -> list[str]:
-    """The cards that give a group its properties."""
-    name = f"MOUSE_{i}"
-    lines = [f"*ELSET, ELSET={name}", *_listed(group.elements)]
+def section(group: Group, name: str, stiffness: float, mass: float) -> list[str]:
+    """The cards that give a group its properties, in a set and of a material called `name`, times these factors."""
+    lines = [f"*ELSET, ELSET={name}", *listed(group.elements)]
     options = {key: value for key, value in group.owner.options.items() if key not in ("ELSET", "MATERIAL")}
     if group.owner.keyword in SECTIONS:
-        lines += _material(group.material, name, factor)
+        lines += [f"*MATERIAL, NAME={name}", *constants(group.material, stiffness, mass)]
         options = {"ELSET": name, "MATERIAL": name} | options
     else:
         options = {"ELSET": name} | options
     head = "".join(f", {key}={value}" if value else f", {key}" for key, value in options.items())
     data = [line.text for line in group.owner.lines]
     if group.owner.keyword == "MASS" and data:
-        data = [_times(group.owner, 0, factor)]
+        data = [times(group.owner, 0, mass)]
     elif group.owner.keyword == "SPRING" and data:
         at = 0 if len(data) == 1 else 1
-        data = [*data[:at], _times(group.owner, at, factor, of=1)]
+        data = [*data[:at], times(group.owner, at, stiffness, of=1)]
     return [*lines, f"*{group.owner.keyword}{head}", *data]
 
 
-def _material(material: Material, name: str, factor: float) -> list[str]:
-    elastic = material.elastic
-    kind = elastic.options.get("TYPE", "ISO")
-    lines = [f"*MATERIAL, NAME={name}", elastic.head.text]
+def constants(material: Material, stiffness: float, mass: float) -> list[str]:
+    """*ELASTIC and *DENSITY of a material, its moduli and its density times these factors."""
+    return [*elastic(material, stiffness), "*DENSITY", times(material.density, 0, mass, of=1)]
+
+
+def elastic(material: Material, factor: float) -> list[str]:
+    """*ELASTIC with the moduli times `factor`."""
+    card = material.elastic
+    kind = card.options.get("TYPE", "ISO")
     if kind in ("ISO", "ISOTROPIC"):
-        lines += [_times(elastic, 0, factor, of=1)]
-    elif kind == "ENGINEERING CONSTANTS":
-        words = [word for line in elastic.lines for word in line.words if word]
+        return [card.head.text, times(card, 0, factor, of=1)]
+    if kind == "ENGINEERING CONSTANTS":
+        words = [word for line in card.lines for word in line.words if word]
         values = [float(word) * (1.0 if 3 <= k < 6 else factor) for k, word in enumerate(words[:9])]
-        lines += [", ".join(map(_real, values[:8])) + ",", ", ".join(map(_real, values[8:]))]
-    else:
-        lines += [_times(elastic, k, factor) for k in range(len(elastic.lines))]
-    return [*lines, "*DENSITY", _times(material.density, 0, factor, of=1)]
+        return [card.head.text, ", ".join(map(real, values[:8])) + ",", ", ".join(map(real, values[8:]))]
+    return [card.head.text, *(times(card, k, factor) for k in range(len(card.lines)))]
 
 
-def _times(card: Card, line: int, factor: float, of: int | None = None) -> str:
+def times(card: Card, line: int, factor: float, of: int | None = None) -> str:
     """A line of numbers times `factor`: the first `of` of them, or all."""
     words = [word for word in card.lines[line].words if word]
     count = len(words) if of is None else of
     ended = "," if card.lines[line].text.rstrip().endswith(",") and of is None else ""
     return (
-        ", ".join([*(_real(float(w.upper().replace("D", "E")) * factor) for w in words[:count]), *words[count:]])
-        + ended
+        ", ".join([*(real(float(w.upper().replace("D", "E")) * factor) for w in words[:count]), *words[count:]]) + ended
     )
 
 
-def _real(value: float) -> str:
+def real(value: float) -> str:
     """A number with the decimal point that CalculiX needs, within the 20 characters that it reads.
 
-    >>> _real(7e10), _real(1e-5), _real(1 / 3)
+    >>> real(7e10), real(1e-5), real(1 / 3)
     ('70000000000.0', '1.0e-05', '0.3333333333333333')
     """
-    text = repr(value)
+    text = repr(float(value))
     mantissa, mark, exponent = text.partition("e")
     text = f"{mantissa}.0e{exponent}" if mark and "." not in mantissa else text
     return text if len(text) <= _LONGEST else f"{value:.12e}"
 
 
-def _listed(numbers: list[int]) -> list[str]:
+def listed(numbers: list[int]) -> list[str]:
     return [", ".join(map(str, numbers[i : i + _PER_LINE])) + "," for i in range(0, len(numbers), _PER_LINE)]

@@ -58,10 +58,11 @@ class Group:
 class InputModel:
     """nodes: coordinates by number; elements: type and nodes by number; kept: the cards of the model, without steps and supports.
 
-    tied: nodes of equations, couplings and rigid bodies. ignored: keywords without effect on K and M, and how often.
+    every: all cards of the file, included files in their place. ignored: keywords without effect on K and M, and how often.
     """
 
     path: str
+    every: list[Card] = field(default_factory=list)
     kept: list[Card] = field(default_factory=list)
     nodes: dict[int, np.ndarray] = field(default_factory=dict)
     elements: dict[int, tuple[str, tuple[int, ...]]] = field(default_factory=dict)

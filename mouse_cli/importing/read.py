@@ -15,8 +15,8 @@ def read(path: str, outside: bool = False) -> InputModel:
     Raises DeckError (MD231 to MD273) with all that is wrong, by file and line.
     """
     model, faults = InputModel(path), Faults()
-    every = cards(path, outside)
-    known = [card for card in every if _understood(card, model, faults)]
+    model.every = cards(path, outside)
+    known = [card for card in model.every if _understood(card, model, faults)]
     faults.stop()
     _steps(known, model, faults)
     for card in model.kept:
@@ -24,7 +24,10 @@ def read(path: str, outside: bool = False) -> InputModel:
             _READERS[card.keyword](model, card, faults)
     if not model.elements and not faults.found:
         faults.add(
-            "MD265", "the file has no elements", every[0].head.span if every else None, "give the job's input file"
+            "MD265",
+            "the file has no elements",
+            model.every[0].head.span if model.every else None,
+            "give the job's input file",
         )
     faults.stop()
     supports(model, [card for card in known if card.keyword == "BOUNDARY"], faults)

@@ -40,3 +40,16 @@ class Geometry:
         return tuple(
             str(i) if node < 0 else f"{self.node_ids[node]}{DIRECTIONS[d]}" for i, (node, d) in enumerate(named, 1)
         )
+
+
+def rigid_motions(x: np.ndarray, direction: np.ndarray, small: float) -> np.ndarray:
+    """Motion (k, 6) of degrees of freedom at places x (k, 3), from the centre, in `direction` (k,), of a rigid body.
+
+    Rotations move a translation by its arm, or, with an arm of at most `small`, not at all.
+    """
+    pattern = np.eye(6)[direction]
+    arms = np.cross(np.eye(3)[:, None], x[None]).transpose(1, 2, 0)  # (k, 3 of the place, 3 of the rotation)
+    moved = direction < 3
+    pattern[moved, 3:] = arms[moved, direction[moved]]
+    pattern[moved, 3:] *= np.abs(pattern[moved, 3:]) > small
+    return pattern

@@ -3,6 +3,10 @@
 from dataclasses import dataclass
 
 End = tuple[int, int]  # node, and direction from 1 (TX) to 6 (RZ)
+PART_LEFT = "share of element set {} that is left, and of its mass"  # names of parameters that a diagnosis adds
+MASS_GAINED = "share of element set {} in mass, gained"
+STIFFNESS_LOST, STIFFNESS_GAINED = "share lost by element set {}", "share gained by element set {}"
+ON_SPRINGS = "stiffness of the support {}"
 
 
 @dataclass(frozen=True)
@@ -52,8 +56,32 @@ class RevisedMass:
 
 
 @dataclass(frozen=True)
+class RevisedSet:
+    """An element set: its E is `left` times that of its material, plus `stiffness` times the nominal one; its density likewise."""
+
+    name: str
+    left: float = 1.0
+    stiffness: float = 0.0
+    mass: float = 0.0
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class RevisedSupport:
+    """A support that moves as a rigid body in `directions` (1 to 6) about its centre, on springs of `stiffness` in all."""
+
+    name: str
+    directions: tuple[int, ...]
+    stiffness: float
+    note: str = ""
+
+
+@dataclass(frozen=True)
 class Revision:
-    """All of it. title, source, units: of the deck; first: number from which new elements count; unwritten: what has no card."""
+    """All of it. title, source, units: of the deck; first: number from which new elements count; unwritten: what has no card.
+
+    sets, supports: what only a whole job can have.
+    """
 
     title: str
     source: str
@@ -62,5 +90,7 @@ class Revision:
     sections: tuple[RevisedSection, ...] = ()
     springs: tuple[RevisedSpring, ...] = ()
     masses: tuple[RevisedMass, ...] = ()
+    sets: tuple[RevisedSet, ...] = ()
+    supports: tuple[RevisedSupport, ...] = ()
     unwritten: tuple[str, ...] = ()
     first: int = 900001

@@ -1,7 +1,7 @@
 """From a deck at the values of its prior to what other programs call them: materials, sections, springs, masses."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -10,11 +10,18 @@ from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.mesh import ElementSet
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.revision import (
+    MASS_GAINED,
+    ON_SPRINGS,
+    PART_LEFT,
+    STIFFNESS_GAINED,
+    STIFFNESS_LOST,
     End,
     RevisedMass,
     RevisedMaterial,
     RevisedSection,
+    RevisedSet,
     RevisedSpring,
+    RevisedSupport,
     Revision,
 )
 from mouse_cli.model.units import UNDECLARED, system
@@ -24,6 +31,14 @@ Constants = dict[str, tuple[float | None, float | None, float | None]]  # E, nu 
 _LABEL = re.compile(r"(\d+)([TR][XYZ])")
 _OF_MATERIAL = re.compile(r"(E|density) of (.+)")
 _EQUAL = 1e-9
+_OF_SETS: dict[str, Callable[[float], dict[str, float]]] = {
+    PART_LEFT: lambda share: {"left": share},
+    MASS_GAINED: lambda share: {"mass": share},
+    STIFFNESS_LOST: lambda share: {"stiffness": -share},
+    STIFFNESS_GAINED: lambda share: {"stiffness": share},
+    "stiffness of {}": lambda factor: {"stiffness": factor - 1.0},
+}
+_MOST_SPRINGS = 1000
 
 
 def revision(
@@ -147,19 +162,40 @@ def _of_matrices(made: Revision, problem: Problem, before: Problem, j: int, know
     called = _OF_MATERIAL.fullmatch(name)
     if called and problem.parameters[j].unit != "1":
         return _of_material(made, called[1], called[2], problem.prior.mean[j], note, known)
+    part = _of_part(problem, name, float(problem.prior.mean[j]), note)
+    if part is not None:
+        key = "sets" if isinstance(part, RevisedSet) else "supports"
+        return replace(made, **{key: (*getattr(made, key), part)})
     column = np.asarray(problem.A[:, [j]].todense() if hasattr(problem.A, "todense") else problem.A[:, [j]]).ravel()
     rows = np.flatnonzero(column)
     listed, theta = problem.elements, float(problem.prior.mean[j])
-    entries = [(int(listed.row[i]), int(listed.col[i]), float(column[i]) * theta) for i in rows[:7]]
+    entries = [(int(listed.row[i]), int(listed.col[i]), float(column[i]) * theta) for i in rows[:_MOST_SPRINGS]]
     mass = bool(len(rows)) and bool(listed.is_mass[rows].all())
-    spring = bool(len(rows)) and not listed.is_mass[rows].any()
-    ends = _ends(problem, entries) if spring and len(rows) < 4 else None
-    if ends is not None:
-        return replace(made, springs=(*made.springs, RevisedSpring(name, ends, entries[0][2], note)))
+    spring = 0 < len(rows) <= _MOST_SPRINGS and not listed.is_mass[rows].any()
+    every = _springs_of(problem, entries) if spring else []
+    if every:
+        names = [name] if len(every) == 1 else [f"{name} {i}" for i in range(1, len(every) + 1)]
+        found = (RevisedSpring(own, ends, k, note) for own, (ends, k) in zip(names, every, strict=True))
+        return replace(made, springs=(*made.springs, *found))
     at = _mass_at(problem, entries) if mass and len(rows) < 4 else None
     if at is not None:
         return replace(made, masses=(*made.masses, RevisedMass(name, at, entries[0][2], note=note)))
     return replace(made, unwritten=(*made.unwritten, note))
+
+
+def _of_part(problem: Problem, name: str, value: float, note: str) -> RevisedSet | RevisedSupport | None:
+    """What a parameter does to a named element set, or to a support that moves as a rigid body."""
+    for group in problem.groups:
+        for pattern, change in _OF_SETS.items():
+            if name == pattern.format(group.name):
+                return RevisedSet(group.name, **change(value), note=note)
+    before, _, after = ON_SPRINGS.partition("{}")
+    if not name.startswith(before) or not name.endswith(after):
+        return None
+    called = name[len(before) : len(name) - len(after)]
+    labels = set(problem.structure.labels)
+    moved = tuple(i for i, d in enumerate(DIRECTIONS, 1) if f"{called} {d}" in labels)
+    return RevisedSupport(called, moved, value, note) if moved else None
 
 
 def _of_material(made: Revision, what: str, name: str, value: float, note: str, known: Constants) -> Revision:
@@ -171,16 +207,18 @@ def _of_material(made: Revision, what: str, name: str, value: float, note: str, 
     return replace(made, materials=(*others, replace(own, notes=(*own.notes, note), **changed)))
 
 
-def _ends(problem: Problem, entries: list[tuple[int, int, float]]) -> tuple[End, ...] | None:
-    """Ends of the spring that the entries k, or k, k and -k, make; None where they make none."""
+def _springs_of(problem: Problem, entries: list[tuple[int, int, float]]) -> list[tuple[tuple[End, ...], float]]:
+    """The springs that entries make: k, k and -k between two ends, or each k on the diagonal to the ground; none for others."""
     diagonal = [(i, k) for i, j, k in entries if i == j]
     off = [k for i, j, k in entries if i != j]
+    ends = [_labelled(problem, i) for i, _ in diagonal]
+    if None in ends:
+        return []
+    if not off:
+        return [((end,), k) for end, (_, k) in zip(ends, diagonal, strict=True)]
     pair = len(diagonal) == 2 and len(off) == 1 and abs(diagonal[0][1] - diagonal[1][1]) <= _EQUAL * abs(diagonal[0][1])
     pair = pair and abs(off[0] + diagonal[0][1]) <= _EQUAL * abs(off[0])
-    if not pair and not (len(diagonal) == 1 and not off):
-        return None
-    ends = tuple(_labelled(problem, i) for i, _ in diagonal)
-    return None if None in ends else ends
+    return [(tuple(ends), diagonal[0][1])] if pair else []
 
 
 def _mass_at(problem: Problem, entries: list[tuple[int, int, float]]) -> int | None:

@@ -126,6 +126,70 @@ def test_a_spring_that_was_added_stands_in_the_job_as_a_spring(imported):
     np.testing.assert_allclose(after, [mode["revised_hz"] for mode in found["modes"]], rtol=1e-5)
 
 
+PARTS = {  # mechanism, its site, and how much of it
+    "set missing": ("member", "element set B", 1 - 1e-6),
+    "set thinner": ("member", "element set A", 0.4),
+    "set softer": ("stiffness-loss", "element set B", 0.3),
+    "set stiffer": ("stiffness-gain", "element set A", 0.8),
+    "set heavier": ("added-mass", "element set B", 0.5),
+    "foot loose": ("support-translation", "the support ROOT, all directions", 3e7),
+    "foot loose along an axis": ("support-translation", "the support ROOT, TY", 1e6),
+    "foot turns": ("support-rotation", "the support ROOT, RY", 2e4),
+    "mass": ("mass", "node 16", 2.0),
+}
+
+
+def extended(folder: Path, what: str) -> None:
+    """The deck with a mechanism in it, as `mouse diagnose -o` writes it, at the values of its prior."""
+    from mouse_cli import read_deck, write_deck
+    from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+    from mouse_cli.diagnosis.mechanisms import registry
+
+    key, site, value = PARTS[what]
+    hz = "100, 200, 300, 400, 500, 600"
+    rows = "".join(f"      - [{', '.join(['1'] * 6)}]\n" for _ in range(6))
+    test = (
+        f"test:\n  modes:\n    frequency: [{hz}]\n    frequency_sd: 1 %\n    dofs: [8TY, 8TZ, 16TX, 16TY, 16TZ, 4TZ]\n"
+    )
+    deck = (folder / "strip.yaml").read_text().split("# The test goes here")[0]
+    (folder / "tested.yaml").write_text(deck + test + f"    shapes:\n{rows}    shape_sd: 2 %\n")
+    problem = read_deck(folder / "tested.yaml")
+    model = reduced(problem, problem.prior.mean)
+    found = [(each.site(np.array([value])).text, each) for each in model.recipes(registry()[key])]
+    assert site in dict(found), [text for text, _ in found]
+    recipe = dict(found)[site]
+    write_deck(recipe.extend(problem, np.array([value])), folder / "extended.yaml")
+
+
+@needs_ccx
+@pytest.mark.parametrize("what", PARTS)
+def test_calculix_runs_the_complete_job_with_what_a_diagnosis_added(imported, what):
+    from mouse_cli.formats import read_deck
+    from mouse_cli.updating import forecast
+
+    extended(imported, what)
+    words = ["export", "extended.yaml", "--for", "calculix", "--job", "strip.inp", "--complete", "-o", "revised.inp"]
+    assert mouse(*words) == 0
+    found = frequencies(imported / "after", (imported / "revised.inp").read_text())
+    before = frequencies(imported / "before", job())
+    assert np.abs(found / before - 1).max() > 0.01
+    if what == "set missing":
+        text = re.sub(r"\*ELEMENT,TYPE=C3D8I,ELSET=B\n.*\n|\*SOLID SECTION,ELSET=B.*\n", "", job())
+        expected = frequencies(imported / "true", text)
+    else:
+        expected = forecast(read_deck("extended.yaml"), 6).frequencies_hz
+    np.testing.assert_allclose(found, expected, rtol=1e-5)
+
+
+@needs_ccx
+def test_a_complete_job_of_another_deck_is_refused(imported, capsys):
+    (imported / "strip.yaml").write_text((imported / "strip.yaml").read_text().replace("    B: {", "    OTHER: {"))
+    words = ["export", "strip.yaml", "--for", "calculix", "--job", "strip.inp", "--complete", "-o", "revised.inp"]
+    assert mouse(*words) == 4 and "error[MD483]" in capsys.readouterr().err
+    assert not (imported / "revised.inp").exists()
+    assert mouse(*words[:4], "--complete") == 2
+
+
 BEAM = """mouse: 1
 title: Cantilever
 units: SI

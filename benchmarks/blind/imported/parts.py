@@ -1,6 +1,7 @@
 """Meshes of shells and solids as cards, in named sets; and what is changed in them."""
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 
@@ -9,7 +10,10 @@ MATERIALS = {"ALU": (7.0e10, 0.33, 2700.0), "STEEL": (2.1e11, 0.3, 7850.0)}
 
 @dataclass
 class Mesh:
-    """Nodes by place, elements (type, nodes) by set, supports by name, sensors (node, direction 1 to 3)."""
+    """Nodes by place, supports by name, sensors (node, direction 1 to 3).
+
+    sets: type, elements, material, and thickness of shells or side of the section of beams, by name.
+    """
 
     number: dict[tuple[float, float, float], int] = field(default_factory=dict)
     sets: dict[str, tuple[str, list[tuple[int, ...]], str, float]] = field(default_factory=dict)
@@ -32,10 +36,21 @@ class Mesh:
     def bricks(self, name: str, low, high, counts, material: str = "ALU") -> None:
         """Solids (C3D8I) over a box."""
         low, size = np.array(low), np.array(high) - np.array(low)
-        at = lambda *i: self.node(*(low + size * np.array(i) / counts))
         square = ((0, 0), (1, 0), (1, 1), (0, 1))
-        own = [tuple(at(i + a, j + b, k + c) for c in (0, 1) for a, b in square) for i, j, k in np.ndindex(*counts)]
-        self.sets.setdefault(name, ("C3D8I", [], material, 0.0))[1].extend(own)
+        for i, j, k in np.ndindex(*counts):
+            corners = [low + size * np.array([i + a, j + b, k + c]) / counts for c in (0, 1) for a, b in square]
+            self.brick(name, corners, material)
+
+    def brick(self, name: str, corners, material: str = "ALU", kind: str = "C3D8I") -> None:
+        """One solid by its eight corners."""
+        nodes = tuple(self.node(*corner) for corner in corners)
+        self.sets.setdefault(name, (kind, [], material, 0.0))[1].append(nodes)
+
+    def beams(self, name: str, along, per_span: int, side: float, material: str = "STEEL") -> None:
+        """Beams (B31) of a square section along straight spans between places."""
+        line = [np.array(a) + (np.array(b) - a) * i / per_span for a, b in pairwise(along) for i in range(per_span)]
+        nodes = [self.node(*x) for x in [*line, along[-1]]]
+        self.sets.setdefault(name, ("B31", [], material, side))[1].extend(pairwise(nodes))
 
     def near(self, *places) -> list[int]:
         """The nodes nearest to places."""
@@ -81,21 +96,24 @@ def cards(mesh: Mesh, change: Concealed, modes: int = 0) -> str:
             f"{change.size:.9e}",
         ]
     lines += _held(mesh, change, count + 2)
-    if modes:
-        nodes = sorted({n for n, _ in mesh.sensors})
-        lines += ["*NSET, NSET=SEEN", *(f"{n}," for n in nodes), "*STEP", "*FREQUENCY", str(modes)]
-        lines += ["*NODE PRINT, NSET=SEEN", "U", "*END STEP"]
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines) + "\n" + (step(mesh, modes) if modes else "")
+
+
+def step(mesh: Mesh, modes: int) -> str:
+    """The step for so many modes, with the displacements of the sensors."""
+    nodes = sorted({n for n, _ in mesh.sensors})
+    lines = ["*NSET, NSET=SEEN", *(f"{n}," for n in nodes), "*STEP", "*FREQUENCY", str(modes)]
+    return "\n".join([*lines, "*NODE PRINT, NSET=SEEN", "U", "*END STEP"]) + "\n"
 
 
 def _section(name: str, kind: str, material: str, thickness: float, change: Concealed, known: set[str]) -> list[str]:
     """A section with a material of the true moduli, for each set by itself in a true structure; known: those written before."""
-    own = change.kind in ("softer", "material", "heavier") and change.name == name
+    own = change.kind in ("softer", "weld", "material", "heavier") and change.name == name
     of = material
     if own and change.kind == "material":
         of = "STEEL" if material == "ALU" else "ALU"
     E, nu, rho = MATERIALS[of]
-    E *= change.E.get(of, 1.0) * (change.size if own and change.kind == "softer" else 1.0)
+    E *= change.E.get(of, 1.0) * (change.size if own and change.kind in ("softer", "weld") else 1.0)
     rho *= change.size if own and change.kind == "heavier" else 1.0
     called = f"{material}_{name}" if change.E else material
     lines = (
@@ -104,6 +122,10 @@ def _section(name: str, kind: str, material: str, thickness: float, change: Conc
         else []
     )
     known.add(called)
+    thickness *= change.size if (change.kind, change.name) == ("thinner", name) else 1.0
+    if kind == "B31":
+        lines.append(f"*BEAM SECTION, ELSET={name}, MATERIAL={called}, SECTION=RECT")
+        return [*lines, f"{thickness:.9e}, {thickness:.9e}", "0.48, 0.6, 0.64"]
     head = "SHELL" if kind == "S4" else "SOLID"
     lines.append(f"*{head} SECTION, ELSET={name}, MATERIAL={called}")
     return lines + ([f"{thickness:.9e}"] if kind == "S4" else [])

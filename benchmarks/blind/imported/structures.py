@@ -1,9 +1,12 @@
-"""The structures: a stiffened panel of shells on bolted corners, a bracket of solids on bolted feet, a box of shells on feet."""
+"""The structures: a stiffened panel of shells, a bracket of solids, a box of shells, each on feet; others beside this file."""
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
+from benchmarks.blind.imported.castings import housing, pipe
+from benchmarks.blind.imported.frames import frame, tower
 from benchmarks.blind.imported.parts import Mesh
 
 
@@ -67,10 +70,39 @@ def box(rng: np.random.Generator) -> Mesh:
     return mesh
 
 
-STRUCTURES: dict[str, Callable[[np.random.Generator], Mesh]] = {"panel": panel, "bracket": bracket, "box": box}
-PARTS = {  # sets that may be missing, softer or of the wrong material
-    "panel": ("STIFFENER_1", "STIFFENER_2", "STIFFENER_3", "STIFFENER_4"),
-    "bracket": ("GUSSET_1", "GUSSET_2", "PAD_1", "PAD_2", "PAD_3", "PAD_4"),
-    "box": ("WALL_1", "WALL_2", "WALL_3", "WALL_4", "RIB_1", "RIB_2"),
+@dataclass(frozen=True)
+class Family:
+    """A structure: parts may be softer, heavier or of the wrong material; missing; welds may be cracked; skins thinner."""
+
+    build: Callable[[np.random.Generator], Mesh]
+    parts: tuple[str, ...]
+    missing: tuple[str, ...]
+    welds: tuple[str, ...] = ()
+    skins: tuple[str, ...] = ()
+
+    def of(self, kind: str) -> tuple[str, ...]:
+        """The sets that a kind of change may be of."""
+        return {"missing": self.missing, "weld": self.welds, "thinner": self.skins}.get(kind, self.parts)
+
+
+def _numbered(name: str, marks) -> tuple[str, ...]:
+    return tuple(f"{name}_{mark}" for mark in marks)
+
+
+_STIFFENERS, _WALLS, _RIBS = (
+    _numbered("STIFFENER", range(1, 5)),
+    _numbered("WALL", range(1, 5)),
+    _numbered("RIB", (1, 2)),
+)
+_GUSSETS, _BRACES = _numbered("GUSSET", (1, 2)), _numbered("BRACE", range(1, 5))
+_BULKHEADS = _numbered("BULKHEAD", (1, 2, 3))
+_PANELS = _numbered("WALL", (f"{course}{side}" for course in (1, 2) for side in "ABCD"))
+STRUCTURES = {
+    "panel": Family(panel, _STIFFENERS, _STIFFENERS, (), ("SKIN",)),
+    "bracket": Family(bracket, _GUSSETS + _numbered("PAD", range(1, 5)), _GUSSETS),
+    "box": Family(box, _WALLS + _RIBS, _RIBS, (), _WALLS),
+    "frame": Family(frame, _numbered("COLUMN", range(1, 7)) + _BRACES, _BRACES),
+    "tower": Family(tower, _numbered("LEG", range(1, 5)) + _PANELS, _BRACES, (), _PANELS),
+    "pipe": Family(pipe, _numbered("PIPE", range(1, 5)), (), _numbered("WELD", range(1, 5))),
+    "housing": Family(housing, (*_BULKHEADS, "SIDE_A", "SIDE_B", "FRONT", "REAR", "HEAD"), (*_BULKHEADS, "RIB")),
 }
-MISSING = {"panel": PARTS["panel"], "bracket": ("GUSSET_1", "GUSSET_2"), "box": ("RIB_1", "RIB_2")}

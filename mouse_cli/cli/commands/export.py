@@ -4,6 +4,8 @@ import click
 
 from mouse_cli.cli._options import OUTSIDE, QUIET, options, outside
 
+_WHOLE = ("abaqus", "calculix")  # programs whose jobs are read
+
 
 @click.command()
 @click.argument("deck")
@@ -13,6 +15,11 @@ from mouse_cli.cli._options import OUTSIDE, QUIET, options, outside
 @click.option("--result", metavar="RESULT", help="What `mouse run --json` found: its values instead of the deck's.")
 @click.option(
     "--job", metavar="FILE", help="The input file (.inp) that the deck was imported from, for constants of materials."
+)
+@click.option(
+    "--complete",
+    is_flag=True,
+    help="With --job, of Abaqus or CalculiX: write the whole job, revised, not an include file.",
 )
 @click.option("--first", default=900001, show_default=True, help="Number from which new elements count.")
 @click.option("--shapes", metavar="FILE", help="Write mode shapes to FILE, .unv (data sets 15, 82, 55) or .vtk.")
@@ -25,6 +32,7 @@ def command(
     program: str | None,
     result: str | None,
     job: str | None,
+    complete: bool,
     first: int,
     shapes: str | None,
     modes: int,
@@ -34,12 +42,15 @@ def command(
     """Write materials, sections, springs and masses of DECK as an include file of a finite-element program.
 
     Every value has a comment with its posterior and standard deviation; what has no card is listed in a comment.
+    --complete writes the job itself, with element sets and supports as they are now.
     """
     from mouse_cli.cli._decks import after_result, read_problem
     from mouse_cli.cli._terminal import deliver, show_diagnostics
 
     if not program and not shapes:
         raise click.UsageError("give --for PROGRAM, or --shapes FILE")
+    if complete and (job is None or program not in _WHOLE):
+        raise click.UsageError(f"--complete needs --job FILE and --for {' or '.join(_WHOLE)}")
     before = read_problem(deck)
     problem = after_result(before, result, {})
     if not quiet:
@@ -47,20 +58,25 @@ def command(
     if shapes:
         _shapes(problem, shapes, modes)
     if program:
-        deliver(_cards(problem, before, program, job, first), output, deck)
+        deliver(_cards(problem, before, program, job, first, complete), output, deck)
     return 0
 
 
-def _cards(problem, before, program: str, job: str | None, first: int) -> str:
-    """The include file. Raises DeckError."""
+def _cards(problem, before, program: str, job: str | None, first: int, complete: bool) -> str:
+    """The include file, or the complete job. Raises DeckError."""
     from mouse_cli._errors import ERROR, DeckError, Diagnostic
     from mouse_cli.formats.solver_cards import programs
+    from mouse_cli.importing.read import read
+    from mouse_cli.importing.revised import revised_job
     from mouse_cli.terms.revision import revision
 
-    found, form = revision(problem, before, _constants(job), first), programs()[program]
-    if not (found.materials or found.sections or found.springs or found.masses):
+    model = read(job, outside()) if job is not None else None
+    found, form = revision(problem, before, _constants(model), first), programs()[program]
+    if not any((found.materials, found.sections, found.springs, found.masses, found.sets, found.supports)):
         message = f"no parameter of the deck has cards of {program}"
         raise DeckError(Diagnostic("MD481", ERROR, message, problem.place("order"), help="see `mouse explain MD481`"))
+    if complete:
+        return revised_job(model, problem, found, inertia=program == "abaqus")
     for material in found.materials:
         if form.whole and None in (material.E, material.nu):
             lacking = "E" if material.E is None else "nu"
@@ -70,14 +86,10 @@ def _cards(problem, before, program: str, job: str | None, first: int) -> str:
     return form.write(found)
 
 
-def _constants(job: str | None) -> dict:
+def _constants(model) -> dict:
     """E, nu and density of the materials of an input file."""
-    if job is None:
-        return {}
-    from mouse_cli.importing.read import read
-
     found = {}
-    for name, material in read(job, outside()).materials.items():
+    for name, material in model.materials.items() if model is not None else ():
         if material.isotropic:
             words = material.elastic.lines[0].words
             found[name] = (material.E, float(words[1]) if len(words) > 1 and words[1] else 0.0, material.rho or None)

@@ -13,6 +13,7 @@ from mouse_cli.model.arrays import Matrix, upper_triangle
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.held import ElementGroup
 from mouse_cli.model.problem import Problem
+from mouse_cli.model.revision import MASS_GAINED, PART_LEFT
 
 _GONE = (
     1 - 1e-9
@@ -65,7 +66,7 @@ def text(group: ElementGroup) -> str:
 
 def _missing(candidate, group: ElementGroup, K: _Part, M: _Part, count: int) -> Recipe:
     def extend(problem: Problem, values: np.ndarray) -> Problem:
-        left = new_parameter(f"share of {text(group)} that is left, and of its mass", 1 - values[0], "1")
+        left = new_parameter(PART_LEFT.format(group.name), 1 - values[0], "1")
         return with_part_left(problem, left, K=(K.entries(1), K.slopes), M=(M.entries(1), M.slopes))
 
     return _recipe(candidate, _MISSING, group, count, (K.own, M.own), -1, extend)
@@ -73,7 +74,7 @@ def _missing(candidate, group: ElementGroup, K: _Part, M: _Part, count: int) -> 
 
 def _heavier(candidate, group: ElementGroup, M: _Part, count: int) -> Recipe:
     def extend(problem: Problem, values: np.ndarray) -> Problem:
-        share = new_parameter(f"share of {text(group)} in mass, gained", values[0], "1")
+        share = new_parameter(MASS_GAINED.format(group.name), values[0], "1")
         return with_entries(problem, share, M=M.entries(1))
 
     return _recipe(candidate, _HEAVIER, group, count, (np.zeros_like(M.own), M.own), 1, extend)

@@ -10,7 +10,7 @@ from mouse_cli.diagnosis.extend.supports import with_motions
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
 from mouse_cli.model.diagnosis import Site
-from mouse_cli.model.geometry import DIRECTIONS
+from mouse_cli.model.geometry import DIRECTIONS, rigid_motions
 from mouse_cli.model.held import Support
 from mouse_cli.model.problem import Problem
 
@@ -69,23 +69,12 @@ def _rigid(free: Free, support: Support) -> tuple[Support, np.ndarray]:
     """Patterns (k, 6) of a rigid body about the centre of the support."""
     at = free.problem.structure.geometry
     pattern = np.zeros((len(support.dofs), 6))
-    if at is None:
+    if at is None or not (own := at.node[support.dofs] >= 0).any():
         return support, pattern
-    node, direction = at.node[support.dofs], at.direction[support.dofs]
-    own = node >= 0
-    x = (
-        at.coordinates[node] - at.coordinates[np.unique(node[own])].mean(axis=0)
-        if own.any()
-        else np.zeros((len(node), 3))
-    )
-    for i in np.flatnonzero(own):
-        d = int(direction[i])
-        pattern[i, d] = 1.0
-        if d < 3:
-            pattern[i, 3:] = np.cross(np.eye(3), x[i])[:, d]
+    x = at.coordinates[at.node[support.dofs[own]]]
+    centre = at.coordinates[np.unique(at.node[support.dofs[own]])].mean(axis=0)
     size = float(np.ptp(at.coordinates, axis=0).max())
-    turns = np.abs(pattern[:, 3:]) > _POINT * size
-    pattern[:, 3:] = np.where(turns | (direction > 2)[:, None], pattern[:, 3:], 0.0)
+    pattern[own] = rigid_motions(x - centre, at.direction[support.dofs[own]], _POINT * size)
     return support, pattern
 
 

@@ -10,20 +10,24 @@ from mouse_cli.diagnosis.extend.points import found
 from mouse_cli.model.arrays import Matrix, is_sparse, upper_triangle
 from mouse_cli.model.held import ElementGroup, Held, applied, freed, places
 from mouse_cli.model.problem import Problem
+from mouse_cli.model.revision import ON_SPRINGS
 from mouse_cli.model.structure import ListedElements
 
 
 def with_motions(
     problem: Problem, name: str, pattern: np.ndarray, labels: tuple[str, ...], bed: np.ndarray, k: float, unit: str
 ) -> Problem:
-    """u_s = P q for the support called `name`, pattern P (k, a) and motions q, with springs k times bed (a, a) against them."""
+    """u_s = P q for the support called `name`, pattern P (k, a) and motions q, with springs k times bed (a, a) against them.
+
+    A motion of one degree of freedom alone is that degree of freedom, under its own name.
+    """
     whole, to = freed(problem), places(problem)
     n, a = whole.structure.n, pattern.shape[1]
     s = next(each.dofs for each in problem.held.supports if each.name == name)
     rest = np.setdiff1d(np.arange(n), s)
     T, number = _followed(n, rest, s, pattern), np.full(n, -1)
     number[rest] = np.arange(len(rest))
-    structure = _structure(whole, T, rest, tuple(f"{name} {label}" for label in labels))
+    structure = _structure(whole, T, rest, _called(whole, s, pattern, tuple(f"{name} {label}" for label in labels)))
     supports = tuple(replace(each, dofs=number[each.dofs]) for each in problem.held.supports if each.name != name)
     others = np.concatenate([each.dofs for each in supports]) if supports else np.zeros(0, int)
     kept = np.setdiff1d(np.arange(structure.n), others)
@@ -47,7 +51,7 @@ def with_motions(
     )
     row, col = np.triu_indices(a)
     at = place[len(rest) + np.arange(a)]
-    parameter = found(f"stiffness of the support {name}", k, unit)
+    parameter = found(ON_SPRINGS.format(name), k, unit)
     return with_entries(deck, parameter, K=(at[row], at[col], bed[row, col]))
 
 
@@ -62,13 +66,28 @@ def _followed(n: int, rest: np.ndarray, s: np.ndarray, pattern: np.ndarray) -> M
     return coo_array((values, (row, col)), shape=(n, len(rest) + pattern.shape[1])).tocsr()
 
 
-def _structure(whole: Problem, T: Matrix, rest: np.ndarray, labels: tuple[str, ...]):
-    old = whole.structure
+_Called = tuple[tuple[str, ...], np.ndarray, np.ndarray]  # label, node (-1: none) and direction of each motion
+
+
+def _called(whole: Problem, s: np.ndarray, pattern: np.ndarray, labels: tuple[str, ...]) -> _Called:
+    at, (dof, motion) = whole.structure.geometry, np.nonzero(pattern)
+    alone = np.flatnonzero((np.count_nonzero(pattern, axis=0) == 1) & (pattern.max(axis=0) == 1.0))
+    own = {int(j): int(s[dof[motion == j][0]]) for j in alone}
+    node, direction, names = np.full(len(labels), -1), np.ones(len(labels), int), list(labels)
+    for j, i in own.items():
+        names[j] = whole.structure.labels[i]
+        if at is not None:
+            node[j], direction[j] = at.node[i], at.direction[i]
+    return tuple(names), node, direction
+
+
+def _structure(whole: Problem, T: Matrix, rest: np.ndarray, called: _Called):
+    old, (labels, node, direction) = whole.structure, called
     parts = {name: getattr(old, name) for name in ("K", "M", "C", "D")}
-    at, more = old.geometry, np.full(len(labels), -1)
+    at = old.geometry
     geometry = None
     if at is not None:
-        geometry = replace(at, node=np.append(at.node[rest], more), direction=np.append(at.direction[rest], -more))
+        geometry = replace(at, node=np.append(at.node[rest], node), direction=np.append(at.direction[rest], direction))
     named = tuple(old.labels[i] for i in rest) + labels
     return replace(
         old, **{k: None if m is None else _brought(m, T) for k, m in parts.items()}, labels=named, geometry=geometry

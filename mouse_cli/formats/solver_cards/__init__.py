@@ -30,7 +30,8 @@ def head(revision: Revision, comment: str) -> Iterator[str]:
     """The lines that say what the file is, and what of the revision it does not hold."""
     yield f"{comment} Revised by mouse: {revision.title} ({revision.source})"
     yield f"{comment} units: {revision.units or 'those of the deck'}; new elements count from {revision.first}"
-    yield from (f"{comment} not written: {line}" for line in revision.unwritten)
+    parts = (part.note for part in (*revision.sets, *revision.supports))
+    yield from (f"{comment} not written: {line}" for line in (*revision.unwritten, *parts))
 
 
 def number(value: float) -> str:

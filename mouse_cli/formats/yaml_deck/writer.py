@@ -73,7 +73,10 @@ def _model(problem: Problem, stem: str, attachments: dict[str, Matrix | str]) ->
     if own and not any(_stored(matrix) for matrix in given.values()):
         return ["", "model:", *structure(problem.mesh, stem, attachments)]
     lines = ["", "model:  # before the test: upper triangles, rows and columns from 1"]
-    lines += [f"  {key}: {_matrix(matrix, f'{stem}_{key}.mtx', attachments, key)}" for key, matrix in given.items()]
+    imported = bool(problem.groups or problem.held)
+    lines += [
+        f"  {key}: {_matrix(each, f'{stem}_{key}.mtx', attachments, key, imported)}" for key, each in given.items()
+    ]
     lines += rows(found, stem, attachments, places=problem.mesh is None)
     if problem.mesh is not None:
         lines += structure(problem.mesh, stem, attachments, () if own else found.labels)
@@ -85,9 +88,9 @@ def _stored(matrix: Matrix) -> bool:
     return bool(matrix.nnz if is_sparse(matrix) else matrix.any())
 
 
-def _matrix(matrix: Matrix, name: str, attachments: dict[str, Matrix], key: str) -> str:
+def _matrix(matrix: Matrix, name: str, attachments: dict[str, Matrix], key: str, imported: bool) -> str:
     row, col, values = upper_triangle(matrix)
-    massless = key == "mass" and not (matrix.diagonal() > 0).all()  # which files alone may be
+    massless = imported or (key == "mass" and not (matrix.diagonal() > 0).all())  # which files alone may be
     if len(row) > LARGEST_INLINE or massless:
         attachments[name] = matrix
         return f"{{file: {word(name)}}}"

@@ -56,7 +56,8 @@ def _in_file_order(problem: Problem, column: Column) -> Column:
 
 def _elements(problem: Problem, columns: list[Column]) -> list[str]:
     implied = [i for key in _KEYS for i in dict.fromkeys(i for c in columns for i in c[key][0].tolist())]
-    if implied == list(range(len(problem.elements))):
+    imported = bool(problem.groups or problem.held)  # their order is of no account, and they are many
+    if imported or implied == list(range(len(problem.elements))):
         return []
     lines = ["", "elements:  # order of the varying elements, from 1"]
     for mass, key in enumerate(_KEYS):

@@ -1,0 +1,178 @@
+"""The whole job with what a test has revised and a diagnosis has added: materials, sets, supports, springs and masses as cards."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mouse_cli._errors import ERROR, DeckError, Diagnostic
+from mouse_cli.formats.solver_cards import tag
+from mouse_cli.formats.solver_cards._keywords import keyword_lines
+from mouse_cli.importing.cards import Card
+from mouse_cli.importing.jobs import elastic, listed, real, section, times
+from mouse_cli.importing.keywords import NODES
+from mouse_cli.importing.model import Group, InputModel
+from mouse_cli.model.geometry import DIRECTIONS, rigid_motions
+from mouse_cli.model.problem import Problem
+from mouse_cli.model.revision import RevisedSpring, RevisedSupport, Revision
+
+_GONE = 0.01  # share left below which a part is taken out: what is left of it would move in modes of its own alone
+_POINT = 1e-9  # of the size of the structure: an arm that is none
+_Factors = tuple[float, float]  # of the moduli and of the density, to those of the job
+
+
+@dataclass(frozen=True)
+class _Changes:
+    """materials, groups (by id): factors; gone: elements that are taken out; released: nodes of supports that are
+    other than before; notes: by the name of a material or a group.
+    """
+
+    materials: dict[str, _Factors]
+    groups: dict[int, _Factors]
+    gone: set[int]
+    released: set[int]
+    notes: dict[str, list[str]]
+
+
+def revised_job(model: InputModel, problem: Problem, revision: Revision, inertia: bool) -> str:
+    """The input file; inertia: the program has point inertias. Raises DeckError (MD483) where the deck is not of this job."""
+    _of_this_job(model, problem)
+    revision = replace(revision, first=max(revision.first, max(model.elements) + 1))
+    added, released = _added(model, problem, revision, inertia)
+    changes, used = _changes(model, revision, released), set(model.elsets) | set(model.materials)
+    lines: list[str] = []
+    material, stepped = "", False
+    for card in model.every:
+        if card.keyword == "MATERIAL":
+            material = card.options.get("NAME", "")
+            lines += [f"** {note}" for note in changes.notes.get(material, ())]
+        if card.keyword == "STEP" and not stepped:
+            stepped = True
+            lines += added
+        lines += _card(card, model, changes, material, used)
+    return "\n".join(lines if stepped else lines + added) + "\n"
+
+
+def _of_this_job(model: InputModel, problem: Problem) -> None:
+    supports = {each.name for each in problem.held.supports} if problem.held is not None else set()
+    known = {each.name for each in model.groups}, {each.name for each in model.supports}
+    strange = sorted({each.name for each in problem.groups} - known[0]) + sorted(supports - known[1])
+    if strange or not problem.groups:
+        what = f"{strange[0]} is no set or support of {model.path}" if strange else "the deck has no element sets"
+        help = "give the input file that `mouse import` made the deck of"
+        raise DeckError(Diagnostic("MD483", ERROR, what, problem.place("order"), help=help))
+
+
+def _changes(model: InputModel, revision: Revision, released: set[int]) -> _Changes:
+    notes: dict[str, list[str]] = {}
+    materials = {}
+    for each in revision.materials:
+        known = model.materials.get(each.name)
+        if known is not None:
+            ratio = each.E / known.E if each.E is not None else 1.0
+            materials[each.name] = (ratio, each.density / known.rho if each.density and known.rho else 1.0)
+            notes[each.name] = list(each.notes)
+    groups, gone = {}, set()
+    for group in model.groups:
+        own = [part for part in revision.sets if part.name == group.name]
+        left = float(np.prod([part.left for part in own]))
+        e, r = materials.get(group.material.name, (1.0, 1.0)) if group.material is not None else (1.0, 1.0)
+        if own:
+            groups[id(group)] = left * e + sum(p.stiffness for p in own), left * r + sum(p.mass for p in own)
+            notes.setdefault(group.name, []).extend(part.note for part in own)
+            gone |= set(group.elements) if left < _GONE else set()
+    return _Changes(materials, groups, gone, released, notes)
+
+
+def _card(card: Card, model: InputModel, changes: _Changes, material: str, used: set[str]) -> list[str]:
+    """What a card of the job becomes; supports that are released, in part or as a whole, are written anew."""
+    factors = changes.materials.get(material, (1.0, 1.0))
+    own = [group for group in model.groups if group.owner is card]
+    if card.keyword == "BOUNDARY":
+        kept = [line.text for line in card.lines if not changes.released & set(_nodes(model, line.words[0]))]
+        return [card.head.text, *kept] if kept else []
+    if any(id(group) in changes.groups for group in own):
+        return _sections(own, changes, used)
+    if card.keyword == "ELASTIC" and factors[0] != 1.0:
+        return elastic(model.materials[material], factors[0])
+    if card.keyword == "DENSITY" and factors[1] != 1.0:
+        return [card.head.text, times(card, 0, factors[1], of=1)]
+    if changes.gone and card.keyword in ("ELEMENT", "ELSET"):
+        return _left(card, model, changes.gone)
+    named = card.options.get("ELSET")
+    if changes.gone and named in model.elsets and changes.gone.issuperset(model.elsets[named]):
+        return []
+    return card.text()
+
+
+def _sections(own: list[Group], changes: _Changes, used: set[str]) -> list[str]:
+    """A section for each group of one, with a material of its own; none for what is taken out."""
+    lines = []
+    for group in own:
+        lines += [f"** {note}" for note in changes.notes.get(group.name, ())]
+        if changes.gone.issuperset(group.elements):
+            lines.append(f"** {group.name} is taken out")
+            continue
+        of = changes.materials.get(group.material.name, (1.0, 1.0)) if group.material is not None else (1.0, 1.0)
+        lines += section(group, tag(f"{group.name}_REVISED", used), *changes.groups.get(id(group), of))
+    return lines
+
+
+def _left(card: Card, model: InputModel, gone: set[int]) -> list[str]:
+    """A card of elements, or of a set of them, without those that are gone."""
+    if card.keyword == "ELSET":
+        if "GENERATE" in card.options or not gone & set(model.elsets.get(card.options.get("ELSET", ""), ())):
+            return card.text()
+        left = [e for e in dict.fromkeys(model.elsets[card.options["ELSET"]]) if e not in gone]
+        return [card.head.text, *listed(left)] if left else []
+    words = [int(word) for line in card.lines for word in line.words if word]
+    size = 1 + NODES[card.options["TYPE"]]
+    each = [words[i : i + size] for i in range(0, len(words), size)]
+    kept = [line for element in each if element[0] not in gone for line in listed(element)]
+    return [card.head.text, *(kept if size > 8 else [line.rstrip(",") for line in kept])] if kept else []
+
+
+def _nodes(model: InputModel, word: str) -> list[int]:
+    """Nodes of a set, or one by its number."""
+    return [int(word)] if word.isdigit() else model.nsets.get(word.strip('"').upper(), [])
+
+
+def _added(model: InputModel, problem: Problem, revision: Revision, inertia: bool) -> tuple[list[str], set[int]]:
+    """Supports as they are now, where they are other than in the job, springs and masses that are new; nodes of these supports."""
+    tied = {part.name: part for part in revision.supports}
+    free, lines = set(problem.structure.labels), []
+    first, springs, released = max(model.nodes) + 1, list(revision.springs), set()
+    for support in model.supports:
+        released |= {(n, d) for n, d in support.dofs if f"{n}{DIRECTIONS[d - 1]}" in free}
+        if support.name in tied:
+            moved, own, more = _rigid(model, support.dofs, tied[support.name], first)
+            released |= moved
+            springs += own
+            lines += more
+            first += len(tied[support.name].directions)
+    nodes = {n for n, _ in released}
+    held = [dof for each in model.supports for dof in each.dofs if dof[0] in nodes and dof not in released]
+    rest = replace(revision, materials=(), sections=(), sets=(), supports=(), springs=tuple(springs))
+    boundary = ["*BOUNDARY", *(f"{n}, {d}, {d}" for n, d in held)] if held else []
+    return [*lines, *keyword_lines(rest, inertia), *boundary], nodes
+
+
+def _rigid(model: InputModel, dofs: list[tuple[int, int]], support: RevisedSupport, first: int):
+    """A support as a rigid body: what of it is moved, its springs, and a node for each motion with equations that follow it.
+
+    Springs of equal stiffness at every degree of freedom: together `stiffness` against the one motion, or in one translation.
+    """
+    at, d = np.array([model.nodes[n] for n, _ in dofs]), np.array([d for _, d in dofs]) - 1
+    centre = np.mean([model.nodes[n] for n in dict.fromkeys(n for n, _ in dofs)], axis=0)
+    size = float(np.ptp(np.array(list(model.nodes.values())), axis=0).max())
+    pattern = rigid_motions(at - centre, d, _POINT * size)[:, [k - 1 for k in support.directions]]
+    place = ", ".join(map(real, centre.tolist()))
+    lines = ["*NODE", *(f"{first + k}, {place}" for k in range(pattern.shape[1]))]
+    moved = [i for i in range(len(dofs)) if pattern[i].any()]
+    for i in moved:
+        own = np.flatnonzero(pattern[i])
+        terms = (f", {first + k}, 1, {real(-float(pattern[i, k]))}" for k in own.tolist())
+        lines += ["*EQUATION", str(1 + len(own)), f"{dofs[i][0]}, {dofs[i][1]}, 1.0{''.join(terms)}"]
+    one = pattern.shape[1] == 1
+    share = support.stiffness / float(pattern[:, 0] @ pattern[:, 0] if one else np.count_nonzero(pattern[:, 0]))
+    springs = [RevisedSpring(f"{support.name} {i}", (dofs[k],), share, support.note) for i, k in enumerate(moved, 1)]
+    return {dofs[i] for i in moved}, springs, lines
