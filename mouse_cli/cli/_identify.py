@@ -1,7 +1,7 @@
 """What `mouse identify` is given, brought to functions or outputs, identified, and written as a test."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import click
 import numpy as np
@@ -15,16 +15,26 @@ from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.recording import Recording
 
+
+@dataclass(frozen=True)
+class Excited:
+    """What the options say of the excitation. unused: forces are not to be used; over: records begin where it has ended."""
+
+    unused: bool = False
+    over: bool = False
+
+
 Measured = tuple[list[FrfTest], list[Recording], list[Diagnostic]]
 
 
 def identified(
-    sources: tuple[str, ...], band: tuple[float, float] | None, orders: int | None, output_only: bool,
+    sources: tuple[str, ...], band: tuple[float, float] | None, orders: int | None, excited: Excited,
     given: dict[str, object], say: Callable[[str], None],
 ) -> tuple[Identification, list[Diagnostic]]:  # fmt: skip
     """The modes of all sources together, and warnings of reading. Raises DeckError, RecordError and click.UsageError."""
     from mouse_cli.records.identify import identify_frf
 
+    output_only = excited.unused or excited.over
     problem, (functions, recordings, warnings) = _read(sources, given | {"output_only": output_only})
     if output_only:
         functions = []
@@ -43,18 +53,23 @@ def identified(
             "name a file of functions or of time histories, or a deck with test: frf or recordings",
             sources[0],
         )
-    return of_outputs(problem, recordings, band, orders, say), warnings
+    if excited.over:
+        from mouse_cli.records.identify_decays import begun
+
+        recordings = recordings if problem or given["segment"] else [begun(each) for each in recordings]
+    return of_outputs(problem, recordings, band, orders, say, excited.over), warnings
 
 
 def of_outputs(
     problem: Problem | None, recordings: Sequence[Recording], band: tuple[float, float] | None, orders: int | None,
-    say: Callable[[str], None],
+    say: Callable[[str], None], over: bool = False,
 ) -> Identification:  # fmt: skip
-    """The modes that the responses of repeats show without their forces. Raises RecordError (MD655)."""
-    from mouse_cli.records.identify import identify_recordings
+    """The modes that the responses of repeats show without their forces; over: of free decays. Raises RecordError (MD655)."""
+    from mouse_cli.records.identify import identify_decaying, identify_recordings
     from mouse_cli.records.spectra import weights
 
-    found, first = identify_recordings(recordings, band, orders, say), recordings[0]
+    identify = identify_decaying if over else identify_recordings
+    found, first = identify(recordings, band, orders, say), recordings[0]
     n = problem.structure.n if problem else 0
     return _of_deck(found, problem, weights([first.channels[j] for j in first.outputs], n))
 

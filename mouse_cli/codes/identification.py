@@ -82,4 +82,11 @@ CODES = {
         "ones stay unseen, and standard deviations are rough.",
         "Record for longer, or give repeats with the same channels: their correlations are averaged.",
     ),
+    "MD683": Code(
+        "free decay that leaves more than noise",
+        "What the damped vibrations leave of a free decay is larger while the motion is large. Noise stays as it is: the force "
+        "still acted at the beginning, frequency or damping depend on the amplitude, or a mode is missing. Standard deviations "
+        "do not hold.",
+        "Begin later (`--segment`), and compare the modes of the loud part with those of the quiet one.",
+    ),
 }

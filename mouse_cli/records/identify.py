@@ -8,6 +8,7 @@ from mouse_cli._errors import ERROR, Diagnostic
 from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.model.identification import Diagram, FrfFit, Identification, Modes, Rejected
 from mouse_cli.model.recording import Recording
+from mouse_cli.records import identify_decays as decays
 from mouse_cli.records import identify_output_only as outputs_only
 from mouse_cli.records.identify_combine import combined
 from mouse_cli.records.identify_frf import LEAST_LINES, Found, banded, identify_leaking, lines_of
@@ -97,6 +98,35 @@ def identify_recordings(
     )  # fmt: skip
 
 
+def identify_decaying(
+    recordings: Sequence[Recording], band: Band = None, most: int | None = None, say: Callable[[str], None] = _QUIET
+) -> Identification:
+    """Modes of free decays, repeats of one test that need not begin alike. Raises RecordError (MD655) where they are no repeats."""
+    first = alike(recordings)
+    top = min(band[1] if band else np.inf, _TOP * first.sample_rate_hz)
+    parts, rates = zip(*(decays.thinned(each, top) for each in recordings), strict=True)
+    edges = (float(band[0]) if band else rates[0] / max(map(len, parts)), float(top))
+    names = tuple(channel.sensor or channel.name for channel in (first.channels[j] for j in first.outputs))
+    title, sources = ", ".join(each.title for each in recordings), tuple(each.path or each.title for each in recordings)
+    method, noise = "free decays: ERA, maximum likelihood", "what the fit leaves, by its spectrum"
+    if not names or min(map(len, parts)) < decays.LEAST:
+        doubt = short_of(parts, rates[0], decays.LEAST)
+        return _nothing(title, sources, method, names, edges, noise, doubt)
+    found, fit = decays.identify_decays(parts, rates[0], edges, most, say)
+    judged = reviewed_outputs(found, edges)
+    level_hz, level = _spectrum(parts, rates[0])
+    return Identification(
+        title, sources, method, names, edges, judged.modes,
+        _diagram(found.poles, [*found.tracks, *found.passing], level_hz, level, found.orders[-1]), noise,
+        rejected=(*judged.rejected, *_rejected(found.dropped, found.passing)), doubts=judged.doubts,
+        remarks=(*judged.remarks, *decays.falling(fit)),
+        details={
+            "samples": found.samples, "sample rate": found.rate_hz, "orders": found.orders[-1],
+            "first sample": ", ".join(str(each.start) for each in recordings),
+        },
+    )  # fmt: skip
+
+
 def _nothing(
     title: str, sources: tuple[str, ...], method: str, sensors: tuple[str, ...], edges: tuple[float, float], noise: str,
     doubt: Diagnostic,
@@ -149,4 +179,6 @@ def _spectrum(parts: Sequence[np.ndarray], rate_hz: float) -> tuple[np.ndarray, 
     return every[0][0][1:], np.sqrt(power[1:].mean(axis=1))
 
 
-__all__ = ["Drive", "from_fit", "from_subspace", "identify_frf", "identify_recording", "identify_recordings"]
+__all__ = [
+    "Drive", "from_fit", "from_subspace", "identify_decaying", "identify_frf", "identify_recording", "identify_recordings",
+]  # fmt: skip

@@ -104,6 +104,21 @@ def test_repeats_without_a_force_are_one_answer(folder):
     assert one["sources"] == ["night1.csv"]
 
 
+def test_a_ring_down_needs_no_force(folder):
+    """Released from a displacement, in closed form; the whole record, or from where the user says that it is free."""
+    t, w, zeta = np.arange(3000) / 500.0, 2 * np.pi * 12.0, 0.02
+    ring = np.exp(-zeta * w * t) * np.cos(w * np.sqrt(1 - zeta**2) * t)
+    samples = np.concatenate([np.zeros(200), ring]) + 1e-3 * np.random.default_rng(0).standard_normal(3200)
+    table = np.column_stack([np.arange(3200) / 500.0, samples])
+    np.savetxt("ring.csv", table, delimiter=",", header="t,tip", comments="")
+    for more in ((), ("--segment", "200", "3200")):
+        done = call("ring.csv", "--free-decay", "--unit", "tip=m", *more, "--json", "-q")
+        (mode,) = json.loads(done.stdout)["modes"]
+        assert done.return_value == 0
+        assert abs(mode["frequency_hz"] - 12.0) < 4 * mode["frequency_sd_hz"] < 0.01
+        assert abs(mode["damping"] - zeta) < 4 * mode["damping_sd"] < 1e-3
+
+
 def test_no_mode_is_exit_one_and_writes_nothing(folder):
     done = call("frf.npz", "--band", "17", "30", "-o", "none.yaml")
     assert done.return_value == 1 and "MD650" in done.output and not Path("none.yaml").exists()

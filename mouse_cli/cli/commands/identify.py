@@ -18,6 +18,9 @@ from mouse_cli.cli._recording_options import CHANNELS, SEGMENT, SPECTRA
 @click.option("--orders", type=click.IntRange(min=4), metavar="N", help="Highest order of the stabilisation diagram.")
 @click.option("--output-only", is_flag=True, help="Do not use measured forces.")
 @click.option(
+    "--free-decay", is_flag=True, help="Recordings begin where the force has ended: ring-down, or release from rest."
+)
+@click.option(
     "--plot", metavar="PATH", help="Write figures: to a folder, or to one file (.pdf, .png, .svg). Needs matplotlib."
 )
 @click.option(
@@ -31,6 +34,7 @@ def command(
     band: tuple[float, float] | None,
     orders: int | None,
     output_only: bool,
+    free_decay: bool,
     plot: str | None,
     form: str | None,
     numbers: str | None,
@@ -42,7 +46,7 @@ def command(
     SOURCE: a YAML deck, or files of FRFs or time histories; several are repeats, or have one force each. Without
     forces, or with --output-only, the outputs alone are used. Exit 0: modes found. 1: none, or none to be trusted. 4: rejected.
     """
-    from mouse_cli.cli._identify import identified, write
+    from mouse_cli.cli._identify import Excited, identified, write
     from mouse_cli.cli._terminal import drawn, progress, show_diagnostics
 
     if band and not band[0] < band[1]:
@@ -54,7 +58,7 @@ def command(
 
         require(plot)
     with progress() as (_, say):
-        found, warnings = identified(sources, band, orders, output_only, given, say)
+        found, warnings = identified(sources, band, orders, Excited(output_only, free_decay), given, say)
     if not quiet:
         show_diagnostics((*warnings, *found.doubts, *found.remarks))
     if plot:
