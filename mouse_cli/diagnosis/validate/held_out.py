@@ -13,6 +13,7 @@ from mouse_cli.diagnosis.effects.change import Change, Recipe
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.search.fit import Fit, fit
+from mouse_cli.diagnosis.validate.joint import beyond_linear
 from mouse_cli.dynamics.correlation import mac
 from mouse_cli.dynamics.sensing import read
 from mouse_cli.model.diagnosis import BY_DECK, BY_MODE, HeldOut, Score
@@ -44,7 +45,10 @@ class Prediction:
 
 
 def predict(one: Fit, base: Reduced, fixed: tuple[Recipe, ...] = ()) -> Prediction | None:
-    """What the model of `one` says of the test of `base`; fixed: changes of the structure that are known."""
+    """What the model of `one` says of the test of `base`; fixed: changes of the structure that are known.
+
+    Where it is not linear in what the fit leaves open, the density is that of `joint.py`.
+    """
     model = type(one.model)(base, (*one.recipes, *fixed))
     at = model.point(one.point.x)
     if at is None:
@@ -53,7 +57,9 @@ def predict(one: Fit, base: Reduced, fixed: tuple[Recipe, ...] = ()) -> Predicti
     spread = T @ one.covariance @ T.T
     total = np.eye(len(spread)) + spread
     misfit, size = float(at.residual @ np.linalg.solve(total, at.residual)), np.linalg.slogdet(total)[1]
-    density = -0.5 * (misfit + size) - data.log_sd
+    density = -0.5 * (misfit + size)
+    if beyond := beyond_linear(one, model, at, T):
+        misfit, density = beyond
     frequencies = int(data.has_frequency.sum())
     off, sd = at.residual[:frequencies], np.sqrt(np.diag(total)[:frequencies])
     hz = np.sqrt(np.maximum(at.eigenvalues[at.modes], 0.0)) / (2 * np.pi)
@@ -62,7 +68,9 @@ def predict(one: Fit, base: Reduced, fixed: tuple[Recipe, ...] = ()) -> Predicti
     alike = np.full(data.m, np.nan)
     if data.s:
         alike = mac(data.test.shapes, at.seen[:, at.modes]).diagonal()
-    return Prediction(data.test, hz, sd_hz, alike, float(density), np.abs(off) < _COVERED * sd, misfit, len(spread))
+    return Prediction(
+        data.test, hz, sd_hz, alike, float(density - data.log_sd), np.abs(off) < _COVERED * sd, misfit, len(spread)
+    )
 
 
 def readings(one: Fit, test: ModalTest) -> Prediction | None:

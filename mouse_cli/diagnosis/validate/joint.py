@@ -1,0 +1,91 @@
+"""What data that were held out have to do with those that were fitted: both are fitted together, and the evidence is compared.
+
+ln p(d2 | d1) = ln Z(d1, d2) - ln Z(d1), each by Laplace. It is the density of the linear prediction N(f, I + T C T') where the
+model is linear within what the fitted data leave open. Where two modes of it cross within that range it is not, and the common
+optimum may lie beyond the crossing, so that descents begin on both sides of the fit too, along what the fitted data know least of
+the new ones.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.diagnosis.evidence import capped
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.likelihoods.modal.point import Point
+from mouse_cli.diagnosis.search.fit import End, Fit, descended
+
+_ASIDE = (0.0, 1.5, -1.5)  # standard deviations at which descents begin
+_CURVED = 0.1  # chi-square from which on a prediction one standard deviation away is another than the linear one
+
+
+@dataclass(frozen=True)
+class Two:
+    """Two models at the same x, and the residual of both."""
+
+    x: np.ndarray
+    each: tuple
+    residual: np.ndarray
+
+    @property
+    def chi2(self) -> float:
+        """What is left of the misfit of all data."""
+        return float(self.residual @ self.residual)
+
+
+class Both:
+    """The model that was fitted, and the same with what was held out: what `descended` needs of a model."""
+
+    def __init__(self, fitted: Model, held: Model):
+        self.models = fitted, held
+        self.base, self.recipes, self.k, self.t = fitted.base, fitted.recipes, fitted.k, fitted.t
+        self.bounds, self.width = fitted.bounds, fitted.width
+
+    def point(self, x: np.ndarray) -> Two | None:
+        """Both at x (k + t,); None where one is not physical."""
+        one = self.models[0].point(x)
+        other = None if one is None else self.models[1].point(x)
+        return None if other is None else Two(x, (one, other), np.concatenate([one.residual, other.residual]))
+
+    def jacobian(self, at: Two) -> np.ndarray:
+        """d(prediction)/dx (q, k + t), whitened."""
+        return np.vstack([model.jacobian(own) for model, own in zip(self.models, at.each, strict=True)])
+
+
+def beyond_linear(one: Fit, held: Model, at: Point, T: np.ndarray) -> tuple[float, float] | None:
+    """Misfit that the data of `held` add to that of a fit, and ln p of these given those, but for their own `log_sd`.
+
+    at, T (q, k + t): what `held` predicts at the fit, and its derivatives. None where these are as good.
+    """
+    if not T.size:
+        return None
+    root = np.linalg.cholesky(one.covariance)
+    least = root @ np.linalg.svd(T @ root, full_matrices=False)[2][0]
+    if _linear(held, at, T, least):
+        return None
+    both, k = Both(one.model, held), one.model.k
+    starts = [one.point.x + share * least for share in _ASIDE]
+    ends = [end for x in starts for end in [descended(both, x[k:], x[:k])] if end is not None]
+    if not ends:
+        return None
+    best = min(ends, key=lambda end: end.misfit)
+    more = best.misfit - one.misfit
+    return more, -0.5 * (more + _size(both, best) - np.linalg.slogdet(capped(one.hessian, both.width))[1])
+
+
+def _linear(held: Model, at: Point, T: np.ndarray, step: np.ndarray) -> bool:
+    """Whether one standard deviation to either side moves the prediction as its derivatives say."""
+    k = held.k
+    lower, upper = np.hstack([np.full((2, k), [[-np.inf], [np.inf]]), held.bounds.T])
+    for x in (np.clip(at.x + step, lower, upper), np.clip(at.x - step, lower, upper)):
+        there = held.point(x)
+        if there is None or np.sum((there.residual - at.residual + T @ (x - at.x)) ** 2) > _CURVED:
+            return False
+    return True
+
+
+def _size(both: Both, end: End) -> float:
+    """ln |H| of all data at a common optimum."""
+    J = both.jacobian(end.point)
+    H = J.T @ J + np.diag(np.arange(J.shape[1]) < both.k)
+    return float(np.linalg.slogdet(capped(H, both.width))[1])
