@@ -1,6 +1,8 @@
 """A structure as its engineer describes it: nodes, elements with their properties, supports and rigid links."""
 
-from dataclasses import dataclass, field
+from collections.abc import Hashable
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -35,6 +37,11 @@ class ElementSet:
 
     def __len__(self) -> int:
         return len(self.ids)
+
+    @property
+    def kind(self) -> Hashable:
+        """Type, nodes of an element, options and given properties: sets alike in these can be worked on as one."""
+        return self.type, self.nodes.shape[1], _hashable(self.options), tuple(sorted(self.properties))
 
 
 @dataclass(frozen=True)
@@ -85,6 +92,14 @@ class Mesh:
         object.__setattr__(self, "coordinates", frozen(self.coordinates, (k, 3), "coordinates"))
         object.__setattr__(self, "supports", frozen(self.supports, (len(self.supports), 2), "supports", int))
 
+    @cached_property
+    def gathered(self) -> "Gathered":
+        """Its elements in as few sets as can be, so that decks which list them one by one cost no more than others."""
+        groups: dict[Hashable, list[int]] = {}
+        for number, elements in enumerate(self.elements):
+            groups.setdefault(elements.kind, []).append(number)
+        return Gathered.of(self.elements, list(groups.values()))
+
 
 @dataclass(frozen=True)
 class Binding:
@@ -98,3 +113,54 @@ class Binding:
     members: np.ndarray
     property: str
     factor: bool = False
+
+
+@dataclass(frozen=True)
+class Gathered:
+    """Element sets joined: elements (g,); group, first (sets,): which of them each set is in, and where its members begin there."""
+
+    elements: tuple[ElementSet, ...]
+    group: tuple[int, ...]
+    first: tuple[int, ...]
+
+    @classmethod
+    def of(cls, sets: tuple[ElementSet, ...], groups: list[list[int]]) -> "Gathered":
+        """`sets` joined by `groups` of their numbers."""
+        group, first, joined = [0] * len(sets), [0] * len(sets), []
+        for g, numbers in enumerate(groups):
+            count = 0
+            for number in numbers:
+                group[number], first[number], count = g, count, count + len(sets[number])
+            joined.append(_joined([sets[number] for number in numbers]))
+        return cls(tuple(joined), tuple(group), tuple(first))
+
+    def bindings(self, given: tuple[Binding, ...]) -> tuple[Binding, ...]:
+        """The same parameters bound to members of the joined sets."""
+        return tuple(
+            replace(b, set=self.group[b.set], members=np.asarray(b.members) + self.first[b.set]) for b in given
+        )
+
+    def origin(self, g: int) -> tuple[np.ndarray, np.ndarray]:
+        """Number of the set (e,), and of the member in it (e,), of each element of joined set g."""
+        sets = np.array([i for i, each in enumerate(self.group) if each == g])
+        first = np.array([self.first[i] for i in sets])
+        at = np.arange(len(self.elements[g]))
+        own = np.searchsorted(first, at, side="right") - 1
+        return sets[own], at - first[own]
+
+
+def _joined(sets: list[ElementSet]) -> ElementSet:
+    """Sets of one kind as one."""
+    if len(sets) == 1:
+        return sets[0]
+    ids, nodes = (np.concatenate([getattr(each, name) for each in sets]) for name in ("ids", "nodes"))
+    properties = {name: np.concatenate([each.properties[name] for each in sets]) for name in sets[0].properties}
+    return ElementSet(sets[0].type, ids, nodes, properties, sets[0].options)
+
+
+def _hashable(value: Any) -> Hashable:
+    if isinstance(value, dict):
+        return tuple(sorted((str(key), _hashable(each)) for key, each in value.items()))
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    return tuple(map(_hashable, value)) if isinstance(value, list | tuple) else value

@@ -10,6 +10,7 @@ from mouse_cli.model.geometry import DIRECTIONS, Geometry
 from mouse_cli.model.mesh import Binding, ElementSet, Mesh
 from mouse_cli.model.structure import Structure
 from mouse_cli.model.term import Term
+from mouse_cli.terms.bound_properties import nominal_properties
 from mouse_cli.terms.constraints import Links, Motion, links
 from mouse_cli.terms.element_matrices import ElementMatrices
 from mouse_cli.terms.element_term import ElementTerm
@@ -44,12 +45,15 @@ def build(
 
 
 def built(mesh: Mesh, bindings: tuple[Binding, ...] = (), base: Structure | None = None) -> Built:
-    """The model of `mesh`: degrees of freedom node by node, one term for each element set, nothing constant but `base`.
+    """The model of `mesh`: degrees of freedom node by node, one term for each kind of element, nothing constant but `base`.
 
     base: matrices that the mesh is attached to; their degrees of freedom come first, and are those of the mesh with the same
     label (`12TY`). Directions that no element stiffens are left out, as after AUTOSPC in Nastran. Dense up to
     LARGEST_DENSE degrees of freedom, else sparse. Raises a MeshFault.
     """
+    given = mesh
+    if mesh.gravity is None:  # whose axial forces are kept set by set
+        mesh, bindings = replace(mesh, elements=mesh.gathered.elements), mesh.gathered.bindings(bindings)
     kinds = [registry()[elements.type] for elements in mesh.elements]
     layouts = [_layout(kind, elements, mesh) for kind, elements in zip(kinds, mesh.elements, strict=True)]
     places = _base_places(mesh, base)
@@ -59,7 +63,7 @@ def built(mesh: Mesh, bindings: tuple[Binding, ...] = (), base: Structure | None
     for i in (i for i, kind in enumerate(kinds) if kind.opens):
         layouts[i] = replace(layouts[i], stretches=_stretching(layouts[i], _dofs(mesh.elements[i]), motion))
         sets[i] = _matrices(i, kinds[i], layouts[i], mesh, bindings)
-    structure = _structure(mesh, base, motion, places)
+    structure = _structure(given, base, motion, places)
     terms = [ElementTerm(m, _dofs(m.elements), motion) for m in sets]
     K = _nominal_stiffness(structure, terms)
     held = _touched(mesh, sets, free, "K")
@@ -126,7 +130,18 @@ def _matrices(i: int, kind: ElementType, layout: Layout, mesh: Mesh, bindings: t
     try:
         return ElementMatrices(kind, mesh.elements[i], layout, own)
     except np.linalg.LinAlgError:
-        raise Loose(tuple(mesh.elements[i].ids.tolist())) from None
+        raise Loose(_loose(kind, mesh.elements[i], layout)) from None
+
+
+def _loose(kind: ElementType, elements: ElementSet, layout: Layout) -> tuple[int, ...]:
+    """Numbers of the elements whose matrices do not exist; all where none is at fault by itself."""
+    nominal, found = nominal_properties(kind, elements, layout), []
+    for j, number in enumerate(elements.ids.tolist()):
+        try:
+            kind.matrices(layout.of(np.array([j])), {name: value[[j]] for name, value in nominal.items()})
+        except np.linalg.LinAlgError:
+            found.append(number)
+    return tuple(found or elements.ids.tolist())
 
 
 def _dofs(elements: ElementSet) -> np.ndarray:

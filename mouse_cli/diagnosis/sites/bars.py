@@ -168,17 +168,17 @@ class Bars:
 
 def bars(problem: Problem, motion: Motion, theta: np.ndarray, V: np.ndarray | None) -> Bars | None:
     """The bars of `problem` at theta (p,), for a model that moves by u = V q (V None: q are the degrees of freedom)."""
-    mesh = problem.mesh
-    parts = []
-    for number, elements in enumerate(mesh.elements):
-        if elements.type != "beam":
-            continue
-        layout = _layout(mesh, elements)
-        own = tuple(b for b in problem.bindings if b.set == number)
-        parts += _planes(number, mesh, layout, _properties(elements, layout, own, theta), motion, V)
+    mesh, parts, bindings = problem.mesh, [], problem.mesh.gathered.bindings(problem.bindings)
+    for g, elements in enumerate(mesh.gathered.elements):
+        if elements.type == "beam":
+            layout = _layout(mesh, elements)
+            p = _properties(elements, layout, tuple(b for b in bindings if b.set == g), theta)
+            parts += _planes(mesh.gathered.origin(g), elements, layout, p, motion, V)
     if not parts:
         return None
     joined = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    given = np.lexsort((joined["member"], joined["plane"], joined["set"]))
+    joined = {name: value[given] for name, value in joined.items()}
     bends = (joined["EI"] > _STIFF * joined["EI"].max()) & joined["bears"][:, :2, :2].any(axis=(1, 2))
     moves = np.abs(joined["ends"]).max(axis=(1, 2)) > 0
     joined = {name: value[bends & moves] for name, value in joined.items()}
@@ -199,14 +199,15 @@ def stiffening(problem: Problem, found: Bars, theta: np.ndarray) -> np.ndarray:
 
 def _stiffness(problem: Problem, found: Bars, theta: np.ndarray) -> np.ndarray:
     """EI (b,) of the bars at theta."""
-    EI = np.empty(len(found))
-    for number in np.unique(found.set).tolist():
-        elements = problem.mesh.elements[number]
-        own = tuple(b for b in problem.bindings if b.set == number)
+    EI, gathered = np.empty(len(found)), problem.mesh.gathered
+    group, first = (np.array(each)[found.set] for each in (gathered.group, gathered.first))
+    for g in np.unique(group).tolist():
+        elements = gathered.elements[g]
+        own = tuple(b for b in gathered.bindings(problem.bindings) if b.set == g)
         p = _properties(elements, _layout(problem.mesh, elements), own, theta)
         for plane, name in enumerate(("Iz", "Iy")):
-            at = (found.set == number) & (found.plane == plane)
-            EI[at] = (p["E"] * p[name])[found.member[at]]
+            at = (group == g) & (found.plane == plane)
+            EI[at] = (p["E"] * p[name])[(found.member + first)[at]]
     return EI
 
 
@@ -216,18 +217,25 @@ def _layout(mesh: Mesh, elements: ElementSet) -> Layout:
 
 
 def _properties(elements, layout: Layout, own: tuple, theta: np.ndarray) -> Properties:
-    found = {
-        name: np.array(value, float) for name, value in nominal_properties(registry()["beam"], elements, layout).items()
-    }
+    kind = registry()["beam"]
+    found = {name: np.array(value, float) for name, value in nominal_properties(kind, elements, layout).items()}
     if own:
-        bound = BoundProperties(registry()["beam"], elements, layout, own)
+        bound = BoundProperties(kind, elements, layout, own)
         for name, value in bound.at(theta)[0].items():
             found[name][bound.members] = value
     return found
 
 
-def _planes(number: int, mesh: Mesh, layout: Layout, p: Properties, motion: Motion, V: np.ndarray | None) -> list[dict]:
-    elements, at = mesh.elements[number], beam.span(layout)
+def _planes(
+    origin: tuple[np.ndarray, np.ndarray],
+    elements: ElementSet,
+    layout: Layout,
+    p: Properties,
+    motion: Motion,
+    V: np.ndarray | None,
+) -> list[dict]:
+    """The elements in either plane; origin: their set and number in it."""
+    at = beam.span(layout)
     u = displacements(motion, elements.nodes, V)
     releases = layout.options.get("releases")
     ends = beam.condensation(local(layout, p)["K"], releases)
@@ -240,8 +248,8 @@ def _planes(number: int, mesh: Mesh, layout: Layout, p: Properties, motion: Moti
         phi = 12 * EI / (p[f"kappa_{across}"] * p["G"] * p["A"] * at.length**2) if timoshenko else np.zeros(len(EI))
         parts.append(
             {
-                "set": np.full(len(EI), number),
-                "member": np.arange(len(EI)),
+                "set": origin[0],
+                "member": origin[1],
                 "ids": elements.ids,
                 "nodes": elements.nodes,
                 "plane": np.full(len(EI), plane),
