@@ -226,15 +226,8 @@ def _properties(elements, layout: Layout, own: tuple, theta: np.ndarray) -> Prop
     return found
 
 
-def _planes(
-    origin: tuple[np.ndarray, np.ndarray],
-    elements: ElementSet,
-    layout: Layout,
-    p: Properties,
-    motion: Motion,
-    V: np.ndarray | None,
-) -> list[dict]:
-    """The elements in either plane; origin: their set and number in it."""
+def _planes(origin, elements: ElementSet, layout: Layout, p: Properties, motion: Motion, V) -> list[dict]:
+    """The elements in either plane; origin: their set and number in it (e,)."""
     at = beam.span(layout)
     u = displacements(motion, elements.nodes, V)
     releases = layout.options.get("releases")
@@ -248,8 +241,7 @@ def _planes(
         phi = 12 * EI / (p[f"kappa_{across}"] * p["G"] * p["A"] * at.length**2) if timoshenko else np.zeros(len(EI))
         parts.append(
             {
-                "set": origin[0],
-                "member": origin[1],
+                **dict(zip(("set", "member"), origin, strict=True)),
                 "ids": elements.ids,
                 "nodes": elements.nodes,
                 "plane": np.full(len(EI), plane),
