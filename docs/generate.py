@@ -1,5 +1,5 @@
 """Writes the generated pages: docs/reference/{cli,yaml,elements,methods,candidates,codes,statuses,estimators}.md, the card part
-of the manual, and the map of the layers, docs/explanation/layers.svg.
+of the manual, the map of the layers, docs/explanation/layers.svg, and the picture of the README, docs/explanation/found_spring.svg.
 
 Run it from anywhere after a change of an option, a deck key, a card, a diagnostic code or a status:
 
@@ -16,6 +16,7 @@ DOCS = Path(__file__).resolve().parent
 sys.path[:0] = [str(DOCS.parent), str(DOCS)]
 
 import click  # noqa: E402
+import found_spring  # noqa: E402
 import layers_map  # noqa: E402
 from click.testing import CliRunner  # noqa: E402
 
@@ -54,6 +55,7 @@ def told(*arguments: str) -> str:
 def pages() -> dict[Path, str]:
     """Every generated page, whole, by its path."""
     return {
+        DOCS / "explanation" / "found_spring.svg": found_spring.drawing(),
         DOCS / "explanation" / "layers.svg": layers_map.drawing(),
         DOCS / "manual.md": manual((DOCS / "manual.md").read_text("utf-8")),
         DOCS / "reference" / "cli.md": "\n".join(_cli()),
