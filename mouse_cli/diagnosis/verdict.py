@@ -10,6 +10,7 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unmeasured_hz
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.rank import Ranking, group, unnamed
+from mouse_cli.diagnosis.validate.averaged import averaged
 from mouse_cli.diagnosis.validate.held_out import held_out
 from mouse_cli.model.diagnosis import (
     BY_DECK,
@@ -152,7 +153,8 @@ def _unknown(ranking: Ranking, model: Reduced, best: Fit | None, proof, struck: 
     first = int(
         np.argmax([odds + _gain(own) / ranking.noise_scale for (odds, _), own in zip(fields, proofs, strict=False)])
     )
-    return Verdict(UNKNOWN, best, proof, struck, fields[first][1], proofs[first], reasons)
+    together = averaged(model, ranking) or proofs[first]
+    return Verdict(UNKNOWN, best, proof, struck, fields[first][1], together, reasons)
 
 
 def leader(ranking: Ranking) -> Fit | None:

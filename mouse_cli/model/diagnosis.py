@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mouse_cli._notebook import Shown
+from mouse_cli.model.field import AXIAL as AXIAL
 from mouse_cli.model.field import BED as BED
 from mouse_cli.model.field import COMPLIANCE as COMPLIANCE
 from mouse_cli.model.field import FORCE as FORCE

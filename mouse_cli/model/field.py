@@ -6,12 +6,13 @@ from mouse_cli.model.prediction import HeldOut
 from mouse_cli.model.site import Site
 
 # Of what kind physics without a name is.
-STIFFNESS, MASS, BED, FORCE, COMPLIANCE, LAW = "stiffness", "mass", "bed", "force", "compliance", "law"
+STIFFNESS, MASS, BED, AXIAL = "stiffness", "mass", "bed", "axial"
+FORCE, COMPLIANCE, LAW = "force", "compliance", "law"
 
 
 @dataclass(frozen=True)
 class FieldValue:
-    """A field at a site: value and sd, relative to what the model has there; of a bed in units of EI / L^4."""
+    """A field at a site: value and sd, relative to what the model has there; of a bed in EI / L^4, of axial forces in EI / L^2."""
 
     site: Site
     value: float

@@ -11,6 +11,7 @@ UNITS = {
     "stiffness": "change of stiffness, per cent",
     "mass": "change of mass, per cent",
     "bed": "bed stiffness, EI/L^4",
+    "axial": "axial force, EI/L^2",
     "force": "motion of the spring",
     "law": "stiffness over the static stiffness there",
 }

@@ -2,13 +2,14 @@
 
 from collections.abc import Sequence
 
-from mouse_cli.model.diagnosis import BED, COMPLIANCE, FORCE, LAW, MASS, STIFFNESS, Field, FieldValue, HeldOut
+from mouse_cli.model.diagnosis import AXIAL, BED, COMPLIANCE, FORCE, LAW, MASS, STIFFNESS, Field, FieldValue, HeldOut
 from mouse_cli.report.sections._diagnosis_wording import nats, place
 
 ACTS = {
     STIFFNESS: "acts on the stiffness",
     MASS: "acts on the mass",
     BED: "acts as a bed, a stiffness from the structure to the ground",
+    AXIAL: "acts as an axial force of bars, a pull where it is positive",
     FORCE: "acts as one spring along a motion of the whole structure",
     COMPLIANCE: "acts as one flexible joint: the whole structure can make a motion that the model does not let it make",
     LAW: "acts at one site, by a law that is in no library",
@@ -17,17 +18,20 @@ UNITS = {
     STIFFNESS: "per cent",
     MASS: "per cent",
     BED: "EI/L^4",
+    AXIAL: "EI/L^2",
     FORCE: "of that motion",
     COMPLIANCE: "of that motion",
     LAW: "of the static stiffness there",
 }  # of values as they are printed
 _MOST = 0.5  # of the largest value: neighbours above it belong to where most of the field is
+_TOGETHER = "By all hypotheses together, each with its probability,"
 _SHOWN = 2.0  # sd from which on a value is listed by itself
 
 
 def field_sentences(field: Field) -> tuple[str, ...]:
     """What is missing, and that it has no name."""
     acts = _law(field) if field.property == LAW else f"It {ACTS[field.property]}{_most(field)}"
+    acts = _spring(field) if one_spring(field) else acts
     told = f"What is missing has no name in the library. {acts}."
     over = f"Its log evidence is {nats(field.log_evidence_over_named)} above that of everything that has a name."
     return (
@@ -75,6 +79,18 @@ def core(values: Sequence[FieldValue]) -> tuple[int, int, int]:
     return first, top, last
 
 
+def one_spring(field: Field) -> bool:
+    """Whether it is a spring between two sites, or against the turn of one."""
+    return field.property == FORCE and len(field.values) < 3
+
+
+def _spring(field: Field) -> str:
+    """Where one spring ends."""
+    sites = [place(each.site) for each in field.values]
+    where = f"between {' and '.join(sites)}" if len(sites) > 1 else f"against the turn of {sites[0]}"
+    return f"It acts as one spring {where}, which no mechanism of the library is"
+
+
 def _law(field: Field) -> str:
     """Where a law acts, and its values at the frequencies of the modes that tell."""
     where = field.values[0].site.text.rpartition(", mode ")[0]
@@ -99,7 +115,7 @@ def _most(field: Field) -> str:
 
 
 def held_words(held: HeldOut | None) -> str:
-    """How the model with the field predicts what no fit has seen; empty without such data."""
+    """How all hypotheses together predict what no fit has seen; empty without such data."""
     if held is None or held.revised is None:
         return ""
     before, after = held.baseline, held.revised
@@ -107,6 +123,6 @@ def held_words(held: HeldOut | None) -> str:
         f"the log predictive density from {before.log_predictive_density:.1f} to {after.log_predictive_density:.1f}"
     )
     if before.rms_frequency_error != before.rms_frequency_error:
-        return f"With it {density.replace('from', 'of held-out data goes from', 1)}."
+        return f"{_TOGETHER} {density.replace('from', 'of held-out data goes from', 1)}."
     errors = f"from {100 * before.rms_frequency_error:.2g} % to {100 * after.rms_frequency_error:.2g} %"
-    return f"With it the rms frequency error of held-out data goes {errors}, and {density}."
+    return f"{_TOGETHER} the rms frequency error of held-out data goes {errors}, and {density}."

@@ -16,15 +16,17 @@ _ONE = lambda x: 1.0
 class Truth:
     """Relative stiffness and mass along x / L; a bed in EI / L^4; axial force in EI / L^2; springs and masses at (x / L, size).
 
-    Springs in EI / L^3, masses in the mass of the beam.
+    Springs, and ties at (x / L, x / L, size), in EI / L^3; springs against turns in EI / L; masses in the mass of the beam.
     """
 
     stiffness: Callable[[float], float] = _ONE
     mass: Callable[[float], float] = _ONE
     bed: Callable[[float], float] = lambda x: 0.0
-    tension: float = 0.0
+    tension: float | Callable[[float], float] = 0.0
     springs: tuple[tuple[float, float], ...] = ()
     masses: tuple[tuple[float, float], ...] = field(default=())
+    ties: tuple[tuple[float, float, float], ...] = ()
+    turns: tuple[tuple[float, float], ...] = ()
 
     def modes(self, free: bool, count: int) -> tuple[np.ndarray, np.ndarray]:
         """Hz (count,) and deflections (121, count); free: of a free beam, without rigid motion; else of a cantilever."""
@@ -34,12 +36,19 @@ class Truth:
         m = l / 420 * unit * np.array([[156, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]])
         g = 1 / (30 * l) * unit * np.array([[36, 3, -36, 3], [3, 4, -3, -1], [-36, -3, 36, -3], [3, -1, -3, 4]])
         K, M = np.zeros((2, 2 * n + 2, 2 * n + 2))
+        pull = self.tension if callable(self.tension) else lambda x: self.tension
         for e in range(n):
             x, at = (e + 0.5) / n, slice(2 * e, 2 * e + 4)
-            K[at, at] += self.stiffness(x) * k + self.bed(x) * EI / LENGTH**4 * m + self.tension * EI / LENGTH**2 * g
+            K[at, at] += self.stiffness(x) * k + self.bed(x) * EI / LENGTH**4 * m + pull(x) * EI / LENGTH**2 * g
             M[at, at] += self.mass(x) * MASS * m
         for x, size in self.springs:
             K[2 * round(x * n), 2 * round(x * n)] += size * EI / LENGTH**3
+        for one, other, size in self.ties:
+            b = np.zeros(len(K))
+            b[2 * round(one * n)], b[2 * round(other * n)] = 1.0, -1.0
+            K += size * EI / LENGTH**3 * np.outer(b, b)
+        for x, size in self.turns:
+            K[2 * round(x * n) + 1, 2 * round(x * n) + 1] += size * EI / LENGTH
         for x, size in self.masses:
             M[2 * round(x * n), 2 * round(x * n)] += size * MASS * LENGTH
         own, rigid = (np.arange(2 * n + 2), 2) if free else (np.arange(2, 2 * n + 2), 0)

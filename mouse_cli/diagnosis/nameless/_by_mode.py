@@ -55,6 +55,9 @@ class OneLaw(Model):
         residual, a = base.data.residual(lam, S @ shapes)
         return ByMode(x, lam, shapes, S @ shapes, np.arange(len(lam)), residual, a, tuple(each))
 
+    def loosened(self, at: ByMode, share: float) -> None:
+        """None: a value of its own in each mode makes up for its theory."""
+
     def jacobian(self, at: ByMode) -> np.ndarray:
         """d(prediction)/dx (q, k + t), whitened; t is 0: no mechanism is beside."""
         base, data, r = self.base, self.base.data, self.base.r

@@ -13,7 +13,6 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.nameless import Nameless
 from mouse_cli.diagnosis.nameless._cells import Cells
 from mouse_cli.diagnosis.nameless._correlated import affine
-from mouse_cli.model.diagnosis import Field, FieldValue, HeldOut
 
 LENGTHS = (0.08, 0.2, 0.5)  # correlation lengths, of the extent of the cells
 MOTIONS = (0.2, 0.5, np.inf)  # those of a motion about one that is affine; infinite: it is affine
@@ -96,12 +95,3 @@ def fielded(base: Reduced, field: Smooth, cells: Cells | None) -> Fielded:
     own = {name: getattr(base, name) for name in Reduced.__dataclass_fields__}
     empty = np.zeros((field.P.shape[1], base.r, base.r))
     return Fielded(**own, nameless=field, of_field=empty if cells is None else cells.summed(field.P))
-
-
-def found(base: Fielded, z: np.ndarray, covariance: np.ndarray, over_named: float, held: HeldOut | None) -> Field:
-    """The field at z, of covariance (k + w, k + w), in words and numbers."""
-    field, own = base.nameless, slice(base.deck, None)
-    values = field.values(z[own])
-    sd = np.sqrt(np.einsum("cw,wv,cv->c", field.P, covariance[own, own], field.P))
-    sites = tuple(FieldValue(*each) for each in zip(field.cells.sites, values.tolist(), sd.tolist(), strict=True))
-    return Field(field.rival.property, sites, field.spread, field.length, field.cells.unit, over_named, held)

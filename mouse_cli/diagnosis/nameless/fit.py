@@ -1,25 +1,28 @@
 """Every rival without a name fitted to the data, its spread and its correlation length integrated out."""
 
 from collections import Counter
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
 
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
 from mouse_cli.diagnosis.nameless import Nameless, registry
 from mouse_cli.diagnosis.nameless._cells import FEWEST, Cells
-from mouse_cli.diagnosis.nameless._field import LENGTHS, MOTIONS, fielded, found, smooth
+from mouse_cli.diagnosis.nameless._field import LENGTHS, MOTIONS, fielded, smooth
 from mouse_cli.diagnosis.nameless._tied import tied
+from mouse_cli.diagnosis.nameless._weighed import mean_values, weighed
 from mouse_cli.diagnosis.nameless.local import best_law
-from mouse_cli.diagnosis.search.descents import idealised
+from mouse_cli.diagnosis.nameless.spring import best_spring
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.optima import NEAR, within
-from mouse_cli.model.diagnosis import Field, HeldOut
+from mouse_cli.model.diagnosis import Field, FieldValue, HeldOut
 from mouse_cli.model.problem import Problem
 
 _STEPS, _TRIED = 25, 3  # of a fit; starts of a change of rank one
+_BUCKLED = 1e-6  # of the lowest measured eigenvalue, below which a negative one is no rounding
 
 
 def rivals(base: Reduced, start: Fit, kind: type[Model] = Model, reach: float = np.inf) -> list[Fit]:
@@ -28,23 +31,24 @@ def rivals(base: Reduced, start: Fit, kind: type[Model] = Model, reach: float = 
     reach: misfit above which no fit matters.
     """
     fits = [_integrated(base, start, field, kind, reach) for field in _spreads(base)]
-    law = best_law(base) if kind is Model else None
-    return [one for one in (*fits, law) if one is not None]
+    local = [best(base) for best in (best_law, best_spring)] if kind is Model else []
+    return [one for one in (*fits, *local) if one is not None]
 
 
 def field_of(ranking, one: Fit, held: HeldOut | None = None) -> Field:
     """The field of a fit of a ranking in words and numbers, beside all that has a name there."""
     odds = {id(each): float(value) for each, value in zip(ranking.fits, ranking.log_odds, strict=True)}
     named = max(odds[id(ranking.fits[i])] for i in ranking.named)
-    base = one.model.base.first
-    k = one.model.k
-    return found(base, one.point.x[:k], one.covariance[:k, :k], odds[id(one)] - named, held)
+    field, (values, sd) = one.nameless, mean_values(one)
+    sites = tuple(FieldValue(*each) for each in zip(field.cells.sites, values.tolist(), sd.tolist(), strict=True))
+    about = (field.spread, field.length, field.cells.unit)
+    return Field(field.rival.property, sites, *about, odds[id(one)] - named, held)
 
 
 def extended(problem: Problem, one: Fit) -> Problem | None:
-    """The deck with the field of a fit in it, a parameter for each of its cells; None where a deck cannot hold it."""
+    """The deck with the field of a fit in it, a parameter for each of its cells; None where none that stands can hold it."""
     base, field = one.model.base, one.nameless
-    if field.cells.extend is None:
+    if field.cells.extend is None or one.point.eigenvalues[0] < -_BUCKLED * lowest(base.first):
         return None
     values = field.values(one.point.x[base.deck : one.model.k])
     return field.cells.extend(problem, values, field.spread, *((field.sign,) if field.sign else ()))
@@ -123,11 +127,9 @@ def _integrated(base, start: Fit, field: Spread, kind: type[Model], reach: float
         fits += ended
     if not fits:
         return None
-    best = max(fits, key=lambda one: one.log_evidence)
     total = np.logaddexp.reduce([one.log_evidence for one in fits]) - np.log(len(field.grid))
     twice = np.log(2) if field.rival.signs else 0.0  # b and -b are the same
-    ideal = idealised(best)  # its theory is no better than that of what has a name
-    return replace(ideal, log_evidence=float(total + twice + ideal.log_evidence - best.log_evidence))
+    return weighed(fits, [one.log_evidence for one in fits], total + twice)
 
 
 def _values(one: Fit) -> np.ndarray:

@@ -12,6 +12,7 @@ from mouse_cli.diagnosis.nameless._by_mode import Lawful, OneLaw
 from mouse_cli.diagnosis.nameless._cells import Cells
 from mouse_cli.diagnosis.nameless._correlated import leading
 from mouse_cli.diagnosis.nameless._field import Smooth
+from mouse_cli.diagnosis.nameless._weighed import weighed
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.sites.channels import FORCE, HINGE, PAIR, SLIDE, STRETCH, TIE
 from mouse_cli.dynamics.frequency import eigenvalue
@@ -47,9 +48,8 @@ def best_law(model: Reduced) -> Fit | None:
     fits = [one for one in (_at(model, found, place, *each) for each in grid) if one is not None]
     if not fits:
         return None
-    best = max(fits, key=lambda one: one.log_evidence)
     total = np.logaddexp.reduce([one.log_evidence for one in fits]) - np.log(len(grid))
-    return replace(best, log_evidence=float(total + places))
+    return weighed(fits, [one.log_evidence for one in fits], total + places)
 
 
 def _at(model: Reduced, found: Scores, place: int, spread: float, octaves: float) -> Fit | None:

@@ -136,18 +136,18 @@ def _none(model: Reduced) -> tuple[np.ndarray, np.ndarray]:
 def _between_ends(model: Reduced) -> tuple[np.ndarray, np.ndarray]:
     """Along the line between ends of members; in each direction where all nodes are in one row."""
     mesh = model.problem.mesh
-    found, joined = ends(mesh), _joined(mesh)
+    found, together = ends(mesh), joined(mesh)
     if not 2 < len(found) <= _ENDS:
         return _none(model)
     u = np.array([model.node(int(i))[:3] for i in found])
     xyz = mesh.coordinates[found]
     if np.linalg.matrix_rank(xyz - xyz[0], tol=1e-9 * _size(mesh)) < 2:
-        return _none(model) if model.bars is not None or len(found) > _SPRINGS else _in_a_row(u, found, joined)
+        return _none(model) if model.bars is not None or len(found) > _SPRINGS else _in_a_row(u, found, together)
     one, other = np.triu_indices(len(found), 1)
     apart = np.linalg.norm(xyz[other] - xyz[one], axis=1)
     order = np.argsort(apart, kind="stable")
     order = order[apart[order] > 1e-6 * _size(mesh)][:_LOOKED]
-    order = np.array([i for i in order if (int(found[one[i]]), int(found[other[i]])) not in joined], int)
+    order = np.array([i for i in order if (int(found[one[i]]), int(found[other[i]])) not in together], int)
     order = np.sort(order[_in_sight(mesh, found[one[order]], found[other[order]])])
     one, other, apart = one[order], other[order], apart[order]
     axis = (xyz[other] - xyz[one]) / apart[:, None]
@@ -186,7 +186,7 @@ def _passes(arms: list[np.ndarray]) -> bool:
     return bool(size > 0 and arms[0] @ arms[1] < -_STRAIGHT * size)
 
 
-def _joined(mesh: Mesh) -> set[tuple[int, int]]:
+def joined(mesh: Mesh) -> set[tuple[int, int]]:
     """Nodes (i < j) that an element or a rigid link joins."""
     found = {tuple(sorted((link.independent, link.dependent))) for link in mesh.links}
     for elements in mesh.elements:

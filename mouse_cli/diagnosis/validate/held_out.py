@@ -22,7 +22,7 @@ from mouse_cli.model.modal_test import ModalTest, restricted
 from mouse_cli.updating.chi_square import upper_tail
 
 _STEP = 1e-4  # of a prior standard deviation, or of the range of an unknown, for derivatives
-_COVERED = 1.6448536269514722  # standard deviations of a 90 % interval
+COVERED = 1.6448536269514722  # standard deviations of a 90 % interval
 
 
 @dataclass(frozen=True)
@@ -44,10 +44,11 @@ class Prediction:
     shape_error: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
 
-def predict(one: Fit, base: Reduced, fixed: tuple[Recipe, ...] = ()) -> Prediction | None:
+def predict(one: Fit, base: Reduced, fixed: tuple[Recipe, ...] = (), noise: float = 1.0) -> Prediction | None:
     """What the model of `one` says of the test of `base`; fixed: changes of the structure that are known.
 
-    Where it is not linear in what the fit leaves open, the density is that of `joint.py`.
+    Where it is not linear in what the fit leaves open, the density is that of `joint.py`. noise: s^2, by which variances are larger
+    than stated, of the test that was fitted and so of the unknowns too; the density is then that of the linear prediction.
     """
     model = type(one.model)(base, (*one.recipes, *fixed))
     at = model.point(one.point.x)
@@ -55,10 +56,10 @@ def predict(one: Fit, base: Reduced, fixed: tuple[Recipe, ...] = ()) -> Predicti
         return None
     T, data = model.jacobian(at), base.data
     spread = T @ one.covariance @ T.T
-    total = np.eye(len(spread)) + spread
+    total = noise * (np.eye(len(spread)) + spread)
     misfit, size = float(at.residual @ np.linalg.solve(total, at.residual)), np.linalg.slogdet(total)[1]
     density = -0.5 * (misfit + size)
-    if beyond := beyond_linear(one, model, at, T):
+    if noise == 1.0 and (beyond := beyond_linear(one, model, at, T)):
         misfit, density = beyond
     frequencies = int(data.has_frequency.sum())
     off, sd = at.residual[:frequencies], np.sqrt(np.diag(total)[:frequencies])
@@ -69,7 +70,7 @@ def predict(one: Fit, base: Reduced, fixed: tuple[Recipe, ...] = ()) -> Predicti
     if data.s:
         alike = mac(data.test.shapes, at.seen[:, at.modes]).diagonal()
     return Prediction(
-        data.test, hz, sd_hz, alike, float(density - data.log_sd), np.abs(off) < _COVERED * sd, misfit, len(spread)
+        data.test, hz, sd_hz, alike, float(density - data.log_sd), np.abs(off) < COVERED * sd, misfit, len(spread)
     )
 
 
@@ -135,10 +136,10 @@ def score(parts: list[Prediction]) -> Score:
 
 def held_out(model: Reduced, baseline: Fit, best: Fit | None) -> HeldOut | None:
     """Both models on what the deck holds out, else on each mode in turn."""
-    held = model.problem.hold_out
-    if held is None or not (held.altered or len(held.modes) or len(held.sensors)):
+    if not by_deck(model):
         return cross_validated(model, baseline, best)
-    parts = {"baseline": _predicted(held, baseline), "revised": best and _predicted(held, best)}
+    held = model.problem.hold_out
+    parts = {"baseline": of_cases(held, baseline), "revised": best and of_cases(held, best)}
     labels, kept = [], []
     for i, (title, own) in enumerate(parts["baseline"]):
         if own is not None and (best is None or parts["revised"][i][1] is not None):
@@ -152,11 +153,17 @@ def held_out(model: Reduced, baseline: Fit, best: Fit | None) -> HeldOut | None:
     return HeldOut(BY_DECK, tuple(labels), measured, score(found["baseline"]), revised)
 
 
-def _predicted(held: HoldOut, one: Fit) -> list[tuple[str, Prediction | None]]:
-    """Title of each case that was held out, and what the model of `one` says of it."""
+def by_deck(model: Reduced) -> bool:
+    """Whether the deck holds anything out."""
+    held = model.problem.hold_out
+    return held is not None and bool(held.altered or len(held.modes) or len(held.sensors))
+
+
+def of_cases(held: HoldOut, one: Fit, noise: float = 1.0) -> list[tuple[str, Prediction | None]]:
+    """Title of each case that was held out, and what the model of `one` says of it; noise: as in `predict`."""
     base, found = one.model.base, []
     if held.test is not None and held.test.m:
-        found.append(("mode {}", predict(one, base.with_test(held.test))))
+        found.append(("mode {}", predict(one, base.with_test(held.test), noise=noise)))
     if held.readings is not None and base.data.by_shape:
         found.append(("mode {} at sensors held out", readings(one, held.readings)))
     for altered in held.altered:
@@ -165,7 +172,7 @@ def _predicted(held: HoldOut, one: Fit) -> list[tuple[str, Prediction | None]]:
         test = ModalTest(*frequencies, base.data.test.dofs, unmeasured, unmeasured, "fitted")
         fixed = known(base, altered.masses, altered.springs)
         title = altered.title.replace("{", "{{").replace("}", "}}")
-        found.append((title + ", mode {}", predict(one, base.with_test(test), (fixed,))))
+        found.append((title + ", mode {}", predict(one, base.with_test(test), (fixed,), noise)))
     return found
 
 
@@ -185,17 +192,19 @@ def cross_validated(model: Reduced, baseline: Fit, best: Fit | None) -> HeldOut 
         return None
     found: dict[str, list[Prediction]] = {"baseline": [], "revised": []}
     for i in range(test.m):
-        own = np.arange(test.m) == i
         for name, one in (("baseline", baseline), ("revised", best)):
-            if one is None:
-                continue
-            base = one.model.base
-            rest, left = base.without(~own), base.with_test(restricted(test, own))
-            again = fit(type(one.model)(rest, one.recipes), one.c, one.point.x[: one.model.k])
-            part = None if again is None else predict(again, left)
-            if part is None:
+            part = None if one is None else left_out(one, i)
+            if one is not None and part is None:
                 return None
-            found[name].append(part)
+            found[name] += [] if part is None else [part]
     labels = tuple(f"mode {number}" for number in test.number)
     revised = None if best is None else score(found["revised"])
     return HeldOut(BY_MODE, labels, test.frequency_hz, score(found["baseline"]), revised)
+
+
+def left_out(one: Fit, i: int) -> Prediction | None:
+    """What the model of `one`, fitted without measured mode i, says of it."""
+    base, test = one.model.base, one.model.base.data.test
+    own = np.arange(test.m) == i
+    again = fit(type(one.model)(base.without(~own), one.recipes), one.c, one.point.x[: one.model.k])
+    return None if again is None else predict(again, base.with_test(restricted(test, own)))

@@ -14,7 +14,14 @@ from mouse_cli.report.reading import Part
 
 _SHOWN = 2.0  # sd from which on a value is listed by itself
 _THIN = 0.05  # of the length: how far sites may lie off the line
-_UNITS = {"stiffness": "%", "mass": "%", "bed": "EI/L^4", "force": "of that motion", "law": "of the static stiffness"}
+_UNITS = {
+    "stiffness": "%",
+    "mass": "%",
+    "bed": "EI/L^4",
+    "axial": "EI/L^2",
+    "force": "of that motion",
+    "law": "of the static stiffness",
+}
 
 
 def field(document: Part) -> Iterator[Markup]:
@@ -34,7 +41,12 @@ def field(document: Part) -> Iterator[Markup]:
 def title(found: Part) -> str:
     """What the field is of."""
     kind = found.text("property")
-    known = {"bed": "Bed stiffness", "force": "Force of unknown law", "law": "Stiffness at one site, mode by mode,"}
+    known = {
+        "bed": "Bed stiffness",
+        "axial": "Axial force",
+        "force": "Force of unknown law",
+        "law": "Stiffness at one site, mode by mode,",
+    }
     return known.get(kind, f"Change of {kind}") + " without a name"
 
 

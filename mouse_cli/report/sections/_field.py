@@ -6,7 +6,7 @@ from math import inf
 from mouse_cli.model.diagnosis import LAW, Field, Untried
 from mouse_cli.model.units import Units
 from mouse_cli.report.blocks import Block, Column, Table, Text
-from mouse_cli.report.field_words import UNITS, factor, telling
+from mouse_cli.report.field_words import UNITS, factor, one_spring, telling
 from mouse_cli.report.sections._diagnosis_wording import place
 from mouse_cli.report.sections._wording import LEFT, counted
 
@@ -15,6 +15,7 @@ _NAMES = {
     "stiffness": "change of stiffness",
     "mass": "change of mass",
     "bed": "bed stiffness",
+    "axial": "axial force",
     "force": "motion",
     "compliance": "motion",
     "law": "stiffness",
@@ -33,7 +34,8 @@ def field_blocks(field: Field | None, units: Units) -> Iterator[Block]:
     along = "from mode to mode" if field.property == LAW else "along the structure"
     over = f" and are correlated over {field.length:.2g} {unit}" if 0 < field.length < inf else ""
     straight = ", along a straight line" if field.length == inf else ""
-    told.append(f"The values scatter {along} with sd {spread}{over}{straight}.")
+    if not one_spring(field):
+        told.append(f"The values scatter {along} with sd {spread}{over}{straight}.")
     yield Text(" ".join(told))
 
 

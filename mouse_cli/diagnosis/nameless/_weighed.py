@@ -1,0 +1,46 @@
+"""Fits of one rival, at other spreads, lengths or sites, as one that knows of the others."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from mouse_cli.diagnosis.noise import scale
+from mouse_cli.diagnosis.search.descents import idealised
+from mouse_cli.diagnosis.search.fit import Fit
+
+_LEAST = 1e-4  # share in the evidence below which a fit is no matter
+
+
+def weighed(fits: Sequence[Fit], weights: Sequence[float], total: float) -> Fit:
+    """The most probable of `fits` with `total` as log evidence, and the others with their shares; weights (f,): ln of these.
+
+    Its theory is no better than that of what has a name.
+    """
+    share, first = np.exp(weights - np.logaddexp.reduce(weights)), int(np.argmax(weights))
+    known = [(one, float(p)) for one, p in zip(fits, share, strict=True) if p > _LEAST and one is not fits[first]]
+    ideal = idealised(fits[first])
+    evidence = total + ideal.log_evidence - fits[first].log_evidence
+    return replace(ideal, log_evidence=float(evidence), elsewhere=tuple(known))
+
+
+def mean_values(one: Fit) -> tuple[np.ndarray, np.ndarray]:
+    """Values (c,) of a field and their sd, by all of its spreads and lengths; what the fit leaves beyond the noise scales these.
+
+    A mean has the variance of all values about it; of a change of rank one the sign of the leading fit.
+    """
+    alike = [(each, p) for each, p in one.elsewhere if each.nameless.cells.sites == one.nameless.cells.sites]
+    parts = [(one, 1 - sum(p for _, p in one.elsewhere)), *alike]
+    p = np.array([share for _, share in parts]) / sum(share for _, share in parts)
+    values, variance = (np.array(each) for each in zip(*(_values(each) for each, _ in parts), strict=True))
+    if one.nameless.sign:
+        values *= np.where(values @ values[0] < 0, -1.0, 1.0)[:, None]
+    mean = p @ values
+    return mean, np.sqrt(p @ (variance + (values - mean) ** 2))
+
+
+def _values(one: Fit) -> tuple[np.ndarray, np.ndarray]:
+    """Values (c,) of one fit and their variances."""
+    field, own = one.nameless, slice(one.model.base.first.deck, one.model.k)
+    noise = scale(one.misfit, one.dof)
+    return field.values(one.point.x[own]), noise * np.einsum("cw,wv,cv->c", field.P, one.covariance[own, own], field.P)
