@@ -63,7 +63,7 @@ def _at(model: Reduced, found: Scores, place: int, spread: float, octaves: float
     sites = tuple(_of_mode(channel.site(i), channel.name, n, hz.get(n)) for n in number.tolist())
     at = _octaves(model, number)
     cells = Cells(sites, at[:, None], "octaves", (), "K")
-    P = leading(cells.at, octaves) if octaves else np.eye(len(number))
+    P = _about_a_level(cells.at, octaves) if octaves else np.eye(len(number))
     field = Smooth(replace(NAMELESS, even=_EVEN.get(channel.name, "")), cells, spread * P, spread, octaves)
     own = {name: getattr(model, name) for name in Reduced.__dataclass_fields__}
     none = np.zeros((P.shape[1], model.r, model.r))
@@ -71,6 +71,11 @@ def _at(model: Reduced, found: Scores, place: int, spread: float, octaves: float
     known = np.isin(number, model.data.test.number)
     start = np.linalg.lstsq(spread * P[known], _implied(base, z), rcond=_SMOOTH)[0]
     return fit(OneLaw(base), np.zeros(0), np.concatenate([z, start]), _STEPS)
+
+
+def _about_a_level(at: np.ndarray, octaves: float) -> np.ndarray:
+    """A level of all modes (m, 1 + w), and what varies about it: each as unknown as the other."""
+    return np.hstack([np.ones((len(at), 1)), leading(at, octaves)])
 
 
 def _numbers(model: Reduced) -> np.ndarray:
@@ -108,8 +113,8 @@ NAMELESS = Nameless(
     "one force of an unknown law at one site",
     LAW,
     "a stiffness of its own in each mode at one site, or between two neighbours: the law of a mount, a support or a joint that "
-    "depends on frequency or amplitude; its site, its spread, in units of the static stiffness there, and its correlation over "
-    "none, one or three octaves are integrated out",
+    "depends on frequency or amplitude; its site, its spread, in units of the static stiffness there, and whether each mode has "
+    "its own or they vary over one or three octaves about a level are integrated out",
     (0.3, 3.0, 30.0, 300.0),
     lambda model: None,
 )

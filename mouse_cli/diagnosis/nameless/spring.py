@@ -21,12 +21,14 @@ from mouse_cli.diagnosis.nameless._field import Smooth
 from mouse_cli.diagnosis.nameless._tied import tied
 from mouse_cli.diagnosis.nameless._weighed import weighed
 from mouse_cli.diagnosis.search.fit import Fit, fit
+from mouse_cli.diagnosis.search.optima import NEAR, within
 from mouse_cli.model.diagnosis import FORCE
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
 
 _FITTED, _FOLLOWED = 16, 3  # springs that are fitted at nodes, and of which ends beside theirs are tried
 _STEPS = 25  # of a fit
+_GAINED = 10.0  # by which the misfit may fall, at most, where ends are beside nodes
 _SIZES = 10.0 ** np.arange(-2.0, 2.5, 0.5)  # stiffnesses to begin from, in their unit
 
 
@@ -44,13 +46,14 @@ class _Tried:
         return self.fit.log_evidence + self.prior
 
 
-def best_spring(model: Reduced) -> Fit | None:
+def best_spring(model: Reduced, reach: float = np.inf) -> Fit | None:
     """The fit of the spring that the data make the most probable, all places and spreads integrated out.
 
     Springs are put in order by the shapes that they would make, whatever their stiffness; the first are fitted, then those that
-    end beside the best of them. None where no shapes tell them apart.
+    end beside the best of them. None where no shapes tell them apart. reach: misfit above which no fit matters.
     """
-    found = _beside(model, _at_nodes(model))
+    found = [each for each in _at_nodes(model) if each.fit.misfit < _GAINED * reach]
+    found = [each for each in _beside(model, found) if each.fit.misfit < reach]
     if not found:
         return None
     first = max(found, key=lambda each: each.weight)
@@ -97,8 +100,11 @@ def _joined(chosen: Iterable[tuple[Ends, int]]) -> Spring:
 
 def _fitted(model: Reduced, chosen: list[tuple[Spring, float, np.ndarray]]) -> list[_Tried]:
     """Those springs with their ln prior, from parameters z, at a spread of one."""
-    fits = [(_at(model, spring, 1.0, z), prior, spring) for spring, prior, z in chosen]
-    return [_Tried(*each) for each in fits if each[0] is not None]
+    found: list[_Tried] = []
+    for spring, prior, z in chosen:
+        one = _at(model, spring, 1.0, z, within([each.fit for each in found], NEAR) if found else np.inf)
+        found += [] if one is None else [_Tried(one, prior, spring)]
+    return found
 
 
 def _log_prior(every: list[Spring]) -> np.ndarray:
@@ -114,8 +120,8 @@ def _row(spring: Spring) -> np.ndarray:
     return np.array([1.0, -1.0])[: len(own)] @ ends.rows[list(own)]
 
 
-def _at(model: Reduced, spring: Spring, spread: float, z: np.ndarray) -> Fit | None:
-    """The fit of one spring with that spread, from parameters z (k,) and the stiffness that suits them."""
+def _at(model: Reduced, spring: Spring, spread: float, z: np.ndarray, reach: float = np.inf) -> Fit | None:
+    """The fit of one spring with that spread, from parameters z (k,) and the stiffness that suits them; reach: as above."""
     ends, own = spring[0].some(np.array(spring[1])), len(spring[1])
     unit = np.sqrt(lowest(model) * total_mass(model))
     unit *= extent(model.problem.mesh.coordinates) if ends.turns and model.problem.mesh is not None else 1.0
@@ -127,7 +133,7 @@ def _at(model: Reduced, spring: Spring, spread: float, z: np.ndarray) -> Fit | N
     starts = [at for at in starts if at is not None]
     if not starts:
         return None
-    return fit(trial, np.zeros(0), min(starts, key=lambda at: at.chi2 + at.x @ at.x).x, _STEPS)
+    return fit(trial, np.zeros(0), min(starts, key=lambda at: at.chi2 + at.x @ at.x).x, _STEPS, reach)
 
 
 def _extend(model: Reduced, ends: Ends, unit: float) -> Callable[..., Problem] | None:
