@@ -156,7 +156,7 @@ class EigenSolver:
     ) -> EigenSolution:
         """The solution with as many of its modes as can be told confirmed to be the lowest. Raises NotConverged."""
         for attempt in range(1, _TRIES):
-            found, s = _between(solution.eigenvalues)
+            found, s = _between(solution.eigenvalues, solution.zero)
             if not found:
                 return solution
             self._notice(f"counting the modes below mode {found + 1}")
@@ -227,9 +227,12 @@ def _solution(space: Krylov, sigma: float, count: int, tolerance: float) -> Eige
     return EigenSolution(sigma + own, space.known.X.T, 1e-8 * abs(sigma), space, sigma)
 
 
-def _between(eigenvalues: np.ndarray) -> tuple[int, float]:
-    """How many eigenvalues lie below s, and s: halfway in the highest gap that is wide enough to count from; 0 where none is."""
-    gap = np.diff(eigenvalues) > _PARTED * np.abs(eigenvalues[1:])
+def _between(eigenvalues: np.ndarray, zero: float) -> tuple[int, float]:
+    """How many eigenvalues lie below s, and s: halfway in the highest gap that is wide enough to count from; 0 where none is.
+
+    zero: below it an eigenvalue is that of a motion as a rigid body, and what parts it from others is rounding.
+    """
+    gap = (np.diff(eigenvalues) > _PARTED * np.abs(eigenvalues[1:])) & (eigenvalues[1:] > zero)
     if not gap.any():
         return 0, 0.0
     highest = int(np.flatnonzero(gap)[-1])

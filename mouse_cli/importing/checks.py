@@ -13,7 +13,8 @@ from mouse_cli.importing.separate import Parts
 
 SUM, FREQUENCY = 1e-10, 1e-6  # largest relative differences
 _DIGITS, _SD = 3e-14, 4.0  # sd of a number with 14 digits, relative; how many of what they leave open are no error
-_COUNT, _PER_MODE = 8, 5  # modes that are compared; degrees of freedom that ARPACK takes for each
+_COUNT, _PER_MODE = 8, 5  # elastic modes that are compared; degrees of freedom that ARPACK takes for each
+_OF_A_BODY = 6  # motions that it has where nothing holds it
 _RIGID = 1e-6  # eigenvalues below this share of the highest compared are motions of a rigid body
 
 
@@ -59,13 +60,16 @@ def held_rows(model: InputModel, parts: Parts) -> list[tuple[str, list[int]]]:
 
 def check(model: InputModel, parts: Parts, solver: Solver) -> Checked:
     """Raises DeckError (MD275) where parts do not sum to the whole, or frequencies differ."""
+    from scipy.sparse.csgraph import connected_components
+
     from mouse_cli.dynamics.solver import eigensolution
 
     held = {i for _, rows in held_rows(model, parts) for i in rows}
     kept = np.array([i for i in range(parts.whole.K.shape[0]) if i not in held])
-    count = max(1, min(_COUNT, len(kept) // _PER_MODE))
-    theirs = np.sort(solver.eigenvalues(frequencies(model, count), "frequencies with supports"))
     K, M = (each[kept][:, kept] for each in (parts.whole.K, parts.whole.M))
+    bodies = connected_components(K, directed=False, return_labels=False)
+    count = max(1, min(_COUNT + _OF_A_BODY * bodies, len(kept) // _PER_MODE))
+    theirs = np.sort(solver.eigenvalues(frequencies(model, count), "frequencies with supports"))
     solution = eigensolution(K, M, len(theirs))
     own, X = solution.eigenvalues[: len(theirs)], solution.shapes[:, : len(theirs)]
     elastic = (theirs > _RIGID * theirs[-1]) & (own > _RIGID * theirs[-1])

@@ -16,14 +16,15 @@ def check_rigid_modes(problem: Problem, solution: EigenSolution) -> None:
     rigid = solution.rigid(reference_eigenvalue(problem, solution.eigenvalues))
     named = [int(n) for n in problem.test.number if n <= rigid]
     if named:
+        least = f"{'at least ' if rigid == len(solution.eigenvalues) else ''}{rigid}"  # no flexural one was asked for
         raise DeckError(
             Diagnostic(
                 "MD330",
                 ERROR,
-                f"mode {named[0]} is named as measured, but the model has {rigid} rigid-body mode(s) and this is one of them",
+                f"mode {named[0]} is named as measured, but the model has {least} rigid-body mode(s) and this is one of them",
                 problem.place(f"mode {named[0]}"),
                 note=f"mode numbers count the rigid-body modes; the first flexural mode is number {rigid + 1}",
-                help=f"add {rigid} to the mode numbers of the test; or give the supports, if the structure is held",
+                help=f"add {least} to the mode numbers of the test; or give the supports, if the structure is held",
             )
         )
     if problem.run.legacy and rigid > _MOST_RIGID_1972:

@@ -15,6 +15,7 @@ from mouse_cli.formats.matrix_files import read_matrix
 from mouse_cli.importing.jobs import colours
 from mouse_cli.importing.read import read
 from mouse_cli.terms.assembly import assembly
+from mouse_cli.updating import forecast
 
 TOP = Path(__file__).resolve().parents[2]
 PLATE = TOP / "decks" / "plate_calculix" / "plate.inp"
@@ -142,6 +143,26 @@ def test_springs_masses_and_sets_within_sets(tmp_path):
     assert tie[i, i] == pytest.approx(1e8, rel=1e-5)  # of a difference of files with 14 digits
     assert by["DOT"].M.sum() == pytest.approx(300.0, rel=1e-6)
     assert "stiffness of TIE" in [p.name for p in problem.parameters]
+
+
+@solver
+def test_two_free_bodies(tmp_path):
+    """Twelve motions of rigid bodies come before the modes that are compared with the solver's, and before those of a run."""
+    at = [(x, y, z) for x0 in (0, 30) for x in range(x0, x0 + 25) for y in range(7) for z in (0.0, 0.7)]
+    number = {x: i for i, x in enumerate(at, 1)}
+    text, count = "*NODE\n" + "".join(f"{i}, {x}, {y}, {z}\n" for (x, y, z), i in number.items()), 0
+    for name, x0, long in (("A", 0, 24), ("B", 30, 24)):
+        text += f"*ELEMENT, TYPE=C3D8, ELSET={name}\n"
+        for x, y in ((x, y) for x in range(x0, x0 + long) for y in range(6)):
+            square, count = [(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)], count + 1
+            text += f"{count}, {', '.join(str(number[*p, z]) for z in (0.0, 0.7) for p in square)}\n"
+    text += "*MATERIAL, NAME=M\n*ELASTIC\n7.0e10, 0.3\n*DENSITY\n2700.\n"
+    text += "*SOLID SECTION, ELSET=A, MATERIAL=M\n*SOLID SECTION, ELSET=B, MATERIAL=M\n"
+    deck, said = imported(tmp_path, text)
+    assert re.search(r"^8 frequencies", said, re.M)
+    problem = read_deck(deck)
+    hz = forecast(problem, 20).frequencies_hz
+    assert hz[11] < 1e-3 * hz[12] and hz[13] == pytest.approx(hz[12], rel=1e-6)
 
 
 @solver

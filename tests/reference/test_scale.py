@@ -5,6 +5,7 @@ References: dense LAPACK on the same matrices, the closed form of a chain, a sum
 
 import numpy as np
 import pytest
+from scipy.linalg import eigh
 from scipy.sparse import block_diag, csr_array, diags_array, kron
 
 from mouse_cli._errors import NumericalError
@@ -103,6 +104,22 @@ def test_more_equal_modes_than_a_block_has_columns(bodies):
     solution = EigenSolver().solve(K, csr_array(diags_array(np.ones(150 * bodies))), 2 * bodies + 2, verify=True)
     exact = 4 * np.sin(np.arange(1, 4) * np.pi / 302) ** 2
     np.testing.assert_allclose(solution.eigenvalues, np.repeat(exact, bodies)[: 2 * bodies + 2], rtol=1e-8)
+
+
+@pytest.mark.parametrize("count", [5, 8, 14])
+def test_more_free_bodies_than_modes_are_asked_for(count):
+    """Twelve free chains: what parts their rigid-body modes from one another is rounding, and no sign of a mode that was missed."""
+    rng = np.random.default_rng(8)
+    chains = []
+    for k in rng.uniform(1e5, 1e9, (12, 149)):
+        chains.append(diags_array([-k, np.append(k, 0) + np.append(0, k), -k], offsets=[-1, 0, 1]))
+    K, M = csr_array(block_diag(chains)), csr_array(diags_array(rng.uniform(0.1, 10, 1800)))
+    masses = [np.diag(m) for m in np.split(M.diagonal(), 12)]
+    each = [eigh(k.toarray(), m, eigvals_only=True)[1:] for k, m in zip(chains, masses, strict=True)]
+    exact = np.sort(np.concatenate(each))
+    found = EigenSolver().solve(K, M, count, verify=True).eigenvalues
+    np.testing.assert_allclose(found[12:], exact[: max(count - 12, 0)], rtol=1e-7)
+    assert np.abs(found[:12]).max() < 1e-6 * exact[0]
 
 
 @pytest.mark.parametrize("massive", [7, 60])

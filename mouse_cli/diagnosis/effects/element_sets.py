@@ -8,7 +8,7 @@ from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.extend.matrices import Entries, with_entries, with_part_left
 from mouse_cli.diagnosis.extend.points import found as new_parameter
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.likelihoods.modal.sets import following, within
+from mouse_cli.diagnosis.likelihoods.modal.sets import sets_in
 from mouse_cli.model.arrays import Matrix, upper_triangle
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.held import ElementGroup
@@ -99,11 +99,12 @@ def _sets(model: Reduced) -> list[_Set]:
     """All sets; a parameter such as E of a material moves what its sets give, and a set that is missing goes with it."""
     of_each = []
     for name in "KM":
-        slopes, factors = following(model, name)
-        stored = [within(model.problem, getattr(group, name)) for group in model.problem.groups]
+        sets = sets_in(model, name)
         of_each.append([
-            None if each is None else _Part(each, factors[i] * model.project(each), slopes[:, i])
-            for i, each in enumerate(stored)
+            None if stored is None else _Part(stored, own if factor == 1 else factor * own, slopes)
+            for stored, own, factor, slopes in zip(
+                sets.stored, sets.projected, sets.factors(model), sets.slopes.T, strict=True
+            )
         ])  # fmt: skip
     return list(zip(model.problem.groups, *of_each, strict=True))
 

@@ -31,7 +31,7 @@ def rivals(base: Reduced, start: Fit, kind: type[Model] = Model, reach: float = 
     reach: misfit above which no fit matters.
     """
     fits = [_integrated(base, start, field, kind, reach) for field in _spreads(base)]
-    local = [best_law(base), best_spring(base, reach)] if kind is Model else []
+    local = [best_law(base, reach), best_spring(base, reach)] if kind is Model else []
     return [one for one in (*fits, *local) if one is not None]
 
 

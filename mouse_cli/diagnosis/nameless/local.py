@@ -32,8 +32,10 @@ _SMOOTH = 1e-3  # share of the largest singular value below which a start follow
 _RIGID = 1e-6  # share of the eigenvalue of the highest measured mode below which a mode is rigid
 
 
-def best_law(model: Reduced) -> Fit | None:
+def best_law(model: Reduced, reach: float = np.inf) -> Fit | None:
     """The law at the place where the shapes by themselves put one force, all places and spreads integrated out.
+
+    reach: misfit above which no fit matters.
 
     The evidence at the best place is Laplace's, of the fit; that of another differs from it by what its shapes do. None where the
     test has fewer than three modes with shapes, or shapes that tell no place.
@@ -45,14 +47,14 @@ def best_law(model: Reduced) -> Fit | None:
     place = int(np.argmax(weight))
     places = float(np.logaddexp.reduce(weight) - weight[place] + log_prior(found.channels)[place])
     grid = list(product(NAMELESS.spreads, _OCTAVES))
-    fits = [one for one in (_at(model, found, place, *each) for each in grid) if one is not None]
+    fits = [one for one in (_at(model, found, place, *each, reach) for each in grid) if one is not None]
     if not fits:
         return None
     total = np.logaddexp.reduce([one.log_evidence for one in fits]) - np.log(len(grid))
     return weighed(fits, [one.log_evidence for one in fits], total + places)
 
 
-def _at(model: Reduced, found: Scores, place: int, spread: float, octaves: float) -> Fit | None:
+def _at(model: Reduced, found: Scores, place: int, spread: float, octaves: float, reach: float) -> Fit | None:
     """The fit of a law at one place, its values in units of the static stiffness there."""
     row, z = found.rows[place], found.matches.z[place]
     number = _numbers(model)
@@ -70,7 +72,7 @@ def _at(model: Reduced, found: Scores, place: int, spread: float, octaves: float
     base = Lawful(**own, nameless=field, of_field=none, row=np.sqrt(unit) * row, numbers=number)
     known = np.isin(number, model.data.test.number)
     start = np.linalg.lstsq(spread * P[known], _implied(base, z), rcond=_SMOOTH)[0]
-    return fit(OneLaw(base), np.zeros(0), np.concatenate([z, start]), _STEPS)
+    return fit(OneLaw(base), np.zeros(0), np.concatenate([z, start]), _STEPS, reach)
 
 
 def _about_a_level(at: np.ndarray, octaves: float) -> np.ndarray:
