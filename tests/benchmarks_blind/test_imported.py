@@ -8,11 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks.blind.imported.__main__ import visible
+from benchmarks.blind.imported.__main__ import MODES, delivered, visible
 from benchmarks.blind.imported.parts import Concealed
 from benchmarks.blind.imported.scoring import ALARM, CLEAN, NAMED, OPEN, WRONG, outcome
 from benchmarks.blind.imported.structures import STRUCTURES
-from mouse_cli import read_deck
+from benchmarks.blind.imported.trip import predicted
+from mouse_cli import read_deck, write_deck
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.mechanisms import registry
 
 TOP = Path(__file__).resolve().parents[2]
 
@@ -32,10 +35,24 @@ def test_a_deck_of_the_panel_says_nothing_of_the_missing_stiffener(tmp_path):
 @pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (ccx) is not on the path")
 def test_a_heavier_pad_on_the_ground_is_not_to_be_seen_and_a_softer_one_is():
     """Its nodes are held or nearly so: what it weighs moves nothing."""
-    mesh = STRUCTURES["bracket"](np.random.default_rng(0))
+    mesh = STRUCTURES["bracket"].build(np.random.default_rng(0))
     seen = {kind: visible(mesh, Concealed(kind, "PAD_1", size, {"ALU": 1.01})) for kind, size in
             {"control": 1.0, "heavier": 2.0, "softer": 0.5}.items()}  # fmt: skip
     assert seen["control"] < 1e-6 < seen["heavier"] < 1 < 100 < seen["softer"]
+
+
+@pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (ccx) is not on the path")
+def test_the_exported_job_predicts_modes_that_were_not_fitted(tmp_path):
+    """One of four stiffeners of one material is softer; its share, put into the deck as a diagnosis does, fitted, back to ccx."""
+    rng = np.random.default_rng(4)
+    mesh, change = STRUCTURES["panel"].build(rng), Concealed("softer", "STIFFENER_3", 0.4, {"ALU": 1.02, "STEEL": 1.0})
+    deck = delivered(tmp_path, "panel", mesh, change, rng)
+    problem = read_deck(deck)
+    recipes = reduced(problem, problem.prior.mean).recipes(registry()["stiffness-loss"])
+    recipe = next(each for each in recipes if each.site(np.ones(1)).text == "element set STIFFENER_3")
+    write_deck(recipe.extend(problem, np.array([0.5])), tmp_path / "extended.yaml")
+    before, after = predicted(tmp_path / "panel.inp", tmp_path / "extended.yaml", mesh, change, MODES)
+    assert before > 0.01 and after < 0.002  # at 0.1 % accuracy of the fitted ones
 
 
 @pytest.mark.parametrize(
@@ -51,6 +68,6 @@ def test_a_heavier_pad_on_the_ground_is_not_to_be_seen_and_a_softer_one_is():
     ],
 )
 def test_an_answer_is_right_only_with_the_name_of_what_was_changed(kind, name, said, text, result):
-    mesh = STRUCTURES["box"](np.random.default_rng(0))
+    mesh = STRUCTURES["box"].build(np.random.default_rng(0))
     document = {"verdict": {"kind": said, "sites": [{"text": text, "position": None}] if text else []}}
     assert outcome(Concealed(kind, name), document, mesh)[0] == result
