@@ -85,11 +85,7 @@ def judge(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
     if kind == UNKNOWN or best is None:
         return _unknown(ranking, model, best, proof, (), reasons)
     if gain < -ODDS:
-        return _next_rival(ranking, model, best, proof, reasons)
-    stands = _against_field(ranking, model, best, gain)
-    if stands < STAYS:
-        return _unknown(ranking, model, best, proof, (), (*reasons, _OVERTAKEN.format(group(best))))
-    kind = ONE_OF if stands < SURE else kind
+        return _unknown(ranking, model, best, proof, (group(best),), reasons)
     open_ = kind == NAMED and ranking.groups[0][1] < SURE
     if kind == NAMED and not open_ and placed(best) < SURE:
         return Verdict(ONE_OF, best, proof, reasons=reasons, placed=False)
@@ -109,33 +105,6 @@ def _predicts(ranking: Ranking, proof: HeldOut | None) -> bool:
     """
     refuted = proof is not None and proof.kind == BY_DECK and proof.baseline.p < GATE
     return refuted and _gain(proof) / ranking.noise_scale > ODDS + float(np.log(len(ranking.named)))
-
-
-def _against_field(ranking: Ranking, model: Reduced, best: Fit, gain: float) -> float:
-    """Probability of a name against the leading field where the data that the deck holds out speak for that; else 1.
-
-    Both have their probabilities given the data that were fitted; what they predict of the others multiplies these.
-    """
-    field, p = next((one for one in ranking.fits if one.nameless), None), dict(ranking.groups)
-    if field is None or group(field) not in p:
-        return 1.0
-    more = _gain(held_out(model, ranking.baseline, field)) - gain if gain else 0.0
-    kept = p[group(best)] * np.exp(-max(more, 0.0))
-    return 1.0 if more <= ODDS else float(kept / (kept + p[group(field)]))
-
-
-def _next_rival(ranking: Ranking, model: Reduced, best: Fit, proof: HeldOut, reasons: tuple[str, ...]) -> Verdict:
-    """A mechanism that is refuted by held-out data gives its place to the next rival that is not."""
-    struck = [group(best)]
-    for name in (name for name, p in ranking.groups if p > RIVAL and name not in ("none", *struck)):
-        other = next(one for one in ranking.fits if group(one) == name)
-        if unnamed(other):
-            continue
-        again = held_out(model, ranking.baseline, other)
-        if not _gain(again) < -ODDS:
-            return Verdict(ONE_OF, other, again, tuple(struck), reasons=reasons)
-        struck.append(name)
-    return _unknown(ranking, model, best, proof, tuple(struck), reasons)
 
 
 def _unknown(ranking: Ranking, model: Reduced, best: Fit | None, proof, struck: tuple, reasons: tuple) -> Verdict:
@@ -196,10 +165,6 @@ def decide(ranking: Ranking) -> tuple[str, tuple[str, ...]]:
 _FAR = (
     "With this mechanism {} of the deck would have to be wrong by more than 5 of its prior standard deviations: either the prior "
     "is much too narrow, or the physics is another."
-)
-_OVERTAKEN = (
-    "By the fitted data, {} is more probable than a change without a name. The held-out data reverse that: it predicts them so "
-    "much worse that it is the less probable of the two."
 )
 _OWN_MODE = (
     "This mechanism has a mode of its own at {}, within the measured band, which the test does not have: look for it there; "

@@ -159,6 +159,13 @@ def by_deck(model: Reduced) -> bool:
     return held is not None and bool(held.altered or len(held.modes) or len(held.sensors))
 
 
+def log_density(one: Fit) -> float | None:
+    """ln of how probable a fit makes all that its deck holds out; None where that is nothing, or a part is unphysical."""
+    held = one.model.base.problem.hold_out
+    parts = [] if held is None else [part for _, part in of_cases(held, one)]
+    return sum(part.density for part in parts) if parts and None not in parts else None
+
+
 def of_cases(held: HoldOut, one: Fit, noise: float = 1.0) -> list[tuple[str, Prediction | None]]:
     """Title of each case that was held out, and what the model of `one` says of it; noise: as in `predict`."""
     base, found = one.model.base, []

@@ -1,0 +1,39 @@
+"""What the deck holds out as data too: explanations that the fitted data leave open, by how well they predict the rest.
+
+p(i | fitted, held out) is in proportion to p(i | fitted) p(held out | i, fitted).
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from mouse_cli.diagnosis.gates import LIKELY, ODDS
+from mouse_cli.diagnosis.search.rank import Ranking
+from mouse_cli.diagnosis.validate.held_out import log_density
+
+_ASKED = 1e-3  # probability from which on, but for the leading one without a name, an explanation must predict as well as the best
+
+
+def informed(ranking: Ranking) -> Ranking:
+    """The ranking with the probabilities of its mechanisms, all together as before, by all data.
+
+    What predicts no worse than the best by ODDS predicts as well: the theory of both errs by as much.
+    """
+    rivals = np.array([one is not ranking.baseline for one in ranking.fits])
+    wanted = rivals & (ranking.probabilities > _ASKED)
+    wanted[[i for i, one in enumerate(ranking.fits) if one.nameless][:1]] = True
+    asked = np.flatnonzero(wanted).tolist()
+    if len(asked) < 2 or dict(ranking.groups).get("none", 0.0) > LIKELY:
+        return ranking
+    told = [log_density(ranking.fits[i]) for i in asked]
+    if None in told:
+        return ranking
+    behind = np.max(told) - np.array(told)
+    p = ranking.probabilities.copy()
+    p[asked] *= np.exp(-np.where(behind > ODDS, behind, 0.0) / ranking.noise_scale)
+    p[rivals] *= ranking.probabilities[rivals].sum() / p[rivals].sum()
+    order = np.argsort(-p, kind="stable")
+    fits = tuple(ranking.fits[i] for i in order)
+    return replace(
+        ranking, fits=fits, probabilities=p[order], stated=ranking.stated[order], log_odds=ranking.log_odds[order]
+    )
