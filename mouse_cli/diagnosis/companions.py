@@ -17,7 +17,7 @@ from mouse_cli.diagnosis.likelihoods.modal.scales import span
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.rank import Ranking
 from mouse_cli.model.groups import joined, shares
-from mouse_cli.model.site import Site
+from mouse_cli.model.site import Site, gap
 
 Mechanism = tuple[str, str, Site]  # physics, group, site
 
@@ -120,16 +120,3 @@ def _matched(wanted: Sequence[Mechanism], among: Sequence[Mechanism], reach: flo
             return None
         taken += (min(gaps)[1],)
     return taken
-
-
-def gap(one: Site, other: Site) -> float:
-    """Distance between two sites in m; 0 where they are the same, and infinite where two have no one place, or join other nodes.
-
-    What is spread over elements, as a bed is, has no one place: it is where any of them are.
-    """
-    if one.kind == other.kind == "element" and (one.position is None or other.position is None):
-        return 0.0 if set(one.ids) & set(other.ids) else float("inf")
-    joining = one.kind == other.kind == "node" and max(len(one.ids), len(other.ids)) > 1
-    if joining or one.position is None or other.position is None:
-        return 0.0 if (one.kind, one.ids) == (other.kind, other.ids) else float("inf")
-    return float(np.linalg.norm(np.subtract(one.position, other.position)))

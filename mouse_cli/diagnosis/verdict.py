@@ -24,7 +24,6 @@ from mouse_cli.model.diagnosis import (
     Explanation,
     HeldOut,
     Rest,
-    Site,
     Size,
 )
 from mouse_cli.model.groups import leading
@@ -211,7 +210,7 @@ def explanation(one: Fit, probability: float = 0.0) -> Explanation:
     causes = _causes(one)
     theta = one.model.base.parameters(one.point.x[: one.model.k])
     p = upper_tail(one.misfit, max(one.dof, 1))
-    elsewhere = tuple((_sites(other), share) for other, share in one.elsewhere if share > RIVAL)
+    elsewhere = tuple((other.sites, share) for other, share in one.elsewhere if share > RIVAL)
     return Explanation(causes, one.misfit, one.dof, p, one.log_evidence, theta, probability, elsewhere)
 
 
@@ -230,13 +229,9 @@ def _causes(one: Fit) -> tuple[Cause, ...]:
     )
 
 
-def _sites(one: Fit) -> tuple[Site, ...]:
-    return tuple(r.site(r.values(one.c[own])) for r, own in zip(one.recipes, one.model.own, strict=True))
-
-
 def acting(one: Fit) -> str:
     """Where the mechanisms of a fit act, in words."""
-    return " + ".join(site.text or f"{site.kind} {', '.join(map(str, site.ids))}" for site in _sites(one))
+    return " + ".join(site.text or f"{site.kind} {', '.join(map(str, site.ids))}" for site in one.sites)
 
 
 def _cause(recipe, c: np.ndarray, sd: np.ndarray, units: Units) -> Cause:

@@ -1,6 +1,7 @@
 """Where physics acts."""
 
 from dataclasses import dataclass
+from math import dist
 
 
 @dataclass(frozen=True)
@@ -17,3 +18,16 @@ class Site:
 
 
 EVERYWHERE = Site("structure", text="the whole structure")
+
+
+def gap(one: Site, other: Site) -> float:
+    """Distance between two sites in m; 0 where they are the same, and infinite where two have no one place, or join other nodes.
+
+    What is spread over elements, as a bed is, has no one place: it is where any of them are.
+    """
+    if one.kind == other.kind == "element" and (one.position is None or other.position is None):
+        return 0.0 if set(one.ids) & set(other.ids) else float("inf")
+    joining = one.kind == other.kind == "node" and max(len(one.ids), len(other.ids)) > 1
+    if joining or one.position is None or other.position is None:
+        return 0.0 if (one.kind, one.ids) == (other.kind, other.ids) else float("inf")
+    return dist(one.position, other.position)

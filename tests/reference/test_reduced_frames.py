@@ -5,7 +5,6 @@ import pytest
 
 from benchmarks.blind.case import generator
 from benchmarks.blind.space import frames, opensees
-from mouse_cli.diagnosis.companions import gap
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import WHOLE
@@ -14,6 +13,7 @@ from mouse_cli.diagnosis.mechanisms.taper import CANDIDATE as TAPER
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.model.diagnosis import Site
+from mouse_cli.model.site import gap
 
 TEST = "test:\n  modes: {{number: [1, 2, 3], frequency: [{0}, {1}, {2}], frequency_sd: 0.2 %}}\n"
 

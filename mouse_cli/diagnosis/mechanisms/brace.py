@@ -26,11 +26,10 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
         return []
     scale = lowest(model) * total_mass(model)
     k = Unknown("stiffness", "N/m", 1e-3 * scale, 1e3 * scale)
-    log_prior = -float(np.log(pairs.likely))
     left = pairs.left(model.eigenvalues)
     return [
-        replace(_recipe(candidate, k, key, (b, R), site_of(model, key), log_prior), starts=_starts(model, key))
-        for key, b, R in zip(pairs.keys, pairs.rows, left, strict=True)
+        replace(_recipe(candidate, k, key, (b, R), site_of(model, key), float(prior)), starts=_starts(model, key))
+        for key, b, R, prior in zip(pairs.keys, pairs.rows, left, pairs.log_prior, strict=True)
     ]
 
 

@@ -14,7 +14,7 @@ from mouse_cli.diagnosis.search.study import BRIEF, MOVED, Study, weighed_beside
 
 _STARTS = 3  # fits of a candidate to the end, from different optima
 _SLACK = 1.5  # times the misfit that matters in all coordinates: what matters in few
-_TIED, _TIES = 6.0, 8  # misfit above the best up to which other places are as good, and how many of them are fitted
+_TIED, _TIES = 6.0, 12  # misfit above the best up to which other places are as good, and how many of them are fitted
 _SETTLE = 3  # times that causes are weighed anew
 _OF_SETS = (
     1e-5  # share of parameters within which what element sets give is alike: of a missing one nothing must be left

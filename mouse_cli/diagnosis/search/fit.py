@@ -14,6 +14,7 @@ from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.evidence import capped, laplace
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
+from mouse_cli.model.site import Site
 
 _SMALL = 1e-4  # change of J, relative to 1 + its share of rounding, that ends the search
 _TRIFLE = 1e-5 * _SMALL  # what a step promises likewise, below which no shorter one is tried: rounding undoes it
@@ -43,6 +44,12 @@ class End:
     def c(self) -> np.ndarray:
         """Coordinates of the causes."""
         return self.point.x[self.model.k :]
+
+    @property
+    def sites(self) -> tuple[Site, ...]:
+        """Where they act."""
+        pairs = zip(self.recipes, self.model.own, strict=True)
+        return tuple(recipe.site(recipe.values(self.c[own])) for recipe, own in pairs)
 
     @property
     def groups(self) -> list[str]:

@@ -2,8 +2,11 @@
 
 import numpy as np
 
+from mouse_cli.diagnosis.gates import SAME_SITE
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.likelihoods.modal.scales import span
 from mouse_cli.diagnosis.search.fit import End
+from mouse_cli.model.site import gap
 
 _EACH = 4  # starts at least from one recipe
 _APART = 0.08  # of a range: between starts of one recipe
@@ -30,8 +33,10 @@ def cost(one: End) -> float:
 
 
 def _alike(one: End, other: End) -> bool:
-    """Whether both predict the same, as two nodes through the thickness of a plate do."""
-    return bool(np.sum((one.point.residual - other.point.residual) ** 2) < _TOLD * (1 + 1e-2 * one.misfit))
+    """Whether both are at one place and predict the same, as two nodes through the thickness of a plate do."""
+    reach = SAME_SITE * span(one.model.base)
+    near = all(gap(a, b) <= reach for a, b in zip(one.sites, other.sites, strict=True))
+    return near and bool(np.sum((one.point.residual - other.point.residual) ** 2) < _TOLD * (1 + 1e-2 * one.misfit))
 
 
 def leading(led: list, new: tuple[int, np.ndarray, End]) -> list:

@@ -26,13 +26,13 @@ _EACH = 256  # pairs worked on at once
 class Pairs:
     """keys (c, 3): nodes (indices), or degrees of freedom of a model of matrices, and a direction (0 to 5) or ALONG.
 
-    rows (c, r): b, the motion of the second relative to the first in that direction. likely: of how many these are a choice.
-    flexibility (c,): b'(K - shift M)^-1 b of all degrees of freedom.
+    rows (c, r): b, the motion of the second relative to the first in that direction. log_prior (c,): ln of the share of
+    each in all that may act. flexibility (c,): b'(K - shift M)^-1 b of all degrees of freedom.
     """
 
     keys: np.ndarray
     rows: np.ndarray
-    likely: int
+    log_prior: np.ndarray
     flexibility: np.ndarray
     shift: float
 
@@ -41,7 +41,7 @@ class Pairs:
 
     def only(self, which: np.ndarray) -> "Pairs":
         """Some of them."""
-        return Pairs(self.keys[which], self.rows[which], self.likely, self.flexibility[which], self.shift)
+        return Pairs(self.keys[which], self.rows[which], self.log_prior[which], self.flexibility[which], self.shift)
 
     def left(self, eigenvalues: np.ndarray) -> np.ndarray:
         """R (c,): what the lowest coordinates, of these eigenvalues (r,), leave of the flexibility, see `left_out.py`."""
@@ -77,7 +77,17 @@ def pairs(model: Reduced) -> Pairs:
     size = np.abs(rows[:, : _count(model)]).max(axis=1, initial=0.0)
     kept = np.flatnonzero(size > _STILL * size.max(initial=0.0))
     keys, rows = keys[kept], rows[kept]
-    return Pairs(keys, rows, len(kept), *_flexibility(model, keys, rows))
+    return Pairs(keys, rows, _log_prior(model, keys), *_flexibility(model, keys, rows))
+
+
+def _log_prior(model: Reduced, keys: np.ndarray) -> np.ndarray:
+    """See `Pairs`: even over the logarithm of how many pairs are no longer, for braces cross a panel, and seldom a building."""
+    if model.motion is None or not len(keys):
+        return np.full(len(keys), -np.log(max(len(keys), 1)))
+    xyz = model.problem.mesh.coordinates
+    length = np.linalg.norm(xyz[keys[:, 1]] - xyz[keys[:, 0]], axis=1)
+    shorter = np.searchsorted(np.sort(length), length * (1 + _SIGHT), side="right")
+    return -np.log(shorter) - np.log((1 / shorter).sum())
 
 
 def _flexibility(model: Reduced, keys: np.ndarray, rows: np.ndarray) -> tuple[np.ndarray, float]:
