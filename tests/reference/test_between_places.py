@@ -1,6 +1,7 @@
 """Springs between two places and masses off their nodes, against closed forms; and the first look at pairs of places."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,10 +12,12 @@ from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.localise.force import scores
 from mouse_cli.diagnosis.localise.ties import ties
 from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.diagnosis.search.starts import leading
 from mouse_cli.diagnosis.sites.pairs import MOST, pairs
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.model.arrays import dense
+from mouse_cli.model.site import Site
 from mouse_cli.terms.assembly import assembly
 
 H, W, EI, KG = 3.0, 4.0, 2.0, 5.0
@@ -238,3 +241,31 @@ def test_a_brace_makes_the_shapes_as_no_other_force_does():
 
 def test_a_beam_has_no_braces():
     assert not len(pairs(model(TIP % 1.0)))
+
+
+def test_near_pairs_are_more_probable_beforehand():
+    """All together one; each by the inverse of how many are no longer: uniform in the logarithm of that number."""
+    found = model(tower())
+    chosen = pairs(found)
+    xyz = found.problem.mesh.coordinates
+    length = np.linalg.norm(xyz[chosen.keys[:, 0]] - xyz[chosen.keys[:, 1]], axis=1)
+    p = np.exp(chosen.log_prior)
+    ranks = np.array([(length <= own + 1e-6).sum() for own in length])
+    assert p.sum() == pytest.approx(1.0)
+    assert p * ranks == pytest.approx(p[0] * ranks[0])
+
+
+def test_two_places_that_predict_the_same_are_two():
+    """Braces of neighbouring panels, and two nodes through the thickness of a plate: what cannot be told apart is listed."""
+    flat = SimpleNamespace(structure=SimpleNamespace(geometry=SimpleNamespace(coordinates=np.eye(3) * 10)))
+
+    def end(*sites: Site) -> SimpleNamespace:
+        point, base = SimpleNamespace(residual=np.ones(4)), SimpleNamespace(problem=flat)
+        return SimpleNamespace(sites=sites, misfit=4.0, point=point, recipes=(), model=SimpleNamespace(base=base))
+
+    node = lambda x: Site("node", (int(1000 * x),), (x, 0.0, 0.0))
+    brace = lambda *ids: Site("node", ids, (1.0, 0.0, 0.0))
+    kept = lambda a, b: len(leading(leading([], (0, None, end(a))), (1, None, end(b))))
+    assert kept(node(1.0), node(1.1)) == 1
+    assert kept(node(1.0), node(3.0)) == 2
+    assert kept(brace(1, 5), brace(2, 4)) == 2
