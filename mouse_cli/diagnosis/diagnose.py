@@ -76,9 +76,8 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices, recordings
     kept = related(problem, solver)
     model, told = _model(problem, solver)
     housed(model, choices.candidates)
-    enough = 0.0 if model.places is None else ENOUGH
+    measured, enough = given.test is not None, 0.0 if model.places is None else ENOUGH
     result, remarks = _update(problem, kept, notice, _guess(model), enough, solver)
-    measured = given.test is not None
     hear = lambda found: recordings(ranked_by_frf(found, measured))
     ranking = informed(rank(model, _known(choices), choices.causes, hear))
     verdict, as_it_is = judge(ranking, result.rejected and measured, model), ranking.baseline

@@ -45,6 +45,7 @@ def proofs(monkeypatch):
         return HeldOut(BY_DECK, ("mode 7",), np.ones(1), score(0.0), more)
 
     monkeypatch.setattr(decided, "held_out", proof)
+    monkeypatch.setattr(decided, "averaged", lambda model, ranking: None)
     monkeypatch.setattr(asked, "log_density", lambda one: gains.get(decided.group(one), 0.0) if gains else None)
     monkeypatch.setattr(decided, "unmeasured_hz", lambda one: ())
     return gains

@@ -41,7 +41,8 @@ class Ranking:
 
     log_odds (f,): ln of how much better each predicts the data than the model as it is, noise and errors of the test integrated
     out; noise_scale: s^2 of the leading one. doubts: how probable errors of the test are, whatever the mechanism; stated (f,):
-    that of none, for each fit. untried: candidates that could not be tried, and why.
+    that of none, for each fit. untried: candidates that could not be tried, and why. by_fitted (f,): probabilities without what the
+    deck holds out, where that is in them.
     """
 
     baseline: Fit
@@ -52,6 +53,7 @@ class Ranking:
     stated: np.ndarray
     log_odds: np.ndarray
     untried: tuple[Untried, ...] = ()
+    by_fitted: np.ndarray | None = None
 
     @property
     def groups(self) -> tuple[tuple[str, float], ...]:

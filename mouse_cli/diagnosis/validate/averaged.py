@@ -30,9 +30,12 @@ class Member:
 
 
 def members(ranking: Ranking) -> list[Member]:
-    """The most probable fits, those of one rival at other spreads, lengths and sites each for itself; without none."""
+    """The fits most probable by the fitted data, those of one rival at other spreads, lengths and sites each for itself; without
+    none.
+    """
     every: list[tuple[Fit, float]] = []
-    for one, p in zip(ranking.fits, ranking.probabilities.tolist(), strict=True):
+    by_fitted = ranking.probabilities if ranking.by_fitted is None else ranking.by_fitted
+    for one, p in zip(ranking.fits, by_fitted.tolist(), strict=True):
         others = one.elsewhere if one.nameless else ()
         every += [(one, p * (1 - sum(share for _, share in others))), *((each, p * share) for each, share in others)]
     every = [each for each in every if each[0] is not ranking.baseline]

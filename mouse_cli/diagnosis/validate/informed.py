@@ -33,7 +33,11 @@ def informed(ranking: Ranking) -> Ranking:
     p[asked] *= np.exp(-np.where(behind > ODDS, behind, 0.0) / ranking.noise_scale)
     p[rivals] *= ranking.probabilities[rivals].sum() / p[rivals].sum()
     order = np.argsort(-p, kind="stable")
-    fits = tuple(ranking.fits[i] for i in order)
     return replace(
-        ranking, fits=fits, probabilities=p[order], stated=ranking.stated[order], log_odds=ranking.log_odds[order]
+        ranking,
+        fits=tuple(ranking.fits[i] for i in order),
+        probabilities=p[order],
+        stated=ranking.stated[order],
+        log_odds=ranking.log_odds[order],
+        by_fitted=ranking.probabilities[order],
     )
