@@ -19,7 +19,12 @@ DIAGNOSES = {
     "one-of": "three_storey_building",
     "drawn": "chain_functions",
 }
-OTHERS = {"compared": ("compare", "tube_frame"), "foreseen": ("modes", "three_storey_building")}
+OTHERS = {
+    "compared": ("compare", "tube_frame"),
+    "foreseen": ("modes", "three_storey_building"),
+    "correlated": ("correlate", "cantilever"),
+    "identified": ("identify", "chain_functions"),
+}
 NAMES = (*RUNS, *DIAGNOSES, "arrangements", *OTHERS)
 STRUCTURES = (
     "frequencies",

@@ -6,9 +6,10 @@ from importlib.resources import files
 
 from mouse_cli.page.html import Markup, join, tag
 from mouse_cli.page.section import sections
+from mouse_cli.page.sections._unjudged import UNJUDGED
 from mouse_cli.report.reading import ANSWERS, Part
 
-DOCUMENTS = (*ANSWERS, "mouse.comparison/1", "mouse.modes/1")  # what pages are made of
+DOCUMENTS = (*ANSWERS, *UNJUDGED)  # what pages are made of
 
 
 def page(document: Part) -> str:

@@ -3,8 +3,9 @@
 from collections.abc import Iterator
 
 from mouse_cli.page.html import Markup, tag
-from mouse_cli.page.numbers import probable, shown
+from mouse_cli.page.numbers import probable
 from mouse_cli.page.section import PageSection
+from mouse_cli.page.sections._unjudged import UNJUDGED
 from mouse_cli.page.sections._words import listed, paragraphs, place, places
 from mouse_cli.page.sections.causes import size
 from mouse_cli.page.tables import Cell, table
@@ -26,10 +27,6 @@ _GOOD, _BAD = ("good", "✓ Answer found and trusted"), ("bad", "✗ No answer")
 _DOUBTED = {
     True: ("doubt", "! Do not trust the model as it is"),
     False: ("doubt", "! Finished, but do not trust the answer"),
-}
-_UNJUDGED = {
-    "mouse.modes/1": ("good", "The model as it is"),
-    "mouse.comparison/1": ("good", "Methods of updating compared"),
 }
 _TESTS = (
     ("innovation", "prior model against the data"),
@@ -65,38 +62,17 @@ def _size(document: Part) -> str:
 
 def mark(document: Part) -> tuple[str, str]:
     """Class and words of the mark that stands before all."""
-    if document.text("schema") in _UNJUDGED:
-        return _UNJUDGED[document.text("schema")]
+    if document.text("schema") in UNJUDGED:
+        return UNJUDGED[document.text("schema")].mark(document)
     return {0: _GOOD, 1: _DOUBTED[bool(document.part("verdict"))]}.get(document.number("exit_code"), _BAD)
 
 
 def sentence(document: Part) -> str:
     """What was found."""
     found, schema = document.part("verdict"), document.text("schema")
-    if schema in _UNJUDGED:
-        return _compared(document) if document.parts("methods") else _predicted(document)
+    if schema in UNJUDGED:
+        return UNJUDGED[schema].sentence(document)
     return _told(document, found) if found else _run(document)
-
-
-def _compared(document: Part) -> str:
-    """Which method predicts best what it was not given; none where nothing was held out."""
-    errors: dict[str, float] = {}
-    for one in document.parts("methods"):
-        kept = [c.number("rms_percent") for c in one.parts("configurations") if not c.flag("fitted")]
-        if kept and None not in kept:
-            errors[one.text("method")] = max(kept)
-    count = len(document.parts("methods"))
-    if not errors:
-        return f"{count} methods side by side; nothing was held out to judge them by."
-    best = min(errors, key=errors.__getitem__)
-    return f"Of {count} methods {best} predicts best what it was not given: {shown(errors[best], 3)} % rms at most."
-
-
-def _predicted(document: Part) -> str:
-    hz = [x for mode in document.parts("modes") if (x := mode.number("hz"))]
-    if not hz:
-        return "No natural frequency."
-    return f"{len(hz)} natural frequencies from {shown(min(hz), 4)} to {shown(max(hz), 4)} Hz, before any test."
 
 
 def form(document: Part) -> str:
