@@ -12,6 +12,7 @@ from scipy.optimize import brentq
 import mouse_cli
 from benchmarks.blind.case import generator
 from benchmarks.blind.space import frames, opensees
+from mouse_cli.diagnosis.effects.restraints import turns
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import WHOLE
@@ -72,6 +73,14 @@ def test_a_pin_that_resists_turning_is_named_with_its_stiffness(tmp_path):
     (size,) = cause.sizes
     assert cause.site.ids == (1,)
     assert size.value == pytest.approx(C * E * I / L, abs=3 * size.sd) and size.sd < 0.15 * size.value
+
+
+def test_a_direction_that_a_deck_leaves_out_makes_no_supports():
+    """All nodes are held along the beam: those between the pins stand on nothing that may resist their turns."""
+    text = beam().replace("supports: {1", f"supports: {{2-{ELEMENTS}: [TX], 1")
+    problem = assemble(yaml_deck.read(text, "beam.yaml"))
+    found = turns(reduced(problem, problem.prior.mean))
+    assert sorted(node for node, _ in found.free) == [0, ELEMENTS]
 
 
 def test_resisting_feet_of_a_reduced_frame_beside_opensees():

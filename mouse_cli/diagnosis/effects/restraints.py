@@ -16,6 +16,7 @@ from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.attached import flexibility
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.geometry import DIRECTIONS
+from mouse_cli.model.mesh import Mesh
 from mouse_cli.model.problem import Problem
 
 _TURNED = 0.02  # share of the largest turn of a support in a measured mode below which one takes no part
@@ -54,7 +55,9 @@ def turns(model: Reduced) -> Turns | None:
         return None
     held = {(node, d) for node, d in mesh.supports.tolist()}
     count = min(model.r, int(model.data.test.number.max()) + 1)
-    free = [(node, d) for node in sorted({node for node, _ in held}) for d in (3, 4, 5)
+    everywhere = _everywhere(mesh)
+    own = sorted({node for node, d in held if d not in everywhere})
+    free = [(node, d) for node in own for d in (3, 4, 5)
             if d in mesh.directions and (node, d) not in held]  # fmt: skip
     rows = np.array([model.node(node)[d] for node, d in free]).reshape(len(free), model.r)
     size = np.abs(rows[:, :count]).max(axis=1, initial=0.0)
@@ -64,6 +67,13 @@ def turns(model: Reduced) -> Turns | None:
         return None
     chosen = tuple(free[i] for i in order)
     return Turns(chosen, rows[order], flexibility(model, chosen, rows[order]), size[order])
+
+
+def _everywhere(mesh: Mesh) -> set[int]:
+    """Directions that every node of an element is held in: so a deck leaves them out, and no support is there."""
+    nodes = np.unique(np.concatenate([each.nodes.ravel() for each in mesh.elements]))
+    holds = lambda d: np.isin(nodes, mesh.supports[mesh.supports[:, 1] == d, 0]).all()
+    return {d for d in range(6) if holds(d)}
 
 
 def _sets(found: Turns) -> tuple[list[list[list[int]]], list[list[list[int]]]]:
