@@ -216,6 +216,7 @@ def test_files_fit_a_mind_and_functions_a_screen(path):
 STARTS_A_PROGRAM = Path(
     "importing/calculix.py"
 )  # the solver that `mouse import` is asked to run, by a name that is fixed
+HANDS_OVER = Path("diagnosis/search/handed.py")  # fits, between processes of one search; never what a file holds
 UNSAFE = {  # what makes code of data, or a shell of a name
     "eval", "exec", "compile", "__import__", "os.system", "os.popen", "yaml.load", "yaml.load_all", "yaml.unsafe_load",
     "yaml.full_load", "pickle.load", "pickle.loads", "marshal.loads", "shelve.open", "joblib.load", "pandas.read_pickle",
@@ -229,6 +230,7 @@ def test_data_are_never_code(path):
     calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call)]
     assert not {ast.unparse(call.func) for call in calls} & UNSAFE
     starts = {"subprocess"} if path.relative_to(PACKAGE) == STARTS_A_PROGRAM else set()
+    starts |= {"pickle"} if path.relative_to(PACKAGE) == HANDS_OVER else set()
     assert not ({name.split(".")[0] for name in imported(path)} - starts) & {
         "pickle",
         "marshal",

@@ -79,7 +79,7 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices, recordings
     measured, enough = given.test is not None, 0.0 if model.places is None else ENOUGH
     result, remarks = _update(problem, kept, notice, _guess(model), enough, solver)
     hear = lambda found: recordings(ranked_by_frf(found, measured))
-    ranking = informed(rank(model, _known(choices), choices.causes, hear))
+    ranking = informed(rank(model, _known(choices), choices.causes, hear, jobs=choices.jobs, again=again))
     verdict, as_it_is = judge(ranking, result.rejected and measured, model), ranking.baseline
     kind, best, missing = verdict.kind, verdict.best, verdict.kind != NOTHING
     location = locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None
@@ -179,6 +179,13 @@ def _model(problem: Problem, solver: EigenSolver) -> tuple[Reduced, tuple[str, .
     still = np.zeros(model.data.has_shape.shape)
     model = replace(model, data=model.data.loosened(np.abs(found.moved), still))
     return replace(model, ties=ties(model)), found.remarks
+
+
+def again(problem: Problem) -> Reduced:
+    """The model that a diagnosis of `problem` searches with, made once more by another process."""
+    solver = EigenSolver(lambda text: None, sensors=0 if problem.test is None else problem.test.s)
+    related(problem, solver)
+    return _model(problem, solver)[0]
 
 
 def _coarse(deck: Problem) -> tuple[str, ...]:

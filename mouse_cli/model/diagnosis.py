@@ -1,7 +1,7 @@
 """What a diagnosis found: where model and test part, what physics would explain it, how much of it, and whether that is true."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -171,10 +171,14 @@ class Untried:
 
 @dataclass(frozen=True)
 class Choices:
-    """What a diagnosis was asked to consider. candidates: their keys, None for all; causes: most of them together."""
+    """What a diagnosis was asked to consider. candidates: their keys, None for all; causes: most of them together.
+
+    jobs: processes that share the search; the answer is the same whatever their number.
+    """
 
     candidates: tuple[str, ...] | None = None
     causes: int = 4
+    jobs: int = field(default=1, compare=False)
 
 
 @dataclass(frozen=True)

@@ -194,7 +194,7 @@ def test_the_true_place_gets_on_from_behind(monkeypatch):
     found = few.approached("mass", np.zeros(1), ())[:6]
     behind = [(1e3 * n, i, x) for n, (_, i, x) in enumerate(found[::-1])]
     monkeypatch.setattr(few, "approached", lambda *given: behind)
-    (best, *_) = sorted(tried(study, "mass", None, 2), key=lambda one: one.misfit)
+    (best, *_) = sorted(tried(study, "mass", (), np.zeros(study.k), 2), key=lambda one: one.misfit)
     assert "18" in best.recipes[0].site(best.recipes[0].values(best.c)).text
     assert best.misfit < 5
 
@@ -202,7 +202,7 @@ def test_the_true_place_gets_on_from_behind(monkeypatch):
 def test_what_is_looked_at_beside_a_cause_is_looked_at_once(monkeypatch):
     """The best look tells which partner is tried, and where its descents begin."""
     study = Study(long_chain(17, 3.0))
-    first, seen = tried(study, "mass", None, 1)[0], []
+    first, seen = tried(study, "mass", (), np.zeros(study.k), 1)[0], []
     monkeypatch.setattr(Model, "point", lambda self, x, own=Model.point: seen.append(x) or own(self, x))
     looks = study.looks("ground-spring", first.point.x, first.recipes)
     count = len(seen)

@@ -26,6 +26,14 @@ _CONSIDERED = (
         show_default=True,
         help="Largest number of mechanisms together.",
     ),
+    click.option(
+        "-j",
+        "--jobs",
+        type=click.IntRange(1, 64),
+        default=1,
+        show_default=True,
+        help="Processes that share the search; the answer is the same.",
+    ),
 )
 
 
@@ -60,6 +68,7 @@ def command(
     candidates: str | None,
     without: str | None,
     causes: int,
+    jobs: int,
     held_out: tuple[str, ...],
     changed: tuple[str, ...],
     common_sd: float | None,
@@ -74,12 +83,11 @@ def command(
     """
     from mouse_cli.cli._terminal import deliver
 
-    named = Named.of(decks, held_out, changed)
-    arranged = several(named, output, plot)
+    arranged = several(named := Named.of(decks, held_out, changed), output, plot)
     for deck in (*named.fitted, *held_out):
         _check_places(deck, output, plot, reports)
     raw, how = asked_of_folder(decks, arranged, output, given)
-    asked = _Asked(_names(candidates, without), without is not None, causes)
+    asked = _Asked(_names(candidates, without), without is not None, causes, jobs)
     problems, found = _answer(named, arranged, common_sd, asked, quiet, reading(**how), raw)
     files = _revised(found, output, problems[0] if raw["folder"] else None)
     for path in reports:
@@ -94,11 +102,12 @@ def command(
 
 @dataclass(frozen=True)
 class _Asked:
-    """What is to be considered: names (None: all), or all without them; most causes together."""
+    """What is to be considered: names (None: all), or all without them; most causes together; processes."""
 
     names: tuple[str, ...] | None
     without: bool
     causes: int
+    jobs: int
 
     def of(self, problem):
         """The same for the data of a deck. Raises click.UsageError for names that have no meaning for them."""
@@ -106,9 +115,9 @@ class _Asked:
         from mouse_cli.model.diagnosis import Choices
 
         if self.names is None:
-            return Choices(causes=self.causes)
+            return Choices(causes=self.causes, jobs=self.jobs)
         try:
-            return Choices(chosen(problem, self.names, self.without), self.causes)
+            return Choices(chosen(problem, self.names, self.without), self.causes, self.jobs)
         except ValueError as reason:
             raise click.UsageError(str(reason)) from reason
 

@@ -114,6 +114,7 @@ class Recipe:
     limit(values): group that it cannot be told from at such values, the end of their range; empty: none, its candidate's own.
     jumps: coordinates, in order, at which the matrices jump, by number of the unknown; there the piece after it begins.
     parts: names of several things, each with the unknown of the same number, of which there are recipes with fewer; empty: none.
+    home: the model that it was made for.
     """
 
     candidate: Any
@@ -131,6 +132,7 @@ class Recipe:
     jumps: dict[int, np.ndarray] = field(default_factory=dict, repr=False)
     starts: tuple[np.ndarray, ...] = ()
     parts: tuple[str, ...] = ()
+    home: Any = field(default=None, repr=False, compare=False)
     _last: dict[bytes, Change] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def at(self, coordinates: np.ndarray) -> Change:

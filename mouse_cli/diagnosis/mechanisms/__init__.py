@@ -24,7 +24,15 @@ class Candidate:
     recipes: Callable[[Reduced, "Candidate"], list[Recipe]]
     why: Callable[[Reduced], str] = lambda model: NO_SITE
 
+    def __reduce__(self):
+        """By its key: another process has the same candidates."""
+        return _of_key, (self.key,)
+
 
 def registry() -> dict[str, Candidate]:
     """All candidates by key."""
     return _registry.discover(__name__, "CANDIDATE")
+
+
+def _of_key(key: str) -> Candidate:
+    return registry()[key]

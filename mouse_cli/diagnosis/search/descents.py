@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unseen
 from mouse_cli.diagnosis.search.escape import shifted, uncrossed
 from mouse_cli.diagnosis.search.fit import MOST, Fit, descended, fit
@@ -51,23 +52,27 @@ def best(study: Study, name: str, reach: float = np.inf) -> Fit | None:
 
     reach: misfit above which no fit matters, and is left as it was found.
     """
-    found = distinct([pared(one, study) for one in tried(study, name, None, _STARTS, reach=reach)])
+    found = distinct([pared(one, study) for one in tried(study, name, (), np.zeros(study.k), _STARTS, reach=reach)])
     return summed([settled(shifted(one), study) if one.misfit < reach else one for one in found], reach)
 
 
 def tried(
-    study: Study, name: str, beside: Fit | None, count: int, most: int = MOST, reach: float = np.inf
+    study: Study,
+    name: str,
+    others: tuple[Recipe, ...],
+    before: np.ndarray,
+    count: int,
+    most: int = MOST,
+    reach: float = np.inf,
 ) -> list[Fit]:
-    """Fits of candidate `name` from its `count` most promising places, in at most so many steps; beside: causes there already.
+    """Fits of candidate `name` from its `count` most promising places, in at most so many steps, beside `others` there `before`.
 
     Each first in the lowest coordinates, then in all; in all at once where there is little to look at, for what is spread over
     the structure, such as shear, is not to be had in few. reach: misfit above which none matters.
     """
-    others = () if beside is None else beside.recipes
-    before = np.zeros(study.k) if beside is None else beside.point.x
     first = study if sum(len(recipe.grid) for recipe in study.recipes(name)) <= _FEW else study.coarse
     near_by = first.approached(name, before, others, _SLACK * reach)
-    tied = 0 if beside is not None or not near_by else sum(left < near_by[0][0] + _TIED for left, _, _ in near_by)
+    tied = 0 if others or not near_by else sum(left < near_by[0][0] + _TIED for left, _, _ in near_by)
     count = max(count, min(tied, _TIES))
     chosen = near_by[:count] if first is study else _weighed(study, before, others, name, near_by, count)
     ways = [(first, *each) for each in chosen] + (

@@ -18,14 +18,17 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.nameless.fit import rivals
 from mouse_cli.diagnosis.noise import scale
-from mouse_cli.diagnosis.search.descents import best, settled
+from mouse_cli.diagnosis.search.crew import Crew
+from mouse_cli.diagnosis.search.descents import settled
 from mouse_cli.diagnosis.search.disguised import disguised
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.optima import within
+from mouse_cli.diagnosis.search.parts import in_turn, promising, single
 from mouse_cli.diagnosis.search.several import adequate, several
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.model.diagnosis import Untried
 from mouse_cli.model.groups import joined, shares
+from mouse_cli.model.problem import Problem
 
 _UNPHYSICAL = "no size of it makes a model whose modes can be paired with the test"
 _TRUSTED = 0.5  # share of the stated accuracies in the leading explanation below which errors of the test may be all
@@ -103,18 +106,31 @@ def rank(
     hear: Callable[[Ranking], Ranking] = lambda found: found,
     kind: type[Model] = Model,
     last: bool = True,
+    jobs: int = 1,
+    again: Callable[[Problem], Reduced] | None = None,
 ) -> Ranking:
     """All that the candidates (`known`; None: all) make of the data, at most `causes` of them together.
 
     hear: what further data make of a ranking, before several are sought and after. kind: see `Study`. last: False where further
-    mechanisms will be sought besides, so that what has no name is no rival yet.
+    mechanisms will be sought besides, so that what has no name is no rival yet. jobs, again: processes, see `Crew`.
     """
     study = Study(model, known, kind)
+    with Crew(study, jobs, again) as study.crew:
+        return _ranked(study, causes, hear, last)
+
+
+def _ranked(study: Study, causes: int, hear: Callable[[Ranking], Ranking], last: bool) -> Ranking:
+    """The same, of a study."""
+    model, kind = study.model, study.kind
     baseline = settled(fit(kind(model), np.zeros(0)), study)
     singles: list[Fit] = []
-    for name in study.promising():
-        one = best(study, name, within([baseline, *singles]))
-        singles += [] if one is None else [one]
+    in_turn(
+        study,
+        single,
+        [(name,) for name in promising(study)],
+        lambda _, one: singles.extend([] if one is None else [one]),
+        lambda _: within([baseline, *singles]),
+    )
     fits = [baseline, *singles]
     found = hear(ranking(baseline, fits))
     if last and (dict(found.groups).get("none", 0.0) < _IDLE or not adequate(found.baseline, gates.GATE)):

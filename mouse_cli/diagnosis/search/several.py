@@ -10,11 +10,12 @@ from collections.abc import Iterable
 import numpy as np
 
 from mouse_cli.diagnosis.gates import GATE, MATERIAL
-from mouse_cli.diagnosis.search.descents import settled, summed, tried
+from mouse_cli.diagnosis.search.descents import settled, summed
 from mouse_cli.diagnosis.search.escape import shifted, walked
 from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
 from mouse_cli.diagnosis.search.optima import NEAR, within
 from mouse_cli.diagnosis.search.pared import pared
+from mouse_cli.diagnosis.search.parts import Beside, in_turn, look_beside, partner
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.updating.chi_square import upper_tail
 
@@ -214,19 +215,31 @@ def _swap(study: Study, one: Fit, found: Found) -> None:
 def _beside(study: Study, first: Fit, partners: Iterable[str], found: Found) -> None:
     """Into `found` what `first` and the best of `partners` make together, where it is better than what is there."""
     there = study.about(first)
-    for name in _promising(there, first, list(partners)):
-        same = found.get(tuple(sorted((*key(first), name))))
-        reach = min(within([first, *found.values()], _FAR), np.inf if same is None else within([same], NEAR))
-        for more in tried(there, name, first, _SECOND, _QUICK, reach):
-            _keep(found, more)
+    names = _promising(study, there, first, list(partners))
+    beside, own = Beside.of(first, there), there.own(first.recipes)
+
+    def reach(i: int) -> float:
+        same = found.get(tuple(sorted((*key(first), names[i]))))
+        return min(within([first, *found.values()], _FAR), np.inf if same is None else within([same], NEAR))
+
+    def accept(i: int, fits: list) -> None:
+        for one in fits:
+            _keep(found, one.fit(there, own, names[i]))
+
+    in_turn(study, partner, [(beside, name, _SECOND, _QUICK) for name in names], accept, reach)
 
 
-def _promising(there: Study, first: Fit, partners: list[str]) -> list[str]:
+def _promising(study: Study, there: Study, first: Fit, partners: list[str]) -> list[str]:
     """Those of `partners` that a first look beside `first` finds best."""
     if len(partners) <= _PARTNERS:
         return partners
-    coarse, before = there.coarse, first.point.x
-    looks = {name: coarse.looks(name, before, first.recipes) for name in partners}
+    coarse, beside, looks = there.coarse, Beside.of(first, there), {}
+
+    def accept(i: int, seen: list) -> None:
+        looks[partners[i]] = seen
+        coarse.keep_beside(partners[i], first.point.x, first.recipes, seen)
+
+    in_turn(study, look_beside, [(beside, name) for name in partners], accept)
     order = sorted((name for name in partners if looks[name]), key=lambda name: looks[name][0][0])
     return order[:_PARTNERS]
 

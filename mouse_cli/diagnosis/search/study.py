@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -28,7 +29,8 @@ _COARSE = 24  # coordinates at least for a first look
 class Study:
     """A reduced model, what each candidate can do to it, and the same at other parameters, where causes weigh otherwise.
 
-    known: candidates by key; None: all. kind: of what a model with causes is made, of one structure or of its arrangements.
+    known: candidates by key; None: all. kind: of what a model with causes is made, of one structure or of its arrangements. alone:
+    what candidates do by themselves. crew: processes that share the search, of the study that it began with.
     """
 
     def __init__(
@@ -40,7 +42,8 @@ class Study:
     ):
         self.model, self.k, self.kind = model, model.L.shape[1], kind
         self.begun = self if begun is None else begun  # the same at the parameters where the search began
-        self._alone: dict[str, Alone] = {}
+        self.alone: dict[str, Alone] = {}
+        self.crew: Any = None
         self.known = registry() if known is None else known
         self._made: dict[str, list[Recipe]] = {}
         self._about: list[Study] = [self]
@@ -52,7 +55,7 @@ class Study:
         if name not in self._made:
             candidate = self.known[name]
             made = self.model.recipes(candidate)
-            self._made[name] = [replace(recipe, number=i) for i, recipe in enumerate(made)]
+            self._made[name] = [replace(recipe, number=i, home=self.model) for i, recipe in enumerate(made)]
         return self._made[name]
 
     @cached_property
@@ -66,12 +69,6 @@ class Study:
             return self
         return Study(model, self.known, self.kind, None if self.begun is self else self.begun.coarse)
 
-    def promising(self) -> list[str]:
-        """All candidates, those first that a first look at them alone finds most promising."""
-        none = np.zeros(self.k)
-        looks = {name: self.coarse.looks(name, none, ()) for name in self.known}
-        return sorted(looks, key=lambda name: looks[name][0][0] if looks[name] else np.inf)
-
     def starts(self, name: str, before: np.ndarray, beside: tuple[Recipe, ...]) -> list[tuple[int, np.ndarray]]:
         """Numbers of recipes of candidate `name`, and x to begin from, the most promising first."""
         return [(number, x) for _, number, x in self.looks(name, before, beside)]
@@ -79,14 +76,24 @@ class Study:
     def looks(self, name: str, before: np.ndarray, beside: tuple[Recipe, ...]) -> list[tuple[float, int, np.ndarray]]:
         """The same, with the misfits that are to be expected; kept, for what looks best is where descents begin."""
         others = self.own(beside)
-        key = (name, before.tobytes(), *((each.candidate.key, each.number) for each in others))
+        key = _key(name, before, others)
         if key not in self._looked:
             points = self._points(name, before, others)
             found = [(self.predicted(at, before, others), recipe.number, at.x) for recipe, _, at in points]
             self._looked[key] = sorted(found, key=lambda item: item[0])
             if not others and len(points) > KEPT:
-                self._alone[name] = by_itself(points, self.kind(self.model).point(np.zeros(self.k)))
+                self.alone[name] = by_itself(points, self.kind(self.model).point(np.zeros(self.k)))
         return self._looked[key]
+
+    def keep(self, name: str, looks: list[tuple[float, int, np.ndarray]], alone: Alone | None) -> None:
+        """Looks at a candidate by itself, and what it does there, found by another process."""
+        self._looked.setdefault(_key(name, np.zeros(self.k), ()), looks)
+        if alone is not None:
+            self.alone.setdefault(name, alone)
+
+    def keep_beside(self, name: str, before: np.ndarray, beside: tuple[Recipe, ...], looks: list) -> None:
+        """Looks at a candidate beside others, likewise."""
+        self._looked.setdefault(_key(name, before, self.own(beside)), looks)
 
     def _points(self, name: str, before: np.ndarray, others: tuple[Recipe, ...]) -> list[tuple[Recipe, int, Point]]:
         """Recipe, number of the size and point of what candidate `name` does beside `others`, where that is worth a look."""
@@ -106,7 +113,7 @@ class Study:
         if not others or sum(len(recipe.grid) for recipe in self.recipes(name)) <= KEPT:
             return None
         self.begun.looks(name, np.zeros(self.k), ())
-        at, alone = self.kind(self.model, others).point(before), self.begun._alone.get(name)
+        at, alone = self.kind(self.model, others).point(before), self.begun.alone.get(name)
         if at is None or alone is None:
             return None
         return chosen(alone, at.residual, before[: self.k], *self._adapted(before, others))
@@ -188,6 +195,20 @@ class Study:
                 return study
         self._about = [self, self.at(one), *self._about[1:_ABOUT]]
         return self._about[1]
+
+    def moved(self, theta: np.ndarray) -> "Study":
+        """The same at theta (p,), or the one of the last there were that is there."""
+        for study in self._about:
+            if study.model.theta.tobytes() == theta.tobytes():
+                return study
+        there = Study(self.model.at(theta), self.known, self.kind, self.begun)
+        self._about = [self, there, *self._about[1:_ABOUT]]
+        return there
+
+
+def _key(name: str, before: np.ndarray, others: tuple[Recipe, ...]) -> tuple:
+    """Of looks at a candidate beside others that are there `before`."""
+    return name, before.tobytes(), *((each.candidate.key, each.number) for each in others)
 
 
 def _lowest(model: Reduced) -> Reduced:

@@ -108,6 +108,10 @@ class ElementType:
         damping = {name: DAMPING[name] for name in self.damping}
         object.__setattr__(self, "properties", {**self.properties, **damping})
 
+    def __reduce__(self):
+        """By its key: another process has the same library."""
+        return _of_key, (self.key,)
+
     def damped(self, layout: Layout, properties: Properties) -> Matrices:
         """`matrices` with the damping that follows from K and M: C += stiffness_damping K + mass_damping M, D = loss_factor K."""
         found = self.matrices(layout, properties)
@@ -127,3 +131,7 @@ class ElementType:
 def registry() -> dict[str, ElementType]:
     """All element types by key."""
     return _registry.discover(__name__, "ELEMENT")
+
+
+def _of_key(key: str) -> ElementType:
+    return registry()[key]
