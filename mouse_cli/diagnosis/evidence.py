@@ -22,5 +22,19 @@ def capped(hessian: np.ndarray, width: np.ndarray) -> np.ndarray:
 
 def laplace(misfit: float, hessian: np.ndarray, width: np.ndarray) -> float:
     """ln Z for C = `misfit`, H = `hessian` (k + d, k + d) and widths (d,) of the ranges of the last d unknowns."""
-    _, size = np.linalg.slogdet(capped(hessian, width))
+    size = _log_determinant(capped(hessian, width))
     return float(-0.5 * misfit - np.log(width).sum() + 0.5 * len(width) * np.log(2 * np.pi) - 0.5 * size)
+
+
+def _log_determinant(H: np.ndarray) -> float:
+    """ln |H| of a positive definite matrix; infinite where it has no numbers.
+
+    Of unknowns that the data hardly tell apart rounding leaves H singular, or indefinite: no evidence may come of that, so that
+    in units where the diagonal is 1 no eigenvalue counts for less than rounding.
+    """
+    scale = np.sqrt(H.diagonal())
+    scaled = H / np.outer(scale, scale)
+    if not np.isfinite(scaled).all():
+        return np.inf
+    least = len(H) * np.finfo(float).eps
+    return float(2 * np.log(scale).sum() + np.log(np.maximum(np.linalg.eigvalsh(scaled), least)).sum())

@@ -100,3 +100,12 @@ def test_of_a_spring_under_a_chain_it_is_its_integral():
     C = np.array([[own.point(np.array([u, v])).chi2 + u * u for v in c] for u in z])
     Z = np.exp(-0.5 * C).sum() * (z[1] - z[0]) * (c[1] - c[0]) / np.sqrt(2 * np.pi) / own.width[0]
     assert one.log_evidence - recipe.log_prior == pytest.approx(np.log(Z), abs=0.05)
+
+
+@pytest.mark.parametrize("noise", [0.0, 1e-3, -1e-3])
+def test_rounding_is_no_evidence(noise):
+    """Two unknowns of which the data feel the sum alone, 1e10 times as well as the prior: |H| = 2e20, which rounding hides."""
+    hessian = 1e20 * np.ones((2, 2)) + np.diag([1.0, 1.0 + noise])
+    expected = -0.5 * np.log(2e20)
+    assert expected - 10 < laplace(0.0, hessian, np.zeros(0)) < expected + 0.1
+    assert laplace(0.0, np.full((2, 2), np.nan), np.zeros(0)) == -np.inf

@@ -5,19 +5,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
-from mouse_cli.diagnosis.effects.released import Free, followed, free_model, static
+from mouse_cli.diagnosis.effects.released import SOFTEST, STIFFEST, Free, followed, free_model, resistance, static
 from mouse_cli.diagnosis.extend.supports import with_motions
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.geometry import DIRECTIONS, rigid_motions
 from mouse_cli.model.held import Support
 from mouse_cli.model.problem import Problem
 
-_SOFTEST, _STIFFEST = (
-    1e-4,
-    1e3,
-)  # of the stiffness of the structure against the motion: from none left to what no mode sees
 _MOST = 24  # supports
 _FLEXIBLE = 48  # degrees of freedom up to which a support follows the structure as it deforms
 _POINT = 1e-9  # of the size of the structure: extent of a support that cannot turn about itself
@@ -120,11 +115,9 @@ def _recipe(
     r, one = model.r, len(own.labels) == 1
     at = np.concatenate([np.arange(r), r + np.array(which)])
     K, M, sensing = K[np.ix_(at, at)], M[np.ix_(at, at)], np.hstack([np.zeros((len(reading), r)), reading[:, which]])
-    resistance = (np.diag(K)[r:] + lowest(model) * np.diag(M)[r:]) / np.diag(own.bed)
+    against = resistance(model, K, M) / np.diag(own.bed)
     unit = "N m/rad" if turning else "N/m"
-    k = Unknown(
-        "stiffness of the support", unit, _SOFTEST * float(resistance.min()), _STIFFEST * float(resistance.max())
-    )
+    k = Unknown("stiffness of the support", unit, SOFTEST * float(against.min()), STIFFEST * float(against.max()))
     words = own.labels[0] if one else "all directions"
     site = Site("node", (), None, f"the support {own.support.name}, {words}")
 

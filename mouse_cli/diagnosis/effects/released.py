@@ -18,6 +18,7 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import Assembly
 from mouse_cli.terms.element_term import ElementTerm
 
+SOFTEST, STIFFEST = 1e-3, 1e4  # stiffness of a support over `resistance`: from as good as free to as good as rigid
 _SHIFT = 1e-3  # of the lowest measured eigenvalue, so that motions that nothing resists need no support
 
 
@@ -80,6 +81,15 @@ def followed(model: Reduced, free: Free, motion: np.ndarray) -> tuple[np.ndarray
     none = np.zeros((0, 3, motion.shape[1]))
     strain = none if model.bars is None else strained(free.problem, model.bars, motion)
     return *blocks, Carried(within, motion, K @ motion, M @ motion, f, slopes, _across(model, stack, motion), strain)
+
+
+def resistance(model: Reduced, K: np.ndarray, M: np.ndarray) -> np.ndarray:
+    """What the structure that follows a motion of one support does against it (a,), K and M (r + a, r + a) as `followed` has them.
+
+    psi'(K + lambda M) psi, by its stiffness and, at the lowest measured eigenvalue, by its inertia: a scale of the support and of
+    what stands on it. One of the whole structure would exclude the true support where bars or spans differ.
+    """
+    return (K.diagonal() + lowest(model) * M.diagonal())[model.r :]
 
 
 Slopes = tuple[np.ndarray, np.ndarray]

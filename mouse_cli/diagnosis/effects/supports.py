@@ -7,7 +7,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Carried, Change, Recipe, Unknown, product, steps
 from mouse_cli.diagnosis.effects.named_supports import named
-from mouse_cli.diagnosis.effects.released import Free, followed, free_model, static
+from mouse_cli.diagnosis.effects.released import SOFTEST, STIFFEST, Free, followed, free_model, resistance, static
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
@@ -18,7 +18,7 @@ from mouse_cli.model.problem import Problem
 _LOADED = 0.02  # share of the largest reaction of its kind below which a support is not loaded
 _TOGETHER = 16  # supports that may be flexible alike
 _MOST = 48  # supports that are looked at: those that bear most
-_STARTS = {1: 6, 2: 4}  # stiffnesses to begin from, of one, and of each of two
+_STARTS = {1: 7, 2: 4}  # stiffnesses to begin from, of one, and of each of two
 _APART = (
     4  # supports of one direction up to which any of them may be flexible together, each with a stiffness of its own
 )
@@ -28,9 +28,9 @@ _APART = (
 class Released:
     """a supports, (node, direction) in `held`, and their motion: K (r + a, r + a) and M with the cause but without springs.
 
-    Those of the model itself are taken out. reading (s, a): what sensors read of them; resistance (a,): stiffness of the
-    structure against the motion of one support alone; load (a,): largest reactions in the lowest modes. carried: motion of the
-    structure with them.
+    Those of the model itself are taken out. reading (s, a): what sensors read of them; resistance (a,): of the structure
+    against the motion of one support alone; load (a,): largest reactions in the lowest modes. carried: motion of the structure
+    with them.
     """
 
     held: tuple[tuple[int, int], ...]
@@ -96,7 +96,7 @@ def released(model: Reduced, kinds: range) -> Released | None:
         return None
     motion = static(model, free, s, np.eye(len(s)))
     K, M, carried = followed(model, free, motion)
-    return Released(tuple(held), K, M, free.read(motion), np.asarray(free.K.diagonal())[s], load, carried)
+    return Released(tuple(held), K, M, free.read(motion), resistance(model, K, M), load, carried)
 
 
 def _candidates(model: Reduced, kinds: range) -> list[tuple[int, int]]:
@@ -130,7 +130,7 @@ def _recipe(
 ) -> Recipe:
     """sets: supports by number, those of each list with one stiffness."""
     unit, which = "N m/rad" if turning else "N/m", [i for own in sets for i in own]
-    k = [Unknown(_called(model, found, own, sets), unit, *_range(model, found, own, turning)) for own in sets]
+    k = [Unknown(_called(model, found, own, sets), unit, *_range(found, own)) for own in sets]
     K, M, reading = found.some(which, model.r)
     number, own_dofs = np.repeat(np.arange(len(sets)), [len(own) for own in sets]), np.arange(model.r, len(K))
     sensing = np.hstack([np.zeros((len(reading), model.r)), reading])
@@ -184,13 +184,10 @@ def _called(model: Reduced, found: Released, own: list[int], sets: list[list[int
     )
 
 
-def _range(model: Reduced, found: Released, own: list[int], turning: bool) -> tuple[float, float]:
-    """Flexibility between 1e-6 and 0.1 L^3/EI in translation, 1e-4 and 1 L/EI in rotation; without bars by what they hold."""
-    if model.bars is None:
-        resistance = float(found.resistance[own].mean())
-        return 0.3 * resistance, 1e3 * resistance
-    EI, L = model.bars.stiffness, model.bars.span
-    return (EI / L, 1e4 * EI / L) if turning else (10 * EI / L**3, 1e6 * EI / L**3)
+def _range(found: Released, own: list[int]) -> tuple[float, float]:
+    """From as good as free to as good as rigid, of supports with one stiffness."""
+    against = found.resistance[own]
+    return SOFTEST * float(against.min()), STIFFEST * float(against.max())
 
 
 def _site(problem: Problem, held: list[tuple[int, int]], alike: bool = True) -> Site:

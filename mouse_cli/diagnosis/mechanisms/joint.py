@@ -16,6 +16,8 @@ from mouse_cli.model.problem import Problem
 _MOST = 60  # joints that are looked at: those that bend most in the lowest modes
 _SAME = 1e-6  # of directions
 _SPLICE = 0.5  # prior probability that a joint is a splice along a line, where bars meet too
+_PINNED, _RIGID = 0.05, 3e3  # stiffness over EI / L
+_STARTS = 4  # stiffnesses to begin from
 _STEP = 1.3  # ratio of stiffnesses or masses from which on a straight line changes its section, and does not taper
 
 
@@ -56,12 +58,15 @@ def _splices(model: Reduced, candidate: Candidate) -> list[Recipe]:
     def extend(problem: Problem, bar: int, share: float, values: np.ndarray) -> Problem:
         return with_hinge(problem, bars, bar, share, f"splice in {bars.site(bar, share).text}", values[0])
 
-    return places(model, candidate, (k,), added, steps(k, 3), extend)
+    return places(model, candidate, (k,), added, steps(k, _STARTS), extend)
 
 
 def _stiffness(scale: float) -> Unknown:
-    """That of a joint in a line of bending stiffness over length `scale`."""
-    return Unknown("stiffness of the joint", "N m/rad", scale / 0.5, scale / 3e-4)
+    """That of a joint in a line of bending stiffness over length `scale`: from as good as pinned to as good as rigid.
+
+    Eurocode 3 (EN 1993-1-8, 5.2.2) calls a joint pinned below 0.5 of the EI / L of its beam, rigid above 8 to 25.
+    """
+    return Unknown("stiffness of the joint", "N m/rad", _PINNED * scale, _RIGID * scale)
 
 
 def _moment(bars: Bars, bar: int, end: int, modes: slice) -> np.ndarray:
@@ -123,7 +128,7 @@ def _recipe(model: Reduced, candidate: Candidate, bar: int, end: int, count: int
         return with_hinge(problem, bars, bar, float(end), f"joint of {site.text}", values[0])
 
     log_prior = -float(np.log(count))
-    return Recipe(candidate, (k,), change, steps(k, 3)[:, None], lambda values: site, 0, log_prior, extend)
+    return Recipe(candidate, (k,), change, steps(k, _STARTS)[:, None], lambda values: site, 0, log_prior, extend)
 
 
 CANDIDATE = Candidate(

@@ -176,11 +176,15 @@ class Study:
         return self.kind(self.model, (*self.own(others), self.recipes(name)[number]))
 
     def at(self, one: Fit) -> "Study":
-        """The same at the parameters that a fit found, if these are of a structure where its causes can act."""
+        """The same at the parameters that a fit found, if these are of a structure where its causes can act where they do.
+
+        Far from their prior a member may hold no energy any more; what then has its number is at another place.
+        """
         theta = one.model.base.parameters(one.point.x[: self.k])
         try:
             there = Study(self.model.at(theta), self.known, self.kind, self.begun)
-            return there if all(there.recipes(recipe.candidate.key) for recipe in one.recipes) else self
+            known = all(text(recipe) in map(text, there.recipes(recipe.candidate.key)) for recipe in one.recipes)
+            return there if known else self
         except (
             IndefiniteError,
             np.linalg.LinAlgError,
