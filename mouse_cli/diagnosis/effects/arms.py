@@ -9,8 +9,12 @@ from mouse_cli.diagnosis.effects.change import Unknown
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import span
+from mouse_cli.diagnosis.sites.attached import Attached, attached
+from mouse_cli.diagnosis.sites.pairs import ends
+from mouse_cli.diagnosis.sites.points import wanted
 from mouse_cli.model.mesh import RigidLink
 
+_MOST = 40  # nodes that are looked at
 _LONGEST = 0.3  # of the structure
 _BEGIN = 0.4  # of the longest, where a search begins
 _STILL = 1e-6  # of the largest translation: what turning by a rad adds to that, below which no arm is felt
@@ -30,6 +34,20 @@ def arms(model: Reduced, node: int) -> tuple[tuple[Unknown, ...], np.ndarray, li
     unknowns = tuple(Unknown(f"arm along {_AXES[d]}", "m", -length, length, log=False) for d in axes)
     signs = np.concatenate([np.eye(len(axes)), -np.eye(len(axes))])
     return unknowns, _BEGIN * length * signs, axes
+
+
+def turning(model: Reduced) -> tuple[list[tuple[int, Attached]], int]:
+    """Ends of members and nodes with point masses that turn in the measured modes, those that turn most, and of how many."""
+    if model.motion is None:
+        return [], 0
+    mesh, keep = model.problem.mesh, wanted(model)
+    heavy = [elements.nodes[:, 0] for elements in mesh.elements if elements.type == "mass"]
+    nodes = np.unique(np.concatenate([ends(mesh), *heavy])).tolist()
+    found = [node for node in nodes if (keep is None or keep[node]) and arms(model, node)[0]]
+    count = min(model.r, int(model.data.test.number.max()) + 2)
+    turned = [np.abs(model.node(node)[3:, :count]).max() for node in found]
+    chosen = [found[i] for i in sorted(np.argsort(turned, kind="stable")[::-1][:_MOST])]
+    return list(zip(chosen, attached(model, chosen), strict=True)), len(found)
 
 
 def arm(values: np.ndarray, axes: list[int]) -> np.ndarray:

@@ -2,38 +2,23 @@
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.arms import arm, arms, at_end, with_arm
+from mouse_cli.diagnosis.effects.arms import arm, arms, at_end, turning, with_arm
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import total_mass
 from mouse_cli.diagnosis.mechanisms import Candidate
-from mouse_cli.diagnosis.sites.attached import Attached, attached
-from mouse_cli.diagnosis.sites.pairs import ends
-from mouse_cli.diagnosis.sites.points import wanted
+from mouse_cli.diagnosis.sites.attached import Attached
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 
-_MOST = 40  # nodes that are looked at: those that turn most in the measured modes
 _BEGIN = 0.03  # of the whole mass
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """M + m B'B, B = T + R x a the motion of the end of an arm a: at ends of members and at nodes with point masses."""
-    if model.motion is None:
-        return []
-    mesh, keep = model.problem.mesh, wanted(model)
-    heavy = [elements.nodes[:, 0] for elements in mesh.elements if elements.type == "mass"]
-    nodes = np.unique(np.concatenate([ends(mesh), *heavy])).tolist()
-    found = [(node, arms(model, node)) for node in nodes if keep is None or keep[node]]
-    found = [(node, about) for node, about in found if about[0]]
-    count = min(model.r, int(model.data.test.number.max()) + 2)
-    turned = [np.abs(model.node(node)[3:, :count]).max() for node, _ in found]
-    chosen = [found[i] for i in sorted(np.argsort(turned, kind="stable")[::-1][:_MOST])]
-    at = attached(model, [node for node, _ in chosen])
-    return [
-        _recipe(model, candidate, node, each, about, len(found)) for (node, about), each in zip(chosen, at, strict=True)
-    ]
+    found, count = turning(model)
+    return [_recipe(model, candidate, node, at, arms(model, node), count) for node, at in found]
 
 
 def _recipe(model: Reduced, candidate: Candidate, node: int, at: Attached, about: tuple, count: int) -> Recipe:
