@@ -16,8 +16,8 @@ from mouse_cli.model.problem import Problem
 _MOST = 60  # joints that are looked at: those that bend most in the lowest modes
 _SAME = 1e-6  # of directions
 _SPLICE = 0.5  # prior probability that a joint is a splice along a line, where bars meet too
-_PINNED, _RIGID = 0.05, 3e3  # stiffness over EI / L
-_STARTS = 4  # stiffnesses to begin from
+_PINNED, _RIGID = 0.5, 3e3  # stiffness over EI / L
+_STARTS = 3  # stiffnesses to begin from
 _STEP = 1.3  # ratio of stiffnesses or masses from which on a straight line changes its section, and does not taper
 
 
@@ -62,7 +62,7 @@ def _splices(model: Reduced, candidate: Candidate) -> list[Recipe]:
 
 
 def _stiffness(scale: float) -> Unknown:
-    """That of a joint in a line of bending stiffness over length `scale`: from as good as pinned to as good as rigid.
+    """That of a joint in a line of bending stiffness over length `scale`: from what counts as pinned to as good as rigid.
 
     Eurocode 3 (EN 1993-1-8, 5.2.2) calls a joint pinned below 0.5 of the EI / L of its beam, rigid above 8 to 25.
     """
