@@ -36,6 +36,7 @@ def identified(
 
     output_only = excited.unused or excited.over
     problem, (functions, recordings, warnings) = _read(sources, given | {"output_only": output_only})
+    over = excited.over or any(each.free for each in recordings)
     if output_only:
         functions = []
     else:
@@ -53,11 +54,11 @@ def identified(
             "name a file of functions or of time histories, or a deck with test: frf or recordings",
             sources[0],
         )
-    if excited.over:
+    if over:
         from mouse_cli.records.identify_decays import begun
 
         recordings = recordings if problem or given["segment"] else [begun(each) for each in recordings]
-    return of_outputs(problem, recordings, band, orders, say, excited.over), warnings
+    return of_outputs(problem, recordings, band, orders, say, over), warnings
 
 
 def of_outputs(

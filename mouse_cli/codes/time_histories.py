@@ -29,6 +29,13 @@ CODES = {
         "Name the motion of the ground under `inputs`, with its quantity or unit; give `moves`, what it carries along, and with "
         "`frame` whether outputs are absolute or relative.",
     ),
+    "MD645": Code(
+        "free decay with inputs",
+        "A recording with `free_decay: true` moves by its initial state alone; inputs are forces, or motions of the ground, that "
+        "act.",
+        "Delete `free_decay` where something acts during the recording, or `inputs` where nothing does, with a `segment` that "
+        "begins after the force has ended.",
+    ),
     "MD540": Code(
         "simulation that does not stay finite",
         "The deck as it is, simulated under the measured force of its recordings, grows beyond all bounds.",
@@ -37,7 +44,9 @@ CODES = {
     "MD640": Code(
         "recording that cannot be simulated",
         "Diagnosis by recordings simulates the model under the measured force. A record of the deck has no channel of a force or "
-        "moment at a degree of freedom of the model, or none of a motion: displacement, rotation or their derivatives.",
-        "Name force and responses under inputs and outputs with their quantity and unit; `mouse identify` does without.",
+        "moment at a degree of freedom of the model and is no free decay, or has none of a motion: displacement, rotation or "
+        "their derivatives.",
+        "Name force and responses under inputs and outputs with their quantity and unit, or state `free_decay: true` where no "
+        "force acts; `mouse identify` does without.",
     ),
 }

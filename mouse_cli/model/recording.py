@@ -37,7 +37,7 @@ class Recording:
     """t samples of c channels, evenly spaced. time_step_s: s; samples (t, c), in the units of the channels.
 
     title: of the record; path: the file it was read from. start: the first sample's number in that file, from 0, so that findings
-    name samples as the file counts them.
+    name samples as the file counts them. free: whether no force acts from the first sample on, so that the initial state is all.
     """
 
     title: str
@@ -46,6 +46,7 @@ class Recording:
     samples: np.ndarray
     path: str = ""
     start: int = 0
+    free: bool = False
 
     def __post_init__(self) -> None:
         shape = (len(self.samples), len(self.channels))

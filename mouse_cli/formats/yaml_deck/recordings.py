@@ -1,6 +1,7 @@
 """`test: recordings:` of a YAML deck."""
 
 import os
+from dataclasses import replace
 
 from mouse_cli.formats.record_drafts import Pick, RecordingDraft
 from mouse_cli.formats.recording import recording
@@ -86,7 +87,19 @@ def _recording(section: Section, known: Known, files: Files, units: Units) -> Re
         held, chosen, section.nodes["file"].value, title(section, segment), document, where,
         sample_rate_hz=rate, time=section.value("time"), segment=segment, units=units,
     )  # fmt: skip
-    return None if found is None else RecordingDraft(found, tuple(pick.sensor for pick in chosen), where)
+    if found is None or not _alone(section, chosen):
+        return None
+    free = bool(section.value("free_decay", False))
+    return RecordingDraft(replace(found, free=free), tuple(pick.sensor for pick in chosen), where)
+
+
+def _alone(section: Section, chosen: list[Pick]) -> bool:
+    """Whether a free decay has no inputs beside it; an error where it has."""
+    if not section.value("free_decay", False) or all(pick.role == OUTPUT for pick in chosen):
+        return True
+    message = f"{section.called} is a free decay, and has inputs"
+    section.document.error("MD645", section.node, message, "delete free_decay where a force acts; else delete inputs")
+    return False
 
 
 def _own(held: Contents) -> list[Pick]:

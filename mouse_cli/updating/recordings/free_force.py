@@ -11,7 +11,22 @@ from mouse_cli.updating.recordings.series import Series, quick
 _EVERYWHERE = 0.03  # rms of small unknown forces at every degree of freedom, by that of the measured force
 _HERE = 3.0  # rms of the unknown force at one place, by that of the measured force
 _QUIET, _MOST = 9.0, 6  # times the slowest motion falls by e in the room after the record; at most so many records long
+_FIRST, _LEAST = 32, 32  # part of a free decay that shows its initial state; samples of it, at least
+_UNSEEN, _LOOSE = 1e-6, 10.0  # singular value of an initial state that is not seen; times the record that one may make
 _TAPER = 0.03  # share of the record at its end, and of its beginning where it does not begin at rest
+
+
+def free(model: Linear, count: int, dt: float, order: int) -> np.ndarray:
+    """Motions (2n, count, n) of a model begun with a unit of each displacement and velocity, differentiated `order` times."""
+    from scipy.linalg import expm
+
+    n = len(model.M)
+    A = np.block([[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(model.M, part) for part in (model.K, model.C)]])
+    row, step = np.eye(2 * n)[:n] @ np.linalg.matrix_power(A, order), expm(A * dt)
+    found, state = np.empty((count, n, 2 * n)), np.eye(2 * n)
+    for k in range(count):
+        found[k], state = row @ state, step @ state
+    return found.transpose(2, 0, 1)
 
 
 @dataclass(frozen=True)
@@ -110,6 +125,9 @@ class Spectrum:
     def _whole(self) -> np.ndarray:
         """Measured less simulated (t, s)."""
         answer = self.history(np.einsum("lsn,ln->ls", self.S, self.motion))
+        answer += sum(
+            (x @ (self.series.sensing * (self.series.order == k)[:, None]).T for k, x in enumerate(self.released))
+        )
         return self.series.measured - self.series.measured.mean(axis=0) * (self.series.order < 2) - answer
 
     @cached_property
@@ -131,7 +149,7 @@ class Spectrum:
         found = np.zeros((self.padded, x.shape[1]))
         found[:t] = x
         found[t : t + m] = (2 * x[-1] - x[-2 : -m - 2 : -1]) * fall
-        if not self.series.at_rest:
+        if not (self.series.at_rest or self.series.free):
             found[-m:] = (2 * x[0] - x[m:0:-1]) * fall[::-1]
         if self.series.adrift:  # what follows the record brings it back to rest: no line 0 shows a change of speed
             back = np.hanning(self.padded - t - 2 * m + 2)[1:-1, None]
@@ -146,7 +164,7 @@ class Spectrum:
         fall = 0.5 + 0.5 * np.cos(np.pi * (np.arange(m) + 1) / m)
         found = np.ones(t)
         found[-m:] = fall
-        if not self.series.at_rest:
+        if not (self.series.at_rest or self.series.free):
             found[:m] = fall[::-1]
         return found
 
@@ -169,16 +187,67 @@ class Spectrum:
         t = series.dt * np.arange(len(series))
         return np.concatenate([x + more[:, None] * t, v + more[:, None]])
 
+    @property
+    def _impulse(self) -> float:
+        """rms of lines of the impulses that leave a free decay, of all degrees of freedom alike, so that the record is as large."""
+        shown = (np.abs(self.closed / self.series.sd) ** 2).sum()
+        passed = (np.abs(self.SH / self.series.sd[:, None]) ** 2).sum()
+        return float(np.sqrt(shown / passed)) / _EVERYWHERE
+
+    @cached_property
+    def begun(self) -> np.ndarray:
+        """Outputs (2n, t, s) of the model as it is, begun with a unit of each displacement and velocity; of a free decay."""
+        model, t = self.linear, len(self.series)
+        if not self.series.free:
+            return np.zeros((0, t, len(self.series.order)))
+        sensing, order = self.series.sensing, self.series.order
+        return sum(free(model, t, self.series.dt, k) @ (sensing * (order == k)[:, None]).T for k in range(3))
+
+    @property
+    def begins(self) -> np.ndarray:
+        """The same, windowed, each so many times as large as what is missing that a unit normal prior holds none of them."""
+        size = np.linalg.norm(self.begun, axis=(1, 2), keepdims=True)
+        return self.begun * self.window[:, None] * (_LOOSE * np.linalg.norm(self.missing) / np.maximum(size, 1e-300))
+
+    @property
+    def first(self) -> int:
+        """Samples of a free decay whose motion its initial state alone tells; 0 of other records."""
+        return max(len(self.series) // _FIRST, min(_LEAST, len(self.series))) if self.series.free else 0
+
+    @cached_property
+    def released(self) -> np.ndarray:
+        """Displacements, velocities and accelerations (3, t, n) of the model as it is, begun as a free decay begins; else 0.
+
+        Its initial state serves the beginning of the record best, where the model has not had the time to go astray.
+        """
+        series, model = self.series, self.linear
+        if not series.free:
+            return np.zeros((3, len(series), len(model.M)))
+        m = self.first
+        columns = (self.begun[:, :m] / series.sd).reshape(len(self.begun), -1).T
+        size = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
+        state = np.linalg.lstsq(columns / size, (series.measured[:m] / series.sd).ravel(), rcond=_UNSEEN)[0] / size
+        return np.stack([np.tensordot(state, free(model, len(series), series.dt, k), 1) for k in range(3)])
+
+    def derivative(self, U: np.ndarray, order: int) -> np.ndarray:
+        """History (t, n) of motions of lines U (l, n), differentiated so often; what begins at full size has no clean lines."""
+        lines = (1j * self.w[:, None]) ** order
+        if not self.series.free:
+            return self.history(U * lines)
+        return self.history((U - self.line(self.released[0])) * lines) + self.released[order]
+
     def motions(self, B: np.ndarray) -> np.ndarray:
         """Lines (l, n) of the most probable motion when unknown forces act through B (n, r), and small ones everywhere.
 
         Forces of circular normal distribution with covariance Q: u = H f + H Q (SH)' (SH Q SH' + R)^-1 (y - S H f).
         """
-        size = np.sqrt((self._loads**2).mean(axis=0).sum())
+        free = self.series.free
+        size, here = (self._impulse, _EVERYWHERE) if free else (np.sqrt((self._loads**2).mean(axis=0).sum()), _HERE)
         unit = B / np.maximum(np.linalg.norm(B, axis=0), 1e-300)
-        Q = size**2 * (_EVERYWHERE**2 * np.eye(len(B)) + _HERE**2 * unit @ unit.T)
+        Q = size**2 * (_EVERYWHERE**2 * np.eye(len(B)) + here**2 * unit @ unit.T)
         R = np.diag(self.series.sd**2)
         G = self.SH @ Q
         total = G @ self.SH.conj().transpose(0, 2, 1) + R
         solved = np.linalg.solve(total, self.closed[:, :, None])
-        return self.motion + (self.H @ (G.conj().transpose(0, 2, 1) @ solved))[:, :, 0]
+        begun = self.line(self.released[0]) if free else self.motion
+        return begun + (self.H @ (G.conj().transpose(0, 2, 1) @ solved))[:, :, 0]

@@ -54,11 +54,11 @@ def places(problem: Problem, spectrum: Spectrum, basis: np.ndarray, band: tuple[
     series, model = spectrum.series, spectrum.linear
     sensed = (np.abs(basis @ np.hstack([series.inputs, series.sensing.T])) > 1e-9).any(axis=1)
     u = spectrum.motions(np.zeros((basis.shape[1], 0)))
-    found = []
+    found, moved = [], [spectrum.derivative(u, order) for order in (0, 1, 2)]
     for site, b, ground in motions(problem, sensed):
         B = basis.T @ b
         size = float(B @ B)
-        x, v, a = (float(spectrum.history(u @ B * (1j * spectrum.w) ** order).std()) for order in (0, 1, 2))
+        x, v, a = (float((one @ B).std()) for one in moved)
         if size < 1e-24 or x == 0:
             continue
         stiffness, mass = (float(B @ matrix @ B) / size**2 for matrix in (model.K, model.M))

@@ -17,6 +17,7 @@ _LINES, _LOWEST = (
     32,
     1.41,
 )  # spectral lines averaged for the noise floor; white noise over the lowest tenth of such means
+_RUNG, _SHORTEST = 0.999, 256  # share of the energy of a free decay that is used; its samples, at least
 _FORCES = ("force", "moment")
 _ORDERS = MOTIONS | {"rotation": 0, "angular velocity": 1, "angular acceleration": 2}  # how many times differentiated
 _MOVING = (
@@ -43,12 +44,12 @@ def records(problem: Problem) -> Records:
     said: list[str] = []
     first = fitted[0] if fitted else held[0]
     inputs, outputs = _channels(problem, first)
-    alike = [one for one in fitted if _alike(one, first)]
+    alike = [_rung(one, outputs) for one in fitted if _alike(one, first)]
     if len(alike) < len(fitted):
         said.append(
             f"{len(fitted) - len(alike)} recordings have other channels or another rate than the first and were left out"
         )
-    held = [one for one in held if _alike(one, first)]
+    held = [_rung(one, outputs) for one in held if _alike(one, first)]
     orders = np.array([_ORDERS[first.channels[j].quantity] for j in outputs])
     floors = {id(one): _floor(ground.relative(one, inputs, outputs, orders)) for one in [*alike, *held]}
     sd = np.max([floors[id(one)] for one in alike], axis=0)
@@ -57,6 +58,9 @@ def records(problem: Problem) -> Records:
     make = lambda one: replace(_series(problem, one, inputs, outputs, sd), floor=floors[id(one)], force_floor=quiet)
     if any(first.channels[j].ground for j in inputs):
         said.append(_MOVING)
+    if not held and first.free and len(alike) > 1:
+        alike, held = alike[:-1], alike[-1:]
+        said.append(f"the deck holds no record out: '{held[0].title}', a decay as a whole, was held out from all fits")
     if held:
         series, kept = [make(one) for one in alike], [make(one) for one in held]
     else:
@@ -66,6 +70,17 @@ def records(problem: Problem) -> Records:
         said.append(f"the deck holds no record out: the last {100 * HELD:g} % of each was held out from all fits")
     channels = lambda columns: tuple(first.channels[j] for j in columns)
     return Records(tuple(series), tuple(kept), channels(outputs), channels(inputs), tuple(said))
+
+
+def _rung(record: Recording, outputs: list[int]) -> Recording:
+    """A free decay up to where all outputs, each over its rms, have lost their energy: what follows is noise alone."""
+    if not record.free:
+        return record
+    y = record.samples[:, outputs]
+    y = y - y[-max(len(y) // 10, 1) :].mean(axis=0)
+    power = (y**2 / np.maximum((y**2).mean(axis=0), 1e-300)).sum(axis=1)
+    last = int(np.searchsorted(np.cumsum(power), _RUNG * power.sum())) + 1
+    return replace(record, samples=record.samples[: max(last, _SHORTEST)])
 
 
 def named(found: Records) -> dict[str, object]:
@@ -87,12 +102,12 @@ def _channels(problem: Problem, record: Recording) -> tuple[list[int], list[int]
     outputs = [int(j) for j in record.outputs if record.channels[j].quantity in _ORDERS and own(j)]
     _prescribed(problem, record)
     for what, columns in (
-        ("force, or motion of the ground,", inputs),
+        ("force, or motion of the ground,", inputs or record.free),
         ("motion (displacement, rotation, or their derivatives)", outputs),
     ):
         if not columns:
             message = f"recording '{record.title}' has no channel of {what} at a degree of freedom of the model"
-            help = "name it under inputs or outputs with its quantity; simulation needs the measured excitation"
+            help = "name it under inputs or outputs with its quantity, or state free_decay: true where nothing acts"
             raise DeckError([Diagnostic("MD640", ERROR, message, problem.place("recordings"), help=help)])
     ground.check(problem, record, inputs, outputs, _ORDERS)
     return inputs, outputs
@@ -119,14 +134,14 @@ def cannot_judge(problem: Problem) -> tuple[Diagnostic, ...]:
 
 def _alike(one: Recording, other: Recording) -> bool:
     same = lambda r: [(c.role, c.quantity, c.weights, c.ground, c.frame) for c in r.channels]
-    return abs(one.time_step_s / other.time_step_s - 1) < 1e-6 and same(one) == same(other)
+    return abs(one.time_step_s / other.time_step_s - 1) < 1e-6 and one.free == other.free and same(one) == same(other)
 
 
 def _series(problem: Problem, record: Recording, inputs: list[int], outputs: list[int], sd: np.ndarray) -> Series:
     n = problem.structure.n
-    rows = lambda columns: np.array([_weights(record.channels[j], n) for j in columns])
+    rows = lambda columns: np.array([_weights(record.channels[j], n) for j in columns]).reshape(-1, n)
     order = np.array([_ORDERS[record.channels[j].quantity] for j in outputs])
-    moving = np.array([record.channels[j].ground for j in inputs])
+    moving = np.array([record.channels[j].ground for j in inputs], dtype=bool)
     return Series(
         record.title,
         record.time_step_s,
@@ -138,6 +153,7 @@ def _series(problem: Problem, record: Recording, inputs: list[int], outputs: lis
         order,
         np.where(moving, rows(inputs).T, 0.0),
         first=record.start,
+        free=record.free,
     )
 
 
@@ -154,6 +170,8 @@ def _floor(samples: np.ndarray) -> np.ndarray:
     The lowest tenth of means of _LINES neighbouring lines, times what it falls short of the level of white noise on average.
     """
     t = len(samples)
+    if not samples.shape[1]:
+        return np.zeros(0)
     window = np.hanning(t + 2)[1:-1, None]
     power = np.abs(np.fft.rfft((samples - samples.mean(axis=0)) * window, axis=0)) ** 2 / (window**2).sum()
     power = power[1:] if len(power) > 1 else power

@@ -58,12 +58,13 @@ class Regression:
         self.spectrum = spectrum = _as_measured(spectrum, hypothesis, self.begun)
         place = hypothesis.place
         others = [*(one.B for one in hypothesis.known), *(part.place.B for part in hypothesis.parts)]
-        U = spectrum.motions(np.stack([place.B, *others], axis=1))
-        self._U = U
+        self._U = U = spectrum.motions(np.stack([place.B, *others], axis=1))
         X = U @ place.B
-        both = np.concatenate([U, 1j * spectrum.w[:, None] * U], axis=1)
-        self._states = spectrum.with_speed(spectrum.history(both).T)
+        self._states = spectrum.with_speed(np.concatenate([spectrum.derivative(U, order).T for order in (0, 1)]))
+        self._states[:, : spectrum.first] = np.concatenate(spectrum.released[:2, : spectrum.first].transpose(0, 2, 1))
         self.spread = self._states.std(axis=1)
+        if spectrum.series.free:
+            self.spread = np.maximum(self.spread, np.abs(np.concatenate(spectrum.released[:2], axis=1)).max(axis=0))
         histories = (place.B @ half for half in np.split(self._states, 2))
         self.local = Local(place, *histories, X, spectrum.SH @ place.B, self._carried(place))
         t = len(spectrum.series)
@@ -74,7 +75,8 @@ class Regression:
         self.y = self.stacked(self.missing)
         self.sd = float(np.hypot(1.0, error * np.sqrt((self.y**2).mean())))
         self.y /= self.sd
-        self.J = np.stack([self.stacked(column) for column in (*self._nuisances(U), *self._slopes())], axis=1)
+        columns = *self._nuisances(U), *self._slopes(), *spectrum.begins
+        self.J = np.stack([self.stacked(column) for column in columns], axis=1)
         self._prior = self._held()
         self.Q, self.R = np.linalg.qr(np.vstack([self.J, self._prior]))
         self.target = np.concatenate([self.y, np.zeros(len(self._prior))])
@@ -154,7 +156,7 @@ class Regression:
         left = self.target - self.projected(column)
         z = np.linalg.solve(self.R, self.Q.T @ np.concatenate([self.y - column, np.zeros(len(self._prior))]))
         k, first = self.base.linear.k, self.base.nuisances
-        moved = self.begun[first:] + np.clip(z[k:], -_FAR, _FAR)
+        moved = self.begun[first:] + np.clip(z[k : k + len(self.begun) - first], -_FAR, _FAR)
         return np.concatenate([z[:k], self.begun[k:first], moved, own]), float(left @ left)
 
     def _nuisances(self, U: np.ndarray) -> Iterator[np.ndarray]:

@@ -33,7 +33,7 @@ class Segments:
         factor = self.series.factor
         steps = (self.length + 2 * REACH - 1) * factor + 1
         own = np.stack([self.series.fine[(s - REACH) * factor :][:steps] for s in self.starts], axis=2)
-        return np.concatenate([own, np.ones_like(own[:, :1])], axis=1)
+        return np.concatenate([own, np.ones((len(own), 1, own.shape[2]))], axis=1)
 
     @property
     def measured(self) -> np.ndarray:

@@ -16,6 +16,7 @@ class Series:
     inputs (n, i), sensing (s, n): how they meet the model; order (s,): 0 displacement, 1 velocity, 2 acceleration. base (n, i): how
     the ground carries it along, where `force` is its acceleration; motions are then relative to it, and `inputs` 0. floor (s,): of
     the noise, as the spectrum shows it, where sd is more; force_floor (i,): that of the columns of `force`.
+    free: whether the initial state alone moves it.
     slow: samples over which motions are free in a fit that no force makes, of a structure that nothing holds; 0 where all die away.
     """
 
@@ -33,6 +34,7 @@ class Series:
     floor: np.ndarray | None = None
     force_floor: np.ndarray | None = None
     slow: int = 0
+    free: bool = False
 
     def __len__(self) -> int:
         return len(self.measured)
@@ -59,6 +61,8 @@ class Series:
     @cached_property
     def fine(self) -> np.ndarray:
         """The force (t * factor, i) at every step, band-limited between samples."""
+        if not self.force.shape[1]:
+            return np.zeros((len(self) * self.factor, 0))
         from scipy.signal import firwin, resample_poly
 
         filter = firwin(2 * 24 * self.factor + 1, 1 / self.factor, window=("kaiser", 8.0))

@@ -22,6 +22,7 @@ SECTIONS = {
                 "channels", "what excited it, forces or motion of the ground: {sensor: channel, ...}", "none: output only"
             ),
             "outputs": Key("channels", "what it answered: {sensor: channel, ...}", "all channels of a file that names its sensors"),
+            "free_decay": Key("flag", "whether no force acts from its first sample on: ring-down, release from rest", "false"),
             "frame": Key("choice", "whether outputs are motions in space or relative to the ground", FRAMES[0], choices=FRAMES),
         },
     ),

@@ -13,12 +13,13 @@ from mouse_cli.report.theory import stated
 def heading(found: RecordDiagnosis | RecordUpdate, options: Options) -> Iterator[Block]:
     """Deck, size, and one line an output."""
     problem = found.problem
+    excited = f"force at {', '.join(found.inputs)}" if found.inputs else "free decays"
     beside = " beside each law" if isinstance(found, RecordDiagnosis) else ""
     yield deck_table(problem)
     yield Text(
         f"{counted(len(found.fitted), 'recording')} fitted ({', '.join(found.fitted)}), "
         f"{counted(len(found.scores), 'record')} held out; "
-        f"force at {', '.join(found.inputs)}; a model of {counted(problem.structure.n, 'degree', 'degrees')} of freedom with "
+        f"{excited}; a model of {counted(problem.structure.n, 'degree', 'degrees')} of freedom with "
         f"{counted(len(problem.parameters), 'parameter')}, which were revised{beside}."
     )
     columns = (Column("output", align=LEFT), Column("unit", align=LEFT), Column("sd taken"))
