@@ -68,5 +68,5 @@ def test_identify_takes_the_decays_of_a_deck(tmp_path):
 def test_a_free_decay_has_no_inputs(tmp_path):
     path = decays(tmp_path, 0.0)
     path.write_text(path.read_text().replace("free_decay: true", "free_decay: true\n      inputs: {2: a2}", 1))
-    done = CliRunner().invoke(cli, ["check", str(path)])
+    done = CliRunner().invoke(cli, ["check", str(path)], standalone_mode=False)
     assert done.return_value == 4 and "MD645" in done.output
