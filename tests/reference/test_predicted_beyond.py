@@ -71,3 +71,16 @@ def test_density_of_what_was_held_out(true, tmp_path):
     exact = largest + np.log(np.exp(p - largest).sum() * (k2[1] - k2[0]) / (np.sqrt(2 * np.pi) * SD))
     assert found.baseline.log_predictive_density == pytest.approx(exact, abs=0.5)
     assert found.baseline.p > 0.01
+
+
+def test_a_crossing_in_what_the_new_data_do_not_feel_at_the_fit(tmp_path):
+    """k2 far from where the modes cross, and wide: there neither mode feels it as the true one does."""
+    hz, shapes = modes(0.95)
+    text = DECK.format(frequency=hz.tolist(), shapes=shapes.tolist()).replace(
+        "nominal: 1.2, sd: 20 %", "nominal: 1.2, sd: 60 %"
+    )
+    (path := tmp_path / "deck.yaml").write_text(text)
+    problem = read_deck(path)
+    model = reduced(problem, problem.prior.mean, EigenSolver(lambda text: None))
+    found = held_out(model, fit(Model(model), np.zeros(0)), None)
+    assert found.baseline.p > 0.05

@@ -59,7 +59,7 @@ def predict(one: Fit, base: Reduced, fixed: tuple[Recipe, ...] = (), noise: floa
     total = noise * (np.eye(len(spread)) + spread)
     misfit, size = float(at.residual @ np.linalg.solve(total, at.residual)), np.linalg.slogdet(total)[1]
     density = -0.5 * (misfit + size)
-    if noise == 1.0 and (beyond := beyond_linear(one, model, at, T)):
+    if noise == 1.0 and (beyond := beyond_linear(one, model, at, T, misfit)):
         misfit, density = beyond
     frequencies = int(data.has_frequency.sum())
     off, sd = at.residual[:frequencies], np.sqrt(np.diag(total)[:frequencies])

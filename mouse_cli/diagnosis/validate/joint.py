@@ -2,8 +2,7 @@
 
 ln p(d2 | d1) = ln Z(d1, d2) - ln Z(d1), each by Laplace. It is the density of the linear prediction N(f, I + T C T') where the
 model is linear within what the fitted data leave open. Where two modes of it cross within that range it is not, and the common
-optimum may lie beyond the crossing, so that descents begin on both sides of the fit too, along what the fitted data know least of
-the new ones.
+optimum may lie beyond the crossing, so that descents begin at points of the posterior of the fit too.
 """
 
 from dataclasses import dataclass
@@ -14,8 +13,10 @@ from mouse_cli.diagnosis.evidence import capped
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.search.fit import End, Fit, descended
+from mouse_cli.updating.chi_square import upper_tail
 
-_ASIDE = (0.0, 1.5, -1.5)  # standard deviations at which descents begin
+_SAMPLE, _BEGUN = 64, 4  # points of the posterior at which new data are predicted; of these, where descents begin
+_CHANCE = 0.05  # p-value of what the best of them leaves from which on no other is begun
 _CURVED = 0.1  # chi-square from which on a prediction one standard deviation away is another than the linear one
 
 
@@ -52,25 +53,38 @@ class Both:
         return np.vstack([model.jacobian(own) for model, own in zip(self.models, at.each, strict=True)])
 
 
-def beyond_linear(one: Fit, held: Model, at: Point, T: np.ndarray) -> tuple[float, float] | None:
+def beyond_linear(one: Fit, held: Model, at: Point, T: np.ndarray, misfit: float) -> tuple[float, float] | None:
     """Misfit that the data of `held` add to that of a fit, and ln p of these given those, but for their own `log_sd`.
 
-    at, T (q, k + t): what `held` predicts at the fit, and its derivatives. None where these are as good.
+    at, T (q, k + t): what `held` predicts at the fit, and its derivatives; misfit: that of the linear prediction. None where that
+    is as good.
     """
     if not T.size:
         return None
     root = np.linalg.cholesky(one.covariance)
     least = root @ np.linalg.svd(T @ root, full_matrices=False)[2][0]
-    if _linear(held, at, T, least):
+    if upper_tail(misfit, len(T)) > _CHANCE and _linear(held, at, T, least):
         return None
-    both, k = Both(one.model, held), one.model.k
-    starts = [one.point.x + share * least for share in _ASIDE]
-    ends = [end for x in starts for end in [descended(both, x[k:], x[:k])] if end is not None]
-    if not ends:
+    both, k, best = Both(one.model, held), one.model.k, None
+    for x in _starts(one, held, root):
+        end = descended(both, x[k:], x[:k], reach=np.inf if best is None else best.misfit)
+        best = min((each for each in (best, end) if each), key=lambda each: each.misfit, default=None)
+        if best and upper_tail(best.misfit - one.misfit, len(T)) > _CHANCE:
+            break
+    if best is None:
         return None
-    best = min(ends, key=lambda end: end.misfit)
     more = best.misfit - one.misfit
     return more, -0.5 * (more + _size(both, best) - np.linalg.slogdet(capped(one.hessian, both.width))[1])
+
+
+def _starts(one: Fit, held: Model, root: np.ndarray) -> list[np.ndarray]:
+    """The fit, and what is best with the new data of a sample of what it leaves open, within the ranges."""
+    x, k = one.point.x, held.k
+    lower, upper = np.hstack([np.full((2, k), [[-np.inf], [np.inf]]), held.bounds.T])
+    draws = np.random.default_rng(0).standard_normal((_SAMPLE, len(x)))
+    points = [held.point(np.clip(x + root @ z, lower, upper)) for z in draws]
+    costs = [(at.chi2 + float(z @ z), at.x) for at, z in zip(points, draws, strict=True) if at is not None]
+    return [x, *(there for _, there in sorted(costs, key=lambda item: item[0])[:_BEGUN])]
 
 
 def _linear(held: Model, at: Point, T: np.ndarray, step: np.ndarray) -> bool:
