@@ -62,6 +62,22 @@ def test_soil_that_rocks_is_a_compliance():
     assert not found.extended_result.rejected
 
 
+def test_a_function_beside_the_modes_agrees():
+    """One receptance of the same chain, 2 % noise: rivals that have other spreads and lengths are judged by both."""
+    soil, rng = 0.4 / (HEIGHT @ chain(K) @ HEIGHT), np.random.default_rng(1)
+    lam, X = eigh(np.linalg.inv(np.linalg.inv(chain(1.03 * K)) + soil * np.outer(HEIGHT, HEIGHT)), np.diag(M))
+    hz = np.linspace(3, 30, 80)
+    H = (X[7] * X[3] / (lam * (1 + 0.04j) - (2 * np.pi * hz[:, None]) ** 2)).sum(axis=1)
+    H = H * (1 + 0.02 * (rng.normal(size=80) + 1j * rng.normal(size=80)))
+    value = ", ".join(f"{z.real:.6g}{z.imag:+.6g}j" for z in H)
+    outputs = f"outputs: {{8: {{value: [{value}]}}}}, sd: 2 %"
+    more = f"  frf:\n    - {{title: tap, unit: m/N, input: 4, frequency: {hz.tolist()}, {outputs}}}\n"
+    found = diagnose(assemble(yaml_deck.read(deck(soil) + more, "chain.yaml")), choices=Choices(NAMES, causes=1))
+    held = found.field.held_out
+    assert (found.kind, found.field.property) == (UNKNOWN, COMPLIANCE)
+    assert held.revised.rms_frequency_error < 0.5 * held.baseline.rms_frequency_error
+
+
 def test_rock_is_none():
     """Without it no rival is asked for, and nothing is missing."""
     found = found_in(0.0)

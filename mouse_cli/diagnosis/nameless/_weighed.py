@@ -21,7 +21,7 @@ def weighed(fits: Sequence[Fit], weights: Sequence[float], total: float) -> Fit:
     known = [(one, float(p)) for one, p in zip(fits, share, strict=True) if p > _LEAST and one is not fits[first]]
     ideal = idealised(fits[first])
     evidence = total + ideal.log_evidence - fits[first].log_evidence
-    return replace(ideal, log_evidence=float(evidence), elsewhere=tuple(known))
+    return replace(ideal, log_evidence=float(evidence), variants=tuple(known))
 
 
 def mean_values(one: Fit) -> tuple[np.ndarray, np.ndarray]:
@@ -29,8 +29,8 @@ def mean_values(one: Fit) -> tuple[np.ndarray, np.ndarray]:
 
     A mean has the variance of all values about it; of a change of rank one the sign of the leading fit.
     """
-    alike = [(each, p) for each, p in one.elsewhere if each.nameless.cells.sites == one.nameless.cells.sites]
-    parts = [(one, 1 - sum(p for _, p in one.elsewhere)), *alike]
+    alike = [(each, p) for each, p in one.variants if each.nameless.cells.sites == one.nameless.cells.sites]
+    parts = [(one, 1 - sum(p for _, p in one.variants)), *alike]
     p = np.array([share for _, share in parts]) / sum(share for _, share in parts)
     values, variance = (np.array(each) for each in zip(*(_values(each) for each, _ in parts), strict=True))
     if one.nameless.sign:

@@ -61,12 +61,14 @@ class End:
 class Fit(End):
     """The end of a search, weighed. hessian (k + t, k + t) of half the misfit by x; log_evidence.
 
-    elsewhere: the same causes at other places, and their share in the evidence.
+    elsewhere: the same causes at other places, and their share in the evidence; variants: likewise a rival without a name with
+    other spreads, lengths or places.
     """
 
     hessian: np.ndarray = field(repr=False)
     log_evidence: float
     elsewhere: tuple[tuple["Fit", float], ...] = ()
+    variants: tuple[tuple["Fit", float], ...] = ()
     bearable: ClassVar[float] = 1.5  # misfit over degrees of freedom above which no explanation is one
     telling: ClassVar[bool] = False  # so many data that evidence alone says whether something is missing
 

@@ -36,8 +36,8 @@ def members(ranking: Ranking) -> list[Member]:
     every: list[tuple[Fit, float]] = []
     by_fitted = ranking.probabilities if ranking.by_fitted is None else ranking.by_fitted
     for one, p in zip(ranking.fits, by_fitted.tolist(), strict=True):
-        others = one.elsewhere if one.nameless else ()
-        every += [(one, p * (1 - sum(share for _, share in others))), *((each, p * share) for each, share in others)]
+        own = 1 - sum(share for _, share in one.variants)
+        every += [(one, p * own), *((each, p * share) for each, share in one.variants)]
     every = [each for each in every if each[0] is not ranking.baseline]
     every = sorted(every, key=lambda each: -each[1])[:_MOST]
     least = _LEAST * sum(p for _, p in every)
