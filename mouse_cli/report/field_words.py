@@ -33,12 +33,25 @@ def field_sentences(field: Field) -> tuple[str, ...]:
     acts = _law(field) if field.property == LAW else f"It {ACTS[field.property]}{_most(field)}"
     acts = _spring(field) if one_spring(field) else acts
     told = f"What is missing has no name in the library. {acts}."
-    over = f"Its log evidence is {nats(field.log_evidence_over_named)} above that of everything that has a name."
     return (
         told,
-        " ".join(filter(None, (over, held_words(field.held_out)))),
+        " ".join(filter(None, (_over(field.log_evidence_over_named), held_words(field.held_out)))),
         "Do not trust the revised parameters, and do not name a mechanism.",
     )
+
+
+def _over(log_evidence: float) -> str:
+    """How it compares with the best of what has a name, which may be more probable, but inadequate.
+
+    >>> print(_over(19.3), _over(-97.7), sep="\\n")
+    Its log evidence is 19.3 above that of everything that has a name.
+    Its log evidence is 97.7 below that of the best that has a name, which is rejected.
+    """
+    if log_evidence < 0:
+        beside = f"{nats(-log_evidence)} below that of the best that has a name, which is rejected"
+    else:
+        beside = f"{nats(log_evidence)} above that of everything that has a name"
+    return f"Its log evidence is {beside}."
 
 
 def factor(field: Field) -> float:

@@ -237,6 +237,8 @@ def test_a_field_without_a_name():
     assert "about element 12 to 17 (-22 %, sd 4 % at element 14)." in told
     assert "Its log evidence is 19.3 above that of everything that has a name." in told
     assert "| element 14 | -22.4 | 4 |" in told and "| element 2 |" not in told
+    worse = words(replace(found, field=replace(found.field, log_evidence_over_named=-97.7)))
+    assert "Its log evidence is 97.7 below that of the best that has a name, which is rejected." in worse
     listed = sum(abs(each.value) > 0.08 for each in found.field.values)
     assert f"{30 - listed} sites with negligible values (below two sd) left out." in told
 

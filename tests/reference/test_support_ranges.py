@@ -106,3 +106,14 @@ def test_it_is_named(name, turning, sliding):
     if turning:
         (k,) = found.best.causes[0].sizes
         assert abs(k.value - turning) < 3 * k.sd and k.sd < 0.2 * turning
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_step_far_beyond_the_prior_is_finite():
+    """A trial step of a thousand prior sd, as a descent takes beside a support that holds nothing, overflows nowhere."""
+    problem = assemble(yaml_deck.read(deck(*truth(None, 0.0)), "tail.yaml"))
+    study = Study(reduced(problem, problem.prior.mean))
+    (joint, *_) = study.recipes("joint")
+    model = study.kind(study.model, (joint,))
+    x = np.concatenate([np.full(study.k, 1e5), joint.coordinates(joint.grid[0])])
+    assert np.isfinite(model.added(x)[0]).all()

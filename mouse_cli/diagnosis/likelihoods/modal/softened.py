@@ -7,6 +7,8 @@ import numpy as np
 from mouse_cli.diagnosis.effects.change import Change, Recipe, felt, residual
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 
+_FARTHEST = 50.0  # ln of how much stiffer than at the parameters of the base a bar is taken to be at most
+
 
 class Softened:
     """What softens bars of a model: base, recipes of the causes, their coordinates `places` among `size`."""
@@ -52,4 +54,7 @@ class Softened:
 
     def follow(self, bars: np.ndarray, z: np.ndarray) -> np.ndarray:
         """EI of `bars` at z over what it is at the parameters of the base (c, 1, 1)."""
-        return np.exp(self.base.stiffening[bars] @ (z - self.base.z))[:, None, None]
+        stiffer = self.base.stiffening[bars] @ (z - self.base.z)
+        return np.exp(np.clip(stiffer, -_FARTHEST, _FARTHEST))[
+            :, None, None
+        ]  # a trial step may be far beyond any prior
