@@ -76,9 +76,9 @@ class Change:
 class Carried:
     """Motion (r, a) of the model with a degrees of freedom of a cause's own; of all n free then (n, a), and K, M times it.
 
-    deck: which of those n the degrees of freedom of the deck are. slopes: what the deck's parameters, d directions, add to K and M
-    of the cause (d, r + a, r + a); across(motion (n, b)): to K and M between that motion and this one (d, b, a). strain (b, 3, a):
-    natural strains of the bars in it.
+    deck: which of those n the degrees of freedom of the deck are. every: what the deck's parameters, d directions, add to K and M
+    of the cause (d, r + a, r + a), or of several, whose rows `own` are of this one; across(motion (n, b)): to K and M between that
+    motion and this one (d, b, a). strain (b, 3, a): natural strains of the bars in it.
     """
 
     model: np.ndarray
@@ -86,20 +86,26 @@ class Carried:
     K: np.ndarray
     M: np.ndarray
     deck: np.ndarray
-    slopes: tuple[np.ndarray, np.ndarray]
+    every: tuple[np.ndarray, np.ndarray]
     across: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
     strain: np.ndarray
+    own: np.ndarray | None = None
+
+    @property
+    def slopes(self) -> tuple[np.ndarray, np.ndarray]:
+        """`every`, of this cause alone."""
+        return self.every if self.own is None else tuple(each[:, self.own[:, None], self.own] for each in self.every)
 
     def part(self, which: list[int], r: int) -> "Carried":
         """What a part of the degrees of freedom carries along, of a model of r coordinates."""
         own = [getattr(self, name)[:, which] for name in ("model", "whole", "K", "M")]
         at = np.concatenate([np.arange(r), r + np.array(which)])
-        slopes = tuple(each[:, at[:, None], at] for each in self.slopes)
 
         def across(other: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             return tuple(each[..., which] for each in self.across(other))
 
-        return Carried(*own, self.deck, slopes, across, self.strain[..., which])
+        rows = at if self.own is None else self.own[at]
+        return Carried(*own, self.deck, self.every, across, self.strain[..., which], rows)
 
 
 @dataclass(frozen=True)

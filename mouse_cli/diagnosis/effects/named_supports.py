@@ -114,17 +114,17 @@ def _recipe(
     K, M, reading, carried = moved
     r, one = model.r, len(own.labels) == 1
     at = np.concatenate([np.arange(r), r + np.array(which)])
-    K, M, sensing = K[np.ix_(at, at)], M[np.ix_(at, at)], np.hstack([np.zeros((len(reading), r)), reading[:, which]])
-    against = resistance(model, K, M) / np.diag(own.bed)
+    own_rows, sensing = np.ix_(at, at), np.hstack([np.zeros((len(reading), r)), reading[:, which]])
+    against = resistance(model, K[own_rows], M[own_rows]) / np.diag(own.bed)
     unit = "N m/rad" if turning else "N/m"
     k = Unknown("stiffness of the support", unit, SOFTEST * float(against.min()), STIFFEST * float(against.max()))
     words = own.labels[0] if one else "all directions"
     site = Site("node", (), None, f"the support {own.support.name}, {words}")
 
     def change(values: np.ndarray) -> Change:
-        with_springs = K.copy()
+        with_springs = K[own_rows]  # of all supports: many recipes share it
         with_springs[r:, r:] += values[0] * own.bed
-        return Change(with_springs, M, sensing)
+        return Change(with_springs, M[own_rows], sensing)
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         return with_motions(problem, own.support.name, own.pattern, own.labels, own.bed, values[0], unit)

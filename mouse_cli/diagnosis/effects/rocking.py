@@ -62,7 +62,7 @@ def _turned(model: Reduced, candidate: Candidate, axis: Axis) -> Recipe:
     K[:, r:], K[r:, :] = 0.0, 0.0
     slopes = carried.slopes
     slopes[0][:, :, r:], slopes[0][:, r:, :] = 0.0, 0.0
-    carried = replace(carried, K=0 * motion, slopes=slopes, across=_still(carried.across), strain=0 * carried.strain)
+    carried = replace(carried, K=0 * motion, every=slopes, across=_still(carried.across), strain=0 * carried.strain)
     inertia = float(M[r, r]) + axis.inertia
     M[r, r] = inertia
     direction = DIRECTIONS[axis.rotation]
