@@ -141,7 +141,8 @@ def main() -> None:
                 document = diagnosed(deck, deck.with_name("extended.yaml"))
                 deck.with_suffix(".json").write_text(json.dumps(document))
                 result, said = outcome(change, document, mesh)
-                if result == OPEN and change.kind != "missing" and visible(mesh, change) < _VISIBLE:
+                judged = result == OPEN and "refused" not in document and change.kind not in ("control", "missing")
+                if judged and visible(mesh, change) < _VISIBLE:
                     result = UNSEEN
                 counts[change.kind == "control", result] += 1
                 back = _back(deck, mesh, change, counts) if result == NAMED else ""
