@@ -1,16 +1,20 @@
 """How many fields of cards are read a second."""
 
+import argparse
 import time
 
 import numpy as np
 
 from mouse_cli.formats.edit import read_field, read_fields, write_field
 
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("--count", type=int, default=200_000)
+count = parser.parse_args().count
 rng = np.random.default_rng(1972)
-values = rng.standard_normal(200_000) * 10.0 ** rng.integers(-8, 9, 200_000)
+values = rng.standard_normal(count) * 10.0 ** rng.integers(-8, 9, count)
 clean = [write_field(float(v), "E14.8") for v in values]
-integers = [f"{i:8d}" for i in rng.integers(0, 140, 200_000)]
-odd = ["    1.28872+04", "         85000", "85000.        ", "      1. 5D+02", "        - 1.E5"] * 10_000
+integers = [f"{i:8d}" for i in rng.integers(0, 140, count)]
+odd = ["    1.28872+04", "         85000", "85000.        ", "      1. 5D+02", "        - 1.E5"] * (count // 20)
 
 
 def rate(texts: list[str], format: str) -> float:
