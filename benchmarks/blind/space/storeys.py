@@ -44,6 +44,7 @@ def case(
         if share
         else 0.0
     )
+    sizes = {"stiffness of the foundation": turning} if share else {}
     added, masses = float(ALTERED * building.m.sum()), building.m * near(rng, 1.0, DENSITY_SPREAD)
     measured = int(rng.integers(4, 6))
     inputs = {
@@ -62,6 +63,7 @@ def case(
         numbers=tuple(range(1, min(n, measured + 2) + 1)),
         altered=f"{{{n}: {added:.8g}}}",
         span=float(above[-1]),
+        sizes=sizes,
         config=_quality(rng, measured),
     )
 

@@ -22,5 +22,11 @@ def cases(split: str, seed: int, count: int) -> Iterator[Case]:
             if visible(inputs, sound, config):
                 break
         places = () if alike else (tuple(frame.points[feet[0]].tolist()),)
-        about = {"groups": ("support",), "tolerated": ("support",), "places": places}
+        names = [f"stiffness of the support, {axis}" for axis in ("RX", "RY")]
+        about = {
+            "sizes": dict(zip(names, pair, strict=True)),
+            "groups": ("support",),
+            "tolerated": ("support",),
+            "places": places,
+        }
         yield case("base", k, frame, inputs, config, "flexible bases" if alike else "a flexible base", **about)

@@ -31,6 +31,9 @@ def cases(split: str, seed: int, count: int) -> Iterator[Case]:
             groups=("brace",),
             places=(middle,),
             ends=((one + 1, other + 1),),
+            sizes={
+                "stiffness": inputs["struts"][0][2] / float(np.linalg.norm(np.subtract(*frame.points[[one, other]])))
+            },
         )
 
 

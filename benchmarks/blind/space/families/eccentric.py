@@ -22,4 +22,5 @@ def cases(split: str, seed: int, count: int) -> Iterator[Case]:
             if visible(inputs, sound, config):
                 break
         place = tuple(frame.points[node].tolist())
-        yield case("eccentric", k, frame, inputs, config, "eccentric mass", groups=("mass",), places=(place,))
+        about = {"groups": ("mass",), "places": (place,), "sizes": {"mass": kg}}
+        yield case("eccentric", k, frame, inputs, config, "eccentric mass", **about)

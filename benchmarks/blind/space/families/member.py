@@ -22,4 +22,5 @@ def cases(split: str, seed: int, count: int) -> Iterator[Case]:
             if visible(inputs, sound, config):
                 break
         place = frame.middle(member)
-        yield case("member", k, frame, inputs, config, "softer member", groups=("local-stiffness",), places=(place,))
+        about = {"groups": ("local-stiffness",), "places": (place,), "sizes": {"share lost": 1 - left}}
+        yield case("member", k, frame, inputs, config, "softer member", **about)
