@@ -126,10 +126,20 @@ def _unknown(ranking: Ranking, model: Reduced, best: Fit | None, proof, struck: 
 
 
 def leader(ranking: Ranking) -> Fit | None:
-    """The leading fit of the leading group that has a mechanism with a name; None without any."""
+    """The leading fit of the leading group that has a mechanism with a name; None without any.
+
+    Of mechanisms that are another one at an end of their range, that one itself where its odds against them are above -ODDS: a
+    spring to the ground has no mode of its own, an oscillator that stands in for it has one below the band.
+    """
     fits = [ranking.fits[i] for i in ranking.named]
     at = leading(ranking.groups, [group(one) for one in fits])
-    return fits[at] if at is not None and fits[at].recipes else None
+    if at is None or not fits[at].recipes:
+        return None
+    least = np.exp(-ODDS) * ranking.probabilities[ranking.named[at]]
+    alike = [one for i, one in zip(ranking.named, fits, strict=True) if ranking.probabilities[i] >= least]
+    alike = [one for one in alike if group(one) == group(fits[at])]
+    plain = (one for one in alike if one.groups == [recipe.candidate.group for recipe in one.recipes])
+    return next(plain, fits[at])
 
 
 def sure(ranking: Ranking) -> bool:
@@ -146,13 +156,14 @@ def decide(ranking: Ranking) -> tuple[str, tuple[str, ...]]:
         return ONE_OF if rival else UNKNOWN, ()
     if name == "none":
         return UNKNOWN, ()
+    first = leader(ranking) or first
     if not explains(first) or first.strained:
         return UNKNOWN, ()
     if ranking.stated[0] < _BELIEVED and dict(ranking.groups).get("none", 0.0) > _STANDS:
         return UNKNOWN, ()  # the test is not as accurate as it is stated, and what is missing besides cannot be told
     if far := far_parameters(first):
         return UNKNOWN, (_FAR.format(far),)
-    if not ranking.log_odds[0] > ODDS or (probability < SURE and shared(ranking, leader(ranking)) is None):
+    if not ranking.log_odds[0] > ODDS or (probability < SURE and shared(ranking, first) is None):
         return ONE_OF, ()
     if not first.model.base.data.by_shape and any(recipe.own for recipe in first.recipes):
         return ONE_OF, ()  # paired by number, a list of frequencies cannot prove that it holds one mode more

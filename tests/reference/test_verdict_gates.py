@@ -319,6 +319,16 @@ def test_an_oscillator_above_the_band_is_a_mass():
     assert [within(f) for f in (1.1 * hz.max(), hz.mean(), 0.9 * hz.min())] == ["mass", "oscillator", "ground-spring"]
 
 
+@pytest.mark.parametrize(("odds", "own"), [(2.9, "ground-spring"), (3.1, "oscillator")])
+def test_what_stands_in_for_another_does_not_lead(proofs, odds, own):
+    """An oscillator below the band is a spring to the ground, which has no mode there that would have to be measured."""
+    soft = made_up("oscillator")
+    soft.recipes[0].group = lambda c: "ground-spring"
+    soft.groups[:] = ["ground-spring"]
+    p = np.array([1.0, np.exp(-odds), 1e-4])
+    assert decided.leader(ranked(soft, SPRING, BARE, p=p / p.sum())).recipes[0].candidate.key == own
+
+
 def test_of_fields_that_which_predicts_is_given(proofs):
     """The data that the deck holds out count with those that were fitted."""
     law, bed = made_up(nameless="law"), made_up(nameless="field-bed")

@@ -36,6 +36,9 @@ _LOUD = 4.0  # noise scale from which on no error of the test is all, and as man
 _IDLE = (
     0.5  # probability of no mechanism above which what has no name is not asked where that leaves no more than chance
 )
+_FURTHER = (
+    0.2  # p-value of the best single mechanism below which several may gain what their prior takes, some ten nats
+)
 
 
 @dataclass(frozen=True)
@@ -136,7 +139,7 @@ def _ranked(study: Study, causes: int, hear: Callable[[Ranking], Ranking], last:
     if last and (dict(found.groups).get("none", 0.0) < _IDLE or not adequate(found.baseline, gates.GATE)):
         fits += rivals(model, baseline, kind, within(fits))
     with_cause = [one for one in found.fits if one.recipes]
-    if causes > 1 and with_cause and not adequate(min(with_cause, key=lambda one: one.misfit)):
+    if causes > 1 and with_cause and not adequate(min(with_cause, key=lambda one: one.misfit), _FURTHER):
         trusted = found.stated[0] > _TRUSTED or found.noise_scale > _LOUD
         fits += several(study, singles, causes if trusted else min(causes, 2))
     found = found if len(fits) == 1 + len(singles) else hear(ranking(baseline, fits))
