@@ -68,8 +68,11 @@ class Decision:
     cautions: tuple[str, ...] = ()
 
 
-def decided(ranking: Ranking, found: Weighed, ratio: float) -> Decision:
-    """What may be said; ratio: error on held-out records with the cause over that without, nan where they do not judge."""
+def decided(ranking: Ranking, found: Weighed, ratio: float, free: bool = False) -> Decision:
+    """What may be said; ratio: error on held-out records with the cause over that without, nan where they do not judge.
+
+    free: of free decays, whose loud beginning is one stretch or two: a law that leaves more than noise there may stand for another.
+    """
     best, first = leader(ranking), ranking.fits[0]
     if not missing(ranking.baseline) or found.beside is found.baseline:
         return Decision(NOTHING)
@@ -82,7 +85,7 @@ def decided(ranking: Ranking, found: Weighed, ratio: float) -> Decision:
         ratio = np.nan  # parameters pushed out of their prior predict as well as what is true
     if ratio > 1:
         return Decision(UNKNOWN, None, (group(best),), (_refuted(best, ratio),))
-    rest = None if _settled(ranking, found) else _rest(ranking)
+    rest = None if free or _settled(ranking, found) else _rest(ranking)
     named = _sure(ranking) and not ratio > _BETTER
     if not _settled(ranking, found) and (rest is None or not named):
         return Decision(UNKNOWN)
