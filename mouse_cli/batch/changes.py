@@ -1,6 +1,6 @@
 """What a job changes of its deck: texts at places of the YAML, values and accuracies of the problem, weights of modes and sensors.
 
-Options of a job that hold them: `texts` {place: text}, `values` {name: number}, `drawn` {"modes": counts, "sensors": counts}.
+Options of a job that hold them: `texts` {place: text}, `values` {name: number}, `drawn` (see `batch.drawn`).
 """
 
 import re
@@ -86,13 +86,9 @@ def changed(problem: Problem, options: dict[str, Any]) -> Problem:
     if options.get("values"):
         problem = _with_values(problem, options["values"])
     if options.get("drawn"):
-        if problem.test is None or problem.frf or problem.recordings:
-            raise _refused(
-                "MD934",
-                "modes and sensors of a test of functions or recordings cannot be drawn",
-                "identify modes first",
-            )
-        problem = replace(problem, test=weighed(problem.test, **options["drawn"]))
+        from mouse_cli.batch.drawn import drawn
+
+        problem = drawn(problem, options["drawn"])
     return problem
 
 
@@ -132,20 +128,6 @@ def _scaled(test: ModalTest, name: str, factor: float) -> ModalTest:
     if name == "shape_sd*":
         return replace(test, shape_sd=test.shape_sd * factor)
     return replace(test, frequency_sd_hz=test.frequency_sd_hz * factor)
-
-
-def weighed(test: ModalTest, modes: list[int] | None = None, sensors: list[int] | None = None) -> ModalTest:
-    """The test with each mode and sensor counted so often: a datum's variance is divided by both counts, by 0: left out."""
-    from mouse_cli.model.hold_out import part
-
-    modes_n = np.ones(test.m) if modes is None else np.array(modes, float)
-    sensors_n = np.ones(test.s) if sensors is None else np.array(sensors, float)
-    kept, at = np.flatnonzero(modes_n), np.flatnonzero(sensors_n)
-    left = part(test, kept, at)
-    times = np.outer(sensors_n[at], modes_n[kept])
-    return replace(
-        left, shape_sd=left.shape_sd / np.sqrt(times), frequency_sd_hz=left.frequency_sd_hz / np.sqrt(modes_n[kept])
-    )
 
 
 def _unknown(name: str, path: str, note: str) -> DeckError:

@@ -25,8 +25,9 @@ def summed(problem: Problem, plan: Plan, outcomes: list[Outcome], seed: int) -> 
     if not first.found:
         message = f"the deck itself has no answer: {first.ended}"
         raise NumericalError(Diagnostic("MD935", ERROR, message, help="check it with `mouse run`"))
-    left_out, drawn = rest[: plan.units], rest[plan.units :]
-    predicted = bootstrap.predicted(problem, first.theta, plan)
+    units = tuple(name for each in plan.named.values() for name in each)
+    left_out, drawn = rest[: len(units)], rest[len(units) :]
+    predicted = bootstrap.predicted(problem, first, plan)
     kept = [each for each in drawn if each.found]
     parameters = tuple(
         _spread(each.name, each.unit, (first.theta[i], first.sd[i], predicted[0][i]), [a.theta[i] for a in kept],
@@ -46,25 +47,20 @@ def summed(problem: Problem, plan: Plan, outcomes: list[Outcome], seed: int) -> 
         for i, number in enumerate(numbers)
     )
     found = Bootstrap(
-        problem, plan.over, seed, first, units(problem, plan), tuple(left_out), tuple(drawn), plan.counts, parameters,
+        problem, plan.over, seed, first, units, tuple(left_out), tuple(drawn), plan.counts, parameters,
         frequencies, first.exit_code,
     )  # fmt: skip
     return replace(found, warnings=tuple(_remarks(found, plan)))
-
-
-def units(problem: Problem, plan: Plan) -> tuple[str, ...]:
-    """What is drawn or left out: `mode 3`, `sensor 12TY`."""
-    test = problem.test
-    modes = [f"mode {number}" for number in test.number[: plan.m]]
-    labels = test.sensors or tuple(problem.structure.labels[dof] for dof in test.dofs)
-    return (*modes, *(f"sensor {label}" for label in labels[: plan.s]))
 
 
 def _frequency_sd(outcome: Outcome) -> list[float]:
     import json
 
     with open(outcome.result, encoding="utf-8") as stream:
-        return [np.nan if each["sd_hz"] is None else each["sd_hz"] for each in json.load(stream)["document"]["modes"]]
+        return [
+            np.nan if each["sd_hz"] is None else each["sd_hz"]
+            for each in json.load(stream)["document"].get("modes", ())
+        ]
 
 
 def _spread(
@@ -74,7 +70,7 @@ def _spread(
     value, sd, predicted = (float(each) for each in run)
     x, without = np.array(drawn, float), np.array(left_out, float)
     x = x[np.isfinite(x)]
-    samples = [part[np.isfinite(part)] for part in (without[: plan.m], without[plan.m :]) if len(part)]
+    samples = [part[np.isfinite(part)] for part in np.split(without, np.cumsum(plan.sizes)[:-1])]
     samples = [part for part in samples if len(part) > 1]
     influence = (without - value) / sd if sd > 0 else np.full(len(without), np.nan)
     jackknife = intervals.jackknife_sd(samples) if samples else np.nan
@@ -104,7 +100,7 @@ def limits(plan_units: int) -> tuple[float, float]:
 
 def _remarks(found: Bootstrap, plan: Plan) -> Iterator[Diagnostic]:
     """What a careful reader of a bootstrap should know."""
-    low, high = limits(min(each for each in (plan.m, plan.s) if each))
+    low, high = limits(min(plan.sizes))
     ratios = [(s.sd / s.predicted, s.name) for s in found.parameters if s.predicted > 0 and np.isfinite(s.sd)]
     if ratios and max(ratios)[0] > high:
         ratio, name = max(ratios)

@@ -8,8 +8,11 @@ from mouse_cli.cli._options import run_changes
 TABLE = (click.option("--csv", "csv_file", metavar="FILE", help="Write a long table, one line a run and quantity."),)
 
 
-def deck_of(deck: str, given: dict[str, object], quiet: bool) -> tuple:
-    """The problem of the deck, and the options of all jobs on it. Raises DeckError, click.UsageError."""
+def deck_of(deck: str, given: dict[str, object], quiet: bool, recordings: bool = False) -> tuple:
+    """The problem of the deck, and the options of all jobs on it. recordings: they are a test too.
+
+    Raises DeckError, click.UsageError.
+    """
     from mouse_cli.cli._decks import read_problem
     from mouse_cli.cli._terminal import show_diagnostics
     from mouse_cli.updating import refusals
@@ -18,7 +21,7 @@ def deck_of(deck: str, given: dict[str, object], quiet: bool) -> tuple:
         raise click.UsageError("the deck must be a file: processes read it again")
     base = {name: value for name, value in run_changes(given).items() if value is not None}
     problem = read_problem(deck, dict(base))
-    if problem.by_recordings or (problem.test is None and not problem.frf):
+    if not recordings if problem.by_recordings else problem.test is None and not problem.frf:
         raise refusals.no_test(problem)
     if not quiet:
         show_diagnostics(problem.warnings)

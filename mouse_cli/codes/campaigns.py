@@ -38,10 +38,10 @@ CODES = {
         "Give values such as `0.5,1,2`, or a range `low:high:count`, `log:low:high:count`.",
     ),
     "MD934": Code(
-        "no modes or sensors to draw",
-        "A bootstrap draws measured modes and sensors: two of each kind at least. Tests of functions or recordings are not "
-        "drawn, nor is a test for an estimator that does not weight its data, where nothing can count twice.",
-        "`mouse identify` makes modes of functions and recordings; with one sensor draw `--over modes`.",
+        "nothing to draw",
+        "A bootstrap draws measured modes, sensors, functions or stretches of recordings of 300 samples at least: two of each "
+        "kind. It is refused for an estimator that does not weight its data, where nothing can count twice.",
+        "State in `--over` what the test has two of: with one sensor `--over modes`.",
     ),
     "MD935": Code(
         "no answer to begin from",

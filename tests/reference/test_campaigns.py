@@ -15,7 +15,8 @@ import pytest
 from scipy.stats import bootstrap as scipy_bootstrap
 
 from mouse_cli._errors import DeckError
-from mouse_cli.batch.changes import changed, edited, weighed
+from mouse_cli.batch.changes import changed, edited
+from mouse_cli.batch.drawn import weighed
 from mouse_cli.batch.work import perform
 from mouse_cli.campaigns import answers, design, intervals, shares, sweep
 from mouse_cli.cli._vary import varied

@@ -10,7 +10,9 @@ from mouse_cli.cli._options import OUTSIDE, QUIET, RUN, answer_form, options
 @click.command()
 @click.argument("deck")
 @click.option(
-    "--over", type=click.Choice(("modes", "sensors", "both")), default="modes", show_default=True, help="What is drawn."
+    "--over",
+    type=click.Choice(("modes", "sensors", "both", "functions", "records")),
+    help="What is drawn; both: modes and sensors.  [default: what the deck has first of modes, functions, records]",
 )
 @click.option("--replicates", type=click.IntRange(2, 100_000), default=200, show_default=True, help="Tests drawn.")
 @click.option("--jackknife", is_flag=True, help="Jackknife only: leave each out once, and resample none.")
@@ -18,7 +20,7 @@ from mouse_cli.cli._options import OUTSIDE, QUIET, RUN, answer_form, options
 @options(folder("mouse-bootstrap"), JOBS, CLUSTER, answer_form("mouse.campaign/1"), TABLE, OUTSIDE, QUIET, RUN)
 def command(
     deck: str,
-    over: str,
+    over: str | None,
     replicates: int,
     jackknife: bool,
     seed: int,
@@ -33,7 +35,7 @@ def command(
     quiet: bool,
     **given: object,
 ) -> int:
-    """Bootstrap of DECK: resample modes or sensors of its test, report the scatter and the influence of each measurement.
+    """Bootstrap of DECK: resample its test, report the scatter and the influence of each mode, sensor, function or record.
 
     Each replicate is a job as of `mouse batch`: existing answers are kept.
 
@@ -44,8 +46,8 @@ def command(
     from mouse_cli.cli._engine import done
     from mouse_cli.cli._options import outside
 
-    problem, base = deck_of(deck, given, quiet)
-    plan = bootstrap.plan(problem, over, 0 if jackknife else replicates, seed)
+    problem, base = deck_of(deck, given, quiet, recordings=True)
+    plan = bootstrap.plan(problem, over or bootstrap.natural(problem), 0 if jackknife else replicates, seed)
     outcomes = done(bootstrap.jobs(deck, plan, base, outside()), output, jobs, scheduler, cluster, limit_s)
     found = resampled.summed(problem, plan, outcomes, seed)
     told(found, form, numbers, csv_file)

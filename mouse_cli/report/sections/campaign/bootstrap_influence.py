@@ -26,4 +26,4 @@ def influence(found: Bootstrap, options: Options) -> Iterator[Block]:
     yield Text(f"By how many posterior standard deviations each property moves when that is left out.{rest}")
 
 
-SECTION = Section("bootstrap-influence", 20, "Influence of modes and sensors", influence, (Bootstrap,), place=RESULT)
+SECTION = Section("bootstrap-influence", 20, "Influence of what was measured", influence, (Bootstrap,), place=RESULT)

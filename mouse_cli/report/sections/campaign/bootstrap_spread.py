@@ -19,7 +19,13 @@ _COLUMNS = (
     Column("BCa from"),
     Column("to"),
 )
-_DRAWN = {"modes": "modes", "sensors": "sensors", "both": "modes and sensors"}
+_DRAWN = {
+    "modes": "modes",
+    "sensors": "sensors",
+    "both": "modes and sensors",
+    "functions": "functions",
+    "records": "stretches of the recordings",
+}
 
 
 def spread(found: Bootstrap, options: Options) -> Iterator[Block]:
