@@ -57,7 +57,16 @@ COMMANDS: dict[str, Asked] = {
     ),
     "bootstrap": Asked(
         ("deck",),
-        (*_LOOP, *_SHOWN, "--over=sensors", "--over=both", "--jackknife", "--csv=out/t.csv"),
+        (
+            *_LOOP,
+            *_SHOWN,
+            "--over=functions",
+            "--over=records",
+            "--over=sensors",
+            "--over=both",
+            "--jackknife",
+            "--csv=out/t.csv",
+        ),
         ("--replicates=3", "-j=1", "-o=out/b", "--time-limit=8"),
         cost=5,
     ),

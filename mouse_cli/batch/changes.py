@@ -14,6 +14,7 @@ from mouse_cli.formats import is_yaml
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.problem import Problem
 
+_LARGEST = 1e150  # standard deviation, the square of which is a number
 CHANGES = ("texts", "values", "drawn")
 SCALED = ("frequency_sd*", "shape_sd*")
 SD = ".sd"
@@ -106,10 +107,10 @@ def _with_values(problem: Problem, values: dict[str, float]) -> Problem:
             mean[places[name]] = value
         elif own in places and name.endswith(SD):
             sd = problem.prior.sd[places[own]]
-            if not (sd > 0 and value > 0):
+            if not (sd > 0 and 0 < value < _LARGEST):
                 raise _refused(
                     "MD933",
-                    f"{name} is {value:g}, in the deck {sd:g}; both must be above zero",
+                    f"{name} is {value:g}, in the deck {sd:g}; both must be above zero and below {_LARGEST:g}",
                     "vary another quantity",
                 )
             factor[places[own]] = value / sd

@@ -10,6 +10,7 @@ from mouse_cli.formats.rules.entries import finite, inside
 from mouse_cli.model.arrays import Matrix, is_sparse, sparse_symmetric
 
 LARGEST_DENSE = 1500  # orders up to this are kept as dense arrays: eigh of the whole matrix is then the fastest way
+_TWICE = 18  # elements given twice that are listed one by one
 _LISTED = 3  # findings of one kind that are told one by one where one cause is likely to make many
 _SINGULAR = 1e-13  # smallest over largest eigenvalue of M, scaled to a unit diagonal, that rounding alone can make
 _MASSIVE = "give the elements a density, add masses (with inertia where a node rotates), or keep fewer `directions`"
@@ -41,18 +42,28 @@ def _symmetric(entries: Entries, order: int) -> Matrix:
 
 def _mirror_images(draft: Draft, entries: Entries, name: str) -> None:
     """(i, j) and (j, i) are one place: equal values are a warning, unequal ones an error."""
-    seen: dict[tuple[int, int], int] = {}
-    for i, (row, col) in enumerate(zip(entries.rows.tolist(), entries.cols.tolist(), strict=True)):
-        first = seen.setdefault((min(row, col), max(row, col)), i)
-        if first == i:
-            continue
-        one, other = entries.values[first], entries.values[i]
-        message = f"{name}({row},{col}) is given twice, first as {one:.8g}, then as {other:.8g}"
-        note = "an element and its mirror image are one element"
-        if one == other:
-            draft.warn("MD303", message, entries.where(i), note, "give each element once")
-        else:
-            draft.error("MD303", message, entries.where(i), note, "delete one of the two")
+    low, high = np.minimum(entries.rows, entries.cols), np.maximum(entries.rows, entries.cols)
+    _, first, place = np.unique(np.stack([low, high]), axis=1, return_index=True, return_inverse=True)
+    first = first[place.ravel()]
+    twice = np.flatnonzero(first != np.arange(len(first)))
+    alike = entries.values[first[twice]] == entries.values[twice]
+    note = "an element and its mirror image are one element"
+    for found, say, help in (
+        (twice[~alike], draft.error, "delete one of the two"),
+        (twice[alike], draft.warn, "give each element once"),
+    ):
+        for i in found[:_TWICE]:
+            values = f"first as {entries.values[first[i]]:.8g}, then as {entries.values[i]:.8g}"
+            at = f"{name}({entries.rows[i]},{entries.cols[i]})"
+            say("MD303", f"{at} is given twice, {values}", entries.where(int(i)), note, help)
+        if len(found) > _TWICE:
+            say(
+                "MD303",
+                f"{len(found)} elements of {name} in all are given twice",
+                entries.where(int(found[-1])),
+                note,
+                help,
+            )
 
 
 def positive_masses(draft: Draft, M: Matrix) -> None:
