@@ -37,13 +37,16 @@ class Judged(Ranking):
 
 @dataclass(frozen=True)
 class Seen:
-    """An explanation at one site, `one`, as recordings see it; whole: at all sites; share: of its evidence that this one holds."""
+    """An explanation at one site, `one`, as recordings see it in a study of its own model; whole: at all sites; share: of its
+    evidence that this one holds.
+    """
 
     whole: Fit
     one: Fit
     share: float
     known: Posterior
     record: Simulated
+    study: Study
 
     @property
     def log_evidence(self) -> float:
@@ -95,8 +98,9 @@ class Hearing:
             return _with(found, "recordings did not judge: the model as it is cannot be simulated under their forces")
         leading = sorted((each for each in others if not each.one.nameless), key=lambda each: -each.log_evidence)
         seen = [first, *others, *(more for each in leading[:_CLIMBED] for more in self._climbed(own, each, others))]
-        best = max(seen, key=lambda each: each.log_evidence).record
-        left = noise(own.spectrum, best.hypothesis, own.places, best.x) if unlikely(best) else None
+        ahead = max(seen, key=lambda each: each.log_evidence)
+        best, there = ahead.record, ahead.study
+        left = noise(there.spectrum, best.hypothesis, there.places, best.x) if unlikely(best) else None
         if left is None and not close(best):
             self.unexplained = own
             return _with(found, _MORE.format(best.misfit / best.dof))
@@ -202,17 +206,19 @@ def _sites(one: Fit) -> list[tuple[Fit, float]]:
 def seen(own: Study, whole: Fit, one: Fit, share: float, beat: float = np.inf) -> Seen | None:
     """What recordings make of a fit `one` of modes; beat: the cost of a better one. None where no simulation stays finite."""
     known = posterior(one)
-    record = fitted(alike(own, partial(modelled, known)), None, beat)
+    its = alike(own, partial(modelled, known))
+    record = fitted(its, None, beat)
     if record is None:
         return None
-    found = Seen(whole, one, share, known, record)
+    found = Seen(whole, one, share, known, record, its)
     if getattr(one, "frf", None) is not None or record.cost > _BEHIND * beat:
         return found
     there = expanded(known, found.x)
     if there is None or abs(_cost(there, found.x) - _cost(known, found.x)) < 2 * _AWAY:
         return found
-    record = fitted(alike(own, partial(modelled, there)), None, beat)
-    return found if record is None else Seen(whole, one, share, there, record)
+    its = alike(own, partial(modelled, there))
+    record = fitted(its, None, beat)
+    return found if record is None else Seen(whole, one, share, there, record, its)
 
 
 def _cost(known: Posterior, x: np.ndarray) -> float:
