@@ -81,3 +81,9 @@ def test_a_hub(m, J, known):
     for name, value in (("rotary inertia", J), ("mass", m)):
         if name in sizes:
             assert abs(sizes[name].value - value) < 4 * sizes[name].sd and sizes[name].sd < 0.1 * value
+
+
+def test_a_mass_without_rotary_inertia_is_a_mass():
+    """Its place is a node, where a body need not pay for a place along the shaft: what data do not feel is no part of the name."""
+    found = diagnose(assemble(yaml_deck.read(deck(*truth(COARSE, 2.0, 0.0)), "shaft.yaml")))
+    assert (found.kind, [cause.physics for cause in found.best.causes]) == (NAMED, ["mass"])

@@ -15,6 +15,7 @@ class Candidate:
     """key; title: in words; group: of candidates that data can hardly tell apart; meaning: what it is, for the manual.
 
     recipes(model): where it can act in a model and how; empty where it has no meaning. why(model): why it has no site in it.
+    plain: key of the mechanism that it is where its further size vanishes.
     """
 
     key: str
@@ -23,6 +24,7 @@ class Candidate:
     meaning: str
     recipes: Callable[[Reduced, "Candidate"], list[Recipe]]
     why: Callable[[Reduced], str] = lambda model: NO_SITE
+    plain: str = ""
 
     def __reduce__(self):
         """By its key: another process has the same candidates."""

@@ -51,4 +51,5 @@ CANDIDATE = Candidate(
     "an added mass on a rigid arm from a node, such as a tank on a bracket or a machine far from the axis of a floor: M + m B'B, "
     "B = T + R x a for translations T and rotations R of the node, so that it couples translation and rotation",
     recipes,
+    plain="mass",
 )

@@ -67,4 +67,5 @@ CANDIDATE = Candidate(
     "a body at a node that the model lacks, or has as a point: a hub, a flywheel, a heavy joint: M + m T'T + J R'R for the "
     "translations T and rotations R of the node; or its rotary inertia alone, M + J R'R, about one axis or all alike",
     recipes,
+    plain="mass",
 )

@@ -1,4 +1,4 @@
-"""Mechanisms of several parts, each with a size of its own, without those parts that they do not need."""
+"""Mechanisms without what they do not need: parts with a size of their own, and sizes beyond those of a plainer mechanism."""
 
 from collections.abc import Iterator
 
@@ -27,3 +27,19 @@ def _fewer(one: Fit, there: Study) -> Iterator[Fit]:
             c = np.delete(one.c, one.model.own[j].start + i)
             models = [there.kind(there.model, (*own[:j], each, *own[j + 1 :])) for each in known]
             yield from (again for model in models if (again := fit(model, c, one.point.x[:k])) is not None)
+
+
+def plainest(fits: list[Fit]) -> list[Fit]:
+    """The fits without those that explain the data no better than the mechanism that they are where a further size vanishes.
+
+    Better: by a log likelihood of MATERIAL. A rotary inertia that data do not feel makes a mass no other mechanism, yet at a node
+    it would not pay for a place along a member, as the mass alone does.
+    """
+    best = {tuple(sorted(recipe.candidate.key for recipe in one.recipes)): one.misfit for one in fits if one.recipes}
+    return [one for one in fits if one.misfit < best.get(_plain(one), np.inf) - 2 * MATERIAL or _plain(one) == ()]
+
+
+def _plain(one: Fit) -> tuple[str, ...]:
+    """Keys of the plainer mechanisms of a fit; () where it has none."""
+    found = tuple(sorted(recipe.candidate.plain or recipe.candidate.key for recipe in one.recipes))
+    return found if any(recipe.candidate.plain for recipe in one.recipes) else ()

@@ -23,6 +23,7 @@ from mouse_cli.diagnosis.search.descents import settled
 from mouse_cli.diagnosis.search.disguised import disguised
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.optima import within
+from mouse_cli.diagnosis.search.pared import plainest
 from mouse_cli.diagnosis.search.parts import in_turn, promising, single
 from mouse_cli.diagnosis.search.several import adequate, several
 from mouse_cli.diagnosis.search.study import Study
@@ -142,7 +143,9 @@ def _ranked(study: Study, causes: int, hear: Callable[[Ranking], Ranking], last:
     if causes > 1 and with_cause and not adequate(min(with_cause, key=lambda one: one.misfit), _FURTHER):
         trusted = found.stated[0] > _TRUSTED or found.noise_scale > _LOUD
         fits += several(study, singles, causes if trusted else min(causes, 2))
-    found = found if len(fits) == 1 + len(singles) else hear(ranking(baseline, fits))
+    kept = fits if model.problem.frf or model.problem.recordings else plainest(fits)  # these may feel what modes do not
+    if len(fits) > 1 + len(singles) or len(kept) < len(fits):
+        found = hear(ranking(baseline, kept))
     return replace(found, untried=_untried(study, singles))
 
 
