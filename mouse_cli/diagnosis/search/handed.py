@@ -34,7 +34,7 @@ class Again:
 
 
 def known_to_all(study) -> dict[str, Any]:
-    """What every process of a crew has, by name."""
+    """What every process of a pool has, by name."""
     model = study.model
     shared = {name: getattr(model, name) for name in ("problem", "assembly", "static", "data")}
     return {name: value for name, value in shared.items() if value is not None} | {

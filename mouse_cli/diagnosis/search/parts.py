@@ -1,4 +1,4 @@
-"""Parts of a search that any process of a crew can do: what is given and found can be handed over."""
+"""Parts of a search that any process of a pool can do: what is given and found can be handed over."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -60,9 +60,9 @@ def in_turn(
     accept: Callable[[int, Any], None],
     reach: Callable[[int], float] = lambda i: inf,
 ) -> None:
-    """accept(i, task(study, *given[i], reach(i))) for each i in order, by the crew of the study if it has one; see `Crew`."""
-    if study.crew is not None:
-        study.crew.in_turn(task, given, accept, reach)
+    """accept(i, task(study, *given[i], reach(i))) for each i in order, by the pool of the study if it has one; see `Pool`."""
+    if study.pool is not None:
+        study.pool.in_turn(task, given, accept, reach)
         return
     for i, own in enumerate(given):
         accept(i, task(study, *own, reach(i)))
@@ -73,8 +73,8 @@ def promising(study: Study) -> list[str]:
     names, coarse, none = list(study.known), study.coarse, np.zeros(study.k)
     in_turn(study, first_look, [(name,) for name in names], lambda i, seen: learn(study, names[i], *seen))
     looks = {name: coarse.looks(name, none, ()) for name in names}
-    for name in names if study.crew is not None else ():
-        study.crew.tell(learn, name, looks[name], coarse.alone.get(name))
+    for name in names if study.pool is not None else ():
+        study.pool.broadcast(learn, name, looks[name], coarse.alone.get(name))
     return sorted(names, key=lambda name: looks[name][0][0] if looks[name] else np.inf)
 
 

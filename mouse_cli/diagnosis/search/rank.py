@@ -18,13 +18,13 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.nameless.fit import rivals
 from mouse_cli.diagnosis.noise import scale
-from mouse_cli.diagnosis.search.crew import Crew
 from mouse_cli.diagnosis.search.descents import settled
 from mouse_cli.diagnosis.search.disguised import disguised
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.optima import within
 from mouse_cli.diagnosis.search.pared import plainest
 from mouse_cli.diagnosis.search.parts import in_turn, promising, single
+from mouse_cli.diagnosis.search.pool import Pool
 from mouse_cli.diagnosis.search.several import adequate, several
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.model.diagnosis import Untried
@@ -116,10 +116,10 @@ def rank(
     """All that the candidates (`known`; None: all) make of the data, at most `causes` of them together.
 
     hear: what further data make of a ranking, before several are sought and after. kind: see `Study`. last: False where further
-    mechanisms will be sought besides, so that what has no name is no rival yet. jobs, again: processes, see `Crew`.
+    mechanisms will be sought besides, so that what has no name is no rival yet. jobs, again: processes, see `Pool`.
     """
     study = Study(model, known, kind)
-    with Crew(study, jobs, again) as study.crew:
+    with Pool(study, jobs, again) as study.pool:
         return _ranked(study, causes, hear, last)
 
 

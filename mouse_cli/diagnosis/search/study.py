@@ -30,7 +30,7 @@ class Study:
     """A reduced model, what each candidate can do to it, and the same at other parameters, where causes weigh otherwise.
 
     known: candidates by key; None: all. kind: of what a model with causes is made, of one structure or of its arrangements. alone:
-    what candidates do by themselves. crew: processes that share the search, of the study that it began with.
+    what candidates do by themselves. pool: processes that share the search, of the study that it began with.
     """
 
     def __init__(
@@ -43,7 +43,7 @@ class Study:
         self.model, self.k, self.kind = model, model.L.shape[1], kind
         self.begun = self if begun is None else begun  # the same at the parameters where the search began
         self.alone: dict[str, Alone] = {}
-        self.crew: Any = None
+        self.pool: Any = None
         self.known = registry() if known is None else known
         self._made: dict[str, list[Recipe]] = {}
         self._about: list[Study] = [self]

@@ -23,14 +23,14 @@ from mouse_cli.model.problem import Problem
 
 _AHEAD = 3  # parts for each process, in hand or waiting
 _THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
-_own: Study | None = None  # the study of this process, where it is one of a crew
+_own: Study | None = None  # the study of this process, where it is one of a pool
 
 Task = Callable[
     ..., Any
 ]  # of a study, what is given and the misfit above which nothing matters; a function of a module
 
 
-class Crew:
+class Pool:
     """`jobs` processes for a study; entered, it is None where there is but one, which does all by itself.
 
     again: makes the model of the study from its problem once more, a function of a module; None: that cannot be.
@@ -50,14 +50,14 @@ class Crew:
         begin = partial(ProcessPoolExecutor, 1, mp_context=fresh, initializer=_begin, initargs=given)
         self._workers = [begin() for _ in range(jobs)]
 
-    def __enter__(self) -> "Crew | None":
+    def __enter__(self) -> "Pool | None":
         return self if self._workers else None
 
     def __exit__(self, *_: object) -> None:
         for worker in self._workers:
             worker.shutdown(wait=False, cancel_futures=True)
 
-    def tell(self, task: Task, *given: Any) -> None:
+    def broadcast(self, task: Task, *given: Any) -> None:
         """Every process does `task`."""
         for worker in self._workers:
             worker.submit(_perform, task, given)

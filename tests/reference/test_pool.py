@@ -11,9 +11,9 @@ import pytest
 import mouse_cli
 from benchmarks.trials.seal import seal
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
-from mouse_cli.diagnosis.search.crew import Crew, _perform
 from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.diagnosis.search.handed import known_to_all, packed, unpacked
+from mouse_cli.diagnosis.search.pool import Pool, _perform
 from mouse_cli.diagnosis.search.study import Study
 
 KIND = "several/chain/mass + ground-spring"
@@ -21,7 +21,7 @@ KIND = "several/chain/mass + ground-spring"
 
 @pytest.fixture(scope="module")
 def deck(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("crew") / "trial"
+    folder = tmp_path_factory.mktemp("pool") / "trial"
     seal(folder, 3, 1, [KIND])
     return next((folder / "decks").glob("*.yaml"))
 
@@ -41,7 +41,7 @@ def test_answers_are_the_same_whatever_the_number_of_processes(deck):
     assert one == two == three
 
 
-class Inline(Crew):
+class Inline(Pool):
     """Two workers that do what they are handed at once, and say what it was."""
 
     def __init__(self):
@@ -57,17 +57,17 @@ class Inline(Crew):
 
 
 def test_parts_begun_ahead_are_begun_anew_where_the_reach_turned_out_otherwise():
-    crew, best, taken = Inline(), [9.0], []
+    pool, best, taken = Inline(), [9.0], []
 
     def accept(i: int, found: tuple) -> None:
         taken.append(found)
         best[0] = min(best[0], found[0])
 
-    crew.in_turn(
+    pool.in_turn(
         lambda study, misfit, reach: (misfit, reach), [(5.0,), (7.0,), (2.0,), (3.0,)], accept, lambda i: best[0]
     )
     assert taken == [(5.0, 9.0), (7.0, 5.0), (2.0, 5.0), (3.0, 2.0)]  # those of one process
-    assert (7.0, 9.0) in crew.begun  # begun too early
+    assert (7.0, 9.0) in pool.begun  # begun too early
     assert _perform(lambda study: 1, ()) is None  # a process without a model finds nothing
 
 
