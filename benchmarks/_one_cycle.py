@@ -8,7 +8,7 @@ import numpy as np
 from mouse_cli.estimators.bayes import solve
 from mouse_cli.estimators.linear import LinearProblem
 from mouse_cli.model.problem import Problem
-from mouse_cli.updating.loop import begin
+from mouse_cli.updating.prior_model import begin
 
 CHANGE = 0.02  # of the parameters from one cycle to the next, relative to their prior mean
 

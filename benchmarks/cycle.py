@@ -26,7 +26,7 @@ from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.problem import Problem, RunOptions
 from mouse_cli.model.structure import ListedElements, Structure
 from mouse_cli.updating import run
-from mouse_cli.updating.loop import begin
+from mouse_cli.updating.prior_model import begin
 
 N, FEW, MORE = 140, 2, 10
 

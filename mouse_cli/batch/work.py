@@ -70,7 +70,7 @@ def _answer(job: Job, data: bytes) -> tuple[int, tuple[Diagnostic, ...], dict[st
     """Exit code, findings and document of the command."""
     problem = _problem(job, data)
     if job.command == CHECK:
-        from mouse_cli.updating.loop import examine
+        from mouse_cli.updating.prior_model import examine
 
         examine(problem)
         return 0, problem.warnings, None

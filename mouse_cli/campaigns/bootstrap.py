@@ -16,8 +16,8 @@ from mouse_cli.estimators import estimator
 from mouse_cli.estimators.linear import expand, in_prior_units
 from mouse_cli.model.campaign import Answered
 from mouse_cli.model.problem import Problem
-from mouse_cli.updating.loop import begin
 from mouse_cli.updating.posterior import laplace
+from mouse_cli.updating.prior_model import begin
 from mouse_cli.updating.state import Setting
 
 OVER = ("modes", "sensors", "both", "functions", "records")

@@ -36,7 +36,8 @@ from mouse_cli.model.modal_test import restricted
 from mouse_cli.model.problem import Problem, RunOptions
 from mouse_cli.model.result import Result
 from mouse_cli.updating import refusals
-from mouse_cli.updating.loop import related, run
+from mouse_cli.updating.loop import run
+from mouse_cli.updating.prior_model import related
 
 Notice = Callable[[str], None]
 

@@ -8,7 +8,7 @@ from mouse_cli.methods.by_loop import movements
 from mouse_cli.methods.found import Found
 from mouse_cli.methods.given import Given
 from mouse_cli.model.updated import KEPT, LOST, PARTLY
-from mouse_cli.updating.loop import begin
+from mouse_cli.updating.prior_model import begin
 from mouse_cli.updating.state import Setting, State, attempt
 
 MOST_SOLUTIONS = 400  # eigensolutions

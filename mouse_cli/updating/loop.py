@@ -6,7 +6,6 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli import __version__
-from mouse_cli.dynamics.eigen import IndefiniteError
 from mouse_cli.dynamics.solver import EigenSolver, Notice
 from mouse_cli.estimators import estimator as find_estimator
 from mouse_cli.estimators.conditioning import conditioning
@@ -18,25 +17,18 @@ from mouse_cli.estimators.linear import (
     conditioned,
     in_prior_units,
 )
-from mouse_cli.model.arrays import is_sparse
 from mouse_cli.model.conditioning import Conditioning
-from mouse_cli.model.modal_test import restricted
 from mouse_cli.model.problem import MOST_COVARIANCE, Problem
 from mouse_cli.model.result import ChiSquareTest, Result, Snapshot, Status
-from mouse_cli.observables.modal import UnrelatedShapes, observe
-from mouse_cli.terms.assembly import assembly as assemble
-from mouse_cli.terms.modal_damping import with_modal_damping
-from mouse_cli.updating import alternatives, anchored, mistakes, model_form, normality, refusals, replaced
+from mouse_cli.updating import alternatives, anchored, model_form, normality, refusals, replaced
 from mouse_cli.updating.convergence import ExceedanceTest
-from mouse_cli.updating.coordinates import coordinates
 from mouse_cli.updating.frf_fit import fits
-from mouse_cli.updating.frf_gains import with_gains
-from mouse_cli.updating.frf_setting import begin as begin_frf
-from mouse_cli.updating.frf_setting import with_test
 from mouse_cli.updating.frf_start import start as frf_start
 from mouse_cli.updating.posterior import laplace
+from mouse_cli.updating.prior_model import begin
+from mouse_cli.updating.prior_model import estimator as estimator_of
 from mouse_cli.updating.remarks import remarks
-from mouse_cli.updating.state import Setting, State, paired, reference_eigenvalue, solve
+from mouse_cli.updating.state import Setting, State, reference_eigenvalue
 from mouse_cli.updating.trace import Progress, Trace
 
 _HIGHER = 1e-3  # of J, by which another mode of the posterior is higher than where a run ended
@@ -65,7 +57,7 @@ def run(
     >>> result.status.key, result.revised.theta.round().tolist(), result.sd_theta.round(1).tolist()
     ('converged', [1105.0, 951.0, 1055.0, 900.0], [8.6, 5.9, 6.6, 4.7])
     """
-    estimator = _estimator(problem)
+    estimator = estimator_of(problem)
     try:
         setting, start = begin(problem, notice, solver)
         if guess is not None:  # modal damping and gains add parameters behind those of the deck
@@ -81,53 +73,6 @@ def run(
         return _run(trace, estimator, search)
     except np.linalg.LinAlgError as reason:
         raise refusals.unphysical(problem, f"{reason} (values beyond what can be computed with)") from None
-
-
-def related(problem: Problem, solver: EigenSolver | None = None) -> np.ndarray:
-    """Mask (m,) of the measured modes whose shapes have anything to do with the modes of the prior model they are paired with.
-
-    Raises DeckError without a test, NumericalError without an eigensolution, as `run` does.
-    """
-    if problem.test is None:
-        raise refusals.no_test(problem)
-    K, M = assemble(problem).matrices(problem.prior.mean)
-    try:
-        solution = solve(problem, K, M, solver=solver)
-    except (IndefiniteError, np.linalg.LinAlgError) as reason:
-        raise refusals.unphysical(problem, str(reason)) from None
-    mistakes.check(problem, solution)
-    modes, kept = paired(problem, solution), np.ones(problem.test.m, bool)
-    while kept.any():
-        try:
-            observe(restricted(problem.test, kept), M, solution, modes[kept])
-            return kept
-        except UnrelatedShapes as reason:
-            kept[np.flatnonzero(kept)[reason.mode]] = False
-    return kept
-
-
-def examine(problem: Problem) -> None:
-    """Look at what only the eigensolution of the prior model can tell of a deck; large models are left alone.
-
-    Raises DeckError and NumericalError as `run` does before its first cycle.
-    """
-    _estimator(problem)
-    if is_sparse(problem.structure.K) or is_sparse(problem.structure.M):
-        return
-    try:
-        if problem.test is None:
-            solve(problem, *assemble(problem).matrices(problem.prior.mean))
-        else:
-            begin(problem)
-    except (IndefiniteError, np.linalg.LinAlgError) as reason:
-        raise refusals.unphysical(problem, str(reason)) from None
-
-
-def _estimator(problem: Problem) -> Estimator:
-    try:
-        return find_estimator(problem.run.estimator)
-    except ValueError as reason:
-        raise refusals.unknown_estimator(problem, str(reason)) from None
 
 
 def _run(trace: Trace, estimator: Estimator, search: bool) -> Result:
@@ -205,34 +150,6 @@ def _conditioning(setting: Setting, end: State, estimator: Estimator) -> Conditi
 def _root(L: np.ndarray) -> np.ndarray:
     """The root of the prior as a matrix (p, k)."""
     return np.diag(L) if L.ndim == 1 else L
-
-
-def begin(
-    problem: Problem, notice: Notice = lambda text: None, solver: EigenSolver | None = None
-) -> tuple[Setting, State]:
-    """O-1 for the prior model, and the test brought to its scale."""
-    problem = with_gains(with_modal_damping(with_test(problem)))
-    if problem.test is None:
-        raise refusals.no_test(problem)
-    assembly = assemble(problem)
-    K, M = assembly.matrices(problem.prior.mean)
-    solver = EigenSolver(notice, sensors=problem.test.s) if solver is None else solver
-    try:
-        frf, solution = begin_frf(problem, K, lambda count: solve(problem, K, M, count, solver, verify=True))
-    except IndefiniteError as reason:
-        raise refusals.unphysical(problem, str(reason)) from None
-    mistakes.check(problem, solution)
-    refusals.check_rigid_modes(problem, solution)
-    modes = paired(problem, solution)
-    try:
-        observable = observe(problem.test, M, solution, modes)
-    except UnrelatedShapes as reason:
-        raise refusals.unrelated(problem, solution, reason.mode, reason.ratio) from None
-    y, sd = observable.measured()
-    if frf is not None:
-        y, sd = (np.concatenate(pair) for pair in zip((y, sd), frf.data(), strict=True))
-    setting = Setting(problem, assembly, coordinates(problem, assembly), observable, y, sd, solver, frf)
-    return setting, State(setting, setting.coordinates.mean, solution)
 
 
 def _spread(setting: Setting, state: State, estimator: Estimator) -> tuple[LinearEstimate, np.ndarray]:

@@ -7,8 +7,8 @@ import pytest
 
 from mouse_cli import read_deck, run
 from mouse_cli.cli.main import _run
-from mouse_cli.updating.loop import begin
 from mouse_cli.updating.posterior import laplace
+from mouse_cli.updating.prior_model import begin
 
 DECKS = Path(__file__).resolve().parents[2] / "decks"
 MIRRORED = (5, 3)  # storeys of a chain held at both ends, and of measured modes

@@ -13,7 +13,8 @@ import pytest
 from mouse_cli._errors import ERROR, DeckError
 from mouse_cli.formats import read_deck, read_draft
 from mouse_cli.formats.assemble import assemble
-from mouse_cli.updating.loop import examine, run
+from mouse_cli.updating.loop import run
+from mouse_cli.updating.prior_model import examine
 
 BETA = np.array([1.87510407, 4.69409113, 7.85475744, 10.99554073])
 SIGMA = (np.cosh(BETA) + np.cos(BETA)) / (np.sinh(BETA) + np.sin(BETA))

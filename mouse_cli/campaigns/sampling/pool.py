@@ -9,7 +9,7 @@ import numpy as np
 
 from mouse_cli.campaigns.sampling.ensemble import Density
 from mouse_cli.model.problem import Problem
-from mouse_cli.updating.loop import begin
+from mouse_cli.updating.prior_model import begin
 
 _density: Density | None = None  # of this process
 

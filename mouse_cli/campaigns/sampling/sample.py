@@ -13,9 +13,10 @@ from mouse_cli.estimators.linear import expand
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import Result
 from mouse_cli.model.sampled import Chain, PosteriorMode, Quantity, Sampled, Sampling
-from mouse_cli.updating.loop import begin, run
+from mouse_cli.updating.loop import run
 from mouse_cli.updating.normality import falls, told
 from mouse_cli.updating.posterior import Laplace, laplace
+from mouse_cli.updating.prior_model import begin
 from mouse_cli.updating.state import Setting
 
 _DRAWS = 2000  # so many that a k-hat up to 0.7 is told from a larger one: 1 - 1/log10(s)

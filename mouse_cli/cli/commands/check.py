@@ -66,7 +66,7 @@ def _findings(path: str, how: dict[str, object], stacked: bool) -> tuple:
     from mouse_cli.batch.decks import is_manifest
     from mouse_cli.cli._decks import read_drafts, read_other
     from mouse_cli.formats.assemble import assemble
-    from mouse_cli.updating.loop import examine
+    from mouse_cli.updating.prior_model import examine
 
     found: tuple = ()
     try:
