@@ -88,6 +88,15 @@ MUTANTS = (
         gate_far=("FAR = 5.0", "FAR = 8.0", "test_a_parameter_far_from_its_prior_takes_the_name"),
     ),
     *_of(
+        "validate/informed.py",
+        _GATES,
+        held_out_counts_for_nothing=(
+            "-np.where(behind > ODDS, behind, 0.0)",
+            "-np.where(behind > ODDS, 0.0, 0.0)",
+            "test_held_out_data_settle_what_the_fitted_data_leave_open test_held_out_data_turn_the_odds_of_a_field",
+        ),
+    ),
+    *_of(
         "verdict.py",
         _GATES,
         several_as_one=(
@@ -111,11 +120,6 @@ MUTANTS = (
             "return UNKNOWN, ()",
             "test_a_name_stays_beside_what_has_none",
         ),
-        nameless_takes_the_place=(
-            "        if unnamed(other):\n            continue\n",
-            "",
-            "test_held_out_data_strike_a_name",
-        ),
         far_and_yet_named=(
             "if far := far_parameters(first):",
             "if (far := far_parameters(first)) and False:",
@@ -130,11 +134,6 @@ MUTANTS = (
             "(believed and none < DEMANDED)",
             "none < DEMANDED",
             "test_a_test_that_is_not_believed_is_no_reason",
-        ),
-        fields_predict_nothing=(
-            "return 1.0 if more <= ODDS",
-            "return 1.0 if True",
-            "test_held_out_data_turn_the_odds_of_a_field",
         ),
         prediction_counts_for_nothing=(
             "if asked and not likely and _predicts",
@@ -202,10 +201,10 @@ MUTANTS = (
         ),
     ),
     *_of(
-        "nameless/_field.py",
+        "nameless/_weighed.py",
         _NAMELESS,
         field_sd_of_nothing=(
-            "field.P, covariance[own, own], field.P",
+            "field.P, one.covariance[own, own], field.P",
             "field.P, 9 * np.eye(field.P.shape[1]), field.P",
             "test_a_field_over_the_springs_of_a_chain",
         ),

@@ -15,8 +15,8 @@ RATE = 6.0  # of the prior of ln s: standard deviations are twice what was state
 def log_density(misfit: np.ndarray, dof: float) -> np.ndarray:
     """ln of it, for misfits (...,) that all have `dof` degrees of freedom.
 
-    >>> np.exp(log_density(np.array([0.0]), 0)).round(6)
-    array([1.])
+    >>> np.exp(log_density(np.array([0.0]), 0)).round(6).tolist()
+    [1.0]
     """
     from scipy.special import gammainc, gammaln, hyp1f1
 

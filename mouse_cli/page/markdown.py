@@ -35,6 +35,7 @@ def summary(document: Part) -> str:
         *_parameters(document),
     ]
     blocks += [*_records(document), *_methods(document), *_predicted(document)]
+    blocks += [*_correlated(document), *_identified(document)]
     remarks = [*document.texts("remarks"), *document.texts("warnings")]
     if remarks:
         blocks += _folds(_counted(remarks, "remark"), _listed(remarks[:_MOST]))
@@ -155,6 +156,32 @@ def _predicted(document: Part) -> Iterator[str]:
     modes = document.parts("modes") if document.text("schema") == "mouse.modes/1" else []
     rows = [(escaped(m.label("mode")), shown(m.number("hz")), shown(m.number("sd_hz"), 3)) for m in modes]
     yield from _told("Natural frequencies", ("mode", "Hz", "sd, Hz"), rows, "mode", _LONG)
+
+
+def _correlated(document: Part) -> Iterator[str]:
+    """Pairs of `mouse correlate`."""
+    modes = document.parts("modes") if document.text("schema") == "mouse.correlation/1" else []
+    rows = [
+        (
+            escaped(m.label("mode")),
+            shown(m.number("test_hz")),
+            shown(m.number("model_hz")),
+            signed_per_cent(m.number("difference_percent")),
+            shown(m.number("mac"), 3),
+        )
+        for m in modes
+    ]
+    yield from _told("Mode pairs", ("mode", "test, Hz", "model, Hz", "off", "MAC"), rows, "mode", _LONG)
+
+
+def _identified(document: Part) -> Iterator[str]:
+    """Modes of `mouse identify`."""
+    modes = document.parts("modes") if document.text("schema") == "mouse.identification/1" else []
+    rows = [
+        (shown(m.number("frequency_hz")), shown(m.number("frequency_sd_hz"), 2), shown(m.number("damping"), 3))
+        for m in modes
+    ]
+    yield from _told("Modes", ("Hz", "sd, Hz", "damping ratio"), rows, "mode", _LONG)
 
 
 def _told(title: str, heads: Sequence[str], rows: list[tuple[str, ...]], unit: str, longest: int) -> list[str]:

@@ -24,6 +24,7 @@ def made_up(*groups: str, misfit: float = 20.0, dof: int = 20, z=(0.3, -0.4), na
     field = SimpleNamespace(rival=SimpleNamespace(key=nameless, even=more.pop("even", ""))) if nameless else None
     own = {
         "strained": False,
+        "variants": (),
         "telling": False,
         "bearable": 1.5,
         "elsewhere": (),

@@ -43,6 +43,7 @@ def test_its_probability_is_that_of_the_field(monkeypatch):
     """Two stretches that touch lead; neither they nor a field of stiffness give a name, and the field is shown."""
     monkeypatch.setattr(decided, "unmeasured_hz", lambda one: ())
     monkeypatch.setattr(decided, "held_out", lambda model, baseline, best: None)
+    monkeypatch.setattr(decided, "averaged", lambda model, ranking: None)
     bare, field = made_up(misfit=90.0), made_up(nameless="field-stiffness")
     touching, apart = made_up("soft@0.1:0-1", "soft@0.2:2-2"), made_up("soft@0.1:0-1", "soft@0.8:7-8")
     given = {"p": (0.96, 0.035, 0.005), "odds": (9.0, 6.0, 0.0)}

@@ -36,8 +36,8 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
 def along(values: np.ndarray, axes: tuple[int, ...], count: int = 3) -> np.ndarray:
     """Unit vector (count,) of azimuth and elevation (2,), or of the first alone where a place moves along two `axes`.
 
-    >>> along(np.array([np.pi / 2, 0.0]), (0, 1, 2)).round(3) + 0.0
-    array([0., 1., 0.])
+    >>> abs(along(np.array([np.pi / 2, 0.0]), (0, 1, 2))).round(3).tolist()
+    [0.0, 1.0, 0.0]
     """
     level, n = np.cos(values[1]) if len(axes) > 2 else 1.0, np.zeros(count)
     n[axes[0]], n[axes[1]] = level * np.cos(values[0]), level * np.sin(values[0])

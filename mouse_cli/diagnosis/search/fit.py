@@ -93,15 +93,21 @@ class Fit(End):
         return self.model.base.data.dof - self.model.t
 
     @property
-    def covariance(self) -> np.ndarray:
-        """Of x, unknowns that the data do not feel as wide as their range; in units of their own, so that these do not matter."""
+    def root(self) -> np.ndarray:
+        """Root B (k + t, k + t) of the covariance B B' of x, unknowns that the data do not feel as wide as their range.
+
+        In units where the diagonal of the Hessian is 1 no eigenvalue counts for less than rounding: of two unknowns that the data
+        cannot tell apart at all, the sum alone is known, and the covariance is positive definite all the same.
+        """
         H = capped(self.hessian, self.model.width)
         unit = 1 / np.sqrt(H.diagonal())
-        scaled = unit[:, None] * H * unit
-        try:
-            return unit[:, None] * np.linalg.inv(scaled) * unit
-        except np.linalg.LinAlgError:  # of two that the data cannot tell apart at all, the sum alone is known
-            return unit[:, None] * np.linalg.pinv(scaled, hermitian=True) * unit
+        values, vectors = np.linalg.eigh(unit[:, None] * H * unit)
+        return unit[:, None] * vectors / np.sqrt(np.maximum(values, len(H) * np.finfo(float).eps))
+
+    @property
+    def covariance(self) -> np.ndarray:
+        """Of x (k + t, k + t)."""
+        return self.root @ self.root.T
 
 
 def fit(

@@ -89,7 +89,7 @@ def readings(one: Fit, test: ModalTest) -> Prediction | None:
         return None
     own = base.data.scale_sd(at.seen[:, at.modes]) / np.where(at.a == 0, 1.0, at.a)
     of_mode = np.nonzero(known)[1][:, None] == np.arange(test.m)
-    J = np.hstack([J @ np.linalg.cholesky(one.covariance), of_mode * (told(at)[:, None] * own)]) / sd[:, None]
+    J = np.hstack([J @ one.root, of_mode * (told(at)[:, None] * own)]) / sd[:, None]
     off = (test.shapes[known] - told(at)) / sd
     total = np.eye(len(off)) + J @ J.T
     misfit = float(off @ np.linalg.solve(total, off))

@@ -61,7 +61,7 @@ def beyond_linear(one: Fit, held: Model, at: Point, T: np.ndarray, misfit: float
     """
     if not T.size:
         return None
-    root = np.linalg.cholesky(one.covariance)
+    root = one.root
     least = root @ np.linalg.svd(T @ root, full_matrices=False)[2][0]
     if upper_tail(misfit, len(T)) > _CHANCE and _linear(held, at, T, least):
         return None

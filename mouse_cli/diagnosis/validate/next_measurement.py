@@ -149,8 +149,7 @@ def predicted(fitted: Fit, measurement: Measurement) -> Prediction | None:
     here = None if modes is None else measurement.read(at, fitted, modes)
     if here is None:
         return None
-    root = np.linalg.cholesky(fitted.covariance)
-    points = [model.point(x + _STEP * direction) for direction in root.T]
+    points = [model.point(x + _STEP * direction) for direction in fitted.root.T]
     if any(point is None for point in points):
         return None
     there = [measurement.read(point, fitted, modes) for point in points]
