@@ -117,3 +117,19 @@ def test_a_step_far_beyond_the_prior_is_finite():
     model = study.kind(study.model, (joint,))
     x = np.concatenate([np.full(study.k, 1e5), joint.coordinates(joint.grid[0])])
     assert np.isfinite(model.added(x)[0]).all()
+
+
+def test_a_hinge_at_the_clamp_is_the_flexible_clamp():
+    """There both are one spring against turning, whichever candidate has it; elsewhere along the tail, or at a hinge, it is not."""
+    problem = assemble(yaml_deck.read(deck(*truth(None, None)), "tail.yaml"))
+    found = {}
+    for one in Study(reduced(problem, problem.prior.mean)).recipes("joint"):
+        where = one.unknowns[-1]
+        if where.name == "place":
+            stiff = one.unknowns[0].lower
+            for s in (0.0, 0.5 * where.upper, where.upper):
+                at = one.coordinates(np.array([stiff, s]))
+                found[round(one.site(one.values(at)).position[0], 6)] = one.group(at)
+    clamp = SPAN + TAIL
+    assert found[clamp] == "support"
+    assert {group for x, group in found.items() if x != clamp} == {"local-stiffness"} and len(found) > 2

@@ -1,5 +1,6 @@
 """A joint of bars that turns in bending, where bars meet or, as a splice does, anywhere along a line of them."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -9,6 +10,7 @@ from mouse_cli.diagnosis.effects.hinges import hinged, lines, places, with_hinge
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import Bars
+from mouse_cli.diagnosis.sites.lines import Line
 from mouse_cli.diagnosis.sites.reasons import bars
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
@@ -18,6 +20,7 @@ _SAME = 1e-6  # of directions
 _SPLICE = 0.5  # prior probability that a joint is a splice along a line, where bars meet too
 _PINNED, _RIGID = 0.5, 3e3  # stiffness over EI / L
 _STARTS = 3  # stiffnesses to begin from
+_ROOT = 0.01  # of the length of a line, about half the height of a slender section, up to which a splice is at its end
 _STEP = 1.3  # ratio of stiffnesses or masses from which on a straight line changes its section, and does not taper
 
 
@@ -58,7 +61,20 @@ def _splices(model: Reduced, candidate: Candidate) -> list[Recipe]:
     def extend(problem: Problem, bar: int, share: float, values: np.ndarray) -> Problem:
         return with_hinge(problem, bars, bar, share, f"splice in {bars.site(bar, share).text}", values[0])
 
-    return places(model, candidate, (k,), added, steps(k, _STARTS), extend)
+    made = places(model, candidate, (k,), added, steps(k, _STARTS), extend)
+    return [replace(one, limit=_root(model, line)) for one, line in zip(made, lines(model), strict=True)]
+
+
+def _root(model: Reduced, line: Line) -> Callable[[np.ndarray], str]:
+    """`support` of a splice at an end that is held against turning: that end is then a flexible support."""
+    held = {node for node, direction in model.problem.mesh.supports.tolist() if direction >= 3}
+    nodes = model.bars.nodes[line.members[[0, -1]], [0, 1]].tolist()
+    ends = [s for s, node in zip((0.0, line.length), nodes, strict=True) if node in held]
+
+    def limit(values: np.ndarray) -> str:
+        return "support" if any(abs(values[-1] - s) < _ROOT * line.length for s in ends) else ""
+
+    return limit
 
 
 def _stiffness(scale: float) -> Unknown:
