@@ -29,7 +29,7 @@ from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.rank import Ranking, group, rank
 from mouse_cli.diagnosis.validate.informed import informed
 from mouse_cli.diagnosis.validate.next_measurement import proposals
-from mouse_cli.diagnosis.verdict import Verdict, acting, certain, explanations, judge, rest
+from mouse_cli.diagnosis.verdict import Verdict, acting, certain, explanations, judge, member, rest
 from mouse_cli.dynamics.solver import EigenSolver
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Choices, Diagnosis, Proposal
 from mouse_cli.model.modal_test import restricted
@@ -205,13 +205,12 @@ def _proposals(ranking: Ranking, verdict: Verdict) -> tuple[Proposal, ...]:
     if not verdict.placed:
         sites = [best, *(other for other, share in best.elsewhere[:_RIVALS] if share > RIVAL)]
         return proposals(sites, [acting(one) for one in sites]) if len(sites) > 1 else ()
-    fits_named = [ranking.fits[i] for i in ranking.named]
-    names = [group(one) for one in fits_named]
+    names = {group(ranking.fits[i]) for i in ranking.named}
     others = [(name, p) for name, p in ranking.groups if name in names and name not in (group(best), *verdict.refuted)]
     rivals = [name for name, p in others if p > RIVAL]
     if verdict.kind == ONE_OF and not rivals:
         rivals = [name for name, _ in others[:1]]
     if not rivals:
         return ()
-    fits = [best, *(fits_named[names.index(name)] for name in rivals[:_RIVALS])]
+    fits = [best, *(member(ranking, name) for name in rivals[:_RIVALS])]
     return proposals(fits, [group(one) for one in fits])

@@ -126,20 +126,23 @@ def _unknown(ranking: Ranking, model: Reduced, best: Fit | None, proof, struck: 
 
 
 def leader(ranking: Ranking) -> Fit | None:
-    """The leading fit of the leading group that has a mechanism with a name; None without any.
+    """The leading fit of the leading group that has a mechanism with a name; None without any."""
+    groups = [group(ranking.fits[i]) for i in ranking.named]
+    at = leading(ranking.groups, groups)
+    return None if at is None or groups[at] == "none" else member(ranking, groups[at])
+
+
+def member(ranking: Ranking, name: str) -> Fit:
+    """The leading fit of a group that has a mechanism with a name.
 
     Of mechanisms that are another one at an end of their range, that one itself where its odds against them are above -ODDS: a
     spring to the ground has no mode of its own, an oscillator that stands in for it has one below the band.
     """
-    fits = [ranking.fits[i] for i in ranking.named]
-    at = leading(ranking.groups, [group(one) for one in fits])
-    if at is None or not fits[at].recipes:
-        return None
-    least = np.exp(-ODDS) * ranking.probabilities[ranking.named[at]]
-    alike = [one for i, one in zip(ranking.named, fits, strict=True) if ranking.probabilities[i] >= least]
-    alike = [one for one in alike if group(one) == group(fits[at])]
+    of = [i for i in ranking.named if group(ranking.fits[i]) == name]
+    least = np.exp(-ODDS) * ranking.probabilities[of[0]]
+    alike = [ranking.fits[i] for i in of if ranking.probabilities[i] >= least]
     plain = (one for one in alike if one.groups == [recipe.candidate.group for recipe in one.recipes])
-    return next(plain, fits[at])
+    return next(plain, alike[0])
 
 
 def sure(ranking: Ranking) -> bool:

@@ -7,6 +7,7 @@ from scipy.linalg import eigh
 
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.search.study import Study
+from mouse_cli.diagnosis.sites.points import directions
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
 
@@ -15,6 +16,11 @@ K_FOOT, K_HINGE = 4 * EI / LENGTH, 6 * EI / LENGTH  # N m/rad
 
 def beam(hinge: int | None) -> np.ndarray:
     """Hz (5,) of a cantilever on a turning foot, with a hinge at that node."""
+    return np.sqrt(solved(hinge)[0]) / (2 * np.pi)
+
+
+def solved(hinge: int | None) -> tuple[np.ndarray, np.ndarray]:
+    """Its eigenvalues (5,) and deflections (COARSE, 5) of the nodes that are free."""
     l, n = LENGTH / COARSE, COARSE
     unit = np.outer([1, l, 1, l], [1, l, 1, l])
     k = EI / l**3 * unit * np.array([[12, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]])
@@ -33,8 +39,8 @@ def beam(hinge: int | None) -> np.ndarray:
         free, b = np.arange(1, 2 * n + 3), np.zeros(2 * n + 3)
         b[2 * hinge + 1], b[2 * n + 2] = -1.0, 1.0
         K += K_HINGE * np.outer(b, b)
-    lam = eigh(K[np.ix_(free, free)], M[np.ix_(free, free)], subset_by_index=[0, 4], eigvals_only=True)
-    return np.sqrt(lam) / (2 * np.pi)
+    lam, X = eigh(K[np.ix_(free, free)], M[np.ix_(free, free)], subset_by_index=[0, 4])
+    return lam, X[1 : 2 * n + 1 : 2]
 
 
 @pytest.fixture(scope="module")
@@ -57,3 +63,15 @@ def test_a_hinge(study, node):
     found = predicted(study, "joint", (K_HINGE, node * LENGTH / COARSE))
     assert found == pytest.approx(beam(node), rel=2e-5)
     assert np.abs(beam(node) / beam(None) - 1).max() > 0.003
+
+
+def test_shapes_that_were_not_measured(study):
+    """What further sensors would read: the foot turns, and the beam with it."""
+    foot = study.recipes("support-rotation")[0]
+    model = study.kind(study.model, (foot,))
+    X = model.point(np.concatenate([np.zeros(study.k), foot.coordinates(np.array([K_FOOT]))])).X
+    line = next(point for point in directions(study.model) if point.unknown)
+    rows = [line.motion(np.array([(i + 1) * LENGTH / COARSE]))[0] for i in range(COARSE)]
+    found, shapes = np.array(rows) @ model.moved(X)[:, :3], solved(None)[1][:, :3]
+    found *= np.sign(np.sum(found * shapes, axis=0))
+    np.testing.assert_allclose(found, shapes, atol=2e-4 * np.abs(shapes).max())

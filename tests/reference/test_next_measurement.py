@@ -33,13 +33,13 @@ def rivals():
     return found
 
 
-def predicted(one, spring: bool, numbers, K_added=0.0, M_added=0.0):
-    """ln f of modes `numbers` and J C J', by differences: x = [(factor - 1) / sd, ln size]."""
+def predicted(one, spring: bool, numbers, K_added=0.0, M_added=0.0, top=np.inf):
+    """ln of modes `numbers` (rad/s), at most `top`, and J C J', by differences: x = [(factor - 1) / sd, ln size]."""
 
     def log_hz(x):
         at = np.outer(np.eye(4)[2], np.eye(4)[2]) * np.exp(x[1])
         K, M = (1 + 0.3 * x[0]) * chain() + spring * at + K_added, np.eye(4) + (not spring) * at + M_added
-        return 0.5 * np.log(eigh(K, M, eigvals_only=True)[numbers])
+        return 0.5 * np.log(np.minimum(eigh(K, M, eigvals_only=True)[numbers], top**2))
 
     x, step = one.point.x, 1e-5
     J = np.array([(log_hz(x + step * e) - log_hz(x - step * e)) / (2 * step) for e in np.eye(2)]).T
@@ -52,7 +52,11 @@ def separation(rivals, sd, *how):
 
 
 def test_every_kind_of_measurement(rivals):
-    """Modes, masses at degrees of freedom 1 to 4 and each of these held: their separations are those of dense models."""
+    """Modes, masses at degrees of freedom 1 to 4 and each of these held: their separations are those of dense models.
+
+    A fifth above the highest measured frequency the band of the test ends.
+    """
+    top = 1.2 * 2 * np.pi * rivals[0].model.base.data.test.frequency_hz.max()
     every = list(measurements(rivals[0]))
     assert {each.kind for each in every} == {"modes", "mass", "held", "sensor", "repeated"}
     for each in every:
@@ -69,7 +73,7 @@ def test_every_kind_of_measurement(rivals):
             at = int(each.text.split("degree of freedom ")[1].split()[0]) - 1
             size = np.outer(np.eye(4)[at], np.eye(4)[at])
             how = (0.0, 0.05 * 4 * size) if each.kind == "mass" else (1e9 * size, 0.0)  # rigid beside springs of 1e5
-            theirs = separation(rivals, each.sd, np.arange(2), *how)
+            theirs = separation(rivals, each.sd, np.arange(2), *how, top)
         assert ours == pytest.approx(theirs, rel=0.1), (
             each.text
         )  # J is a difference over 0.01 sd; what holds gives way a little

@@ -171,9 +171,13 @@ def test_ruler_tower_has_a_softer_foot_and_nobody_knows_why():
     share = {sites[0].ids: p for sites, p in turns.elsewhere}
     assert of(found, "support-translation").causes[0].site.ids == (0,)
     assert {turns.causes[0].site.ids, *share} == {(0,), (0, 1, 2, 3, 4)} and 0.2 < sum(share.values()) < 0.8
-    told = {each.effort: each for each in found.proposals if each.between == found.proposals[0].between}
-    assert told[Effort.MASS].separation < 1  # nor do these frequencies with a mass more tell
-    assert told[Effort.SHAPES].promise == 2  # shapes would
+    between = (
+        "local-stiffness",
+        "support",
+    )  # blocks move alike for both, held or not: a chain whose lowest storey is softer
+    told = {each.effort: each for each in found.proposals if each.between == between}
+    assert {Effort.SHAPES, Effort.MASS, Effort.SUPPORT} <= set(told)
+    assert all(each.separation < 0.2 for each in told.values())
 
 
 # --- three storeys

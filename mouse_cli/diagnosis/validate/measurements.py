@@ -23,6 +23,7 @@ _MASS = 0.05  # of the total mass, added
 _HELD = 1e2  # of total mass times the highest measured eigenvalue: the stiffness of what holds a point
 _PLACES = 12
 _SUPPORTS = 6  # supports that may be let go
+_BAND = 1.2  # of the highest measured frequency, up to which a test of the altered structure has modes
 SHAPE_SD = 0.02  # of the largest component: accuracy of shapes that were not measured yet
 
 Altered = Callable[[Fit], tuple[Recipe, ...] | None]
@@ -56,14 +57,14 @@ def measurements(one: Fit) -> Iterator[Measurement]:
     mass, units = _MASS * total_mass(base), base.problem.units
     for place in places(base, all_motions):
         text = f"{own} {mass:.3g} {units.of('kg')} more at {place.text}"
-        yield Measurement("mass", text, Effort.MASS, place.altered(M=mass), logarithms, sd)
+        yield Measurement("mass", text, Effort.MASS, place.altered(M=mass), _in_band, sd)
     holding = _HELD * highest(base) * total_mass(base)
     for place in places(base, directions):
         text = f"{own} {place.text} held fixed"
-        yield Measurement("held", text, Effort.SUPPORT, place.altered(K=holding), logarithms, sd)
+        yield Measurement("held", text, Effort.SUPPORT, place.altered(K=holding), _in_band, sd)
     known: Yielding = {}
     for i, text in _supports(base, known):
-        yield Measurement("released", f"{own} {text} let go", Effort.SUPPORT, _released(i, known), logarithms, sd)
+        yield Measurement("released", f"{own} {text} let go", Effort.SUPPORT, _released(i, known), _in_band, sd)
     if base.data.has_shape.any():
         noise = float(np.nanmedian(test.shape_sd / np.nanmax(np.abs(test.shapes), axis=0)))
         measured = {base.problem.structure.labels[dof] for dof in test.dofs}
@@ -112,8 +113,7 @@ class Spot:
 
     def shape(self, at: Point, fitted: Fit, modes: np.ndarray) -> np.ndarray:
         """The motion there in each mode, mass-normalised."""
-        row = self.motion(fitted.model.base)[0]
-        return row @ at.X[: len(row)][:, modes]
+        return self.motion(fitted.model.base)[0] @ fitted.model.moved(at.X[:, modes])
 
     def seen(self, at: Point, fitted: Fit, modes: np.ndarray) -> np.ndarray:
         """Shapes of the measured modes there, in units of their largest component."""
@@ -150,6 +150,11 @@ def logarithms(at: Point, fitted: Fit, modes: np.ndarray) -> np.ndarray:
     return 0.5 * np.log(np.maximum(at.eigenvalues[modes], 1e-300))
 
 
+def _in_band(at: Point, fitted: Fit, modes: np.ndarray) -> np.ndarray:
+    """The same, those above the band as its end: all that a test reads of a mode beyond it is that it has none."""
+    return np.minimum(logarithms(at, fitted, modes), 0.5 * np.log(_BAND**2 * highest(fitted.model.base)))
+
+
 def _above(skipped: int, more: int) -> Read:
     """ln of the frequencies of so many modes above the highest one that the deck has."""
 
@@ -169,8 +174,7 @@ def _true_reading(k: int) -> Read:
     """What a sound sensor reads where sensor k (from 0) is."""
 
     def read(at: Point, fitted: Fit, modes: np.ndarray) -> np.ndarray:
-        row = fitted.model.base.sensing[k]
-        return at.a * (row @ at.X[: len(row)][:, modes]) / _largest(fitted)
+        return at.a * (fitted.model.base.sensing[k] @ fitted.model.moved(at.X[:, modes])) / _largest(fitted)
 
     return read
 

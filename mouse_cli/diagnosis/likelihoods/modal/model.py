@@ -117,6 +117,11 @@ class Model(Softened):
             G[:r, self.places[j][r:]] = self.recipes[j].carried.model
         return G
 
+    def moved(self, X: np.ndarray) -> np.ndarray:
+        """Shapes (r, m) of the structure, causes that carry it included, in coordinates of the base, from X (size or more, m)."""
+        own = [(each.carried.model, at) for each, at in zip(self.recipes, self.places, strict=True) if each.carried]
+        return X[: self.base.r] + sum(along @ X[at[self.base.r :]] for along, at in own)
+
     def point(self, x: np.ndarray) -> Point | None:
         """The model at x (k + t,); None where it is not physical."""
         found = self.solved(x)
