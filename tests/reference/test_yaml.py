@@ -442,3 +442,17 @@ run: {partials: 0}
     told = [(found.code, found.span.line) for found in findings(deck)]
     expected = [("MD301", 4), ("MD213", 5), ("MD311", 7), ("MD320", 9), ("MD323", 9), ("MD321", 9), ("MD215", 10)]
     assert told == expected
+
+
+@pytest.mark.parametrize(
+    ("frequency", "code"),
+    [("1e-150", "MD321"), ("1e300", "MD321"), ("-3", "MD321"), ("1e-8", None)],
+)
+def test_frequencies_that_no_structure_has(frequency, code):
+    """One error each: squares of their misfits are no numbers, and what follows from them is no mistake of its own."""
+    deck = f"""mouse: 1
+model: {{stiffness: {{diagonal: [1.0e+3, 2.0e+3]}}, mass: {{diagonal: [1.0, 1.0]}}}}
+parameters: [{{name: k, nominal: 1, sd: 10 %, stiffness: [[1, 1, 1.0e+3]]}}]
+test: {{modes: {{frequency: [{frequency}, 7.0], frequency_sd: 1 %}}}}
+"""
+    assert [found.code for found in findings(deck) if found.severity == "error"] == ([code] if code else [])

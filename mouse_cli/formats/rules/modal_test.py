@@ -9,6 +9,8 @@ from mouse_cli.formats.rules.sensors import Sensing, sensing
 from mouse_cli.model.geometry import Geometry
 from mouse_cli.model.modal_test import ModalTest
 
+_SLOWEST, _FASTEST = 1e-9, 1e15  # Hz: from a period of 30 years to that of light
+_FINEST = 1e-15  # standard deviation over frequency: no number is known better
 _CLOSE = 3.0  # standard deviations of a difference within which two frequencies may have changed places by noise
 
 
@@ -96,14 +98,16 @@ def _frequencies(draft: Draft, test: TestDraft) -> None:
     for i, frequency in enumerate(test.frequency_hz.tolist()):
         if np.isnan(frequency):
             continue
-        if not np.isfinite(frequency) or frequency <= 0:
+        if not _SLOWEST <= frequency <= _FASTEST:
+            range_ = f", {_SLOWEST:g} to {_FASTEST:g} Hz" if 0 < frequency < np.inf else ""
             draft.error(
                 "MD321",
-                f"test frequency {i + 1} is {frequency:.8g} Hz; it must be positive",
+                f"test frequency {i + 1} is {frequency:.8g} Hz; it must be positive{range_}",
                 test.where_frequency(i),
                 help="give natural frequencies in Hz",
             )
-        elif frequency < previous:
+            continue
+        if frequency < previous:
             draft.error(
                 "MD322",
                 f"test frequency {i + 1} is {frequency:.8g} Hz, below {previous:.8g} Hz of the mode before",
@@ -138,10 +142,11 @@ def _dofs(draft: Draft, test: TestDraft) -> None:
 def _accuracies(draft: Draft, test: TestDraft) -> None:
     """Every datum needs a positive standard deviation: a certain datum has no place in a covariance."""
     for i, (frequency, sd) in enumerate(zip(test.frequency_hz, test.frequency_sd_hz, strict=True)):
-        if not np.isnan(frequency) and not (np.isfinite(sd) and sd > 0):
+        if _SLOWEST <= frequency <= _FASTEST and not (np.isfinite(sd) and sd > _FINEST * frequency):
+            least = f" and above {_FINEST:g} of the frequency" if sd > 0 else ""
             draft.error(
                 "MD325",
-                f"standard deviation of test frequency {i + 1} is {sd:.8g} Hz; it must be positive",
+                f"standard deviation of test frequency {i + 1} is {sd:.8g} Hz; it must be positive{least}",
                 test.where_frequency_sd(i),
                 help="give the standard deviation in Hz; 0 would make a certain datum",
             )
