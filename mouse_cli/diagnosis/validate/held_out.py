@@ -10,10 +10,12 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.validate.joint import beyond_linear
+from mouse_cli.diagnosis.validate.turning import Turned, Turning
 from mouse_cli.dynamics.correlation import mac
 from mouse_cli.dynamics.sensing import read
 from mouse_cli.model.diagnosis import BY_DECK, BY_MODE, HeldOut, Score
@@ -47,10 +49,12 @@ class Prediction:
 def predict(one: Fit, base: Reduced, fixed: tuple[Recipe, ...] = (), noise: float = 1.0) -> Prediction | None:
     """What the model of `one` says of the test of `base`; fixed: changes of the structure that are known.
 
-    Where it is not linear in what the fit leaves open, the density is that of `joint.py`. noise: s^2, by which variances are larger
-    than stated, of the test that was fitted and so of the unknowns too; the density is then that of the linear prediction.
+    Where it is not linear in what the fit leaves open, the density is that of `joint.py`; of close modes see `turning.py`. noise:
+    s^2, by which variances are larger than stated, of the test that was fitted and so of the unknowns too; the density is then
+    that of the linear prediction.
     """
-    model = type(one.model)(base, (*one.recipes, *fixed))
+    kind = type(one.model)
+    model = (Turning if kind is Model else kind)(base, (*one.recipes, *fixed))
     at = model.point(one.point.x)
     if at is None:
         return None
@@ -58,7 +62,7 @@ def predict(one: Fit, base: Reduced, fixed: tuple[Recipe, ...] = (), noise: floa
     spread = T @ one.covariance @ T.T
     total = noise * (np.eye(len(spread)) + spread)
     misfit, size = float(at.residual @ np.linalg.solve(total, at.residual)), np.linalg.slogdet(total)[1]
-    density = -0.5 * (misfit + size)
+    density = -0.5 * (misfit + size) - (at.nats if isinstance(at, Turned) else 0.0)
     if noise == 1.0 and (beyond := beyond_linear(one, model, at, T, misfit)):
         misfit, density = beyond
     frequencies = int(data.has_frequency.sum())
