@@ -60,7 +60,15 @@ class Verdict:
 
 
 def judge(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
-    """What may be said of all fits: by their evidence, and by data that none of them has seen; rejected: by the update itself.
+    """What may be said of all fits; one of several predicts as all hypotheses together do."""
+    found = _judged(ranking, rejected, model)
+    if found.kind != ONE_OF or found.proof is None:
+        return found
+    return replace(found, proof=averaged(model, ranking) or found.proof)
+
+
+def _judged(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
+    """The same: by their evidence, and by data that none of them has seen; rejected: by the update itself.
 
     Something is missing where the update leaves too much, where the model as it is is improbable (DEMANDED), or where some
     mechanism is sure and what the deck holds out confirms it. Where none of that holds and yet the model as it is is not probable

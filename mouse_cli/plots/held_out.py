@@ -7,6 +7,7 @@ import numpy as np
 from mouse_cli.model.diagnosis import Diagnosis
 from mouse_cli.plots import Plot
 from mouse_cli.plots._pairs import names, pairs
+from mouse_cli.report.sections._diagnosis_wording import predicting
 
 
 def draw(found: Diagnosis, axes: Any) -> bool:
@@ -16,7 +17,9 @@ def draw(found: Diagnosis, axes: Any) -> bool:
         return False
     scores = [held.baseline] if held.revised is None else [held.baseline, held.revised]
     errors = [100 * (score.frequencies_hz / held.measured_hz - 1) for score in scores]
-    pairs(axes, list(held.labels), errors, 100 * scores[-1].sd_hz / held.measured_hz, names(found))
+    pairs(
+        axes, list(held.labels), errors, 100 * scores[-1].sd_hz / held.measured_hz, (names(found)[0], predicting(found))
+    )
     return True
 
 

@@ -58,6 +58,16 @@ def judged(*fits, rejected: bool = False, **given):
     return judge(informed(ranked(*fits, **given)), rejected, None)
 
 
+def test_one_of_several_predicts_as_all_of_them(proofs, monkeypatch):
+    """What is held out is predicted by every hypothesis, not by the leading one alone; a name by itself."""
+    proofs.update({"ground-spring": 5.0, "mass": 5.0})
+    together = HeldOut(BY_DECK, ("mode 7",), np.ones(1), Score(0.0, 0.0, 1.0, np.ones(1), np.ones(1), np.ones(1)), None)
+    monkeypatch.setattr(decided, "averaged", lambda model, ranking: together)
+    several, one = judged(SPRING, made_up("mass"), BARE, p=(0.6, 0.399, 0.001)), judged(SPRING, BARE, p=(0.999, 0.001))
+    assert several.kind == ONE_OF and several.proof is together
+    assert one.kind == NAMED and one.proof is not together
+
+
 # --- whether something is missing
 
 

@@ -12,11 +12,19 @@ import numpy as np
 
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.noise import log_density, scale
-from mouse_cli.diagnosis.search.fit import Fit, fit
+from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.rank import Ranking
-from mouse_cli.diagnosis.validate.held_out import COVERED, Prediction, by_deck, left_out, of_cases, predict, score
+from mouse_cli.diagnosis.validate.held_out import (
+    COVERED,
+    Prediction,
+    by_deck,
+    left_out,
+    of_cases,
+    predict,
+    refitted,
+    score,
+)
 from mouse_cli.model.diagnosis import BY_DECK, BY_MODE, HeldOut
-from mouse_cli.model.modal_test import restricted
 
 _MOST, _LEAST = 8, 1e-3  # hypotheses that are averaged, and the probability of the last of them
 
@@ -30,15 +38,14 @@ class Member:
 
 
 def members(ranking: Ranking) -> list[Member]:
-    """The fits most probable by the fitted data, those of one rival at other spreads, lengths and sites each for itself; without
-    none.
+    """The fits most probable by the fitted data, no mechanism among them; those of one rival at other spreads, lengths and sites
+    each for itself.
     """
     every: list[tuple[Fit, float]] = []
     by_fitted = ranking.probabilities if ranking.by_fitted is None else ranking.by_fitted
     for one, p in zip(ranking.fits, by_fitted.tolist(), strict=True):
         own = 1 - sum(share for _, share in one.variants)
         every += [(one, p * own), *((each, p * share) for each, share in one.variants)]
-    every = [each for each in every if each[0] is not ranking.baseline]
     every = sorted(every, key=lambda each: -each[1])[:_MOST]
     least = _LEAST * sum(p for _, p in every)
     return [Member(one, float(np.log(p))) for one, p in every if p > max(least, 0.0)]
@@ -72,31 +79,21 @@ def _by_mode(model: Reduced, baseline: Fit, own: list[Member]) -> HeldOut | None
     test = model.data.test
     if test.m < 3:
         return None
-    own = [replace(one, weight=one.weight - _evidence(again)) for one in own if (again := _again(one.fit)) is not None]
+    own = [
+        replace(one, weight=one.weight - _evidence(again)) for one in own if (again := refitted(one.fit)) is not None
+    ]
     old, new = [], []
     for i in range(test.m):
         before, told = left_out(baseline, i), []
         for one in own:
-            again = _again(one.fit, i)
-            part = None if again is None else predict(again, _only(one.fit, i), noise=_noise(again))
+            again = refitted(one.fit, i)
+            part = None if again is None else predict(again, one.fit.model.base.left_out(i), noise=_noise(again))
             told += [] if part is None else [(one.weight + _evidence(again), part)]
         if before is None or not told:
             return None
         old.append(before), new.append(_mixed(told))
     labels = tuple(f"mode {number}" for number in test.number)
     return HeldOut(BY_MODE, labels, test.frequency_hz, score(old), score(new))
-
-
-def _again(one: Fit, without: int | None = None) -> Fit | None:
-    """The same hypothesis fitted to the test as it is stated, or without one of its modes."""
-    base = one.model.base
-    keep = np.arange(base.data.test.m) != (-1 if without is None else without)
-    return fit(type(one.model)(base.without(keep), one.recipes), one.c, one.point.x[: one.model.k])
-
-
-def _only(one: Fit, i: int) -> Reduced:
-    base = one.model.base
-    return base.with_test(restricted(base.data.test, np.arange(base.data.test.m) == i))
 
 
 def _evidence(one: Fit) -> float:

@@ -20,7 +20,7 @@ from mouse_cli.dynamics.correlation import mac
 from mouse_cli.dynamics.sensing import read
 from mouse_cli.model.diagnosis import BY_DECK, BY_MODE, HeldOut, Score
 from mouse_cli.model.hold_out import HoldOut
-from mouse_cli.model.modal_test import ModalTest, restricted
+from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.updating.chi_square import upper_tail
 
 _STEP = 1e-4  # of a prior standard deviation, or of the range of an unknown, for derivatives
@@ -174,7 +174,7 @@ def of_cases(held: HoldOut, one: Fit, noise: float = 1.0) -> list[tuple[str, Pre
     """Title of each case that was held out, and what the model of `one` says of it; noise: as in `predict`."""
     base, found = one.model.base, []
     if held.test is not None and held.test.m:
-        found.append(("mode {}", predict(one, base.with_test(held.test), noise=noise)))
+        found.append(("mode {}", predict(one, base.with_test(held.test, base.data.test), noise=noise)))
     if held.readings is not None and base.data.by_shape:
         found.append(("mode {} at sensors held out", readings(one, held.readings)))
     for altered in held.altered:
@@ -215,7 +215,12 @@ def cross_validated(model: Reduced, baseline: Fit, best: Fit | None) -> HeldOut 
 
 def left_out(one: Fit, i: int) -> Prediction | None:
     """What the model of `one`, fitted without measured mode i, says of it."""
-    base, test = one.model.base, one.model.base.data.test
-    own = np.arange(test.m) == i
-    again = fit(type(one.model)(base.without(~own), one.recipes), one.c, one.point.x[: one.model.k])
-    return None if again is None else predict(again, base.with_test(restricted(test, own)))
+    again = refitted(one, i)
+    return None if again is None else predict(again, one.model.base.left_out(i))
+
+
+def refitted(one: Fit, without: int | None = None) -> Fit | None:
+    """The same hypothesis fitted to the test as it is stated, or without one of its modes."""
+    base = one.model.base
+    keep = np.arange(base.data.m) != (-1 if without is None else without)
+    return fit(type(one.model)(base.without(keep), one.recipes), one.c, one.point.x[: one.model.k])

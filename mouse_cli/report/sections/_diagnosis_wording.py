@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from mouse_cli.model.diagnosis import NAMED, Cause, Diagnosis, Explanation, Site, Size, members
+from mouse_cli.model.diagnosis import NAMED, ONE_OF, Cause, Diagnosis, Explanation, Site, Size, members
 from mouse_cli.model.groups import TITLES, enumerated
 from mouse_cli.model.shared_place import SharedPlace
 from mouse_cli.model.units import Units
@@ -239,3 +239,8 @@ def leaders(found: Diagnosis) -> list[Explanation]:
 def with_cause(found: Diagnosis) -> str:
     """How the model with a cause is called at the head of a column."""
     return "extended model" if found.kind == NAMED or found.best is None else f"with {found.best.title}"
+
+
+def predicting(found: Diagnosis) -> str:
+    """How what predicts held-out data beside the model as it is is called: of several explanations it is all of them."""
+    return "all hypotheses together" if found.kind == ONE_OF else with_cause(found)

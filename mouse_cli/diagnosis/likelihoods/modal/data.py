@@ -16,9 +16,10 @@ class Data:
     Those are what the test states and, beside it, the errors of theory (`allowed`).
 
     The scale a of each shape is profiled: a = f'W y / f'W f (Golub and Pereyra 1973), unless the test states it (`scale: none`).
+    beside: modes of the same sensors that are no data here, and which no mode of the model may be at once with one of these.
     """
 
-    def __init__(self, test: ModalTest, allowed: Theory):
+    def __init__(self, test: ModalTest, allowed: Theory, beside: ModalTest | None = None):
         self.test, self.m, self.s, self.allowed = test, test.m, test.s, allowed
         self.has_frequency = np.isfinite(test.frequency_hz)
         self._log = 0.5 * np.log(np.where(self.has_frequency, eigenvalue(test.frequency_hz), 1.0))
@@ -32,9 +33,12 @@ class Data:
         self.scaled = test.scale != "none"
         self.slack = 0.0  # by which log_sd is larger than that of the test as it was
         self.by_shape = self.has_shape.size > 0 and int(self.has_shape.sum(axis=0).min()) >= 2
-        self._measured = Measured(test.shapes, test.frequency_hz)
-        self._last = 2 * int(test.number.max(initial=0)) + 6
-        self._rigid = 1e-3 * np.nanmin(test.frequency_hz, initial=np.inf)
+        every = [test] if beside is None else [test, beside]
+        shapes, hz, number = (np.concatenate([getattr(one, name) for one in every], axis=-1)
+                              for name in ("shapes", "frequency_hz", "number"))  # fmt: skip
+        self._measured = Measured(shapes, hz)
+        self._last = 2 * int(number.max(initial=0)) + 6
+        self._rigid = 1e-3 * np.nanmin(hz, initial=np.inf)
         self._whole = bool(self.has_frequency.all() and self.has_shape.all())
 
     def loosened(self, of_frequencies: np.ndarray, of_shapes: np.ndarray) -> "Data":
@@ -81,7 +85,7 @@ class Data:
         reach = min(len(eigenvalues), self._last)
         hz = np.sqrt(np.maximum(eigenvalues[:reach], 0.0)) / (2 * np.pi)
         hz[hz < self._rigid] = 0.0
-        return self._measured.pair(seen[:, :reach], hz)
+        return self._measured.pair(seen[:, :reach], hz)[: self.m]
 
     def residual(self, eigenvalues: np.ndarray, seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Whitened residual (q,), measured minus model, for eigenvalues (m,) and shapes `seen` (s, m); scales a (m,)."""

@@ -221,9 +221,14 @@ class Reduced:
         """The same model with fewer measured modes: mask `keep_modes` (m,)."""
         return self.with_test(restricted(self.data.test, keep_modes))
 
-    def with_test(self, test: ModalTest, sensing: np.ndarray | None = None) -> "Reduced":
-        """The same model for another test, of the same sensors or of `sensing` (s, r)."""
-        return replace(self, data=Data(test, self.problem.theory), sensing=self.sensing if sensing is None else sensing)
+    def with_test(self, test: ModalTest, beside: ModalTest | None = None) -> "Reduced":
+        """The same model for another test of the same sensors, some modes of which are known to be others; see `Data`."""
+        return replace(self, data=Data(test, self.problem.theory, beside))
+
+    def left_out(self, i: int) -> "Reduced":
+        """The same model for measured mode i alone, which is none of the others."""
+        own = np.arange(self.data.m) == i
+        return self.with_test(restricted(self.data.test, own), restricted(self.data.test, ~own))
 
 
 def exact(problem: Problem, total: Assembly, K: Matrix, M: Matrix, theta: np.ndarray) -> Reduced:

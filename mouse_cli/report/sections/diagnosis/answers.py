@@ -207,7 +207,7 @@ def _true(found: Diagnosis) -> Iterator[Block]:
         yield Text(f"{told}: {' and '.join(_errors(base))}.{_predicted_frf(found)}")
         return
     number = int(np.isfinite(held.measured_hz).sum())
-    extended = {NAMED: "the extended model", ONE_OF: f"{found.best.title}, the most probable one,"}.get(
+    extended = {NAMED: "the extended model", ONE_OF: "all hypotheses together, each with its probability,"}.get(
         found.kind, f"{found.best.title}, the nearest,"
     )
     within = ""

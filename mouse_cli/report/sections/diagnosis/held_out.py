@@ -7,7 +7,7 @@ import numpy as np
 from mouse_cli.model.diagnosis import BY_DECK, BY_MODE, Diagnosis, Score
 from mouse_cli.report.blocks import Block, Cell, Column, Table, Text
 from mouse_cli.report.section import Options, Section
-from mouse_cli.report.sections._diagnosis_wording import likeness, per_cent, with_cause
+from mouse_cli.report.sections._diagnosis_wording import likeness, per_cent, predicting
 from mouse_cli.report.sections._wording import LEFT
 
 _HOW = {
@@ -41,7 +41,7 @@ def held_out(found: Diagnosis, options: Options) -> Iterator[Block]:
     nothing = [np.full(len(held.labels), np.nan)] * 3
     after, alike_after = _predicted(held.revised, held.measured_hz) if held.revised else (nothing, nothing[0])
     rows = zip(held.labels, held.measured_hz, *before, *after, alike, alike_after, strict=True)
-    columns = _columns(with_cause(found))
+    columns = _columns(predicting(found))
     yield Table(columns, tuple((label, *_told(row)) for label, *row in rows)).without_empty_columns()
     columns = (
         Column("model", align=LEFT),
@@ -49,7 +49,7 @@ def held_out(found: Diagnosis, options: Options) -> Iterator[Block]:
         Column("log predictive density"),
         Column("within 90 % intervals", "per cent"),
     )
-    scores = (("as it is", held.baseline), (with_cause(found), held.revised))
+    scores = (("as it is", held.baseline), (predicting(found), held.revised))
     yield Table(columns, tuple(_score(name, score) for name, score in scores if score is not None))
     yield Text(f"{_HOW[held.kind]} Each sd is that of the difference, by model and measurement.")
 
