@@ -36,6 +36,12 @@ CODES = {
         "Delete `free_decay` where something acts during the recording, or `inputs` where nothing does, with a `segment` that "
         "begins after the force has ended.",
     ),
+    "MD646": Code(
+        "gain or delay of a channel that cannot be estimated",
+        "`gain_sd` or `delay_sd` asks for an error of a channel that records do not show: delays are those of outputs behind the "
+        "inputs; and where the ground moves, its measured motion is taken off the outputs before any fit.",
+        "State `delay_sd` for outputs alone; with a moving ground delete both, and correct the channels beforehand.",
+    ),
     "MD540": Code(
         "simulation that does not stay finite",
         "The deck as it is, simulated under the measured force of its recordings, grows beyond all bounds.",

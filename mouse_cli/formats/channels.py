@@ -123,7 +123,10 @@ def _uncalibrated(pick: Pick, found: Column, spelled: str, units: Units, say: Fi
 
 def _named(pick: Pick, found: Column, quantity: str, spelled: str) -> Channel:
     ground = pick.sensor.ground is not None
-    return Channel(found.name, pick.role, quantity, spelled, pick.sensor.name, ground=ground, frame=pick.frame)
+    return Channel(
+        found.name, pick.role, quantity, spelled, pick.sensor.name, ground=ground, frame=pick.frame,
+        gain_sd=pick.gain_sd, delay_sd=pick.delay_sd,
+    )  # fmt: skip
 
 
 def unstated(picks: list[Pick], columns: list[Column], say: Findings, where) -> None:

@@ -19,7 +19,7 @@ class Channel:
     sensor: what it is mounted on, as decks write a sensor (`12TY`, `3`, `12-TY` for one mounted backwards); empty while no deck
     has said so. weights: what it reads of the model's degrees of freedom, from 0; empty where there is no model. ground: whether
     an input is the motion of the ground that holds the model; its weights then say how the degrees of freedom move along. frame of
-    an output: ABSOLUTE, or RELATIVE to that ground.
+    an output: ABSOLUTE, or RELATIVE to that ground. gain_sd: prior sd of ln gain; delay_sd: of the delay of an output, s; 0: known.
     """
 
     name: str
@@ -30,6 +30,8 @@ class Channel:
     weights: dict[int, float] = field(default_factory=dict)
     ground: bool = False
     frame: str = ABSOLUTE
+    gain_sd: float = 0.0
+    delay_sd: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -38,6 +40,7 @@ class Recording:
 
     title: of the record; path: the file it was read from. start: the first sample's number in that file, from 0, so that findings
     name samples as the file counts them. free: whether no force acts from the first sample on, so that the initial state is all.
+    mains_hz, drift_hz: frequency whose multiples, and frequency below which, outputs are not judged; 0: none.
     """
 
     title: str
@@ -47,6 +50,8 @@ class Recording:
     path: str = ""
     start: int = 0
     free: bool = False
+    mains_hz: float = 0.0
+    drift_hz: float = 0.0
 
     def __post_init__(self) -> None:
         shape = (len(self.samples), len(self.channels))

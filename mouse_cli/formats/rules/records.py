@@ -49,7 +49,7 @@ def _matrix(draft: Draft, sensors: tuple[SensorDraft, ...], geometry: Geometry |
 
 def _recording(draft: Draft, each: RecordingDraft, geometry: Geometry | None) -> Recording | None:
     found = weights(draft, each.sensors, geometry, draft.order)
-    if found is None or not _grounded(draft, each):
+    if found is None or not (_grounded(draft, each) and _estimable(draft, each)):
         return None
     channels = zip(each.recording.channels, found, strict=True)
     return replace(each.recording, channels=tuple(replace(channel, weights=shares) for channel, shares in channels))
@@ -74,6 +74,24 @@ def _grounded(draft: Draft, each: RecordingDraft) -> bool:
             what = "is an input" if channel.role == INPUT else "has no motion of the ground beside it"
             message = f"channel '{channel.name}' is to be relative to the ground, but {what}"
             draft.error("MD644", message, where, help="name the motion of the ground under inputs, or delete frame")
+    return len(draft.diagnostics) == before
+
+
+def _estimable(draft: Draft, each: RecordingDraft) -> bool:
+    """Whether gains and delays that are to be estimated are of channels that show them."""
+    before, moving = len(draft.diagnostics), any(channel.ground for channel in each.recording.channels)
+    for channel, sensor in zip(each.recording.channels, each.sensors, strict=True):
+        late = channel.role == INPUT and channel.delay_sd
+        if late or (moving and (channel.gain_sd or channel.delay_sd)):
+            what = (
+                "an input has none: state that of each output"
+                if late
+                else "the ground moves, and is taken off the outputs"
+            )
+            message = f"delay_sd or gain_sd of channel '{channel.name}' cannot be estimated: {what}"
+            draft.error(
+                "MD646", message, sensor.where or each.where, help="delete it, or correct the channel beforehand"
+            )
     return len(draft.diagnostics) == before
 
 

@@ -7,6 +7,7 @@ from mouse_cli.formats.record_drafts import Pick
 from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.formats.yaml_deck import sensors as yaml_sensors
 from mouse_cli.formats.yaml_deck import values as yaml_values
+from mouse_cli.formats.yaml_deck.frf_parts import gain_sd
 from mouse_cli.formats.yaml_deck.kinds import KINDS
 from mouse_cli.formats.yaml_deck.nodes import Node
 from mouse_cli.formats.yaml_deck.sections import Section
@@ -78,19 +79,28 @@ def _below(section: Section, what: str, name: Node, node: Node, below: str) -> N
     return found
 
 
-def picks(section: Section, key: str, role: str, known: Known) -> list[Pick]:
-    """The channels of a recording that `inputs` or `outputs` chooses."""
+def picks(section: Section, key: str, role: str, known: Known, usual: tuple[float, float]) -> list[Pick]:
+    """The channels of a recording that `inputs` or `outputs` chooses; usual: sd of gain and delay where a channel states none."""
     found, frame = [], section.value("frame", ABSOLUTE)
     for sensor, item in pairs(section, key, known, "channel"):
-        own = frame if role == OUTPUT else ABSOLUTE
+        own, errors = (frame, usual) if role == OUTPUT else (ABSOLUTE, (usual[0], 0.0))
         if isinstance(item, Section):
             where = section.document.span(item.nodes.get("channel", item.node))
             texts = [item.value(name, "") for name in ("channel", "quantity", "unit", "sensitivity")]
-            sensor, own = _moving(item, sensor), item.value("frame", own)
+            sensor, own, errors = _moving(item, sensor), item.value("frame", own), uncertain(item, errors)
         else:
             where, texts = section.document.span(item), [item.value, "", "", ""]
-        found.append(Pick(sensor, role, *texts, where, own))
+        found.append(Pick(sensor, role, *texts, where, own, *errors))
     return found
+
+
+def uncertain(section: Section, usual: tuple[float, float] = (0.0, 0.0)) -> tuple[float, float]:
+    """Standard deviations of gain and delay, s, that a section states; the usual ones where it states none."""
+    own = section.value("delay_sd", usual[1])
+    if "delay_sd" in section and not 0 <= own < float("inf"):
+        message = f"{section.what('delay_sd')} is {own:g}; it must be 0 or more"
+        section.document.error("MD215", section.nodes["delay_sd"], message, "give it in s")
+    return gain_sd(section) or usual[0], own
 
 
 def _moving(item: Section, sensor: SensorDraft) -> SensorDraft:

@@ -8,11 +8,11 @@ from mouse_cli.formats.recording import recording
 from mouse_cli.formats.recording_files import Contents, read_contents
 from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.formats.yaml_deck import values as yaml_values
-from mouse_cli.formats.yaml_deck.channel_maps import Known, picks
+from mouse_cli.formats.yaml_deck.channel_maps import Known, picks, uncertain
 from mouse_cli.formats.yaml_deck.files import read_below
 from mouse_cli.formats.yaml_deck.kinds import KINDS
 from mouse_cli.formats.yaml_deck.sections import Section
-from mouse_cli.model.recording import INPUT, OUTPUT
+from mouse_cli.model.recording import INPUT, OUTPUT, Recording
 from mouse_cli.model.units import Units
 
 Files = dict[str, Contents | None]
@@ -66,7 +66,8 @@ def span(section: Section, key: str = "segment") -> tuple[int, int] | None:
 
 def _recording(section: Section, known: Known, files: Files, units: Units) -> RecordingDraft | None:
     document, before = section.document, len(section.document.diagnostics)
-    chosen = [*picks(section, "inputs", INPUT, known), *picks(section, "outputs", OUTPUT, known)]
+    usual = uncertain(section)
+    chosen = [*picks(section, "inputs", INPUT, known, usual), *picks(section, "outputs", OUTPUT, known, usual)]
     held = contents(section, files)
     segment, rate = span(section), section.value("sample_rate")
     if rate is not None and not 0 < rate < float("inf"):
@@ -89,8 +90,23 @@ def _recording(section: Section, known: Known, files: Files, units: Units) -> Re
     )  # fmt: skip
     if found is None or not _alone(section, chosen):
         return None
-    free = bool(section.value("free_decay", False))
-    return RecordingDraft(replace(found, free=free), tuple(pick.sensor for pick in chosen), where)
+    free, apart = (
+        bool(section.value("free_decay", False)),
+        [_below_half(section, key, found) for key in ("mains", "drift")],
+    )
+    if None in apart:
+        return None
+    found = replace(found, free=free, mains_hz=apart[0], drift_hz=apart[1])
+    return RecordingDraft(found, tuple(pick.sensor for pick in chosen), where)
+
+
+def _below_half(section: Section, key: str, found: Recording) -> float | None:
+    """A frequency below half of the sample rate, Hz; 0 where not given; None after an error."""
+    value, most = section.value(key, 0.0), found.sample_rate_hz / 2
+    if key not in section or 0 < value < most:
+        return value
+    message = f"{section.what(key)} is {value:g}; it must be between 0 and half of the sample rate, {most:g}"
+    return section.document.error("MD215", section.nodes[key], message, "give it in Hz, or delete it")
 
 
 def _alone(section: Section, chosen: list[Pick]) -> bool:

@@ -13,6 +13,7 @@ _HERE = 3.0  # rms of the unknown force at one place, by that of the measured fo
 _QUIET, _MOST = 9.0, 6  # times the slowest motion falls by e in the room after the record; at most so many records long
 _FIRST, _LEAST = 32, 32  # part of a free decay that shows its initial state; samples of it, at least
 _UNSEEN, _LOOSE = 1e-6, 10.0  # singular value of an initial state that is not seen; times the record that one may make
+_LOST = 1e12  # times the variance of its noise that a line has which hum or drift take
 _TAPER = 0.03  # share of the record at its end, and of its beginning where it does not begin at rest
 
 
@@ -76,6 +77,11 @@ class Spectrum:
         """Sensors by forces (l, s, n)."""
         return self.S @ self.H
 
+    @cached_property
+    def _lost(self) -> np.ndarray:
+        """Mask (l,) of lines that hum and drift take."""
+        return self.series.disturbance.lost(self.w / (2 * np.pi))
+
     def line(self, x: np.ndarray) -> np.ndarray:
         """Lines (l, ...) of a history (t, ...), zero after it."""
         return np.fft.rfft(x, self.padded, axis=0)
@@ -88,6 +94,8 @@ class Spectrum:
         """Outputs (t, s) over their sd, without what is slow, and by the weights."""
         own = x / self.series.sd
         own = quick(own, self.series.order, self.series.slow) if self.series.slow else own
+        if self.series.disturbance:
+            own = self.history(np.where(self._lost[:, None], 0.0, self.line(own)))
         return own if self.weights is None else self.history(np.einsum("lij,lj->li", self.weights, self.line(own)))
 
     @cached_property
@@ -245,7 +253,7 @@ class Spectrum:
         size, here = (self._impulse, _EVERYWHERE) if free else (np.sqrt((self._loads**2).mean(axis=0).sum()), _HERE)
         unit = B / np.maximum(np.linalg.norm(B, axis=0), 1e-300)
         Q = size**2 * (_EVERYWHERE**2 * np.eye(len(B)) + here**2 * unit @ unit.T)
-        R = np.diag(self.series.sd**2)
+        R = np.diag(self.series.sd**2) * np.where(self._lost, _LOST, 1.0)[:, None, None]
         G = self.SH @ Q
         total = G @ self.SH.conj().transpose(0, 2, 1) + R
         solved = np.linalg.solve(total, self.closed[:, :, None])

@@ -8,6 +8,7 @@ import numpy as np
 from mouse_cli.dynamics.response import LocalForces, Plant
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.terms.laws import Law, Scale, Unknown
+from mouse_cli.updating.recordings.calibration import KNOWN, Calibration
 from mouse_cli.updating.recordings.channels import Read, read
 from mouse_cli.updating.recordings.linear import Linear
 from mouse_cli.updating.recordings.series import Series
@@ -84,11 +85,11 @@ class Part:
 
 @dataclass(frozen=True)
 class Hypothesis:
-    """x (k,): nuisances in prior sd, offsets of the measured forces among them, then ln parameters of each law.
+    """x (k,): nuisances in prior sd, of the model, of offsets of the measured forces, of channels; then ln parameters of each law.
 
     offset (i,): prior sd of a constant that a force channel reads wrongly; known: laws that the deck has already; parts: laws with
     free parameters. place: that which is looked at, or that of the last law. fixed: x that no fit moves. ground:
-    whether the motion of the ground is all that excites the model.
+    whether the motion of the ground is all that excites the model. channels: gains and delays that are uncertain.
     """
 
     linear: Linear
@@ -98,6 +99,7 @@ class Hypothesis:
     parts: tuple[Part, ...] = ()
     fixed: np.ndarray | None = None
     ground: bool = False
+    channels: Calibration = KNOWN
 
     @property
     def law(self) -> Law | None:
@@ -112,7 +114,18 @@ class Hypothesis:
     @property
     def nuisances(self) -> int:
         """How many of x are not parameters of a law."""
-        return self.linear.k + len(self.offset)
+        return self.offsets.stop + len(self.channels.names)
+
+    @property
+    def offsets(self) -> slice:
+        """Where in x those of the forces are, behind the nuisances of the model and before those of channels."""
+        return slice(self.linear.k, self.linear.k + len(self.offset))
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of the nuisances."""
+        offsets = (f"offset of force {i + 1}" for i in range(len(self.offset)))
+        return (*self.linear.names, *offsets, *self.channels.names)
 
     @property
     def mean(self) -> np.ndarray:
@@ -189,7 +202,8 @@ class Hypothesis:
 
     def read(self, many: np.ndarray, series: Series) -> Read:
         """What the channels of a series read at x (P, k)."""
-        return read(self.sizes(many), len(series.order), series.force.shape[1], len(many))
+        found = read(self.sizes(many), len(series.order), series.force.shape[1], len(many))
+        return self.channels.read(self.whole(many)[:, self.offsets.stop : self.nuisances], found)
 
     def plant(self, many: np.ndarray, series: Series) -> Plant:
         """The linear part at x (P, k), with the matrices of linear laws in it."""
@@ -205,7 +219,7 @@ class Hypothesis:
         own = [np.repeat(part.place.B[None] @ series.base, part.extra, 0) for part in self.parts]
         felt = replace(series, inputs=np.pad(series.inputs, ((0, a), (0, 0))), base=np.concatenate([series.base, *own]))
         inputs = felt.loads(M) / self.read(many, series).force[:, None, :]
-        constant = np.einsum("pni,pi->pn", inputs, x[:, self.linear.k : self.nuisances] * self.offset)
+        constant = np.einsum("pni,pi->pn", inputs, x[:, self.offsets] * self.offset)
         return Plant(M, C, K, np.concatenate([inputs, constant[:, :, None]], axis=2), local, sensing, series.order)
 
     def _with_matrices(self, many: np.ndarray, *matrices: np.ndarray) -> tuple[np.ndarray, ...]:

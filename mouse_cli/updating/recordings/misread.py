@@ -1,10 +1,10 @@
 """A first look at errors of channels: the gain, or the delay, of each channel that leaves least beside all nuisances."""
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 import numpy as np
 
+from mouse_cli.updating.recordings.calibration import answer, as_read, only
 from mouse_cli.updating.recordings.channels import GAINS, Misreading, earlier
 from mouse_cli.updating.recordings.hypothesis import Place
 from mouse_cli.updating.recordings.regression import Regression, Start
@@ -34,7 +34,7 @@ def _start(at: Regression, place: Place, law: Misreading, value: float, column: 
 def _gain(at: Regression, place: Place) -> tuple[float, np.ndarray] | None:
     """y/g = y - h y, h = 1 - 1/g; of a force f/g, which takes h of its answer off that of the model."""
     s, c = at.spectrum, place.channel
-    own = _only(_read(at), c) if c < s.series.measured.shape[1] else -_answer(at, c - s.series.measured.shape[1])
+    own = only(as_read(s), c) if c < s.series.measured.shape[1] else -answer(s, c - s.series.measured.shape[1])
     column = at.stacked(own)
     free = at.projected(column)
     size = float(free @ free)
@@ -46,16 +46,16 @@ def _gain(at: Regression, place: Place) -> tuple[float, np.ndarray] | None:
 
 def _delay(at: Regression, place: Place, law: Misreading) -> tuple[float, np.ndarray] | None:
     """From the delays at which the channel resembles the model most, and from none, by Gauss and Newton."""
-    y, dt, c = _read(at), at.spectrum.series.dt, place.channel
+    y, dt, c = as_read(at.spectrum), at.spectrum.series.dt, place.channel
     s, low, high = y.shape[1], law.unknowns(place.scale)[0].lower, law.unknowns(place.scale)[0].upper
-    own, turn = (_only(y, c), 1.0) if c < s else (y, -1.0)
+    own, turn = (only(y, c), 1.0) if c < s else (y, -1.0)
     if c >= s and at.spectrum.series.force.shape[1] > 1:
         return None  # of one of several forces: no delay of outputs is the same
     mean = own.mean(axis=0)
     late = lambda tau: earlier(own - mean, dt, np.full(s, turn * tau))
     model = y - at.spectrum.missing
     best: tuple[float, float, np.ndarray] | None = None
-    for tau in (0.0, *_resembling(own, _only(model, c) if c < s else model, turn * dt)):
+    for tau in (0.0, *_resembling(own, only(model, c) if c < s else model, turn * dt)):
         for _ in range(_ROUNDS):
             column = at.stacked(own - mean - late(tau))
             left = at.target - at.projected(column)
@@ -78,22 +78,3 @@ def _resembling(own: np.ndarray, model: np.ndarray, dt: float) -> list[float]:
     r = found[lags]
     peaks = np.flatnonzero((r[1:-1] > r[:-2]) & (r[1:-1] >= r[2:])) + 1
     return [float(lags[i]) * dt / _FINE for i in peaks[np.argsort(-r[peaks])][:_PEAKS]]
-
-
-def _read(at: Regression) -> np.ndarray:
-    """Outputs (t, s) as they were read, places and speeds about their means."""
-    series, window = at.spectrum.series, at.spectrum.window[:, None]
-    return (series.measured - series.measured.mean(axis=0) * (series.order < 2)) * window
-
-
-def _only(x: np.ndarray, channel: int) -> np.ndarray:
-    """x (t, s) of one channel, 0 of the others."""
-    return np.where(np.arange(x.shape[1]) == channel, x, 0.0)
-
-
-def _answer(at: Regression, force: int) -> np.ndarray:
-    """Answer (t, s) of the model to one of the measured forces."""
-    s = at.spectrum
-    alone = np.where(np.arange(s.series.force.shape[1]) == force, s.series.force, 0.0)
-    lines = replace(s, series=replace(s.series, force=alone)).motion
-    return s.history(np.einsum("lsn,ln->ls", s.S, lines)) * s.window[:, None]

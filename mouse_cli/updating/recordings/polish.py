@@ -54,6 +54,13 @@ class Fit:
         return [cause.group for cause in self.causes]
 
     @property
+    def calibrated(self) -> tuple[str, ...]:
+        """Gains and delays of channels that were estimated, in words."""
+        own = slice(self.hypothesis.offsets.stop, self.hypothesis.nuisances)
+        sd = np.sqrt(np.abs(np.diag(self.covariance)))[own]
+        return self.hypothesis.channels.said(self.x[own], sd)
+
+    @property
     def causes(self) -> tuple[Cause, ...]:
         """Its laws at their places, with their sizes."""
         sd = np.sqrt(np.abs(np.diag(self.covariance)))[self.hypothesis.nuisances :]
@@ -83,7 +90,11 @@ class Polish:
         self.h, self.series, self.data = hypothesis, data[0].series, data
         self.spread = hypothesis.padded_states(spread)
         self.force = np.concatenate([part.force for part in data], axis=2)
-        self.measured = np.concatenate([part.measured for part in data], axis=2)
+        self.measured = self._cleared(np.concatenate([part.measured for part in data], axis=2))
+
+    def _cleared(self, x: np.ndarray) -> np.ndarray:
+        """Outputs (..., s, t, G) without hum and drift."""
+        return self.series.disturbance.cleared(x, self.series.dt, axis=-2)
 
     def fit(
         self, x: np.ndarray, states: np.ndarray, internal=None, steps: int = _STEPS, beat: float = np.inf
@@ -185,11 +196,11 @@ class Polish:
         with np.errstate(all="ignore"):
             out, _ = simulate(plant, series.dt / series.factor, self.force, begin, local, z)
         found, read = sampled(out, series.factor) / series.sd[None, :, None, None], self.h.read(many, series)
-        found *= read.gain[:, :, None, None]
+        found = self._cleared(found) * read.gain[:, :, None, None]
         for at in np.unique(read.delay, axis=0):
             if at.any():
                 prompt = np.concatenate([part.earlier(at).measured for part in self.data], axis=2)
-                found[(read.delay == at).all(axis=1)] += self.measured - prompt
+                found[(read.delay == at).all(axis=1)] += self.measured - self._cleared(prompt)
         return found
 
     def _cost(self, at: _Point, x: np.ndarray, states: np.ndarray) -> float:
@@ -243,6 +254,11 @@ class Polish:
         size = lambda a, b: float((a @ a) + ((b / self.spread[:, None]) ** 2).sum())
         return (dx, ds) if size(d2x, d2s) > _LESS**2 * size(dx, ds) else (dx + d2x, ds + d2s)
 
+    def _lost(self, s: int, t: int, G: int) -> int:
+        """Amplitudes of hum and drift that the stretches have free."""
+        own = self.series.disturbance
+        return own.columns(t, self.series.dt) * s * G if own else 0
+
     def _fit(self, at: _Point, x: np.ndarray, states: np.ndarray, cost: float) -> Fit:
         H, _, _, logs = self._normal(at, x, states, 0.0)
         width = self.h.width
@@ -250,7 +266,7 @@ class Polish:
         shape = np.linalg.slogdet(H)[1]
         evidence = -cost / 2 - np.log(width[own] / np.sqrt(2 * np.pi)).sum() - shape / 2 - logs / 2
         misfit = float((at.residual**2).sum())
-        dof = passed() * at.residual.size - len(x) - states.size
+        dof = passed() * at.residual.size - len(x) - states.size - self._lost(*at.residual.shape)
         covariance = np.linalg.inv(H)
         return Fit(self.h, x, states, covariance, misfit, dof, cost, float(evidence), at.residual)
 

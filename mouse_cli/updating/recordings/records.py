@@ -8,6 +8,7 @@ from mouse_cli._errors import ERROR, WARNING, DeckError, Diagnostic
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.recording import MOTIONS, Channel, Recording
 from mouse_cli.updating.recordings import ground
+from mouse_cli.updating.recordings.disturbance import BLOCK, Disturbance
 from mouse_cli.updating.recordings.series import Series
 from mouse_cli.updating.recordings.uncertain import Uncertain
 
@@ -53,9 +54,11 @@ def records(problem: Problem) -> Records:
     orders = np.array([_ORDERS[first.channels[j].quantity] for j in outputs])
     floors = {id(one): _floor(ground.relative(one, inputs, outputs, orders)) for one in [*alike, *held]}
     sd = np.max([floors[id(one)] for one in alike], axis=0)
-    sd = np.max([sd, *(FLOOR * one.samples[:, outputs].std(axis=0) for one in alike)], axis=0)
+    clear = lambda one: _disturbance(one).cleared_by(one.samples[:, outputs], one.time_step_s, BLOCK)
+    sd = np.max([sd, *(FLOOR * clear(one).std(axis=0) for one in alike)], axis=0)
     quiet = np.max([_floor(ground.accelerations(one, inputs)) for one in alike], axis=0)
     make = lambda one: replace(_series(problem, one, inputs, outputs, sd), floor=floors[id(one)], force_floor=quiet)
+    said += [_left_out(one, outputs) for one in alike[:1] if _disturbance(one)]
     if any(first.channels[j].ground for j in inputs):
         said.append(_MOVING)
     if not held and first.free and len(alike) > 1:
@@ -133,7 +136,7 @@ def cannot_judge(problem: Problem) -> tuple[Diagnostic, ...]:
 
 
 def _alike(one: Recording, other: Recording) -> bool:
-    same = lambda r: [(c.role, c.quantity, c.weights, c.ground, c.frame) for c in r.channels]
+    same = lambda r: [(c.role, c.quantity, c.weights, c.ground, c.frame, c.gain_sd, c.delay_sd) for c in r.channels]
     return abs(one.time_step_s / other.time_step_s - 1) < 1e-6 and one.free == other.free and same(one) == same(other)
 
 
@@ -154,7 +157,26 @@ def _series(problem: Problem, record: Recording, inputs: list[int], outputs: lis
         np.where(moving, rows(inputs).T, 0.0),
         first=record.start,
         free=record.free,
+        disturbance=_disturbance(record),
     )
+
+
+def _left_out(record: Recording, outputs: list[int]) -> str:
+    """What hum and drift took off the outputs of a record."""
+    own, y = _disturbance(record), record.samples[:, outputs]
+    rms = (y - own.cleared_by(y, record.time_step_s, BLOCK)).std(axis=0)
+    sizes = [
+        f"{size:.2g} {record.channels[j].unit} in {record.channels[j].name}"
+        for size, j in zip(rms, outputs, strict=True)
+    ]
+    what = [f"{own.mains:g} Hz and its multiples"] * bool(own.mains) + [f"motion slower than {own.drift:g} Hz"] * bool(
+        own.drift
+    )
+    return f"left out of every fit: {' and '.join(what)}; of '{record.title}' rms {', '.join(sizes)}"
+
+
+def _disturbance(record: Recording) -> Disturbance:
+    return Disturbance(record.mains_hz, record.drift_hz)
 
 
 def _weights(channel: Channel, n: int) -> np.ndarray:

@@ -10,9 +10,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mouse_cli.terms.laws import Law, registry
-from mouse_cli.updating.recordings.channels import corrected
+from mouse_cli.updating.recordings.channels import corrected, read
 from mouse_cli.updating.recordings.free_force import Spectrum
 from mouse_cli.updating.recordings.hypothesis import Acting, Hypothesis, Place
+from mouse_cli.updating.recordings.law_forces import linear_force, stepped
 
 _APART = 0.15  # of the logarithm of a size, from which on two starts are two
 _FAR = 0.7  # most that ln parameters of a law that is there already move in a first look
@@ -75,7 +76,8 @@ class Regression:
         self.y = self.stacked(self.missing)
         self.sd = float(np.hypot(1.0, error * np.sqrt((self.y**2).mean())))
         self.y /= self.sd
-        columns = *self._nuisances(U), *self._slopes(), *spectrum.begins
+        channels = hypothesis.channels.columns(spectrum)
+        columns = *self._nuisances(U), *channels, *self._slopes(), *spectrum.begins
         self.J = np.stack([self.stacked(column) for column in columns], axis=1)
         self._prior = self._held()
         self.Q, self.R = np.linalg.qr(np.vstack([self.J, self._prior]))
@@ -108,7 +110,7 @@ class Regression:
         for part, p in self.base.sizes(x[None]):
             if part.law.linear:
                 along, B = self._carried(part.place), part.place.B
-                found += add(_force(part.matrices(p[:, 0]), s.w, self._U @ B, along), B)
+                found += add(linear_force(part.matrices(p[:, 0]), s.w, self._U @ B, along), B)
         return found
 
     def _carried(self, place: Place) -> np.ndarray | float:
@@ -155,9 +157,12 @@ class Regression:
         """x (k,) with the nuisances that go with a law whose answer is a stacked column, and its ln parameters `own`; its chi2."""
         left = self.target - self.projected(column)
         z = np.linalg.solve(self.R, self.Q.T @ np.concatenate([self.y - column, np.zeros(len(self._prior))]))
-        k, first = self.base.linear.k, self.base.nuisances
-        moved = self.begun[first:] + np.clip(z[k : k + len(self.begun) - first], -_FAR, _FAR)
-        return np.concatenate([z[:k], self.begun[k:first], moved, own]), float(left @ left)
+        offsets, first = self.base.offsets, self.base.nuisances
+        of_model, of_channels, of_laws = np.split(
+            z[: len(self.begun) - len(self.base.offset)], [offsets.start, first - len(self.base.offset)]
+        )
+        moved = self.begun[first:] + np.clip(of_laws, -_FAR, _FAR)
+        return np.concatenate([of_model, self.begun[offsets], of_channels, moved, own]), float(left @ left)
 
     def _nuisances(self, U: np.ndarray) -> Iterator[np.ndarray]:
         """Answers (t, s) to forces -(dK u + iw dC u + dM a) of each nuisance, a = -w^2 u and what the ground adds."""
@@ -216,7 +221,7 @@ class Regression:
             return
         for p in many:
             if law.linear:
-                yield _force(law.matrices(p, **words), s.w, local.X, local.carried)
+                yield linear_force(law.matrices(p, **words), s.w, local.X, local.carried)
             else:
                 yield s.line(law.force(local.x, local.v, None, p, **words)[0] * s.window)
 
@@ -254,34 +259,9 @@ def _as_measured(spectrum: Spectrum, hypothesis: Hypothesis, x: np.ndarray) -> S
     """The record as its channels should have read it, by the errors that the hypothesis has at x (k,)."""
     if not hypothesis.parts:
         return spectrum
-    series = corrected(spectrum.series, hypothesis.read(x[None], spectrum.series))
+    measured, force = spectrum.series.measured, spectrum.series.force
+    series = corrected(spectrum.series, read(hypothesis.sizes(x[None]), measured.shape[1], force.shape[1], 1))
     return spectrum if series is spectrum.series else replace(spectrum, series=series)
-
-
-def _force(matrices: tuple[np.ndarray, ...], w: np.ndarray, X: np.ndarray, carried: np.ndarray | float) -> np.ndarray:
-    """Lines (l,) of the force of a linear law against its motion X (l,), its own degrees of freedom eliminated.
-
-    All of them are carried along with the acceleration `carried` of the ground: with 1 = (1, ..., 1),
-    [F, 0]' = Z [X, Q]' + M 1 carried.
-    """
-    K, C, M = matrices
-    Z = K + 1j * w[:, None, None] * C - w[:, None, None] ** 2 * M
-    felt = M.sum(axis=1)
-    if len(K) == 1:
-        return Z[:, 0, 0] * X + felt[0] * carried
-    back = np.linalg.solve(
-        Z[:, 1:, 1:], np.concatenate([Z[:, 1:, :1], np.broadcast_to(felt[1:, None], Z[:, 1:, :1].shape)], 2)
-    )
-    through = (Z[:, :1, 1:] @ back)[:, 0]
-    return (Z[:, 0, 0] - through[:, 0]) * X + (felt[0] - through[:, 1]) * carried
-
-
-def stepped(law: Law, x: np.ndarray, v: np.ndarray, p: np.ndarray, words: dict[str, float]) -> np.ndarray:
-    """The forces (t, m) of a law with internal states along a motion (t,), for parameters (q, m)."""
-    z, found = np.zeros((law.states, p.shape[1])), np.empty((len(x), p.shape[1]))
-    for i in range(len(x)):
-        found[i], z = law.force(x[i], v[i], z, p, **words)
-    return found
 
 
 def allowed(place: Place, laws: list[Law] | None = None) -> list[Law]:

@@ -9,8 +9,10 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
 from mouse_cli.updating.recordings.accuracy import accurate
 from mouse_cli.updating.recordings.basis import LARGEST
+from mouse_cli.updating.recordings.calibration import calibration
 from mouse_cli.updating.recordings.channels import SCALE, channel_sites
 from mouse_cli.updating.recordings.deck_laws import acting
+from mouse_cli.updating.recordings.disturbance import BLOCK
 from mouse_cli.updating.recordings.free_force import Spectrum
 from mouse_cli.updating.recordings.hypothesis import Hypothesis, Place
 from mouse_cli.updating.recordings.places import places
@@ -88,7 +90,8 @@ def study(problem: Problem, found: Records, of: Modelled = uncertain) -> Study:
     data = [segments(one, length, share) for one in fitted]
     rms = np.sqrt(np.mean([(one.force**2).mean(axis=0) for one in fitted], axis=0))
     ground = bool(first.base.any()) and not first.inputs.any()
-    base = Hypothesis(model.linear, OFFSET * rms, acting(problem, model.basis), ground=ground)
+    known = calibration(found.outputs, found.inputs)
+    base = Hypothesis(model.linear, OFFSET * rms, acting(problem, model.basis), ground=ground, channels=known)
     loudest = max(fitted, key=lambda one: float((one.measured / one.sd).std()))
     look = loudest.part(0, min(len(loudest), _SAMPLES))
     return Study(problem, found, model, base, look, data, (low, high), length)
@@ -111,7 +114,7 @@ def alike(own: Study, of: Modelled) -> Study:
     there = reduced(first, model)
     seen = lambda one: replace(one, inputs=there.inputs, sensing=there.sensing, base=there.base)
     data = [replace(part, series=seen(part.series)) for part in own.data]
-    base = Hypothesis(model.linear, own.base.offset, acting(own.problem, model.basis), ground=own.base.ground)
+    base = replace(own.base, linear=model.linear, known=acting(own.problem, model.basis))
     found = Study(own.problem, own.records, model, base, seen(own.look), data, own.band, own.length)
     begun = own.at(own.places[0]).spread
     found.spread = found.at(found.places[0]).spread.copy()
@@ -140,7 +143,8 @@ def _resonances(model: Uncertain) -> np.ndarray:
 
 def _occupied(series: Series) -> tuple[float, float]:
     """Where the response is, in Hz: all but a thousandth of its power."""
-    power = (np.abs(np.fft.rfft((series.measured - series.measured.mean(axis=0)) / series.sd, axis=0)) ** 2).sum(axis=1)
+    own = series.disturbance.cleared_by(series.measured, series.dt, BLOCK)
+    power = (np.abs(np.fft.rfft((own - own.mean(axis=0)) / series.sd, axis=0)) ** 2).sum(axis=1)
     share = np.cumsum(power) / power.sum()
     lines = np.fft.rfftfreq(len(series), series.dt)
     return float(lines[np.searchsorted(share, 0.001)]), float(lines[np.searchsorted(share, 0.999)])

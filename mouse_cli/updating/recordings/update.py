@@ -55,7 +55,7 @@ def update_records(problem: Problem, notice: Notice) -> RecordUpdate:
         scores=scores(own, prior, fit),
         trace=trace(own, prior, fit),
         surface=surface(own, fit),
-        remarks=found.remarks + own.model.remarks,
+        remarks=found.remarks + own.model.remarks + fit.calibrated,
         **named(found),
     )
 

@@ -18,9 +18,10 @@ from mouse_cli.model.record_diagnosis import (
 )
 from mouse_cli.updating.recordings.channels import earlier
 from mouse_cli.updating.recordings.free_force import Spectrum
+from mouse_cli.updating.recordings.law_forces import stepped
 from mouse_cli.updating.recordings.polish import Fit, followed
 from mouse_cli.updating.recordings.records import reduced
-from mouse_cli.updating.recordings.regression import Regression, stepped
+from mouse_cli.updating.recordings.regression import Regression
 from mouse_cli.updating.recordings.segments import segments
 from mouse_cli.updating.recordings.series import REACH, Series, passed
 from mouse_cli.updating.recordings.study import Study, begin
@@ -50,7 +51,7 @@ def _score(study: Study, held: Series, models: dict[str, Fit]) -> RecordScore:
         if found is not None:
             short[name] = held.sd * np.sqrt((found.residual**2).mean(axis=(1, 2)))
         error = held.measured - free_run(study, held, one, found)
-        free[name] = _rms(error[: min(len(held), _LONG)])
+        free[name] = _rms(held.disturbance.cleared_by(error[: min(len(held), _LONG)], held.dt, study.length))
     noise = None if held.floor is None else held.floor * np.sqrt(passed())
     return RecordScore(held.title, study.length * held.dt, _rms(held.measured), short, free, noise)
 

@@ -48,7 +48,7 @@ def diagnose_records(problem: Problem, notice: Notice, choices: Choices, own: St
         noise_scale=ranking.noise_scale,
         **vars(decision),
         untried=untried(searched, own, known),
-        remarks=found.remarks + own.model.remarks,
+        remarks=found.remarks + own.model.remarks + (best or baseline).calibrated,
         choices=choices,
         **named(found),
         linearity=linearity(own, baseline),

@@ -127,7 +127,7 @@ def _rest(ranking: Ranking) -> Rest | None:
 def far(one: Fit, scale: float) -> tuple[str, ...]:
     """The nuisances beyond FAR, in words, the furthest first."""
     z = shifted(one, scale)
-    names = (*one.hypothesis.linear.names, *(f"offset of force {i + 1}" for i in range(len(one.hypothesis.offset))))
+    names = one.hypothesis.names
     order = np.argsort(-np.abs(z))
     return tuple(f"{names[i]} is {z[i]:+.1f} prior sd from its mean" for i in order if abs(z[i]) > FAR)
 

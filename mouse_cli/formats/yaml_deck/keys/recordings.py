@@ -9,6 +9,8 @@ _SENSOR = (
     "holds the model; only in a list of channels"
 )
 _FRF_UNIT = "unit of the values, as (m/s2)/N or g/lbf"
+_GAIN = "standard deviation of the gain of a channel, which is then estimated: `2 %`, or 0.02"
+_DELAY = "standard deviation of the delay of an output behind the inputs, which is then estimated"
 SECTIONS = {
     "recording": Section(
         "Time histories of a file, or a stretch of them.",
@@ -24,6 +26,12 @@ SECTIONS = {
             "outputs": Key("channels", "what it answered: {sensor: channel, ...}", "all channels of a file that names its sensors"),
             "free_decay": Key("flag", "whether no force acts from its first sample on: ring-down, release from rest", "false"),
             "frame": Key("choice", "whether outputs are motions in space or relative to the ground", FRAMES[0], choices=FRAMES),
+            "gain_sd": Key("sd", _GAIN, "they are known"),
+            "delay_sd": Key("number", _DELAY, "0: they are known", "s"),
+            "mains": Key(
+                "number", "frequency of a hum: sinusoids of it and its multiples are left out of every fit", "none", "Hz"
+            ),
+            "drift": Key("number", "frequency below which outputs drift: slower motion is left out of every fit", "none", "Hz"),
         },
     ),
     "channel": Section(
@@ -37,6 +45,8 @@ SECTIONS = {
             "unit": Key("text", "of its numbers: N, kN, lbf, m/s2, mm/s2, g, m, mm, V, ...", "the value in the file"),
             "sensitivity": Key("text", "of a transducer recorded in volts, as 100 mV/g", "none"),
             "frame": Key("choice", "of an output: in space, or relative to the ground", "`frame` of the recording", choices=FRAMES),
+            "gain_sd": Key("sd", _GAIN, "`gain_sd` of the recording"),
+            "delay_sd": Key("number", _DELAY, "`delay_sd` of the recording", "s"),
             "moves": Key(
                 "sensor weights",
                 "of the ground: degrees of freedom that it carries along as a rigid body, and by how much",
