@@ -109,6 +109,8 @@ def pairs(study: Study, singles: list[Fit]) -> list[Fit]:
             if not any(two is one for one in done):
                 done.append(two)
                 _swap(study, two, found)
+    for two in _best_of(found, 1):  # the mechanism that leads with a partner may be none of those that lead alone
+        _keep(found, _exchanged(study, two))
     return [two for two in _finished(study, found) if material(two, singles)]
 
 
