@@ -25,7 +25,7 @@ from mouse_cli.diagnosis.search.optima import within
 from mouse_cli.diagnosis.search.pared import plainest
 from mouse_cli.diagnosis.search.parts import in_turn, promising, single
 from mouse_cli.diagnosis.search.pool import Pool
-from mouse_cli.diagnosis.search.several import adequate, several
+from mouse_cli.diagnosis.search.several import adequate, plain, several
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.model.diagnosis import Untried
 from mouse_cli.model.groups import joined, shares
@@ -139,8 +139,8 @@ def _ranked(study: Study, causes: int, hear: Callable[[Ranking], Ranking], last:
     found = hear(ranking(baseline, fits))
     if last and (dict(found.groups).get("none", 0.0) < _IDLE or not adequate(found.baseline, gates.GATE)):
         fits += rivals(model, baseline, kind, within(fits))
-    with_cause = [one for one in found.fits if one.recipes]
-    if causes > 1 and with_cause and not adequate(min(with_cause, key=lambda one: one.misfit), _FURTHER):
+    alone = plain(one for one in found.fits if one.recipes)
+    if causes > 1 and len(found.fits) > 1 and not any(adequate(one, _FURTHER) for one in alone):
         trusted = found.stated[0] > _TRUSTED or found.noise_scale > _LOUD
         fits += several(study, singles, causes if trusted else min(causes, 2))
     kept = fits if model.problem.frf or model.problem.recordings else plainest(fits)  # these may feel what modes do not

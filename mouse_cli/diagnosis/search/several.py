@@ -37,8 +37,14 @@ Found = dict[tuple[str, ...], Fit]  # the best fit of each set of candidates
 
 
 def key(one: Fit) -> tuple[str, ...]:
-    """Keys of the mechanisms of a fit, sorted."""
-    return tuple(sorted(recipe.candidate.key for recipe in one.recipes))
+    """Keys of the mechanisms of a fit, sorted; of several parts that of each, for they take as many sizes as so many mechanisms."""
+    return tuple(sorted(recipe.candidate.key for recipe in one.recipes for _ in recipe.parts or (None,)))
+
+
+def plain(found: Iterable[Fit]) -> list[Fit]:
+    """Those of one size at one place, of what leads with several parts the best that has one."""
+    alone = [[each for each in (one, *(other for other, _ in one.elsewhere)) if len(key(each)) == 1] for one in found]
+    return [max(own, key=lambda each: each.log_evidence) for own in alone if own]
 
 
 def adequate(one: Fit, least: float = _ADEQUATE) -> bool:
@@ -51,9 +57,12 @@ def several(study: Study, singles: list[Fit], most: int) -> list[Fit]:
 
     Where one alone is not refuted (GATE), sets are sought only beside those that come near it, and further if one of them gains.
     """
-    rivals = [one for one in singles if one.misfit <= within(singles)]
-    if any(adequate(one, GATE) for one in singles) and not _gains(study, rivals):
+    alone = plain(singles)
+    if any(adequate(one, GATE) for one in alone) and not _gains(
+        study, [one for one in alone if one.misfit <= within(alone)]
+    ):
         return []
+    singles = singles + [one for one in alone if not any(one is other for other in singles)]
     found = pairs(study, singles)
     smaller, growing = singles + found, found
     alike = same_kind(study, singles, most, within(smaller)) if most > 2 or not any(map(adequate, found)) else []
@@ -96,7 +105,9 @@ def pairs(study: Study, singles: list[Fit]) -> list[Fit]:
     All are tried in few steps; those that lead are fitted to the end.
     """
     leading = sorted(singles, key=lambda one: -one.log_evidence)[:_PAIRED]
-    firsts = {one.recipes[0].candidate.group: one for one in reversed(leading)}  # the best of each group
+    firsts = {
+        (one.recipes[0].candidate.group, len(key(one)) > 1): one for one in reversed(leading)
+    }  # the best of each group
     wide = sorted(firsts.values(), key=lambda one: -one.log_evidence)[:_WIDE]
     found: Found = {}
     for first in leading:
@@ -159,8 +170,8 @@ def _elsewhere(study: Study, one: Fit) -> list[Fit]:
 
 def material(one: Fit, smaller: list[Fit]) -> bool:
     """Whether every mechanism of a set is needed: what it gains over the best of its parts."""
-    own = Counter(key(one))
-    parts = [each.log_evidence for each in smaller if each is not one and Counter(key(each)) < own]
+    own, size = Counter(key(one)), lambda each: (len(key(each)), len(each.recipes))
+    parts = [each.log_evidence for each in smaller if size(each) < size(one) and Counter(key(each)) <= own]
     return not parts or one.log_evidence - max(parts) > MATERIAL
 
 
