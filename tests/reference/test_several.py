@@ -18,7 +18,7 @@ from mouse_cli.diagnosis.search.several import MATERIAL, _fewer, adequate, key, 
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
-from mouse_cli.model.diagnosis import NAMED, Choices
+from mouse_cli.model.diagnosis import NAMED, ONE_OF, Choices
 
 LOCAL = ("mass", "ground-spring", "stiffness-loss")
 PLACES = (6, 10, 15, 19, 24, 28)  # of 30 elements, where point masses of 0.1 of the beam stand
@@ -92,7 +92,7 @@ def test_several_of_one_kind_and_as_many_as_are_needed():
 
 def of(log_evidence: float, *names: str):
     """A fit of mechanisms of those keys."""
-    recipes = tuple(SimpleNamespace(candidate=SimpleNamespace(key=name)) for name in names)
+    recipes = tuple(SimpleNamespace(candidate=SimpleNamespace(key=name), parts=()) for name in names)
     return SimpleNamespace(recipes=recipes, log_evidence=log_evidence)
 
 
@@ -122,6 +122,66 @@ def test_what_came_first_is_dropped_where_the_rest_does_without_it():
     two = max(_fewer(study, [three], [best(study, name) for name in LOCAL]), key=lambda one: one.log_evidence)
     assert key(two) == ("ground-spring", "mass") and adequate(two)
     assert not material(three, [two])
+
+
+def test_two_feet_of_own_sizes_are_no_part_of_a_foot_and_a_spring():
+    """Both have two sizes: neither has to gain on the other. A pair of two feet, one by one, is the same once more."""
+    feet, foot, spring = of(-40.0, "foot"), of(-70.0, "foot"), of(-80.0, "spring")
+    feet.recipes[0].parts = ("1RZ", "23RZ")
+    assert key(feet) == ("foot", "foot")
+    assert material(of(-42.0, "foot", "spring"), [feet, foot, spring])
+    assert not material(of(-40.0, "foot", "foot"), [feet, foot, spring])
+    assert not material(of(-39.0, "foot", "foot", "spring"), [feet, foot, spring])
+
+
+def test_beside_two_feet_of_own_sizes_sets_are_sought_where_one_foot_is_refuted(monkeypatch):
+    """The two leave noise, the best single foot 200 on 100 (p = 1e-8): something else may act beside it as well."""
+    foot = lambda misfit: SimpleNamespace(misfit=misfit, dof=100, elsewhere=(), **vars(of(-misfit, "foot")))
+    one, two, asked = foot(200.0), foot(90.0), []
+    two.recipes[0].parts, two.elsewhere = ("1RZ", "23RZ"), ((one, 1e-9),)
+    monkeypatch.setattr(search, "pairs", lambda study, singles: asked.extend(singles) or [])
+    monkeypatch.setattr(search, "same_kind", lambda *given: [])
+    search.several(SimpleNamespace(known=()), [two], 2)
+    assert asked == [two, one]
+
+
+def test_a_pair_is_exchanged_that_leads_by_a_mechanism_which_is_none_of_it(monkeypatch):
+    """Alone b is the worst of ten, beside c all; the best of the leading ones, a, has c beside it."""
+    names = ("a", *"defghijk", "b")
+    singles = [SimpleNamespace(misfit=900.0, dof=100, **vars(of(-500.0 - i, name))) for i, name in enumerate(names)]
+    for each in singles:
+        each.recipes[0].candidate.group = each.recipes[0].candidate.key
+    best_of = {("a", "c"): -400.0, ("b", "c"): -50.0}
+
+    def beside(study, first, partners, found):
+        for name in ("b", "c"):
+            both = tuple(sorted((*key(first), name)))
+            if both in best_of:
+                found[both] = SimpleNamespace(misfit=900.0, dof=100, model=None, **vars(of(best_of[both], *both)))
+
+    alone = lambda one, i: of(-600.0, *(key(one)[:i] + key(one)[i + 1 :]))
+    for name, stub in (("_beside", beside), ("_without", alone), ("_swap", lambda *given: None)):
+        monkeypatch.setattr(search, name, stub)
+    monkeypatch.setattr(search, "_finished", lambda study, found: list(found.values()))
+    study = SimpleNamespace(known=(*names, "c"))
+    assert max(search.pairs(study, singles), key=lambda one: one.log_evidence).log_evidence == -50.0
+
+
+def test_sites_of_sets_that_are_as_good_leave_the_place_open():
+    """Of five weights in mirror order on a free beam two are gone, the middle one and one beside it: frequencies alone, and a
+    single sensor, cannot tell on which side.
+    """
+    at = (3, 9, 15, 21, 27)
+    weights = "".join(
+        f"      - {{id: {i}, type: mass, nodes: {n + 1}, mass: {0.1 * MASS * LENGTH}}}\n" for i, n in enumerate(at, 101)
+    )
+    truth = Truth(masses=tuple((n / 30, 0.1) for n in at if n not in (9, 15)))
+    text = deck(truth, True, sensors=1, modes=7, held=1, more=weights)
+    found = diagnose(
+        assemble(yaml_deck.read(text, "beam.yaml")), choices=Choices(("mass-loss", "mass", "stiffness-loss"))
+    )
+    assert (found.kind, found.placed) == (ONE_OF, False)
+    assert {cause.site.ids for cause in found.best.causes} in ({(102,), (103,)}, {(103,), (104,)})
 
 
 def single(candidate: str, group: str):
@@ -194,8 +254,8 @@ def test_feet_that_give_way_are_named_each_with_a_stiffness_of_its_own(flexible)
 )
 def test_beside_one_that_is_not_refuted_no_sets_are_sought_that_promise_nothing(monkeypatch, misfit, gain, sought):
     """130 on 100 has p = 0.024, 200 has 1e-8: the second is sought beside anything at all."""
-    cause = lambda name: SimpleNamespace(candidate=SimpleNamespace(key=name))
-    single = SimpleNamespace(misfit=misfit, dof=100, log_evidence=-80.0, recipes=[cause("a")])
+    cause = lambda name: SimpleNamespace(candidate=SimpleNamespace(key=name), parts=())
+    single = SimpleNamespace(misfit=misfit, dof=100, log_evidence=-80.0, recipes=[cause("a")], elsewhere=())
     asked = []
     beside = lambda study, first, partners, found: found.update(
         {("a", "b"): SimpleNamespace(log_evidence=first.log_evidence + gain, recipes=[cause("a"), cause("b")])}

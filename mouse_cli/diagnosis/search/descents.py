@@ -8,14 +8,14 @@ from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unseen
 from mouse_cli.diagnosis.search.escape import shifted, uncrossed
 from mouse_cli.diagnosis.search.fit import MOST, Fit, descended, fit
-from mouse_cli.diagnosis.search.optima import NEAR, distinct, within
+from mouse_cli.diagnosis.search.optima import NEAR, TIED, distinct, within
 from mouse_cli.diagnosis.search.pared import pared
 from mouse_cli.diagnosis.search.starts import cost
 from mouse_cli.diagnosis.search.study import BRIEF, MOVED, Study, weighed_beside
 
 _STARTS = 3  # fits of a candidate to the end, from different optima
 _SLACK = 1.5  # times the misfit that matters in all coordinates: what matters in few
-_TIED, _TIES = 6.0, 12  # misfit above the best up to which other places are as good, and how many of them are fitted
+_TIES = 12  # places as good as the best that are fitted
 _SETTLE = 3  # times that causes are weighed anew
 _OF_SETS = (
     1e-5  # share of parameters within which what element sets give is alike: of a missing one nothing must be left
@@ -72,7 +72,7 @@ def tried(
     """
     first = study if sum(len(recipe.grid) for recipe in study.recipes(name)) <= _FEW else study.coarse
     near_by = first.approached(name, before, others, _SLACK * reach)
-    tied = 0 if others or not near_by else sum(left < near_by[0][0] + _TIED for left, _, _ in near_by)
+    tied = 0 if others or not near_by else sum(left < near_by[0][0] + TIED for left, _, _ in near_by)
     count = max(count, min(tied, _TIES))
     chosen = near_by[:count] if first is study else _weighed(study, before, others, name, near_by, count)
     ways = [(first, *each) for each in chosen] + (
@@ -97,7 +97,7 @@ def _screened(study: Study, name: str, reach: float) -> list[tuple[float, int, l
         each = (descended(trial, recipe.coordinates(values), none, BRIEF, _SLACK * reach) for values in recipe.starts)
         ends += [(cost(end), recipe.number, [end.point.x]) for end in each if end is not None]
     ends.sort(key=lambda item: item[0])
-    return [each for n, each in enumerate(ends[:_TIES]) if n < _STARTS or each[0] < ends[0][0] + _TIED]
+    return [each for n, each in enumerate(ends[:_TIES]) if n < _STARTS or each[0] < ends[0][0] + TIED]
 
 
 def _weighed(study: Study, before: np.ndarray, others: tuple, name: str, near_by: list, count: int) -> list:

@@ -2,6 +2,8 @@
 paired crosswise.
 """
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Recipe
@@ -10,6 +12,7 @@ from mouse_cli.diagnosis.gates import GATE
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
+from mouse_cli.diagnosis.search.optima import TIED
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.updating.chi_square import upper_tail
 
@@ -55,17 +58,34 @@ def walked(one: Fit, study: Study) -> Fit:
     return one
 
 
+def tied(one: Fit, study: Study) -> list[Fit]:
+    """Fits with one mechanism at another of the sites around its own that misfit by less than TIED more: places as good."""
+    found = [
+        fit(model, one.point.x[one.model.k :], one.point.x[: one.model.k])
+        for i in range(len(one.recipes))
+        for left, model in _steps(one, study, i)
+        if left < one.misfit + TIED
+    ]
+    return [each for each in found if each is not None and each.misfit < one.misfit + TIED]
+
+
 def _stepped(one: Fit, study: Study, i: int) -> Fit:
     """The fit with mechanism number i at the best of the sites around its own, by a full step from there; itself if none is."""
-    there, x, k = study.about(one), one.point.x, one.model.k
-    own, best, chosen = there.own(one.recipes), one.misfit - 1, None
+    x, k = one.point.x, one.model.k
+    left, chosen = min(_steps(one, study, i), key=lambda step: step[0], default=(np.inf, None))
+    again = fit(chosen, x[k:], x[:k]) if left < one.misfit - 1 else None
+    return again if again is not None and again.misfit < one.misfit - 1 else one
+
+
+def _steps(one: Fit, study: Study, i: int) -> Iterator[tuple[float, Model]]:
+    """The misfit that a full step promises with mechanism number i at each of the sites around its own, and the model there."""
+    there = study.about(one)
+    own = there.own(one.recipes)
     for recipe in _around(own[i], there):
         model = there.kind(there.model, (*own[:i], recipe, *own[i + 1 :]))
-        at = model.point(x)
-        if at is not None and (left := _after_a_step(model, at)) < best:
-            best, chosen = left, model
-    again = None if chosen is None else fit(chosen, x[k:], x[:k])
-    return again if again is not None and again.misfit < one.misfit - 1 else one
+        at = model.point(one.point.x)
+        if at is not None:
+            yield _after_a_step(model, at), model
 
 
 def _around(recipe: Recipe, study: Study) -> list[Recipe]:

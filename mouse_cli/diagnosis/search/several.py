@@ -11,7 +11,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.gates import GATE, MATERIAL
 from mouse_cli.diagnosis.search.descents import settled, summed
-from mouse_cli.diagnosis.search.escape import shifted, walked
+from mouse_cli.diagnosis.search.escape import shifted, tied, walked
 from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
 from mouse_cli.diagnosis.search.optima import NEAR, within
 from mouse_cli.diagnosis.search.pared import pared
@@ -196,7 +196,9 @@ def _fewer(study: Study, sets: list[Fit], smaller: list[Fit]) -> list[Fit]:
 
 
 def _finished(study: Study, found: Found) -> list[Fit]:
-    return [summed([settled(walked(shifted(pared(one, study)), study), study)]) for one in _best_of(found, _FINISHED)]
+    """The best fitted to the end, their evidence summed over sites that are as good."""
+    ended = [settled(walked(shifted(pared(one, study)), study), study) for one in _best_of(found, _FINISHED)]
+    return [summed([one, *tied(one, study)]) for one in ended]
 
 
 def _best_of(found: Found, count: int) -> list[Fit]:
