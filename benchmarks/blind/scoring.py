@@ -80,10 +80,9 @@ def _outcome(answer: dict, kind: str, leads: bool, near: bool) -> str:
 
 
 def _near(answer: dict, sites: list[dict], error: float) -> bool:
-    """Whether causes are where they were said to be: between the same nodes, or as near as matters."""
+    """Whether causes are where they were said to be: between the same nodes, or two of several, or as near as matters."""
     if answer.get("ends"):
-        said = [sorted(site["ids"]) for site in sites]
-        return all(sorted(pair) in said for pair in answer["ends"])
+        return all(any(set(pair) <= set(site["ids"]) for site in sites) for pair in answer["ends"])
     return not answer["places"] or not np.isfinite(error) or error <= NEAR
 
 

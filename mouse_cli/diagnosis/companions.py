@@ -11,12 +11,13 @@ from math import erf, sqrt
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import PLACE
+from mouse_cli.diagnosis.effects.change import PLACE, Recipe
 from mouse_cli.diagnosis.gates import SAME_SITE, SURE
 from mouse_cli.diagnosis.likelihoods.modal.scales import span
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.rank import Ranking
 from mouse_cli.model.groups import joined, shares
+from mouse_cli.model.shared_place import panels
 from mouse_cli.model.site import Site, gap
 
 Mechanism = tuple[str, str, Site]  # physics, group, site
@@ -50,7 +51,7 @@ def shared(ranking: Ranking, first: Fit) -> Shared | None:
 def placed(one: Fit) -> float:
     """Share of the evidence of a fit at its own sites, or so near that they are one (SAME_SITE), or at these and more parts.
 
-    A foot is flexible too where another, hardly so, is counted with it.
+    A foot is flexible too where another, hardly so, is counted with it, and a member where it is the row that it belongs to.
     """
     own, reach = _mechanisms(one), SAME_SITE * span(one.model.base)
     apart = lambda other: _matched(own, _mechanisms(other), reach) is None and not _among(one, other)
@@ -58,11 +59,37 @@ def placed(one: Fit) -> float:
 
 
 def _among(one: Fit, other: Fit) -> bool:
-    """Whether the mechanisms of two fits are the same, but for parts that those of `other` have besides."""
-    pairs = list(zip(one.recipes, other.recipes, strict=False))
-    return len(one.recipes) == len(other.recipes) and all(
-        own.candidate.key == its.candidate.key and own.parts and set(own.parts) <= set(its.parts) for own, its in pairs
+    """Whether the mechanisms of two fits are the same, but for parts or elements that those of `other` have besides."""
+    if len(one.recipes) != len(other.recipes):
+        return False
+    pairs = zip(one.recipes, other.recipes, _mechanisms(one), _mechanisms(other), strict=True)
+    return all(
+        a[0] == b[0] and ((own.parts and set(own.parts) <= set(its.parts)) or _whole(own, a[2], b[2]))
+        for own, its, a, b in pairs
     )
+
+
+def _whole(own: Recipe, site: Site, other: Site) -> bool:
+    """Whether a mechanism that acts on whole elements acts on them at another site too, which has more of them in one row."""
+    spread = site.kind == other.kind == "element" and None not in (site.position, other.position)
+    return spread and set(site.ids) < set(other.ids) and all(unknown.name != PLACE for unknown in own.unknowns)
+
+
+def panelled(one: Fit) -> bool:
+    """Whether all sites that hold SURE of the evidence of a fit join two nodes across one line of panels.
+
+    One diagonal of a panel does what the other does, and where floors hardly stretch one bay of a storey what the next does.
+    """
+    shares = [(1 - sum(share for _, share in one.elsewhere), one), *((share, other) for other, share in one.elsewhere)]
+    total, sites = 0.0, []
+    for share, each in sorted(shares, key=lambda item: -item[0]):
+        total, sites = total + share, [*sites, tuple(site for _, _, site in _mechanisms(each))]
+        if total >= SURE:
+            break
+    moved = [own for own in zip(*sites, strict=True) if len(set(own)) > 1]
+    if len(moved) != 1 or any(site.kind != "node" or len(site.ids) != 2 for site in moved[0]):
+        return False
+    return panels(one.model.base.problem.mesh, moved[0])
 
 
 def loose(one: Fit, which: tuple[int, ...] | None = None) -> tuple[tuple[str, float], ...]:

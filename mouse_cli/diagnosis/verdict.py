@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.companions import Shared, placed, shared
+from mouse_cli.diagnosis.companions import Shared, panelled, placed, shared
 from mouse_cli.diagnosis.gates import DEMANDED, FAR, GATE, LIKELY, ODDS, SEVERAL, STAYS, SURE
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unmeasured_hz
@@ -45,7 +45,8 @@ class Verdict:
 
     refuted: groups that held-out data speak against. field: the leading rival without a name where the answer is UNKNOWN, with
     field_proof, how it predicts what was held out. reasons: what forbids a name that evidence alone would give, in sentences.
-    certain: what of `best` is named, where its companions are open. placed: whether its site is as sure as a name.
+    certain: what of `best` is named, where its companions are open. placed: whether its site is as sure as a name; what is named
+    all the same is so within `panelled`.
     """
 
     kind: str
@@ -73,7 +74,8 @@ def _judged(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
     Something is missing where the update leaves too much, where the model as it is is improbable (DEMANDED), or where some
     mechanism is sure and what the deck holds out confirms it. Where none of that holds and yet the model as it is is not probable
     (LIKELY), or the model as it is fails on what the deck holds out and a mechanism predicts it, it is likely, not proved: one of
-    several, the model as it is among them. A mechanism that is sure at one of several sites is one of these.
+    several, the model as it is among them. A mechanism that is sure at one of several sites is one of these, unless all of them are
+    in one line of panels: that is the place then.
     """
     baseline, best, none = ranking.baseline, leader(ranking), dict(ranking.groups).get("none", 0.0)
     believed = ranking.stated[0] >= _BELIEVED
@@ -95,7 +97,7 @@ def _judged(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
         return _unknown(ranking, model, best, proof, (group(best),), reasons)
     open_ = kind == NAMED and ranking.groups[0][1] < SURE
     if kind == NAMED and not open_ and placed(best) < SURE:
-        return Verdict(ONE_OF, best, proof, reasons=reasons, placed=False)
+        return Verdict(NAMED if panelled(best) else ONE_OF, best, proof, reasons=reasons, placed=False)
     return Verdict(kind, best, proof, reasons=reasons, certain=shared(ranking, best) if open_ else None)
 
 

@@ -39,6 +39,19 @@ def shared_place(mesh: Mesh | None, sites: Sequence[Site]) -> SharedPlace | None
     return SharedPlace(extents, nodes) if extents or nodes else None
 
 
+def panels(mesh: Mesh | None, sites: Sequence[Site]) -> bool:
+    """Whether sites are a panel, or panels in a row: in one plane, where they reach alike, and less far than the structure, along
+    an axis of it.
+    """
+    shared = shared_place(mesh, sites)
+    if shared is None:
+        return False
+    size = np.ptp(mesh.coordinates, axis=0)
+    near = _SAME * size.max()
+    flat = [high - low <= near for _, low, high in shared.extents]
+    return not all(flat) and sum(flat) >= int((size > near).sum()) - 2
+
+
 def _nodes(mesh: Mesh, site: Site) -> list[int] | None:
     """Nodes (indices) of a site; None where it has none."""
     ids = [i for i in site.ids if not isinstance(i, str)]

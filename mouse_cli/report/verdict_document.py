@@ -4,7 +4,19 @@ from collections.abc import Sequence
 from math import isfinite
 from typing import Any
 
-from mouse_cli.model.diagnosis import EVERYWHERE, ONE_OF, UNKNOWN, Diagnosis, Field, HeldOut, Rest, Score, Site, Untried
+from mouse_cli.model.diagnosis import (
+    EVERYWHERE,
+    NAMED,
+    ONE_OF,
+    UNKNOWN,
+    Diagnosis,
+    Field,
+    HeldOut,
+    Rest,
+    Score,
+    Site,
+    Untried,
+)
 from mouse_cli.model.shared_place import SharedPlace
 from mouse_cli.report.json_values import dof_name
 from mouse_cli.report.verdict_sentences import sentences
@@ -15,14 +27,14 @@ Elsewhere = tuple[tuple[tuple[Site, ...], float], ...]
 def verdict(found: Diagnosis) -> dict[str, Any]:
     """physics, group and sites of what is named, or leads its rivals, in one order; none of them without a leader."""
     leader = found.leader
-    causes = () if leader is None else leader.causes
+    causes, sites = () if leader is None else leader.causes, [site(each) for each in _sites(found)]
     return {
         "kind": found.kind,
         "sentences": list(sentences(found)),
         "physics": leader and leader.physics,
         "group": leader and leader.group,
-        "site": site(causes[0].site) if causes else None,
-        "sites": [site(cause.site) for cause in causes],
+        "site": sites[0] if sites else None,
+        "sites": sites,
         "damping": [cause.law or None for cause in causes],
         "probability": None if found.kind == UNKNOWN else found.probability,
         "members": dict(found.members) or None,
@@ -34,6 +46,20 @@ def verdict(found: Diagnosis) -> dict[str, Any]:
         "field": field(found.field),
         "untried": untried(found.untried),
     }
+
+
+def _sites(found: Diagnosis) -> tuple[Site, ...]:
+    """Where the leader acts; of a pair of nodes of which only the panels are sure, all nodes that may be of it."""
+    own = () if found.leader is None else found.leader.sites
+    if found.placed or found.kind != NAMED:
+        return own
+    each = zip(own, *(sites for sites, _ in found.elsewhere), strict=True)
+    return tuple(one[0] if len(set(one)) == 1 else _any_of(one) for one in each)
+
+
+def _any_of(sites: Sequence[Site]) -> Site:
+    ids = tuple(sorted({i for one in sites for i in one.ids}))
+    return Site(sites[0].kind, ids, None, f"between two of nodes {', '.join(map(str, ids))}")
 
 
 def _share(group: str, p: float) -> dict[str, Any]:

@@ -57,6 +57,8 @@ def _nothing(found: Diagnosis) -> str:
 def _named(found: Diagnosis) -> tuple[str, ...]:
     """Probability of the hypothesis where its group has no other member that counts, else of the group and of each member."""
     best, members = found.best, inside(found)
+    if not found.placed:
+        return tuple(filter(None, (_panelled(found), _separating(found))))
     begin = "The test is at fault, not the model:" if faulty(best) else "The model lacks"
     if not members:
         other = (
@@ -68,6 +70,13 @@ def _named(found: Diagnosis) -> tuple[str, ...]:
     first = f"{begin} {called(found)} ({with_p(found.probability)}): {members}{_rest(found.rest)}."
     at = f"If it is {best.title}, it acts here: {where(best)}{rivals_of_site(found.elsewhere)}."
     return tuple(filter(None, (first, at, _loose(found), _companions(found))))
+
+
+def _panelled(found: Diagnosis) -> str:
+    """What is sure of a place, and what is not."""
+    best, at = found.best, "" if found.shared is None else f" within {in_common(found.shared, found.problem.units)}"
+    open_ = f"between which nodes: {where(best)}{rivals_of_site(found.elsewhere)}"
+    return f"The model lacks {best.title} ({with_p(found.probability)}){at}, and the test does not settle {open_}."
 
 
 def _companions(found: Diagnosis) -> str:

@@ -4,11 +4,11 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from mouse_cli.model.diagnosis import ONE_OF, Cause, Diagnosis, Effort, Explanation, Proposal, Site
+from mouse_cli.model.diagnosis import NAMED, ONE_OF, Cause, Diagnosis, Effort, Explanation, Proposal, Site
 from mouse_cli.model.mesh import ElementSet, Mesh
 from mouse_cli.model.shared_place import SharedPlace, shared_place
 from mouse_cli.model.units import Units
-from mouse_cli.report.verdict_document import shared
+from mouse_cli.report.verdict_document import shared, verdict
 from mouse_cli.report.verdict_sentences import sentences
 
 # nodes 1 to 6 at y = 0: x = 0, 4, 8 at z = 0, then 3; 7 to 12 the same at y = 5; a top node 13
@@ -68,3 +68,20 @@ def test_the_verdict_says_where_to_look_and_what_tells_some_of_them_apart():
         "No measurement that was tried separates between nodes 1 and 5 from between nodes 2 and 4; a sensor more separates "
         "between nodes 1 and 5 from between nodes 2 and 6 (predicted separation 6.0)."
     )
+
+
+def test_what_is_named_in_a_line_of_panels_joins_two_of_their_nodes():
+    cause = Cause("brace", "brace", "a spring between two points", brace(1, 5), ())
+    told = Explanation((cause,), 20.0, 20, 0.5, 0.0, np.zeros(2), 1.0, (((brace(2, 4),), 0.4),))
+    problem = SimpleNamespace(mesh=MESH, units=Units("m", "kg", "N"))
+    answer = Diagnosis(problem, NAMED, None, None, (told,), (("brace", 1.0),), placed=False)
+    assert sentences(answer)[0] == (
+        "The model lacks a spring between two points (probability > 0.999) within x = 0 to 4 m, y = 0 m, z = 0 to 3 m, and the "
+        "test does not settle between which nodes: between nodes 1 and 5; or between nodes 2 and 4 (probability of this site 0.40)."
+    )
+    assert verdict(answer)["site"] == {
+        "kind": "node",
+        "ids": [1, 2, 4, 5],
+        "position": None,
+        "text": "between two of nodes 1, 2, 4, 5",
+    }

@@ -1,6 +1,7 @@
 """The gates between evidence and an answer: rankings made up here, each on one side of a gate, and small chains."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -348,3 +349,49 @@ def test_of_fields_that_which_predicts_is_given(proofs):
     proofs |= {"field-bed": 15.0}
     found = judge(ranking, True, None)
     assert (found.kind, found.field) == (UNKNOWN, bed) and found.field_proof.revised.log_predictive_density == 15.0
+
+
+def _among_sites(first: Site, others: list[tuple[Site, float]], key: str, mesh=None):
+    """A fit of one mechanism at `first`, with others of it elsewhere."""
+
+    def at(site):
+        recipe = SimpleNamespace(**vars(made_up(key).recipes[0]) | {"site": lambda values: site, "unknowns": ()})
+        one = made_up(key)
+        one.recipes = (recipe,)
+        one.model.base.problem.mesh = mesh
+        return one
+
+    one = at(first)
+    one.elsewhere = tuple((at(site), share) for site, share in others)
+    return one
+
+
+@pytest.mark.parametrize(("others", "kind"), [((4, 5), NAMED), ((5, 6), ONE_OF)])
+def test_a_member_is_sure_where_the_row_that_it_is_of_may_be_softer(proofs, others, kind):
+    row = Site("element", others, (0.5, 0.0, 0.0), "the row")
+    one = _among_sites(Site("element", (4,), (0.25, 0.0, 0.0), "element 4"), [(row, 0.2)], "member")
+    assert judged(one, BARE, p=(0.99, 0.01)).kind == kind
+
+
+# a wall of two bays by two storeys in x and z, and a second one behind it
+_GRID = np.array([[x, y, z] for z in (0.0, 3.0, 6.0) for y in (0.0, 5.0) for x in (0.0, 4.0, 8.0)])
+_MESH = SimpleNamespace(coordinates=_GRID, node_ids=np.arange(1, 19), elements=())
+
+
+@pytest.mark.parametrize(
+    ("first", "others", "kind"),
+    [
+        ((1, 8), [((2, 7), 0.4)], NAMED),  # the other diagonal of a panel
+        ((1, 8), [((2, 7), 0.3), ((2, 9), 0.3)], NAMED),  # the next bay
+        ((1, 8), [((7, 14), 0.4)], NAMED),  # the next storey
+        ((1, 8), [((4, 11), 0.4)], ONE_OF),  # the wall behind
+        ((1, 8), [((2, 9), 0.3), ((7, 14), 0.3)], ONE_OF),  # neither bay nor storey
+        ((1, 8), [((1, 10), 0.4)], ONE_OF),  # another wall, across
+        ((1, 8), [((2, 7), 0.3), ((1, 10), 0.04)], NAMED),  # of a share that no name asks for
+    ],
+)
+def test_panels_of_a_brace_are_its_place(proofs, first, others, kind):
+    pair = lambda ids: Site("node", ids, None, f"between nodes {ids[0]} and {ids[1]}")
+    one = _among_sites(pair(first), [(pair(ids), share) for ids, share in others], "brace", _MESH)
+    found = judged(one, BARE, p=(0.99, 0.01))
+    assert (found.kind, found.placed) == (kind, False)
