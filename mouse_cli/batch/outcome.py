@@ -18,6 +18,7 @@ class Outcome:
     """How a job ended: `ended` in a word or two, `missed` the expectations that it did not meet, of `expected`.
 
     resumed: its answer was there already. settles: an expectation that was met asked for the exit code or the verdict.
+    answered: the file `result` has the document of an answer.
     """
 
     deck: str
@@ -32,6 +33,7 @@ class Outcome:
     resumed: bool
     result: str
     residual_p: float | None = None
+    answered: bool = False
 
     @property
     def counted(self) -> int:
@@ -54,7 +56,7 @@ def outcome(job: Job, answer: Answer, result: str, resumed: bool = False) -> Out
     residual = (answer.document or {}).get("residual") or {}
     return Outcome(
         job.deck, job.command, answer.exit_code, _ended(job, answer), answer.diagnostics[:_MOST], len(job.expected), missed,
-        settles, answer.seconds, resumed, result, residual.get("p"),
+        settles, answer.seconds, resumed, result, residual.get("p"), answer.document is not None,
     )  # fmt: skip
 
 

@@ -18,8 +18,16 @@ def page(document: Part) -> str:
     The page's Content-Security-Policy allows this style and this script, by their SHA-256, and nothing else: no request, no
     image, no frame, no form. Raises DeckError (MD922) where the document is not what its schema says.
     """
-    style, script = (_joined(end) for end in ("css", "js"))
     title = document.text("title") or document.text("source") or document.file
+    found = list(sections(document))
+    heading = (tag("p", _origin(document), class_="source"), _contents(found))
+    made = f"Made by mouse from {document.text('schema')}, version {document.text('version')}."
+    return written(title, heading, tuple(body for _, body in found), made, ("page", "stage"))
+
+
+def written(title: str, heading: tuple, main: tuple, made: str, parts: tuple[str, ...]) -> str:
+    """A page: what stands below its title, its sections, who made it; `parts` names its styles and scripts."""
+    style, script = (_joined(parts, end) for end in ("css", "js"))
     head = tag(
         "head",
         tag("meta", charset="utf-8"),
@@ -28,22 +36,22 @@ def page(document: Part) -> str:
         tag("title", f"{title} – mouse"),
         tag("style", Markup(style)),
     )
-    found = list(sections(document))
     body = tag(
         "body",
         tag("a", "Skip to the verdict", href="#verdict", class_="skip"),
-        tag("header", tag("h1", title), tag("p", _origin(document), class_="source"), _contents(found)),
-        tag("main", *(body for _, body in found)),
-        tag("footer", tag("p", f"Made by mouse from {document.text('schema')}, version {document.text('version')}.")),
+        tag("header", tag("h1", title), *heading),
+        tag("main", *main),
+        tag("footer", tag("p", made)),
         tag("p", id="spoken", role="status", class_="skip"),
         tag("script", Markup(script)),
     )
     return join([Markup("<!DOCTYPE html>\n"), tag("html", head, body, lang="en"), "\n"])
 
 
-def _joined(end: str) -> str:
-    """The style or the script of the page and of its drawings."""
-    return "".join(files(__package__).joinpath(f"{name}.{end}").read_text("utf-8") for name in ("page", "stage"))
+def _joined(parts: tuple[str, ...], end: str) -> str:
+    """Their styles or their scripts."""
+    found = [files(__package__).joinpath(f"{name}.{end}") for name in parts]
+    return "".join(each.read_text("utf-8") for each in found if each.is_file())
 
 
 def _origin(document: Part) -> str:

@@ -5,12 +5,14 @@ import io
 import json
 import os
 import random
+import re
 import signal
 import subprocess
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from urllib.parse import unquote
 from xml.etree import ElementTree
 
 import pytest
@@ -409,3 +411,20 @@ def test_markdown_shows_what_is_wrong_first_and_holds_no_markup_of_decks(tmp_pat
     for line in text.splitlines():
         outside = "".join(line.split("`")[::2])
         assert "@all" not in outside and "![" not in outside and "<b>" not in outside
+
+
+def test_a_page_of_the_batch_links_to_a_page_of_each_answer(tmp_path, capsys, monkeypatch):
+    """Names of decks are text and parts of addresses, never markup; a rejected deck has no page."""
+    monkeypatch.chdir(tmp_path)
+    springs(tmp_path / "decks", 2)
+    Path("decks/a&b <i>#1.yaml").write_text(SPRING.format(k=100, hz=1.6))
+    Path("decks/broken.yaml").write_text("mouse: 1\nmodel: {}\n")
+    status, _, _ = batch(capsys, "decks", "-o", "out", "--html", "pages/index.html")
+    assert status == 5 and not Path("pages").exists()  # no such folder; the answers are there, and are not made again
+    Path("pages").mkdir()
+    assert batch(capsys, "decks", "-o", "out", "--html", "pages/index.html")[0] == 4
+    html = Path("pages/index.html").read_text()
+    links = re.findall(r'<a href="(?!#)([^"]*)">', html)
+    assert len(links) == 3 == len(list(Path("out").glob("*.html"))) and "<i>" not in html
+    for link in links:
+        assert "Natural frequencies" in (Path("pages") / unquote(link)).read_text()

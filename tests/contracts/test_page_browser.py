@@ -12,6 +12,9 @@ import numpy as np
 import pytest
 from page_answers import NAMES, document, made
 
+from mouse_cli.batch.outcome import Outcome
+from mouse_cli.page.index import index
+
 AXE = ("frequencies", "drawn", "one-of", "arrangements")
 RING = {"light": (163, 57, 10), "dark": (255, 157, 102)}  # --place of page.css
 MOVED = (11, 79, 158)  # --after
@@ -36,9 +39,9 @@ def opened(browser, tmp_path):
     """Opens an answer's page; what it says on the console and what it asks for is collected beside it."""
     contexts = []
 
-    def open_page(name: str, unfolded: bool = True, **settings):
+    def open_page(name: str, unfolded: bool = True, text: str | None = None, **settings):
         path = tmp_path / f"{name}.html"
-        path.write_text(made(name), "utf-8")
+        path.write_text(made(name) if text is None else text, "utf-8")
         settings = {"reduced_motion": "reduce", **settings}
         contexts.append(browser.new_context(permissions=["clipboard-read", "clipboard-write"], **settings))
         found, said, asked = contexts[-1].new_page(), [], []
@@ -243,6 +246,24 @@ def test_axe_is_clean(opened, name):
     found.emulate_media(color_scheme="dark")
     again = axe.Axe().run(found, options={"runOnly": ["color-contrast"]})
     assert again.response["violations"] == []
+
+
+def test_jobs_of_a_batch_are_filtered(opened):
+    """By a word and by ending, together; what is hidden is said, and axe finds nothing."""
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed")
+    ended = ["converged", "converged, model form rejected", "converged", "rejected MD201"]
+    jobs = [
+        Outcome(f"{name}.yaml", "run", code, end, (), 0, (), False, 0.1, False, f"{name}.json")
+        for name, end, code in zip(("beam", "frame", "beam_2", "mast"), ended, (0, 1, 0, 4), strict=True)
+    ]
+    found, said, asked = opened("batch", text=index(jobs, {"beam.json": "beam.html"}, "."))
+    shown = lambda: found.locator("tbody tr:visible th").all_inner_texts()
+    assert len(shown()) == 4 and len(asked) == 1 and said == []
+    assert axe.Axe().run(found).response["violations"] == []
+    found.select_option("#ended", "converged")
+    assert shown() == ["beam.yaml", "beam_2.yaml"]
+    found.fill("#word", "BEAM_")
+    assert shown() == ["beam_2.yaml"] and found.locator("#spoken").inner_text() == "1 of 4 jobs"
 
 
 def test_without_scripts_it_is_a_drawing(browser, opened):

@@ -11,6 +11,9 @@ _REPORTS = (
     click.option(
         "--markdown", "markdown_file", metavar="FILE", help="Write the table in Markdown, for merge requests."
     ),
+    click.option(
+        "--html", "html_file", metavar="FILE", help="Write the table as a page with filters, and a page of each answer."
+    ),
     click.option("--github", is_flag=True, help="Print annotations that GitHub shows beside the lines."),
 )
 
@@ -34,6 +37,7 @@ def command(
     csv_file: str | None,
     junit_file: str | None,
     markdown_file: str | None,
+    html_file: str | None,
     github: bool,
     quiet: bool,
     **given: object,
@@ -54,10 +58,29 @@ def command(
     for text, file in ((csv_text, csv_file), (junit_text, junit_file), (markdown_text, markdown_file)):
         if file:
             deliver(text(found), file, "")
+    if html_file:
+        _pages(found, html_file)
     if github:
         say(annotations(found), end="", commands=True)
     say(table(found, quiet), end="")
     return exit_code(found)
+
+
+def _pages(found: list, file: str) -> None:
+    """A page of each answer, beside it, then the index of them in `file`. Raises WrittenError."""
+    import os
+
+    from mouse_cli.cli._decks import deck_bytes, shown
+    from mouse_cli.cli._terminal import deliver
+    from mouse_cli.page import DOCUMENTS, page, read
+    from mouse_cli.page.index import index
+
+    pages = {}
+    for each in found:
+        if each.answered:
+            pages[each.result] = f"{os.path.splitext(each.result)[0]}.html"
+            deliver(page(read(deck_bytes(each.result), shown(each.result), DOCUMENTS)), pages[each.result], "")
+    deliver(index(found, pages, os.path.dirname(os.path.abspath(file))), file, "")
 
 
 def _of_manifest(path: str) -> list:
