@@ -27,6 +27,7 @@ from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
 
 _FITTED, _FOLLOWED = 16, 3  # springs that are fitted at nodes, and of which ends beside theirs are tried
+_CLOSEST = 6  # of these ends that are fitted
 _STEPS = 25  # of a fit
 _GAINED = 10.0  # by which the misfit may fall, at most, where ends are beside nodes
 _SIZES = 10.0 ** np.arange(-2.0, 2.5, 0.5)  # stiffnesses to begin from, in their unit
@@ -77,16 +78,23 @@ def _at_nodes(model: Reduced) -> list[_Tried]:
 
 
 def _beside(model: Reduced, found: list[_Tried]) -> list[_Tried]:
-    """The springs of `found`, the best of them with ends at the places beside theirs too, which share their prior."""
-    found = sorted(found, key=lambda each: -each.weight)
-    near = []
+    """The springs of `found`, the best of them with ends at the places beside theirs too, which share their prior.
+
+    Those that match the shapes best are fitted. The others' evidence differs from theirs by what the shapes do, see `local.best_law`.
+    """
+    found, near = sorted(found, key=lambda each: -each.weight), []
     for each in found[:_FOLLOWED]:
         ends, own = each.spring
         places = [around(model, ends, i) for i in own]
-        prior = each.prior - float(np.log(np.prod([len(one.sites) for one in places])))
         choices = product(*(range(len(one.sites)) for one in places))
+        some = [_joined(zip(places, chosen, strict=True)) for chosen in choices]
+        matches = matched(model, shapes(model), np.stack([_row(one) for one in some]))
+        score = -0.5 * (matches.cost + matches.volume())
+        first = np.argsort(-score, kind="stable")[:_CLOSEST]
+        others = np.logaddexp.reduce(score) - np.logaddexp.reduce(score[first])
+        prior = each.prior - float(np.log(len(some)) - others)
         z = each.fit.point.x[: model.L.shape[1]]
-        near += [(_joined(zip(places, some, strict=True)), prior, z) for some in choices]
+        near += [(some[i], prior, z) for i in first]
     return _fitted(model, near) + found[_FOLLOWED:]
 
 
