@@ -9,6 +9,7 @@ from scipy.sparse import csr_matrix, save_npz
 
 from mouse_cli import DeckError, diagnose, read_deck, write_deck
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.model.arrays import dense
 from mouse_cli.terms.assembly import assembly
@@ -126,6 +127,29 @@ def test_nothing_is_left_of_a_set_that_is_missing_however_stiff_its_material_tur
     extended = recipe.extend(problem, np.array([gone]))
     there = assembly(extended).matrices(np.array([*theta, 1 - gone]))
     assert np.allclose(eigh(*map(dense, there), eigvals_only=True), expected, rtol=1e-5)
+
+
+@pytest.mark.parametrize("beside", [(), ("support-translation",)])
+def test_what_is_missing_follows_the_parameters_from_where_it_was_weighed(tmp_path, beside):
+    """Weighed at E = 1, the truss without its brace has all of its modes at E = 1.1 too, by hand; slopes of ln f by differences."""
+    model = reduced(problem := read_deck(deck(tmp_path)), np.ones(2))
+    of = lambda key, text: next(
+        each for each in model.recipes(registry()[key]) if text in each.site(np.ones(len(each.unknowns))).text
+    )
+    causes = Model(model, (of("member", "set BRACE"), *(of(key, "all directions") for key in beside)))
+    z = np.linalg.solve(model.L, np.array([1.1, 1.0]) - problem.prior.mean)
+    if not beside:
+        _, K, M = truss()
+        kept = np.arange(15, 36)
+        expected = eigh(1.1 * K["FRAME"][np.ix_(kept, kept)], M["FRAME"][np.ix_(kept, kept)], eigvals_only=True)
+        at = causes.point(np.append(z, causes.bounds[0, 1]))
+        assert np.allclose(at.eigenvalues, expected, rtol=1e-5)
+    x = np.concatenate([z, causes.bounds.mean(axis=1)])
+    for j, slope in enumerate(causes.jacobian(causes.point(x)).T):
+        step = 1e-5 * np.eye(len(x))[j]
+        there = [causes.point(x + sign * step) for sign in (1, -1)]
+        moved = 0.5 * np.subtract(*(np.log(each.eigenvalues[each.modes]) for each in there)) / model.data.sd_log
+        assert np.allclose(slope[:8], moved / 2e-5, rtol=1e-4, atol=1e-5 * np.abs(slope).max())
 
 
 def test_few_coordinates_hold_what_a_large_model_does_without_a_set(tmp_path):

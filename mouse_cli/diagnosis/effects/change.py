@@ -2,7 +2,7 @@
 
 from bisect import bisect_right
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import inf, nextafter
 from typing import Any
@@ -120,7 +120,8 @@ class Recipe:
     limit(values): group that it cannot be told from at such values, the end of their range; empty: none, its candidate's own.
     jumps: coordinates, in order, at which the matrices jump, by number of the unknown; there the piece after it begins.
     parts: names of several things, each with the unknown of the same number, of which there are recipes with fewer; empty: none.
-    home: the model that it was made for.
+    home: the model that it was made for. grows: how K and M that it adds grow with each parameter of the deck (p,), over what they
+    are at those of its model; None: they do not.
     """
 
     candidate: Any
@@ -139,6 +140,7 @@ class Recipe:
     starts: tuple[np.ndarray, ...] = ()
     parts: tuple[str, ...] = ()
     home: Any = field(default=None, repr=False, compare=False)
+    grows: tuple[np.ndarray, np.ndarray] | None = field(default=None, repr=False, compare=False)
     _last: dict[bytes, Change] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def at(self, coordinates: np.ndarray) -> Change:
@@ -149,6 +151,15 @@ class Recipe:
             self._last.clear()
             self._last[key] = found
         return self._last[key]
+
+    def grown(self, change: Change, moved: np.ndarray) -> Change:
+        """A change of it where the deck's parameters have moved by `moved` (p,)."""
+        if self.grows is None or not moved.any():
+            return change
+        K, M = (
+            None if m is None else (1 + g @ moved) * m for g, m in zip(self.grows, (change.K, change.M), strict=True)
+        )
+        return replace(change, K=K, M=M)
 
     def group(self, coordinates: np.ndarray) -> str:
         """Group of mechanisms that it belongs to at coordinates (t,)."""

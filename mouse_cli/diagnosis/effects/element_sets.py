@@ -1,6 +1,6 @@
 """Named element sets of imported matrices that lose, or gain, stiffness or mass as a whole."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -26,12 +26,13 @@ _FELT = 1e-6  # share of the energy of a mode below which a set has no part in i
 class _Part:
     """What a set gives to one matrix: stored (n, n), at the nominal parameters; own (r, r), where causes are weighed.
 
-    slopes (p,): how its share grows with each parameter.
+    slopes (p,): how its share grows with each parameter; grows: the same over the share that is there.
     """
 
     stored: Matrix
     own: np.ndarray
     slopes: np.ndarray
+    grows: np.ndarray
 
     def entries(self, sign: int) -> Entries:
         """Of `stored`, times `sign`."""
@@ -69,7 +70,8 @@ def _missing(candidate, group: ElementGroup, K: _Part, M: _Part, count: int) -> 
         left = new_parameter(PART_LEFT.format(group.name), 1 - values[0], "1")
         return with_part_left(problem, left, K=(K.entries(1), K.slopes), M=(M.entries(1), M.slopes))
 
-    return _recipe(candidate, _MISSING, group, count, (K.own, M.own), -1, extend)
+    found = _recipe(candidate, _MISSING, group, count, (K.own, M.own), -1, extend)
+    return replace(found, grows=(K.grows, M.grows))
 
 
 def _heavier(candidate, group: ElementGroup, M: _Part, count: int) -> Recipe:
@@ -101,7 +103,7 @@ def _sets(model: Reduced) -> list[_Set]:
     for name in "KM":
         sets = sets_in(model, name)
         of_each.append([
-            None if stored is None else _Part(stored, own if factor == 1 else factor * own, slopes)
+            None if stored is None else _Part(stored, own if factor == 1 else factor * own, slopes, slopes / factor)
             for stored, own, factor, slopes in zip(
                 sets.stored, sets.projected, sets.factors(model), sets.slopes.T, strict=True
             )

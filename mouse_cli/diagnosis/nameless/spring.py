@@ -80,7 +80,7 @@ def _at_nodes(model: Reduced) -> list[_Tried]:
 def _beside(model: Reduced, found: list[_Tried]) -> list[_Tried]:
     """The springs of `found`, the best of them with ends at the places beside theirs too, which share their prior.
 
-    Those that match the shapes best are fitted. The others' evidence differs from theirs by what the shapes do, see `local.best_law`.
+    Those that match the shapes best are fitted; the evidence of others differs by what their shapes do, as in `local.best_law`.
     """
     found, near = sorted(found, key=lambda each: -each.weight), []
     for each in found[:_FOLLOWED]:

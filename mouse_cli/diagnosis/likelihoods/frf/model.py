@@ -18,6 +18,7 @@ from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.likelihoods.frf.damping import Damping
 from mouse_cli.diagnosis.likelihoods.frf.gains import gains
 from mouse_cli.diagnosis.likelihoods.frf.losses import Losses
+from mouse_cli.diagnosis.likelihoods.modal.growing import growing
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
@@ -187,6 +188,9 @@ class FrfModel:
         if (followed := self.elastic.followed(z)) is not None:
             for into, slopes in zip((K, M), followed, strict=True):
                 into[: self.of_deck] += slopes
+        for i, *by, change in growing(self.elastic, np.concatenate([z, c])):
+            for into, own, matrix in zip((K, M), by, self.elastic.summed([(i, change)]), strict=False):
+                into[: self.of_deck] += own[:, None, None] * matrix
         bars, core = self.elastic.softer(self.elastic.changes(c))
         if len(bars):
             follow = self.base.stiffening[bars].T[:, :, None, None] * self.elastic.follow(bars, z)

@@ -7,6 +7,7 @@ from itertools import pairwise
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe
+from mouse_cli.diagnosis.likelihoods.modal.growing import growing, grown
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.softened import Softened
@@ -44,7 +45,7 @@ class Model(Softened):
     def added(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """K, M (size, size) and sensing (s, size) that the causes add at x (k + t,)."""
         changes = self.changes(x[self.k :])
-        K, M, S = self.summed(list(enumerate(changes)))
+        K, M, S = self.summed([(i, grown(self, i, change, x)) for i, change in enumerate(changes)])
         self._crossed(K, M)
         if self.following is not None:
             step = self.base.step(x[: self.k])
@@ -177,7 +178,26 @@ class Model(Softened):
             moved = followed[1] @ X[:, m]
             forces += followed[0] @ X[:, m] - moved * at.eigenvalues[m]
             inertia += np.einsum("prm,rm->pm", moved, X[:, m])
+        for i, by_K, by_M, change in growing(self, at.x):
+            u = self._own(i, X[:, m])
+            stiff, moved = by_K[:, None, None] * (change.K @ u), by_M[:, None, None] * (change.M @ u)
+            forces += self._lifted(i, stiff - moved * at.eigenvalues[m])
+            inertia += np.einsum("prm,rm->pm", moved, u)
         return forces, inertia, np.zeros((self.k, len(at.seen), len(m)))
+
+    def _own(self, i: int, X: np.ndarray) -> np.ndarray:
+        """Shapes (., m) in the coordinates of cause i."""
+        G = self._carried(i)
+        return X[self.places[i]] if G is None else G @ X
+
+    def _lifted(self, i: int, push: np.ndarray) -> np.ndarray:
+        """Forces (..., size, m) by those in the coordinates of cause i."""
+        G = self._carried(i)
+        if G is not None:
+            return G.T @ push
+        found = np.zeros((*push.shape[:-2], self.size, push.shape[-1]))
+        found[..., self.places[i], :] = push
+        return found
 
     def _by_causes(self, at: Point) -> Pushed:
         """What the coordinates of the causes do to them: matrices meet the shapes one by one, and are never summed."""
@@ -185,14 +205,10 @@ class Model(Softened):
         forces, inertia = np.zeros((self.t, *X.shape)), np.zeros((self.t, X.shape[1]))
         sensed = np.zeros((self.t, len(at.seen), X.shape[1]))
         for j, (i, parts, softer) in enumerate(self.stencils(at.x)):
-            G, own = self._carried(i), self.places[i]
-            u = X[own] if G is None else G @ X
+            u = self._own(i, X)
             K, M, S = (_applied(parts, name, u) for name in ("K", "M", "sensing"))
             push = (0.0 if K is None else K) - (0.0 if M is None else M * eigenvalues)
-            if G is not None:
-                forces[j] = G.T @ push if np.ndim(push) else 0.0
-            else:
-                forces[j, own] = push
+            forces[j] = self._lifted(i, push) if np.ndim(push) else 0.0
             inertia[j] = 0.0 if M is None else np.einsum("rm,rm->m", M, u)
             sensed[j] = 0.0 if S is None else S
             for bars, core in softer:
@@ -241,7 +257,8 @@ class Model(Softened):
         changes = self.changes(c)
         for i, (recipe, own) in enumerate(zip(self.recipes, self.own, strict=True)):
             for j in range(own.start, own.stop):
-                parts = [(self._with(recipe, c[own], j - own.start, at), weight) for at, weight in self.slope(c, j)]
+                each = ((self._with(recipe, c[own], j - own.start, at), weight) for at, weight in self.slope(c, j))
+                parts = [(grown(self, i, change, x), weight) for change, weight in each]
                 yield i, parts, self._softened(z, changes, i, parts)
 
     def slope(self, c: np.ndarray, j: int) -> list[tuple[float, float]]:

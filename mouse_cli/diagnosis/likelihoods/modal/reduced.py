@@ -88,8 +88,11 @@ class Reduced:
 
     def rates(self, z: np.ndarray) -> np.ndarray:
         """Its derivatives (k, d)."""
-        by = self.coordinates.slope(self.coordinates.mean + self.L @ z)[:, None] * self.L
-        return (self.along @ by).T
+        return (self.along @ self.by(z)).T
+
+    def by(self, z: np.ndarray) -> np.ndarray:
+        """d(parameters)/dz (p, k) at z (k,)."""
+        return self.coordinates.slope(self.coordinates.mean + self.L @ z)[:, None] * self.L
 
     @cached_property
     def _at(self) -> dict[bytes, tuple[np.ndarray, np.ndarray]]:
@@ -139,8 +142,7 @@ class Reduced:
     @cached_property
     def stiffening(self) -> np.ndarray:
         """d ln EI / dz (b, k) of the bars: what softens them follows their stiffness."""
-        by = self.coordinates.slope(self.coordinates.mean + self.L @ self.z)[:, None] * self.L
-        return stiffening(self.problem, self.bars, self.theta) @ by
+        return stiffening(self.problem, self.bars, self.theta) @ self.by(self.z)
 
     @cached_property
     def total_mass(self) -> float:
