@@ -54,3 +54,12 @@ def test_types_are_shipped():
         "mouse_cli"
     ]
     assert "py.typed" in built and (TOP / "mouse_cli" / "py.typed").exists()
+
+
+def test_container_has_what_the_program_imports():
+    """Each dependency as the package of Debian, with setuptools to build and pip to install without an index."""
+    text = (TOP / "Containerfile").read_text("utf-8")
+    needed = tomllib.loads((TOP / "pyproject.toml").read_text("utf-8"))["project"]["dependencies"]
+    names = {re.match(r"[\w-]+", each)[0].removeprefix("py") for each in needed}
+    assert set(re.findall(r"python3-(\w+)", text)) == names | {"pip", "setuptools"}
+    assert "--no-index" in text and "--no-deps" in text
