@@ -75,7 +75,7 @@ def _judged(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
     mechanism is sure and what the deck holds out confirms it. Where none of that holds and yet the model as it is is not probable
     (LIKELY), or the model as it is fails on what the deck holds out and a mechanism predicts it, it is likely, not proved: one of
     several, the model as it is among them. A mechanism that is sure at one of several sites is one of these, unless all of them are
-    in one line of panels: that is the place then.
+    in one line of panels: that is the place then; of a set those are named whose sites are sure.
     """
     baseline, best, none = ranking.baseline, leader(ranking), dict(ranking.groups).get("none", 0.0)
     believed = ranking.stated[0] >= _BELIEVED
@@ -95,10 +95,11 @@ def _judged(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
         return _unknown(ranking, model, best, proof, (), reasons)
     if gain < -ODDS:
         return _unknown(ranking, model, best, proof, (group(best),), reasons)
-    open_ = kind == NAMED and ranking.groups[0][1] < SURE
-    if kind == NAMED and not open_ and placed(best) < SURE:
+    moved = kind == NAMED and ranking.groups[0][1] >= SURE and placed(best) < SURE
+    part = shared(ranking, best) if moved or (kind == NAMED and ranking.groups[0][1] < SURE) else None
+    if moved and (part is None or len(part.which) == len(best.recipes)):
         return Verdict(NAMED if panelled(best) else ONE_OF, best, proof, reasons=reasons, placed=False)
-    return Verdict(kind, best, proof, reasons=reasons, certain=shared(ranking, best) if open_ else None)
+    return Verdict(kind, best, proof, reasons=reasons, certain=part)
 
 
 def _odds(ranking: Ranking, one: Fit) -> float:

@@ -96,3 +96,26 @@ def test_a_place_is_as_certain_as_a_name_or_is_said_to_be_less(sd, loose_):
     answer = Diagnosis(problem, NAMED, None, None, told, (("mass", 1.0),), loose=loose(one))
     said = [text for text in sentences(answer) if "position is less certain" in text]
     assert bool(said) == loose_ and all("0.026" in text for text in said)
+
+
+@pytest.mark.parametrize("share", [0.6, 0.04])
+def test_of_a_set_those_are_named_whose_sites_are_sure(monkeypatch, share):
+    """A mass at 0.7, and a spring at 0.2 or, with `share` of the evidence, at 0.4: the mass is certain, its companion is where?"""
+    monkeypatch.setattr(decided, "held_out", lambda *given: None)
+    monkeypatch.setattr(decided, "doubtful", lambda *given: True)
+    other = made_up("mass@0.7", "ground-spring@0.4")
+    best = made_up("mass@0.7", "ground-spring@0.2", elsewhere=((other, share),))
+    verdict = decided.judge(ranked(best, BARE, p=(0.999, 0.001)), True, None)
+    assert (verdict.kind, verdict.placed) == (NAMED, True)
+    if share > 0.05:
+        assert verdict.certain.which == (0,) and dict(verdict.certain.companions) == {"ground-spring": 1.0}
+    else:
+        assert verdict.certain is None
+
+
+def test_a_set_of_which_no_site_is_sure_is_at_one_of_several(monkeypatch):
+    monkeypatch.setattr(decided, "held_out", lambda *given: None)
+    monkeypatch.setattr(decided, "doubtful", lambda *given: True)
+    best = made_up("mass@0.7", elsewhere=((made_up("mass@0.2"), 0.5),))
+    verdict = decided.judge(ranked(best, BARE, p=(0.999, 0.001)), True, None)
+    assert (verdict.kind, verdict.placed, verdict.certain) == (ONE_OF, False, None)
