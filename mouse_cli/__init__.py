@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:  # what editors and type checkers see; `__getattr__` loads the same when it is asked for
     from mouse_cli._errors import DeckError, NumericalError
+    from mouse_cli.api.campaigns import sweep
     from mouse_cli.api.measured import identify, read_frf, read_recording, spectra
     from mouse_cli.api.structures import couple, modify
     from mouse_cli.diagnosis.diagnose import diagnose
@@ -34,6 +35,7 @@ _PUBLIC = {  # name: module, or module:name there
     "modes": "mouse_cli.updating.forward:forecast",
     "spectra": "mouse_cli.api.measured",
     "identify": "mouse_cli.api.measured",
+    "sweep": "mouse_cli.api.campaigns",
     "couple": "mouse_cli.api.structures",
     "modify": "mouse_cli.api.structures",
     "document": "mouse_cli.report.answers",
@@ -49,7 +51,7 @@ _PUBLIC = {  # name: module, or module:name there
 __all__ = [
     "DeckError", "NumericalError", "Problem", "Result", "__version__", "compare", "correlate", "couple", "dataset",
     "diagnose", "document", "frames", "identify", "modes", "modify", "read_deck", "read_frf", "read_recording", "run", "spectra",
-    "write_deck", "written",
+    "sweep", "write_deck", "written",
 ]  # fmt: skip
 
 

@@ -93,6 +93,13 @@ def changed(problem: Problem, options: dict[str, Any]) -> Problem:
     return problem
 
 
+def kind(name: str, problem: Problem) -> str:
+    """Which of CHANGES holds it: `values` of a property, of its sd or of the accuracies, `texts` of a place in the deck."""
+    own = {parameter.name for parameter in problem.parameters}
+    stated = name in own or name in SCALED or (name.endswith(SD) and name.removesuffix(SD) in own)
+    return "values" if stated else "texts"
+
+
 def _with_values(problem: Problem, values: dict[str, float]) -> Problem:
     """Prior means by the names of parameters, prior sd by NAME.sd, accuracies of the test by factors."""
     from mouse_cli.updating.earlier import moved

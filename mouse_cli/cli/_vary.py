@@ -32,12 +32,10 @@ def varied(text: str, problem: Problem, by_points: bool) -> Varied:
 
 def _kind(name: str, problem: Problem) -> str:
     """Which of a job's options hold it: `run`, `values`, or `texts` for a place of the deck."""
-    from mouse_cli.batch.changes import SCALED, SD
+    from mouse_cli.batch.changes import kind
 
-    own = {parameter.name for parameter in problem.parameters}
-    if name in own or name in SCALED or (name.removesuffix(SD) in own and name.endswith(SD)):
-        return "values"
-    return "run" if name.replace("-", "_") in _run_options() else "texts"
+    found = kind(name, problem)
+    return "run" if found == "texts" and name.replace("-", "_") in _run_options() else found
 
 
 def _run_options() -> dict[str, click.Option]:

@@ -34,6 +34,7 @@ reveal_type(mouse_cli.spectra(recording, lines=400))  # mouse_cli.model.spectra.
 reveal_type(mouse_cli.identify(problem.frf, band=(1, 9)))  # mouse_cli.model.identification.Identification
 reveal_type(mouse_cli.couple("whole.yaml"))  # mouse_cli.model.coupled.Coupled
 reveal_type(mouse_cli.modify("changed.yaml"))  # mouse_cli.model.modified.Modified
+reveal_type(mouse_cli.sweep("deck.yaml", {"k": [1, 2]}, "answers"))  # mouse_cli.model.campaign.Sweep
 reveal_type(mouse_cli.written(problem, "markdown"))  # str
 reveal_type(mouse_cli.document("result.json"))  # dict[str, Any]
 """
