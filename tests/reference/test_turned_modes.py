@@ -62,3 +62,12 @@ def test_modes_apart_are_predicted_as_before(tmp_path):
     """The density has no allowance where there is nothing to allow for."""
     found = predicted(1.5, np.random.default_rng(3), tmp_path)
     assert found.p > 0.01 and found.log_predictive_density > 15
+
+
+def test_frequencies_alone_have_no_shapes_to_turn(tmp_path):
+    path = tmp_path / "deck.yaml"
+    text = DECK.format(second=1.002, frequency=(np.sqrt([1.0, 1.002, 9.0]) / (2 * np.pi)).tolist(), shapes=[])
+    path.write_text("\n".join(line for line in text.splitlines() if "shape" not in line and "dofs" not in line))
+    problem = read_deck(path)
+    model = reduced(problem, problem.prior.mean, EigenSolver(lambda text: None))
+    assert held_out(model, fit(Model(model), np.zeros(0)), None).baseline.p > 0.01

@@ -45,7 +45,7 @@ class Turning(Model):
         """Those modes beside the test; None where it has modes that are none of theirs."""
         at = super().paired(x, eigenvalues, X, S)
         U = None if at is None else self._turns(at)
-        if U is None or not U.size:
+        if U is None:
             return at
         axes, sizes, _ = np.linalg.svd(U, full_matrices=False)
         own = Turned(**vars(at), axes=axes, sizes=sizes)
@@ -55,8 +55,8 @@ class Turning(Model):
         found = super()._jacobian(at)
         return at.whitened(found) if isinstance(at, Turned) else found
 
-    def _turns(self, at: Point) -> np.ndarray:
-        """U (q, c), see above."""
+    def _turns(self, at: Point) -> np.ndarray | None:
+        """U (q, c), see above; None: no modes are so close, or nothing is seen of their shapes."""
         data, lam = self.base.data, at.eigenvalues
         apart = lam[at.modes][:, None] - lam
         apart[np.arange(len(at.modes)), at.modes] = np.inf
@@ -67,6 +67,7 @@ class Turning(Model):
             moved = np.zeros((data.s, data.m))
             moved[:, i] = min(np.sqrt(sd[i, j] ** 2 - _COVERED**2), 1.0) * at.seen[:, j]
             columns.append(moved)
-        still = np.zeros((data.m, len(columns)))
-        moved = np.array(columns).reshape(-1, data.s, data.m).transpose(1, 2, 0)
+        if not columns or not data.s:
+            return None
+        still, moved = np.zeros((data.m, len(columns))), np.stack(columns, axis=2)
         return data.jacobian(lam[at.modes], at.seen[:, at.modes], at.a, still, moved)
