@@ -180,8 +180,8 @@ MUTANTS = (
         _SEVERAL,
         needless_kept=("max(parts) > MATERIAL", "max(parts) > 0.0", "test_what_is_not_needed_is_material_to_nothing"),
         second_of_a_kind_free=(
-            "Counter(key(each)) < own",
-            "set(key(each)) < set(own)",
+            "Counter(key(each)) <= own",
+            "set(key(each)) <= set(own)",
             "test_what_is_not_needed_is_material_to_nothing",
         ),
         two_of_a_kind_at_most=(

@@ -76,7 +76,7 @@ def listings(draw, n, p):
 def modal_tests(draw, n):
     m, s = draw(st.integers(1, min(3, n))), draw(st.integers(0, n))
     number = sorted(draw(st.lists(st.integers(1, n), min_size=m, max_size=m, unique=True)))
-    frequency = np.array(sorted(draw(st.lists(positive, min_size=m, max_size=m))))
+    frequency = np.array(sorted(draw(st.lists(st.floats(1e-9, 1e15), min_size=m, max_size=m))))
     sd = np.array(draw(st.lists(positive, min_size=m, max_size=m)))
     if m > 1 and draw(st.booleans()):
         frequency[-1] = sd[-1] = np.nan
