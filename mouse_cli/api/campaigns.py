@@ -15,7 +15,7 @@ def sweep(
     jobs: int | None = None,
     outside: bool = False,
 ) -> Sweep:
-    """How the answer to a deck depends on what nobody knows exactly: run at every combination of values, as `mouse sweep` does.
+    """How the answer to a deck depends on uncertain assumptions: run at every combination of values, as `mouse sweep` does.
 
     vary: values of a property, PROPERTY.sd, frequency_sd*, shape_sd* (factors) or the path of a value in the deck. folder: where
     the answers are kept, and not sought again. jobs: processes (None: one for each core). outside: the deck may name files outside
