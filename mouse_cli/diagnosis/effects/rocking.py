@@ -24,7 +24,7 @@ from mouse_cli.model.problem import Problem
 _SOFT, _SOFTER, _STIFF = 0.8, 0.03, 200.0  # times what gives the rigid structure on it the lowest measured frequency
 _STARTS = (
     10,
-    6,
+    12,
 )  # sizes to begin from: between which two modes its own one lies depends on both, and no descent passes one
 _SMALL, _LARGE = 1e-2, 0.5  # rotary inertia of floors and base, of that of all masses about the base
 

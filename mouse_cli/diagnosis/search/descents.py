@@ -140,12 +140,16 @@ def _ended(
 
 
 def summed(found: list[Fit], reach: float = np.inf) -> Fit | None:
-    """The best of several optima, its theory taken for as good as it is; those at other places add to its evidence."""
+    """The best of several optima, its theory taken for as good as it is; those at other places add to its evidence.
+
+    Each is weighed by what it says of modes that the test does not have.
+    """
     if not found:
         return None
-    apart = distinct(found)
-    total = np.logaddexp.reduce([one.log_evidence for one in apart])
-    others = tuple((one, float(np.exp(one.log_evidence - total))) for one in apart[1:])
-    best = idealised(apart[0]) if apart[0].misfit < reach else apart[0]
-    log_evidence = best.log_evidence + float(total - apart[0].log_evidence) - unseen(best)
-    return replace(best, log_evidence=log_evidence, elsewhere=others)
+    weighed = [(one.log_evidence - unseen(one), one) for one in distinct(found)]
+    weighed.sort(key=lambda item: -item[0])
+    (first, leading), *rest = weighed
+    total = float(np.logaddexp.reduce([weight for weight, _ in weighed]))
+    others = tuple((one, float(np.exp(weight - total))) for weight, one in rest)
+    best = idealised(leading) if leading.misfit < reach else leading
+    return replace(best, log_evidence=best.log_evidence - unseen(best) + total - first, elsewhere=others)

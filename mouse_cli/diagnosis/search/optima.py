@@ -32,8 +32,11 @@ def _same(one: Fit, other: Fit) -> bool:
     """Whether both are one optimum: within two standard deviations, or with no rise of the misfit on the way between them.
 
     Both weighed by what is left over at the better of them. By posterior distances and misfits alone, it is the same in any units.
+    With a mode of a cause's own between other modes or beyond them, they are two: one of them lacks it in the test.
     """
     if [recipe.number for recipe in one.recipes] != [recipe.number for recipe in other.recipes]:
+        return False
+    if any(recipe.own for recipe in one.recipes) and _paired(one) != _paired(other):
         return False
     least = min(one, other, key=lambda each: each.misfit)
     scale = max(1.0, least.misfit / max(least.dof, 1))
@@ -41,6 +44,11 @@ def _same(one: Fit, other: Fit) -> bool:
     near = min(apart[k:] @ np.linalg.solve(each.covariance[k:, k:], apart[k:]) for each in (one, other))
     rise = scale * _RISE + max(one.misfit, other.misfit)
     return bool(near < 4 * scale) or all(_passed(one, apart, share) < rise for share in _BETWEEN)
+
+
+def _paired(one: Fit) -> list[list[int]]:
+    """Model modes that the measured ones are, in each arrangement."""
+    return [at.modes.tolist() for _, at in one.model.parts(one.point)]
 
 
 def _passed(one: Fit, apart: np.ndarray, share: float) -> float:

@@ -138,6 +138,10 @@ class FrfModel:
         factor = block.factor * self.gains.factor(i, u)
         return Functions(left, right, factor * ((S @ X) @ right), factor)
 
+    def parts(self, at: FrfPoint) -> list:
+        """None that pairs modes, see `Model.parts`."""
+        return []
+
     def jacobian(self, at: FrfPoint) -> np.ndarray:
         """d(prediction)/dx (2 q, k + t), whitened."""
         rows = [b.stacked(self._moved(i, at)) for i, b in enumerate(self.base.data.blocks)]
