@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from benchmarks.blind.base.decks import answer, write
-from benchmarks.blind.base.storeys import KINDS, PHYSICS, RATE, buildings, matrices, modes, table
+from benchmarks.blind.base.storeys import CUBIC_TO, KINDS, PHYSICS, RATE, RUNS, buildings, matrices, modes, table
 from mouse_cli.formats import read_deck
 
 
@@ -32,6 +32,17 @@ def test_the_truth_solver_meets_modal_superposition():
     exact = (shapes @ np.array(parts)).T
     found = simulated(case, given, h, "disp")
     assert np.abs(found - exact).max() < 0.01 * np.abs(exact).max()
+
+
+@pytest.mark.skipif(importlib.util.find_spec("openseespy") is None, reason="openseespy is not installed")
+def test_a_softening_storey_stays_where_its_curve_is_cubic():
+    from benchmarks.blind.base.opensees import STEPS, simulated
+
+    case = next(one for one in buildings(4211, 2, 0) if one.name == "base-4211-softening-1")
+    assert case.place == 0
+    for run in range(RUNS):
+        moved = simulated(case, table(case, run, RATE * STEPS), 1 / (RATE * STEPS), "disp")[:, 0]
+        assert np.abs(moved).max() < CUBIC_TO * np.sqrt(case.k[0] / case.values["k3"])
 
 
 def test_decks_tell_nothing_of_the_answer(tmp_path):

@@ -9,10 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.blind.base.decks import answer, write
-from benchmarks.blind.base.storeys import KINDS, Storeys, buildings
+from benchmarks.blind.base.storeys import KINDS, RUNS, Storeys, buildings
 from benchmarks.blind_records.__main__ import judged, outcome, table
-
-_RUNS = 2
 
 
 def main() -> None:
@@ -38,7 +36,7 @@ def _made(case: Storeys, folder: Path) -> tuple[Path, Path, Path]:
 
     kept = folder / "truths" / f"{case.name}.npz"
     if not kept.exists():
-        runs = [motions(case, run) for run in range(_RUNS)]
+        runs = [motions(case, run) for run in range(RUNS)]
         np.savez(kept, table=[one for one, _ in runs], floors=[one for _, one in runs])
     held = np.load(kept)
     path = write(folder / "decks", case, list(zip(held["table"], held["floors"], strict=True)))

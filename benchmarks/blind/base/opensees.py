@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from benchmarks.blind.base.storeys import RATE, Storeys, table
+from benchmarks.blind.base.storeys import CUBIC_TO, RATE, Storeys, table
 from benchmarks.blind_records.opensees import STEPS, limited, recorded
 
 _POINTS = 4000  # of the curve of a softening storey
@@ -52,7 +52,7 @@ def _mechanism(ops, case: Storeys) -> None:
     if case.kind == "hysteresis":
         ops.uniaxialMaterial("ElasticPP", tag, p["kt"], p["Fs"] / p["kt"])
     elif case.kind == "softening":
-        reach = 0.5 * np.sqrt(case.k[case.place] / p["k3"])
+        reach = CUBIC_TO * np.sqrt(case.k[case.place] / p["k3"])
         x = np.linspace(-reach, reach, 2 * _POINTS + 1)
         ops.uniaxialMaterial("ElasticMultiLinear", tag, "-strain", *x, "-stress", *(-p["k3"] * x**3))
     else:

@@ -9,6 +9,7 @@ KINDS = ("stiffness-loss", "hysteresis", "softening", "loose-brace", "pounding",
 PHYSICS = dict(zip(KINDS, ("spring", "friction", "cubic", "gap", "one-sided-gap", "mass"), strict=True))
 STIFFNESS_SD, MASS_SD = 0.05, 0.01  # of the deck, by which the structure departs from it too, up to twice as much
 RATE, SECONDS = 200.0, 40.0
+RUNS, CUBIC_TO = 2, 0.5  # of the table; motion to which a softening storey is cubic, by that at which k x = k3 x^3
 BAND = 0.5, 30.0  # Hz, of the table
 GROUND = 2 * np.pi * 2.5, 0.6  # rad/s and damping ratio of the ground of an earthquake (Kanai 1957, Tajimi 1960)
 
@@ -96,24 +97,29 @@ def _drawn(seed: int, kind: str, i: int) -> Storeys:
     return replace(bare, values=_values(rng, bare))
 
 
-def _drift(case: Storeys) -> float:
-    """rms, in m, of the drift of the storey, or of the floor against the table, without a mechanism."""
+def _drift(case: Storeys, run: int = 0) -> np.ndarray:
+    """Drift (t,) of the storey, or of the floor against the table, without a mechanism, m."""
     from scipy.signal import lsim
 
     w, shapes = modes(case)
-    a, t = table(case, 0, 400.0), np.arange(int(SECONDS * 400.0)) / 400.0
+    a, t = table(case, run, 400.0), np.arange(int(SECONDS * 400.0)) / 400.0
     parts = [
         lsim(([-s @ case.m], [1, 2 * z * own, own**2]), a, t)[1]
         for own, z, s in zip(w, case.zeta, shapes.T, strict=True)
     ]
     u = shapes @ np.array(parts)
-    own = u[case.place] - (u[case.place - 1] if case.place and case.kind != "pounding" else 0)
-    return float(own.std())
+    return u[case.place] - (u[case.place - 1] if case.place and case.kind != "pounding" else 0)
+
+
+def _softest(case: Storeys) -> float:
+    """Cubic stiffness, N/m^3, with which no run leaves the curve that is cubic in truth; they may move twice as far as without."""
+    most = max(np.abs(_drift(case, run)).max() for run in range(RUNS))
+    return case.k[case.place] * (CUBIC_TO / (2 * most)) ** 2
 
 
 def _values(rng: np.random.Generator, case: Storeys) -> dict[str, float]:
     """Sizes of the mechanism, by the motion at its place."""
-    k, m, draw, x = case.k[case.place], case.m[case.place], rng.uniform, _drift(case)
+    k, m, draw, x = case.k[case.place], case.m[case.place], rng.uniform, float(_drift(case).std())
     if case.kind == "stiffness-loss":
         return {"share": draw(0.2, 0.5)}
     if case.kind == "added-mass":
@@ -122,5 +128,5 @@ def _values(rng: np.random.Generator, case: Storeys) -> dict[str, float]:
         kt = k * draw(0.2, 1)
         return {"kt": kt, "Fs": kt * x * draw(0.2, 0.8)}
     if case.kind == "softening":
-        return {"k3": k / x**2 * draw(0.004, 0.015)}
+        return {"k3": min(k / x**2 * draw(0.004, 0.015), _softest(case))}
     return {"kc": k * draw(0.5, 3), "g": x * draw(0.8, 2.0), "side": 1.0}

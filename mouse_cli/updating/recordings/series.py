@@ -108,7 +108,7 @@ def passed() -> float:
 
 def sampled(fine: np.ndarray, factor: int) -> np.ndarray:
     """Simulated channels (P, s, t * factor, G), band-limited and at the samples; REACH samples at either end are lost."""
-    from scipy.signal import oaconvolve
+    from scipy.signal import upfirdn
 
-    whole = oaconvolve(fine, limiter(factor)[None, None, :, None], mode="valid", axes=2)
-    return whole[:, :, ::factor]
+    whole = upfirdn(limiter(factor), fine, down=factor, axis=2)
+    return whole[:, :, 2 * REACH : (fine.shape[2] - 1) // factor + 1]
