@@ -6,8 +6,9 @@ import re
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -33,11 +34,37 @@ class Exported:
 
 @dataclass(frozen=True)
 class Solver:
-    """Runs jobs for the input file `path`, or finds what an earlier run left in `cache`; say: told before each run."""
+    """Runs jobs for the input file `path`, or finds what an earlier run left in `cache`; say: told of each run.
+
+    A context: what it has begun ends with it. ahead: folders of jobs by their text, where they run or have run.
+    """
 
     path: str
     cache: Path | None
     say: Callable[[str], None]
+    ahead: dict[str, Future] = field(default_factory=dict, init=False, repr=False)
+    running: set[subprocess.Popen] = field(default_factory=set, init=False, repr=False)
+    beside: ThreadPoolExecutor = field(default_factory=lambda: ThreadPoolExecutor(cores()), init=False, repr=False)
+
+    def __enter__(self) -> "Solver":
+        return self
+
+    def __exit__(self, *reason: object) -> None:
+        self.beside.shutdown(wait=False, cancel_futures=True)
+        for each in list(self.running):
+            each.kill()
+        self.beside.shutdown()
+        for each in self.ahead.values():
+            if not each.cancelled() and each.exception() is None:
+                each.result().cleanup()
+
+    def begin(self, jobs: Iterable[tuple[str, str]]) -> None:
+        """Run jobs, texts and titles, beside one another and beside what else is done, but for those in the cache."""
+        for text, title in jobs:
+            target = self._target(text)
+            if text not in self.ahead and (target is None or not target.exists()):
+                self.say(title)
+                self.ahead[text] = self.beside.submit(self._run, text, title)
 
     def matrices(self, text: str, title: str, own: set[int]) -> Exported:
         """K and M of a job; own: nodes of the input file."""
@@ -54,17 +81,13 @@ class Solver:
         return self._kept(text, title, lambda job: {"eigenvalues": _eigenvalues(job)})["eigenvalues"]
 
     def _kept(self, text: str, title: str, read: Callable[[Path], dict[str, np.ndarray]]) -> dict[str, np.ndarray]:
-        key = hashlib.sha256(f"{_EDITION}\n{text}".encode()).hexdigest()[:32]
-        target = None if self.cache is None else self.cache / f"{key}.npz"
+        target = self._target(text)
         if target is not None and target.exists():
             with np.load(target, allow_pickle=False) as held:
                 return dict(held)
-        self.say(title)
-        with tempfile.TemporaryDirectory() as folder:
-            job = Path(folder) / "job"
-            job.with_suffix(".inp").write_text(text)
-            self._run(job, title)
-            found = read(job)
+        self.begin([(text, title)])
+        with self.ahead.pop(text).result() as folder:
+            found = read(Path(folder) / "job")
         if target is not None:
             target.parent.mkdir(parents=True, exist_ok=True)
             scratch = target.with_suffix(f".{os.getpid()}.npz")
@@ -72,19 +95,33 @@ class Solver:
             scratch.replace(target)
         return found
 
-    def _run(self, job: Path, title: str) -> None:
-        one = os.environ | {"OMP_NUM_THREADS": "1"}  # sums in one order: groups are told by differences of two runs
-        done = subprocess.run(
-            [PROGRAM, job.name], cwd=job.parent, stdin=subprocess.DEVNULL, capture_output=True, text=True, env=one,
-            errors="replace", check=False,
-        )  # fmt: skip
+    def _target(self, text: str) -> Path | None:
+        """Where the cache has, or would have, what is kept of a job."""
+        key = hashlib.sha256(f"{_EDITION}\n{text}".encode()).hexdigest()[:32]
+        return None if self.cache is None else self.cache / f"{key}.npz"
+
+    def _run(self, text: str, title: str) -> tempfile.TemporaryDirectory:
+        """The folder of a job that has been run."""
+        folder = tempfile.TemporaryDirectory()
+        job = Path(folder.name) / "job"
+        job.with_suffix(".inp").write_text(text)
+        one = os.environ | {"OMP_NUM_THREADS": "1"}  # sums in one order: groups are differences of two runs
+        with subprocess.Popen(
+            [PROGRAM, job.name], cwd=job.parent, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+            text=True, env=one, errors="replace",
+        ) as process:  # fmt: skip
+            self.running.add(process)
+            said = process.communicate()[0]
+            self.running.discard(process)
         wrote = job.with_suffix(".sti").exists() or "E I G E N V A L U E" in _text(job.with_suffix(".dat"))
-        if "*ERROR" in done.stdout or not wrote:
-            errors = re.findall(r"\*ERROR[^\n]*(?:\n[^\n*]+)*", done.stdout)
-            said = errors[0] if errors else "\n".join((done.stdout + done.stderr).splitlines()[-_SAID:])
-            message = f"CalculiX stopped at {title}: {' '.join(said.split())[:400]}"
+        if "*ERROR" in said or not wrote:
+            folder.cleanup()
+            errors = re.findall(r"\*ERROR[^\n]*(?:\n[^\n*]+)*", said)
+            why = errors[0] if errors else "\n".join(said.splitlines()[-_SAID:])
+            message = f"CalculiX stopped at {title}: {' '.join(why.split())[:400]}"
             help = f"run the job itself in {PROGRAM} and mend what it objects to"
             raise DeckError(Diagnostic("MD274", ERROR, message, Span(self.path, 1), help=help))
+        return folder
 
 
 def available() -> bool:
@@ -95,6 +132,12 @@ def available() -> bool:
 def cache_folder() -> Path:
     """Where the matrices of earlier runs are kept."""
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "mouse" / "import"
+
+
+def cores() -> int:
+    """How many runs go on at once."""
+    own = getattr(os, "sched_getaffinity", None)
+    return max(2, len(own(0)) if own else os.cpu_count() or 1)
 
 
 def _text(path: Path) -> str:
@@ -113,13 +156,12 @@ def _matrix_arrays(job: Path) -> dict[str, np.ndarray]:
 
 
 def _symmetric(path: Path, n: int):
-    from scipy.sparse import coo_array
+    from scipy.sparse import coo_array, triu
 
-    table = np.fromstring(path.read_text(), sep=" ").reshape(-1, 3)
-    row, col = (table[:, k].astype(np.int32) - 1 for k in (0, 1))
-    off = row != col
-    at = np.concatenate([row, col[off]]), np.concatenate([col, row[off]])
-    matrix = coo_array((np.concatenate([table[:, 2], table[off, 2]]), at), shape=(n, n)).tocsr()
+    table = np.loadtxt(path, dtype=[("row", np.int32), ("col", np.int32), ("value", float)], ndmin=1)
+    upper = coo_array((table["value"], (table["row"] - 1, table["col"] - 1)), shape=(n, n)).tocsr()
+    del table
+    matrix = (upper + triu(upper, 1).T).tocsr()
     matrix.eliminate_zeros()
     return matrix
 

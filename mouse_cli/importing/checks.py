@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli._errors import ERROR, DeckError, Diagnostic
 from mouse_cli._span import Span
-from mouse_cli.importing.calculix import Solver
+from mouse_cli.importing.calculix import Exported, Solver
 from mouse_cli.importing.jobs import frequencies
 from mouse_cli.importing.model import InputModel
 from mouse_cli.importing.separate import Parts
@@ -42,34 +42,49 @@ class Checked:
         return float(self.digits[np.argmax(np.abs(self.own / self.hz - 1))]) if len(self.hz) else 0.0
 
 
-def held_rows(model: InputModel, parts: Parts) -> list[tuple[str, list[int]]]:
+def held_rows(model: InputModel, whole: Exported) -> list[tuple[str, list[int]]]:
     """For each support its rows (from 0). Raises DeckError (MD273) where a held node is no row of the export."""
     found, faults = [], []
     for support in model.supports:
-        absent = [dof for dof in support.dofs if dof not in parts.whole.rows.held]
+        absent = [dof for dof in support.dofs if dof not in whole.rows.held]
         if absent:
             node, d = absent[0]
             message = f"support {support.name} holds node {node} in direction {d}, which a constraint or no element determines"
             help = "hold the reference node of the constraint, or, for rotations of a rigid body, give it a ROT NODE and hold that"
             faults.append(Diagnostic("MD273", ERROR, message, support.card.head.span, help=help))
-        found.append((support.name, [i for dof in support.dofs for i in parts.whole.rows.held.get(dof, ())]))
+        found.append((support.name, [i for dof in support.dofs for i in whole.rows.held.get(dof, ())]))
     if faults:
         raise DeckError(faults)
     return found
 
 
-def check(model: InputModel, parts: Parts, solver: Solver) -> Checked:
-    """Raises DeckError (MD275) where parts do not sum to the whole, or frequencies differ."""
+def begin(model: InputModel, whole: Exported, solver: Solver) -> None:
+    """Lets the solver look for the frequencies that `check` will ask for."""
+    solver.begin([_asked(model, _kept(model, whole), whole)])
+
+
+def _kept(model: InputModel, whole: Exported) -> np.ndarray:
+    """Rows that no support holds."""
+    held = [i for _, rows in held_rows(model, whole) for i in rows]
+    return np.setdiff1d(np.arange(whole.K.shape[0]), held)
+
+
+def _asked(model: InputModel, kept: np.ndarray, whole: Exported) -> tuple[str, str]:
+    """The job for frequencies with supports, and its title."""
     from scipy.sparse.csgraph import connected_components
 
+    bodies = connected_components(whole.K[kept][:, kept], directed=False, return_labels=False)
+    count = max(1, min(_COUNT + _OF_A_BODY * bodies, len(kept) // _PER_MODE))
+    return frequencies(model, count), "frequencies with supports"
+
+
+def check(model: InputModel, parts: Parts, solver: Solver) -> Checked:
+    """Raises DeckError (MD275) where parts do not sum to the whole, or frequencies differ."""
     from mouse_cli.dynamics.solver import eigensolution
 
-    held = {i for _, rows in held_rows(model, parts) for i in rows}
-    kept = np.array([i for i in range(parts.whole.K.shape[0]) if i not in held])
+    kept = _kept(model, parts.whole)
     K, M = (each[kept][:, kept] for each in (parts.whole.K, parts.whole.M))
-    bodies = connected_components(K, directed=False, return_labels=False)
-    count = max(1, min(_COUNT + _OF_A_BODY * bodies, len(kept) // _PER_MODE))
-    theirs = np.sort(solver.eigenvalues(frequencies(model, count), "frequencies with supports"))
+    theirs = np.sort(solver.eigenvalues(*_asked(model, kept, parts.whole)))
     solution = eigensolution(K, M, len(theirs))
     own, X = solution.eigenvalues[: len(theirs)], solution.shapes[:, : len(theirs)]
     elastic = (theirs > _RIGID * theirs[-1]) & (own > _RIGID * theirs[-1])

@@ -82,7 +82,7 @@ def _head(model: InputModel, parts: Parts, checked: Checked, system: str) -> lis
 
 def _supports(model: InputModel, parts: Parts) -> list[str]:
     names = [f"{node}{_DIRECTIONS[d]}" for node, d in parts.whole.rows.names.tolist()]
-    found = held_rows(model, parts)
+    found = held_rows(model, parts.whole)
     lines = ["  supports:"] if found else []
     return lines + [f"    {word(name)}: {{dofs: {wrapped((names[i] for i in rows), 6)}}}" for name, rows in found]
 

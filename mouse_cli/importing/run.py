@@ -7,7 +7,7 @@ from pathlib import Path
 from mouse_cli._errors import ERROR, WARNING, DeckError, Diagnostic
 from mouse_cli._span import Span
 from mouse_cli.importing import calculix
-from mouse_cli.importing.checks import Checked, check
+from mouse_cli.importing.checks import Checked, begin, check
 from mouse_cli.importing.deck import units, write
 from mouse_cli.importing.model import InputModel
 from mouse_cli.importing.read import read
@@ -56,9 +56,9 @@ def imported(
         message = "CalculiX (ccx) is not on the path: nothing can export K and M"
         help = "install it (Debian, Ubuntu: apt install calculix-ccx), or export by hand as in docs/how-to/import-models.md"
         raise DeckError(Diagnostic("MD274", ERROR, message, Span(path, 1), help=help))
-    solver = calculix.Solver(path, calculix.cache_folder() if cached else None, say)
-    found = parts(model, solver)
-    checked = check(model, found, solver)
+    with calculix.Solver(path, calculix.cache_folder() if cached else None, say) as solver:
+        found = parts(model, solver, lambda whole: begin(model, whole, solver))
+        checked = check(model, found, solver)
     named = system or units(model)
     remarks = list(model.remarks)
     if not system:

@@ -1,10 +1,11 @@
 """The matrices of each group, from as few exports as there are colours: K' - K = (s - 1) K_g where a job scales group g by s."""
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.importing.calculix import Exported, Solver
+from mouse_cli.importing.calculix import Exported, Solver, cores
 from mouse_cli.importing.jobs import SCALE, colours, export
 from mouse_cli.importing.model import InputModel
 from mouse_cli.model.arrays import Matrix
@@ -26,26 +27,37 @@ class Parts:
     error: tuple[float, float]
 
 
-def parts(model: InputModel, solver: Solver) -> Parts:
-    """Exports the model and its groups. Raises DeckError (MD274)."""
+def parts(model: InputModel, solver: Solver, meanwhile: Callable[[Exported], None] = lambda whole: None) -> Parts:
+    """Exports the model and its groups; meanwhile: done with the whole before the groups are read. Raises DeckError (MD274)."""
     from scipy.sparse import csr_array
 
-    own = set(model.nodes)
-    classes = colours(model)
-    total = len(classes) + 1
-    whole = solver.matrices(export(model), f"export 1 of {total}: the whole", own)
+    own, classes = set(model.nodes), colours(model)
+    jobs = [(export(model, chosen), title) for chosen, title in _titled(model, classes)]
+    ahead = cores() + 1
+    solver.begin(jobs[:ahead])
+    whole = solver.matrices(*jobs[0], own)
+    meanwhile(whole)
     n = whole.K.shape[0]
     K, M = ([csr_array((n, n)) for _ in model.groups] for _ in range(2))
-    for j, chosen in enumerate(classes, 2):
-        names = ", ".join(model.groups[i].name for i in chosen[:4]) + (", ..." if len(chosen) > 4 else "")
-        scaled = solver.matrices(export(model, chosen), f"export {j} of {total}: {names}", own)
+    for i, chosen in enumerate(classes, 1):
+        scaled = solver.matrices(*jobs[i], own)
+        solver.begin(jobs[i + ahead - 1 : i + ahead])
         differences = [_difference(getattr(scaled, x), getattr(whole, x)) for x in "KM"]
         owner = _owners(model, chosen, differences, whole.rows.names[:, 0])
         for into, difference in zip((K, M), differences, strict=True):
             for i in chosen:
                 into[i] = _rows_of(difference, owner == i)
     error = tuple(_error(each, getattr(whole, x)) for each, x in ((K, "K"), (M, "M")))
-    return Parts(whole, K, M, total, error)
+    return Parts(whole, K, M, len(jobs), error)
+
+
+def _titled(model: InputModel, classes: list[list[int]]) -> Iterator[tuple[list[int], str]]:
+    """Groups (numbers) that each export scales, and its title: the whole first."""
+    total = len(classes) + 1
+    yield [], f"export 1 of {total}: the whole"
+    for j, chosen in enumerate(classes, 2):
+        names = ", ".join(model.groups[i].name for i in chosen[:4]) + (", ..." if len(chosen) > 4 else "")
+        yield chosen, f"export {j} of {total}: {names}"
 
 
 def _difference(scaled: Matrix, whole: Matrix) -> Matrix:

@@ -1,5 +1,6 @@
 """mouse import: supports, sets and materials of an input file, checked against CalculiX itself; what is refused, and where."""
 
+import os
 import re
 import shutil
 import subprocess
@@ -196,6 +197,30 @@ def test_groups_that_do_not_touch_share_an_export(tmp_path):
     ) + "*ELEMENT, TYPE=C3D8, ELSET=TOP\n3, 9, 10, 11, 12, 13, 14, 15, 16\n*ELEMENT, TYPE=C3D8, ELSET=HIGH")  # fmt: skip
     model = read(written(tmp_path, text + "*SOLID SECTION, ELSET=TOP, MATERIAL=STEEL\n"))
     assert sorted(sorted(model.groups[i].name for i in each) for each in colours(model)) == [["HIGH"], ["LOW", "TOP"]]
+
+
+_TWO = """#!/bin/sh
+# a solver that begins when another one has
+touch "$MEET/$$"
+for i in $(seq 200); do
+    [ $(ls "$MEET" | wc -l) -ge 2 ] && exec {solver} "$@"
+    sleep 0.05
+done
+echo "*ERROR alone"
+"""
+
+
+@solver
+def test_exports_run_beside_one_another(tmp_path, monkeypatch):
+    """The whole and the scaled groups: none waits for another."""
+    (tmp_path / "bin").mkdir()
+    (tmp_path / "meet").mkdir()
+    program = tmp_path / "bin" / "ccx"
+    program.write_text(_TWO.format(solver=shutil.which("ccx")))
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{program.parent}:{os.environ['PATH']}")
+    monkeypatch.setenv("MEET", str(tmp_path / "meet"))
+    assert "sets sum to the whole" in imported(tmp_path, BAR)[1]
 
 
 REFUSED = {
