@@ -200,6 +200,30 @@ def test_a_foot_on_springs_is_what_springs_at_its_nodes_make(tmp_path):
     assert np.allclose(found, eigh(K[kept][:, kept], M[kept][:, kept], eigvals_only=True)[:8], rtol=1e-8)
 
 
+def test_a_foot_that_is_stiff_in_itself_may_be_as_soft_as_what_it_stands_on(tmp_path):
+    """Bars within the foot do nothing against its motion as a whole: t'Kt, of the bars to other nodes, bounds its resistance."""
+    _, K, M = truss()
+    x, whole = truss()[0], sum(K.values())
+    for i, j in ((0, 1), (0, 2), (1, 2)):
+        b = np.zeros(3 * NODES)
+        b[3 * i : 3 * i + 3] = (x[i] - x[j]) / np.linalg.norm(x[i] - x[j])
+        b[3 * j : 3 * j + 3] = -b[3 * i : 3 * i + 3]
+        whole = whole + 1e12 * np.outer(b, b)
+    path = deck(tmp_path)
+    save_npz(tmp_path / "K.npz", csr_matrix(whole))
+    text = path.read_text()
+    path.write_text(text[: text.index("  sets:")] + text[text.index("parameters:") :])
+    problem = read_deck(path)
+    model = reduced(problem, problem.prior.mean)
+    own = [
+        each for each in model.recipes(registry()["support-translation"]) if "FOOT_1, all" in each.site(np.ones(1)).text
+    ]
+    along = [np.isin(np.arange(3 * NODES), [d, 3 + d, 6 + d]).astype(float) for d in range(3)]
+    inertia = (2 * np.pi * problem.test.frequency_hz[0]) ** 2
+    bound = min(t @ whole @ t + inertia * (t @ sum(M.values()) @ t) for t in along)
+    assert own[0].unknowns[0].lower < 1.01e-3 * bound
+
+
 @pytest.mark.parametrize("what", ["brace missing", "foot loose", "control"])
 def test_what_is_missing_is_named_as_the_model_names_it(tmp_path, what):
     _, K, M = truss()

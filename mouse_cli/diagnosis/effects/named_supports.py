@@ -115,7 +115,7 @@ def _recipe(
     r, one = model.r, len(own.labels) == 1
     at = np.concatenate([np.arange(r), r + np.array(which)])
     own_rows, sensing = np.ix_(at, at), np.hstack([np.zeros((len(reading), r)), reading[:, which]])
-    against = resistance(model, K[own_rows], M[own_rows]) / np.diag(own.bed)
+    against = resistance(model, K[own_rows], M[own_rows], own.bed)
     unit = "N m/rad" if turning else "N/m"
     k = Unknown("stiffness of the support", unit, SOFTEST * float(against.min()), STIFFEST * float(against.max()))
     words = own.labels[0] if one else "all directions"

@@ -19,6 +19,7 @@ from mouse_cli.terms.assembly import Assembly
 from mouse_cli.terms.element_term import ElementTerm
 
 SOFTEST, STIFFEST = 1e-3, 1e4  # stiffness of a support over `resistance`: from as good as free to as good as rigid
+_IDLE = 1e-9  # share of the stiffness of a bed in combinations of motions that do not move it
 _SHIFT = 1e-3  # of the lowest measured eigenvalue, so that motions that nothing resists need no support
 
 
@@ -83,13 +84,21 @@ def followed(model: Reduced, free: Free, motion: np.ndarray) -> tuple[np.ndarray
     return *blocks, Carried(within, motion, K @ motion, M @ motion, f, slopes, _across(model, stack, motion), strain)
 
 
-def resistance(model: Reduced, K: np.ndarray, M: np.ndarray) -> np.ndarray:
-    """What the structure that follows a motion of one support does against it (a,), K and M (r + a, r + a) as `followed` has them.
+def resistance(model: Reduced, K: np.ndarray, M: np.ndarray, bed: np.ndarray | None = None) -> np.ndarray:
+    """What the structure that follows motions of supports does against them (a,), K and M (r + a, r + a) as `followed` has them.
 
     psi'(K + lambda M) psi, by its stiffness and, at the lowest measured eigenvalue, by its inertia: a scale of the support and of
-    what stands on it. One of the whole structure would exclude the true support where bars or spans differ.
+    what stands on it. One of the whole structure would exclude the true support where bars or spans differ. Of each motion alone;
+    on a bed (a, a) of springs of all motions, of those combinations that it carries each by itself: a foot that is stiff in
+    itself moves as a whole, which resists far less than one of its nodes does against the others.
     """
-    return (K.diagonal() + lowest(model) * M.diagonal())[model.r :]
+    opposing = (K + lowest(model) * M)[model.r :, model.r :]
+    if bed is None:
+        return opposing.diagonal()
+    stiffness, W = np.linalg.eigh(bed)
+    moved = stiffness > _IDLE * stiffness[-1]
+    W = W[:, moved] / np.sqrt(stiffness[moved])
+    return np.linalg.eigvalsh(W.T @ opposing @ W)
 
 
 Slopes = tuple[np.ndarray, np.ndarray]
