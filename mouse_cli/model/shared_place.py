@@ -52,6 +52,12 @@ def panels(mesh: Mesh | None, sites: Sequence[Site]) -> bool:
     return not all(flat) and sum(flat) >= int((size > near).sum()) - 2
 
 
+def together(mesh: Mesh, sites: Sequence[Site]) -> Site:
+    """The nodes that any of several sites touches, as one site."""
+    touched = {i for site in sites for i in _nodes(mesh, site) or ()}
+    return Site("node", tuple(int(mesh.node_ids[i]) for i in sorted(touched)))
+
+
 def _nodes(mesh: Mesh, site: Site) -> list[int] | None:
     """Nodes (indices) of a site; None where it has none."""
     ids = [i for i in site.ids if not isinstance(i, str)]

@@ -102,3 +102,45 @@ def test_a_change_of_rank_one_stays_positive_definite(sign):
     assert changed == pytest.approx(
         own + more if sign > 0 else np.linalg.inv(np.linalg.inv(own) + more), rel=1e-6, abs=1e-6 * own.max()
     )
+
+
+STOREYS = """mouse: 1
+model:
+  structure:
+    nodes: {nodes}
+    elements:
+      - {{id: 1-4, type: storey, nodes: 0-4, TX: [5.0e+7, 4.0e+7, 3.0e+7, 2.0e+7]}}
+      - {{id: 11-14, type: mass, nodes: 1-4, mass: [4.0e+3, 3.0e+3, 3.0e+3, 2.0e+3]}}
+    supports: {{0: all}}
+    directions: {directions}
+parameters:
+  - {{name: storey, elements: 1-4, property: TX, factor: true, sd: 5 %}}
+test:
+  modes: {{frequency: [5.0, 13.0, 20.0], frequency_sd: 0.1 %}}
+"""
+
+
+@pytest.mark.parametrize(("directions", "even"), [("[TX]", "support"), ("[TX, TY]", "")])
+def test_a_straight_motion_of_storeys_is_that_of_their_foundation(directions, even):
+    """u = drift + phi h on a spring k against turning has K^-1 + h h' / k; storeys of unlike heights."""
+    from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+    from mouse_cli.diagnosis.nameless.fit import _spreads
+    from mouse_cli.model.arrays import dense
+
+    high, turning = np.array([6.0, 9.0, 13.0, 16.0]), 2e9
+    nodes = ", ".join(f"{i}: [0, 0, {z}]" for i, z in enumerate([0.0, *high]))
+    problem = assemble(yaml_deck.read(STOREYS.format(nodes=f"{{{nodes}}}", directions=directions), "storeys.yaml"))
+    model = reduced(problem, problem.prior.mean)
+    (field,) = (each for each in _spreads(model) if each.rival.key == "compliance")
+    bent, straight = (field.over(model, 1.0, share, -1) for share in (0.2, np.inf))
+    assert (bent.nameless.rival.even, straight.nameless.rival.even) == ("", even)
+    if even:
+        motion = np.linalg.solve(model.V, high / np.sqrt(turning))
+        w, left, *_ = np.linalg.lstsq(straight.of_field.T, motion, rcond=None)
+        assert left[0] < 1e-18 * motion @ motion
+        K = dense(model.assembly.matrices(model.theta)[0])
+        on_soil = np.linalg.inv(np.linalg.inv(K) + np.outer(high, high) / turning)
+        said = straight.matrices(np.append(model.z, w))[0]
+        assert np.linalg.inv(model.V).T @ said @ np.linalg.inv(model.V) == pytest.approx(
+            on_soil, rel=1e-6, abs=1e-6 * on_soil.max()
+        )

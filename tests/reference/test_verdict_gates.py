@@ -30,7 +30,11 @@ from mouse_cli.model.diagnosis import (
     Score,
     Site,
 )
+from mouse_cli.model.mesh import Mesh
 from mouse_cli.report.verdict_sentences import sentences
+
+# nodes 1 to 9 of a wall at y = 0: x = 0, 4, 8 at z = 0, then 3 and 6; 10 to 18 the same at y = 5
+WALLS = np.array([[x, y, z] for y in (0.0, 5.0) for z in (0.0, 3.0, 6.0) for x in (0.0, 4.0, 8.0)])
 
 
 @pytest.fixture
@@ -319,6 +323,26 @@ def test_a_field_counts_as_what_it_is_where_it_does_not_vary(proofs):
     assert decide(ranked(bed, made_up(nameless="field-bed"), BARE, p=(0.9, 0.09, 0.01)))[0] == ONE_OF
     more = ranked(uneven, bed, BARE, p=(0.9, 0.09, 0.01))
     assert dict(more.groups)["field-bed"] == pytest.approx(0.9)
+
+
+@pytest.mark.parametrize(("own", "of_spring"), [("support", 0.0), ("brace", 0.06)])
+def test_only_what_a_mechanism_contains_counts_as_it(own, of_spring):
+    """Of a rival that is a mechanism at some of its values and none at others, each part for itself."""
+    mesh = Mesh(np.arange(1, 19), WALLS, (), np.zeros((0, 2), int))
+    known, free = made_up(own), made_up(nameless="spring" if own == "brace" else "compliance", even=own)
+    known.model.base.problem.mesh, known.sites = mesh, [Site("node", (1, 5))]
+    between = lambda *ids: SimpleNamespace(sites=tuple(Site("node", (i,)) for i in ids))
+    free.nameless.cells, other = between(2, 6), made_up(nameless=free.nameless.rival.key, even=own)
+    other.nameless.cells = between(1, 14)  # ends in two walls
+    third = made_up(nameless=free.nameless.rival.key)
+    third.nameless.cells = between(3)  # no such motion: against a turn, or none of a rigid body
+    free.variants = ((other, 0.6), (third, 0.1))
+    if own == "support":
+        known.recipes[0].unknowns = ("stiffness", "inertia")
+    groups = dict(ranked(known, free, BARE, p=(0.85, 0.1, 0.05)).groups)
+    assert groups[own] == pytest.approx(0.94 - of_spring) and groups[free.nameless.rival.key] == pytest.approx(
+        0.01 + of_spring
+    )
 
 
 def test_an_oscillator_above_the_band_is_a_mass():

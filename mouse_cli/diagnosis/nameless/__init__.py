@@ -17,7 +17,8 @@ class Nameless:
 
     cells(model): what it changes; None where there are fewer than three. spreads: sd of the field that are integrated over.
     signs: of a change of rank one along the field (`_tied`), 1 a spring, -1 a compliance; empty: K or M change in proportion to
-    it. even: group of the mechanism that it is where it is the same everywhere; empty: none has a name.
+    it. even: group of the mechanism that it is where it is the same everywhere, moves the whole as one rigid body, or acts between
+    its places; empty: none has a name.
     """
 
     key: str

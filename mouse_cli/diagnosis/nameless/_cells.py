@@ -26,7 +26,7 @@ class Cells:
     """c cells: sites; at (c, d): where they are, distances in `unit`; blocks: K or M of each, of the nominal model, or per unit.
 
     into: `K` or `M`, the matrix that they change. extend(problem, values (c,), spread): the deck with the field in it;
-    of a change of rank one also its sign.
+    of a change of rank one also its sign. rigid: whether an affine field over them is a motion of the whole as one rigid body.
     """
 
     sites: tuple[Site, ...]
@@ -35,6 +35,7 @@ class Cells:
     blocks: tuple[Block, ...]
     into: str
     extend: Callable[..., Problem] | None = None
+    rigid: bool = False
     _fields: dict[float, tuple[float, np.ndarray]] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def __len__(self) -> int:
@@ -64,7 +65,9 @@ class Cells:
     def some(self, kept: np.ndarray) -> "Cells":
         """The cells `kept`, by index."""
         chosen = lambda every: tuple(every[i] for i in kept.tolist())
-        return Cells(chosen(self.sites), self.at[kept], self.unit, chosen(self.blocks), self.into, self.extend)
+        return Cells(
+            chosen(self.sites), self.at[kept], self.unit, chosen(self.blocks), self.into, self.extend, self.rigid
+        )
 
 
 def of_elements(model: Reduced, into: str, properties: tuple[str, ...]) -> Cells | None:

@@ -5,7 +5,7 @@ eigenvectors of that, v = s P w, w ~ N(0, I): as many unknowns more, in which K 
 correlation length l is Laplace's; they are integrated over a grid, all alike beforehand.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -39,6 +39,8 @@ class Smooth:
 
 def smooth(rival: Nameless, cells: Cells, spread: float, share: float, sign: int = 0) -> Smooth:
     """The field of that spread, correlated over that share of the extent of its cells."""
+    if rival.signs and not (cells.rigid and np.isinf(share)):
+        rival = replace(rival, even="")  # no motion of the whole as one body
     length, P = (share, affine(cells.at)) if np.isinf(share) else cells.correlated(share)
     P = np.hstack([affine(cells.at), P]) if rival.signs and np.isfinite(share) else P
     return Smooth(rival, cells, spread * P, spread, length, sign)

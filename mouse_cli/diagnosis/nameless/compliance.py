@@ -50,4 +50,5 @@ NAMELESS = Nameless(
     (0.1, 0.5, 2.5),
     cells,
     (-1,),
+    "support",
 )

@@ -1,7 +1,7 @@
 """A spring that no mechanism of the library is: between two distant places, or against the turning of one."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 
 import numpy as np
@@ -135,8 +135,9 @@ def _at(model: Reduced, spring: Spring, spread: float, z: np.ndarray, reach: flo
     unit *= extent(model.problem.mesh.coordinates) if ends.turns and model.problem.mesh is not None else 1.0
     blocks = tuple((row[None], np.array([[unit**2]])) for row in ends.rows)
     cells = Cells(ends.sites, ends.at, "m", blocks, "K", _extend(model, ends, unit))
+    rival = NAMELESS if own == 2 else replace(NAMELESS, even="")
     P = spread * np.array([[1.0], [-1.0]])[:own]
-    trial = Model(tied(model, Smooth(NAMELESS, cells, P, spread, 0.0, 1), cells))
+    trial = Model(tied(model, Smooth(rival, cells, P, spread, 0.0, 1), cells))
     starts = [trial.point(np.append(z, np.sqrt(k) / spread)) for k in _SIZES]
     starts = [at for at in starts if at is not None]
     if not starts:
@@ -178,4 +179,5 @@ NAMELESS = Nameless(
     "place; its places and its spread are integrated out (a strut to a distant part, an outrigger)",
     (0.3, 1.0, 3.0, 10.0),
     lambda model: None,
+    even="brace",
 )

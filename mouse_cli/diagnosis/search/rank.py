@@ -5,7 +5,7 @@ competes with what has. Names are compared as groups: what the data cannot tell 
 """
 
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from math import lgamma
 
@@ -30,6 +30,7 @@ from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.model.diagnosis import Untried
 from mouse_cli.model.groups import joined, shares
 from mouse_cli.model.problem import Problem
+from mouse_cli.model.shared_place import panels, together
 
 _UNPHYSICAL = "no size of it makes a model whose modes can be paired with the test"
 _TRUSTED = 0.5  # share of the stated accuracies in the leading explanation below which errors of the test may be all
@@ -66,9 +67,10 @@ class Ranking:
     def groups(self) -> tuple[tuple[str, float], ...]:
         """Probability of each group, the largest first; `none` among them, and what has no name by its own key.
 
-        A field counts as the mechanism that it is where it does not vary, if that is the more probable of the two.
+        A field counts as the mechanism that it is where it does not vary, if that is the more probable of the two: soil on which
+        a building moves as one rigid body as a flexible support, a spring in the panels of a brace as a brace.
         """
-        return shares(_names(self.fits), self.probabilities)
+        return shares(*zip(*_counted(self.fits, self.probabilities), strict=True))
 
     @property
     def named(self) -> list[int]:
@@ -86,16 +88,27 @@ def _joined(one: Fit) -> str:
     return joined([recipe.candidate.group for recipe in one.recipes])
 
 
-def _names(fits: tuple[Fit, ...]) -> list[str]:
-    """Groups of fits, the most probable first."""
-    found: list[str] = []
-    even: set[str] = set()  # groups of what acts alike everywhere
-    for one in fits:
-        limit = one.nameless.rival.even if one.nameless else ""
-        found.append(limit if limit in even else group(one))
-        if len(one.recipes) == 1 and len(one.recipes[0].unknowns) == 1:
-            even.add(found[-1])
-    return found
+def _counted(fits: tuple[Fit, ...], probabilities: np.ndarray) -> Iterator[tuple[str, float]]:
+    """Groups of fits, the most probable first, and what each adds to their probability; a field adds to several."""
+    even: dict[str, Fit] = {}  # of what acts alike everywhere, or moves the whole, the first of each group
+    for one, p in zip(fits, probabilities.tolist(), strict=True):
+        name, variants = group(one), one.variants if one.nameless else ()
+        for part, share in ((one, 1 - sum(share for _, share in variants)), *variants):
+            limit = part.nameless.rival.even if part.nameless else ""
+            yield (limit if limit in even and _contains(even[limit], part) else name), p * share
+        if len(one.recipes) == 1 and (len(one.recipes[0].unknowns) == 1 or name == "support"):
+            even.setdefault(name, one)
+
+
+def _contains(known: Fit, field: Fit) -> bool:
+    """Whether a field acts where a mechanism does: one between two places in the line of panels that a spring crosses.
+
+    What else is even acts everywhere.
+    """
+    if field.nameless.rival.key != "spring":
+        return True
+    mesh = known.model.base.problem.mesh
+    return mesh is not None and panels(mesh, [known.sites[0], together(mesh, field.nameless.cells.sites)])
 
 
 def unnamed(one: Fit) -> str | None:
