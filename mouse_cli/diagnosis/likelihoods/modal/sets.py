@@ -10,12 +10,13 @@ from mouse_cli.dynamics.solver import EigenSolver
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.problem import Problem
 
-MOST_OF_SETS = 120  # coordinates for them
-_GONE = 0.95  # share of a set that is taken away: its own motions stay finite
-_MISSING = (
-    1 - 1e-6
-)  # share of a set that is taken away with its mass: its own motions keep their frequencies, and stay finite
-_LEFT = 1e-6  # of the A-norm of a motion: what is left of it beside the space, below which it is in it
+MOST_OF_SETS = 180  # coordinates for them
+_STATES = (  # shares of K and M of a set that are taken away, those that matter most first
+    (1 - 1e-6, 1 - 1e-9),  # missing: its own motions stay finite, far above those of the rest
+    (0.95, 0.0),  # soft and as heavy as it was: its own motions are among the lowest
+    (0.8, 0.8),
+)
+_SHORT = 0.3  # error of a frequency, in its sd, that is no matter
 _KEPT = 3  # coordinates: the coarse ones of a first look, and all of them, at two parameters of a small model
 _FOLLOWS = 1e-6  # relative error up to which what a parameter does is that of whole sets
 
@@ -70,49 +71,69 @@ def without_sets(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Motions X (c, n) and A X, A = K - sigma M: of the lowest `last` modes without each set what V (d, n), V A V' = I, leaves.
 
-    Of each set those combinations with the largest A-norm: between them and the modes of the whole, a set that is softer in any
-    share moves as a Ritz vector does that is right to second order at both ends. A set with mass is taken away once in part, and
-    once as a whole.
+    Of all sets those that eigenvalues want most: between them and the modes of the whole, a set that is softer in any share moves
+    as a Ritz vector does that is right to second order at both ends. A set is taken away in part, with its mass and without, for
+    one that is soft and heavy has low modes of its own, and as a whole.
     """
-    problem, sets = model.problem, [sets_in(model, name) for name in "KM"]
-    factors = [each.factors(model) for each in sets]
-    n, each = K.shape[0], max(2, MOST_OF_SETS // (2 * len(problem.groups)))
-    found, loads = [np.zeros((0, n))], [np.zeros((0, n))]
-    for i in range(min(len(problem.groups), MOST_OF_SETS // (2 * each))):
-        stored = [one.stored[i] for one in sets]
-        own = [None if one is None else of[i] * one for one, of in zip(stored, factors, strict=True)]
-        for X in _modes_without(K, M, own, last):
-            rows, forces = _apart(X, lambda x: (K @ x.T - sigma * (M @ x.T)).T, V, each)
-            found.append(rows)
-            loads.append(forces)
-    return np.concatenate(found), np.concatenate(loads)
+    problem, of = model.problem, [sets_in(model, name) for name in "KM"]
+    factors, least = [each.factors(model) for each in of], 2 * _SHORT * float(model.data.sd_log.min())
+    found: list[tuple[int, float, np.ndarray]] = []
+    for i in range(len(problem.groups)):
+        own = [None if each.stored[i] is None else by[i] * each.stored[i] for each, by in zip(of, factors, strict=True)]
+        blocks = [V]
+        for rank, gone in enumerate(_STATES if own[0] is not None else ()):
+            if not any(gone[1:]) or own[1] is not None:
+                lost = [
+                    None if each is None or not share else share * each for share, each in zip(gone, own, strict=True)
+                ]
+                size, rows = _apart(K, M, sigma, lost, blocks, last, least)
+                found += [(rank, -error, row) for error, row in zip(size.tolist(), rows, strict=True)]
+                blocks.append(rows)
+        found = sorted(found, key=lambda each: each[:2])[:MOST_OF_SETS]
+    X = np.array([row for *_, row in found]).reshape(len(found), K.shape[0])
+    return X, _energetic(K, M, sigma, X)
 
 
-def _modes_without(K: Matrix, M: Matrix, own: list[Matrix | None], last: int) -> list[np.ndarray]:
-    """Modes X (m, n) without a set that gives `own` to K and M: the most of it, and all of it if it has mass."""
+def _energetic(K: Matrix, M: Matrix, sigma: float, X: np.ndarray) -> np.ndarray:
+    """(K - sigma M) X (m, n), row by row."""
+    return np.ascontiguousarray((K @ X.T - sigma * (M @ X.T)).T)
+
+
+def _apart(
+    K: Matrix, M: Matrix, sigma: float, lost: list[Matrix | None], blocks: list[np.ndarray], last: int, least: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """What motions `blocks` (each (c, n), orthonormal in A) leave of the modes without `lost` of K and M: combinations X (m, n),
+    orthonormal in A beside them, by which eigenvalues are too high by more than `least`, relative, and that error (m,).
+
+    It is what they leave in the norm of A without what is lost (Galerkin): there the motions are I - V D V', D = what is lost.
+    """
     from scipy.sparse import csr_array
 
-    found = []
-    for gone in () if own[0] is None else (_GONE,) if own[1] is None else (_GONE, _MISSING):
-        lighter = M if own[1] is None else M - gone * own[1]
-        try:
-            softer, lighter = csr_array(K - gone * own[0]), csr_array(lighter)
-            found.append(EigenSolver().solve(softer, lighter, last).shapes[:, :last].T)
-        except (IndefiniteError, np.linalg.LinAlgError):
-            continue
-    return found
+    D = lost[0] if lost[1] is None else lost[0] - sigma * lost[1]
+    try:
+        softer, lighter = csr_array(K - lost[0]), csr_array(M if lost[1] is None else M - lost[1])
+        X = EigenSolver().solve(softer, lighter, last).shapes[:, :last].T
+    except (IndefiniteError, np.linalg.LinAlgError):
+        return np.zeros(0), np.zeros((0, K.shape[0]))
+    at = np.flatnonzero(np.diff(csr_array(D).indptr))
+    near = np.concatenate([each[:, at] for each in blocks])
+    soft = lambda X: _energetic(softer, lighter, sigma, X)
+    AX = soft(X)
+    X, AX = (each / np.sqrt(np.einsum("mn,mn->m", X, AX))[:, None] for each in (X, AX))
+    onto = np.concatenate([each @ AX.T for each in blocks])
+    X = _less(X, np.linalg.solve(np.eye(len(near)) - near @ (csr_array(D)[at][:, at] @ near.T), onto), blocks)
+    size, Q = np.linalg.eigh(X @ soft(X).T)
+    kept = np.flatnonzero(size > least)[::-1]
+    X = Q[:, kept].T @ X
+    X = _less(X, np.concatenate([each @ _energetic(K, M, sigma, X).T for each in blocks]), blocks)
+    R = np.linalg.cholesky(X @ _energetic(K, M, sigma, X).T) if len(X) else np.eye(0)
+    return size[kept], np.linalg.solve(R, X)
 
 
-def _apart(X: np.ndarray, A, V: np.ndarray, most: int) -> tuple[np.ndarray, np.ndarray]:
-    """At most `most` combinations of the rows of X (m, n) less their part in V, and A times them."""
-    AX = A(X)
-    whole = np.einsum("mn,mn->m", X, AX)
-    X = X - (AX @ V.T) @ V
-    X, AX = X / np.sqrt(whole)[:, None], A(X) / np.sqrt(whole)[:, None]
-    size, Q = np.linalg.eigh(X @ AX.T)
-    kept = np.flatnonzero(size > _LEFT**2)[::-1][:most]
-    scale = (Q[:, kept] / np.sqrt(size[kept])).T
-    return np.ascontiguousarray(scale @ X), np.ascontiguousarray(scale @ AX)
+def _less(X: np.ndarray, by: np.ndarray, blocks: list[np.ndarray]) -> np.ndarray:
+    """X (m, n) less its parts `by` (d, m) along all of `blocks`."""
+    ends = np.cumsum([0, *(len(each) for each in blocks)])
+    return X - sum(by[i:j].T @ each for i, j, each in zip(ends[:-1], ends[1:], blocks, strict=True))
 
 
 def within(problem: Problem, matrix: Matrix | None) -> Matrix | None:

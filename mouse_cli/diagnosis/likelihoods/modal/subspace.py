@@ -91,6 +91,12 @@ class Basis:
             kept
         ]
 
+    def orthonormal(self) -> tuple[np.ndarray, np.ndarray]:
+        """The same with V'MV = I to rounding, of which nothing but what an element set gives may be left where that is missing."""
+        V, eigenvalues = self.ritz()
+        R = np.linalg.cholesky(V.T @ self.space.operator.mass(V.T).T)
+        return np.ascontiguousarray(np.linalg.solve(R, V.T).T), eigenvalues
+
 
 def large(
     problem: Problem, total: Assembly, K: Matrix, M: Matrix, theta: np.ndarray, solver: EigenSolver | None = None
@@ -120,7 +126,7 @@ def large(
         places = np.concatenate([places, more])
     if problem.groups:
         basis.motions(*without_sets(model, K, M, basis.sigma, basis.space.V, int(problem.test.number.max())))
-    model = built(problem, total, theta, *basis.ritz(), by, stack)
+    model = built(problem, total, theta, *basis.orthonormal(), by, stack)
     lowest = model.V[:, : min(model.r, int(problem.test.number.max()) + 2)]
     by_all = static(problem, model.motion, model.bars, basis.sigma, basis.space.operator.columns, lowest)
     return replace(model, places=np.sort(places), static=by_all)
