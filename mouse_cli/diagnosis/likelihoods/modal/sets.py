@@ -16,7 +16,7 @@ _STATES = (  # shares of K and M of a set that are taken away, those that matter
     (0.95, 0.0),  # soft and as heavy as it was: its own motions are among the lowest
     (0.8, 0.8),
 )
-_SHORT = 0.3  # error of a frequency, in its sd, that is no matter
+_SHORT = 0.5  # error of a frequency, in its sd, that is no matter
 _KEPT = 3  # coordinates: the coarse ones of a first look, and all of them, at two parameters of a small model
 _FOLLOWS = 1e-6  # relative error up to which what a parameter does is that of whole sets
 
