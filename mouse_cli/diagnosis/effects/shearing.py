@@ -59,7 +59,7 @@ def lumped(model: Reduced) -> np.ndarray:
 def _mass(bars: Bars, phi: np.ndarray) -> np.ndarray:
     """Mass (c, b, 4, 4) of the bars for rows phi (c, b)."""
     count = len(phi)
-    w, _, _ = beam.shapes(np.tile(bars.length, count), phi.ravel())
+    w, _ = beam.inertial(np.tile(bars.length, count), phi.ravel())
     return beam.integral(w, np.tile(bars.line_mass * bars.length, count)).reshape(count, len(bars), 4, 4)
 
 

@@ -32,14 +32,14 @@ def local(layout: Layout, properties: Properties) -> Matrices:
         if layout.options.get("theory") == "timoshenko":
             phi = 12 * EI / (p[f"kappa_{across}"] * p["G"] * p["A"] * length**2)
         beam.in_plane(K, _bending(layout, p, axis, EI, phi, length), plane)
-        w, slope, rotation = beam.shapes(length, phi)
+        w, rotation = beam.inertial(length, phi)
         beam.in_plane(
             M, _inertia(layout, p, p["rotary_factor"] * p["density"] * p[f"I{axis}"], w, rotation, length), plane
         )
         if layout.options.get("theory") == "generic":
             _coupled(p, axis, EI, length, K, plane)
         if (tension != 0).any():
-            beam.in_plane(Kg, beam.integral(slope, tension * length), plane)
+            beam.in_plane(Kg, beam.integral(beam.shapes(length, phi)[1], tension * length), plane)
     return {"K": K, "M": M, GEOMETRIC: Kg} if (tension != 0).any() else {"K": K, "M": M}
 
 
