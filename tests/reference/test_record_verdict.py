@@ -17,6 +17,8 @@ from mouse_cli.diagnosis.likelihoods.history.verdict import decided, far, ranked
 from mouse_cli.formats import read_deck
 from mouse_cli.model.diagnosis import Rest
 from mouse_cli.model.record_diagnosis import AS_IT_IS, WITH_CAUSE, RecordScore
+from mouse_cli.report.sections.records.answers import _proof
+from mouse_cli.report.sections.records.held_out import _row
 from mouse_cli.report.verdict_sentences import remains
 from mouse_cli.terms.laws import registry
 from mouse_cli.updating.recordings.adequacy import missing, shift_p, shifted, unlikely
@@ -189,6 +191,13 @@ def test_noise_of_channels_is_no_error_of_a_model():
     assert of(0.06, 0.03) == pytest.approx(2.0, rel=1e-6)
 
 
+def test_a_simulation_that_diverges_is_no_error_of_so_many_times():
+    one = RecordScore("r", 1.0, np.ones(1), {AS_IT_IS: np.full(1, 0.05), WITH_CAUSE: np.full(1, np.inf)}, {}, None)
+    found = replace(one, free=one.short)
+    assert _proof(found) == "'r' from 5 % to divergence over 1 s, from 5 % to divergence over the whole."
+    assert _row(found, 0) == ["0.05", "diverges"] * 2
+
+
 def test_floor_of_a_spectrum_is_the_sd_of_white_noise():
     rng = np.random.default_rng(1)
     found = np.mean([_floor(rng.standard_normal((4096, 3))) for _ in range(10)], axis=0)
@@ -272,6 +281,7 @@ def test_what_predicts_worse_or_leaves_its_prior_is_no_name(weighed_laws):
     assert said(0.3, baseline, law).kind == "named" and said(0.3, baseline, law).rest is None
     worse = said(1.2, baseline, law)
     assert worse.kind == "unknown" and worse.refuted == ("smooth-stiffness",) and "1.2 times" in worse.cautions[0]
+    assert "whose simulation with it diverges" in said(np.inf, baseline, law).cautions[0]
     distant = said(0.3, baseline, replace(law, x=np.concatenate([[-6.3], law.x[1:]])))
     assert distant.kind == "unknown" and "k1 is -6.3 prior sd from its mean" in distant.cautions[0]
 

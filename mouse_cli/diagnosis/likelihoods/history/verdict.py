@@ -141,7 +141,12 @@ def _distant(distant: tuple[str, ...]) -> str:
 
 def _refuted(best: Fit, ratio: float) -> str:
     titles = " and ".join(part.title for part in best.hypothesis.parts)
-    return f"Refuted by records that no fit has seen, whose error is {ratio:.3g} times that of the model as it is: {titles}."
+    how = (
+        f"whose error is {ratio:.3g} times that of the model as it is"
+        if ratio < np.inf
+        else "whose simulation with it diverges"
+    )
+    return f"Refuted by records that no fit has seen, {how}: {titles}."
 
 
 def _sites(one: Fit) -> set[tuple[str, str]]:

@@ -94,7 +94,8 @@ def _true(found: RecordDiagnosis) -> str:
 
 
 def _proof(one: RecordScore) -> str:
-    size = lambda error: f"{100 * ((error / one.signal) ** 2).mean() ** 0.5:.3g} %"
+    share = lambda error: 100 * ((error / one.signal) ** 2).mean() ** 0.5
+    size = lambda error: f"{share(error):.3g} %" if share(error) < float("inf") else "divergence"
     name = f"'{one.title}'"
     if WITH_CAUSE not in one.short:
         return (

@@ -39,7 +39,9 @@ def _row(one: RecordScore, i: int) -> list[str]:
 
 
 def _told(errors: dict, name: str, i: int) -> str:
-    return f"{errors[name][i]:.4g}" if name in errors else ""
+    if name not in errors:
+        return ""
+    return f"{errors[name][i]:.4g}" if errors[name][i] < float("inf") else "diverges"
 
 
 SECTION = Section("record-held-out", 80, "Held-out records", held_out, (RecordDiagnosis, RecordUpdate))
