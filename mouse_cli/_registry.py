@@ -12,8 +12,8 @@ from mouse_cli._errors import ERROR, Diagnostic, PluginError
 
 @cache
 def names(package: str) -> tuple[str, ...]:
-    """Sorted names of the modules in `package` that hold a member; nothing is imported but the package itself."""
-    path = import_module(package).__path__
+    """Sorted names of the modules in `package` that hold a member, none of a module; nothing is imported but the package itself."""
+    path = getattr(import_module(package), "__path__", ())
     return tuple(sorted(m.name for m in iter_modules(path) if not m.name.startswith("_")))
 
 
@@ -21,14 +21,17 @@ def names(package: str) -> tuple[str, ...]:
 def discover(package: str, attribute: str) -> dict[str, Any]:
     """Every member of a kind, by key, sorted: `attribute` of each module in `package`, then third-party entry points.
 
-    A module without the attribute is support code and is passed over. A member has a `key`.
+    A module may hold several in a tuple called by the plural of the attribute, and `package` may be such a module. A module with
+    neither is support code and is passed over. A member has a `key`.
     Third parties register under the entry-point group named like the package, e.g. `mouse_cli.estimators`.
 
     Raises ValueError when two members claim one key, PluginError when a third party's cannot be used.
     """
-    modules = (import_module(f"{package}.{name}") for name in names(package))
-    found = [getattr(module, attribute) for module in modules if hasattr(module, attribute)]
-    found += _plugins(package)
+    found = list(vars(import_module(package)).get(f"{attribute}S", ()))
+    for name in names(package):
+        held = vars(import_module(f"{package}.{name}"))
+        found += [held[attribute]] if attribute in held else held.get(f"{attribute}S", ())
+    found += plugins(package)
     members: dict[str, Any] = {}
     for member in found:
         if member.key in members:
@@ -53,7 +56,7 @@ def member(package: str, attribute: str, key: str, kind: str) -> Any:
     return known[key]
 
 
-def _plugins(package: str) -> list[Any]:
+def plugins(package: str) -> list[Any]:
     """Members that other installed distributions register for `package`.
 
     importlib.metadata takes as long to load as a small deck to run, so it is asked only where something is registered.

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Kind:
-    """folder: below `report/sections`. document: module of `report`."""
+    """sections: file or folder of `report/sections`. document: module of `report`."""
 
-    folder: str
+    sections: str
     document: str
 
 

@@ -1,4 +1,4 @@
-"""A section of the report: one file of a folder of `sections`, found by itself, that turns a result into blocks.
+"""A section of the report: what turns a result into blocks, one of the SECTIONS of a file for its kind of answer.
 
 Every section has a place; a report is its sections place by place, and a short one ends after the results.
 """
@@ -12,7 +12,7 @@ from mouse_cli.model.result import Forecast, Result
 from mouse_cli.report.blocks import Block, Heading, Matrix, Table, Text
 from mouse_cli.report.kinds import KINDS, kind
 
-_FOLDERS = "mouse_cli.report.sections"
+_FOLDER = "mouse_cli.report.sections"
 
 VERDICT, RESULT, EVIDENCE, APPENDIX = range(4)  # places, in the order of every report
 
@@ -61,18 +61,20 @@ class Section:
 
 def registry() -> dict[str, Section]:
     """All sections of all kinds of answers, by key, and those of third parties."""
-    found = _registry.discover(_FOLDERS, "SECTION")
-    for folder in sorted({each.folder for each in KINDS.values()}):
-        found = found | _registry.discover(f"{_FOLDERS}.{folder}", "SECTION")
-    return found
+    folders = sorted({each.sections for each in KINDS.values()})
+    return {each.key: each for folder in folders for each in _of(folder)}
 
 
 @cache
 def sections(subject: type) -> tuple[Section, ...]:
     """The sections that speak of `subject`, in the order of the report. Other kinds of answers are not loaded."""
-    own = _registry.discover(f"{_FOLDERS}.{kind(subject).folder}", "SECTION")
-    found = (_registry.discover(_FOLDERS, "SECTION") | own).values()
-    return tuple(sorted((s for s in found if subject in s.subjects), key=lambda s: (s.place, s.order, s.key)))
+    found = (section for section in _of(kind(subject).sections) if subject in section.subjects)
+    return tuple(sorted(found, key=lambda s: (s.place, s.order, s.key)))
+
+
+def _of(sections: str) -> list[Section]:
+    """Those of one kind of answers, and those that third parties register for it or for all."""
+    return [*_registry.discover(f"{_FOLDER}.{sections}", "SECTION").values(), *_registry.plugins(_FOLDER)]
 
 
 def blocks(subject: Result | Forecast, options: Options | None = None) -> Iterator[Block]:

@@ -1,15 +1,26 @@
-"""The evidence: every candidate fitted beside the deck's own parameters."""
+"""The evidence of a diagnosis: detection, candidates, localisation, and what to measure next."""
 
 from collections.abc import Iterator
 
-from mouse_cli.model.diagnosis import UNKNOWN, Diagnosis, Explanation
+from mouse_cli.model.diagnosis import NOTHING, UNKNOWN, Diagnosis, Effort, Explanation
 from mouse_cli.report.blocks import Block, Cell, Column, Heading, Table, Text
 from mouse_cli.report.section import RESULT, Options, Section
-from mouse_cli.report.sections._diagnosis_wording import nats, nats_over_none, probable, where
+from mouse_cli.report.sections._diagnosis_wording import (
+    nats,
+    nats_over_none,
+    p_value,
+    place,
+    probable,
+    separation,
+    where,
+)
 from mouse_cli.report.sections._field import untried_text
-from mouse_cli.report.sections._wording import LEFT
+from mouse_cli.report.sections._wording import LEFT, counted, test_table
 
-_LEAST, _MOST = 1e-3, 30  # probability of explanations that are listed, and how many; a few are, however improbable
+_LEAST, _EVIDENCE_MOST = (
+    1e-3,
+    30,
+)  # probability of explanations that are listed, and how many; a few are, however improbable
 _ALWAYS = 8
 _COUNTS, _FEW = 0.01, 5  # the same of a short report
 _JUDGED = (
@@ -41,7 +52,7 @@ def evidence(found: Diagnosis, options: Options) -> Iterator[Block]:
         yield _brief(found)
         return
     likely = sum(one.probability >= _LEAST for one in found.explanations)
-    shown = found.explanations[: min(max(likely, _ALWAYS), _MOST)]
+    shown = found.explanations[: min(max(likely, _ALWAYS), _EVIDENCE_MOST)]
     yield Table(_JUDGED, tuple(_judged(found, one) for one in shown)).without_empty_columns()
     more = len(found.explanations) - len(shown)
     rest = f" {more} less probable ones are left out; --json has all." if more else ""
@@ -89,4 +100,106 @@ def _sized(one: Explanation) -> Iterator[tuple[Cell, ...]]:
             yield one.physics, name, value, sd, size.unit, lower, upper
 
 
-SECTION = Section("diagnosis-evidence", 40, "Evidence", evidence, (Diagnosis,), place=RESULT)
+EFFORTS = {
+    Effort.MODES: "a wider band",
+    Effort.SENSOR: "one sensor",
+    Effort.SHAPES: "a few sensors",
+    Effort.MASS: "an added mass",
+    Effort.SUPPORT: "a changed support",
+}
+_COLUMNS = (
+    Column("measurement", align=LEFT),
+    Column("takes", align=LEFT),
+    Column("between", align=LEFT),
+    Column("separation", "nats"),
+    Column("outlook", align=LEFT),
+)
+
+
+def proposals(found: Diagnosis, options: Options) -> Iterator[Block]:
+    """Rivals, and the measurements that would separate them. One line a measurement; nothing where there is none."""
+    if not found.proposals:
+        return
+    rows = (
+        (p.text, EFFORTS[p.effort], " and ".join(p.between), separation(p.separation), p.outlook)
+        for p in found.proposals
+    )
+    yield Table(_COLUMNS, tuple(rows))
+    yield Text(
+        "First what separates the two most probable: decisive measurements of least effort first. Separation is "
+        "half the squared distance of what the two predict, over what is uncertain in both and in the measurement: above 4 it will "
+        "settle it, below 1 it will not. It is predicted to first order, with accuracies like those of this test."
+    )
+
+
+def detection(found: Diagnosis, options: Options) -> Iterator[Block]:
+    """The three tests of `run`, and what the noise had to be raised to."""
+    result = found.result
+    yield test_table((found.innovation, result.residual, result.prior_shift))
+    yield Text(f"The model as it is: {result.status.sentence} Form of the model: {result.model_form}.")
+    if found.noise_scale > 1 and found.kind != NOTHING:
+        yield Text(
+            f"The best explanation leaves {found.noise_scale:.3g} times the variance that the test states, and the evidence is "
+            "computed with variances larger by that factor. Far above 1, the test is less accurate than stated, or the explanation "
+            "is incomplete."
+        )
+
+
+_PLACES_MOST = 15  # sites listed
+TIE = 3.0  # nats below the best within which sites are tied
+
+
+def places(found: Diagnosis, options: Options) -> Iterator[Block]:
+    """The most probable sites; nothing where none was looked for."""
+    location = found.location
+    if location is None or not location.places:
+        return
+    columns = (
+        Column("site", align=LEFT),
+        Column("channel", align=LEFT),
+        Column("probability"),
+        Column("below the best", "nats"),
+    )
+    shown = location.places[:_PLACES_MOST]
+    yield Table(columns, tuple((place(p.site), p.channel, probable(p.probability), nats(p.deficit)) for p in shown))
+    tied, region = sum(p.deficit <= TIE for p in location.places), location.region
+    left = "that leaves much more than noise: no single site is it"
+    if location.single:
+        left = f"the goodness of fit of the best is {p_value(location.p)}"
+    yield Text(
+        "One force that the model lacks, whatever its law, would make the measured shapes if it acted there. Of "
+        f"{counted(len(location.places), 'site')} that were tried, {region} {'holds' if region == 1 else 'hold'} 90 % of the "
+        f"probability, and {tied} {'lies' if tied == 1 else 'lie'} within {TIE:g} in log evidence of the "
+        f"best, which the shapes hardly distinguish; {left}."
+    )
+
+
+_ENERGY_MOST = 10  # places listed
+
+
+def energy(found: Diagnosis, options: Options) -> Iterator[Block]:
+    """The places with the largest shares; nothing where none was computed."""
+    energy = found.energy
+    if energy is None:
+        return
+    shown = energy.order[:_ENERGY_MOST]
+    columns = (Column("site", align=LEFT), Column("share", "per cent"))
+    yield Table(columns, tuple((place(energy.sites[i]), f"{100 * energy.share[i]:.3g}") for i in shown))
+    errors = ", ".join(
+        f"{100 * error:.2g} % in mode {mode}" for mode, error in zip(energy.mode, energy.error, strict=True)
+    )
+    holds = "site" + (" holds" if energy.half == 1 else "s hold")
+    yield Text(
+        f"Of the energy by which stresses and strains disagree when the measured shapes are imposed on the model as it is, "
+        f"{energy.half} {holds} half, of {len(energy.sites)}: few for a local mechanism, many for a distributed one. It "
+        f"shows all that is missing as if it were stiffness. Relative to the strain energy: {errors}."
+    )
+
+
+SECTIONS = (
+    Section("diagnosis-evidence", 40, "Evidence", evidence, (Diagnosis,), place=RESULT),
+    Section("diagnosis-next", 50, "Next measurement", proposals, (Diagnosis,), place=RESULT),
+    Section("diagnosis-detection", 30, "Model against test", detection, (Diagnosis,)),
+    Section("diagnosis-places", 60, "Localisation", places, (Diagnosis,)),
+    Section("diagnosis-energy", 65, "Energy of the disagreement", energy, (Diagnosis,)),
+)

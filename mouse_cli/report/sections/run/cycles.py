@@ -1,13 +1,15 @@
-"""The cycles: how the properties and the misfit moved."""
+"""The cycles, the modes of the revised model and each datum beside it."""
 
 from collections.abc import Iterator
 
 import numpy as np
 
+from mouse_cli.dynamics.frequency import frequency_hz, sd_frequency_hz
 from mouse_cli.model.result import Cycle, Result
-from mouse_cli.report.blocks import Block, Cell, Column, Table, Text
+from mouse_cli.report.blocks import Block, Cell, Column, Matrix, Table, Text
+from mouse_cli.report.measured import NOT_MEASURED, eigenvalue_index, positions, shape_index
 from mouse_cli.report.section import APPENDIX, Options, Section
-from mouse_cli.report.sections._wording import LEFT
+from mouse_cli.report.sections._wording import LEFT, counted
 
 
 def cycles(result: Result, options: Options) -> Iterator[Block]:
@@ -66,4 +68,172 @@ def _largest_change(result: Result, before: Cycle | None, cycle: Cycle) -> tuple
     return float(moved[largest]), result.problem.parameters[largest].name
 
 
-SECTION = Section("cycles", 50, "Cycles", cycles, place=APPENDIX)
+def modes(result: Result, options: Options) -> Iterator[Block]:
+    """Eigenvalues before and after; then the modal matrix."""
+    known, n = len(result.revised.eigenvalues), result.problem.structure.n
+    paired = int(result.revised.modes.max(initial=0)) + 1
+    count = known if known <= options.shape_dofs else max(2 * options.modes, paired)
+    yield _eigenvalues(result, min(count, len(result.prior.eigenvalues)))
+    if count < n:
+        yield Text(f"Of {n} modes the lowest {count} are shown.")
+    rigid = counted(result.rigid_modes, "rigid-body mode") if result.rigid_modes else "no rigid-body mode"
+    yield Text(f"The model has {rigid}.")
+    yield from _modal_matrix(result, min(known, max(options.modes, paired)), options)
+
+
+def _eigenvalues(result: Result, count: int) -> Table:
+    columns = (
+        Column("mode"),
+        Column("prior eigenvalue", "rad2/s2"),
+        Column("revised eigenvalue", "rad2/s2"),
+        Column("prior frequency", "Hz"),
+        Column("revised frequency", "Hz"),
+        Column("sd of revised frequency", "Hz"),
+    )
+    prior, revised = result.prior.eigenvalues[:count], result.revised.eigenvalues[:count]
+    hz = _hz(revised, result.rigid_modes)
+    values = (prior, revised, _hz(prior, result.rigid_modes), hz, _sd_hz(result, hz))
+    rows = tuple((i, *map(float, row)) for i, row in enumerate(zip(*values, strict=True), 1))
+    return Table(columns, rows).without_empty_columns()
+
+
+def _sd_hz(result: Result, hz: np.ndarray) -> np.ndarray:
+    """Standard deviations (count,) of `hz` for the modes whose frequency was measured; NaN for others and without an answer."""
+    sd, index = np.full(len(hz), np.nan), eigenvalue_index(result)
+    known = (index != NOT_MEASURED) & (result.revised.modes < len(hz)) & result.status.answered
+    modes = result.revised.modes[known]
+    sd[modes] = sd_frequency_hz(hz[modes], result.revised.sd_predicted[index[known]])
+    return sd
+
+
+def _hz(eigenvalues: np.ndarray, rigid: int) -> np.ndarray:
+    """Natural frequencies of `eigenvalues`; zero for the `rigid` lowest."""
+    hz = frequency_hz(eigenvalues)
+    hz[:rigid] = 0.0
+    return hz
+
+
+def _modal_matrix(result: Result, count: int, options: Options) -> Iterator[Block]:
+    """Shapes of the lowest `count` modes, at every degree of freedom of a model that fits a few pages."""
+    n, labels = result.problem.structure.n, result.problem.structure.labels
+    dofs = np.arange(n)
+    if n > options.shape_dofs:
+        dofs = result.problem.test.dofs
+        yield Text(f"The model has {n} degrees of freedom; its shapes are shown at the measured positions.")
+    if not len(dofs):
+        return
+    yield Matrix(
+        "modal matrix of the revised model, unit modal mass",
+        _signed(result)[np.ix_(dofs, np.arange(count))],
+        tuple(labels[d] for d in dofs),
+        tuple(str(i + 1) for i in range(count)),
+        corner=("position", "mode"),
+    )
+
+
+def _signed(result: Result) -> np.ndarray:
+    """Shapes (n, k), a measured mode with the sign of its test, others with their largest component positive."""
+    shapes, revised = result.revised.shapes, result.revised
+    size = np.abs(shapes)
+    largest = np.argmax(size > (1 - 1e-6) * size.max(axis=0), axis=0)
+    sign = np.sign(shapes[largest, np.arange(shapes.shape[1])])
+    at_test = np.einsum("ij,ij->j", revised.model_shapes, result.problem.test.read(shapes[:, revised.modes]))
+    sign[revised.modes[at_test != 0]] = np.sign(at_test[at_test != 0])
+    return shapes * sign
+
+
+def comparison(result: Result, options: Options) -> Iterator[Block]:
+    """Test against revised model, in the layout of Table 5-5: eigenvalues, then eigenvectors, with the data beyond their limits."""
+    if result.problem.test.m:
+        yield _compared_eigenvalues(result)
+    if (shape_index(result) != NOT_MEASURED).any():
+        yield _eigenvectors(result)
+    count = int(result.exceeding.sum())
+    outside = f"{count} lie outside, marked *" if count else "none lies outside"
+    if count == 1:
+        outside = "1 lies outside and is marked *"
+    yield Text(
+        f"The interval is the half width of the {result.problem.run.confidence} per cent confidence interval of the test, "
+        f"{result.z:.3f} standard deviations. Of {counted(len(result.y), 'datum', 'data')} {outside}; "
+        f"the convergence test allows {result.allowed or 'none'}."
+    )
+
+
+_COLUMNS = (
+    Column("mode"),
+    Column("model mode"),
+    Column("revised eigenvalues", "rad2/s2"),
+    Column("test eigenvalues", "rad2/s2"),
+    Column("revised frequency", "Hz"),
+    Column("test frequency", "Hz"),
+    Column("test sd", "Hz"),
+    Column("interval", "Hz"),
+    Column("difference", "Hz"),
+    Column("prior MAC"),
+    Column("revised MAC"),
+    Column("*"),
+)
+
+
+def _compared_eigenvalues(result: Result) -> Table:
+    """One line a mode; the model's own number is shown where it differs from the test's."""
+    index = eigenvalue_index(result)
+    renumbered = bool((result.problem.test.number != result.revised.modes + 1).any())
+    rows = tuple(_mode(result, i, int(k), renumbered) for i, k in enumerate(index))
+    return Table(_COLUMNS, rows).without_empty_columns()
+
+
+def _mode(result: Result, i: int, k: int, renumbered: bool) -> tuple[Cell, ...]:
+    """Line of measured mode i, whose eigenvalue is datum k."""
+    test, mode, measured = result.problem.test, int(result.revised.modes[i]), k != NOT_MEASURED
+    revised = float(result.revised.eigenvalues[mode])
+    hz, test_hz, sd = frequency_hz(revised), test.frequency_hz[i], test.frequency_sd_hz[i]
+    frequency = (test_hz, sd, result.z * sd, test_hz - hz) if measured else (np.nan,) * 4
+    return (
+        int(test.number[i]),
+        mode + 1 if renumbered else None,
+        revised,
+        float(result.y[k]) if measured else None,
+        float(hz),
+        *map(float, frequency),
+        float(result.prior.mac[i]),
+        float(result.revised.mac[i]),
+        "*" if measured and result.exceeding[k] else None,
+    )
+
+
+def _eigenvectors(result: Result) -> Table:
+    """Mode by mode, position by position; test vectors at the scale of the theory."""
+    columns = (
+        Column("position"),
+        Column("mode"),
+        Column("revised eigenvectors"),
+        Column("test eigenvectors"),
+        Column("interval"),
+        Column("difference"),
+        Column("*"),
+    )
+    places, numbers = positions(result), result.problem.test.number
+    model, test, interval = result.revised.model_shapes, result.test_shapes, result.z * result.test_shape_sd
+    rows = tuple(
+        (
+            places[s],
+            int(numbers[i]),
+            float(model[s, i]),
+            float(test[s, i]),
+            float(interval[s, i]),
+            float(test[s, i] - model[s, i]),
+            "*" if result.exceeding[k] else None,
+        )
+        for i, column in enumerate(shape_index(result).T)
+        for s, k in enumerate(column)
+        if k != NOT_MEASURED
+    )
+    return Table(columns, rows, keys=2).without_empty_columns()
+
+
+SECTIONS = (
+    Section("cycles", 50, "Cycles", cycles, place=APPENDIX),
+    Section("modes", 80, "Eigenvalues and eigenvectors", modes, place=APPENDIX),
+    Section("comparison", 90, "Comparison of eigenvalues and eigenvectors", comparison, place=APPENDIX),
+)

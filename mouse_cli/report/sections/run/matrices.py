@@ -1,4 +1,4 @@
-"""Stiffness and mass matrix after revision: in full while they fit the page, else the elements that were revised."""
+"""Stiffness and mass before and after, and the partial derivatives."""
 
 from collections.abc import Iterator
 
@@ -8,13 +8,47 @@ from mouse_cli.model.arrays import dense, is_sparse, upper_triangle
 from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block, Column, Heading, Matrix, Table, Text
 from mouse_cli.report.section import APPENDIX, Options, Section
-from mouse_cli.report.sections._wording import LEFT, counted
+from mouse_cli.report.sections._wording import LEFT, counted, names
+
+
+def matrices_before(result: Result, options: Options) -> Iterator[Block]:
+    """K, M, S and [A] (elements by properties) of a small model of matrices; elements of a structure have no [A]."""
+    problem = result.problem
+    if problem.terms or problem.structure.n > options.matrix_dofs or len(problem.parameters) > options.properties:
+        return
+    dofs, properties = problem.structure.labels, names(problem)
+    yield Matrix("stiffness matrix before optimization", dense(result.prior.K), dofs, dofs)
+    yield Matrix("mass matrix before optimization", dense(result.prior.M), dofs, dofs)
+    cov = problem.prior.cov
+    if cov.ndim == 1 or not (cov - np.diag(np.diag(cov))).any():  # what is correlated stands above
+        yield Matrix(
+            "covariance S of the properties before optimization", problem.prior.dense(), properties, properties
+        )
+    yield Matrix("[A], elements by properties", dense(problem.A), problem.elements.labels(), properties)
+
+
+def partials(result: Result, options: Options) -> Iterator[Block]:
+    """B by the listed elements, T = B A by the properties; the data are named x(mode,component)."""
+    if result.B is None or result.T is None:
+        return
+    yield Text(
+        "lambda i is the eigenvalue of mode i in (rad/s) squared, x(i,u) is component u of mode i. An element off the diagonal "
+        "moves together with its mirror image."
+    )
+    data = result.labels
+    elements = result.problem.elements.labels()
+    if len(elements):
+        yield Matrix("B: by the listed elements", result.B, data, elements, corner=("datum", "element"))
+    yield Matrix("T: by the properties", result.T, data, names(result.problem), corner=("datum", "property"))
+    if any(p.transform == "log" for p in result.problem.parameters):
+        yield Text("Of a property with the transform log, T is the derivative by its natural logarithm.")
+
 
 _MOST_ENTRIES = 20  # of a matrix that elements of a structure make, which are seldom read one by one
 
 
 def matrices(result: Result, options: Options) -> Iterator[Block]:
-    """K, then M."""
+    """Stiffness and mass matrix after revision: in full while they fit the page, else the elements that were revised."""
     for name, mass, before, after in (
         ("stiffness matrix", False, result.prior.K, result.revised.K),
         ("mass matrix", True, result.prior.M, result.revised.M),
@@ -82,4 +116,8 @@ def _elements(result: Result, name: str, moved: np.ndarray, before, after, most:
     yield Table(columns, rows)
 
 
-SECTION = Section("matrices", 70, "Stiffness and mass matrices after optimization", matrices, place=APPENDIX)
+SECTIONS = (
+    Section("matrices-before", 35, "Stiffness and mass matrices before optimization", matrices_before, place=APPENDIX),
+    Section("partials", 60, "Partial derivatives at the revised model", partials, place=APPENDIX),
+    Section("matrices", 70, "Stiffness and mass matrices after optimization", matrices, place=APPENDIX),
+)

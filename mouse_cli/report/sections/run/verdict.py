@@ -1,13 +1,14 @@
-"""Verdict: how the run ended, whether the form of the model holds, and what a careful reader should know."""
+"""How a run ended, whether the form of the model holds, and what to do next."""
 
+import os
 from collections.abc import Iterator
 
 from mouse_cli.estimators import estimator
 from mouse_cli.model.result import NO_ANSWER, Result
-from mouse_cli.report.blocks import Block, Text
-from mouse_cli.report.section import VERDICT, Options, Section
+from mouse_cli.report.blocks import Block, Lines, Text
+from mouse_cli.report.section import RESULT, VERDICT, Options, Section
 from mouse_cli.report.sections._diagnosis_wording import p_value
-from mouse_cli.report.sections._wording import test_table
+from mouse_cli.report.sections._wording import remarks, test_table
 
 _UNFINISHED = {
     "stalled": "more data lie outside their limits than chance allows",
@@ -105,4 +106,53 @@ def _conclusion(result: Result) -> str:
     return "The model explains the data."
 
 
-SECTION = Section("verdict", 120, "Verdict", verdict, place=VERDICT)
+def warnings(result: Result, options: Options) -> Iterator[Block]:
+    """What a careful reader of a run should know: warnings of the deck and of the update. One paragraph each."""
+    yield from remarks((*result.problem.warnings, *result.warnings), options)
+
+
+def commands(result: Result, options: Options) -> Iterator[Block]:
+    """One line a command, of a short report alone: the whole one is not read at the terminal."""
+    deck = result.problem.source.path
+    if not options.short or not os.path.isfile(deck):
+        return
+    pairs = [(command.format(deck), what) for command, what in _next(result)]
+    wide = max((len(command) for command, _ in pairs), default=0)
+    yield Lines(tuple(f"{command:<{wide}}  # {what}" for command, what in pairs))
+
+
+def _next(result: Result) -> Iterator[tuple[str, str]]:
+    """What helps with such an answer."""
+    if result.rejected:
+        yield "mouse diagnose {}", "what the model lacks, and where"
+    if result.status.exit_code:
+        yield "mouse correlate {}", "pairs of modes, sensors that look faulty"
+    if result.status.exit_code < NO_ANSWER:
+        yield "mouse run {} --json -o result.json", "for `mouse report` and `mouse plot`"
+
+
+def innovation(result: Result, options: Options) -> Iterator[Block]:
+    """Before the cycles: are the data consistent with the prediction of the prior model and its uncertainty?"""
+    test = result.innovation
+    yield test_table((test,))
+    if test.dof == 0:
+        yield Text("The data leave nothing to test.")
+    elif test.rejects:
+        yield Text(
+            f"The data are inconsistent with the prediction of the prior model ({p_value(test.p)}). The form of the model, prior "
+            "standard deviations or the accuracies of the test are wrong, or the differences are too large for first-order "
+            "partial derivatives."
+        )
+    else:
+        yield Text(
+            "The data are consistent with the prediction of the prior model, its uncertainty and the accuracies of the test "
+            f"({p_value(test.p)})."
+        )
+
+
+SECTIONS = (
+    Section("verdict", 120, "Verdict", verdict, place=VERDICT),
+    Section("warnings", 130, "Warnings", warnings, place=RESULT),
+    Section("next", 140, "Next", commands, place=RESULT),
+    Section("innovation", 40, "Test against prior model", innovation),
+)

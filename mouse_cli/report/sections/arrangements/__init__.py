@@ -1,1 +1,0 @@
-"""Sections that tell of an answer of several arrangements."""

@@ -1,1 +1,0 @@
-"""Sections that tell of methods side by side."""

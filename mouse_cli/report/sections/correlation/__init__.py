@@ -1,1 +1,0 @@
-"""Sections that tell of a comparison of test and model."""

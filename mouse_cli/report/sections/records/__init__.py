@@ -1,1 +1,0 @@
-"""Sections that tell of diagnoses and updates by recordings."""

@@ -1,1 +1,0 @@
-"""Sections that tell of an update by a method."""
