@@ -17,8 +17,7 @@ from mouse_cli.diagnosis.likelihoods.history.verdict import decided, far, ranked
 from mouse_cli.formats import read_deck
 from mouse_cli.model.diagnosis import Rest
 from mouse_cli.model.record_diagnosis import AS_IT_IS, WITH_CAUSE, RecordScore
-from mouse_cli.report.sections.records.answers import _proof
-from mouse_cli.report.sections.records.held_out import _row
+from mouse_cli.report.sections.records import _proof, _row
 from mouse_cli.report.verdict_sentences import remains
 from mouse_cli.terms.laws import registry
 from mouse_cli.updating.recordings.adequacy import missing, shift_p, shifted, unlikely
