@@ -31,7 +31,7 @@ class Linear:
 
     def point(self, x: np.ndarray):
         residual = self.y - self.T @ x
-        return SimpleNamespace(x=x, residual=residual, chi2=float(residual @ residual))
+        return SimpleNamespace(x=x, residual=residual, chi2=float(residual @ residual), nats=0.0, free=0.0)
 
     def jacobian(self, at) -> np.ndarray:
         return self.T

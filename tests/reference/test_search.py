@@ -96,7 +96,7 @@ class Curve:
 
     def point(self, x):
         residual = self.f(x[0] / self.per)
-        return SimpleNamespace(x=x, residual=residual, chi2=float(residual @ residual))
+        return SimpleNamespace(x=x, residual=residual, chi2=float(residual @ residual), nats=0.0, free=0.0)
 
     def jacobian(self, at):
         h = 1e-6

@@ -40,7 +40,7 @@ def regressed(model: Reduced, k: int, limits: tuple[float, float]) -> float:
     if at is None:
         return 1.0
     known = data.has_shape[k]
-    read, w = at.a[known] * at.seen[k, at.modes[known]], 1 / data.test.shape_sd[k, known]
+    read, w = at.a[known] * at.measured(at.seen)[k, known], 1 / data.test.shape_sd[k, known]
     gain = float(np.sum(w * w * read * data.test.shapes[k, known]) / max(np.sum((w * read) ** 2), 1e-300))
     return float(np.clip(gain, *limits))
 

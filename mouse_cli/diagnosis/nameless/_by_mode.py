@@ -21,7 +21,7 @@ class Lawful(Fielded):
     numbers: np.ndarray
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ByMode(Point):
     """A point of such a model: of each measured mode the model that it is a mode of, and which one."""
 
@@ -53,7 +53,7 @@ class OneLaw(Model):
         lam = np.array([eigenvalues[p] for eigenvalues, _, p in each])
         shapes = np.stack([X[:, p] for _, X, p in each], axis=1)
         residual, a = base.data.residual(lam, S @ shapes)
-        return ByMode(x, lam, shapes, S @ shapes, np.arange(len(lam)), residual, a, tuple(each))
+        return ByMode(x, lam, shapes, S @ shapes, np.arange(len(lam)), residual, a, each=tuple(each))
 
     def loosened(self, at: ByMode, share: float) -> None:
         """None: a value of its own in each mode makes up for its theory."""

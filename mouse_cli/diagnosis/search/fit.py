@@ -90,7 +90,7 @@ class Fit(End):
     @property
     def dof(self) -> int:
         """Degrees of freedom that the misfit has when the model is right."""
-        return self.model.base.data.dof - self.model.t
+        return self.model.base.data.dof - self.model.t - round(self.point.free)
 
     @property
     def root(self) -> np.ndarray:
@@ -119,7 +119,7 @@ def fit(
         return None
     T = model.jacobian(end.point)
     H = T.T @ T + np.diag(_prior(model))
-    return Fit(model, end.point, end.misfit, H, _evidence(end.misfit, H, model))
+    return Fit(model, end.point, end.misfit, H, _evidence(end.misfit, H, model) - end.point.nats)
 
 
 def descended(

@@ -10,12 +10,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe
-from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.validate.joint import beyond_linear
-from mouse_cli.diagnosis.validate.turning import Turned, Turning
 from mouse_cli.dynamics.correlation import mac
 from mouse_cli.dynamics.sensing import read
 from mouse_cli.model.diagnosis import BY_DECK, BY_MODE, HeldOut, Score
@@ -49,12 +47,11 @@ class Prediction:
 def predict(one: Fit, base: Reduced, fixed: tuple[Recipe, ...] = (), noise: float = 1.0) -> Prediction | None:
     """What the model of `one` says of the test of `base`; fixed: changes of the structure that are known.
 
-    Where it is not linear in what the fit leaves open, the density is that of `joint.py`; of close modes see `turning.py`. noise:
+    Where it is not linear in what the fit leaves open, the density is that of `joint.py`. noise:
     s^2, by which variances are larger than stated, of the test that was fitted and so of the unknowns too; the density is then
     that of the linear prediction.
     """
-    kind = type(one.model)
-    model = (Turning if kind is Model else kind)(base, (*one.recipes, *fixed))
+    model = type(one.model)(base, (*one.recipes, *fixed))
     at = model.point(one.point.x)
     if at is None:
         return None
@@ -62,7 +59,7 @@ def predict(one: Fit, base: Reduced, fixed: tuple[Recipe, ...] = (), noise: floa
     spread = T @ one.covariance @ T.T
     total = noise * (np.eye(len(spread)) + spread)
     misfit, size = float(at.residual @ np.linalg.solve(total, at.residual)), np.linalg.slogdet(total)[1]
-    density = -0.5 * (misfit + size) - (at.nats if isinstance(at, Turned) else 0.0)
+    density = -0.5 * (misfit + size) - at.nats
     if noise == 1.0 and (beyond := beyond_linear(one, model, at, T, misfit)):
         misfit, density = beyond
     frequencies = int(data.has_frequency.sum())
@@ -72,7 +69,7 @@ def predict(one: Fit, base: Reduced, fixed: tuple[Recipe, ...] = (), noise: floa
     sd_hz[data.has_frequency] = hz[data.has_frequency] * data.sd_log[data.has_frequency] * sd
     alike = np.full(data.m, np.nan)
     if data.s:
-        alike = mac(data.test.shapes, at.seen[:, at.modes]).diagonal()
+        alike = mac(data.test.shapes, at.measured(at.seen)).diagonal()
     return Prediction(
         data.test, hz, sd_hz, alike, float(density - data.log_sd), np.abs(off) < COVERED * sd, misfit, len(spread)
     )
@@ -86,12 +83,12 @@ def readings(one: Fit, test: ModalTest) -> Prediction | None:
     base, at = one.model.base, one.point
     sensing = np.asarray(read(test.measured_at, base.V))
     known, scale = np.isfinite(test.shapes), np.abs(np.nan_to_num(base.data.test.shapes)).max(axis=0)
-    told = lambda point: (point.a * (sensing @ point.X[: base.r, point.modes]))[known]
+    told = lambda point: (point.a * (sensing @ point.measured(point.X[: base.r])))[known]
     sd = np.hypot(test.shape_sd, base.problem.theory.shape * scale)[known]
     J = _sensitivity(one, told)
     if J is None or not known.any():
         return None
-    own = base.data.scale_sd(at.seen[:, at.modes]) / np.where(at.a == 0, 1.0, at.a)
+    own = base.data.scale_sd(at.measured(at.seen)) / np.where(at.a == 0, 1.0, at.a)
     of_mode = np.nonzero(known)[1][:, None] == np.arange(test.m)
     J = np.hstack([J @ one.root, of_mode * (told(at)[:, None] * own)]) / sd[:, None]
     off = (test.shapes[known] - told(at)) / sd
@@ -99,7 +96,7 @@ def readings(one: Fit, test: ModalTest) -> Prediction | None:
     misfit = float(off @ np.linalg.solve(total, off))
     density = -0.5 * (misfit + np.linalg.slogdet(2 * np.pi * total)[1]) - np.log(sd).sum()
     unmeasured = np.full(test.m, np.nan)
-    alike = mac(test.shapes, sensing @ at.X[: base.r, at.modes]).diagonal() if len(sensing) > 1 else unmeasured
+    alike = mac(test.shapes, sensing @ at.measured(at.X[: base.r])).diagonal() if len(sensing) > 1 else unmeasured
     left = off * sd / scale[np.nonzero(known)[1]]
     blind = replace(test, frequency_hz=unmeasured)
     none = np.zeros(0, bool)

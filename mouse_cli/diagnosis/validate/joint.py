@@ -13,7 +13,6 @@ from mouse_cli.diagnosis.evidence import capped
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.search.fit import End, Fit, descended
-from mouse_cli.diagnosis.validate.turning import Turned
 from mouse_cli.updating.chi_square import upper_tail
 
 _SAMPLE, _BEGUN = 64, 4  # points of the posterior at which new data are predicted; of these, where descents begin
@@ -75,8 +74,7 @@ def beyond_linear(one: Fit, held: Model, at: Point, T: np.ndarray, misfit: float
     if best is None:
         return None
     more, there = best.misfit - one.misfit, best.point.each[1]
-    turned = there.nats if isinstance(there, Turned) else 0.0
-    return more, -0.5 * (more + _size(both, best) - np.linalg.slogdet(capped(one.hessian, both.width))[1]) - turned
+    return more, -0.5 * (more + _size(both, best) - np.linalg.slogdet(capped(one.hessian, both.width))[1]) - there.nats
 
 
 def _starts(one: Fit, held: Model, root: np.ndarray) -> list[np.ndarray]:

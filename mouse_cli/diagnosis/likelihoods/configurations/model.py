@@ -17,8 +17,9 @@ import numpy as np
 from mouse_cli.diagnosis.effects.change import Change, Recipe
 from mouse_cli.diagnosis.likelihoods.modal.lowest import lowest
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
-from mouse_cli.diagnosis.likelihoods.modal.point import Point
+from mouse_cli.diagnosis.likelihoods.modal.point import Left, Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.likelihoods.modal.turning import Turn
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.further import with_parameters
@@ -185,7 +186,7 @@ def _absent(recipe: SharedRecipe) -> Recipe:
 
 
 @dataclass(frozen=True)
-class Points:
+class Points(Left):
     """All arrangements at x: the point of each, and the residual of all, whitened."""
 
     x: np.ndarray
@@ -193,9 +194,9 @@ class Points:
     residual: np.ndarray
 
     @property
-    def chi2(self) -> float:
-        """What is left of the data's misfit."""
-        return float(self.residual @ self.residual)
+    def turns(self) -> tuple[Turn, ...]:
+        """Those of each."""
+        return tuple(turn for at in self.points for turn in at.turns)
 
 
 class Together:

@@ -20,15 +20,16 @@ from mouse_cli.diagnosis.likelihoods.frf.gains import gains
 from mouse_cli.diagnosis.likelihoods.frf.losses import Losses
 from mouse_cli.diagnosis.likelihoods.modal.growing import growing
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
-from mouse_cli.diagnosis.likelihoods.modal.point import Point
+from mouse_cli.diagnosis.likelihoods.modal.point import Left, Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.likelihoods.modal.turning import Turn
 from mouse_cli.dynamics.sensing import read
 
 _STEP = 1e-5  # of a range, for derivatives of losses
 
 
 @dataclass(frozen=True)
-class FrfPoint:
+class FrfPoint(Left):
     """The model at x: eigenvalues (size,), modes X (size, size), residual (2 q + m,), each block of functions, measured modes."""
 
     x: np.ndarray
@@ -39,9 +40,9 @@ class FrfPoint:
     modal: Point | None = None
 
     @property
-    def chi2(self) -> float:
-        """What is left of the data's misfit."""
-        return float(self.residual @ self.residual)
+    def turns(self) -> tuple[Turn, ...]:
+        """Those of the measured modes."""
+        return self.modal.turns if self.modal else ()
 
 
 @dataclass(frozen=True)

@@ -125,13 +125,13 @@ def scatter(one: Fit) -> tuple[float, float]:
 
 def _gains(one: Fit) -> np.ndarray:
     """Every sensor reads a multiple of what it should."""
-    return _of_sensors(one, one.point.seen[:, one.point.modes])
+    return _of_sensors(one, one.point.measured(one.point.seen))
 
 
 def _places(one: Fit) -> np.ndarray:
     """Every sensor stands a share of the length of its row of bars away from where the deck has it."""
     base, at = one.model.base, one.point
-    return _of_sensors(one, sliding(base) @ at.X[: base.r, at.modes])
+    return _of_sensors(one, sliding(base) @ at.measured(at.X[: base.r]))
 
 
 def _of_sensors(one: Fit, moved: np.ndarray) -> np.ndarray:
@@ -141,7 +141,8 @@ def _of_sensors(one: Fit, moved: np.ndarray) -> np.ndarray:
     apart[each, :, each] = moved
     apart[data.has_shape.sum(axis=1) < 2] = 0.0
     still = np.zeros((len(at.modes), len(each)))
-    return data.jacobian(at.eigenvalues[at.modes], at.seen[:, at.modes], at.a, still, apart)
+    found = data.jacobian(at.eigenvalues[at.modes], at.measured(at.seen), at.a, still, apart)
+    return found if at.turn is None else at.turn.whitened(found)
 
 
 def _drift(one: Fit) -> np.ndarray:

@@ -11,6 +11,7 @@ from mouse_cli.diagnosis.likelihoods.modal.growing import growing, grown
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.softened import Softened
+from mouse_cli.diagnosis.likelihoods.modal.turning import turned
 
 _STEP = 1e-5  # of a range, for derivatives of matrices
 
@@ -146,8 +147,10 @@ class Model(Softened):
         modes = self.base.data.pair(eigenvalues, seen)
         if modes.max() >= len(eigenvalues) or eigenvalues[modes].min() <= 0:
             return None
-        residual, a = self.base.data.residual(eigenvalues[modes], seen[:, modes])
-        return Point(x, eigenvalues, X, seen, modes, residual, a)
+        turn = turned(self.base.data, eigenvalues, seen, modes)
+        shapes = seen[:, modes] if turn is None else seen[:, turn.which] @ turn.mixed
+        residual, a = self.base.data.residual(eigenvalues[modes], shapes)
+        return Point(x, eigenvalues, X, seen, modes, residual if turn is None else turn.left(residual), a, turn)
 
     def jacobian(self, at: Point) -> np.ndarray:
         """d(prediction)/dx (q, k + t), whitened; that of the last point is kept."""
@@ -156,7 +159,7 @@ class Model(Softened):
         return self._slopes[1]
 
     def _jacobian(self, at: Point) -> np.ndarray:
-        X, m = at.X, at.modes
+        X, m = at.X, at.which
         forces, inertia, sensed = (
             np.concatenate(pair) for pair in zip(self._by_deck(at), self._by_causes(at), strict=True)
         )
@@ -165,11 +168,11 @@ class Model(Softened):
         apart[np.abs(apart) < 1e-9 * np.abs(at.eigenvalues[m])[:, None]] = np.inf
         d_lambda = G[:, np.arange(len(m)), m]
         d_seen = np.swapaxes((G / apart) @ at.seen.T, 1, 2) - 0.5 * inertia[:, None] * at.seen[:, m] + sensed
-        return self.base.data.jacobian(at.eigenvalues[m], at.seen[:, m], at.a, d_lambda.T, np.moveaxis(d_seen, 0, -1))
+        return at.jacobian(self.base.data, d_lambda.T, np.moveaxis(d_seen, 0, -1))
 
     def _by_deck(self, at: Point) -> Pushed:
-        """What the deck's parameters do to the measured modes."""
-        r, X, m = self.base.r, at.X, at.modes
+        """What the deck's parameters do to the modes `which` of a point."""
+        r, X, m = self.base.r, at.X, at.which
         stiff, moved = self.base.moved(at.x[: self.k], X[:r, m])
         forces, inertia = np.zeros((self.k, self.size, len(m))), np.einsum("prm,rm->pm", moved, X[:r, m])
         forces[:, :r] = stiff - moved * at.eigenvalues[m]
@@ -201,7 +204,7 @@ class Model(Softened):
 
     def _by_causes(self, at: Point) -> Pushed:
         """What the coordinates of the causes do to them: matrices meet the shapes one by one, and are never summed."""
-        X, eigenvalues = at.X[:, at.modes], at.eigenvalues[at.modes]
+        X, eigenvalues = at.X[:, at.which], at.eigenvalues[at.which]
         forces, inertia = np.zeros((self.t, *X.shape)), np.zeros((self.t, X.shape[1]))
         sensed = np.zeros((self.t, len(at.seen), X.shape[1]))
         for j, (i, parts, softer) in enumerate(self.stencils(at.x)):
@@ -217,12 +220,12 @@ class Model(Softened):
         return forces, inertia, sensed
 
     def _following(self, at: Point) -> np.ndarray | float:
-        """Forces (k, size, m) on the measured modes by what softens bars, as it follows their stiffness."""
+        """Forces (k, size, m) on the same modes by what softens bars, as it follows their stiffness."""
         bars, core = self.softer(self.changes(at.x[self.k :]))
         if not len(bars):
             return 0.0
         rows = self.strain[bars]
-        loads = (core * self.follow(bars, at.x[: self.k])) @ (rows @ at.X[:, at.modes])
+        loads = (core * self.follow(bars, at.x[: self.k])) @ (rows @ at.X[:, at.which])
         b, follows = len(bars), self.base.stiffening[bars].T
         loads = follows[:, :, None, None] * loads  # (k, b, 3, m)
         return rows.reshape(3 * b, -1).T @ loads.reshape(len(follows), 3 * b, loads.shape[-1])
@@ -238,8 +241,7 @@ class Model(Softened):
             return None
         data = self.base.data
         off = share * 0.5 * np.log(at.eigenvalues[at.modes] / bare.eigenvalues[bare.modes])
-        _, a = data.residual(bare.eigenvalues[bare.modes], bare.seen[:, bare.modes])
-        moved = share * (at.a * at.seen[:, at.modes] - a * bare.seen[:, bare.modes])
+        moved = share * (at.a * at.measured(at.seen) - bare.a * bare.measured(bare.seen))
         return Model(self.base.judged_by(data.loosened(off, moved)), self.recipes)
 
     def derivatives(self, x: np.ndarray) -> Iterator[tuple[int, Change, np.ndarray | float]]:

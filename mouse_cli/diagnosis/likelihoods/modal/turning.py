@@ -1,0 +1,108 @@
+"""Modes so close that errors of theory turn them into one another: their shapes are predicted but for these angles.
+
+An error E of K - lambda M, in coordinates of the modes, turns mode i by E_ij / (lambda_i - lambda_j) towards mode j.
+Where ln f of a mode has an error of sd tau, E_ii has 2 tau lambda_i; in a random symmetric matrix without a preferred direction an
+element beside the diagonal has half the variance of one on it (Mehta, Random Matrices, 2.5), so that the angle has
+
+    sd = sqrt(2) tau lambda / |lambda_i - lambda_j|,
+
+and is even over the circle where both are one: of a double mode only the plane is known. Each pair has one angle, for shapes stay
+orthogonal. The angles t of all close pairs, shapes turned by R = (I - T/2)^-1 (I + T/2), T skew with t (Cayley), are fitted at each
+prediction, |r|^2 + t'P t -> min with P = 1 / sd^2, and integrated. With J = dr/dt there, |(I + J P^-1 J')^-1/2 (r + J t)|^2 is
+left, and the density is lower by 1/2 ln |I + J (P + c)^-1 J'|: sqrt(c / 2 pi) = 1 / pi is that of an angle that may be any.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mouse_cli.diagnosis.likelihoods.modal.data import Data
+
+_COVERED = 0.02  # angle up to which `theory.shape` allows for it, and what a test states
+_EVEN = 2 / np.pi  # c, see above
+_LEAST = 1e-9  # 1 / sd^2 of an angle that is free
+_MOST, _FAR, _SMALL = 20, 0.5, 1e-9  # steps to the best angles, the longest of them, and what the last promises
+
+
+@dataclass(frozen=True)
+class Turn:
+    """Angles by which close modes are turned. which (m + u,): the measured modes, then others that are close to one.
+
+    mixed (m + u, m): the measured shapes of these. axes (q, c), sizes (c,): the whitened data's uncertainty by the angles.
+    nats: by what the density is lower for it; free: number of angles of which nothing was known.
+    """
+
+    which: np.ndarray
+    mixed: np.ndarray
+    angles: np.ndarray
+    slopes: np.ndarray = field(repr=False)
+    axes: np.ndarray = field(repr=False)
+    sizes: np.ndarray = field(repr=False)
+    nats: float
+    free: float
+
+    def whitened(self, values: np.ndarray) -> np.ndarray:
+        """(I + J P^-1 J')^-1/2 times values (q, ...)."""
+        less = 1 - 1 / np.sqrt(1 + self.sizes**2)
+        return values - (self.axes * less) @ (self.axes.T @ values)
+
+    def left(self, residual: np.ndarray) -> np.ndarray:
+        """What is left of the residual (q,) of the shapes as they are turned, for the angles with their prior."""
+        return self.whitened(residual + self.slopes @ self.angles)
+
+
+def turned(data: Data, eigenvalues: np.ndarray, seen: np.ndarray, modes: np.ndarray) -> Turn | None:
+    """How the measured ones of the modes with eigenvalues (k,) and shapes `seen` (s, k) turn; None: no two are so close."""
+    if not data.s:
+        return None
+    which, pairs, sd = _close(data, eigenvalues, modes)
+    if not len(pairs):
+        return None
+    P = np.maximum(1 / (sd**2 - _COVERED**2), _LEAST)
+    t, mixed, J = _angles(data, eigenvalues[modes], seen[:, which], pairs, P)
+    axes, sizes, _ = np.linalg.svd(J / np.sqrt(P), full_matrices=False)
+    known = J / np.sqrt(P + _EVEN)
+    nats = 0.5 * np.linalg.slogdet(np.eye(len(P)) + known.T @ known)[1]
+    free = float((_EVEN / (P + _EVEN))[J.any(axis=0)].sum())
+    return Turn(which, mixed, t, J, axes, sizes, float(nats), free)
+
+
+def _close(
+    data: Data, eigenvalues: np.ndarray, modes: np.ndarray
+) -> tuple[np.ndarray, list[tuple[int, int]], np.ndarray]:
+    """See `Turn`: `which`, pairs (i, j) of numbers in it, i of a measured mode, and the sd of the angle of each."""
+    m, own = len(modes), eigenvalues[modes]
+    apart = np.abs(own[:, None] - eigenvalues)
+    apart[np.arange(m), modes] = np.inf
+    error = np.full((m, len(eigenvalues)), data.theory[:, None] * own[:, None])
+    error[:, modes] = np.sqrt(0.5 * (error[:, modes] ** 2 + error[:, modes].T ** 2))
+    sd = np.sqrt(2) * error / np.maximum(apart, np.sqrt(_LEAST) * error)
+    near = np.argwhere(sd > _COVERED)
+    place = {int(mode): i for i, mode in enumerate(modes)}
+    near = [(i, j) for i, j in near.tolist() if place.get(j, m) > i]
+    for _, j in near:
+        place.setdefault(j, len(place))
+    return np.array(list(place), int), [(i, place[j]) for i, j in near], np.array([sd[each] for each in near])
+
+
+def _angles(
+    data: Data, own: np.ndarray, seen: np.ndarray, pairs: list[tuple[int, int]], P: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The best angles t (c,) of `pairs`, what measured shapes are of `seen` (s, m + u) there, and J (q, c)."""
+    m, still = data.m, np.zeros((data.m, len(pairs)))
+    unit = np.zeros((len(pairs), seen.shape[1], seen.shape[1]))
+    for c, (i, j) in enumerate(pairs):
+        unit[c, j, i], unit[c, i, j] = 1.0, -1.0
+    one, t = np.eye(seen.shape[1]), np.zeros(len(pairs))
+    for step_number in range(_MOST):
+        T = np.tensordot(t, unit, 1)
+        inverse = np.linalg.inv(one - T / 2)
+        R = inverse @ (one + T / 2)
+        residual, a = data.residual(own, seen @ R[:, :m])
+        moved = np.moveaxis(seen @ (inverse @ (unit / 2) @ (one + R)[:, :m]), 0, -1)
+        J = data.jacobian(own, seen @ R[:, :m], a, still, moved)
+        slope = J.T @ residual - P * t
+        step = np.linalg.solve(J.T @ J + np.diag(P), slope)
+        if step_number == _MOST - 1 or slope @ step < _SMALL:
+            return t, R[:, :m], J
+        t = t + step * min(1.0, _FAR / np.abs(step).max())
