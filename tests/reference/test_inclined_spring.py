@@ -67,6 +67,7 @@ def test_a_guy_is_named_with_its_node_its_stiffness_and_its_direction():
     choices = Choices(("ground-spring", "inclined-spring", "mass"), causes=2)
     found = diagnose(assemble(yaml_deck.read(deck(), "beam.yaml")), choices=choices)
     assert (found.kind, found.best.physics) == (NAMED, "inclined-spring")
+    assert not found.best.elsewhere  # a direction and its opposite are one spring
     (cause,) = found.best.causes
     k, angle = cause.sizes[:2]
     assert cause.site.position[0] == pytest.approx((NODE - 1) * L / N, abs=0.02 * L)

@@ -23,12 +23,13 @@ LOST = "share lost"
 _LOST, _GAINED = Unknown(LOST, "1", 0.02, 0.95), Unknown("share gained", "1", 0.02, 3.0)
 
 
-def of_elements(model: Reduced, candidate: Candidate, sign: int = -1) -> list[Recipe]:
-    """K - d K_e of each rod, spring, storey and joint, or K + d K_e by `sign`."""
+def of_elements(model: Reduced, candidate: Candidate, sign: int = -1, directed: bool = False) -> list[Recipe]:
+    """K - d K_e of each rod, spring, storey and joint, or K + d K_e by `sign`; directed: of each of its directions alone too."""
     mesh = model.problem.mesh
-    parts = [] if mesh is None else [_stiffness(model, s) for s in range(len(mesh.elements))]
-    found = [(s, i, K) for s, blocks in enumerate(parts) for i, K in blocks]
-    return [_element(model, candidate, s, i, sign * K, len(found), sign) for s, i, K in _strained(model, found)]
+    parts = [] if mesh is None else [_stiffness(model, s, directed) for s in range(len(mesh.elements))]
+    found = [(s, *block) for s, blocks in enumerate(parts) for block in blocks]
+    count = len({each[:2] for each in found})
+    return [_element(model, candidate, each, count, sign) for each in _strained(model, found)]
 
 
 def _strained(model: Reduced, found: list) -> list:
@@ -39,17 +40,25 @@ def _strained(model: Reduced, found: list) -> list:
     return [found[i] for i in sorted(np.argsort(-energy)[:_MOST]) if energy[i] > 1e-6]
 
 
-def _stiffness(model: Reduced, s: int) -> list[tuple[int, np.ndarray]]:
-    """Members of set s and their K_e (r, r)."""
+def _stiffness(model: Reduced, s: int, directed: bool) -> list[tuple[int, str, float, np.ndarray]]:
+    """Members of set s, "" or a direction, its share of what is thought of, and K_e (r, r): whole, or of that direction."""
     mesh, keep = model.problem.mesh, wanted(model)
     elements = mesh.elements[s]
     if elements.type not in _STIFF:
         return []
-    matrices = matrices_of(model, s)["K"]
+    whole = matrices_of(model, s)["K"]
     rows = {int(n): _node(model, int(n)) for n in np.unique(elements.nodes)}
     chosen = [i for i in range(len(elements)) if keep is None or keep[elements.nodes[i]].any()]
-    moved = ((i, np.concatenate([rows[int(n)] for n in elements.nodes[i]])) for i in chosen)
-    return [(i, u.T @ matrices[i] @ u) for i, u in moved]
+    named = [name for name in _STIFF[elements.type] if directed and name in elements.properties]
+    alone = {name: whole - matrices_of(model, s, **{name: 0.0})["K"] for name in named}
+    found = []
+    for i in chosen:
+        u = np.concatenate([rows[int(n)] for n in elements.nodes[i]])
+        own = [name for name in alone if alone[name][i].any()]
+        parts = [("", whole[i], 0.5 if len(own) > 1 else 1.0)]
+        parts += [(name, alone[name][i], 0.5 / len(own)) for name in own if len(own) > 1]
+        found += [(i, name, share, u.T @ K @ u) for name, K, share in parts]
+    return found
 
 
 def matrices_of(model: Reduced, s: int, **instead: float) -> Matrices:
@@ -76,26 +85,29 @@ def _node(model: Reduced, n: int) -> np.ndarray:
     return np.vstack([model.V[n : n + 1], np.zeros((5, model.r))])
 
 
-def _element(model: Reduced, candidate: Candidate, s: int, i: int, K: np.ndarray, count: int, sign: int) -> Recipe:
+def _element(model: Reduced, candidate: Candidate, part: tuple, count: int, sign: int) -> Recipe:
+    """part: number of a set, and what `_stiffness` says of one of its members."""
+    s, i, direction, share, K = part
     mesh = model.problem.mesh
     elements, number = mesh.elements[s], int(mesh.elements[s].ids[i])
     at = mesh.coordinates[elements.nodes[i]].mean(axis=0)
-    text = f"{elements.type} {number}"
+    text = f"{elements.type} {number}" + (f", {direction}" if direction else "")
     site = Site("element", (number,), tuple(at.tolist()), text)
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         edit = Edit(problem)
         element = edit.element(number)
         own = edit.sets[element[0]].properties
-        stiff = tuple(name for name in _STIFF[elements.type] if name in own and own[name][element[1]])
+        may = (direction,) if direction else _STIFF[elements.type]
+        stiff = tuple(name for name in may if name in own and own[name][element[1]])
         name = f"stiffness left of {text}" if sign < 0 else f"stiffness of {text}, strengthened"
         edit.bind(name, [element], stiff, factor=1 + sign * values[0])
         return edit.done()
 
-    return _recipe(candidate, K, site, count, extend, sign)
+    return _recipe(candidate, sign * K, site, count / share, extend, sign)
 
 
-def _recipe(candidate: Candidate, K: np.ndarray, site: Site, count: int, extend, sign: int) -> Recipe:
+def _recipe(candidate: Candidate, K: np.ndarray, site: Site, count: float, extend, sign: int) -> Recipe:
     """K: what is added for a share of 1."""
     share = _LOST if sign < 0 else _GAINED
     return Recipe(

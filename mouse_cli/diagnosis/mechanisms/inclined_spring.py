@@ -17,7 +17,9 @@ from mouse_cli.model.problem import Problem
 
 _MOVES = 0.02  # share of the largest motion in a measured mode below which a direction at a place takes no part
 _SIZES = 3  # stiffnesses to begin from
-_AZIMUTH = Unknown("azimuth", "rad", -0.5 * np.pi, 1.5 * np.pi, log=False)
+_AZIMUTH = Unknown(
+    "azimuth", "rad", -0.5 * np.pi, 0.5 * np.pi, log=False
+)  # half of the directions: a spring has two ends
 _ELEVATION = Unknown("elevation", "rad", -0.5 * np.pi, 0.5 * np.pi, log=False)
 
 
@@ -48,7 +50,7 @@ def along(values: np.ndarray, axes: tuple[int, ...], count: int = 3) -> np.ndarr
 
 def _starts(axes: tuple[int, ...]) -> np.ndarray:
     """Angles (g, 1 or 2) of directions half-way between all axes, one of each and its opposite."""
-    n = np.array([(x, 1.0, *rest) for x in (-1, 1) for rest in product((-1, 1), repeat=len(axes) - 2)])
+    n = np.array([(1.0, *rest) for rest in product((-1, 1), repeat=len(axes) - 1)])
     azimuth = np.arctan2(n[:, 1], n[:, 0])
     if len(axes) < 3:
         return azimuth[:, None]

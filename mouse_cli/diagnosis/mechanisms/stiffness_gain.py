@@ -18,7 +18,7 @@ _SAME = 0.999  # cosine between the changes of stiffness by a part and by a para
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """EI (1 + d) over a stretch of a line; K_e (1 + d) of an element or a member; K + d k b b' of a spring of matrices."""
-    others = of_elements(model, candidate, 1) + of_springs(model, candidate, 1)
+    others = of_elements(model, candidate, 1, directed=True) + of_springs(model, candidate, 1)
     kinds = [each for each in (of_lines(model, candidate, True), others, of_members(model, candidate, 1)) if each]
     share = float(np.log(_SELDOM / max(len(kinds), 1)))
     found = [each for kind in kinds for each in kind]

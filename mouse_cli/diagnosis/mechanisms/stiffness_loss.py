@@ -13,7 +13,10 @@ from mouse_cli.diagnosis.sites.stretches import of_lines
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """F (1 + d) over a stretch of a line; K_e (1 - d) of an element; K - k b b' of a spring between degrees of freedom."""
-    lines, others = of_lines(model, candidate), of_elements(model, candidate) + of_springs(model, candidate)
+    lines, others = (
+        of_lines(model, candidate),
+        of_elements(model, candidate, directed=True) + of_springs(model, candidate),
+    )
     if not lines or not others:
         return lines + others
     return [replace(recipe, log_prior=recipe.log_prior - float(np.log(2))) for recipe in lines + others]
