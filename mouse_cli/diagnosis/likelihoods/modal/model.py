@@ -11,7 +11,7 @@ from mouse_cli.diagnosis.likelihoods.modal.growing import growing, grown
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.softened import Softened
-from mouse_cli.diagnosis.likelihoods.modal.turning import turned
+from mouse_cli.diagnosis.likelihoods.modal.turning import measured, turned
 
 _STEP = 1e-5  # of a range, for derivatives of matrices
 
@@ -148,8 +148,7 @@ class Model(Softened):
         if modes.max() >= len(eigenvalues) or eigenvalues[modes].min() <= 0:
             return None
         turn = turned(self.base.data, eigenvalues, seen, modes)
-        shapes = seen[:, modes] if turn is None else seen[:, turn.which] @ turn.mixed
-        residual, a = self.base.data.residual(eigenvalues[modes], shapes)
+        residual, a = self.base.data.residual(eigenvalues[modes], measured(seen, modes, turn))
         return Point(x, eigenvalues, X, seen, modes, residual if turn is None else turn.left(residual), a, turn)
 
     def jacobian(self, at: Point) -> np.ndarray:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli.diagnosis.likelihoods.modal.data import Data
-from mouse_cli.diagnosis.likelihoods.modal.turning import Turn
+from mouse_cli.diagnosis.likelihoods.modal.turning import Turn, measured
 
 
 class Left:
@@ -58,7 +58,7 @@ class Point(Left):
 
     def measured(self, shapes: np.ndarray) -> np.ndarray:
         """The measured ones (., m) of the shapes (., size) of all modes, close ones turned as they are in the test."""
-        return shapes[:, self.modes] if self.turn is None else shapes[:, self.turn.which] @ self.turn.mixed
+        return measured(shapes, self.modes, self.turn)
 
     def jacobian(self, data: Data, d_eigenvalues: np.ndarray, d_seen: np.ndarray) -> np.ndarray:
         """d(prediction)/dx (q, k), whitened, for derivatives (m + u, k) and (s, m + u, k) of the modes `which`."""

@@ -51,6 +51,11 @@ class Turn:
         return self.whitened(residual + self.slopes @ self.angles)
 
 
+def measured(shapes: np.ndarray, modes: np.ndarray, turn: Turn | None) -> np.ndarray:
+    """The measured ones (., m) of the shapes (., k) of all modes, close ones turned as they are in the test."""
+    return shapes[:, modes] if turn is None else shapes[:, turn.which] @ turn.mixed
+
+
 def turned(data: Data, eigenvalues: np.ndarray, seen: np.ndarray, modes: np.ndarray) -> Turn | None:
     """How the measured ones of the modes with eigenvalues (k,) and shapes `seen` (s, k) turn; None: no two are so close."""
     if not data.s:
