@@ -1,4 +1,4 @@
-"""A section of the page: one file of `sections`, found by itself, that turns a document into markup."""
+"""A section of the page: a SECTION of a file of `sections`, or one of its SECTIONS, that turns a document into markup."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass

@@ -11,7 +11,7 @@ from two_masses import linear, record
 
 from mouse_cli.cli.main import cli
 from mouse_cli.page import Part, page
-from mouse_cli.plots.record_residual import lines
+from mouse_cli.plots.records import lines
 
 LAW = "laws:\n  - {law: cubic, variant: hardening, at: [1, 2], values: {cubic_stiffness: 1.2e8}}\n"
 
