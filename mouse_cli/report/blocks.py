@@ -1,6 +1,7 @@
 """What a report is made of, whatever it will look like: headings, texts, tables, matrices and verbatim lines."""
 
 from dataclasses import dataclass, field, replace
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -40,6 +41,21 @@ class Column:
     align: str = "right"
     literal: bool = False
     digits: int = 0
+
+
+def heads(*columns: str | Column) -> tuple[Column, ...]:
+    """Columns by the row of their heads: units in brackets, `<` before what starts at the left, as words do.
+
+    >>> heads("<site | error [Hz]", Column("MAC", digits=4))[:2] == (Column("site", align="left"), Column("error", "Hz"))
+    True
+    """
+    each = ([one] if isinstance(one, Column) else map(_head, one.split(" | ")) for one in columns)
+    return tuple(chain.from_iterable(each))
+
+
+def _head(text: str) -> Column:
+    name, _, unit = text.removeprefix("<").removesuffix("]").partition(" [")
+    return Column(name, unit, "left" if text.startswith("<") else "right")
 
 
 @dataclass(frozen=True)

@@ -5,10 +5,10 @@ from math import inf
 
 from mouse_cli.model.diagnosis import LAW, Field, Untried
 from mouse_cli.model.units import Units
-from mouse_cli.report.blocks import Block, Column, Table, Text
+from mouse_cli.report.blocks import Block, Column, Table, Text, heads
 from mouse_cli.report.field_words import UNITS, factor, one_spring, telling
 from mouse_cli.report.sections._diagnosis_wording import place
-from mouse_cli.report.sections._wording import LEFT, counted
+from mouse_cli.report.sections._wording import counted
 
 _MOST = 40  # rows
 _NAMES = {
@@ -42,7 +42,7 @@ def field_blocks(field: Field | None, units: Units) -> Iterator[Block]:
 def field_table(field: Field) -> Table:
     """Values that differ from none by more than two sd, in their order along the structure."""
     unit, by = UNITS[field.property], factor(field)
-    columns = (Column("site", align=LEFT), Column(_NAMES[field.property], unit), Column("sd", unit))
+    columns = heads("<site", Column(_NAMES[field.property], unit), f"sd [{unit}]")
     rows = [(place(each.site), f"{by * each.value:.3g}", f"{by * each.sd:.2g}") for each in _shown(field)]
     return Table(columns, tuple(rows))
 

@@ -6,8 +6,8 @@ import numpy as np
 
 from mouse_cli.model.frf_fit import FrfFit
 from mouse_cli.observables.frf import ASSUMED_OF_MAGNITUDE, ASSUMED_OF_MEDIAN, names
-from mouse_cli.report.blocks import Block, Column, Heading, Table, Text
-from mouse_cli.report.sections._wording import LEFT, counted
+from mouse_cli.report.blocks import Block, Column, Heading, Table, Text, heads
+from mouse_cli.report.sections._wording import counted
 
 _FORMS = {
     "complex": "as they are",
@@ -62,10 +62,8 @@ def _measured(fit: FrfFit) -> str:
 
 def _table(fit: FrfFit) -> Table:
     outputs, inputs = names(fit.test)
-    columns = (
-        Column("response", align=LEFT),
-        Column("force", align=LEFT),
-        Column("lines"),
+    columns = heads(
+        "<response | <force | lines",
         *(Column(f"median error, {model.name}", "dB") for model in fit.models),
         *(Column(f"FRAC, {model.name}") for model in fit.models),
     )

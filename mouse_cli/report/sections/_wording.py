@@ -6,7 +6,7 @@ from mouse_cli import __version__
 from mouse_cli._errors import Diagnostic
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import ChiSquareTest
-from mouse_cli.report.blocks import Column, Table, Text
+from mouse_cli.report.blocks import Table, Text, heads
 from mouse_cli.report.section import Options
 
 LEFT = "left"  # side at which a column of words starts
@@ -30,17 +30,12 @@ def counted(count: int, one: str, many: str = "") -> str:
 def deck_table(problem: Problem) -> Table:
     """Which program, title and deck."""
     rows = ("program", f"mouse {__version__}"), ("title", problem.title.strip()), ("source", problem.source.path)
-    return Table((Column("", align=LEFT), Column("", align=LEFT)), rows)
+    return Table(heads("< | <"), rows)
 
 
 def test_table(tests: tuple[ChiSquareTest, ...]) -> Table:
     """Chi-square tests, one a row."""
-    columns = (
-        Column("test", align=LEFT),
-        Column("chi-square"),
-        Column("degrees of freedom"),
-        Column("probability of a larger value"),
-    )
+    columns = heads("<test | chi-square | degrees of freedom | probability of a larger value")
     return Table(columns, tuple((t.name, t.chi2, t.dof, t.p if t.dof else None) for t in tests))
 
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from mouse_cli.model.arrangements import ArrangementsDiagnosis
 from mouse_cli.model.diagnosis import UNKNOWN, Explanation, Score
 from mouse_cli.report.arrangements_sentences import sentences
-from mouse_cli.report.blocks import Block, Cell, Column, Heading, Table, Text
+from mouse_cli.report.blocks import Block, Cell, Column, Heading, Table, Text, heads
 from mouse_cli.report.section import RESULT, VERDICT, Options, Section
 from mouse_cli.report.sections._diagnosis_wording import nats, p_value, per_cent, probable, where
 from mouse_cli.report.sections._field import field_blocks, untried_text
@@ -47,14 +47,8 @@ def _true(found: ArrangementsDiagnosis) -> str:
     )
 
 
-_PARAMETERS_COLUMNS = (
-    Column("parameter", align=LEFT, literal=True),
-    Column("unit", align=LEFT),
-    Column("before"),
-    Column("revised"),
-    Column("sd"),
-)
-_ERRORS = (Column("mode"), Column("theory errs", "per cent"), Column("sd", "per cent"))
+_PARAMETERS_COLUMNS = heads(Column("parameter", align=LEFT, literal=True), "<unit | before | revised | sd")
+_ERRORS = heads("mode | theory errs [per cent] | sd [per cent]")
 
 
 def parameters(found: ArrangementsDiagnosis, options: Options) -> Iterator[Block]:
@@ -96,13 +90,7 @@ def heading(found: ArrangementsDiagnosis, options: Options) -> Iterator[Block]:
 
 
 _SHOWN = 6  # of each turn
-_TURNS_COLUMNS = (
-    Column("candidate", align=LEFT),
-    Column("site", align=LEFT),
-    Column("log evidence over none"),
-    Column("probability"),
-    Column("chi-square"),
-)
+_TURNS_COLUMNS = heads("<candidate | <site | log evidence over none | probability | chi-square")
 
 
 def turns(found: ArrangementsDiagnosis, options: Options) -> Iterator[Block]:
@@ -134,20 +122,9 @@ def _row(before: Explanation, one: Explanation, explains: bool) -> tuple[Cell, .
     return one.physics, where(one), over, probable(one.probability) if explains else None, f"{one.chi2:.1f}"
 
 
-_SCORES = (
-    Column("model", align=LEFT),
-    Column("rms frequency error", "per cent"),
-    Column("log predictive density"),
-    Column("within 90 % intervals", "per cent"),
-)
-_ROWS = (
-    Column("frequency", align=LEFT),
-    Column("test", "Hz"),
-    Column("as it is", "Hz"),
-    Column("error", "per cent"),
-    Column("with all mechanisms", "Hz"),
-    Column("sd", "Hz"),
-    Column("error", "per cent"),
+_SCORES = heads("<model | rms frequency error [per cent] | log predictive density | within 90 % intervals [per cent]")
+_ROWS = heads(
+    "<frequency | test [Hz] | as it is [Hz] | error [per cent] | with all mechanisms [Hz] | sd [Hz] | error [per cent]"
 )
 
 

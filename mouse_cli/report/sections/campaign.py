@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from mouse_cli.model.campaign import Bootstrap, Moved, Spread, Sweep
-from mouse_cli.report.blocks import Block, Column, Table, Text
+from mouse_cli.report.blocks import Block, Column, Table, Text, heads
 from mouse_cli.report.section import RESULT, VERDICT, Options, Section
 from mouse_cli.report.sections._wording import LEFT, counted, deck_table
 from mouse_cli.report.sections._wording import remarks as worded
@@ -20,17 +20,8 @@ def remarks(found: Sweep | Bootstrap, options: Options) -> Iterator[Block]:
         yield Text("The scatter agrees with the stated accuracies, and no single measurement dominates.")
 
 
-_COLUMNS = (
-    Column("run"),
-    Column("posterior sd"),
-    Column("predicted sd"),
-    Column("bootstrap sd"),
-    Column("jackknife sd"),
-    Column("bias"),
-    Column("95 % from"),
-    Column("to"),
-    Column("BCa from"),
-    Column("to"),
+_COLUMNS = heads(
+    "run | posterior sd | predicted sd | bootstrap sd | jackknife sd | bias | 95 % from | to | BCa from | to"
 )
 _DRAWN = {
     "modes": "modes",
@@ -49,7 +40,7 @@ def spread(found: Bootstrap, options: Options) -> Iterator[Block]:
         f"{counted(len(found.left_out), 'run')} that leave one out; seed {found.seed}. What is drawn c times has its variances "
         "divided by c; the prior stays."
     )
-    first = (Column("property", align=LEFT), Column("unit", align=LEFT))
+    first = heads("<property | <unit")
     rows = tuple((each.name, each.unit, *_spread_row(each)) for each in found.parameters[: options.elements])
     yield Table((*first, *_COLUMNS), rows).without_empty_columns()
     rows = tuple((int(each.name), *_spread_row(each)) for each in found.frequencies)
@@ -92,17 +83,17 @@ def influence(found: Bootstrap, options: Options) -> Iterator[Block]:
 
 def moved(found: Sweep, options: Options) -> Iterator[Block]:
     """What moves over a sweep, by how much, and by which quantity. One line a property, then one a frequency."""
-    head = (Column("from"), Column("to"), Column("moves by", "sd", digits=4), Column("most by", align=LEFT))
+    head = heads("from | to", Column("moves by", "sd", digits=4), "<most by")
     shares = tuple(Column(f"share of {name}", literal=True, digits=3) for name in found.varied)
     if found.parameters:
-        first = (Column("property", align=LEFT), Column("unit", align=LEFT))
+        first = heads("<property | <unit")
         rows = tuple(
             (each.name, each.unit, *_moved_row(each, found.varied)) for each in found.parameters[: options.elements]
         )
         yield Table((*first, *head, *shares), rows).without_empty_columns()
     if found.frequencies:
         rows = tuple((int(each.name), *_moved_row(each, found.varied)) for each in found.frequencies)
-        columns = (Column("mode"), Column("from", "Hz"), Column("to", "Hz"), *head[2:], *shares)
+        columns = heads("mode | from [Hz] | to [Hz]", *head[2:], *shares)
         yield Table(columns, rows).without_empty_columns()
     yield Text(
         "Lengths are in posterior standard deviations, the median of those found. A share is that of the variance over the points "
@@ -126,12 +117,10 @@ def points(found: Sweep, options: Options) -> Iterator[Block]:
     """The points of a sweep and what was found at each. One line a point."""
     yield deck_table(found.problem)
     shown = found.parameters[: options.properties]
-    columns = (
-        Column("point"),
+    columns = heads(
+        "point",
         *(Column(name, literal=True) for name in found.varied),
-        Column("ended", align=LEFT),
-        Column("chi-square"),
-        Column("p"),
+        "<ended | chi-square | p",
         *(Column(each.name, each.unit, literal=True) for each in shown),
     )
     rows = [

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from mouse_cli.model.updated import ASPECTS, Compared, Updated
-from mouse_cli.report.blocks import Block, Column, Heading, Table, Text
+from mouse_cli.report.blocks import Block, Column, Heading, Table, Text, heads
 from mouse_cli.report.section import RESULT, VERDICT, Options, Section
 from mouse_cli.report.sections._wording import LEFT, counted, deck_table
 from mouse_cli.report.sections.update import cleared
@@ -36,12 +36,7 @@ def _predicted(update: Updated) -> float:
 
 def frequencies(found: Compared, options: Options) -> Iterator[Block]:
     """For each configuration a table: test, prior model, methods; the last line is the root mean square difference."""
-    columns = (
-        Column("mode"),
-        Column("test", "Hz"),
-        Column("prior", "Hz"),
-        *(Column(update.about.key, "Hz") for update in found.updates),
-    )
+    columns = heads("mode | test [Hz] | prior [Hz]", *(Column(update.about.key, "Hz") for update in found.updates))
     for i, first in enumerate(found.updates[0].configurations):
         each = [update.configurations[i] for update in found.updates]
         yield Heading(
@@ -81,12 +76,7 @@ def heading(found: Compared, options: Options) -> Iterator[Block]:
             f"Each method was given {counted(test.m, 'measured mode')} at {counted(test.s, 'sensor')}, and predicts the held-out "
             "data."
         )
-    columns = (
-        Column("method", align=LEFT),
-        Column("name", align=LEFT),
-        Column("iterations"),
-        Column("settled", align=LEFT),
-    )
+    columns = heads("<method | <name | iterations | <settled")
     rows = [(u.about.key, u.about.title, u.iterations, "yes" if u.converged else "no") for u in found.updates]
     yield Table(columns, tuple(rows))
     for key, why in found.refused.items():
@@ -97,13 +87,8 @@ def guarantees(found: Compared, options: Options) -> Iterator[Block]:
     """Guarantees, one line a method; then what can be counted in its answer."""
     columns = Column("method", align=LEFT), *(Column(aspect, align=LEFT) for aspect in ASPECTS)
     yield Table(columns, tuple((u.about.key, *(g.given for g in u.about.guarantees)) for u in found.updates))
-    counted = (
-        Column("method", align=LEFT),
-        Column("negative eigenvalues"),
-        Column("rigid-body modes"),
-        Column("of"),
-        Column("new elements in K"),
-        Column("force left", "of inertia"),
+    counted = heads(
+        "<method | negative eigenvalues | rigid-body modes | of | new elements in K | force left [of inertia]"
     )
     rows = [
         (u.about.key, u.checked.negative, u.checked.rigid, u.checked.rigid_before, u.checked.filled, u.checked.misfit)

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from mouse_cli.model.correlation import ALONE, Correlation, Orthogonality
-from mouse_cli.report.blocks import Block, Cell, Column, Heading, Matrix, Table, Text
+from mouse_cli.report.blocks import Block, Cell, Column, Heading, Matrix, Table, Text, heads
 from mouse_cli.report.section import RESULT, VERDICT, Options, Section
 from mouse_cli.report.sections._wording import LEFT, counted, deck_table
 from mouse_cli.report.sections._wording import remarks as worded
@@ -35,16 +35,9 @@ def _errors(found: Correlation, paired: np.ndarray) -> str:
     return text
 
 
-_COLUMNS = (
-    Column("test mode"),
-    Column("model mode"),
-    Column("test frequency", "Hz"),
-    Column("model frequency", "Hz"),
-    Column("difference", "per cent"),
-    Column("difference", "test sd"),
-    Column("MAC"),
-    Column("modal scale factor"),
-    Column("seen by the sensors"),
+_COLUMNS = heads(
+    "test mode | model mode | test frequency [Hz] | model frequency [Hz] | difference [per cent] | "
+    "difference [test sd] | MAC | modal scale factor | seen by the sensors"
 )
 
 
@@ -113,11 +106,7 @@ def assurance(found: Correlation, options: Options) -> Iterator[Block]:
 
 
 def _close(found: Correlation) -> Table:
-    columns = (
-        Column("close test modes", align=LEFT),
-        Column("close model modes", align=LEFT),
-        Column("squared cosines", align=LEFT),
-    )
+    columns = heads("<close test modes | <close model modes | <squared cosines")
     rows = []
     for close in found.subspaces:
         ours = ", ".join(str(found.problem.test.number[i]) for i in close.test)
@@ -135,7 +124,7 @@ def sensors(found: Correlation, options: Options) -> Iterator[Block]:
     """How well each sensor fits over all pairs of modes. COMAC and ECOMAC, one line a sensor."""
     if not np.isfinite(found.comac).any():
         return
-    columns = (Column("sensor", align=LEFT, literal=True), Column("COMAC"), Column("ECOMAC"))
+    columns = heads(Column("sensor", align=LEFT, literal=True), "COMAC | ECOMAC")
     rows = zip(found.sensors, np.round(found.comac, 4), np.round(found.ecomac, 4), strict=True)
     yield Table(columns, tuple((name, float(one), float(other)) for name, one, other in rows))
     yield Text(
@@ -184,12 +173,7 @@ def expansion(found: Correlation, options: Options) -> Iterator[Block]:
         return
     trust = "kept as measured" if expanded.exact else "trusted as far as their standard deviations allow"
     yield Text(f"Method: {expanded.title}; measured components are {trust}. Expanded shapes have unit modal mass.")
-    columns = (
-        Column("test mode"),
-        Column("test frequency", "Hz"),
-        Column("Rayleigh quotient", "Hz"),
-        Column("misfit at the sensors", "test sd"),
-    )
+    columns = heads("test mode | test frequency [Hz] | Rayleigh quotient [Hz] | misfit at the sensors [test sd]")
     rows = zip(
         test.number[expanded.modes], test.frequency_hz[expanded.modes], expanded.hz, expanded.misfit, strict=True
     )

@@ -6,9 +6,9 @@ import numpy as np
 
 from mouse_cli import __version__
 from mouse_cli.model.identification import Identification
-from mouse_cli.report.blocks import Block, Column, Lines, Matrix, Table, Text
+from mouse_cli.report.blocks import Block, Lines, Matrix, Table, Text, heads
 from mouse_cli.report.section import RESULT, VERDICT, Options, Section
-from mouse_cli.report.sections._wording import LEFT, counted
+from mouse_cli.report.sections._wording import counted
 from mouse_cli.report.sections._wording import remarks as worded
 
 
@@ -25,17 +25,9 @@ def verdict(found: Identification, options: Options) -> Iterator[Block]:
         yield Text("No mode was identified: see the remarks.")
 
 
-_COLUMNS = (
-    Column("mode"),
-    Column("frequency", "Hz"),
-    Column("sd", "Hz"),
-    Column("damping", "per cent"),
-    Column("sd", "per cent"),
-    Column("MPC"),
-    Column("stable in", "orders"),
-    Column("lines in bandwidth"),
-    Column("error of fit", "per cent"),
-    Column("scale", align=LEFT),
+_COLUMNS = heads(
+    "mode | frequency [Hz] | sd [Hz] | damping [per cent] | sd [per cent] | MPC | stable in [orders] | "
+    "lines in bandwidth | error of fit [per cent] | <scale"
 )
 
 
@@ -83,7 +75,7 @@ def heading(found: Identification, options: Options) -> Iterator[Block]:
         ("noise", found.noise),
         *[(name, value if isinstance(value, str) else f"{value:.6g}") for name, value in found.details.items()],
     ]
-    yield Table((Column("", align=LEFT), Column("", align=LEFT)), tuple(rows))
+    yield Table(heads("< | <"), tuple(rows))
 
 
 def shapes(found: Identification, options: Options) -> Iterator[Block]:
@@ -138,7 +130,7 @@ def rejected(found: Identification, options: Options) -> Iterator[Block]:
     """Poles that are no modes of the answer, and why. One line a candidate."""
     if not found.rejected:
         return
-    columns = Column("frequency", "Hz"), Column("damping", "per cent"), Column("why it was rejected", align=LEFT)
+    columns = heads("frequency [Hz] | damping [per cent] | <why it was rejected")
     judged = [each for each in found.rejected if not each.reason.startswith("stable in")]
     brief = [each for each in found.rejected if each.reason.startswith("stable in")]
     shown = sorted([*judged, *brief][:_MOST], key=lambda each: each.frequency_hz)

@@ -7,11 +7,11 @@ import numpy as np
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, elsewhere
 from mouse_cli.model.record_diagnosis import AS_IT_IS, WITH_CAUSE, RecordDiagnosis, RecordScore
 from mouse_cli.model.record_update import RecordUpdate
-from mouse_cli.report.blocks import Block, Column, Heading, Table, Text
+from mouse_cli.report.blocks import Block, Column, Heading, Table, Text, heads
 from mouse_cli.report.section import RESULT, VERDICT, Options, Section
 from mouse_cli.report.sections._diagnosis_wording import leaders, p_value, rivals_of_site, sized, where, with_p, within
 from mouse_cli.report.sections._field import field_blocks
-from mouse_cli.report.sections._wording import LEFT, counted, deck_table
+from mouse_cli.report.sections._wording import counted, deck_table
 from mouse_cli.report.sections._wording import remarks as worded
 from mouse_cli.report.sections.diagnosis.evidence import evidence
 from mouse_cli.report.theory import stated
@@ -123,14 +123,7 @@ def update(found: RecordUpdate, options: Options) -> Iterator[Block]:
         f"{found.message[:1].upper()}{found.message[1:]}. It leaves {residual.chi2 / residual.dof:.4g} times the variance that the "
         f"accuracy of the channels has; standard deviations are for {found.noise_scale:.4g} times."
     )
-    columns = (
-        Column("property", align=LEFT),
-        Column("unit", align=LEFT),
-        Column("prior"),
-        Column("prior sd"),
-        Column("revised"),
-        Column("sd"),
-    )
+    columns = heads("<property | <unit | prior | prior sd | revised | sd")
     prior = found.problem.prior
     told = zip(found.problem.parameters, prior.mean, prior.sd, found.theta, found.sd_theta, strict=True)
     rows = [(p.name, p.unit, *(f"{value:.5g}" for value in values)) for p, *values in told]
@@ -141,15 +134,7 @@ def update(found: RecordUpdate, options: Options) -> Iterator[Block]:
 def _laws(found: RecordUpdate) -> Iterator[Block]:
     if not found.laws:
         return
-    columns = (
-        Column("law", align=LEFT),
-        Column("place", align=LEFT),
-        Column("size", align=LEFT),
-        Column("unit", align=LEFT),
-        Column("deck"),
-        Column("revised"),
-        Column("sd"),
-    )
+    columns = heads("<law | <place | <size | <unit | deck | revised | sd")
     rows = [
         (
             one.title,
@@ -187,7 +172,7 @@ def heading(found: RecordDiagnosis | RecordUpdate, options: Options) -> Iterator
         f"{excited}; a model of {counted(problem.structure.n, 'degree', 'degrees')} of freedom with "
         f"{counted(len(problem.parameters), 'parameter')}, which were revised{beside}."
     )
-    columns = (Column("output", align=LEFT), Column("unit", align=LEFT), Column("sd taken"))
+    columns = heads("<output | <unit | sd taken")
     yield Table(columns, tuple(zip(found.channels, found.units, (f"{sd:.3g}" for sd in found.sd), strict=True)))
     yield Text(
         "The sd is the floor of the spectrum of the output, and at least 1 % of its rms: no transducer is better."
@@ -205,12 +190,7 @@ def linearity(found: RecordDiagnosis, options: Options) -> Iterator[Block]:
     if np.isfinite(signs.even) or np.isfinite(signs.odd):
         yield Text(_distortion(signs))
     if signs.levels:
-        columns = (
-            Column("stretches", align=LEFT),
-            Column("rms of the first output"),
-            Column("first resonance", "Hz"),
-            Column("damping ratio", "per cent"),
-        )
+        columns = heads("<stretches | rms of the first output | first resonance [Hz] | damping ratio [per cent]")
         rows = zip(("quietest third", "loudest third"), signs.levels, strict=True)
         yield Table(
             columns,
@@ -234,13 +214,10 @@ def held_out(found: RecordDiagnosis | RecordUpdate, options: Options) -> Iterato
     """Records that no fit has seen, under the model as it is and with the cause. One line a record and output."""
     if not found.scores:
         return
-    columns = (
-        Column("record", align=LEFT),
-        Column("output", align=LEFT),
-        Column("rms measured"),
-        Column("short horizon, as it is"),
+    columns = heads(
+        "<record | <output | rms measured | short horizon, as it is",
         Column(found.after),
-        Column("whole record, as it is"),
+        "whole record, as it is",
         Column(found.after),
     )
     rows = [

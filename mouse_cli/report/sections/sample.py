@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 
 from mouse_cli.model.sampled import Sampled
-from mouse_cli.report.blocks import Block, Column, Table, Text
+from mouse_cli.report.blocks import Block, Column, Table, Text, heads
 from mouse_cli.report.section import RESULT, VERDICT, Options, Section
-from mouse_cli.report.sections._wording import LEFT, counted, deck_table
+from mouse_cli.report.sections._wording import counted, deck_table
 from mouse_cli.report.sections._wording import remarks as worded
 
 
@@ -23,25 +23,10 @@ def verdict(found: Sampled, options: Options) -> Iterator[Block]:
     )
 
 
-_QUANTITIES_COLUMNS = (
-    Column("property", align=LEFT),
-    Column("unit", align=LEFT),
-    Column("run"),
-    Column("sd of run"),
-    Column("mean"),
-    Column("sd"),
-    Column("median"),
-    Column("68 % from"),
-    Column("to"),
-    Column("95 % from"),
-    Column("to"),
+_QUANTITIES_COLUMNS = heads(
+    "<property | <unit | run | sd of run | mean | sd | median | 68 % from | to | 95 % from | to"
 )
-_CHAIN = (
-    Column("property", align=LEFT),
-    Column("autocorrelation time", "steps"),
-    Column("effective sample size"),
-    Column("R-hat"),
-)
+_CHAIN = heads("<property | autocorrelation time [steps] | effective sample size | R-hat")
 
 
 def properties(found: Sampled, options: Options) -> Iterator[Block]:
@@ -56,17 +41,9 @@ def properties(found: Sampled, options: Options) -> Iterator[Block]:
     yield Text("Intervals are between quantiles of the samples, with equal shares on either side.")
 
 
-_FREQUENCIES_COLUMNS = (
-    Column("mode"),
-    Column("test", "Hz"),
-    Column("run", "Hz"),
-    Column("sd of run", "Hz"),
-    Column("mean", "Hz"),
-    Column("sd", "Hz"),
-    Column("95 % from", "Hz"),
-    Column("to", "Hz"),
-    Column("new test from", "Hz"),
-    Column("to", "Hz"),
+_FREQUENCIES_COLUMNS = heads(
+    "mode | test [Hz] | run [Hz] | sd of run [Hz] | mean [Hz] | sd [Hz] | 95 % from [Hz] | to [Hz] | "
+    "new test from [Hz] | to [Hz]"
 )
 
 
@@ -92,7 +69,7 @@ def modes(found: Sampled, options: Options) -> Iterator[Block]:
     if len(found.modes) < 2:
         return
     own = tuple(Column(p.name, p.unit, literal=True) for p in found.result.problem.parameters)
-    columns = (Column("mode"), *own, Column("J"), Column("share"))
+    columns = heads("mode", *own, "J | share")
     rows = tuple(
         (i, *(float(value) for value in each.theta[: len(own)]), each.cost, each.share)
         for i, each in enumerate(found.modes, 1)

@@ -7,9 +7,9 @@ import numpy as np
 from mouse_cli import __version__
 from mouse_cli.model.spectra import MeasuredFrf, SpectraResult
 from mouse_cli.records.frf_estimators import estimator
-from mouse_cli.report.blocks import Block, Column, Table, Text
+from mouse_cli.report.blocks import Block, Table, Text, heads
 from mouse_cli.report.section import RESULT, VERDICT, Options, Section
-from mouse_cli.report.sections._wording import LEFT, counted
+from mouse_cli.report.sections._wording import counted
 
 
 def verdict(result: SpectraResult, options: Options) -> Iterator[Block]:
@@ -32,10 +32,9 @@ def _averaged(each: MeasuredFrf) -> str:
 
 def functions(result: SpectraResult, options: Options) -> Iterator[Block]:
     """Lines, averages, coherence, noise and the highest peak."""
-    columns = (
-        Column("response", align=LEFT), Column("force", align=LEFT), Column("lines"), Column("averages"),
-        Column("median coherence"), Column("median noise", "per cent"), Column("highest at", "Hz"), Column("kind", align=LEFT),
-    )  # fmt: skip
+    columns = heads(
+        "<response | <force | lines | averages | median coherence | median noise [per cent] | highest at [Hz] | <kind"
+    )
     rows = [
         (
             q.response,
@@ -73,7 +72,7 @@ def heading(result: SpectraResult, options: Options) -> Iterator[Block]:
         rows[-1] = ("blocks", f"one for each stroke, {how.pretrigger} samples before it")
     if how.skip:
         rows.append(("skipped", f"{how.skip} samples at the beginning"))
-    yield Table((Column("", align=LEFT), Column("", align=LEFT)), tuple(rows))
+    yield Table(heads("< | <"), tuple(rows))
     for each in result.measured:
         if each.frf.decay_rate:
             yield Text(

@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.model.arrays import dense
 from mouse_cli.model.updated import ASPECTS, Checked, Predicted, Updated
-from mouse_cli.report.blocks import Block, Column, Heading, Matrix, Table, Text
+from mouse_cli.report.blocks import Block, Column, Heading, Matrix, Table, Text, heads
 from mouse_cli.report.section import APPENDIX, RESULT, VERDICT, Options, Section
 from mouse_cli.report.sections._wording import LEFT, counted, deck_table
 from mouse_cli.report.sections._wording import remarks as worded
@@ -27,14 +27,9 @@ def _sound(found: Updated) -> str:
 
 
 _ROUNDING = 1e-6  # per cent
-_FREQUENCIES_COLUMNS = (
-    Column("mode"),
-    Column("test frequency", "Hz"),
-    Column("prior model", "Hz"),
-    Column("difference", "per cent"),
-    Column("updated model", "Hz"),
-    Column("difference", "per cent"),
-    Column("MAC"),
+_FREQUENCIES_COLUMNS = heads(
+    "mode | test frequency [Hz] | prior model [Hz] | difference [per cent] | updated model [Hz] | "
+    "difference [per cent] | MAC"
 )
 
 
@@ -61,12 +56,10 @@ def cleared(percent: float) -> float:
     return 0.0 if abs(percent) < _ROUNDING else percent
 
 
-_PROPERTIES_COLUMNS = (
+_PROPERTIES_COLUMNS = heads(
     Column("property", align=LEFT, literal=True),
     Column("unit", align=LEFT, literal=True),
-    Column("before"),
-    Column("after"),
-    Column("change", "per cent"),
+    "before | after | change [per cent]",
 )
 
 
@@ -115,12 +108,7 @@ def heading(found: Updated, options: Options) -> Iterator[Block]:
         )
 
 
-_GUARANTEES_COLUMNS = (
-    Column("what a structure has", align=LEFT),
-    Column("guaranteed", align=LEFT),
-    Column("here", align=LEFT),
-    Column("because", align=LEFT),
-)
+_GUARANTEES_COLUMNS = heads("<what a structure has | <guaranteed | <here | <because")
 
 
 def guarantees(found: Updated, options: Options) -> Iterator[Block]:

@@ -9,7 +9,7 @@ from mouse_cli.formats.frf_values import response_unit
 from mouse_cli.model.coupled import Coupled, CoupledModes, InterfaceState, Peak
 from mouse_cli.model.coupling import Connection, Coupling
 from mouse_cli.model.modified import Modified
-from mouse_cli.report.blocks import Block, Column, Table, Text
+from mouse_cli.report.blocks import Block, Column, Table, Text, heads
 from mouse_cli.report.section import RESULT, VERDICT, Options, Section
 from mouse_cli.report.sections._wording import LEFT, counted
 from mouse_cli.report.sections._wording import remarks as worded
@@ -67,10 +67,11 @@ def functions(found: Coupled, options: Options) -> Iterator[Block]:
 
 def peak_table(peaks: tuple[Peak, ...], unit: str) -> Table:
     """Response, force, frequency, height with its sd, phase."""
-    columns = (
-        Column("response", align=LEFT, literal=True), Column("force", align=LEFT, literal=True), Column("peak at", "Hz"),
-        Column("magnitude", unit), Column("standard deviation", unit), Column("phase", "degrees"),
-    )  # fmt: skip
+    columns = heads(
+        Column("response", align=LEFT, literal=True),
+        Column("force", align=LEFT, literal=True),
+        f"peak at [Hz] | magnitude [{unit}] | standard deviation [{unit}] | phase [degrees]",
+    )
     rows = tuple((p.response, p.force, p.hz, p.magnitude, p.sd if p.sd > 0 else None, p.phase) for p in peaks)
     return Table(columns, rows, 2).without_empty_columns()
 
@@ -84,7 +85,7 @@ def modes(found: Coupled, options: Options) -> Iterator[Block]:
     rigid = counted(whole.rigid, "rigid-body mode") if whole.rigid else "no rigid-body mode"
     yield Text(f"The whole, assembled, has {size} and {rigid}.")
     yield Table(
-        (Column("mode"), Column("frequency", "Hz")),
+        heads("mode | frequency [Hz]"),
         tuple((i, float(hz)) for i, hz in enumerate(whole.frequencies_hz, 1)),
     )
     if whole.reduced:
@@ -98,12 +99,7 @@ def modes(found: Coupled, options: Options) -> Iterator[Block]:
 def _errors(whole: CoupledModes, short: bool) -> Table:
     """One line a reduction; short: with the worst mode alone."""
     elastic = [i for i in range(len(whole.frequencies_hz)) if i >= whole.rigid]
-    columns = (
-        Column("reduction", align=LEFT, literal=True),
-        Column("kept"),
-        Column("coordinates"),
-        Column("worst", "per cent"),
-    )
+    columns = heads(Column("reduction", align=LEFT, literal=True), "kept | coordinates | worst [per cent]")
     columns += tuple(Column(f"mode {i + 1}", "per cent") for i in elastic)
     rows = []
     for each in whole.reduced:
@@ -123,7 +119,7 @@ def heading(found: Coupled, options: Options) -> Iterator[Block]:
     """Heading of coupled structures: program, title, source; parts, interfaces and connections."""
     coupling = found.coupling
     rows = ("program", f"mouse {__version__}"), ("title", coupling.title.strip()), ("source", coupling.path)
-    yield Table((Column("", align=LEFT), Column("", align=LEFT)), rows)
+    yield Table(heads("< | <"), rows)
     yield _parts(coupling)
     yield Text(
         f"{_joined(len(coupling.interfaces))}Receptances Y of the parts become those of the whole by Y - Y B' (B Y B' + "
@@ -145,10 +141,12 @@ def _joined(pairs: int) -> str:
 
 
 def _parts(coupling: Coupling) -> Table:
-    columns = (
-        Column("part", align=LEFT, literal=True), Column("known by", align=LEFT), Column("source", align=LEFT, literal=True),
-        Column("degrees of freedom"), Column("degrees of freedom used"), Column("", align=LEFT),
-    )  # fmt: skip
+    columns = heads(
+        Column("part", align=LEFT, literal=True),
+        "<known by",
+        Column("source", align=LEFT, literal=True),
+        "degrees of freedom | degrees of freedom used | <",
+    )
     rows = tuple(
         (
             part.name,
@@ -165,11 +163,12 @@ def _parts(coupling: Coupling) -> Table:
 
 def connections(each: tuple[Connection, ...], names: list[tuple[str, str]]) -> Table:
     """One line a connection; names: of its two ends."""
-    columns = (
-        Column("connection", align=LEFT, literal=True), Column("at", align=LEFT, literal=True),
+    columns = heads(
+        Column("connection", align=LEFT, literal=True),
+        Column("at", align=LEFT, literal=True),
         Column("to", align=LEFT, literal=True),
-        Column("mass"), Column("stiffness"), Column("loss factor"), Column("damping"), Column("", align=LEFT),
-    )  # fmt: skip
+        "mass | stiffness | loss factor | damping | <",
+    )
     rows = tuple(
         (
             one.name,
@@ -222,10 +221,9 @@ def interface(found: Coupled, options: Options) -> Iterator[Block]:
 def _lines(found: Coupled, state: InterfaceState, worst: int) -> Table:
     hz = found.functions.frequency_hz
     shown = np.unique(np.append(np.linspace(0, len(hz) - 1, min(_SHOWN, len(hz))).astype(int), worst))
-    columns = (
-        Column("frequency", "Hz"), Column("condition number"), Column("noise", "per cent"), Column("condition number times noise"),
-        Column("singular values kept"),
-    )  # fmt: skip
+    columns = heads(
+        "frequency [Hz] | condition number | noise [per cent] | condition number times noise | singular values kept"
+    )
     truncated = (state.kept < state.conditions).any()
     rows = []
     for k in shown:

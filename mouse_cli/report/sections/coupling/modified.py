@@ -9,7 +9,7 @@ from mouse_cli import __version__
 from mouse_cli.formats.frf_values import response_unit
 from mouse_cli.model.coupling import ABSORBER, MASS, Target
 from mouse_cli.model.modified import Modified, Need, Swept
-from mouse_cli.report.blocks import Block, Column, Heading, Matrix, Table, Text
+from mouse_cli.report.blocks import Block, Column, Heading, Matrix, Table, Text, heads
 from mouse_cli.report.section import RESULT, VERDICT, Options, Section
 from mouse_cli.report.sections._wording import LEFT, counted
 from mouse_cli.report.sections.coupling.coupled import SHARP, connections, peak_table
@@ -46,11 +46,12 @@ _CORRELATED = 10  # modes whose correlations are shown
 def frequencies(found: Modified, options: Options) -> Iterator[Block]:
     """One line a mode after the changes, beside the one that it came from."""
     before, after, shifts = found.before, found.after, found.shifts
-    columns = (
-        Column("mode"), Column("frequency", "Hz"), Column("standard deviation", "Hz"), Column("was mode"), Column("at", "Hz"),
-        Column("with sd", "Hz"), Column("shift", "Hz", digits=4), Column("sd of the shift", "Hz", digits=3),
+    columns = heads(
+        "mode | frequency [Hz] | standard deviation [Hz] | was mode | at [Hz] | with sd [Hz]",
+        Column("shift", "Hz", digits=4),
+        Column("sd of the shift", "Hz", digits=3),
         Column("MAC", digits=4),
-    )  # fmt: skip
+    )
     rows = []
     for i, hz in enumerate(after.frequencies_hz):
         j = int(shifts.partner[i])
@@ -104,11 +105,12 @@ def _answer(target: Target, needs: list[Need], unit: str, confidence: int) -> It
     if len(needs) == 1 and not needs[0].place:
         yield Text(f"{needs[0].reason[0].upper()}{needs[0].reason[1:]}.")
         return
-    columns = (
-        Column("place", align=LEFT, literal=True), Column(f"{target.means} needed", unit), Column("standard deviation", unit),
-        Column(f"for a chance of {confidence} per cent", unit), Column("mode then at", "Hz"),
-        Column("limit of the mode there", "Hz"), Column("likeness"),
-    )  # fmt: skip
+    columns = heads(
+        Column("place", align=LEFT, literal=True),
+        f"{target.means} needed [{unit}] | standard deviation [{unit}] | "
+        f"for a chance of {confidence} per cent [{unit}] | mode then at [Hz] | limit of the mode there [Hz] | "
+        "likeness",
+    )
     rows = tuple(
         (
             n.place,
@@ -151,15 +153,14 @@ def sweeps(found: Modified, options: Options) -> Iterator[Block]:
 
 
 def _moved(each: Swept) -> Table:
-    columns = (Column("place", align=LEFT, literal=True), Column("mode then at", "Hz"), Column("shift", "Hz"))
+    columns = heads(Column("place", align=LEFT, literal=True), "mode then at [Hz] | shift [Hz]")
     return Table(columns, tuple((p.name, p.hz, p.hz - each.before_hz) for p in each.places[:_SHOWN]))
 
 
 def _absorbers(each: Swept) -> Table:
-    columns = (
-        Column("place", align=LEFT, literal=True), Column("mass by modal mass"), Column("tuned to", "Hz"), Column("damping ratio"),
-        Column("peak by static"),
-    )  # fmt: skip
+    columns = heads(
+        Column("place", align=LEFT, literal=True), "mass by modal mass | tuned to [Hz] | damping ratio | peak by static"
+    )
     return Table(
         columns, tuple((p.name, p.mass_ratio, p.tuned_hz, p.damping_ratio, p.peak) for p in each.places[:_SHOWN])
     )
@@ -171,7 +172,7 @@ def heading(found: Modified, options: Options) -> Iterator[Block]:
     rows = [("program", f"mouse {__version__}"), ("title", asked.title.strip()), ("source", asked.path)]
     if asked.path != problem.source.path:
         rows.append(("model", problem.source.path))
-    yield Table((Column("", align=LEFT), Column("", align=LEFT)), tuple(rows))
+    yield Table(heads("< | <"), tuple(rows))
     properties = counted(len(problem.parameters), "uncertain property", "uncertain properties")
     yield Text(
         f"The model has {counted(problem.structure.n, 'degree', 'degrees')} of freedom and {properties}, whose uncertainty "

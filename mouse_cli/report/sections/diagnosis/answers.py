@@ -16,7 +16,7 @@ from mouse_cli.model.diagnosis import (
     Score,
     elsewhere,
 )
-from mouse_cli.report.blocks import Block, Column, Heading, Table, Text
+from mouse_cli.report.blocks import Block, Column, Heading, Table, Text, heads
 from mouse_cli.report.field_words import held_words
 from mouse_cli.report.section import VERDICT, Options, Section
 from mouse_cli.report.sections._diagnosis_wording import (
@@ -64,7 +64,7 @@ def _where(found: Diagnosis) -> Iterator[Block]:
     elif found.kind == ONE_OF:
         where = "That depends on what it is" if len(leaders(found)) > 1 else "If it is there, here"
         yield Text(f"{where if found.placed else 'At one of several sites'}.{shapes}")
-        columns = (Column("if it is", align=LEFT), Column("then at", align=LEFT))
+        columns = heads("<if it is | <then at")
         at = lambda one: whereabouts(one, units, elsewhere(found.explanations, one))
         yield Table(columns, tuple((one.title, at(one)) for one in leaders(found)))
     elif found.field is not None:
@@ -120,7 +120,7 @@ def _what(found: Diagnosis) -> Iterator[Block]:
             yield Text(f"That is not all: {remains(found.rest)}. It has no name here.")
     elif found.kind == ONE_OF:
         members = Column("members within the group", align=LEFT)
-        columns = (Column("mechanism", align=LEFT), Column("group", align=LEFT), Column("probability"), members)
+        columns = heads("<mechanism | <group | probability", members)
         tried, p = found.explanations, dict(found.groups)
         rows = [(grouped(tried, one), one.group, probable(p[one.group]), within(tried, one)) for one in standing(found)]
         yield Text(_unsettled(found))
@@ -185,7 +185,7 @@ def _how_much(found: Diagnosis) -> Iterator[Block]:
     elif found.kind == NAMED:
         yield Text(f"{_capital('; '.join(f'{cause.title}: {sized(cause)}' for cause in found.best.causes))}.")
     elif found.kind == ONE_OF:
-        columns = (Column("if it is", align=LEFT), Column("then of", align=LEFT))
+        columns = heads("<if it is | <then of")
         yield Table(columns, tuple((one.title, "; ".join(map(sized, one.causes))) for one in leaders(found)))
     else:
         yield Text("Without a mechanism there is no size.")

@@ -9,26 +9,20 @@ from mouse_cli.model.diagnosis import BY_DECK, BY_MODE, NAMED, Diagnosis, Score
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.result import Result
 from mouse_cli.model.units import system
-from mouse_cli.report.blocks import Block, Cell, Column, Table, Text
+from mouse_cli.report.blocks import Block, Cell, Column, Table, Text, heads
 from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._diagnosis_wording import likeness, per_cent, predicting, with_cause
 from mouse_cli.report.sections._functions import covered, functions
-from mouse_cli.report.sections._wording import LEFT, counted, deck_table
+from mouse_cli.report.sections._wording import counted, deck_table
 from mouse_cli.report.sections._wording import remarks as worded
 from mouse_cli.report.sections.run.results import told
 from mouse_cli.report.theory import stated
 
 
 def _fitted_columns(after: str) -> tuple[Column, ...]:
-    return (
-        Column("mode"),
-        Column("test frequency", "Hz"),
-        Column("model as it is", "Hz"),
-        Column("difference", "per cent"),
-        Column(after, "Hz"),
-        Column("difference", "per cent"),
-        Column("MAC as it is"),
-        Column(f"MAC {after}"),
+    return heads(
+        f"mode | test frequency [Hz] | model as it is [Hz] | difference [per cent] | {after} [Hz] | "
+        f"difference [per cent] | MAC as it is | MAC {after}"
     )
 
 
@@ -101,13 +95,7 @@ def _how(found: Diagnosis) -> str:
     return f"Considered: {which}; {causes}. Estimator: {run.estimator}, recursion: {run.recursion}; {units}."
 
 
-_COLUMNS = (
-    Column("damping", align=LEFT),
-    Column("value"),
-    Column("standard deviation"),
-    Column("unit", align=LEFT),
-    Column("", align=LEFT),
-)
+_COLUMNS = heads("<damping | value | standard deviation | <unit | <")
 
 
 def fitted_functions(found: Diagnosis, options: Options) -> Iterator[Block]:
@@ -137,17 +125,9 @@ _HOW = {
 
 
 def _held_out_columns(after: str) -> tuple[Column, ...]:
-    return (
-        Column("held out", align=LEFT),
-        Column("measured", "Hz"),
-        Column("model as it is", "Hz"),
-        Column("sd", "Hz"),
-        Column("difference", "per cent"),
-        Column(after, "Hz"),
-        Column("sd", "Hz"),
-        Column("difference", "per cent"),
-        Column("MAC as it is"),
-        Column(f"MAC {after}"),
+    return heads(
+        f"<held out | measured [Hz] | model as it is [Hz] | sd [Hz] | difference [per cent] | {after} [Hz] | "
+        f"sd [Hz] | difference [per cent] | MAC as it is | MAC {after}"
     )
 
 
@@ -162,11 +142,8 @@ def held_out_data(found: Diagnosis, options: Options) -> Iterator[Block]:
     rows = zip(held.labels, held.measured_hz, *before, *after, alike, alike_after, strict=True)
     columns = _held_out_columns(predicting(found))
     yield Table(columns, tuple((label, *_held_out_row(row)) for label, *row in rows)).without_empty_columns()
-    columns = (
-        Column("model", align=LEFT),
-        Column("rms frequency error", "per cent"),
-        Column("log predictive density"),
-        Column("within 90 % intervals", "per cent"),
+    columns = heads(
+        "<model | rms frequency error [per cent] | log predictive density | within 90 % intervals [per cent]"
     )
     scores = (("as it is", held.baseline), (predicting(found), held.revised))
     yield Table(columns, tuple(_score(name, score) for name, score in scores if score is not None))

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from mouse_cli.model.diagnosis import NOTHING, UNKNOWN, Diagnosis, Effort, Explanation
-from mouse_cli.report.blocks import Block, Cell, Column, Heading, Table, Text
+from mouse_cli.report.blocks import Block, Cell, Heading, Table, Text, heads
 from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._diagnosis_wording import (
     nats,
@@ -15,7 +15,7 @@ from mouse_cli.report.sections._diagnosis_wording import (
     where,
 )
 from mouse_cli.report.sections._field import untried_text
-from mouse_cli.report.sections._wording import LEFT, counted, test_table
+from mouse_cli.report.sections._wording import counted, test_table
 
 _LEAST, _EVIDENCE_MOST = (
     1e-3,
@@ -23,23 +23,8 @@ _LEAST, _EVIDENCE_MOST = (
 )  # probability of explanations that are listed, and how many; a few are, however improbable
 _ALWAYS = 8
 _COUNTS, _FEW = 0.01, 5  # the same of a short report
-_JUDGED = (
-    Column("candidate", align=LEFT),
-    Column("group", align=LEFT),
-    Column("site", align=LEFT),
-    Column("log evidence over none"),
-    Column("probability"),
-    Column("p-value"),
-)
-_SIZED = (
-    Column("candidate", align=LEFT),
-    Column("parameter", align=LEFT),
-    Column("value"),
-    Column("sd"),
-    Column("unit", align=LEFT),
-    Column("range from"),
-    Column("to"),
-)
+_JUDGED = heads("<candidate | <group | <site | log evidence over none | probability | p-value")
+_SIZED = heads("<candidate | <parameter | value | sd | <unit | range from | to")
 
 
 def evidence(found: Diagnosis, options: Options) -> Iterator[Block]:
@@ -107,13 +92,7 @@ EFFORTS = {
     Effort.MASS: "an added mass",
     Effort.SUPPORT: "a changed support",
 }
-_COLUMNS = (
-    Column("measurement", align=LEFT),
-    Column("takes", align=LEFT),
-    Column("between", align=LEFT),
-    Column("separation", "nats"),
-    Column("outlook", align=LEFT),
-)
+_COLUMNS = heads("<measurement | <takes | <between | separation [nats] | <outlook")
 
 
 def proposals(found: Diagnosis, options: Options) -> Iterator[Block]:
@@ -154,12 +133,7 @@ def places(found: Diagnosis, options: Options) -> Iterator[Block]:
     location = found.location
     if location is None or not location.places:
         return
-    columns = (
-        Column("site", align=LEFT),
-        Column("channel", align=LEFT),
-        Column("probability"),
-        Column("below the best", "nats"),
-    )
+    columns = heads("<site | <channel | probability | below the best [nats]")
     shown = location.places[:_PLACES_MOST]
     yield Table(columns, tuple((place(p.site), p.channel, probable(p.probability), nats(p.deficit)) for p in shown))
     tied, region = sum(p.deficit <= TIE for p in location.places), location.region
@@ -183,7 +157,7 @@ def energy(found: Diagnosis, options: Options) -> Iterator[Block]:
     if energy is None:
         return
     shown = energy.order[:_ENERGY_MOST]
-    columns = (Column("site", align=LEFT), Column("share", "per cent"))
+    columns = heads("<site | share [per cent]")
     yield Table(columns, tuple((place(energy.sites[i]), f"{100 * energy.share[i]:.3g}") for i in shown))
     errors = ", ".join(
         f"{100 * error:.2g} % in mode {mode}" for mode, error in zip(energy.mode, energy.error, strict=True)

@@ -9,10 +9,10 @@ from mouse_cli._errors import RULER
 from mouse_cli.estimators import estimator
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import Forecast, Result
-from mouse_cli.report.blocks import Block, Cell, Column, Heading, Lines, Matrix, Table, Text
+from mouse_cli.report.blocks import Block, Cell, Heading, Lines, Matrix, Table, Text, heads
 from mouse_cli.report.measured import NOT_MEASURED, eigenvalue_index, positions
 from mouse_cli.report.section import APPENDIX, Options, Section
-from mouse_cli.report.sections._wording import LEFT, counted, names
+from mouse_cli.report.sections._wording import counted, names
 from mouse_cli.updating.loop import RECURSIONS
 
 _SCALES = {
@@ -41,7 +41,7 @@ def heading(result: Result, options: Options) -> Iterator[Block]:
     problem = result.problem
     rejected = " The form of the model is rejected." if result.rejected else ""
     yield Table(
-        (Column("", align=LEFT), Column("", align=LEFT)),
+        heads("< | <"),
         (
             ("program", f"mouse {result.versions.get('mouse', __version__)}"),
             ("title", problem.title.strip()),
@@ -50,7 +50,7 @@ def heading(result: Result, options: Options) -> Iterator[Block]:
         ),
     )
     yield Text(_size(result))
-    columns = (Column("option", align=LEFT), Column("value", align=LEFT), Column("meaning", align=LEFT))
+    columns = heads("<option | <value | <meaning")
     yield Table(columns, (*_method(problem), *_convergence(result), *_limits(problem)))
 
 
@@ -178,15 +178,8 @@ def changes_only(problem: Problem) -> bool:
 
 
 def _properties(problem: Problem) -> Table:
-    columns = (
-        Column("property", align=LEFT),
-        Column("unit", align=LEFT),
-        Column("nominal value"),
-        Column("standard deviation"),
-        Column("lower limit"),
-        Column("upper limit"),
-        Column("transform", align=LEFT),
-        Column("", align=LEFT),
+    columns = heads(
+        "<property | <unit | nominal value | standard deviation | lower limit | upper limit | <transform | <"
     )
     rows = tuple(
         (
@@ -222,14 +215,9 @@ def _correlations(problem: Problem, options: Options) -> Iterator[Block]:
 def _frequencies(result: Result) -> Table:
     """One line a measured mode: frequency, eigenvalue and their accuracies; the factor that scaled its shape."""
     test, index = result.problem.test, eigenvalue_index(result)
-    columns = (
-        Column("mode"),
-        Column("test frequency", "Hz"),
-        Column("standard deviation", "Hz"),
-        Column("test eigenvalue", "rad2/s2"),
-        Column("standard deviation", "rad2/s2"),
-        Column("positions measured"),
-        Column("scale factor of shape"),
+    columns = heads(
+        "mode | test frequency [Hz] | standard deviation [Hz] | test eigenvalue [rad2/s2] | "
+        "standard deviation [rad2/s2] | positions measured | scale factor of shape"
     )
     rows = tuple(
         (

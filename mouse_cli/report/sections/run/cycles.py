@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.dynamics.frequency import frequency_hz, sd_frequency_hz
 from mouse_cli.model.result import Cycle, Result
-from mouse_cli.report.blocks import Block, Cell, Column, Matrix, Table, Text
+from mouse_cli.report.blocks import Block, Cell, Column, Matrix, Table, Text, heads
 from mouse_cli.report.measured import NOT_MEASURED, eigenvalue_index, positions, shape_index
 from mouse_cli.report.section import APPENDIX, Options, Section
 from mouse_cli.report.sections._wording import LEFT, counted
@@ -17,15 +17,11 @@ def cycles(result: Result, options: Options) -> Iterator[Block]:
     parameters = result.problem.parameters
     short = len(parameters) > options.cycle_properties
     shown = parameters[: options.cycle_properties]
-    columns = (
-        Column("cycle"),
+    columns = heads(
+        "cycle",
         *(Column(p.name, p.unit, literal=True) for p in shown),
         *((Column("largest change", "prior sd"), Column("of property", align=LEFT)) if short else ()),
-        Column("chi-square of data"),
-        Column("exceedances"),
-        Column("allowed"),
-        Column("cost"),
-        Column("damping"),
+        "chi-square of data | exceedances | allowed | cost | damping",
     )
     searched = result.problem.run.recursion == "anchored"
     rows = []
@@ -82,13 +78,9 @@ def modes(result: Result, options: Options) -> Iterator[Block]:
 
 
 def _eigenvalues(result: Result, count: int) -> Table:
-    columns = (
-        Column("mode"),
-        Column("prior eigenvalue", "rad2/s2"),
-        Column("revised eigenvalue", "rad2/s2"),
-        Column("prior frequency", "Hz"),
-        Column("revised frequency", "Hz"),
-        Column("sd of revised frequency", "Hz"),
+    columns = heads(
+        "mode | prior eigenvalue [rad2/s2] | revised eigenvalue [rad2/s2] | prior frequency [Hz] | "
+        "revised frequency [Hz] | sd of revised frequency [Hz]"
     )
     prior, revised = result.prior.eigenvalues[:count], result.revised.eigenvalues[:count]
     hz = _hz(revised, result.rigid_modes)
@@ -159,19 +151,10 @@ def comparison(result: Result, options: Options) -> Iterator[Block]:
     )
 
 
-_COLUMNS = (
-    Column("mode"),
-    Column("model mode"),
-    Column("revised eigenvalues", "rad2/s2"),
-    Column("test eigenvalues", "rad2/s2"),
-    Column("revised frequency", "Hz"),
-    Column("test frequency", "Hz"),
-    Column("test sd", "Hz"),
-    Column("interval", "Hz"),
-    Column("difference", "Hz"),
-    Column("prior MAC"),
-    Column("revised MAC"),
-    Column("*"),
+_COLUMNS = heads(
+    "mode | model mode | revised eigenvalues [rad2/s2] | test eigenvalues [rad2/s2] | "
+    "revised frequency [Hz] | test frequency [Hz] | test sd [Hz] | interval [Hz] | difference [Hz] | "
+    "prior MAC | revised MAC | *"
 )
 
 
@@ -204,15 +187,7 @@ def _mode(result: Result, i: int, k: int, renumbered: bool) -> tuple[Cell, ...]:
 
 def _eigenvectors(result: Result) -> Table:
     """Mode by mode, position by position; test vectors at the scale of the theory."""
-    columns = (
-        Column("position"),
-        Column("mode"),
-        Column("revised eigenvectors"),
-        Column("test eigenvectors"),
-        Column("interval"),
-        Column("difference"),
-        Column("*"),
-    )
+    columns = heads("position | mode | revised eigenvectors | test eigenvectors | interval | difference | *")
     places, numbers = positions(result), result.problem.test.number
     model, test, interval = result.revised.model_shapes, result.test_shapes, result.z * result.test_shape_sd
     rows = tuple(

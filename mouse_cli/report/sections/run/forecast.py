@@ -6,19 +6,15 @@ import numpy as np
 
 from mouse_cli.dynamics.frequency import eigenvalue
 from mouse_cli.model.result import Forecast
-from mouse_cli.report.blocks import Block, Column, Matrix, Table, Text
+from mouse_cli.report.blocks import Block, Matrix, Table, Text, heads
 from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._wording import counted, deck_table
 
 
 def frequencies(forecast: Forecast, options: Options) -> Iterator[Block]:
     """Natural frequencies of the prior model and how uncertain they are. One line a mode."""
-    columns = (
-        Column("mode"),
-        Column("eigenvalue", "rad2/s2"),
-        Column("frequency", "Hz"),
-        Column("standard deviation", "Hz"),
-        Column("coefficient of variation", "per cent"),
+    columns = heads(
+        "mode | eigenvalue [rad2/s2] | frequency [Hz] | standard deviation [Hz] | coefficient of variation [per cent]"
     )
     rows = []
     for i, (hz, sd) in enumerate(zip(forecast.frequencies_hz, forecast.sd_hz, strict=True), 1):
@@ -35,13 +31,7 @@ def damping(forecast: Forecast, options: Options) -> Iterator[Block]:
     found = forecast.damped
     if found is None:
         return
-    columns = (
-        Column("mode"),
-        Column("frequency", "Hz"),
-        Column("damping ratio", "per cent"),
-        Column("standard deviation", "per cent"),
-        Column("complexity"),
-    )
+    columns = heads("mode | frequency [Hz] | damping ratio [per cent] | standard deviation [per cent] | complexity")
     values = zip(found.frequencies_hz, found.damping, found.damping_sd, found.complexity, strict=True)
     rigid = forecast.rigid_modes
     yield Table(

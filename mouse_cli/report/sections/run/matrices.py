@@ -6,9 +6,9 @@ import numpy as np
 
 from mouse_cli.model.arrays import dense, is_sparse, upper_triangle
 from mouse_cli.model.result import Result
-from mouse_cli.report.blocks import Block, Column, Heading, Matrix, Table, Text
+from mouse_cli.report.blocks import Block, Heading, Matrix, Table, Text, heads
 from mouse_cli.report.section import APPENDIX, Options, Section
-from mouse_cli.report.sections._wording import LEFT, counted, names
+from mouse_cli.report.sections._wording import counted, names
 
 
 def matrices_before(result: Result, options: Options) -> Iterator[Block]:
@@ -75,13 +75,7 @@ def _entries(result: Result, name: str, before, after, most: int) -> Iterator[Bl
     yield Text(
         f"{counted(len(row), 'element')} of the {name} were revised; the {len(largest)} largest changes are shown."
     )
-    columns = (
-        Column("row", align=LEFT),
-        Column("column", align=LEFT),
-        Column("prior"),
-        Column("revised"),
-        Column("change"),
-    )
+    columns = heads("<row | <column | prior | revised | change")
     labels = result.problem.structure.labels
     before, after = (m.tocsr() if is_sparse(m) else m for m in (before, after))
     rows = tuple(
@@ -107,7 +101,7 @@ def _elements(result: Result, name: str, moved: np.ndarray, before, after, most:
             f"{counted(len(moved), 'element')} of the {name} were revised; the {most} largest changes are shown."
         )
     yield Heading(f"elements of the {name} that were revised", 2)
-    columns = (Column("element", align=LEFT), Column("prior"), Column("revised"), Column("change"))
+    columns = heads("<element | prior | revised | change")
     before, after = (m.tocsr() if is_sparse(m) else m for m in (before, after))
     rows = tuple(
         (labels[k], float(before[i, j]), float(after[i, j]), float(change[k]))

@@ -9,7 +9,7 @@ from mouse_cli.dynamics.frequency import frequency_hz
 from mouse_cli.model.hold_out import HoldOut
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.result import Result, Snapshot
-from mouse_cli.report.blocks import Block, Cell, Column, Table, Text
+from mouse_cli.report.blocks import Block, Cell, Column, Table, Text, heads
 from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._functions import covered, functions
 from mouse_cli.report.sections._wording import LEFT, counted
@@ -21,18 +21,17 @@ def properties(result: Result, options: Options) -> Iterator[Block]:
         yield Text("The run gave no answer; the properties stand unrevised.")
         return
     confidence = result.problem.run.confidence
-    columns = (
-        Column("property", align=LEFT),
-        Column("unit", align=LEFT),
+    columns = heads(
+        "<property | <unit",
         Column("before" if options.short else "prior"),
         Column("after" if options.short else "revised"),
         *(() if options.short else (Column("change"),)),
-        Column("change", "per cent"),
+        "change [per cent]",
         Column("sd before", digits=3),
         Column("sd after", digits=3),
         Column(f"{confidence} % from" if options.short else "interval from"),
         Column("to" if options.short else "interval to"),
-        Column("limit", align=LEFT),
+        "<limit",
     )
     order = np.arange(len(result.problem.parameters))
     if options.short and len(order) > options.rows:
@@ -109,23 +108,14 @@ def _deciding(result: Result) -> str:
     )
 
 
-_BEFORE_AFTER_COLUMNS = (
-    Column("mode"),
-    Column("test frequency", "Hz"),
-    Column("prior frequency", "Hz"),
-    Column("difference", "per cent"),
-    Column("revised frequency", "Hz"),
-    Column("difference", "per cent"),
+_BEFORE_AFTER_COLUMNS = heads(
+    "mode | test frequency [Hz] | prior frequency [Hz] | difference [per cent] | "
+    "revised frequency [Hz] | difference [per cent]",
     Column("prior MAC", digits=4),
     Column("revised MAC", digits=4),
 )
-_SHORT = (
-    Column("mode"),
-    Column("measured", "Hz"),
-    Column("before", "Hz"),
-    Column("error", "per cent"),
-    Column("after", "Hz"),
-    Column("error", "per cent"),
+_SHORT = heads(
+    "mode | measured [Hz] | before [Hz] | error [per cent] | after [Hz] | error [per cent]",
     Column("MAC before", digits=4),
     Column("MAC after", digits=4),
 )
@@ -167,13 +157,7 @@ def frf_before_after(result: Result, options: Options) -> Iterator[Block]:
     yield from functions(result.frf)
 
 
-_HELD_OUT_COLUMNS = (
-    Column("held-out mode"),
-    Column("test frequency", "Hz"),
-    Column("revised model", "Hz"),
-    Column("difference", "per cent"),
-    Column("MAC"),
-)
+_HELD_OUT_COLUMNS = heads("held-out mode | test frequency [Hz] | revised model [Hz] | difference [per cent] | MAC")
 
 
 def held_out(result: Result, options: Options) -> Iterator[Block]:

@@ -5,9 +5,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from mouse_cli.model.result import Result
-from mouse_cli.report.blocks import Block, Column, Matrix, Table, Text
+from mouse_cli.report.blocks import Block, Matrix, Table, Text, heads
 from mouse_cli.report.section import APPENDIX, Options, Section
-from mouse_cli.report.sections._wording import LEFT, names
+from mouse_cli.report.sections._wording import names
 
 _LISTED = 4  # properties in the combination that is known least
 _SHARE = 0.3  # of the largest of them, below which one is not named
@@ -25,7 +25,7 @@ def conditioning(result: Result, options: Options) -> Iterator[Block]:
         ("relative error of the answer by that of the sensitivities", _finite(found.sensitivities)),
         *last,
     )
-    yield Table((Column("bound", align=LEFT), Column("at most")), tuple(row for row in rows if row[1] is not None))
+    yield Table(heads("<bound | at most"), tuple(row for row in rows if row[1] is not None))
     stands = ", with the prior among the data" if found.with_prior else ""
     yield Text(
         f"Lengths are in prior standard deviations{stands}; the bounds hold to first order, for errors of any kind, and are met by "
@@ -72,7 +72,7 @@ def covariance(result: Result, options: Options) -> Iterator[Block]:
     most = min(options.correlations, strength.size)
     flat = np.argpartition(-strength, most - 1, axis=None)[:most]
     pairs = sorted(zip(*np.unravel_index(flat, strength.shape), strict=True), key=lambda p: (-strength[p], p))
-    columns = (Column("property", align=LEFT), Column("property", align=LEFT), Column("correlation"))
+    columns = heads("<property | <property | correlation")
     rows = tuple((labels[i], labels[j], float(correlation[i, j])) for i, j in pairs if strength[i, j] > 0)
     if not rows:
         yield Text("The revised properties are not correlated.")
