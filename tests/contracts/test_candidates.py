@@ -33,6 +33,10 @@ MODELS = {
         "    supports: {1: all}\n    plane: XY\n",
         [(9, "TY"), (17, "TY"), (24, "TY"), (31, "TY")],
     ),
+    "girder": (
+        CANTILEVER + "    supports: {1: [TX, TY], 31: [TY]}\n    plane: XY\n",
+        [(4, "TY"), (9, "TY"), (17, "TY"), (24, "TY")],
+    ),
     "free": (CANTILEVER + "    plane: XY\n", [(1, "TY"), (11, "TY"), (18, "TY"), (31, "TY")]),
     "portal": (
         f"""
@@ -220,13 +224,20 @@ def deck(name: str, folder) -> "Problem":  # noqa: F821
 
 
 _E = "parameters:\n  - {name: E, material: steel, property: E, sd: 3 %}\n"
-_PARAMETERS = dict.fromkeys(("cantilever", "free", "portal", "space", "tower", "frame", "weighed", "pinned"), _E)
+_PARAMETERS = dict.fromkeys(
+    ("cantilever", "girder", "free", "portal", "space", "tower", "frame", "weighed", "pinned"), _E
+)
 _PARAMETERS["laden"] = _E + "  - {name: tip, elements: 43, property: mass, sd: 30 %}\n"
 _PARAMETERS["frame"] = _E + "  - {name: load, elements: 41-44, property: nonstructural_mass, sd: 20 %}\n"
 _PARAMETERS["storeys"] = "parameters:\n  - {name: storey, elements: 1-5, property: TX, factor: true, sd: 10 %}\n"
 _PARAMETERS["masses"] = "parameters:\n  - {name: k, elements: 11-13, property: TX, sd: 10 %}\n"
 SUPPORTS = {"support-rotation", "support-translation", "rocking"}
-OWN = {"frame": SUPPORTS | {"member", "added-mass", "taper"}, "weighed": SUPPORTS, "pinned": {"support-restraint"}}
+OWN = {
+    "frame": SUPPORTS | {"member", "added-mass", "taper"},
+    "weighed": SUPPORTS,
+    "pinned": {"support-restraint"},
+    "girder": {"eccentric-bearing"},
+}
 CASES = [(name, key) for name in MODELS for key in registry() if key in OWN.get(name, {key})]
 
 

@@ -72,6 +72,16 @@ class Change:
     spring: np.ndarray | None = None
 
 
+def summed(changes: list[Change]) -> Change:
+    """Changes of M, and of bars that differ, as one."""
+    if len(changes) == 1:
+        return changes[0]
+    parts = [change.softening for change in changes]
+    fields = {name: [getattr(part, name) for part in parts] for name in ("bars", "added", "residual", "lost")}
+    joined = {name: None if any(each is None for each in own) else np.concatenate(own) for name, own in fields.items()}
+    return Change(M=sum(change.M for change in changes), softening=Softening(**joined))
+
+
 @dataclass(frozen=True)
 class Carried:
     """Motion (r, a) of the model with a degrees of freedom of a cause's own; of all n free then (n, a), and K, M times it.

@@ -44,23 +44,23 @@ def places(
     model: Reduced,
     candidate: Candidate,
     sizes: tuple[Unknown, ...],
-    added: Callable[[int, float, np.ndarray], np.ndarray],
+    does: Callable[[int, float, np.ndarray], Change],
     starts: np.ndarray,
     extend: Callable[[Problem, int, float, np.ndarray], Problem],
+    chosen: list[Line],
 ) -> list[Recipe]:
-    """A recipe for each line of bars: `added` (bar, share of its length, values of `sizes`) comes to the flexibility (3, 3).
+    """A recipe for each of the lines of bars `chosen`: what a hinge of `sizes` does at a share of a bar, does(bar, share, values).
 
     extend(problem, bar, share, values): the deck with that in it.
     """
-    chosen, found = lines(model), []
+    found = []
     total = sum(line.length for line in chosen)
     for line in chosen:
         where = Unknown(PLACE, "m", 0.0, line.length, log=False)
         at = line.starts(_STARTS, line.length / total)
 
         def change(values: np.ndarray, line=line) -> Change:
-            bar, share = line.at(values[-1])
-            return hinged(model.bars, bar, share, added(bar, share, values[:-1]))
+            return does(*line.at(values[-1]), values[:-1])
 
         def site(values: np.ndarray, line=line):
             return line.site(values[-1])
@@ -128,29 +128,32 @@ def with_hinge(
     off: distance from the axis of the point about which it turns.
     """
     edit = Edit(problem)
+    spring, soft = hinge(edit, *_end(edit, bars, bar, share), turning, sliding, parting, off)
+    if len(soft) == 1:
+        edit.bind(name, [spring], tuple(soft), unit="N m/rad")
+    else:  # what is soft follows one factor
+        edit.bind(name, [spring], tuple(soft), factor=1.0)
+    return edit.done()
+
+
+def with_joint(
+    problem: Problem, bars: Bars, planes: list[int], share: float, names: list[str], turning: np.ndarray
+) -> Problem:
+    """The deck with springs `turning` (c,) at `share` of one element, one or two `planes` of which they let turn."""
+    if len(planes) == 1:
+        return with_hinge(problem, bars, planes[0], share, names[0], turning[0])
+    edit = Edit(problem)
+    spring, soft = hinge(edit, *_end(edit, bars, planes[0], share), turning[0], other=turning[1])
+    for name, key in zip(names, soft, strict=True):
+        edit.bind(name, [spring], (key,), unit="N m/rad")
+    return edit.done()
+
+
+def _end(edit: Edit, bars: Bars, bar: int, share: float) -> tuple[tuple[int, int], int, np.ndarray]:
+    """The beam that ends at `share` of a bar, split there, which of its ends that is, and the axes of the bar."""
     element, there = element_at(edit, np.array(bars.point(bar, share)), bars.axis[bar])
     node = edit.split(element, there)
     element = edit.meeting(element, node)
     end = int(np.argmax(edit.sets[element[0]].nodes[element[1]] == node))
     axis, across = bars.axis[bar], bars.across[bar]
-    spring = hinge(edit, element, end, np.stack([axis, across, np.cross(axis, across)]), turning, sliding, parting, off)
-    properties = edit.sets[spring[0]].properties
-    if sliding or spring_is_joint(edit, spring):
-        _bind_factor(edit, spring, name, properties, (turning, sliding, parting))
-    else:
-        edit.bind(name, [spring], tuple(properties), unit="N m/rad")
-    return edit.done()
-
-
-def spring_is_joint(edit: Edit, element: tuple[int, int]) -> bool:
-    """Whether the element holds further directions rigid."""
-    return edit.sets[element[0]].type == "joint"
-
-
-def _bind_factor(edit: Edit, spring: tuple[int, int], name: str, properties: dict, given: tuple[float, ...]) -> None:
-    """The springs follow one factor; those that stand for rigidity do not."""
-    soft = tuple(key for key, value in properties.items() if value[0] in given)
-    if len(soft) == 1:
-        edit.bind(name, [spring], soft, unit="N m/rad")
-    else:
-        edit.bind(name, [spring], soft, factor=1.0)
+    return element, end, np.stack([axis, across, np.cross(axis, across)])

@@ -20,7 +20,7 @@ from mouse_cli.terms.elements import Layout, Matrices, registry
 _MOST = 60  # places that are looked at: those that hold most energy in the lowest modes
 _STIFF = {"rod": ("E",), "spring": DIRECTIONS, "storey": DIRECTIONS, "joint": DIRECTIONS}
 LOST = "share lost"
-_LOST, _GAINED = Unknown(LOST, "1", 0.02, 0.95), Unknown("share gained", "1", 0.02, 3.0)
+_LOST, _GAINED = Unknown(LOST, "1", 0.02, 0.99), Unknown("share gained", "1", 0.02, 20.0)
 
 
 def of_elements(model: Reduced, candidate: Candidate, sign: int = -1, directed: bool = False) -> list[Recipe]:

@@ -21,7 +21,7 @@ from mouse_cli.model.problem import Problem
 
 _MOST = 240  # members that are looked at: those that hold most energy in the lowest modes
 _HELD = 1e-6  # share of the energy of a mode below which a member has no part in it
-_LOST, _GAINED = Unknown(LOST, "1", 0.02, 0.99), Unknown("share gained", "1", 0.02, 3.0)
+_LOST, _GAINED = Unknown(LOST, "1", 0.02, 0.99), Unknown("share gained", "1", 0.02, 20.0)
 _STIFF = {"beam": ("E",), "rod": ("E",), "storey": DIRECTIONS}
 _SECTIONS = {"beam": ("A", "Iy", "Iz", "J"), "rod": ("A",)}
 

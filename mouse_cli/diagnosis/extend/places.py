@@ -78,21 +78,24 @@ def hinge(
     sliding: float = 0.0,
     parting: float = 0.0,
     off: float = 0.0,
-) -> tuple[int, int]:
-    """A spring (N m/rad) in place of the rigid connection of one end of a beam: the element that it is.
+    other: float = 0.0,
+) -> tuple[tuple[int, int], dict[str, float]]:
+    """A spring (N m/rad) in place of the rigid connection of one end of a beam: the element that it is, what is soft by key.
 
     axes (3, 3), rows: along the bar, the direction in which it bends, and the axis about which it does. sliding: stiffness (N/m)
-    across the bar there, parting: along it; 0: rigid. off: how far from the axis it turns.
+    across the bar there, parting: along it, other: (N m/rad) in the other plane; 0: rigid. off: how far from the axis it turns.
     """
     old = int(edit.sets[element[0]].nodes[element[1], end])
     new = edit.detach(element, end)
-    turn, slide = (_global(axes[k]) for k in (2, 1))
-    if turn is not None and (slide is not None or not sliding) and not parting:
-        free = {3 + turn} | ({slide} if sliding else set())
-        edit.links.append(RigidLink(old, new, tuple(d for d in range(6) if d not in free)))
-        values = {DIRECTIONS[3 + turn]: turning} | ({DIRECTIONS[slide]: sliding} if sliding else {})
-        return edit.add("spring", [[old, new]], values)[0]
-    return _joint(edit, element, (old, new), axes, {"RZ": turning, "TY": sliding, "TX": parting}, off)
+    turn, across = (_global(axes[k]) for k in (2, 1))
+    if turn is not None and (across is not None or not (sliding or other)) and not parting:
+        soft = {3 + turn: turning} | ({across: sliding} if sliding else {}) | ({3 + across: other} if other else {})
+        edit.links.append(RigidLink(old, new, tuple(d for d in range(6) if d not in soft)))
+        values = {DIRECTIONS[d]: value for d, value in soft.items()}
+        return edit.add("spring", [[old, new]], values)[0], values
+    values = {"RZ": turning, "TY": sliding, "TX": parting, "RY": other}
+    values = {key: value for key, value in values.items() if value}
+    return _joint(edit, element, (old, new), axes, values, off), values
 
 
 def _joint(
@@ -106,7 +109,7 @@ def _joint(
     EI = E * max(edit.values(element, "Iy"), edit.values(element, "Iz"))
     across, along, turn = 12 * EI / length**3, E * A / length, max(4 * EI, G * J) / length
     values = dict(zip(DIRECTIONS, _STIFF * np.array([along, across, across, turn, turn, turn]), strict=True))
-    values |= {key: value for key, value in soft.items() if value}
+    values |= soft
     options: dict = {"axes": [axes[0].tolist(), axes[1].tolist()]}
     if off:
         options["at"] = (xyz[nodes[0]] + off * axes[1]).tolist()

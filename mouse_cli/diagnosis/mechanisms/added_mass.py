@@ -18,6 +18,7 @@ from mouse_cli.model.problem import Problem
 
 _PART, _BETWEEN = 0.5, 0.1  # prior probability that a row is covered in part; of those, that neither end of it is
 _MOST = 12  # rows of bars that may be covered in part
+_HEAVIEST = 10.0  # times the mass of the bars: a thin pipe holds several times its own mass of water
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
@@ -27,7 +28,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
         return heavier(model, candidate)
     bars = model.bars
     mean = float(np.average(bars.line_mass, weights=bars.length)) or 1.0
-    m = Unknown("mass per length", "kg/m", 1e-3 * mean, mean)
+    m = Unknown("mass per length", "kg/m", 1e-3 * mean, _HEAVIEST * mean)
     wet = {i: Wet(run) for i, run in enumerate(found)}
     total = sum(part.sums[-1] for part in wet.values())
     ids = tuple(sorted({int(bars.ids[i]) for run in found for i in run.members}))

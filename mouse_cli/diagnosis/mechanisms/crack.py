@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Recipe, Unknown, steps
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.effects.fracture import factors
-from mouse_cli.diagnosis.effects.hinges import places, with_hinge
+from mouse_cli.diagnosis.effects.hinges import hinged, lines, places, with_hinge
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import Bars
@@ -32,17 +32,18 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
         e = c.both / c.turning * stretches[bar]
         return c.turning, c.sliding, c.parting - e**2 * c.turning, e
 
-    def added(bar: int, at: float, values: np.ndarray) -> np.ndarray:
+    def does(bar: int, at: float, values: np.ndarray) -> Change:
         turning, sliding, parting, e = compliances(bar, values[0])
         b = np.array([1.0, 2 * at - 1, e])
-        return turning * np.outer(b, b) + np.diag([0.0, 4 / bars.length[bar] ** 2 * sliding, parting])
+        added = turning * np.outer(b, b) + np.diag([0.0, 4 / bars.length[bar] ** 2 * sliding, parting])
+        return hinged(bars, bar, at, added)
 
     def extend(problem: Problem, bar: int, at: float, values: np.ndarray) -> Problem:
         turning, sliding, parting, e = compliances(bar, values[0])
         name = f"crack in {bars.site(bar, at).text}"
         return with_hinge(problem, bars, bar, at, name, 1 / turning, 1 / sliding, 1 / parting, e)
 
-    return places(model, candidate, (depth,), added, steps(depth, 3), extend)
+    return places(model, candidate, (depth,), does, steps(depth, 3), extend, lines(model))
 
 
 def _stretching(bars: Bars) -> np.ndarray:

@@ -6,7 +6,7 @@ from mouse_cli.diagnosis.effects.arms import arm, arms, at_end, turning, with_ar
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.likelihoods.modal.scales import total_mass
+from mouse_cli.diagnosis.likelihoods.modal.scales import BODY, total_mass
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.attached import Attached
 from mouse_cli.model.diagnosis import Site
@@ -24,7 +24,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
 def _recipe(model: Reduced, candidate: Candidate, node: int, at: Attached, about: tuple, count: int) -> Recipe:
     unknowns, starts, axes = about
     number, total = int(model.problem.mesh.node_ids[node]), total_mass(model)
-    m = Unknown("mass", "kg", 1e-3 * total, 0.5 * total)
+    m = Unknown("mass", "kg", *(BODY * total))
     site = Site("node", (number,), tuple(model.problem.mesh.coordinates[node].tolist()), f"an arm from node {number}")
 
     def change(values: np.ndarray) -> Change:

@@ -6,7 +6,7 @@ from mouse_cli.diagnosis.effects.arms import turning
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product, steps
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.likelihoods.modal.scales import span, total_mass
+from mouse_cli.diagnosis.likelihoods.modal.scales import BODY, span, total_mass
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.attached import Attached
 from mouse_cli.model.diagnosis import Site
@@ -37,7 +37,7 @@ def _recipe(
     """axes: those about which it has inertia; heavy: it has mass too."""
     number, total = int(model.problem.mesh.node_ids[node]), total_mass(model)
     least, most = total * span(model) ** 2 * np.array([1e-6, 5e-2])
-    J, m = Unknown("rotary inertia", "kg m2", least, most), Unknown("mass", "kg", 1e-3 * total, 0.5 * total)
+    J, m = Unknown("rotary inertia", "kg m2", least, most), Unknown("mass", "kg", *(BODY * total))
     turns = at.rows[[3 + d for d in axes]]
     straight, turned = at.rows[:3].T @ at.rows[:3], turns.T @ turns
     one = "" if heavy else f", rotary inertia alone, {' and '.join(DIRECTIONS[3 + d] for d in axes)}"

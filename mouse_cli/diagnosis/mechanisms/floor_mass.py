@@ -7,7 +7,7 @@ from mouse_cli.diagnosis.effects.line_mass import Wet
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.places import beams_within
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.likelihoods.modal.scales import total_mass
+from mouse_cli.diagnosis.likelihoods.modal.scales import BODY, total_mass
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.lines import Line, elements
 from mouse_cli.model.diagnosis import Site
@@ -56,7 +56,7 @@ def _parts(model: Reduced, found: list[Line]) -> dict[str, tuple[int, ...]]:
 
 def _recipe(model: Reduced, candidate: Candidate, name: str, rows: list[Line], M: np.ndarray, count: int) -> Recipe:
     length, total = sum(run.length for run in rows), total_mass(model)
-    m = Unknown("mass per length", "kg/m", 1e-3 * total / length, 0.5 * total / length)
+    m = Unknown("mass per length", "kg/m", *(BODY * total / length))
     ids = tuple(np.concatenate([run.bars.ids[run.members] for run in rows]).tolist())
     middle = np.average([np.mean(run.ends, axis=0) for run in rows], axis=0, weights=[run.length for run in rows])
     site = Site("element", ids, tuple(middle.tolist()), name)

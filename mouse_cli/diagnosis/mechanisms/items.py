@@ -5,7 +5,7 @@ import numpy as np
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product, steps
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.likelihoods.modal.scales import span, total_mass
+from mouse_cli.diagnosis.likelihoods.modal.scales import BODY, span, total_mass
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
@@ -40,7 +40,7 @@ def _recipe(model: Reduced, candidate: Candidate, chosen: list[tuple[int, int, i
     rows = [model.node(node) for _, _, node in chosen]
     straight, turning = (sum(u[own].T @ u[own] for u in rows) for own in (slice(0, 3), slice(3, 6)))
     total, length = total_mass(model), span(model)
-    m = Unknown("mass of each", "kg", 1e-3 * total, 0.5 * total)
+    m = Unknown("mass of each", "kg", *(BODY * total))
     r = Unknown("radius of gyration", "m", 1e-3 * length, 0.1 * length)
     extended = bool(turning.any())  # else nothing in the model turns
     ids = tuple(int(model.problem.mesh.elements[s].ids[i]) for s, i, _ in chosen)

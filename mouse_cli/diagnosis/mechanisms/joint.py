@@ -1,12 +1,12 @@
-"""A joint of bars that turns in bending, where bars meet or, as a splice does, anywhere along a line of them."""
+"""A joint of bars that turns in bending, about one axis or both, where bars meet or, as a splice does, along a line of them."""
 
 from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
-from mouse_cli.diagnosis.effects.hinges import hinged, lines, places, with_hinge
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps, summed
+from mouse_cli.diagnosis.effects.hinges import hinged, lines, places, with_joint
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import Bars
@@ -18,8 +18,9 @@ from mouse_cli.model.problem import Problem
 _MOST = 60  # joints that are looked at: those that bend most in the lowest modes
 _SAME = 1e-6  # of directions
 _SPLICE = 0.5  # prior probability that a joint is a splice along a line, where bars meet too
-_PINNED, _RIGID = 0.5, 3e3  # stiffness over EI / L
-_STARTS = 3  # stiffnesses to begin from
+_BOTH = 0.5  # prior probability that a joint where bars meet in space turns about both axes
+_PINNED, _RIGID = 1e-2, 3e3  # stiffness over EI / L
+_STARTS = 4  # stiffnesses to begin from
 _ROOT = 0.01  # of the length of a line, about half the height of a slender section, up to which a splice is at its end
 _STEP = 1.3  # ratio of stiffnesses or masses from which on a straight line changes its section, and does not taper
 
@@ -38,31 +39,62 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
 
 
 def _corners(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """Those of bars that meet."""
+    """Those of bars that meet: about one axis, and in space about both, each with a stiffness of its own."""
     bars = model.bars
     ends = _ends(bars)
+    one = [((bar,), end) for bar, end in ends]
+    own = dict.fromkeys((int(bars.set[bar]), int(bars.member[bar]), end) for bar, end in ends)
+    both = [(tuple(planes), end) for *element, end in own if len(planes := bars.twins[tuple(element)]) > 1]
+    share = np.log([1 - _BOTH, _BOTH] if both else [1.0, 1.0])
     modes = slice(0, min(model.r, int(model.data.test.number.max()) + 1))
-    bent = [np.abs(_moment(bars, bar, end, modes)).max() for bar, end in ends]
-    chosen = [ends[i] for i in sorted(np.argsort(bent)[::-1][:_MOST])]
-    return [_recipe(model, candidate, bar, end, len(ends)) for bar, end in chosen]
+    found = []
+    for some, prior in zip((one, both), share.tolist(), strict=True):
+        bent = [max(np.abs(_moment(bars, bar, end, modes)).max() for bar in planes) for planes, end in some]
+        chosen = [some[i] for i in sorted(np.argsort(bent)[::-1][:_MOST])]
+        found += [_recipe(model, candidate, *each, prior - float(np.log(len(some)))) for each in chosen]
+    return found
 
 
 def _splices(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """Those along lines of bars."""
-    bars = model.bars
-    if not lines(model):
+    """Those along lines of bars, about one axis; and in space about both, each with a stiffness of its own."""
+    bars, found = model.bars, lines(model)
+    if not found:
         return []
-    k = _stiffness(max(float(bars.EI[line.members].max() / line.length) for line in lines(model)))
+    twins = lambda bar: bars.twins[int(bars.set[bar]), int(bars.member[bar])]
+    space = [line for line in found if bars.plane[line.members[0]] == 0 and len(twins(line.members[0])) > 1]
+    share = np.log([1 - _BOTH, _BOTH] if space else [1.0, 1.0])
+    one = _spliced(model, candidate, found, lambda bar: [bar])
+    both = _spliced(model, candidate, space, twins)
+    shares = zip(share.tolist(), (one, both), strict=True)
+    return [replace(each, log_prior=each.log_prior + own) for own, some in shares for each in some]
 
-    def added(bar: int, share: float, values: np.ndarray) -> np.ndarray:
+
+def _spliced(
+    model: Reduced, candidate: Candidate, chosen: list[Line], planes: Callable[[int], list[int]]
+) -> list[Recipe]:
+    """planes: of a bar, those of its element in which it turns."""
+    if not chosen:
+        return []
+    bars = model.bars
+    k = _stiffness(max(float(bars.EI[line.members].max() / line.length) for line in chosen))
+    count = len(planes(chosen[0].members[0]))
+    names = [k.name] if count == 1 else [f"{k.name}, local {axis}" for axis in "yz"]
+
+    def does(bar: int, share: float, values: np.ndarray) -> Change:
         b = np.array([1.0, 2 * share - 1, 0.0])
-        return np.outer(b, b) / values[0]
+        turns = zip(planes(bar), values, strict=True)
+        return summed([hinged(bars, each, share, np.outer(b, b) / value) for each, value in turns])
 
     def extend(problem: Problem, bar: int, share: float, values: np.ndarray) -> Problem:
-        return with_hinge(problem, bars, bar, share, f"splice in {bars.site(bar, share).text}", values[0])
+        own = planes(bar)
+        about = [f", local {'yz'[bars.plane[each]]}" if len(own) > 1 else "" for each in own]
+        named = [f"splice in {bars.site(bar, share).text}{each}" for each in about]
+        return with_joint(problem, bars, planes(bar), share, named, values)
 
-    made = places(model, candidate, (k,), added, steps(k, _STARTS), extend)
-    return [replace(one, limit=_root(model, line)) for one, line in zip(made, lines(model), strict=True)]
+    starts = np.column_stack([steps(k, _STARTS if count == 1 else 2)] * count)
+    sizes = tuple(replace(k, name=name) for name in names)
+    made = places(model, candidate, sizes, does, starts, extend, chosen)
+    return [replace(one, limit=_root(model, line)) for one, line in zip(made, chosen, strict=True)]
 
 
 def _root(model: Reduced, line: Line) -> Callable[[np.ndarray], str]:
@@ -128,23 +160,34 @@ def _different(bars: Bars, ends: list[tuple[int, int]]) -> list[tuple[int, int]]
     return found
 
 
-def _recipe(model: Reduced, candidate: Candidate, bar: int, end: int, count: int) -> Recipe:
-    bars = model.bars
-    line = bars.lines[bars.line[bar]]
-    k = _stiffness(bars.EI[bar] / line.length)
+def _recipe(model: Reduced, candidate: Candidate, planes: tuple[int, ...], end: int, log_prior: float) -> Recipe:
+    """planes: the bars of one element, of the planes in which it turns against the rest."""
+    bars, first = model.bars, planes[0]
+    node = int(model.problem.mesh.node_ids[bars.nodes[first, end]])
+    axes = [f"local {'yz'[bars.plane[bar]]}" for bar in planes]
+    site = Site(
+        "node",
+        (node,),
+        bars.point(first, float(end)),
+        f"element {bars.ids[first]} at node {node}, {' and '.join(axes)}",
+    )
+    several = len(planes) > 1
+    k = [_stiffness(bars.EI[bar] / bars.lines[bars.line[bar]].length) for bar in planes]
+    k = [
+        replace(each, name=f"{each.name}, {axis}" if several else each.name) for each, axis in zip(k, axes, strict=True)
+    ]
     b = np.array([1.0, 2.0 * end - 1, 0.0])
-    node = int(model.problem.mesh.node_ids[bars.nodes[bar, end]])
-    position = bars.point(bar, float(end))
-    site = Site("node", (node,), position, f"element {bars.ids[bar]} at node {node}, local {'yz'[bars.plane[bar]]}")
 
     def change(values: np.ndarray) -> Change:
-        return hinged(bars, bar, float(end), np.outer(b, b) / values[0])
+        turns = zip(planes, values, strict=True)
+        return summed([hinged(bars, bar, float(end), np.outer(b, b) / value) for bar, value in turns])
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
-        return with_hinge(problem, bars, bar, float(end), f"joint of {site.text}", values[0])
+        named = [f"joint of element {bars.ids[first]} at node {node}, {axis}" for axis in axes]
+        return with_joint(problem, bars, list(planes), float(end), named, values)
 
-    log_prior = -float(np.log(count))
-    return Recipe(candidate, (k,), change, steps(k, _STARTS)[:, None], lambda values: site, 0, log_prior, extend)
+    grid = np.column_stack([steps(each, _STARTS) for each in k])
+    return Recipe(candidate, tuple(k), change, grid, lambda values: site, 0, log_prior, extend)
 
 
 CANDIDATE = Candidate(
@@ -152,7 +195,7 @@ CANDIDATE = Candidate(
     "a flexible joint",
     "local-stiffness",
     "a connection of bars (bolts, weld, corner, or a splice anywhere along them) that the model takes as rigid and that rotates in "
-    "proportion to the moment",
+    "proportion to the moment, about one axis or both",
     recipes,
     bars,
 )

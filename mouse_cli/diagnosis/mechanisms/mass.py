@@ -5,7 +5,7 @@ import numpy as np
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown
 from mouse_cli.diagnosis.extend.points import with_mass
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.likelihoods.modal.scales import total_mass
+from mouse_cli.diagnosis.likelihoods.modal.scales import BODY, total_mass
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.points import all_motions, sized
 
@@ -15,7 +15,7 @@ _STARTS = 4, 8  # masses to begin from, along a line and at one place
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """M + m B'B, B the translations of a place."""
     total = total_mass(model)
-    m = Unknown("mass", "kg", 1e-3 * total, 0.5 * total)
+    m = Unknown("mass", "kg", *(BODY * total))
 
     def change(sizes: np.ndarray, B: np.ndarray) -> Change:
         return Change(M=sizes[0] * B.T @ B)

@@ -7,7 +7,7 @@ import numpy as np
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.extend.points import with_oscillator
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.likelihoods.modal.scales import highest, lowest, total_mass
+from mouse_cli.diagnosis.likelihoods.modal.scales import BODY, highest, lowest, total_mass
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.points import Points, directions, placed
 from mouse_cli.model.problem import Problem
@@ -18,7 +18,7 @@ _PLACES = 6  # about so many of those on a line to begin from: there are many si
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """One degree of freedom more: K + k [B, -1]'[B, -1], M + m on it, k = m (2 pi f)^2."""
     total, hz = total_mass(model), np.sqrt([lowest(model), highest(model)]) / (2 * np.pi)
-    m = Unknown("mass", "kg", 1e-3 * total, 0.4 * total)
+    m = Unknown("mass", "kg", *(BODY * total))
     f = Unknown("frequency", "Hz", 0.3 * hz[0], 1.5 * hz[1])
     measured = model.data.test.frequency_hz[model.data.has_frequency]
     found = np.concatenate([steps(f, 14), measured])  # one of those measured may be its own

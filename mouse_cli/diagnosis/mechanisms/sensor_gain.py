@@ -15,7 +15,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
 
 
 def _recipe(model: Reduced, candidate: Candidate, k: int) -> Recipe:
-    gain = Unknown("gain", "1", 0.1, 3.0)
+    gain = Unknown("gain", "1", 0.05, 20.0)  # as of units that are confused, 9.81
     where, start = site(model.problem, k), np.array([[regressed(model, k, (gain.lower, gain.upper))]])
 
     def change(values: np.ndarray) -> Change:

@@ -25,7 +25,7 @@ def of_lines(model: Reduced, candidate: Candidate, stiffer: bool = False) -> lis
 def _recipe(model: Reduced, candidate: Candidate, line: Line, share: float, stiffer: bool) -> Recipe:
     L = line.length
     d = Unknown("stiffness added" if stiffer else "flexibility added", "1", 0.02, 3.0)
-    w = Unknown("width over length", "1", 0.05, 0.4)
+    w = Unknown("width over length", "1", 0.05, 0.6)
     x = Unknown(PLACE, "m", 0.0, L, log=False)
 
     def change(values: np.ndarray) -> Change:

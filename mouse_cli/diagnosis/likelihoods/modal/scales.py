@@ -5,6 +5,8 @@ import numpy as np
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.dynamics.frequency import eigenvalue
 
+BODY = np.array([1e-3, 2.0])  # masses that a body missing from the model may have, over that of the model
+
 
 def total_mass(model: Reduced) -> float:
     """Mass (kg) of the structure."""

@@ -1,0 +1,136 @@
+"""Bearings that hold beside the axis, and joints that turn about both axes, named in tests of frames assembled here.
+
+Elements of bars in space: axial and torsion linear, bending cubic, consistent masses (Przemieniecki 1968, ch. 5 and 11).
+"""
+
+import numpy as np
+from scipy.linalg import eigh
+
+from mouse_cli.diagnosis import diagnose
+from mouse_cli.formats import yaml_deck
+from mouse_cli.formats.assemble import assemble
+from mouse_cli.model.diagnosis import NAMED
+
+E, G, RHO = 7.1e10, 7.1e10 / 2.6, 2700.0
+
+
+def element(l: float, A: float, I: float, J: float) -> tuple[np.ndarray, np.ndarray]:
+    """K, M (12, 12) of a bar along x with one I in both planes: u, v, w, turns about x, y, z at either end."""
+    K, M = np.zeros((2, 12, 12))
+    rod, rod_mass = np.array([[1, -1], [-1, 1]]), np.array([[2, 1], [1, 2]]) / 6
+    for own, k, m in (([0, 6], E * A / l, RHO * A * l), ([3, 9], G * J / l, RHO * 2 * I * l)):
+        K[np.ix_(own, own)], M[np.ix_(own, own)] = k * rod, m * rod_mass
+    for own, turn in (([1, 5, 7, 11], l), ([2, 4, 8, 10], -l)):
+        unit = np.outer([1, turn, 1, turn], [1, turn, 1, turn])
+        k = np.array([[12, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]])
+        m = np.array([[156, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]])
+        K[np.ix_(own, own)] = E * I / l**3 * unit * k
+        M[np.ix_(own, own)] = RHO * A * l / 420 * unit * m
+    return K, M
+
+
+def frame(
+    points: np.ndarray, joins: list[tuple[int, int]], A: float, I: float, J: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """K, M (6 n, 6 n) of bars that join points (n, 3)."""
+    K, M = np.zeros((2, 6 * len(points), 6 * len(points)))
+    for a, b in joins:
+        along = points[b] - points[a]
+        l = float(np.linalg.norm(along))
+        x = along / l
+        y = np.cross([0.0, 0.0, 1.0], x) if abs(x[2]) < 0.9 else np.array([0.0, 1.0, 0.0])
+        y /= np.linalg.norm(y)
+        T = np.kron(np.eye(4), np.stack([x, y, np.cross(x, y)]))
+        own = np.concatenate([6 * a + np.arange(6), 6 * b + np.arange(6)])
+        for into, part in zip((K, M), element(l, A, I, J), strict=True):
+            into[np.ix_(own, own)] += T.T @ part @ T
+    return K, M
+
+
+def measured(K: np.ndarray, M: np.ndarray, free: np.ndarray, rows: np.ndarray, count: int, seed: int) -> str:
+    """The part of a deck that has frequencies to 0.1 % and shapes to 1 %."""
+    lam, X = eigh(K[np.ix_(free, free)], M[np.ix_(free, free)], subset_by_index=[0, count - 1])
+    rng, shapes = np.random.default_rng(seed), np.zeros((len(K), count))
+    shapes[free] = X
+    shapes = shapes[rows] / np.abs(shapes[rows]).max(axis=0) + 0.01 * rng.standard_normal((len(rows), count))
+    hz = np.sqrt(lam) / (2 * np.pi) * (1 + 1e-3 * rng.standard_normal(count))
+    lines = "\n".join(f"      - [{', '.join(f'{value:.5f}' for value in row)}]" for row in shapes)
+    labels = ", ".join(f"{row // 6 + 1}{('TX', 'TY', 'TZ')[row % 6]}" for row in rows)
+    return f"""parameters:
+  - {{name: E, material: aluminium, property: E, sd: 2 %}}
+  - {{name: density, material: aluminium, property: density, sd: 1 %}}
+test:
+  modes:
+    frequency: [{", ".join(f"{value:.8g}" for value in hz)}]
+    frequency_sd: 0.1 %
+    dofs: [{labels}]
+    shapes:
+{lines}
+    shape_sd: 0.01
+"""
+
+
+def model(points: np.ndarray, joins: list[tuple[int, int]], A: float, I: float, J: float, more: str) -> str:
+    """The part of a deck that has the structure."""
+    nodes = "\n".join(f"      {i + 1}: {point.tolist()}" for i, point in enumerate(points))
+    bars = "\n".join(f"      - {{id: {i + 1}, type: beam, nodes: [{a + 1}, {b + 1}], material: aluminium, section: bar}}"
+                     for i, (a, b) in enumerate(joins))  # fmt: skip
+    return f"""mouse: 1
+model:
+  structure:
+    nodes:
+{nodes}
+    materials: {{aluminium: {{E: {E}, nu: 0.3, density: {RHO}}}}}
+    sections: {{bar: {{A: {A}, Iy: {I}, Iz: {I}, J: {J}}}}}
+    elements:
+{bars}
+{more}"""
+
+
+def diagnosed(text: str):
+    return diagnose(assemble(yaml_deck.read(text, "deck.yaml")))
+
+
+def test_a_seized_bearing_below_the_axis_holds_beside_it():
+    """It resists sliding and turning at once: an inclined spring near the end does the same, and no other restraint does."""
+    A, I, k, arm, n = 1.2e-3, 1.6e-6, 4e7, 0.08, 16
+    points = np.column_stack([np.linspace(0, 4, n + 1), np.zeros((n + 1, 2))])
+    joins = [(i, i + 1) for i in range(n)]
+    K, M = frame(points, joins, A, I, 2 * I)
+    b = np.zeros(len(K))
+    b[6 * n], b[6 * n + 5] = 1.0, arm  # a point below the axis moves by u + arm times the turn
+    K += k * np.outer(b, b)
+    free = np.array([6 * i + d for i in range(n + 1) for d in (0, 1, 5) if (i, d) not in {(0, 0), (0, 1), (n, 1)}])
+    supports = f"    supports: {{1: [TX, TY], {n + 1}: [TY]}}\n    plane: XY\n"
+    test = measured(K, M, free, np.array([6 * i + 1 for i in range(2, n, 2)]), 6, seed=3)
+    found = diagnosed(model(points, joins, A, I, 2 * I, supports) + test)
+    assert (found.kind, found.best.physics) == (NAMED, "eccentric-bearing")
+    for size, true in zip(found.best.causes[0].sizes, (k, arm), strict=True):
+        assert abs(abs(size.value) - true) < 3 * size.sd  # motion across alone does not tell above from below
+
+
+def test_a_joint_turns_about_both_axes():
+    """A drive, a flange, a socket: one axis alone leaves the modes of the other plane wrong."""
+    A, I, n = 9.6e-4, 7.6e-7, 6
+    points = np.concatenate([
+        np.linspace([0, 0, 0], [0, 0, 0.6], n + 1), np.linspace([0, 0, 0.6], [0.7, 0, 0.9], n + 1)[1:]
+    ])  # fmt: skip
+    joins = [(i, i + 1) for i in range(2 * n)]
+    whole = np.vstack([points, points[n]])  # the arm begins at a node of its own
+    K, M = frame(whole, [(a if b != n + 1 else 2 * n + 1, b) for a, b in joins], A, I, 2 * I)
+    x = (points[-1] - points[n]) / np.linalg.norm(points[-1] - points[n])
+    y = np.array([0.0, 1.0, 0.0])
+    both, one = 6 * n + np.arange(6), 6 * (2 * n + 1) + np.arange(6)
+    rigid = 1e4 * E * A / 0.1
+    turns = E * I / 0.76 * np.diag([1e5, 2.0, 3.0])
+    axes = np.stack([x, y, np.cross(x, y)])
+    spring = np.zeros((6, 6))
+    spring[:3, :3], spring[3:, 3:] = rigid * np.eye(3), axes.T @ turns @ axes
+    for p, q, sign in ((both, both, 1), (one, one, 1), (both, one, -1), (one, both, -1)):
+        K[np.ix_(p, q)] += sign * spring
+    free = np.arange(6, len(K))
+    rows = np.array([6 * i + d for i in (2, 4, 6, 8, 10, 12) for d in range(3)])
+    test = measured(K, M, free, rows, 7, seed=4)
+    found = diagnosed(model(points, joins, A, I, 2 * I, "    supports: {1: all}\n") + test)
+    assert (found.kind, found.best.physics) == (NAMED, "joint")
+    assert "local y and local z" in found.best.causes[0].site.text
