@@ -3,7 +3,7 @@
 import numpy as np
 
 from mouse_cli.diagnosis.effects import element_sets
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.matrices import Entries, of_matrices, with_entries
 from mouse_cli.diagnosis.extend.points import found as new_parameter
@@ -19,6 +19,7 @@ from mouse_cli.terms.elements import Layout, Matrices, registry
 
 _MOST = 60  # places that are looked at: those that hold most energy in the lowest modes
 _STIFF = {"rod": ("E",), "spring": DIRECTIONS, "storey": DIRECTIONS, "joint": DIRECTIONS}
+_BEGIN, _GAINS = (0.1, 0.5, 0.9), (0.1, 1.0, 8.0)  # shares to begin from: what is left of a stiffness counts
 LOST = "share lost"
 _LOST, _GAINED = Unknown(LOST, "1", 0.02, 0.99), Unknown("share gained", "1", 0.02, 20.0)
 
@@ -114,7 +115,7 @@ def _recipe(candidate: Candidate, K: np.ndarray, site: Site, count: float, exten
         candidate,
         (share,),
         lambda values: Change(K=values[0] * K, spring=(values[0] + sign) * K),
-        steps(share, 3)[:, None],
+        np.array(_BEGIN if sign < 0 else _GAINS)[:, None],
         lambda values: site,
         log_prior=-float(np.log(count)),
         extend=extend,
