@@ -1,6 +1,7 @@
 """Springs between two places and masses off their nodes, against closed forms; and the first look at pairs of places."""
 
 from dataclasses import replace
+from itertools import pairwise
 from types import SimpleNamespace
 
 import numpy as np
@@ -243,16 +244,45 @@ def test_a_beam_has_no_braces():
     assert not len(pairs(model(TIP % 1.0)))
 
 
-def test_near_pairs_are_more_probable_beforehand():
-    """All together one; each by the inverse of how many are no longer: uniform in the logarithm of that number."""
-    found = model(tower())
-    chosen = pairs(found)
-    xyz = found.problem.mesh.coordinates
-    length = np.linalg.norm(xyz[chosen.keys[:, 0]] - xyz[chosen.keys[:, 1]], axis=1)
-    p = np.exp(chosen.log_prior)
-    ranks = np.array([(length <= own + 1e-6).sum() for own in length])
-    assert p.sum() == pytest.approx(1.0)
-    assert p * ranks == pytest.approx(p[0] * ranks[0])
+@pytest.mark.parametrize("pieces", [1, 3])
+def test_near_pairs_are_more_probable_beforehand(pieces):
+    """All together one; each by the inverse of how many are no more members apart: uniform in the logarithm of that number.
+
+    Six columns, bays of 3 and 8 m, two storeys: panels are two members across, whatever their bay and however fine the mesh.
+    """
+    xyz = np.array([[x, 0.0, z] for z in (0.0, 3.0, 6.0) for x in (0.0, 3.0, 11.0)])
+    members = [(i, i + 3) for i in range(6)] + [(3, 4), (4, 5), (6, 7), (7, 8)]
+    nodes, elements = list(xyz.tolist()), []
+    for a, b in members:
+        inner = [len(nodes) + i for i in range(pieces - 1)]
+        nodes += [(xyz[a] + (xyz[b] - xyz[a]) * (i + 1) / pieces).tolist() for i in range(pieces - 1)]
+        row = [a, *inner, b]
+        elements += [[p + 1, q + 1] for p, q in pairwise(row)]
+    bar = "E: 2.1e+11, nu: 0.3, density: 7850, A: 0.01, Iy: 1.0e-5, Iz: 1.0e-5, J: 1.0e-5"
+    listed = "\n".join(f"      - {{id: {n}, type: beam, nodes: {own}, {bar}}}" for n, own in enumerate(elements, 1))
+    named = ", ".join(f"{n}: {at}" for n, at in enumerate(nodes, 1))
+    text = f"""mouse: 1
+model:
+  structure:
+    nodes: {{{named}}}
+    elements:
+{listed}
+    supports: {{1: all, 2: all, 3: all}}
+    plane: XZ
+test:
+  modes: {{number: [1], frequency: [1], frequency_sd: 1 %}}
+"""
+    chosen = pairs(model(text))
+    keys = [tuple(sorted(key[:2])) for key in (chosen.keys + 1).tolist()]
+    p = dict(zip(keys, np.exp(chosen.log_prior).tolist(), strict=True))
+    panel = {key: p.pop(key) for key in [(1, 5), (2, 4), (2, 6), (3, 5), (4, 8), (5, 7), (5, 9), (6, 8)]}
+    wide = {key: p.pop(key) for key in [(1, 9), (3, 7)]}
+    assert set(p) == {(1, 8), (2, 7), (2, 9), (3, 8), (1, 6), (3, 4), (4, 9), (6, 7)}
+    first = panel[1, 5]
+    assert list(panel.values()) == pytest.approx([first] * 8)
+    assert list(p.values()) == pytest.approx([first * 8 / 16] * 8)
+    assert list(wide.values()) == pytest.approx([first * 8 / 18] * 2)
+    assert 8 * first * (1 + 1 / 2 + 2 / 18) == pytest.approx(1.0)
 
 
 def test_two_places_that_predict_the_same_are_two():

@@ -18,6 +18,7 @@ _STILL = 0.02  # share of the largest elongation in a measured mode below which 
 _SPRINGS = 60  # degrees of freedom or nodes up to which a model of springs is looked at
 _ENDS, _LOOKED = 600, 3000  # ends of members, and pairs of them, the closest first, that are looked at
 _STRAIGHT = 0.999  # cosine from which on one member continues another
+_NOTHING = 1e-9  # of a member, for a piece of one that ends nowhere
 _SIGHT = 1e-3  # of the distance: how near to the line a third node is in the way
 _EACH = 256  # pairs worked on at once
 
@@ -81,13 +82,30 @@ def pairs(model: Reduced) -> Pairs:
 
 
 def _log_prior(model: Reduced, keys: np.ndarray) -> np.ndarray:
-    """See `Pairs`: even over the logarithm of how many pairs are no longer, for braces cross a panel, and seldom a building."""
+    """See `Pairs`: even over the logarithm of how many pairs are no more members apart, for braces cross a panel, and seldom a
+    building; any panel, be its bay short or long.
+    """
     if model.motion is None or not len(keys):
         return np.full(len(keys), -np.log(max(len(keys), 1)))
-    xyz = model.problem.mesh.coordinates
-    length = np.linalg.norm(xyz[keys[:, 1]] - xyz[keys[:, 0]], axis=1)
-    shorter = np.searchsorted(np.sort(length), length * (1 + _SIGHT), side="right")
-    return -np.log(shorter) - np.log((1 / shorter).sum())
+    apart = _apart(model.problem.mesh, keys)
+    nearer = np.searchsorted(np.sort(apart), apart, side="right")
+    return -np.log(nearer) - np.log((1 / nearer).sum())
+
+
+def _apart(mesh: Mesh, keys: np.ndarray) -> np.ndarray:
+    """Members (c,) on the shortest way from one node of a pair to the other, however many elements one is made of.
+
+    Of each element half a member is at each of its nodes at which members end.
+    """
+    from scipy.sparse import csr_array
+    from scipy.sparse.csgraph import dijkstra
+
+    n, at_end = len(mesh.coordinates), np.isin(np.arange(len(mesh.coordinates)), ends(mesh))
+    one, other = np.array(sorted(joined(mesh)), int).reshape(-1, 2).T
+    half = np.maximum(0.5 * at_end[one] + 0.5 * at_end[other], _NOTHING)
+    start, row = np.unique(keys[:, 0], return_inverse=True)
+    way = dijkstra(csr_array((half, (one, other)), shape=(n, n)), directed=False, indices=start)
+    return np.round(way[row, keys[:, 1]])
 
 
 def _flexibility(model: Reduced, keys: np.ndarray, rows: np.ndarray) -> tuple[np.ndarray, float]:
