@@ -2,8 +2,10 @@
 
 import numpy as np
 
+from mouse_cli.diagnosis.likelihoods.modal.data import Data
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.search.fit import Fit
 
 _RIGID, _VISIBLE = 1e-3, 0.03  # eigenvalue and motion, of measured modes, below which a mode is rigid, or easily missed
@@ -40,15 +42,28 @@ def _pairs(one: Fit) -> list[tuple[Missed, Missed]]:
     for model, at in one.model.parts(one.point):
         bare = Model(model.base).point(at.x[: model.k])
         if bare is not None and at.modes.size and at.modes.max() + 1 > model.base.data.test.number.max():
-            found.append((_missed(at), _missed(bare)))
+            held = _held(model.base)
+            found.append((_missed(at, held), _missed(bare, held)))
     return found
 
 
-def _missed(at: Point) -> Missed:
-    """Modes of `at` between rigid ones and the highest measured one that the test has not."""
+def _held(base: Reduced) -> Data | None:
+    """The modes that the deck holds out, which are none of those fitted; None without any."""
+    held = base.problem.hold_out
+    return (
+        base.with_test(held.test, base.data.test).data
+        if held is not None and held.test is not None and held.test.m
+        else None
+    )
+
+
+def _missed(at: Point, held: Data | None) -> Missed:
+    """Modes of `at` between rigid ones and the highest measured one that the test has not, fitted or held out."""
     measured, size = at.eigenvalues[at.modes], np.abs(at.seen).max(axis=0, initial=0.0)
     between = (at.eigenvalues > _RIGID * measured.min()) & (at.eigenvalues < measured.max())
     between[at.modes] = False
+    if held is not None:
+        between[held.pair(at.eigenvalues, at.seen)] = False
     return np.sqrt(at.eigenvalues[between]) / (2 * np.pi), size[between] / np.median(size[at.modes]) / _VISIBLE
 
 
