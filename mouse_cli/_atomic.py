@@ -5,7 +5,7 @@ import os
 import tempfile
 from pathlib import Path
 
-from mouse_cli._errors import ERROR, Diagnostic, WrittenError
+from mouse_cli._errors import WrittenError
 
 
 def write_text_atomically(path: str | Path, text: str) -> None:
@@ -23,13 +23,10 @@ def write_bytes_atomically(path: str | Path, data: bytes) -> None:
     try:
         _replace(target, data)
     except OSError as error:
-        raise WrittenError(
-            Diagnostic(
-                "MD290",
-                ERROR,
-                f"cannot write {path}: {error.strerror or error}",
-                help="check the folder, its permissions and the free space; nothing was changed",
-            )
+        raise WrittenError.of(
+            "MD290",
+            f"cannot write {path}: {error.strerror or error}",
+            help="check the folder, its permissions and the free space; nothing was changed",
         ) from error
 
 

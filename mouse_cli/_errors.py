@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Self
 
 from mouse_cli._span import Span
 from mouse_cli._texts import line
@@ -41,6 +42,11 @@ class MouseError(Exception):
         one = isinstance(diagnostics, Diagnostic)
         self.diagnostics: tuple[Diagnostic, ...] = (diagnostics,) if one else tuple(diagnostics)
         super().__init__("\n".join(d.headline for d in self.diagnostics))
+
+    @classmethod
+    def of(cls, code: str, message: str, span: Span | None = None, note: str = "", help: str = "") -> Self:
+        """The error of one finding."""
+        return cls(Diagnostic(code, ERROR, message, span, note, help))
 
 
 class DeckError(MouseError):

@@ -7,7 +7,7 @@ from importlib import import_module
 from pkgutil import iter_modules
 from typing import Any
 
-from mouse_cli._errors import ERROR, Diagnostic, PluginError
+from mouse_cli._errors import PluginError
 
 
 @cache
@@ -84,7 +84,7 @@ def _loaded(entry: Any) -> Any:
 def _unusable(entry: Any, why: str) -> PluginError:
     place = f"{entry.name} = {entry.value} in group {entry.group}"
     help = "let the entry point name the object itself, package.module:OBJECT, or uninstall its distribution"
-    return PluginError(Diagnostic("MD511", ERROR, f"the entry point {place} {why}", help=help))
+    return PluginError.of("MD511", f"the entry point {place} {why}", help=help)
 
 
 def _text(path: str) -> str:

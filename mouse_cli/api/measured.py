@@ -5,7 +5,7 @@ import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from mouse_cli._errors import ERROR, Diagnostic, RecordError
+from mouse_cli._errors import Diagnostic, RecordError
 from mouse_cli._span import Span
 from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.model.identification import Identification
@@ -63,7 +63,7 @@ def read_frf(path: str | os.PathLike[str], kind: str = "") -> FrfTest:
     if held is None:
         help = "read time histories by read_recording"
         message = "the file holds no frequency response functions"
-        raise RecordError(Diagnostic("MD659", ERROR, message, Span(name, 1), help=help))
+        raise RecordError.of("MD659", message, Span(name, 1), help=help)
     _warn(held[1])
     return held[0]
 
@@ -115,7 +115,7 @@ def identify(
     if functions:
         return identify_frf(functions, band, orders)
     if not recordings:
-        raise RecordError(Diagnostic("MD659", ERROR, "there are no functions and no recordings to identify modes from"))
+        raise RecordError.of("MD659", "there are no functions and no recordings to identify modes from")
     return identify_recordings(recordings, band, orders)
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from mouse_cli._errors import ERROR, DeckError, Diagnostic
+from mouse_cli._errors import DeckError
 from mouse_cli.formats import is_yaml
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.problem import Problem
@@ -143,8 +143,8 @@ def _unknown(name: str, path: str, note: str) -> DeckError:
         "name an option of `mouse run`, a property, its prior sd as NAME.sd, frequency_sd*, shape_sd*, or the path of a value "
         "in the deck"
     )
-    return DeckError(Diagnostic("MD932", ERROR, f"'{name}' is nothing that can be varied in {path}: {note}", help=help))
+    return DeckError.of("MD932", f"'{name}' is nothing that can be varied in {path}: {note}", help=help)
 
 
 def _refused(code: str, message: str, help: str) -> DeckError:
-    return DeckError(Diagnostic(code, ERROR, message, help=help))
+    return DeckError.of(code, message, help=help)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from mouse_cli._errors import ERROR, Diagnostic, MouseError
+from mouse_cli._errors import MouseError
 from mouse_cli.batch.job import Job
 from mouse_cli.batch.outcome import Outcome
 from mouse_cli.batch.portions import Numbered, Task, Work, next_size
@@ -27,7 +27,7 @@ def client(scheduler: str | None, workers: int) -> Iterator[Any]:
         import distributed
     except ImportError as error:
         help = "pip install 'mouse-cli[cluster]', or leave out --scheduler and --cluster: processes of this machine need nothing"
-        raise MouseError(Diagnostic("MD905", ERROR, "the package distributed is not installed", help=help)) from error
+        raise MouseError.of("MD905", "the package distributed is not installed", help=help) from error
     local = scheduler is None
     try:
         if local:
@@ -37,7 +37,7 @@ def client(scheduler: str | None, workers: int) -> Iterator[Any]:
             found = distributed.Client(scheduler, timeout=_WAIT_S)
     except (OSError, ValueError) as error:
         message = f"no scheduler answers at {scheduler or 'this machine'}: {str(error).splitlines()[0][:200]}"
-        raise MouseError(Diagnostic("MD908", ERROR, message, help="see that it runs: dask scheduler")) from error
+        raise MouseError.of("MD908", message, help="see that it runs: dask scheduler") from error
     try:
         yield found
     finally:

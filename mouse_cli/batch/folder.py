@@ -5,7 +5,7 @@ import os
 from collections.abc import Iterator
 from glob import escape, glob
 
-from mouse_cli._errors import ERROR, Diagnostic, WrittenError
+from mouse_cli._errors import WrittenError
 
 _LOCK = ".mouse-batch"
 
@@ -22,7 +22,7 @@ def held(folder: str) -> Iterator[None]:
     except OSError as error:
         help = "check its name, its permissions and the free space"
         message = f"cannot write to the folder {folder}: {error.strerror or error}"
-        raise WrittenError(Diagnostic("MD290", ERROR, message, help=help)) from error
+        raise WrittenError.of("MD290", message, help=help) from error
     with stream:
         _lock(stream, folder)
         for left in glob(os.path.join(escape(folder), ".*.json.*")):
@@ -41,4 +41,4 @@ def _lock(stream, folder: str) -> None:
         fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError as error:
         help = "wait for it to end, or give another folder with -o"
-        raise WrittenError(Diagnostic("MD904", ERROR, f"another batch writes to {folder}", help=help)) from error
+        raise WrittenError.of("MD904", f"another batch writes to {folder}", help=help) from error

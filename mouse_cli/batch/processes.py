@@ -10,7 +10,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wai
 from concurrent.futures.process import BrokenProcessPool
 from multiprocessing import connection
 
-from mouse_cli._errors import ERROR, Diagnostic, MouseError
+from mouse_cli._errors import MouseError
 from mouse_cli.batch.job import Job
 from mouse_cli.batch.outcome import Outcome
 from mouse_cli.batch.portions import Numbered, Task, Work, next_size
@@ -52,7 +52,7 @@ def _probe(task: Task) -> None:
             pool.submit(task, []).result()
         except BrokenProcessPool as error:
             help = "check the system log for memory and process limits; resume with the same command"
-            raise MouseError(Diagnostic("MD909", ERROR, "processes for jobs cannot be started", help=help)) from error
+            raise MouseError.of("MD909", "processes for jobs cannot be started", help=help) from error
 
 
 def _drained(

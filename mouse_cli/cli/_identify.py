@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import click
 import numpy as np
 
-from mouse_cli._errors import ERROR, Diagnostic, RecordError
+from mouse_cli._errors import Diagnostic, RecordError
 from mouse_cli._span import Span
 from mouse_cli.cli._spectra import measured_data, spectra_options
 from mouse_cli.model.frf_test import FrfTest
@@ -76,7 +76,7 @@ def of_outputs(
 
 
 def _refuse(code: str, message: str, help: str, source: str) -> None:
-    raise RecordError(Diagnostic(code, ERROR, message, Span(source, 1), help=help))
+    raise RecordError.of(code, message, Span(source, 1), help=help)
 
 
 def _read(sources: tuple[str, ...], given: dict[str, object]) -> tuple[Problem | None, Measured]:

@@ -4,7 +4,7 @@ from dataclasses import dataclass, fields
 
 import click
 
-from mouse_cli._errors import ERROR, Diagnostic, RecordError
+from mouse_cli._errors import Diagnostic, RecordError
 from mouse_cli._span import Span
 from mouse_cli.model.recording import Recording
 from mouse_cli.model.spectra import SpectraOptions
@@ -78,5 +78,5 @@ def _of_deck(source: str, titles: tuple[str, ...]) -> Data:
     chosen = tuple(each for each in all_of_it if not titles or each.title in titles)
     if not chosen:
         message = "the deck has no recordings that fits use"
-        raise RecordError(Diagnostic("MD618", ERROR, message, Span(source, 1), help="give test: {recordings: [...]}"))
+        raise RecordError.of("MD618", message, Span(source, 1), help="give test: {recordings: [...]}")
     return Data(chosen, problem.title.strip(), problem.structure.n, problem.units, problem.warnings)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mouse_cli._errors import ERROR, WARNING, DeckError, Diagnostic
+from mouse_cli._errors import WARNING, DeckError, Diagnostic
 from mouse_cli.coupling.functions import functions
 from mouse_cli.coupling.lines import common_lines
 from mouse_cli.coupling.peaks import peaks
@@ -20,7 +20,7 @@ def couple(coupling: Coupling, notice: Notice = lambda text: None) -> Coupled:
     if coupling.synthesis is not None and not only_models:
         named = ", ".join(part.name for part in coupling.substructures if part.measured or part.removed)
         message = f"natural frequencies are requested, but {named} has no matrices to add"
-        raise DeckError(Diagnostic("MD715", ERROR, message, help="leave modes out, or give models"))
+        raise DeckError.of("MD715", message, help="leave modes out, or give models")
     found, interface, warnings = None, None, []
     if coupling.responses:
         found, interface = functions(coupling, common_lines(coupling), notice)

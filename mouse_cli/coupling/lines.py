@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli._errors import ERROR, DeckError, Diagnostic
+from mouse_cli._errors import DeckError
 from mouse_cli.model.coupling import Coupling, Substructure
 from mouse_cli.model.frf_test import KINDS
 
@@ -78,9 +78,7 @@ def _decay(measured: dict[int, Substructure]) -> float:
     rates = {part.name: part.frf.decay_rate for part in measured.values()}
     if len(set(rates.values())) > 1:
         words = ", ".join(f"{name} {rate:g} 1/s" for name, rate in rates.items())
-        raise DeckError(
-            Diagnostic("MD712", ERROR, f"exponential windows differ: {words}", help="measure with one window")
-        )
+        raise DeckError.of("MD712", f"exponential windows differ: {words}", help="measure with one window")
     return next(iter(rates.values()), 0.0)
 
 
@@ -90,6 +88,4 @@ def _told(part: Substructure) -> str:
 
 
 def _apart(message: str) -> DeckError:
-    return DeckError(
-        Diagnostic("MD711", ERROR, message, help="leave lines out, or give a band in which all was measured")
-    )
+    return DeckError.of("MD711", message, help="leave lines out, or give a band in which all was measured")

@@ -87,4 +87,4 @@ def _known(mode: int, before: Forecast, modification: Modification) -> None:
     what = "is a rigid-body mode" if mode <= before.rigid_modes else "is beyond those of the model"
     message = f"mode {mode} {what}; elastic modes are {before.rigid_modes + 1} to {before.problem.structure.n}"
     where = next((t.where for t in modification.targets if t.mode == mode), None)
-    raise DeckError(Diagnostic("MD719", ERROR, message, where, help="name one of the modes that `mouse modes` lists"))
+    raise DeckError.of("MD719", message, where, help="name one of the modes that `mouse modes` lists")

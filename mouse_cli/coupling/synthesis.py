@@ -48,7 +48,7 @@ def _reduced(
     try:
         methods = [reduction(key) for key in asked.methods or registry()]
     except ValueError as error:
-        raise DeckError(Diagnostic("MD716", ERROR, str(error), help="see `mouse list reductions`")) from None
+        raise DeckError.of("MD716", str(error), help="see `mouse list reductions`") from None
     places = [boundary(coupling, k) for k in range(len(matrices))]
     parts = [
         Part(*each, part.weights[at]) for each, part, at in zip(matrices, coupling.substructures, places, strict=True)

@@ -4,7 +4,7 @@ import os
 import re
 from typing import BinaryIO
 
-from mouse_cli._errors import ERROR, DeckError, Diagnostic
+from mouse_cli._errors import DeckError
 from mouse_cli._span import Span
 from mouse_cli.formats.draft import Draft
 from mouse_cli.model.problem import Problem
@@ -108,9 +108,7 @@ def file_bytes(path: str) -> bytes:
             return bounded(stream, path)
     except OSError as error:
         message = f"the deck cannot be read: {error.strerror or error}"
-        raise DeckError(
-            Diagnostic("MD250", ERROR, message, Span(path, 1), help="check the name of the file")
-        ) from error
+        raise DeckError.of("MD250", message, Span(path, 1), help="check the name of the file") from error
 
 
 def bounded(stream: BinaryIO, path: str) -> bytes:
@@ -119,5 +117,5 @@ def bounded(stream: BinaryIO, path: str) -> bytes:
     if len(data) > MAX_BYTES:
         message = f"the file has more than {MAX_BYTES} bytes; no more are read of a deck or a result"
         help = "put large matrices in files: {file: k.mtx}"
-        raise DeckError(Diagnostic("MD202", ERROR, message, Span(path, 1), help=help))
+        raise DeckError.of("MD202", message, Span(path, 1), help=help)
     return data

@@ -8,7 +8,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from mouse_cli import _registry
-from mouse_cli._errors import ERROR, DeckError, Diagnostic
+from mouse_cli._errors import DeckError
 from mouse_cli._span import Span
 from mouse_cli.dynamics import memory
 
@@ -32,7 +32,7 @@ _DISGUISES = (  # how files begin that are not what their name says
 def reject(code: str, path: str, message: str, help: str = "", span: Span | None = None) -> NoReturn:
     """Raise the DeckError of one finding; names and shapes that damage has made endless are cut."""
     message = message if len(message) <= _LONGEST else f"{message[:_LONGEST]}..."
-    raise DeckError(Diagnostic(code, ERROR, message, span or Span(path, 1), help=help))
+    raise DeckError.of(code, message, span or Span(path, 1), help=help)
 
 
 def room(

@@ -6,7 +6,7 @@ import os
 import numpy as np
 
 from mouse_cli._atomic import write_bytes_atomically
-from mouse_cli._errors import ERROR, Diagnostic, WrittenError
+from mouse_cli._errors import WrittenError
 from mouse_cli.formats.frf_values import response_unit
 from mouse_cli.formats.own_names import direction_code
 from mouse_cli.model.frf_test import FrfTest
@@ -25,7 +25,7 @@ def write_frf(frf: FrfTest, path: str, units: Units = UNDECLARED) -> None:
     suffix = os.path.splitext(path)[1].lower()
     if suffix not in SUFFIXES:
         message = f"functions are not written to '{os.path.basename(path)}'"
-        raise WrittenError(Diagnostic("MD290", ERROR, message, help=f"give a name that ends in {', '.join(SUFFIXES)}"))
+        raise WrittenError.of("MD290", message, help=f"give a name that ends in {', '.join(SUFFIXES)}")
     write_bytes_atomically(path, _npz(frf, units) if suffix == ".npz" else _universal(frf, units))
 
 
@@ -112,5 +112,5 @@ def _place(name: str) -> tuple[int, int]:
     found = direction_code(name)
     if found is None:
         message = f"universal files name a node and a direction; '{name}' is none"
-        raise WrittenError(Diagnostic("MD290", ERROR, message, help="write .npz, or name sensors as 12TY"))
+        raise WrittenError.of("MD290", message, help="write .npz, or name sensors as 12TY")
     return found

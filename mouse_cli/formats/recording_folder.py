@@ -135,7 +135,7 @@ def _recordings(path: str, choice: Choice, sensors: Sensors) -> tuple[list[Raw],
 
 
 def _refuse(where: Span, message: str, help: str) -> None:
-    raise RecordError(Diagnostic("MD627", ERROR, message, where, help=help))
+    raise RecordError.of("MD627", message, where, help=help)
 
 
 def _picks(contents: Contents, choice: Choice, sensors: Sensors, where: Span) -> tuple[list[Pick], list[str]]:

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mouse_cli._errors import ERROR, DeckError, Diagnostic
+from mouse_cli._errors import DeckError
 from mouse_cli._span import Span
 from mouse_cli.importing.dofs import Rows, rows
 from mouse_cli.model.arrays import Matrix
@@ -120,7 +120,7 @@ class Solver:
             why = errors[0] if errors else "\n".join(said.splitlines()[-_SAID:])
             message = f"CalculiX stopped at {title}: {' '.join(why.split())[:400]}"
             help = f"run the job itself in {PROGRAM} and mend what it objects to"
-            raise DeckError(Diagnostic("MD274", ERROR, message, Span(self.path, 1), help=help))
+            raise DeckError.of("MD274", message, Span(self.path, 1), help=help)
         return folder
 
 

@@ -106,4 +106,4 @@ def _refuse(model: InputModel, size: float, most: float, what: str) -> None:
     if not size <= most:
         message = f"{what} {size:.2g}; at most {most:.0e} is rounding"
         help = "a keyword of the input acts otherwise than it is read: import a part of the model to find which, and report it"
-        raise DeckError(Diagnostic("MD275", ERROR, message, Span(model.path, 1), help=help))
+        raise DeckError.of("MD275", message, Span(model.path, 1), help=help)

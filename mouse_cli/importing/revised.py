@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mouse_cli._errors import ERROR, DeckError, Diagnostic
+from mouse_cli._errors import DeckError
 from mouse_cli.formats.solver_cards import tag
 from mouse_cli.formats.solver_cards._keywords import keyword_lines
 from mouse_cli.importing.cards import Card
@@ -59,7 +59,7 @@ def _of_this_job(model: InputModel, problem: Problem) -> None:
     if strange or not problem.groups:
         what = f"{strange[0]} is no set or support of {model.path}" if strange else "the deck has no element sets"
         help = "give the input file that `mouse import` made the deck of"
-        raise DeckError(Diagnostic("MD483", ERROR, what, problem.place("order"), help=help))
+        raise DeckError.of("MD483", what, problem.place("order"), help=help)
 
 
 def _changes(model: InputModel, revision: Revision, released: set[int]) -> _Changes:

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from mouse_cli._errors import ERROR, WARNING, DeckError, Diagnostic
+from mouse_cli._errors import WARNING, DeckError, Diagnostic
 from mouse_cli._span import Span
 from mouse_cli.importing import calculix
 from mouse_cli.importing.checks import Checked, begin, check
@@ -55,7 +55,7 @@ def imported(
     if not calculix.available():
         message = "CalculiX (ccx) is not on the path: nothing can export K and M"
         help = "install it (Debian, Ubuntu: apt install calculix-ccx), or export by hand as in docs/how-to/import-models.md"
-        raise DeckError(Diagnostic("MD274", ERROR, message, Span(path, 1), help=help))
+        raise DeckError.of("MD274", message, Span(path, 1), help=help)
     with calculix.Solver(path, calculix.cache_folder() if cached else None, say) as solver:
         found = parts(model, solver, lambda whole: begin(model, whole, solver))
         checked = check(model, found, solver)

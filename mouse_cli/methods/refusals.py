@@ -17,7 +17,7 @@ def without_shape(problem: Problem, key: str, test: ModalTest) -> DeckError | No
     number = int(test.number[~have][0]) if test.m else 0
     message = f"'{key}' is made of frequencies and shapes, but mode {number} of the test has only one of the two"
     help = "give both, hold the mode out (test.hold_out.modes), or take a method that fits frequencies alone"
-    return DeckError(Diagnostic("MD560", ERROR, message, problem.place(f"mode {number}"), help=help))
+    return DeckError.of("MD560", message, problem.place(f"mode {number}"), help=help)
 
 
 def too_large(problem: Problem, key: str) -> NumericalError:
@@ -35,7 +35,7 @@ def too_large(problem: Problem, key: str) -> NumericalError:
 
 def lacking(problem: Problem, key: str, what: str, help: str) -> DeckError:
     """The error for a deck without something that the method `key` cannot do without."""
-    return DeckError(Diagnostic("MD566", ERROR, f"'{key}' needs {what}", problem.place("order"), help=help))
+    return DeckError.of("MD566", f"'{key}' needs {what}", problem.place("order"), help=help)
 
 
 def not_expanded(problem: Problem, how: str, reason: str) -> NumericalError:

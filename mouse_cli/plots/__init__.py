@@ -58,9 +58,7 @@ def require(path: str = "") -> None:
     kind = _kind(path)
     if kind and kind not in _FILES:
         told = f"cannot write figures to {path}: '{kind}' is no kind of figure"
-        raise WrittenError(
-            Diagnostic("MD531", ERROR, told, help=f"name a folder, or a file that ends in {', '.join(_FILES)}")
-        )
+        raise WrittenError.of("MD531", told, help=f"name a folder, or a file that ends in {', '.join(_FILES)}")
 
 
 def draw(found: Any, path: str, only: tuple[str, ...] = ()) -> list[str]:
@@ -83,7 +81,7 @@ def draw(found: Any, path: str, only: tuple[str, ...] = ()) -> list[str]:
             return _sheet(found, [plot for plot, _ in drawn], path) if kind else _folder(drawn, path)
         except OSError as error:
             told = f"cannot write figures to {path}: {error.strerror or error}"
-            raise WrittenError(Diagnostic("MD531", ERROR, told, help="name a folder or .pdf, .png")) from error
+            raise WrittenError.of("MD531", told, help="name a folder or .pdf, .png") from error
 
 
 def _kind(path: str) -> str:

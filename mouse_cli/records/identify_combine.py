@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli._errors import ERROR, Diagnostic, RecordError
+from mouse_cli._errors import RecordError
 from mouse_cli.model.arrays import is_sparse
 from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.records.identify_noise import smoothed
@@ -35,7 +35,7 @@ def combined(tests: Sequence[FrfTest]) -> tuple[FrfTest, str]:
 
 
 def _refuse(message: str, help: str) -> None:
-    raise RecordError(Diagnostic("MD655", ERROR, message, help=help))
+    raise RecordError.of("MD655", message, help=help)
 
 
 def _fits(first: FrfTest, other: FrfTest) -> None:

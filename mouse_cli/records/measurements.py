@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from mouse_cli._errors import ERROR, WARNING, Diagnostic, RecordError
+from mouse_cli._errors import WARNING, Diagnostic, RecordError
 from mouse_cli.model.recording import Recording
 from mouse_cli.model.spectra import SpectraOptions, SpectraResult
 from mouse_cli.records.spectra import functions
@@ -26,9 +26,7 @@ def measure(
         channels = tuple((c.role, c.sensor or c.name, c.quantity, c.unit) for c in each.channels)
         groups.setdefault(channels, []).append(each)
     if not groups:
-        raise RecordError(
-            Diagnostic("MD618", ERROR, "no recording has a force", help="name forces: inputs, or --force NAME")
-        )
+        raise RecordError.of("MD618", "no recording has a force", help="name forces: inputs, or --force NAME")
     found = [functions(group, options, n) for group in groups.values()]
     for _, more in found:
         remarks += more

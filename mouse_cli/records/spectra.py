@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mouse_cli._errors import ERROR, WARNING, Diagnostic, RecordError
+from mouse_cli._errors import WARNING, Diagnostic, RecordError
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.frf_test import KINDS, FrfTest
 from mouse_cli.model.recording import MOTIONS, Channel, Recording
@@ -73,7 +73,7 @@ def _leaks(options: SpectraOptions, by: np.ndarray) -> bool:
 
 
 def _refuse(code: str, message: str, help: str) -> None:
-    raise RecordError(Diagnostic(code, ERROR, message, help=help))
+    raise RecordError.of(code, message, help=help)
 
 
 def _check(recordings: Sequence[Recording], options: SpectraOptions) -> None:

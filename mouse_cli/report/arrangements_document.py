@@ -12,7 +12,7 @@ from mouse_cli.model.units import system
 from mouse_cli.report.arrangements_sentences import sentences
 from mouse_cli.report.diagnosis_document import candidate
 from mouse_cli.report.geometry_document import geometry
-from mouse_cli.report.json_values import plain
+from mouse_cli.report.json_values import fields, plain
 from mouse_cli.report.theory import document as theory
 from mouse_cli.report.verdict_document import elsewhere, field, rest, score, site, untried
 
@@ -33,12 +33,12 @@ def document(found: ArrangementsDiagnosis) -> dict[str, Any]:
             "verdict": _verdict(found),
             "turns": [_turn(turn, found.kind != UNKNOWN) for turn in found.turns],
             "rest": [candidate(found.rest[0], one, found.kind != UNKNOWN) for one in found.rest],
-            "residual": {"chi2": found.chi2, "dof": found.dof, "p": found.p},
+            "residual": {**fields(found, "chi2", "dof", "p")},
             "parameters": [
                 {"name": p.name, "unit": p.unit, "prior": p.nominal, "posterior": value, "sd": sd}
                 for p, value, sd in zip(told, found.values, found.sd, strict=True)
             ],
-            "shared_errors": [{"mode": e.mode, "value": e.value, "sd": e.sd} for e in found.shared],
+            "shared_errors": [{**fields(e, "mode", "value", "sd")} for e in found.shared],
             "common_sd": found.common_sd,
             "theory": theory(found),
             "held_out": None
@@ -108,7 +108,7 @@ def _cause(turn: Turn, explains: bool) -> dict[str, Any]:
 def _turn(turn: Turn, explains: bool) -> dict[str, Any]:
     before = turn.before
     return {
-        "before": {"chi2": before.chi2, "dof": before.dof, "p": before.p},
+        "before": {**fields(before, "chi2", "dof", "p")},
         "candidates": [candidate(turn.before, one, explains) for one in turn.explanations],
         "groups": [{"group": name, "probability": p if explains else None} for name, p in turn.groups],
         "noise_scale": turn.noise_scale,

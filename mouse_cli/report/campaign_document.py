@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli import __version__
 from mouse_cli.model.campaign import Answered, Bootstrap, Moved, Spread, Sweep
-from mouse_cli.report.json_values import plain
+from mouse_cli.report.json_values import fields, plain
 
 SCHEMA = "mouse.campaign/1"
 
@@ -63,9 +63,7 @@ def _moved(each: Moved, varied: tuple[str, ...]) -> dict[str, Any]:
 
 def _bootstrap(found: Bootstrap) -> dict[str, Any]:
     return {
-        "over": found.over,
-        "seed": found.seed,
-        "units": found.units,
+        **fields(found, "over", "seed", "units"),
         "deck": _answered(found.answer, found),
         "left_out": [
             {"without": unit, **_answered(each, found)} for unit, each in zip(found.units, found.left_out, strict=True)
@@ -82,10 +80,7 @@ def _bootstrap(found: Bootstrap) -> dict[str, Any]:
 def _spread(each: Spread, units: tuple[str, ...]) -> dict[str, Any]:
     size = np.nan_to_num(np.abs(each.influence))
     return {
-        "name": each.name,
-        "unit": each.unit,
-        "value": each.value,
-        "posterior_sd": each.posterior_sd,
+        **fields(each, "name", "unit", "value", "posterior_sd"),
         "foreseen_sd": each.predicted,
         "sd": each.sd,
         "bias": each.bias,

@@ -7,7 +7,7 @@ import numpy as np
 
 from mouse_cli import __version__
 from mouse_cli.model.correlation import ALONE, Correlation, Expanded, Orthogonality
-from mouse_cli.report.json_values import dof_name, plain
+from mouse_cli.report.json_values import dof_name, fields, plain
 
 SCHEMA = "mouse.correlation/1"
 
@@ -75,7 +75,7 @@ def _mode(found: Correlation, i: int) -> dict[str, Any]:
 
 
 def _orthogonality(judged: Orthogonality) -> dict[str, Any]:
-    return {"test": judged.test, "sd": judged.sd, "cross": judged.cross, "model": judged.model}
+    return {**fields(judged, "test", "sd", "cross", "model")}
 
 
 def _expansion(found: Correlation, expanded: Expanded) -> dict[str, Any]:
@@ -85,9 +85,6 @@ def _expansion(found: Correlation, expanded: Expanded) -> dict[str, Any]:
         "exact": expanded.exact,
         "modes": found.problem.test.number[expanded.modes],
         "dofs": [dof_name(label) for label in found.problem.structure.labels],
-        "shapes": expanded.shapes,
-        "mass": expanded.mass,
-        "stiffness": expanded.stiffness,
-        "hz": expanded.hz,
+        **fields(expanded, "shapes", "mass", "stiffness", "hz"),
         "misfit_sd": expanded.misfit,
     }

@@ -6,7 +6,7 @@ from mouse_cli import __version__
 from mouse_cli.model.coupled import Coupled, CoupledModes, InterfaceState
 from mouse_cli.model.coupling import Connection, Coupling
 from mouse_cli.model.frf_test import FrfTest
-from mouse_cli.report.json_values import plain
+from mouse_cli.report.json_values import fields, plain
 
 SCHEMA = "mouse.coupling/1"
 
@@ -24,9 +24,7 @@ def document(found: Coupled) -> dict[str, Any]:
                 {
                     "name": part.name,
                     "source": part.problem.source.path if part.problem else part.frf.path,
-                    "measured": part.measured,
-                    "removed": part.removed,
-                    "places": part.places,
+                    **fields(part, "measured", "removed", "places"),
                 }
                 for part in coupling.substructures
             ],
@@ -55,10 +53,7 @@ def connection(one: Connection, coupling: Coupling | None = None, names: tuple[s
         "kind": one.kind,
         "at": name(one.at),
         "to": name(one.to),
-        "mass": one.mass,
-        "stiffness": one.stiffness,
-        "loss_factor": one.loss_factor,
-        "damping": one.damping,
+        **fields(one, "mass", "stiffness", "loss_factor", "damping"),
     }
 
 
@@ -98,7 +93,7 @@ def _modes(modes: CoupledModes) -> dict[str, Any]:
         "rigid_modes": modes.rigid,
         "hz": modes.frequencies_hz,
         "reduced": [
-            {"method": r.method, "keep": r.keep, "coordinates": r.coordinates, "hz": r.frequencies_hz, "error": r.error}
+            {**fields(r, "method", "keep", "coordinates"), "hz": r.frequencies_hz, "error": r.error}
             for r in modes.reduced
         ],
     }

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from mouse_cli._errors import ERROR, DeckError, Diagnostic
+from mouse_cli._errors import DeckError
 from mouse_cli.report.frames import plain_document, required
 from mouse_cli.report.reading import rejected
 
@@ -56,7 +56,7 @@ def dataset(answer: Any) -> Any:
         raise rejected("MD922", told[:200]) from error
     if not variables:
         told = f"{document.get('schema', 'the answer')} has nothing by parameter, mode, degree of freedom or line"
-        raise DeckError(Diagnostic("MD961", ERROR, told, help="mouse_cli.frames makes frames of it"))
+        raise DeckError.of("MD961", told, help="mouse_cli.frames makes frames of it")
     return found
 
 

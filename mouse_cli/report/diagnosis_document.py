@@ -17,7 +17,7 @@ from mouse_cli.model.result import Result
 from mouse_cli.model.units import system
 from mouse_cli.report import result_document as of_result
 from mouse_cli.report.frf_document import damping, frf, held_frf
-from mouse_cli.report.json_values import plain
+from mouse_cli.report.json_values import fields, plain
 from mouse_cli.report.theory import document as theory
 from mouse_cli.report.verdict_document import held_out, site, verdict
 
@@ -101,9 +101,7 @@ def candidate(baseline: Explanation | None, one: Explanation, explains: bool = T
     """One explanation, compared with that without a cause; explains: whether one of them explains the data."""
     sites = [cause.site for cause in one.causes] or [_NOWHERE]
     return {
-        "physics": one.physics,
-        "group": one.group,
-        "title": one.title,
+        **fields(one, "physics", "group", "title"),
         "site": site(sites[0]),
         "sites": [site(each) for each in sites],
         "log_evidence": one.log_evidence,
@@ -112,33 +110,23 @@ def candidate(baseline: Explanation | None, one: Explanation, explains: bool = T
         "elsewhere": [{"sites": [site(each) for each in sites], "share": share} for sites, share in one.elsewhere],
         "parameters": [
             {
-                "name": s.name,
-                "unit": s.unit,
-                "value": s.value,
-                "sd": s.sd,
-                "lower": s.lower,
-                "upper": s.upper,
+                **fields(s, "name", "unit", "value", "sd", "lower", "upper"),
                 "cause": cause.physics,
             }
             for cause in one.causes
             for s in cause.sizes
         ],
-        "chi2": one.chi2,
-        "dof": one.dof,
-        "p": one.p,
+        **fields(one, "chi2", "dof", "p"),
     }
 
 
 def _location(location: Location) -> dict[str, Any]:
     """The most probable places, the best first; `region` counts those of the 90 % region, listed or not."""
     return {
-        "p": location.p,
-        "single": location.single,
-        "region": location.region,
+        **fields(location, "p", "single", "region"),
         "tried": len(location.places),
         "places": [
-            {"site": site(p.site), "channel": p.channel, "probability": p.probability, "deficit": p.deficit}
-            for p in location.places[:_PLACES]
+            {"site": site(p.site), **fields(p, "channel", "probability", "deficit")} for p in location.places[:_PLACES]
         ],
     }
 
@@ -158,9 +146,7 @@ def _law(law: Law) -> dict[str, Any]:
         "site": site(law.site),
         "unit": law.unit,
         "hz": law.frequency_hz,
-        "stiffness": law.stiffness,
-        "sd": law.sd,
-        "fitted": law.fitted,
+        **fields(law, "stiffness", "sd", "fitted"),
     }
 
 

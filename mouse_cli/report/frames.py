@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from mouse_cli._errors import ERROR, Diagnostic, MouseError
+from mouse_cli._errors import MouseError
 from mouse_cli.model.problem import Problem
 from mouse_cli.report import problem_document
 from mouse_cli.report.answers import document
@@ -43,6 +43,4 @@ def required(package: str, what: str) -> Any:
         return import_module(package)
     except ImportError:
         message = f"{what} need the package {package}, which is not installed"
-        raise MouseError(
-            Diagnostic("MD960", ERROR, message, help="install it: pip install 'mouse-cli[frames]'")
-        ) from None
+        raise MouseError.of("MD960", message, help="install it: pip install 'mouse-cli[frames]'") from None

@@ -7,6 +7,7 @@ import numpy as np
 from mouse_cli.model.frf_fit import Damping, FrfFit
 from mouse_cli.model.result import Result
 from mouse_cli.observables.frf import names
+from mouse_cli.report.json_values import fields
 
 MOST_POINTS, MOST_CURVES = 600, 4  # points of a curve, and functions of a measurement that have curves
 
@@ -24,7 +25,7 @@ def held_frf(fits: tuple[FrfFit, ...]) -> list[dict[str, Any]]:
 
 def damping(found: tuple[Damping, ...]) -> list[dict[str, Any]]:
     """Damping of the structure; told: whether the functions tell it."""
-    return [{"name": d.name, "unit": d.unit, "value": d.value, "sd": d.sd, "told": d.told} for d in found]
+    return [{**fields(d, "name", "unit", "value", "sd", "told")} for d in found]
 
 
 def _measurement(fit: FrfFit) -> dict[str, Any]:
@@ -99,10 +100,5 @@ def conditioned(result: Result) -> dict[str, Any] | None:
     if found is None or not result.status.answered:
         return None
     return {
-        "condition": found.condition,
-        "data": found.data,
-        "sensitivities": found.sensitivities,
-        "shift": found.shift,
-        "with_prior": found.with_prior,
-        "weakest": found.weakest,
+        **fields(found, "condition", "data", "sensitivities", "shift", "with_prior", "weakest"),
     }

@@ -7,7 +7,7 @@ import numpy as np
 
 from mouse_cli import __version__
 from mouse_cli.model.identification import Identification
-from mouse_cli.report.json_values import dof_name, plain
+from mouse_cli.report.json_values import dof_name, fields, plain
 
 SCHEMA = "mouse.identification/1"
 
@@ -34,10 +34,7 @@ def document(found: Identification) -> dict[str, Any]:
             "imaginary_sd": modes.imaginary_sd,
             "rejected": [asdict(each) for each in found.rejected],
             "diagram": {
-                "order": found.diagram.order,
-                "frequency_hz": found.diagram.frequency_hz,
-                "damping": found.diagram.damping,
-                "stable": found.diagram.stable,
+                **fields(found.diagram, "order", "frequency_hz", "damping", "stable"),
             },
             "details": found.details,
             "trusted": found.exit_code == 0,

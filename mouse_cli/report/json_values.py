@@ -26,6 +26,11 @@ def plain(value: Any) -> Any:
     return value
 
 
+def fields(of: Any, *names: str) -> dict[str, Any]:
+    """Attributes under their own names."""
+    return {name: getattr(of, name) for name in names}
+
+
 def dof_name(label: str) -> int | str:
     """A degree of freedom as a deck writes it: the number of a matrix model's, else its label.
 

@@ -8,7 +8,7 @@ from mouse_cli import __version__
 from mouse_cli.model.modified import Modified, ModifiedFunctions, Need, Place, Swept
 from mouse_cli.model.result import Forecast
 from mouse_cli.report.coupling_document import connection, functions
-from mouse_cli.report.json_values import dof_name, plain
+from mouse_cli.report.json_values import dof_name, fields, plain
 
 SCHEMA = "mouse.modification/1"
 
@@ -74,18 +74,9 @@ def _damped(found: Modified) -> list[dict[str, Any]]:
 def _need(need: Need) -> dict[str, Any]:
     target = need.target
     return {
-        "mode": target.mode,
-        "side": target.side,
-        "hz": target.hz,
+        **fields(target, "mode", "side", "hz"),
         "by": target.means,
-        "place": need.place,
-        "value": need.value,
-        "sd": need.sd,
-        "sure": need.sure,
-        "reached_hz": need.reached_hz,
-        "limit_hz": need.limit_hz,
-        "likeness": need.likeness,
-        "reason": need.reason,
+        **fields(need, "place", "value", "sd", "sure", "reached_hz", "limit_hz", "likeness", "reason"),
     }
 
 
@@ -97,7 +88,7 @@ def _swept(each: Swept) -> dict[str, Any]:
 
 def _place(place: Place) -> dict[str, Any]:
     tuned = {} if np.isnan(place.mass_ratio) else {
-        "mass_ratio": place.mass_ratio, "tuned_hz": place.tuned_hz, "damping_ratio": place.damping_ratio, "peak": place.peak,
+        **fields(place, "mass_ratio", "tuned_hz", "damping_ratio", "peak"),
     }  # fmt: skip
     return {"place": place.name, "hz": place.hz, **tuned}
 

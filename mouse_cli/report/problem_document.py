@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.units import system
-from mouse_cli.report.json_values import dof_name, plain
+from mouse_cli.report.json_values import dof_name, fields, plain
 
 _LARGEST_COVARIANCE = 200
 
@@ -37,9 +37,7 @@ def _parameters(problem: Problem) -> list[dict[str, Any]]:
             "unit": each.unit,
             "prior": problem.prior.mean[i],
             "prior_sd": sd[i],
-            "lower": each.lower,
-            "upper": each.upper,
-            "transform": each.transform,
+            **fields(each, "lower", "upper", "transform"),
         }
         for i, each in enumerate(problem.parameters)
     ]

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from mouse_cli._errors import ERROR, DeckError, Diagnostic
+from mouse_cli._errors import DeckError
 
 ANSWERS = ("mouse.result/1", "mouse.diagnosis/1", "mouse.arrangements/1")  # of `mouse run` and `mouse diagnose`
 _JOB = "mouse.job/1"  # of `mouse batch`; the answer stands in it
@@ -142,9 +142,7 @@ def columns(components: list[Part], modes: list[str], key: str) -> np.ndarray:
 
 def rejected(code: str, message: str) -> DeckError:
     """The error for a file that is not what was asked for."""
-    return DeckError(
-        Diagnostic(code, ERROR, message, help="write it with `mouse run --json` or `mouse diagnose --json`")
-    )
+    return DeckError.of(code, message, help="write it with `mouse run --json` or `mouse diagnose --json`")
 
 
 def _finite(value: Any) -> bool:

@@ -9,7 +9,7 @@ from mouse_cli.model.units import system
 from mouse_cli.report import record_document as of_records
 from mouse_cli.report import result_document as of_result
 from mouse_cli.report.geometry_document import geometry
-from mouse_cli.report.json_values import plain
+from mouse_cli.report.json_values import fields, plain
 from mouse_cli.report.theory import document as theory
 from mouse_cli.report.verdict_document import site
 
@@ -73,4 +73,4 @@ def _parameters(found: RecordUpdate) -> list[dict[str, Any]]:
 
 
 def _size(size: Size) -> dict[str, Any]:
-    return {"name": size.name, "unit": size.unit, "value": size.value, "sd": size.sd}
+    return {**fields(size, "name", "unit", "value", "sd")}

@@ -13,7 +13,7 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import ChiSquareTest, Result
 from mouse_cli.report.frf_document import conditioned, frf, held_frf
 from mouse_cli.report.geometry_document import geometry, moved, shapes_by_dof
-from mouse_cli.report.json_values import dof_name, plain
+from mouse_cli.report.json_values import dof_name, fields, plain
 from mouse_cli.report.measured import NOT_MEASURED, eigenvalue_index, positions, shape_index
 
 SCHEMA = "mouse.result/1"
@@ -206,7 +206,7 @@ def shapes(result: Result) -> list[dict[str, Any]]:
 
 def tested(test: ChiSquareTest) -> dict[str, Any]:
     """A test of the model's form."""
-    return {"chi2": test.chi2, "dof": test.dof, "p": test.p}
+    return {**fields(test, "chi2", "dof", "p")}
 
 
 def _warning(remark: Diagnostic) -> str:

@@ -4,7 +4,7 @@ from typing import Any
 
 from mouse_cli import __version__
 from mouse_cli.model.sampled import Quantity, Sampled
-from mouse_cli.report.json_values import plain
+from mouse_cli.report.json_values import fields, plain
 from mouse_cli.report.result_document import tested
 
 SCHEMA = "mouse.sample/1"
@@ -24,9 +24,7 @@ def document(found: Sampled) -> dict[str, Any]:
             "status": result.status.key,
             "model_form": result.model_form,
             "residual": tested(result.residual),
-            "doubtful": found.doubtful,
-            "k_hat": found.k_hat,
-            "draws": found.draws,
+            **fields(found, "doubtful", "k_hat", "draws"),
             "parameters": [_quantity(each) for each in found.parameters],
             "frequencies": [
                 {**_quantity(each), "measured": each.measured, "foreseen": each.predicted} for each in found.frequencies
@@ -37,11 +35,7 @@ def document(found: Sampled) -> dict[str, Any]:
                 "steps": found.steps,
                 "burn": found.burn,
                 "kept": kept * walkers,
-                "tau": found.tau,
-                "acceptance": found.acceptance,
-                "long_enough": found.long_enough,
-                "seed": found.seed,
-                "evaluations": found.evaluations,
+                **fields(found, "tau", "acceptance", "long_enough", "seed", "evaluations"),
             },
             "warnings": [f"{each.code}: {each.message}" for each in (*problem.warnings, *found.warnings)],
         }

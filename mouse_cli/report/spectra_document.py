@@ -5,7 +5,7 @@ from typing import Any
 
 from mouse_cli import __version__
 from mouse_cli.model.spectra import SpectraResult
-from mouse_cli.report.json_values import plain
+from mouse_cli.report.json_values import fields, plain
 
 SCHEMA = "mouse.spectra/1"
 
@@ -23,11 +23,7 @@ def document(result: SpectraResult) -> dict[str, Any]:
             "measurements": [
                 {
                     "recordings": list(each.recordings),
-                    "sample_rate_hz": each.sample_rate_hz,
-                    "block_samples": each.block_samples,
-                    "blocks": each.blocks,
-                    "averages": each.averages,
-                    "force_window": each.force_window,
+                    **fields(each, "sample_rate_hz", "block_samples", "blocks", "averages", "force_window"),
                     "decay_rate": each.frf.decay_rate,
                     "kind": each.frf.kind,
                     "functions": [asdict(one) for one in each.quality],

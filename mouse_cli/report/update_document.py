@@ -6,7 +6,7 @@ from mouse_cli import __version__
 from mouse_cli.model.arrays import dense
 from mouse_cli.model.conditioning import Conditioning
 from mouse_cli.model.updated import Compared, Predicted, Updated
-from mouse_cli.report.json_values import dof_name, plain
+from mouse_cli.report.json_values import dof_name, fields, plain
 
 SCHEMA, COMPARISON = "mouse.update/1", "mouse.comparison/1"
 LARGEST_MATRIX = 140  # degrees of freedom up to which K is written out
@@ -31,11 +31,8 @@ def _update(found: Updated) -> dict[str, Any]:
         "guarantees": {g.aspect.replace(" ", "_").replace("-", "_"): g.given for g in about.guarantees},
         "physical": about.physical,
         "expansion": found.expansion or None,
-        "iterations": found.iterations,
-        "change": found.change,
-        "converged": found.converged,
-        "exit_code": found.exit_code,
-        "properties": [{"name": m.name, "unit": m.unit, "before": m.before, "after": m.after} for m in found.moved],
+        **fields(found, "iterations", "change", "converged", "exit_code"),
+        "properties": [{**fields(m, "name", "unit", "before", "after")} for m in found.moved],
         "configurations": [_configuration(one) for one in found.configurations],
         "checked": vars(checked),
         "conditioning": None if found.conditioning is None else _bounds(found.conditioning),
@@ -47,11 +44,11 @@ def _configuration(one: Predicted) -> dict[str, Any]:
     rows = zip(one.number, one.test_hz, one.test_sd_hz, one.prior_hz, one.revised_hz, one.mac, strict=True)
     keys = ("mode", "test_hz", "test_sd_hz", "prior_hz", "revised_hz", "mac")
     modes = [dict(zip(keys, row, strict=True)) for row in rows]
-    return {"title": one.title, "fitted": one.fitted, "rms_percent": one.rms_percent, "modes": modes}
+    return {**fields(one, "title", "fitted", "rms_percent"), "modes": modes}
 
 
 def _bounds(found: Conditioning) -> dict[str, Any]:
-    return {"condition": found.condition, "data": found.data, "sensitivities": found.sensitivities}
+    return {**fields(found, "condition", "data", "sensitivities")}
 
 
 def _matrix(found: Updated) -> dict[str, Any]:

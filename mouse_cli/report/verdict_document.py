@@ -18,7 +18,7 @@ from mouse_cli.model.diagnosis import (
     Untried,
 )
 from mouse_cli.model.shared_place import SharedPlace
-from mouse_cli.report.json_values import dof_name
+from mouse_cli.report.json_values import dof_name, fields
 from mouse_cli.report.verdict_sentences import sentences
 
 Elsewhere = tuple[tuple[tuple[Site, ...], float], ...]
@@ -124,11 +124,7 @@ def held_out(held: HeldOut) -> dict[str, Any]:
 def score(found: Score) -> dict[str, Any]:
     """How well data that no fit has seen were predicted."""
     return {
-        "rms_frequency_error": found.rms_frequency_error,
-        "log_predictive_density": found.log_predictive_density,
-        "covered": found.covered,
+        **fields(found, "rms_frequency_error", "log_predictive_density", "covered"),
         "hz": found.frequencies_hz,
-        "sd_hz": found.sd_hz,
-        "mac": found.mac,
-        "rms_shape_error": found.rms_shape_error,
+        **fields(found, "sd_hz", "mac", "rms_shape_error"),
     }

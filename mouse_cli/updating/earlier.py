@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli._errors import ERROR, WARNING, DeckError, Diagnostic
+from mouse_cli._errors import WARNING, DeckError, Diagnostic
 from mouse_cli.formats import bounded
 from mouse_cli.model.arrays import Matrix, is_sparse
 from mouse_cli.model.parameter import Gaussian
@@ -151,4 +151,4 @@ def _rejected(code: str, message: str) -> DeckError:
         "MD441": "give the properties of both decks the same names",
         "MD442": "a posterior is a prior for new data only: leave --prior out",
     }[code]
-    return DeckError(Diagnostic(code, ERROR, message, help=help))
+    return DeckError.of(code, message, help=help)

@@ -17,32 +17,26 @@ def check_rigid_modes(problem: Problem, solution: EigenSolution) -> None:
     named = [int(n) for n in problem.test.number if n <= rigid]
     if named:
         least = f"{'at least ' if rigid == len(solution.eigenvalues) else ''}{rigid}"  # no flexural one was asked for
-        raise DeckError(
-            Diagnostic(
-                "MD330",
-                ERROR,
-                f"mode {named[0]} is named as measured, but the model has {least} rigid-body mode(s) and this is one of them",
-                problem.place(f"mode {named[0]}"),
-                note=f"mode numbers count the rigid-body modes; the first flexural mode is number {rigid + 1}",
-                help=f"add {least} to the mode numbers of the test; or give the supports, if the structure is held",
-            )
+        raise DeckError.of(
+            "MD330",
+            f"mode {named[0]} is named as measured, but the model has {least} rigid-body mode(s) and this is one of them",
+            problem.place(f"mode {named[0]}"),
+            note=f"mode numbers count the rigid-body modes; the first flexural mode is number {rigid + 1}",
+            help=f"add {least} to the mode numbers of the test; or give the supports, if the structure is held",
         )
     if problem.run.legacy and rigid > _MOST_RIGID_1972:
-        raise DeckError(
-            Diagnostic(
-                "MD332",
-                ERROR,
-                f"the model has {rigid} rigid-body modes; the program of 1972 allowed {_MOST_RIGID_1972}",
-                problem.place("order"),
-                help="run without --legacy",
-            )
+        raise DeckError.of(
+            "MD332",
+            f"the model has {rigid} rigid-body modes; the program of 1972 allowed {_MOST_RIGID_1972}",
+            problem.place("order"),
+            help="run without --legacy",
         )
 
 
 def unknown_estimator(problem: Problem, reason: str) -> DeckError:
     """The error for a deck that asks for an estimator there is not."""
     help = "choose one of those that `mouse list estimators` shows"
-    return DeckError(Diagnostic("MD334", ERROR, reason, problem.place("estimator"), help=help))
+    return DeckError.of("MD334", reason, problem.place("estimator"), help=help)
 
 
 def no_test(problem: Problem) -> DeckError:
@@ -52,7 +46,7 @@ def no_test(problem: Problem) -> DeckError:
     if problem.recordings:
         message = f"the test of '{problem.title.strip()}' holds recordings alone, and neither modes nor functions"
         help = "`mouse run` revises by recordings; `mouse identify` makes modes of them, `mouse spectra` functions"
-    return DeckError(Diagnostic("MD333", ERROR, message, problem.place("test"), help=help))
+    return DeckError.of("MD333", message, problem.place("test"), help=help)
 
 
 def unphysical(problem: Problem, reason: str) -> NumericalError:
@@ -73,16 +67,13 @@ def unrelated(problem: Problem, solution: EigenSolution, mode: int, ratio: float
     test = problem.test
     likeness = mac(test.shapes[:, [mode]], test.read(solution.shapes))[0]
     best = int(np.argmax(likeness))
-    return DeckError(
-        Diagnostic(
-            "MD331",
-            ERROR,
-            f"the shape measured for mode {test.number[mode]} is unrelated to the model's: |c t| / |x| is {ratio:.3g}, "
-            "at least 0.1 is expected",
-            problem.place(f"mode {test.number[mode]}"),
-            note=f"it looks most like model mode {best + 1} (MAC {likeness[best]:.2f})",
-            help="check the mode numbers and the order of the measured points, or use --pairing mac or --scale none",
-        )
+    return DeckError.of(
+        "MD331",
+        f"the shape measured for mode {test.number[mode]} is unrelated to the model's: |c t| / |x| is {ratio:.3g}, "
+        "at least 0.1 is expected",
+        problem.place(f"mode {test.number[mode]}"),
+        note=f"it looks most like model mode {best + 1} (MAC {likeness[best]:.2f})",
+        help="check the mode numbers and the order of the measured points, or use --pairing mac or --scale none",
     )
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from mouse_cli._errors import ERROR, Diagnostic, MouseError
+from mouse_cli._errors import MouseError
 from mouse_cli.campaigns.sampling import chains
 from mouse_cli.campaigns.sampling.kept import Kept
 from mouse_cli.dynamics.frequency import frequency_hz
@@ -61,7 +61,7 @@ def package() -> Any:
         import emcee
     except ImportError as error:
         help = "pip install 'mouse-cli[sampling]'"
-        raise MouseError(Diagnostic("MD940", ERROR, "the package emcee is not installed", help=help)) from error
+        raise MouseError.of("MD940", "the package emcee is not installed", help=help) from error
     return emcee
 
 

@@ -64,7 +64,7 @@ def command(
 
 def _cards(problem, before, program: str, job: str | None, first: int, complete: bool) -> str:
     """The include file, or the complete job. Raises DeckError."""
-    from mouse_cli._errors import ERROR, DeckError, Diagnostic
+    from mouse_cli._errors import DeckError
     from mouse_cli.formats.solver_cards import programs
     from mouse_cli.importing.read import read
     from mouse_cli.importing.revised import revised_job
@@ -74,7 +74,7 @@ def _cards(problem, before, program: str, job: str | None, first: int, complete:
     found, form = revision(problem, before, _constants(model), first), programs()[program]
     if not any((found.materials, found.sections, found.springs, found.masses, found.sets, found.supports)):
         message = f"no parameter of the deck has cards of {program}"
-        raise DeckError(Diagnostic("MD481", ERROR, message, problem.place("order"), help="see `mouse explain MD481`"))
+        raise DeckError.of("MD481", message, problem.place("order"), help="see `mouse explain MD481`")
     if complete:
         return revised_job(model, problem, found, inertia=program == "abaqus")
     for material in found.materials:
@@ -82,7 +82,7 @@ def _cards(problem, before, program: str, job: str | None, first: int, complete:
             lacking = "E" if material.E is None else "nu"
             message = f"the deck does not know {lacking} of the material {material.name}"
             help = "give --job, the input file that it was imported from"
-            raise DeckError(Diagnostic("MD480", ERROR, message, problem.place("order"), help=help))
+            raise DeckError.of("MD480", message, problem.place("order"), help=help)
     return form.write(found)
 
 
@@ -101,7 +101,7 @@ def _shapes(problem, path: str, count: int) -> None:
     import numpy as np
 
     from mouse_cli._atomic import write_text_atomically
-    from mouse_cli._errors import ERROR, DeckError, Diagnostic
+    from mouse_cli._errors import DeckError
     from mouse_cli.formats import shape_files
     from mouse_cli.updating import forecast
 
@@ -110,9 +110,7 @@ def _shapes(problem, path: str, count: int) -> None:
     geometry = problem.structure.geometry
     if geometry is None:
         help = "give the model `nodes` and `dofs`"
-        raise DeckError(
-            Diagnostic("MD482", ERROR, "the deck has no nodes to show shapes at", problem.place("order"), help=help)
-        )
+        raise DeckError.of("MD482", "the deck has no nodes to show shapes at", problem.place("order"), help=help)
     found = forecast(problem, min(count, problem.structure.n))
     hz, shapes = np.asarray(found.frequencies_hz), np.asarray(found.shapes)
     write = shape_files.vtk if path.endswith(".vtk") else shape_files.universal

@@ -118,7 +118,7 @@ def compose(data: str | bytes, path: str, outside: bool = False) -> tuple[Docume
 
 
 def _stop(code: str, span: Span, message: str, help: str = "", note: str = "") -> None:
-    raise DeckError(Diagnostic(code, ERROR, message, span, note, help))
+    raise DeckError.of(code, message, span, note, help)
 
 
 def _decoded(data: str | bytes, path: str) -> str:

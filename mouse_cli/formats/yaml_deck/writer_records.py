@@ -2,7 +2,7 @@
 
 import os
 
-from mouse_cli._errors import ERROR, Diagnostic, WrittenError
+from mouse_cli._errors import WrittenError
 from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.nodes import PLAIN, Node, compose, is_null
 from mouse_cli.formats.yaml_deck.text import word, wrapped
@@ -31,9 +31,7 @@ class Written:
             self.test = _keys(_keys(root).get("test"))
         if not ("frf" in self.test or "recordings" in self.test):
             message = "the measured data of the problem were read from no deck; a deck can only name their files"
-            raise WrittenError(
-                Diagnostic("MD616", ERROR, message, help="write them with `mouse spectra`, and name the file")
-            )
+            raise WrittenError.of("MD616", message, help="write them with `mouse spectra`, and name the file")
 
     def lines(self) -> list[str]:
         """The lines of `frf:` and `recordings:`."""
@@ -74,7 +72,7 @@ class Written:
         if new.startswith(".."):
             message = f"the deck names '{name}', which would not be below the folder of the new deck"
             help = f"write the deck to {os.path.relpath(old)}, where its recordings are, or copy them first"
-            raise WrittenError(Diagnostic("MD617", ERROR, message, help=help))
+            raise WrittenError.of("MD617", message, help=help)
         return new
 
 

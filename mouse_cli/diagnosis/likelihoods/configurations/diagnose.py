@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from mouse_cli._errors import ERROR, DeckError, Diagnostic
+from mouse_cli._errors import DeckError
 from mouse_cli.diagnosis.extend.deck import in_its_units
 from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, SharedRecipe, Together, lowest_of
 from mouse_cli.diagnosis.likelihoods.configurations.predict import predicted, shared_errors
@@ -208,36 +208,27 @@ def _check(problems: tuple[Problem, ...]) -> None:
     first = problems[0]
     for each in problems:
         if each.test is None or each.hold_out is not None:
-            raise DeckError(
-                Diagnostic(
-                    "MD691",
-                    ERROR,
-                    "configurations are diagnosed by their measured modes, and held out as a whole;  "
-                    + ("this deck has none" if each.test is None else "this deck holds out a part of its test"),
-                    each.place("test"),
-                    help="give test.modes without hold_out; name whole decks with --held-out",
-                )
+            raise DeckError.of(
+                "MD691",
+                "configurations are diagnosed by their measured modes, and held out as a whole;  "
+                + ("this deck has none" if each.test is None else "this deck holds out a part of its test"),
+                each.place("test"),
+                help="give test.modes without hold_out; name whole decks with --held-out",
             )
         if _parameters(each) != _parameters(first) or not _alike(each, first):
             names = ", ".join(p.name for p in first.parameters) or "none"
-            raise DeckError(
-                Diagnostic(
-                    "MD690",
-                    ERROR,
-                    f"its parameters are not those of {first.source.path} ({names}, with their values, sd and transforms)",
-                    each.place("parameters"),
-                    help="write the same parameters and prior in every configuration",
-                )
+            raise DeckError.of(
+                "MD690",
+                f"its parameters are not those of {first.source.path} ({names}, with their values, sd and transforms)",
+                each.place("parameters"),
+                help="write the same parameters and prior in every configuration",
             )
         if each.theory != first.theory:
-            raise DeckError(
-                Diagnostic(
-                    "MD690",
-                    ERROR,
-                    f"its errors of theory are not those of {first.source.path}",
-                    each.place("theory"),
-                    help="write the same theory in every configuration: they are models of one structure",
-                )
+            raise DeckError.of(
+                "MD690",
+                f"its errors of theory are not those of {first.source.path}",
+                each.place("theory"),
+                help="write the same theory in every configuration: they are models of one structure",
             )
 
 
