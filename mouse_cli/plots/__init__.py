@@ -1,4 +1,4 @@
-"""Figures of an answer, PLOTS of a module for each kind of it, found by `registry`; matplotlib is optional."""
+"""Figures of an answer: one module = one kind of answer, found by `registry`; matplotlib is optional."""
 
 import os
 from collections.abc import Callable
