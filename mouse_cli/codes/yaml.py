@@ -156,6 +156,12 @@ CODES = {
         "Put the file beside the deck and give its name alone; or, where you know what the deck reads, allow it: "
         "`--allow-outside`.",
     ),
+    "MD232": Code(
+        "not a power of that parameter",
+        "A parameter with power_of is another one to an exponent: the other has transform: log, stays positive, and says "
+        "nominal value, sd and limits of both.",
+        "Give the other transform: log, an exponent within -10 to 10 that is not 0, and delete what follows from it.",
+    ),
     "MD250": Code(
         "matrix file missing",
         "The file does not exist, is not a regular file, or cannot be read. Paths are relative to the deck.",

@@ -13,10 +13,12 @@ from mouse_cli.formats.yaml_deck.text import real, word, wrapped
 from mouse_cli.importing.checks import Checked, held_rows
 from mouse_cli.importing.model import InputModel
 from mouse_cli.importing.separate import Parts
+from mouse_cli.importing.thickness import Thickness
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.geometry import DIRECTIONS
 
 _E_SD, _DENSITY_SD, _SPRING_SD = "5 %", "1 %", "20 %"  # what is known of a material and of a spring before the test
+_THICKNESS_SD = "5 %"  # of a shell
 _SI_E, _MM_E = (1e8, 1e13), (1e2, 1e7)  # Young's moduli in Pa and in MPa
 _MOST_MODES = 6
 _DIRECTIONS = ("S", *DIRECTIONS)
@@ -34,7 +36,9 @@ def units(model: InputModel) -> str:
     return "mm-t-N" if used and fits(_MM_E, (1e-12, 1e-6)) else ""
 
 
-def write(target: Path, model: InputModel, parts: Parts, checked: Checked, system: str) -> list[Path]:
+def write(
+    target: Path, model: InputModel, parts: Parts, checked: Checked, system: str, thick: list[Thickness]
+) -> list[Path]:
     """The deck `target` and a folder of its files beside it; returns all paths, the deck last. Raises WrittenError."""
     folder = target.parent / f"{target.stem}_model"
     folder.mkdir(parents=True, exist_ok=True)
@@ -60,7 +64,7 @@ def write(target: Path, model: InputModel, parts: Parts, checked: Checked, syste
         f"  nodes: {table('nodes.csv', _nodes(model))}",
         *_supports(model, parts),
         *_sets(model, parts, keep),
-        *_parameters(model, parts, keep, system),
+        *_parameters(model, parts, keep, system, thick),
         *_stub(checked),
     ]
     write_text_atomically(target, "\n".join(lines) + "\n")
@@ -98,8 +102,8 @@ def _sets(model: InputModel, parts: Parts, keep) -> list[str]:
     return lines
 
 
-def _parameters(model: InputModel, parts: Parts, keep, system: str) -> list[str]:
-    """E and density of each material, springs by their sets."""
+def _parameters(model: InputModel, parts: Parts, keep, system: str, thick: list[Thickness]) -> list[str]:
+    """E and density of each material, springs by their sets, thickness of shells."""
     lines = ["", "parameters:"]
     pressure, density = {"SI": ("Pa", "kg/m3"), "mm-t-N": ("MPa", "t/mm3")}.get(system, ("", ""))
     for name, material in model.materials.items():
@@ -117,7 +121,24 @@ def _parameters(model: InputModel, parts: Parts, keep, system: str) -> list[str]
         if group.owner.keyword == "SPRING" and parts.K[i].nnz:
             file = keep(f"spring_{_slug(group.name)}", parts.K[i])
             lines.append(_parameter(f"stiffness of {group.name}", 1.0, "1", _SPRING_SD, "stiffness", file))
+    unit = {"SI": "m", "mm-t-N": "mm"}.get(system, "")
+    lines += [line for each in thick for line in _thickness(each, keep, unit)]
     return lines if len(lines) > 2 else []
+
+
+def _thickness(one: Thickness, keep, unit: str) -> Iterable[str]:
+    """A parameter, and its other powers."""
+    name = f"thickness of {one.name}"
+    for n in one.powers:
+        scale = one.nominal**n
+        files = [f"{key}: {keep(f'{mark}_t{n}_{_slug(one.name)}', by[n] / scale)}"
+                 for key, mark, by in (("stiffness", "K", one.K), ("mass", "M", one.M)) if n in by]  # fmt: skip
+        of = f", unit: {unit}" if unit else ""
+        if n == 1:
+            own = f"{word(name)}, nominal: {real(one.nominal)}{of}, sd: {_THICKNESS_SD}, transform: log"
+        else:
+            own = f"{word(f'{name} to the power {n}')}, power_of: [{word(name)}, {n}]"
+        yield f"  - {{name: {', '.join([own, *files])}}}"
 
 
 def _parameter(name: str, value: float, unit: str, sd: str, key: str, file: str) -> str:

@@ -11,8 +11,11 @@ _MATRICES = ["*STEP", "*FREQUENCY, SOLVER=MATRIXSTORAGE", "1", "*END STEP"]
 _PER_LINE, _LONGEST = 8, 20
 
 
-def export(model: InputModel, scaled: Iterable[int] = ()) -> str:
-    """The job that writes K and M without supports; every group has a section of its own, those of `scaled` with SCALE."""
+def export(model: InputModel, scaled: Iterable[int] = (), thick: tuple[Card, float] | None = None) -> str:
+    """The job that writes K and M without supports; every group has a section of its own, those of `scaled` with SCALE.
+
+    thick: a section whose thickness is so many times that of the file.
+    """
     scaled, lines = set(scaled), []
     owners = {id(group.owner) for group in model.groups}
     for card in model.kept:
@@ -20,7 +23,8 @@ def export(model: InputModel, scaled: Iterable[int] = ()) -> str:
             lines += card.text()
     for i, group in enumerate(model.groups):
         factor = SCALE if i in scaled else 1.0
-        lines += section(group, f"MOUSE_{i}", factor, factor)
+        own = thick[1] if thick is not None and thick[0] is group.owner else 1.0
+        lines += section(group, f"MOUSE_{i}", factor, factor, own)
     return "\n".join([*lines, *_MATRICES]) + "\n"
 
 
@@ -66,7 +70,7 @@ def _joined(model: InputModel) -> set[int]:
     return {int(word) for word in words if word.isdigit()} & set(model.nodes)
 
 
-def section(group: Group, name: str, stiffness: float, mass: float) -> list[str]:
+def section(group: Group, name: str, stiffness: float, mass: float, thickness: float = 1.0) -> list[str]:
     """The cards that give a group its properties, in a set and of a material called `name`, times these factors."""
     lines = [f"*ELSET, ELSET={name}", *listed(group.elements)]
     options = {key: value for key, value in group.owner.options.items() if key not in ("ELSET", "MATERIAL")}
@@ -77,7 +81,9 @@ def section(group: Group, name: str, stiffness: float, mass: float) -> list[str]
         options = {"ELSET": name} | options
     head = "".join(f", {key}={value}" if value else f", {key}" for key, value in options.items())
     data = [line.text for line in group.owner.lines]
-    if group.owner.keyword == "MASS" and data:
+    if thickness != 1.0:
+        data = [times(group.owner, 0, thickness, of=1), *data[1:]]
+    elif group.owner.keyword == "MASS" and data:
         data = [times(group.owner, 0, mass)]
     elif group.owner.keyword == "SPRING" and data:
         at = 0 if len(data) == 1 else 1

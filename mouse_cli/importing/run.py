@@ -12,6 +12,7 @@ from mouse_cli.importing.deck import units, write
 from mouse_cli.importing.model import InputModel
 from mouse_cli.importing.read import read
 from mouse_cli.importing.separate import Parts, parts
+from mouse_cli.importing.thickness import Thickness, chosen, thicknesses
 
 
 @dataclass(frozen=True)
@@ -24,6 +25,7 @@ class Imported:
     files: list[Path]
     system: str
     remarks: tuple[Diagnostic, ...]
+    thick: list[Thickness]
 
     def text(self) -> str:
         """What was read, checked and written, in a few lines."""
@@ -38,6 +40,10 @@ class Imported:
             found.append(f"without effect on K and M: {', '.join(f'*{word}' for word in model.ignored)}")
         found += [
             f"{self.parts.jobs} exports; sets sum to the whole to {max(self.parts.error):.1g}",
+            *(
+                f"thickness of {one.name}: {one.exports} exports, powers {', '.join(map(str, one.powers))}"
+                for one in self.thick
+            ),
             f"{len(self.checked.hz)} frequencies with supports as the solver's, to {self.checked.frequency:.1g}",
             f"written: {self.files[-1]} and {len(self.files) - 1} files in {self.files[0].parent}",
         ]
@@ -45,19 +51,22 @@ class Imported:
 
 
 def imported(
-    path: str, target: Path, system: str | None, cached: bool, say: Callable[[str], None], outside: bool = False
-) -> Imported:
+    path: str, target: Path, system: str | None, cached: bool, say: Callable[[str], None], outside: bool = False,
+    thickness: tuple[str, ...] = (),
+) -> Imported:  # fmt: skip
     """Makes the deck `target` of the input file `path`; say: told what is going on. Raises DeckError, WrittenError.
 
-    outside: the file may include others from outside of its folder.
+    outside: the file may include others from outside of its folder. thickness: sets of shells whose thickness is a parameter.
     """
     model = read(path, outside)
+    shells = chosen(model, thickness)
     if not calculix.available():
         message = "CalculiX (ccx) is not on the path: nothing can export K and M"
         help = "install it (Debian, Ubuntu: apt install calculix-ccx), or export by hand as in docs/how-to/import-models.md"
         raise DeckError.of("MD274", message, Span(path, 1), help=help)
     with calculix.Solver(path, calculix.cache_folder() if cached else None, say) as solver:
         found = parts(model, solver, lambda whole: begin(model, whole, solver))
+        thick = thicknesses(model, shells, found.whole, solver)
         checked = check(model, found, solver)
     named = system or units(model)
     remarks = list(model.remarks)
@@ -68,4 +77,5 @@ def imported(
         remarks.append(
             Diagnostic("MD276", WARNING, f"the units of the job are {spoken}", Span(path, 1), help="give --units")
         )
-    return Imported(model, found, checked, write(target, model, found, checked, named), named, tuple(remarks))
+    files = write(target, model, found, checked, named, thick)
+    return Imported(model, found, checked, files, named, tuple(remarks), thick)

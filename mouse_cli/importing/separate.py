@@ -42,11 +42,11 @@ def parts(model: InputModel, solver: Solver, meanwhile: Callable[[Exported], Non
     for i, chosen in enumerate(classes, 1):
         scaled = solver.matrices(*jobs[i], own)
         solver.begin(jobs[i + ahead - 1 : i + ahead])
-        differences = [_difference(getattr(scaled, x), getattr(whole, x)) for x in "KM"]
-        owner = _owners(model, chosen, differences, whole.rows.names[:, 0])
-        for into, difference in zip((K, M), differences, strict=True):
+        moved = [difference(getattr(scaled, x), getattr(whole, x)) / (SCALE - 1) for x in "KM"]
+        owner = _owners(model, chosen, moved, whole.rows.names[:, 0])
+        for into, own_part in zip((K, M), moved, strict=True):
             for i in chosen:
-                into[i] = _rows_of(difference, owner == i)
+                into[i] = _rows_of(own_part, owner == i)
     error = tuple(_error(each, getattr(whole, x)) for each, x in ((K, "K"), (M, "M")))
     return Parts(whole, K, M, len(jobs), error)
 
@@ -60,13 +60,13 @@ def _titled(model: InputModel, classes: list[list[int]]) -> Iterator[tuple[list[
         yield chosen, f"export {j} of {total}: {names}"
 
 
-def _difference(scaled: Matrix, whole: Matrix) -> Matrix:
-    """What belongs to the scaled groups: elements that differ by rounding of the files alone are none."""
-    difference = (scaled - whole).tocsr()
-    size = abs(scaled).maximum(abs(whole)).tocsr()
-    close = abs(difference) - size * _DIGITS
+def difference(changed: Matrix, whole: Matrix) -> Matrix:
+    """What two exports differ by: elements that differ by rounding of the files alone are none."""
+    between = (changed - whole).tocsr()
+    size = abs(changed).maximum(abs(whole)).tocsr()
+    close = abs(between) - size * _DIGITS
     keep = (close > 0).astype(float)
-    found = (difference.multiply(keep) / (SCALE - 1)).tocsr()
+    found = between.multiply(keep).tocsr()
     found.eliminate_zeros()
     return found
 

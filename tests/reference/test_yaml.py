@@ -287,6 +287,18 @@ FAULTS = [
     ("MD229", "run:", "prior: {correlations: [[a, c, 0.1]]}\nrun:", "c, 0.1", 1, "no parameter"),
     ("MD230", "run:", "prior: {correlations: [[a, b, 1.5]]}\nrun:", "1.5", 3, "within -1 to 1"),
     ("MD230", "run:", "prior: {correlation: [[2, 0], [0, 1]]}\nrun:", "2, 0]", 1, "must be 1"),
+    ("MD229", "sd: 0.5, ", "power_of: [c, 2], ", "c, 2], st", 1, "no parameter"),
+    ("MD213", "sd: 0.5, ", "power_of: a, ", "a, st", 1, "[parameter, exponent]"),
+    ("MD232", "sd: 0.5, ", "power_of: [a, 2], ", "a, 2], st", 1, "no transform log"),
+    ("MD232", "sd: 0.5, ", "sd: 0.5, power_of: [a, 2], ", "0.5, pow", 3, "sd of its own"),
+    (
+        "MD232",
+        "sd: 5 %, stiffness: [[1,1,1]]}\n  - {name: b, sd: 0.5, ",
+        "sd: 5 %, transform: log, stiffness: [[1,1,1]]}\n  - {name: b, power_of: [a, 0], ",
+        "0], st",
+        1,
+        "not 0",
+    ),
     ("MD231", "{identity: 2}", "{file: /etc/passwd}", "/etc/passwd", 11, "not below"),
     ("MD231", "{identity: 2}", "{file: ../m.mtx}", "../m.mtx", 8, "not below"),
     ("MD301", "[1,1,3.0]", "[1,7,3.0]", "[1,7,3.0]", 9, "outside 2 x 2"),
@@ -456,3 +468,21 @@ parameters: [{{name: k, nominal: 1, sd: 10 %, stiffness: [[1, 1, 1.0e+3]]}}]
 test: {{modes: {{frequency: [{frequency}, 7.0], frequency_sd: 1 %}}}}
 """
     assert [found.code for found in findings(deck) if found.severity == "error"] == ([code] if code else [])
+
+
+def test_a_power_of_a_parameter_follows_it(tmp_path):
+    """A strip of thickness t = 2: k = t^3 and m = t on a mode of omega = t, so that a test at omega = 2.2 says t and its cube."""
+    text = """mouse: 1
+model: {stiffness: {dense: [[8]]}, mass: {diagonal: [2]}}
+parameters:
+  - {name: cube, power_of: [t, 3], stiffness: [[1, 1, 1]]}
+  - {name: t, nominal: 2, unit: mm, sd: 10 %, lower: 1, transform: log, mass: [[1, 1, 1]]}
+test: {modes: {frequency: [0.350140875], frequency_sd: 0.0001 %}}
+"""
+    found = problem(text)
+    cube = found.parameters[0]
+    assert (cube.nominal, cube.unit, cube.lower, cube.transform) == (8.0, "(mm)^3", 1.0, "log")
+    assert np.allclose(found.prior.cov, [[2.4**2, 2.4 * 0.2], [2.4 * 0.2, 0.2**2]])
+    assert np.allclose(mouse_cli.run(found).revised.theta, [2.2**3, 2.2], rtol=1e-6)
+    write_deck(found, tmp_path / "again.yaml")
+    assert np.allclose(mouse_cli.run(read_deck(tmp_path / "again.yaml")).revised.theta, [2.2**3, 2.2], rtol=1e-6)

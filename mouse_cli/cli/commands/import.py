@@ -14,10 +14,16 @@ from mouse_cli.cli._options import OUTSIDE, QUIET, options, outside
     "--units", type=click.Choice(["SI", "mm-t-N", "mm-kg-mN", "m-t-kN", "in-lbf", "ft-lbf"]),
     help="Of the job; by default deduced from its materials.",
 )  # fmt: skip
+@click.option(
+    "--thickness", metavar="SET", multiple=True,
+    help="Element set of shells whose thickness is to be a parameter; may be repeated.",
+)  # fmt: skip
 @click.option("--no-cache", is_flag=True, help="Run the solver even where an earlier import left its matrices.")
 @options(QUIET)
 @options(OUTSIDE)
-def command(job: str, output: str | None, units: str | None, no_cache: bool, quiet: bool) -> int:
+def command(
+    job: str, output: str | None, units: str | None, thickness: tuple[str, ...], no_cache: bool, quiet: bool
+) -> int:
     """Make a deck of JOB, an input file (.inp) of Abaqus or CalculiX.
 
     CalculiX (ccx) writes K and M without supports, once for the whole and once for each set of groups that do not touch; the
@@ -30,7 +36,7 @@ def command(job: str, output: str | None, units: str | None, no_cache: bool, qui
 
     target = Path(output) if output else Path(Path(job).stem + ".yaml")
     with progress() as (_, tell):
-        found = imported(job, target, units, not no_cache, tell, outside())
+        found = imported(job, target, units, not no_cache, tell, outside(), thickness)
     if not quiet:
         show_diagnostics(found.remarks)
     say(found.text())

@@ -75,6 +75,7 @@ KINDS = {
         {"anyOf": [_list(_list(_WHOLE, _WHOLE, _NUMBER)), _FILE]},
     ),
     "links": Kind("a list of [parameter, parameter, correlation]", _list(_list(_NAME, _NAME, _NUMBER))),
+    "power": Kind("[parameter, exponent], such as [thickness, 3]", _list(_NAME, _NUMBER)),
     "sds": Kind(
         "a number, a percentage such as 2 %, or a list of numbers",
         {"anyOf": [_NUMBER, _PERCENT, _list(_MAYBE)]},

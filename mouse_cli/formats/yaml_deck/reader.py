@@ -15,6 +15,7 @@ from mouse_cli.formats.yaml_deck.modal_damping import modal_damping
 from mouse_cli.formats.yaml_deck.model import Model, model
 from mouse_cli.formats.yaml_deck.modes import modal_test
 from mouse_cli.formats.yaml_deck.nodes import compose
+from mouse_cli.formats.yaml_deck.powers import raised
 from mouse_cli.formats.yaml_deck.records import records
 from mouse_cli.formats.yaml_deck.run import run_options
 from mouse_cli.formats.yaml_deck.sections import Section
@@ -107,9 +108,12 @@ def _properties(
     variances = [None] * len(sections) if covariance is None else np.diag(covariance).tolist()
     if covariance is None and form == "covariance":
         variances = [1.0] * len(sections)  # the matrix was refused: a missing sd is no second error
-    found = [yaml_parameters.parameter(*each) for each in zip(sections, variances, bound, strict=True)]
+    found, powers = raised(sections, lambda i: yaml_parameters.parameter(sections[i], variances[i], bound[i]))
     parameters = [parameter for parameter in found if parameter is not None]
     if len(parameters) == len(sections) and form != "covariance":
         names, sd = [p.name for p in parameters], np.array([p.sd for p in parameters])
         covariance = yaml_prior.correlated(prior, form, names, sd)
+    if powers is not None and len(parameters) == len(sections):
+        covariance = np.diag([p.sd**2 for p in parameters]) if covariance is None else covariance
+        covariance = powers @ covariance @ powers.T
     return parameters, covariance, sections

@@ -22,11 +22,16 @@ SECTIONS = {
             "sd": Key(
                 "sd",
                 "prior standard deviation; a percentage is of the nominal value; 0 holds the parameter",
-                "required, unless prior.covariance is given",
+                "required, unless prior.covariance or power_of is given",
             ),
             "lower": Key("number", "least value allowed", "none"),
             "upper": Key("number", "largest value allowed", "none"),
             "transform": Key("choice", "log keeps the value positive", "identity", choices=TRANSFORMS),
+            "power_of": Key(
+                "power",
+                "instead of nominal, sd, limits and transform: it is a power of another parameter, which has transform: log",
+                "none",
+            ),
             "stiffness": Key("triples or file", "dK/d(parameter): [row, column, value], upper triangle", "[]"),
             "mass": Key("triples or file", "dM/d(parameter): [row, column, value], upper triangle", "[]"),
             "elements": Key("ids", "the elements of a structure whose property it is; or all"),
