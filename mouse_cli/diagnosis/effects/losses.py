@@ -18,6 +18,7 @@ from mouse_cli.terms.bound_properties import BoundProperties, nominal_properties
 from mouse_cli.terms.elements import Layout, Matrices, registry
 
 _MOST = 60  # places that are looked at: those that hold most energy in the lowest modes
+_FEW = 12  # directions of them that a search in few coordinates knows to give way
 _STIFF = {"rod": ("E",), "spring": DIRECTIONS, "storey": DIRECTIONS, "joint": DIRECTIONS}
 _BEGIN, _GAINS = (0.1, 0.5, 0.9), (0.1, 1.0, 8.0)  # shares to begin from: what is left of a stiffness counts
 LOST = "share lost"
@@ -26,11 +27,32 @@ _LOST, _GAINED = Unknown(LOST, "1", 0.02, 0.99), Unknown("share gained", "1", 0.
 
 def of_elements(model: Reduced, candidate: Candidate, sign: int = -1, directed: bool = False) -> list[Recipe]:
     """K - d K_e of each rod, spring, storey and joint, or K + d K_e by `sign`; directed: of each of its directions alone too."""
-    mesh = model.problem.mesh
-    parts = [] if mesh is None else [_stiffness(model, s, directed) for s in range(len(mesh.elements))]
-    found = [(s, *block) for s, blocks in enumerate(parts) for block in blocks]
+    found = _parts(model, directed)
     count = len({each[:2] for each in found})
     return [_element(model, candidate, each, count, sign) for each in _strained(model, found)]
+
+
+def loosened(model: Reduced) -> np.ndarray:
+    """Forces (c, r) by which springs and joints hold the rest in each direction, a few: those first whose loss tells most.
+
+    With K_e = b b' and g = b'K^-1 b, what is left of it after a share d is lost bears 1 / (1 - d g) times as much as modes show.
+    """
+    parts = [K for *_, direction, share, K in _parts(model, True) if direction or share == 1.0]
+    if not parts:
+        return np.zeros((0, model.r))
+    count = min(model.r, int(model.data.test.number.max()) + 1)
+    at = [int(np.argmax(K.diagonal())) for K in parts]
+    b = np.array([K[i] / np.sqrt(max(K[i, i], 1e-300)) for i, K in zip(at, parts, strict=True)])
+    share = b**2 / np.maximum(model.eigenvalues, 1e-9 * model.eigenvalues[-1])
+    tells = share[:, :count].max(axis=1) / (1 - _LOST.upper * np.minimum(share.sum(axis=1), 1.0))
+    return b[np.argsort(-tells, kind="stable")[:_FEW]]
+
+
+def _parts(model: Reduced, directed: bool) -> list[tuple]:
+    """Number of a set, and what `_stiffness` says of its members, for all."""
+    mesh = model.problem.mesh
+    found = [] if mesh is None else [_stiffness(model, s, directed) for s in range(len(mesh.elements))]
+    return [(s, *part) for s, parts in enumerate(found) for part in parts]
 
 
 def _strained(model: Reduced, found: list) -> list:
