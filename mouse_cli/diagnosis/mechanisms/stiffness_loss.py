@@ -12,7 +12,7 @@ from mouse_cli.diagnosis.sites.stretches import of_lines
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """F (1 + d) over a stretch of a line; K_e (1 - d) of an element; K - k b b' of a spring between degrees of freedom."""
+    """F (1 + d) over a stretch of a line; K_e (1 - d) of an element, or of one direction of it; K - k b b' of a spring between degrees of freedom."""
     lines, others = (
         of_lines(model, candidate),
         of_elements(model, candidate, directed=True) + of_springs(model, candidate),
@@ -26,7 +26,7 @@ CANDIDATE = Candidate(
     "stiffness-loss",
     "a softer stretch or element",
     "local-stiffness",
-    "a stretch of a bar, another element or a spring that is softer than modelled: damage, a weaker section, another "
-    "material",
+    "a stretch of a bar, another element or a spring that is softer than modelled, an element in all of its directions or in "
+    "one: damage, a weaker section, another material, a bearing that has come loose",
     recipes,
 )
