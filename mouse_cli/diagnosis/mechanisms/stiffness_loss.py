@@ -12,11 +12,9 @@ from mouse_cli.diagnosis.sites.stretches import of_lines
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """F (1 + d) over a stretch of a line; K_e (1 - d) of an element, or of one direction of it; K - k b b' of a spring between degrees of freedom."""
-    lines, others = (
-        of_lines(model, candidate),
-        of_elements(model, candidate, directed=True) + of_springs(model, candidate),
-    )
+    """F (1 + d) over a stretch of a line; K_e (1 - d) of an element or of its direction; K - k b b' of a spring of matrices."""
+    lines = of_lines(model, candidate)
+    others = of_elements(model, candidate, directed=True) + of_springs(model, candidate)
     if not lines or not others:
         return lines + others
     return [replace(recipe, log_prior=recipe.log_prior - float(np.log(2))) for recipe in lines + others]
