@@ -196,6 +196,20 @@ def test_few_coordinates_hold_what_a_large_model_does_without_a_set(tmp_path):
     assert np.allclose(found, eigh(frame, np.eye(240), subset_by_index=[0, 5], eigvals_only=True), rtol=1e-4)
 
 
+def test_what_is_left_of_a_missing_set_is_more_than_rounding(tmp_path):
+    """Of matrices with 14 digits (1e-14 of the largest entry) the deck without a branch has no negative stiffness."""
+    n, at = 60, [0, *range(30, 60)]
+    spine, branch, light = np.pad(coupled(30, np.full(30, 1e12)), (0, 30)), np.zeros((n, n)), np.zeros((n, n))
+    branch[np.ix_(at, at)], light[at[1:], at[1:]] = coupled(31, np.append(0, np.full(30, 1e9))), 1.0
+    noise = np.full(n, 1e-14 * spine.max())
+    chain(tmp_path, spine + branch, np.diag(np.arange(n) < 30) + light, {"BRANCH": (branch + np.diag(noise), light)})
+    problem = read_deck(tmp_path / "chain.yaml")
+    (recipe,) = reduced(problem, problem.prior.mean).recipes(registry()["member"])
+    deck = recipe.extend(problem, np.array([recipe.unknowns[0].upper]))
+    for matrix in assembly(deck).matrices(deck.prior.mean):
+        assert np.linalg.eigvalsh(dense(matrix)).min() > 0
+
+
 @pytest.mark.parametrize("share", [0.5, 0.8, 0.95])
 def test_few_coordinates_hold_a_set_that_is_soft_and_as_heavy_as_it_was(tmp_path, share):
     """One of 20 branches of 30 masses on a chain of 100 has low modes of its own: they are, by hand, within a fifth of the sd."""
