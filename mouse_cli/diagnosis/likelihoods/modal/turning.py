@@ -106,8 +106,9 @@ def _angles(
         residual, a = data.residual(own, seen @ R[:, :m])
         moved = np.moveaxis(seen @ (inverse @ (unit / 2) @ (one + R)[:, :m]), 0, -1)
         J = data.jacobian(own, seen @ R[:, :m], a, still, moved)
-        slope = J.T @ residual - P * t
-        step = np.linalg.solve(J.T @ J + np.diag(P), slope)
+        slope = J.T @ residual - P * t  # sensors may tell some of the angles by hardly more than P: no normal equations
+        stacked = np.vstack([J, np.diag(np.sqrt(P))]), np.concatenate([residual, -np.sqrt(P) * t])
+        step = np.linalg.lstsq(*stacked, rcond=None)[0]
         if step_number == _MOST - 1 or slope @ step < _SMALL:
             return t, R[:, :m], J
         t = t + step * min(1.0, _FAR / np.abs(step).max())
