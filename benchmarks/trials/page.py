@@ -9,7 +9,7 @@ from benchmarks.trials.calibration import calibration_error, table
 from benchmarks.trials.case import NEAR, REGION
 from benchmarks.trials.draw import FELT
 from benchmarks.trials.kinds import CLASSES
-from benchmarks.trials.scoring import MISPLACED, MISSED, OUTCOMES, REFUSED, WRONG, Scored
+from benchmarks.trials.scoring import MEANT, MISPLACED, MISSED, OUTCOMES, REFUSED, WRONG, Scored
 from benchmarks.trials.seal import Seal
 from benchmarks.trials.test_data import QUALITIES
 
@@ -147,12 +147,14 @@ def _outside(results: list[Scored]) -> str:
     accepted = sorted(
         {f"{name} for {m['kind']}" for one in own for m in one.truth["mechanisms"] for name, _ in m["also"]}
     )
+    meant = ", ".join(f"{name} for {kind}" for kind, name in sorted(MEANT.items()))
     names = f" Names accepted as true, declared beforehand: {', '.join(accepted)}." if accepted else ""
     return (
         f"{len(own)} decks: {counts or 'none'}. Of fields without a name, {sum(share(0))} of {len(share(0))} have a property "
         f"of what is missing, {sum(share(1))} of {len(share(1))} are largest within {100 * REGION:g} % of the span of where it "
         f"acts most. What was held out is predicted with at most half of the error in {halved} of {len(gains)}, by the answer's "
-        f"model, named or not.{names}\n"
+        f"model, named or not. Properties that are right because of what a truth is (what acts at one place by a law that mouse "
+        f"leaves free, a force along bars): {meant}.{names}\n"
     )
 
 

@@ -19,6 +19,13 @@ RIGHT, PART, MISPLACED, WRONG, ABSTAINED, MISSED, REFUSED = OUTCOMES = (
     "refused",  # no answer
 )
 ALIKE = {"compliance": "force"}  # changes of rank one, a force in truths whatever its sign
+MEANT = {  # by what a truth is, besides its declared properties: at one place a law is free; a force along bars is axial
+    "elastomer mount": "law",
+    "attached beam": "law",
+    "outrigger": "law",
+    "support softened by amplitude": "law",
+    "gradient of axial force": "axial",
+}
 IGNORED = {"gains": "sensor"}  # groups that describe an error of the test that the deck does not state
 
 
@@ -193,7 +200,7 @@ def _rivals(document: dict, truth: dict) -> list[tuple[float, bool]]:
 def _field(verdict: dict, truth: dict) -> tuple[bool | None, bool | None]:
     """Whether a field without a name has a property of the true mechanisms, and is largest within REGION of where they act most."""
     found, mechanisms = verdict.get("field"), truth["mechanisms"]
-    properties = {name for own in mechanisms for name in own["properties"]}
+    properties = {name for own in mechanisms for name in (*own["properties"], *filter(None, [MEANT.get(own["kind"])]))}
     if not found or not properties:
         return None, None
     right = ALIKE.get(found["property"], found["property"]) in properties

@@ -125,7 +125,7 @@ def _unknown(ranking: Ranking, model: Reduced, best: Fit | None, proof, struck: 
     """
     fields = [each for each in zip(ranking.log_odds, ranking.fits, strict=True) if each[1].nameless and each[0] > ODDS]
     if not fields:
-        return Verdict(UNKNOWN, best, proof, struck, reasons=reasons)
+        return Verdict(UNKNOWN, best, averaged(model, ranking) or proof, struck, reasons=reasons)
     proofs = [held_out(model, ranking.baseline, fields[0][1])]
     if proofs[0] is not None and proofs[0].kind == BY_DECK:
         proofs += [held_out(model, ranking.baseline, one) for _, one in fields[1:]]

@@ -215,6 +215,17 @@ def test_fields_are_scored_by_property_and_region():
     assert scored("x", bed, verdict("unknown", None, None, field=None)).field == (None, None)
 
 
+@pytest.mark.parametrize(("kind", "right"), [("beam/elastomer", "law"), ("beam/axial gradient", "axial")])
+def test_what_a_truth_is_makes_a_property_right(kind, right):
+    """A mount whose stiffness is its own in each mode is a law at one place; a bed along a beam is none."""
+    one, bed = next(trials(1, 1, [f"outside/{kind}"])), next(trials(1, 1, ["outside/beam/half bed"]))
+    site = {"ids": [int(next(iter(one.blank.elements)))], "value": 1.0, "sd": 0.1}
+    said = lambda own: scored(
+        "x", own, verdict("unknown", None, None, field={"property": right, "sites": [site]})
+    ).field[0]
+    assert said(one) is True and said(bed) is False
+
+
 def test_what_is_held_out_is_predicted_by_the_model_of_the_answer():
     """Where there is no name that is the one with the field in it, not that of a mechanism which was rejected."""
     bed = next(trials(1, 1, ["outside/beam/half bed"]))

@@ -8,7 +8,7 @@ from scipy.stats import norm
 
 from mouse_cli.diagnosis.likelihoods.modal.data import Data
 from mouse_cli.diagnosis.search.rank import Ranking
-from mouse_cli.diagnosis.validate.averaged import _mixed, members
+from mouse_cli.diagnosis.validate.averaged import _mixed, _widened, members
 from mouse_cli.diagnosis.validate.held_out import Prediction
 from mouse_cli.model.modal_test import ModalTest, restricted
 from mouse_cli.model.theory import Theory
@@ -39,10 +39,11 @@ def test_a_mixture(measured):
     found, rng = _mixed(told), np.random.default_rng(0)
     which = rng.choice(3, 400_000, p=WEIGHTS)
     drawn = rng.normal(np.array(HZ)[which], np.array(SD)[which])
-    assert found.hz[0] == pytest.approx(drawn.mean(), abs=2e-3)
-    assert found.sd_hz[0] == pytest.approx(drawn.std(), rel=5e-3)
+    low, middle, high = np.quantile(drawn, [0.05, 0.5, 0.95])
+    assert found.hz[0] == pytest.approx(middle, abs=2e-3)
+    assert found.sd_hz[0] == pytest.approx((high - low) / 3.2897, rel=5e-3)
     assert found.density == pytest.approx(np.log(WEIGHTS @ norm.pdf(measured, HZ, SD)))
-    assert found.covered[0] == (abs(measured - drawn.mean()) < 1.645 * drawn.std())
+    assert found.covered[0] == (low < measured < high)
 
 
 def test_a_mode_left_out_is_none_of_those_that_were_fitted():
@@ -64,3 +65,18 @@ def test_the_model_as_it_is_predicts_too():
     baseline, other = (SimpleNamespace(variants=()) for _ in range(2))
     ranking = Ranking(baseline, (other, baseline), 1.0, np.array([0.9, 0.1]), (), np.ones(2), np.zeros(2))
     assert [one.fit for one in members(ranking)] == [other, baseline]
+
+
+def test_vague_predictions_of_little_weight_move_nothing():
+    """0.04 of the weight on 30 +- 20 Hz beside 10 +- 0.01 Hz: the mean is 10.8 Hz, the median 10 Hz."""
+    found = _mixed([(np.log(0.96), prediction(10.0, 0.01, 10.0)), (np.log(0.04), prediction(30.0, 20.0, 10.0))])
+    assert found.hz[0] == pytest.approx(10.0, abs=1e-3) and found.covered[0]
+    assert found.sd_hz[0] < 0.05
+
+
+def test_a_prediction_is_as_uncertain_as_its_errors_elsewhere():
+    """2 % of error in other modes beside an sd of 0.1 %: all of its variances grow by that, and its density with them."""
+    found = _widened(one := prediction(10.0, 0.01, 10.3), 0.02**2)
+    assert found.sd_hz[0] == pytest.approx(0.2)
+    assert found.density == pytest.approx(norm.logpdf(10.3, 10.0, 0.2))
+    assert _widened(one, 1e-12) == one

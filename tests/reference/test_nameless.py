@@ -17,7 +17,7 @@ from mouse_cli.diagnosis.nameless.fit import _spreads, rivals
 from mouse_cli.diagnosis.search.rank import _log_prior, rank
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
-from mouse_cli.model.diagnosis import BED, MASS, NAMED, NOTHING, STIFFNESS, UNKNOWN, Choices
+from mouse_cli.model.diagnosis import AXIAL, BED, MASS, NAMED, NOTHING, STIFFNESS, UNKNOWN, Choices
 
 NAMES = ("tension", "ground-spring", "mass", "stiffness-loss", "taper", "shear")
 WAVE = lambda waves, phase: lambda x: 1 + 0.15 * np.sin(2 * np.pi * waves * x + phase)
@@ -240,7 +240,7 @@ def test_a_model_without_cells_has_no_field():
 # --- the prior of a field, and its evidence
 
 
-@pytest.mark.parametrize("share", LENGTHS)
+@pytest.mark.parametrize("share", [share for share in LENGTHS if np.isfinite(share)])
 def test_its_covariance_is_that_of_a_smooth_field(share):
     """s^2 exp(-d^2 / 2 l^2) over a line of cells, but for what its last eigenvectors add: half a per cent in all."""
     problem = assemble(yaml_deck.read(deck(Truth()), "beam.yaml"))
@@ -253,6 +253,15 @@ def test_its_covariance_is_that_of_a_smooth_field(share):
     assert field.length == pytest.approx(length)
     assert np.trace(exact - field.P @ field.P.T) < 0.005 * np.trace(exact)
     assert np.abs(exact - field.P @ field.P.T).max() < 0.02 * 0.01 + 0.005 * np.trace(exact)
+
+
+def test_an_axial_force_under_an_even_load_is_a_slope():
+    """A pull of 4 EI / L^2 at one end, as large a push at the other: what acts, and each mode from the others."""
+    found = found_in(Truth(tension=lambda x: 4.0 * (1 - 2 * x)), False, Choices(NAMES, causes=1))
+    assert (found.kind, found.field.property, found.field.length) == (UNKNOWN, AXIAL, np.inf)
+    x, value = np.array([(each.site.position[0] / LENGTH, each.value) for each in found.field.values]).T
+    assert np.abs(value - 4.0 * (1 - 2 * x)).max() < 0.8
+    assert found.field.held_out.revised.rms_frequency_error < 0.5 * found.field.held_out.baseline.rms_frequency_error
 
 
 def test_rivals_without_a_name_share_their_prior():

@@ -14,7 +14,7 @@ from mouse_cli.diagnosis.nameless import Nameless
 from mouse_cli.diagnosis.nameless._cells import Cells
 from mouse_cli.diagnosis.nameless._correlated import affine
 
-LENGTHS = (0.08, 0.2, 0.5)  # correlation lengths, of the extent of the cells
+LENGTHS = (0.08, 0.2, 0.5, np.inf)  # correlation lengths, of the extent of the cells; infinite: a gradient
 MOTIONS = (0.2, 0.5, np.inf)  # those of a motion about one that is affine; infinite: it is affine
 
 

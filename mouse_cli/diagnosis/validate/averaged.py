@@ -1,8 +1,16 @@
 """What has no name predicts as all hypotheses together do, each as probable as the data make it.
 
-p(y | D) = sum_i P(H_i | D) p(y | H_i, D) (Hoeting, Madigan, Raftery and Volinsky, Statistical Science 14, 1999). A mean has the
-variance of all predictions about it: sum_i P_i (sd_i^2 + (y_i - y)^2). Where a mode is left out, each hypothesis is fitted and
-weighed without it. What a hypothesis leaves beyond the stated noise scales that, and what it knows of its own unknowns.
+p(y | D) = sum_i P(H_i | D) p(y | H_i, D) (Hoeting, Madigan, Raftery and Volinsky, Statistical Science 14, 1999). A frequency is the
+median of that, which vague predictions of little weight do not move, its sd that of a normal distribution with as wide a 90 %
+interval. Where a mode is left out, each hypothesis is fitted and weighed without it. What a hypothesis leaves beyond the stated
+noise scales that, and what it knows of its own unknowns.
+
+Where the data refute all of them, none is true, and how probable each is says little of what it predicts. Each is then fitted
+without each of the other modes in turn; its errors e_k of those n frequencies (of ln f) have one sd s, unknown, p(s) ~ 1 / s:
+
+    w_i ~ integral of s^-n exp(-sum_k e_ki^2 / 2 s^2) ds / s ~ (sum_k e_ki^2)^(-n/2),     variance = sum_k e_ki^2 / (n - 2)
+
+(cross-validated weights: Yao, Vehtari, Simpson and Gelman, Bayesian Analysis 13, 2018; the variance is that of Student's t).
 """
 
 from collections.abc import Sequence
@@ -10,10 +18,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mouse_cli.diagnosis.gates import GATE
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.noise import log_density, scale
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.rank import Ranking
+from mouse_cli.diagnosis.search.several import adequate
 from mouse_cli.diagnosis.validate.held_out import (
     COVERED,
     Prediction,
@@ -25,8 +35,12 @@ from mouse_cli.diagnosis.validate.held_out import (
     score,
 )
 from mouse_cli.model.diagnosis import BY_DECK, BY_MODE, HeldOut
+from mouse_cli.model.hold_out import HoldOut
 
 _MOST, _LEAST = 8, 1e-3  # hypotheses that are averaged, and the probability of the last of them
+_TAIL, _FAR = 0.05, 4.0  # beyond either end of a 90 % interval, and how many sd from all predictions no quantile is
+_HALVINGS = 60  # of the interval that a quantile lies in
+_REFUTED = 3  # of refuted hypotheses with a name, and of those without, that are averaged
 
 
 @dataclass(frozen=True)
@@ -38,7 +52,7 @@ class Member:
 
 
 def members(ranking: Ranking) -> list[Member]:
-    """The fits most probable by the fitted data, no mechanism among them; those of one rival at other spreads, lengths and sites
+    """The fits most probable by the fitted data, and that of no mechanism; those of one rival at other spreads, lengths and sites
     each for itself.
     """
     every: list[tuple[Fit, float]] = []
@@ -46,26 +60,37 @@ def members(ranking: Ranking) -> list[Member]:
     for one, p in zip(ranking.fits, by_fitted.tolist(), strict=True):
         own = 1 - sum(share for _, share in one.variants)
         every += [(one, p * own), *((each, p * share) for each, share in one.variants)]
-    every = sorted(every, key=lambda each: -each[1])[:_MOST]
-    least = _LEAST * sum(p for _, p in every)
-    return [Member(one, float(np.log(p))) for one, p in every if p > max(least, 0.0)]
+    every = sorted(every, key=lambda each: -each[1])
+    least = _LEAST * sum(p for _, p in every[:_MOST])
+    chosen = every[:_MOST] + [each for each in every[_MOST:] if each[0] is ranking.baseline]
+    return [Member(one, float(np.log(p))) for one, p in chosen if p > max(least, 0.0)]
 
 
 def averaged(model: Reduced, ranking: Ranking) -> HeldOut | None:
     """How the model as it is, and all hypotheses together, predict what the deck holds out, else each mode from the others."""
     own = members(ranking)
-    if not own:
-        return None
-    return _by_deck(model, ranking.baseline, own) if by_deck(model) else _by_mode(model, ranking.baseline, own)
+    if refuted := not any(adequate(one.fit, GATE) for one in own):
+        own = [Member(one, 0.0) for one in _refuted(ranking)]
+    return (_by_deck if by_deck(model) else _by_mode)(model, ranking.baseline, own, refuted)
 
 
-def _by_deck(model: Reduced, baseline: Fit, own: list[Member]) -> HeldOut | None:
+def _refuted(ranking: Ranking) -> list[Fit]:
+    """The most probable with a name, those without, and the model as it is."""
+    others = [one for one in ranking.fits if one is not ranking.baseline]
+    chosen = [[one for one in others if bool(one.nameless) is nameless][:_REFUTED] for nameless in (False, True)]
+    return [*chosen[0], *chosen[1], ranking.baseline]
+
+
+def _by_deck(model: Reduced, baseline: Fit, own: list[Member], refuted: bool) -> HeldOut | None:
     held = model.problem.hold_out
     before = of_cases(held, baseline)
-    each = [of_cases(held, one.fit, _noise(one.fit)) for one in own]
+    each = []
+    for one in own:
+        tried = _tried(one.fit) if refuted else (one.weight, 0.0)
+        each.append((tried[0], _cases(held, one.fit, tried[1])))
     labels, old, new = [], [], []
     for i, (title, part) in enumerate(before):
-        told = [(one.weight, cases[i][1]) for one, cases in zip(own, each, strict=True) if cases[i][1] is not None]
+        told = [(weight, cases[i]) for weight, cases in each if cases[i] is not None]
         if part is not None and told:
             labels += [title.format(number) for number in part.test.number]
             old.append(part), new.append(_mixed(told))
@@ -75,7 +100,13 @@ def _by_deck(model: Reduced, baseline: Fit, own: list[Member]) -> HeldOut | None
     return HeldOut(BY_DECK, tuple(labels), measured, score(old), score(new))
 
 
-def _by_mode(model: Reduced, baseline: Fit, own: list[Member]) -> HeldOut | None:
+def _cases(held: HoldOut, one: Fit, error: float) -> list[Prediction | None]:
+    """What a fit says of each case that is held out; error: variance of ln f that its errors elsewhere ask for at least."""
+    told = [part for _, part in of_cases(held, one, _noise(one))]
+    return [part and _widened(part, error) for part in told]
+
+
+def _by_mode(model: Reduced, baseline: Fit, own: list[Member], refuted: bool) -> HeldOut | None:
     test = model.data.test
     if test.m < 3:
         return None
@@ -87,13 +118,40 @@ def _by_mode(model: Reduced, baseline: Fit, own: list[Member]) -> HeldOut | None
         before, told = left_out(baseline, i), []
         for one in own:
             again = refitted(one.fit, i)
-            part = None if again is None else predict(again, one.fit.model.base.left_out(i), noise=_noise(again))
-            told += [] if part is None else [(one.weight + _evidence(again), part)]
+            part = None if again is None else _told(again, one.fit.model.base.left_out(i))
+            if part is not None:
+                weight, error = _tried(again) if refuted else (one.weight + _evidence(again), 0.0)
+                told.append((weight, _widened(part, error)))
         if before is None or not told:
             return None
         old.append(before), new.append(_mixed(told))
     labels = tuple(f"mode {number}" for number in test.number)
     return HeldOut(BY_MODE, labels, test.frequency_hz, score(old), score(new))
+
+
+def _told(one: Fit, base: Reduced) -> Prediction | None:
+    return predict(one, base, noise=_noise(one))
+
+
+def _tried(one: Fit) -> tuple[float, float]:
+    """ln w and the variance of ln f of a refuted hypothesis, see above; no weight where it cannot predict some mode."""
+    off = []
+    for k in np.flatnonzero(one.data.has_frequency).tolist():
+        again = refitted(one, k)
+        part = None if again is None else _told(again, one.model.base.left_out(k))
+        if part is None or not part.hz[0] > 0:
+            return -np.inf, 0.0
+        off.append(float(np.log(part.hz[0] / part.test.frequency_hz[0])))
+    total, n = float(np.sum(np.square(off))) + np.finfo(float).tiny, len(off)
+    return -0.5 * n * float(np.log(total)), total / max(n - 2, 1)
+
+
+def _widened(part: Prediction, error: float) -> Prediction:
+    """The same, its variances by one factor larger where the frequencies ask for it."""
+    variance = np.nanmean((part.sd_hz / part.hz) ** 2) if np.isfinite(part.sd_hz).any() else np.inf
+    s = max(1.0, error / variance)
+    density = part.density + 0.5 * (part.misfit * (1 - 1 / s) - part.dof * np.log(s))
+    return replace(part, sd_hz=np.sqrt(s) * part.sd_hz, misfit=part.misfit / s, density=float(density))
 
 
 def _evidence(one: Fit) -> float:
@@ -108,14 +166,27 @@ def _noise(one: Fit) -> float:
 def _mixed(told: Sequence[tuple[float, Prediction]]) -> Prediction:
     """One prediction of several, with ln of their weights."""
     log = np.array([weight for weight, _ in told])
+    log = log if np.isfinite(log).any() else np.zeros(len(log))
     log -= np.logaddexp.reduce(log)
     p, parts = np.exp(log), [part for _, part in told]
     mean = lambda name: sum(w * getattr(part, name) for w, part in zip(p, parts, strict=True))
-    hz = mean("hz")
-    variance = sum(w * (part.sd_hz**2 + (part.hz - hz) ** 2) for w, part in zip(p, parts, strict=True))
-    sd, test = np.sqrt(variance), parts[0].test
-    known = np.isfinite(test.frequency_hz) & np.isfinite(sd)
-    covered = np.abs(hz - test.frequency_hz)[known] < COVERED * sd[known]
+    each, spread = (np.array([getattr(part, name) for part in parts]) for name in ("hz", "sd_hz"))
+    hz, test = np.where(np.isfinite(spread).all(axis=0), _quantile(each, spread, p, 0.5), mean("hz")), parts[0].test
+    low, high = (_quantile(each, spread, p, share) for share in (_TAIL, 1 - _TAIL))
+    known = np.isfinite(test.frequency_hz) & np.isfinite(high)
+    covered = ((low < test.frequency_hz) & (test.frequency_hz < high))[known]
     density = float(np.logaddexp.reduce(log + np.array([part.density for part in parts])))
     rest = (float(mean("misfit")), parts[0].dof, mean("shape_error"))
-    return Prediction(test, hz, sd, mean("mac"), density, covered, *rest)
+    return Prediction(test, hz, (high - low) / (2 * COVERED), mean("mac"), density, covered, *rest)
+
+
+def _quantile(hz: np.ndarray, sd: np.ndarray, p: np.ndarray, share: float) -> np.ndarray:
+    """Quantile (m,) of each mixture of normal distributions (h, m) with weights p (h,), by bisection; nan where no sd is known."""
+    from scipy.special import ndtr
+
+    low, high = (hz - _FAR * sd).min(axis=0), (hz + _FAR * sd).max(axis=0)
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        below = p @ ndtr((middle - hz) / sd) < share
+        low, high = np.where(below, middle, low), np.where(below, high, middle)
+    return 0.5 * (low + high)
