@@ -39,6 +39,7 @@ from mouse_cli.model.hold_out import HoldOut
 
 _MOST, _LEAST = 8, 1e-3  # hypotheses that are averaged, and the probability of the last of them
 _TAIL, _FAR = 0.05, 4.0  # beyond either end of a 90 % interval, and how many sd from all predictions no quantile is
+_SHARP = 1e-9  # Hz, below which no sd counts
 _HALVINGS = 60  # of the interval that a quantile lies in
 _REFUTED = 3  # of refuted hypotheses with a name, and of those without, that are averaged
 
@@ -148,8 +149,8 @@ def _tried(one: Fit) -> tuple[float, float]:
 
 def _widened(part: Prediction, error: float) -> Prediction:
     """The same, its variances by one factor larger where the frequencies ask for it."""
-    variance = np.nanmean((part.sd_hz / part.hz) ** 2) if np.isfinite(part.sd_hz).any() else np.inf
-    s = max(1.0, error / variance)
+    known = np.isfinite(part.sd_hz) & (part.sd_hz > 0)
+    s = max(1.0, error / np.mean((part.sd_hz / part.hz)[known] ** 2)) if known.any() else 1.0
     density = part.density + 0.5 * (part.misfit * (1 - 1 / s) - part.dof * np.log(s))
     return replace(part, sd_hz=np.sqrt(s) * part.sd_hz, misfit=part.misfit / s, density=float(density))
 
@@ -187,6 +188,6 @@ def _quantile(hz: np.ndarray, sd: np.ndarray, p: np.ndarray, share: float) -> np
     low, high = (hz - _FAR * sd).min(axis=0), (hz + _FAR * sd).max(axis=0)
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
-        below = p @ ndtr((middle - hz) / sd) < share
+        below = p @ ndtr((middle - hz) / np.maximum(sd, _SHARP)) < share
         low, high = np.where(below, middle, low), np.where(below, high, middle)
     return 0.5 * (low + high)
