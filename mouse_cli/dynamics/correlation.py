@@ -160,11 +160,13 @@ def least_squares_scale(theory: np.ndarray, test: np.ndarray, mass: np.ndarray) 
 
 
 def align(basis: np.ndarray, test: np.ndarray) -> np.ndarray:
-    """Rotation (c, c) of a cluster's shapes `basis` (s, c) whose first columns lie nearest to `test` (s, t), t <= c.
+    """Rotation (c, c) of a cluster's shapes `basis` (s, c) whose first columns lie along those of `test` (s, t), t <= c.
 
-    Orthogonal Procrustes problem (Schoenemann 1966): modes of equal frequency are defined only up to a rotation.
+    Modes of equal frequency are defined only up to a rotation. Each test shape, of any length, is the combination of least squares;
+    the orthogonal matrix nearest to these, at unit length (Schoenemann 1966), is the same wherever the s points are.
     """
-    left, _, right = np.linalg.svd(basis.T @ test)
     t = test.shape[1]
-    first = left[:, :t] @ right
-    return np.hstack([first, left[:, t:]])
+    along = np.linalg.lstsq(basis, test, rcond=None)[0]
+    size = np.linalg.norm(along, axis=0)
+    left, _, right = np.linalg.svd(along / np.where(size > 0, size, 1.0))
+    return np.hstack([left[:, :t] @ right, left[:, t:]])

@@ -19,6 +19,7 @@ from mouse_cli.dynamics.solver import EigenSolver
 from mouse_cli.formats import read_deck
 from mouse_cli.model.diagnosis import NAMED, NOTHING
 from mouse_cli.updating.chi_square import upper_tail
+from mouse_cli.updating.loop import run
 
 THEORY, ACCURACY, SHAPE_SD = 4e-4, 3e-3, 0.02
 DECK = """\
@@ -90,11 +91,11 @@ test:
 """
 
 
-def deck(stiffness: np.ndarray, rates, shapes: np.ndarray, folder, parameters: str = "[]"):
-    """A deck of unit masses, with a test of all modes."""
+def deck(stiffness: np.ndarray, rates, shapes: np.ndarray, folder, parameters: str = "[]", at: tuple[int, ...] = ()):
+    """A deck of unit masses, with a test of as many modes as there are shapes, `at` degrees of freedom from 1 or at all."""
     path, n = folder / "deck.yaml", len(stiffness)
     hz = (np.sqrt(rates) / (2 * np.pi)).tolist()
-    test = {"frequency": hz, "dofs": list(range(1, n + 1)), "shapes": shapes.tolist()}
+    test = {"frequency": hz, "dofs": list(at or range(1, n + 1)), "shapes": shapes.tolist()}
     path.write_text(ALONE.format(stiffness=stiffness.tolist(), n=n, parameters=parameters, **test))
     return read_deck(path)
 
@@ -185,3 +186,16 @@ def test_a_ring_is_sound_but_for_a_mass_that_splits_its_modes(mass, tmp_path):
     assert found.kind == (NAMED if mass else NOTHING)
     if mass:
         assert found.groups[0][0] == "mass" and found.explanations[0].causes[0].site.text == "degree of freedom 4"
+
+
+def test_an_update_turns_double_modes_wherever_the_sensors_are(tmp_path):
+    """A third of a ring: shapes are not orthogonal there."""
+    K, rates, shapes = ring(9)
+    for i, angle in ((1, 0.4), (3, 1.1)):
+        c, s = np.cos(angle), np.sin(angle)
+        shapes[:, i : i + 2] = shapes[:, i : i + 2] @ [[c, -s], [s, c]]
+    noise = np.random.default_rng(2).standard_normal((4, 5))
+    rates, at = rates[:5] * (1 + 2 * ACCURACY * noise[3]), (1, 2, 3)
+    shapes = shapes[np.array(at) - 1, :5] + SHAPE_SD * noise[:3]
+    parameter = "[{name: k, nominal: 9, sd: 5 %, stiffness: [[1, 1, 1.0]]}]"
+    assert run(deck(K, rates, shapes, tmp_path, parameter, at)).innovation.p > 0.01
