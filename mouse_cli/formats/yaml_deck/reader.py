@@ -4,19 +4,20 @@ import numpy as np
 
 from mouse_cli._errors import DeckError
 from mouse_cli.formats.draft import Draft
+from mouse_cli.formats.law_draft import LawDraft
 from mouse_cli.formats.mesh_draft import MeshDraft
+from mouse_cli.formats.record_drafts import FrfDraft, RecordingDraft
 from mouse_cli.formats.rules import review
 from mouse_cli.formats.yaml_deck import bindings
 from mouse_cli.formats.yaml_deck import parameters as yaml_parameters
 from mouse_cli.formats.yaml_deck import prior as yaml_prior
+from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.hold_out import hold_out
-from mouse_cli.formats.yaml_deck.laws import laws
 from mouse_cli.formats.yaml_deck.modal_damping import modal_damping
 from mouse_cli.formats.yaml_deck.model import Model, model
 from mouse_cli.formats.yaml_deck.modes import modal_test
 from mouse_cli.formats.yaml_deck.nodes import compose
 from mouse_cli.formats.yaml_deck.powers import raised
-from mouse_cli.formats.yaml_deck.records import records
 from mouse_cli.formats.yaml_deck.run import run_options
 from mouse_cli.formats.yaml_deck.sections import Section
 from mouse_cli.formats.yaml_deck.theory import theory
@@ -117,3 +118,35 @@ def _properties(
         covariance = np.diag([p.sd**2 for p in parameters]) if covariance is None else covariance
         covariance = powers @ covariance @ powers.T
     return parameters, covariance, sections
+
+
+def laws(deck: Section) -> tuple[LawDraft, ...]:
+    """Those that could be read."""
+    node, document = deck.nodes.get("laws"), deck.document
+    if node is None:
+        return ()
+    found = []
+    for i, item in enumerate(yaml_values.items(document, node, "laws", "a list, one item for each law") or [], 1):
+        section = Section(document, item, "law", f"laws[{i}]")
+        law, dofs, below = section.value("law"), section.value("at"), section.section("values")
+        if law is None or dofs is None or below is None:
+            continue
+        values = {key: below.value(key) for key in below.nodes}
+        if None not in values.values():
+            found.append(LawDraft(law, section.value("variant", ""), dofs, values, document.span(section.node)))
+    return tuple(found)
+
+
+def records(test: Section | None, units: Units) -> tuple[tuple[FrfDraft, ...], tuple[RecordingDraft, ...]]:
+    """Both, as far as they could be read; their readers are loaded only where there are any."""
+    if test is None or not ("frf" in test or "recordings" in test):
+        return (), ()
+    from mouse_cli.formats.yaml_deck.frf import functions
+    from mouse_cli.formats.yaml_deck.recordings import recordings
+    from mouse_cli.formats.yaml_deck.sensors import sensors
+
+    document = test.document
+    told = len(document.diagnostics)
+    named, files = sensors(test), {}
+    del document.diagnostics[told:]  # findings on sensors were noted with the modes
+    return tuple(functions(test, named, files, units)), tuple(recordings(test, named, files, units))

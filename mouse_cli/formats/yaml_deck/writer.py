@@ -1,6 +1,7 @@
 """A Problem as a YAML deck that reads back as the same problem; large matrices go to files beside it."""
 
 import os
+import re
 from dataclasses import fields
 
 from mouse_cli.formats.yaml_deck.kinds import MAX_WHOLE, VERSION
@@ -8,16 +9,16 @@ from mouse_cli.formats.yaml_deck.modal_damping import modal_damping_lines
 from mouse_cli.formats.yaml_deck.nodes import compose
 from mouse_cli.formats.yaml_deck.text import flow, real, word, wrapped
 from mouse_cli.formats.yaml_deck.theory import theory_lines
-from mouse_cli.formats.yaml_deck.writer_laws import laws
-from mouse_cli.formats.yaml_deck.writer_modes import test_lines
 from mouse_cli.formats.yaml_deck.writer_parameters import parameters, prior
-from mouse_cli.formats.yaml_deck.writer_parts import parts
-from mouse_cli.formats.yaml_deck.writer_rows import rows
 from mouse_cli.formats.yaml_deck.writer_structure import structure
+from mouse_cli.formats.yaml_deck.writer_test import test_lines
 from mouse_cli.model.arrays import Matrix, is_sparse, upper_triangle
+from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.held import freed
 from mouse_cli.model.problem import Problem, RunOptions
+from mouse_cli.model.structure import Structure
 from mouse_cli.model.units import system
+from mouse_cli.terms.laws import registry
 
 LARGEST_INLINE = 2000  # stored entries of a matrix; more go to a file
 
@@ -123,3 +124,61 @@ def _option(value: object) -> str:
     if isinstance(value, float):
         return real(value)
     return str(min(value, MAX_WHOLE)) if isinstance(value, int) else word(str(value))
+
+
+_LABEL = re.compile(rf"(\d+)({'|'.join(DIRECTIONS)}|S)")
+
+
+def rows(structure: Structure, stem: str, attachments: dict[str, str], places: bool) -> list[str]:
+    """Lines `dofs:` and `nodes:` and their tables, where there are `places` and labels tell node and direction; else `labels:`."""
+    if structure.labels == tuple(str(i + 1) for i in range(structure.n)):
+        return []
+    parts = [_LABEL.fullmatch(label) for label in structure.labels]
+    if not places or structure.geometry is None or None in parts:
+        return [f"  labels: {wrapped(map(word, structure.labels), 2)}"]
+    dofs, nodes = f"{stem}_dofs.csv", f"{stem}_nodes.csv"
+    each = zip(structure.geometry.node_ids.tolist(), structure.geometry.coordinates, strict=True)
+    attachments[dofs] = "node,direction\n" + "".join(f"{part[1]},{part[2]}\n" for part in parts)
+    attachments[nodes] = "node,x,y,z\n" + "".join(f"{node},{','.join(map(real, place))}\n" for node, place in each)
+    return [f"  dofs: {{file: {word(dofs)}}}", f"  nodes: {{file: {word(nodes)}}}"]
+
+
+_NO_WORD = re.compile(r"\W+")
+
+
+def parts(problem: Problem, stem: str, attachments: dict[str, Matrix | str]) -> list[str]:
+    """Lines of `model.supports` and `model.sets`; the matrices of the sets go to files."""
+    lines = []
+    if problem.held is not None:
+        labels = problem.held.structure.labels
+        lines.append("  supports:")
+        lines += [
+            f"    {word(each.name)}: {{dofs: {wrapped((word(labels[i]) for i in each.dofs), 6)}}}"
+            for each in problem.held.supports
+        ]
+    if problem.groups:
+        lines.append("  sets:")
+    for number, group in enumerate(problem.groups, 1):
+        given = []
+        for key, matrix in (("stiffness", group.K), ("mass", group.M)):
+            if matrix is not None:
+                name = f"{stem}_{key}_{number}_{_NO_WORD.sub('_', group.name)}.mtx"
+                attachments[name] = matrix
+                given.append(f"{key}: {{file: {word(name)}}}")
+        nodes = [f"nodes: {wrapped(map(str, group.nodes), 6)}"] if group.nodes else []
+        lines.append(f"    {word(group.name)}: {{{', '.join(given + nodes)}}}")
+    return lines
+
+
+def laws(problem: Problem) -> list[str]:
+    """One line each; none where there is none."""
+    if not problem.laws:
+        return []
+    labels, lines = problem.structure.labels, ["", "laws:"]
+    for one in problem.laws:
+        sizes = registry()[one.law].sizes
+        values = ", ".join(f"{key}: {real(one.values[name])}" for key, name in sizes.items())
+        variant = f", variant: {word(one.variant)}" if one.variant else ""
+        at = flow(word(labels[dof]) for dof in one.dofs)
+        lines.append(f"  - {{law: {one.law}{variant}, at: {at}, values: {{{values}}}}}")
+    return lines

@@ -5,16 +5,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mouse_cli.model.local_law import LocalLaw
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
+from mouse_cli.terms.laws import registry
 from mouse_cli.updating.recordings.accuracy import accurate
 from mouse_cli.updating.recordings.basis import LARGEST
 from mouse_cli.updating.recordings.calibration import calibration
 from mouse_cli.updating.recordings.channels import SCALE, channel_sites
-from mouse_cli.updating.recordings.deck_laws import acting
 from mouse_cli.updating.recordings.disturbance import BLOCK
 from mouse_cli.updating.recordings.free_force import Spectrum
-from mouse_cli.updating.recordings.hypothesis import Hypothesis, Place
+from mouse_cli.updating.recordings.hypothesis import Acting, Hypothesis, Place
 from mouse_cli.updating.recordings.places import places
 from mouse_cli.updating.recordings.polish import Fit, followed
 from mouse_cli.updating.recordings.records import Records, reduced, steps
@@ -22,6 +23,19 @@ from mouse_cli.updating.recordings.regression import Regression, Start
 from mouse_cli.updating.recordings.segments import Segments, segments
 from mouse_cli.updating.recordings.series import REACH, Series
 from mouse_cli.updating.recordings.uncertain import Uncertain, uncertain
+
+
+def acting(problem: Problem, basis: np.ndarray) -> tuple[Acting, ...]:
+    """The laws of a deck, in the coordinates of a basis (n, m)."""
+    return tuple(_acting(one, basis) for one in problem.laws)
+
+
+def _acting(one: LocalLaw, basis: np.ndarray) -> Acting:
+    law = registry()[one.law]
+    B = basis[one.dofs[-1]] - (basis[one.dofs[0]] if len(one.dofs) > 1 else 0.0)
+    p = np.array([one.values[size.name] for size in law.parameters])
+    return Acting(B, law, law.variants[law.words.index(one.variant)], p)
+
 
 Modelled = Callable[[Problem, float, np.ndarray], Uncertain]
 
