@@ -4,7 +4,7 @@ import numpy as np
 
 from mouse_cli._span import Span
 from mouse_cli.formats.record_drafts import Findings
-from mouse_cli.model.channel_units import Unit, ratio, target, unit
+from mouse_cli.model.channel_units import Unit, ratio, target
 from mouse_cli.model.frf_test import KINDS
 from mouse_cli.model.units import Units
 
@@ -78,8 +78,3 @@ def variance(H: np.ndarray, coherence: np.ndarray | None, averages: float | None
         return np.full(H.shape, np.nan)
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.abs(H) ** 2 * (1 - coherence) / (coherence * averages)
-
-
-def is_unit_of_frequency(text: str) -> bool:
-    """Whether a unit is Hz, or none that is known."""
-    return unit(text) is None

@@ -20,7 +20,6 @@ class MeshDraft:
     span: Span
     node_place: Callable[[int], Span]
     element_place: Callable[[int, int], Span]
-    link_place: Callable[[int], Span]
     bindings: list[Binding] = field(default_factory=list)
     labels: tuple[str, ...] = ()
 

@@ -10,7 +10,9 @@ import yaml
 from page_answers import DECKS, STRUCTURES, Reader, document, made
 from report_examples import chain
 
+from mouse_cli import report
 from mouse_cli._errors import DeckError
+from mouse_cli.formats import read_deck
 from mouse_cli.model.geometry import Geometry
 from mouse_cli.model.structure import Structure
 from mouse_cli.page import Part, page
@@ -18,6 +20,7 @@ from mouse_cli.page.projection import turned
 from mouse_cli.report.frf_document import thinned
 from mouse_cli.report.geometry_document import Moved, geometry
 from mouse_cli.report.json_values import plain
+from mouse_cli.updating.correlate import correlate
 
 LARGEST = 3_000_000
 
@@ -228,3 +231,10 @@ def test_large_structures_stay_small():
     text = page(Part({**document("beam"), "geometry": found}, "large.json"))
     assert len(text.encode()) < LARGEST
     assert f"Drawn with {len(found['positions'])} of 40000 nodes." in text
+
+
+def test_sensors_of_a_model_of_matrices_are_named_by_numbers():
+    """Its document writes degrees of freedom as numbers, as its deck does."""
+    found = json.loads(json.dumps(report.document(correlate(read_deck(DECKS / "sound_chain.yaml")))))
+    assert [sensor["name"] for sensor in found["sensors"]] == [1, 2, 3, 4]
+    assert "COMAC" in page(Part(found, "chain.json"))

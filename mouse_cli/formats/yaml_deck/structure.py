@@ -1,11 +1,7 @@
 """The `model: structure:` of a YAML deck: nodes, elements, supports, rigid links, and like beams that methods revise as a whole."""
 
-from collections.abc import Callable
-from itertools import chain
-
 import numpy as np
 
-from mouse_cli._span import Span
 from mouse_cli.formats.mesh_draft import MeshDraft
 from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.ids import ids as read_ids
@@ -35,7 +31,7 @@ def structure(section: Section, labels: tuple[str, ...]) -> MeshDraft | None:
         return None
     context = Context(found.ids, labels if on_matrices else (), materials(section), cross_sections(section))
     made = elements(section, context)
-    links, places = _links(section, found.ids)
+    links = _links(section, found.ids)
     mesh = Mesh(
         found.ids,
         found.coordinates,
@@ -51,7 +47,6 @@ def structure(section: Section, labels: tuple[str, ...]) -> MeshDraft | None:
         where,
         found.where,
         lambda s, i: made.where[s](i),
-        lambda i: places[i],
         labels=labels if on_matrices else (),
     )
 
@@ -115,16 +110,11 @@ def _places(section: Section, node: Node, what: str, known: np.ndarray) -> np.nd
     return None if len(absent) else sorter[place]
 
 
-def _links(section: Section, known: np.ndarray) -> tuple[list[RigidLink], list[Span]]:
+def _links(section: Section, known: np.ndarray) -> list[RigidLink]:
     node, what = section.nodes.get("rigid_links"), section.what("rigid_links")
     items = [] if node is None else yaml_values.items(section.document, node, what, "a list, one item for each link")
-    found = [
-        _link(Section(section.document, item, "rigid_link", f"{what}[{i}]"), known)
-        for i, item in enumerate(items or [], 1)
-    ]
-    places: Callable = lambda part: [section.document.span(part[0])] * len(part[1])
-    parts = list(zip(items or [], found, strict=True))
-    return list(chain(*found)), list(chain(*map(places, parts)))
+    sections = (Section(section.document, item, "rigid_link", f"{what}[{i}]") for i, item in enumerate(items or [], 1))
+    return [link for each in sections for link in _link(each, known)]
 
 
 def _link(section: Section, known: np.ndarray) -> list[RigidLink]:

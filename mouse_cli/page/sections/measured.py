@@ -111,13 +111,13 @@ def correlated(document: Part) -> Iterator[Markup]:
     yield listed([_fault(each) for each in document.parts("sensor_faults")])
     yield table("pairs", "Mode pairs", _PAIRS, map(_correlated_row, modes))
     if sensors:
-        rows = ((s.text("name"), s.number("comac"), s.number("ecomac")) for s in sensors)
+        rows = ((s.label("name"), s.number("comac"), s.number("ecomac")) for s in sensors)
         yield tag("details", tag("summary", "All sensors"), table("sensors", "Sensors", _SENSORS, rows))
 
 
 def _worst(sensors: list[Part]) -> Markup:
     """COMAC of the sensors that agree least."""
-    known = sorted((x, s.text("name")) for s in sensors if (x := s.number("comac")) is not None)[:_WORST]
+    known = sorted((x, s.label("name")) for s in sensors if (x := s.number("comac")) is not None)[:_WORST]
     rows = [(name, shown(x, 3), x) for x, name in known]
     return shares("comac", "COMAC of sensors, the worst first", f"{len(rows)} of {len(sensors)} sensors. ", rows)
 
