@@ -100,10 +100,10 @@ def _xml(text: str) -> str:
 
 def annotations(outcomes: Iterable[Outcome]) -> str:
     """Workflow commands by which GitHub shows findings beside their lines; missed expectations in the manifest."""
-    return "".join(f"{_annotation(each, one)}\n" for each in outcomes for one in _told(each))
+    return "".join(f"{_annotation(each, one)}\n" for each in outcomes for one in _findings(each))
 
 
-def _told(found: Outcome) -> tuple[Diagnostic, ...]:
+def _findings(found: Outcome) -> tuple[Diagnostic, ...]:
     if found.exit_code == 1 and found.counted and not found.missed:
         ended = Diagnostic("not trusted", "warning", found.ended)
         return (*found.diagnostics, ended)

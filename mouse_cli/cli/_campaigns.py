@@ -28,7 +28,7 @@ def deck_of(deck: str, given: dict[str, object], quiet: bool, recordings: bool =
     return problem, base
 
 
-def told(found: object, form: str | None, numbers: str | None, csv_file: str | None) -> None:
+def deliver_campaign(found: object, form: str | None, numbers: str | None, csv_file: str | None) -> None:
     """Print the report or the document of a campaign, and write its table."""
     from mouse_cli.campaigns import tables
     from mouse_cli.cli._terminal import deliver

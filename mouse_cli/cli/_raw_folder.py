@@ -93,7 +93,7 @@ def read_raw(
     _used(choice, found)
     ambient = bare.test is None and not any(each.channels("input") for each in found.records)
     found = replace(found, held="") if ambient else found
-    say(_told(str(given["folder"]), found), found.passed)
+    say(_contents(str(given["folder"]), found), found.passed)
     text = with_recordings(data, path, found.records, found.held, choice)
     problem = assemble(read_draft(text, path, outside=outside(), **how))
     return _with_modes(problem, notice, say) if ambient else problem
@@ -138,7 +138,7 @@ def _used(choice, found) -> None:
             )
 
 
-def _told(folder: str, found) -> list[str]:
+def _contents(folder: str, found) -> list[str]:
     """What was read, in lines."""
     files = len({each.path for each in found.records})
     lines = [f"{folder}: {len(found.records)} recordings in {files} files"]

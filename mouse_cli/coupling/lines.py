@@ -37,7 +37,7 @@ def common_lines(coupling: Coupling) -> Common:
     for k, part in measured.items():
         rows[k], there = _nearest(part, hz)
         if not there.all():
-            raise _apart(f"nothing was measured on {part.name} at {hz[~there][0]:.6g} Hz; its lines are {_told(part)}")
+            raise _apart(f"nothing was measured on {part.name} at {hz[~there][0]:.6g} Hz; its lines are {_band(part)}")
     keep = _usable(measured, rows, hz)
     if not len(hz) or not keep.any():
         raise _apart(
@@ -82,7 +82,7 @@ def _decay(measured: dict[int, Substructure]) -> float:
     return next(iter(rates.values()), 0.0)
 
 
-def _told(part: Substructure) -> str:
+def _band(part: Substructure) -> str:
     hz = part.frf.frequency_hz
     return f"from {hz[0]:.6g} to {hz[-1]:.6g} Hz, {np.diff(hz).min(initial=np.inf):.6g} Hz apart"
 

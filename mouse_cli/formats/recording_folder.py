@@ -142,7 +142,7 @@ def _picks(contents: Contents, choice: Choice, sensors: Sensors, where: Span) ->
     """The channels that are sensors, forces first, and the names of those that are none."""
     said = [(INPUT, text) for text in choice.forces] + [(OUTPUT, text) for text in choice.responses]
     names = _names(contents)
-    picks = [_said(contents, names, role, text, choice, sensors, where) for role, text in said]
+    picks = [_named(contents, names, role, text, choice, sensors, where) for role, text in said]
     used, unused = {pick.channel for pick in picks}, []
     for name, column in zip(names, contents.columns, strict=True):
         spelled = unit(choice.units.get(column.name, column.unit))
@@ -178,7 +178,7 @@ def _names(contents: Contents) -> list[str]:
     return [each.name if borne[each.name.lower()] == 1 else str(i) for i, each in enumerate(contents.columns, 1)]
 
 
-def _said(
+def _named(
     contents: Contents, names: list[str], role: str, text: str, choice: Choice, sensors: Sensors, where: Span
 ) -> Pick:  # fmt: skip
     """A channel that the command line names, `CHANNEL` or `SENSOR=CHANNEL`."""

@@ -141,10 +141,10 @@ def update(given: Given) -> Found:
     except Undetermined as reason:
         loose = [name for name, is_loose in zip(beams.names, reason.loose, strict=True) if is_loose]
         raise refusals.undetermined(given.problem, METHOD.key, loose, str(reason)) from None
-    return _told(beams, found)
+    return _answer(beams, found)
 
 
-def _told(beams: GenericBeams, found) -> Found:
+def _answer(beams: GenericBeams, found) -> Found:
     rows = zip(beams.names, beams.theta[beams.free], found.theta[beams.free], strict=True)
     moved = tuple(Moved(name, "", float(before), float(after)) for name, before, after in rows)
     return Found(

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from mouse_cli.page.numbers import apart, probable, shown, signed_per_cent
 from mouse_cli.page.sections import verdict
 from mouse_cli.page.sections._words import places
-from mouse_cli.page.sections.field import title, told, words_of
+from mouse_cli.page.sections.field import significant, title, words_of
 from mouse_cli.report.reading import Part, updates
 from mouse_cli.report.renderers.markdown import verbatim
 
@@ -75,10 +75,10 @@ def _causes(document: Part) -> Iterator[str]:
 def _field(document: Part) -> Iterator[str]:
     """Physics without a name: the values that differ from none by more than two standard deviations."""
     found = document.part("verdict").part("field")
-    chosen, others = told(found)
+    chosen, others = significant(found)
     rows = [(verbatim(name), value, sd) for name, value, sd in map(words_of(found), chosen)]
     left = f"; {_counted(others, 'site')} with negligible values left out" if others else ""
-    yield from _told(f"{title(found)}{left}", ("site", "value", "sd"), rows, "site", _MOST)
+    yield from _folded_table(f"{title(found)}{left}", ("site", "value", "sd"), rows, "site", _MOST)
 
 
 def _untried(document: Part) -> Iterator[str]:
@@ -112,7 +112,9 @@ def _frequencies(document: Part) -> Iterator[str]:
         told = (shown(test), shown(before.get(label)), off[0], shown(after), off[1], shown(mode.number("mac"), 4))
         rows.append((escaped(label), *told))
     names = ("as it is, Hz", "with the mechanism, Hz") if extended else ("before, Hz", "after, Hz")
-    yield from _told("Frequencies", ("mode", "test, Hz", names[0], "off", names[1], "off", "MAC"), rows, "mode", _LONG)
+    yield from _folded_table(
+        "Frequencies", ("mode", "test, Hz", names[0], "off", names[1], "off", "MAC"), rows, "mode", _LONG
+    )
 
 
 def _parameters(document: Part) -> Iterator[str]:
@@ -126,7 +128,7 @@ def _parameters(document: Part) -> Iterator[str]:
             rows.append((label, unit, shown(prior), shown(value), shown(sd, 3), signed_per_cent(apart(value, prior))))
         heads = ("parameter", "unit", "before", "after", "sd", "change")
         longest = 0 if document.part("verdict") else _LONG
-        yield from _told(f"Parameters of {name}", heads, rows, "parameter", longest)
+        yield from _folded_table(f"Parameters of {name}", heads, rows, "parameter", longest)
 
 
 def _records(document: Part) -> Iterator[str]:
@@ -155,7 +157,7 @@ def _predicted(document: Part) -> Iterator[str]:
     """Natural frequencies of `mouse modes`."""
     modes = document.parts("modes") if document.text("schema") == "mouse.modes/1" else []
     rows = [(escaped(m.label("mode")), shown(m.number("hz")), shown(m.number("sd_hz"), 3)) for m in modes]
-    yield from _told("Natural frequencies", ("mode", "Hz", "sd, Hz"), rows, "mode", _LONG)
+    yield from _folded_table("Natural frequencies", ("mode", "Hz", "sd, Hz"), rows, "mode", _LONG)
 
 
 def _correlated(document: Part) -> Iterator[str]:
@@ -171,7 +173,7 @@ def _correlated(document: Part) -> Iterator[str]:
         )
         for m in modes
     ]
-    yield from _told("Mode pairs", ("mode", "test, Hz", "model, Hz", "off", "MAC"), rows, "mode", _LONG)
+    yield from _folded_table("Mode pairs", ("mode", "test, Hz", "model, Hz", "off", "MAC"), rows, "mode", _LONG)
 
 
 def _identified(document: Part) -> Iterator[str]:
@@ -181,10 +183,10 @@ def _identified(document: Part) -> Iterator[str]:
         (shown(m.number("frequency_hz")), shown(m.number("frequency_sd_hz"), 2), shown(m.number("damping"), 3))
         for m in modes
     ]
-    yield from _told("Modes", ("Hz", "sd, Hz", "damping ratio"), rows, "mode", _LONG)
+    yield from _folded_table("Modes", ("Hz", "sd, Hz", "damping ratio"), rows, "mode", _LONG)
 
 
-def _told(title: str, heads: Sequence[str], rows: list[tuple[str, ...]], unit: str, longest: int) -> list[str]:
+def _folded_table(title: str, heads: Sequence[str], rows: list[tuple[str, ...]], unit: str, longest: int) -> list[str]:
     """A table under its title, folded where it has more rows than `longest`."""
     if not rows:
         return []

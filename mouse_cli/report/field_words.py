@@ -69,7 +69,7 @@ def amount(field: Field, value: float) -> str:
     return f"{factor(field) * value:.2g} {'%' if unit == 'per cent' else unit}"
 
 
-def telling(field: Field) -> list[FieldValue]:
+def significant(field: Field) -> list[FieldValue]:
     """Values that differ from 0 by more than two standard deviations, in their order; the largest where none does."""
     found = [each for each in field.values if abs(each.value) > _SHOWN * each.sd]
     return found or sorted(field.values, key=lambda each: -abs(each.value))[:1]
@@ -107,7 +107,7 @@ def _spring(field: Field) -> str:
 def _law(field: Field) -> str:
     """Where a law acts, and its values at the frequencies of the modes that tell."""
     where = field.values[0].site.text.rpartition(", mode ")[0]
-    each = [f"{v.value:.3g} (sd {v.sd:.2g}) in mode {v.site.text.rpartition(', mode ')[2]}" for v in telling(field)]
+    each = [f"{v.value:.3g} (sd {v.sd:.2g}) in mode {v.site.text.rpartition(', mode ')[2]}" for v in significant(field)]
     return f"It acts at {where}, by a law that is in no library: {', '.join(each)}, {UNITS[LAW]}"
 
 

@@ -67,7 +67,7 @@ def geometry(problem: Problem, modes: Sequence[Moved] = ()) -> dict[str, Any] | 
         "lines": bows.lines(kept.lines, k) if bows else kept.lines,
         "elements": elements,
         "of": k,
-        "sensors": [{**_told(s), "node": kept.index[s["node"]]} for s in sensors],
+        "sensors": [{**_sensor(s), "node": kept.index[s["node"]]} for s in sensors],
         "shapes": [_shape(m, u, readings) for m, u in zip(modes, shapes, strict=True) if np.abs(u).max() > 0],
     }
 
@@ -146,7 +146,7 @@ def _sensors(problem: Problem, of: Geometry) -> list[dict[str, Any]]:
     return found
 
 
-def _told(sensor: dict[str, Any]) -> dict[str, Any]:
+def _sensor(sensor: dict[str, Any]) -> dict[str, Any]:
     return {key: sensor[key] for key in ("dof", "node", "direction")}
 
 

@@ -58,7 +58,7 @@ def check(problem: Problem, solution: EigenSolution) -> None:
         if misfit < limit and (likeness := _likeness(*read)) > liker:
             found.append((misfit + 1 - likeness, each))
     if found:
-        raise DeckError(_said(problem, apart, found))
+        raise DeckError(_finding(problem, apart, found))
 
 
 def _rigid(problem: Problem, solution: EigenSolution) -> bool:
@@ -66,7 +66,7 @@ def _rigid(problem: Problem, solution: EigenSolution) -> bool:
     return solution.rigid(reference_eigenvalue(problem, solution.eigenvalues)) >= problem.test.number.min()
 
 
-def _said(problem: Problem, apart: np.ndarray, found: list[tuple[float, Reading]]) -> Diagnostic:
+def _finding(problem: Problem, apart: np.ndarray, found: list[tuple[float, Reading]]) -> Diagnostic:
     """The finding: what fits best, of several that fit alike the one that leaves no strange value."""
     best = min(misfit for misfit, _ in found)
     alike = [(_oddness(problem, each), each) for misfit, each in found if misfit < best + _EQUAL]

@@ -88,10 +88,10 @@ def remark(result: Result, setting: Setting, state: State, estimator: Estimator)
     ):  # a misfit bends the density as well; but a place that is no mode at all may be why it is rejected
         found = [each for each in found if each.flat]
     if found:
-        yield told(problem.parameters, result.sd_theta, found)
+        yield finding(problem.parameters, result.sd_theta, found)
 
 
-def told(parameters: tuple, sd: np.ndarray, found: list[Fall]) -> Diagnostic:
+def finding(parameters: tuple, sd: np.ndarray, found: list[Fall]) -> Diagnostic:
     """The worst of the doubtful falls, as a warning; sd (p,): of the parameters."""
     worst = max(found, key=lambda each: round(abs(np.log(np.clip(each.ratio, 1e-3, 1e3))), 4))
     share = np.divide(np.abs(worst.axis), sd, out=np.zeros_like(worst.axis), where=sd > 0)

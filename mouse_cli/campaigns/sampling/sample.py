@@ -14,7 +14,7 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import Result
 from mouse_cli.model.sampled import Chain, PosteriorMode, Quantity, Sampled, Sampling
 from mouse_cli.updating.loop import run
-from mouse_cli.updating.normality import falls, told
+from mouse_cli.updating.normality import falls, finding
 from mouse_cli.updating.posterior import Laplace, laplace
 from mouse_cli.updating.prior_model import begin
 from mouse_cli.updating.state import Setting
@@ -142,7 +142,7 @@ def _remarks(found: Sampled, normal: Laplace):
     """What a careful reader of the samples should know."""
     doubts = [each for each in falls(normal, np.arange(len(normal.z))) if each.doubtful]
     if doubts:
-        yield replace(told(normal.setting.problem.parameters, found.result.sd_theta, doubts), help="use the samples")
+        yield replace(finding(normal.setting.problem.parameters, found.result.sd_theta, doubts), help="use the samples")
     if not found.k_hat <= pareto.DOUBTFUL:
         message = (
             f"the normal density of the run is no substitute for the posterior: k-hat of its draws is {found.k_hat:.2g}"

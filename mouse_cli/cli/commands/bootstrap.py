@@ -42,7 +42,7 @@ def command(
     Exit code: that of the run of DECK itself.
     """
     from mouse_cli.campaigns import bootstrap, resampled
-    from mouse_cli.cli._campaigns import deck_of, told
+    from mouse_cli.cli._campaigns import deck_of, deliver_campaign
     from mouse_cli.cli._engine import done
     from mouse_cli.cli._options import outside
 
@@ -50,5 +50,5 @@ def command(
     plan = bootstrap.plan(problem, over or bootstrap.natural(problem), 0 if jackknife else replicates, seed)
     outcomes = done(bootstrap.jobs(deck, plan, base, outside()), output, jobs, scheduler, cluster, limit_s)
     found = resampled.summed(problem, plan, outcomes, seed)
-    told(found, form, numbers, csv_file)
+    deliver_campaign(found, form, numbers, csv_file)
     return found.exit_code

@@ -47,7 +47,7 @@ def command(
     """
     from mouse_cli.batch.job import Job
     from mouse_cli.campaigns import sweep
-    from mouse_cli.cli._campaigns import deck_of, told
+    from mouse_cli.cli._campaigns import deck_of, deliver_campaign
     from mouse_cli.cli._engine import done
     from mouse_cli.cli._options import outside
 
@@ -56,7 +56,7 @@ def command(
     every = [Job(deck, options=base, outside=outside()), *sweep.jobs(deck, wanted, at, base, outside())]
     first, *outcomes = done(every, output, jobs, scheduler, cluster, limit_s)
     found = sweep.summed(problem, wanted, at, outcomes, first)
-    told(found, form, numbers, csv_file)
+    deliver_campaign(found, form, numbers, csv_file)
     return found.exit_code
 
 

@@ -23,11 +23,11 @@ def masses(draft: Draft, K: Matrix, M: Matrix) -> None:
         return
     loose = massless[~(stiffness[massless] > 0)]
     coupled = massless[np.asarray(abs(M[massless]).sum(axis=1)).ravel() > 0]
-    _told(draft, loose, "has neither stiffness nor mass")
-    _told(draft, np.setdiff1d(coupled, loose), "has no mass of its own, but is coupled to others by mass")
+    _reject(draft, loose, "has neither stiffness nor mass")
+    _reject(draft, np.setdiff1d(coupled, loose), "has no mass of its own, but is coupled to others by mass")
 
 
-def _told(draft: Draft, dofs: np.ndarray, what: str) -> None:
+def _reject(draft: Draft, dofs: np.ndarray, what: str) -> None:
     rest = f" ({len(dofs)} such degrees of freedom)" if len(dofs) > _LISTED else ""
     for i in dofs[:_LISTED].tolist():
         help = "constrain it in the program that wrote the matrices, or export without it"

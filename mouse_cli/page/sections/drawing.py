@@ -27,7 +27,7 @@ def drawing(document: Part) -> Iterator[Markup]:
     marked = marks(document, found)
     title = f"Mode {_name(found.shapes[0])}" if found.shapes else "The structure"
     seen = large(found)
-    drawn = stage(found, marked, seen, title, _told(found, marked))
+    drawn = stage(found, marked, seen, title, _caption(found, marked))
     caption = tag("figcaption", title, class_="now", aria_live="off")
     yield tag(
         "figure",
@@ -63,7 +63,7 @@ def _one(found: Scene, shape: Shape, marked: Sequence[Mark], number: int) -> Mar
     return tag("figure", tag("figcaption", title), small(found, shape, marked, f"mode-{number}", title))
 
 
-def _told(found: Scene, marked: Sequence[Mark]) -> str:
+def _caption(found: Scene, marked: Sequence[Mark]) -> str:
     """The drawing in words."""
     nodes, lines = f"{found.of} nodes", f"{len(found.lines)} lines" if len(found.lines) else "no lines"
     strong = [mark.words for mark in marked if mark.strong]

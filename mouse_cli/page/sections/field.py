@@ -29,7 +29,7 @@ def field(document: Part) -> Iterator[Markup]:
     found = document.part("verdict").part("field")
     if not found:
         return
-    rows, others = told(found)
+    rows, others = significant(found)
     yield _drawn(found)
     words = words_of(found)
     cells = [(name, Cell(each.number("value"), value), sd) for each in rows for name, value, sd in [words(each)]]
@@ -50,7 +50,7 @@ def title(found: Part) -> str:
     return known.get(kind, f"Change of {kind}") + " without a name"
 
 
-def told(found: Part) -> tuple[list[Part], list[Part]]:
+def significant(found: Part) -> tuple[list[Part], list[Part]]:
     """Values that differ from 0 by more than two standard deviations, or the largest, in their order; and the others."""
     every = found.parts("sites")
     size = lambda each: abs(each.number("value") or 0.0)

@@ -72,7 +72,7 @@ def sentence(document: Part) -> str:
     found, schema = document.part("verdict"), document.text("schema")
     if schema in UNJUDGED:
         return UNJUDGED[schema].sentence(document)
-    return _told(document, found) if found else _run(document)
+    return _first_sentence(document, found) if found else _run(document)
 
 
 def form(document: Part) -> str:
@@ -116,7 +116,7 @@ def _cause(cause: Part, turn: Part) -> str:
     return f"{title}: {place(cause.part('site'))} (probability {p}){rivals}"
 
 
-def _told(document: Part, found: Part) -> str:
+def _first_sentence(document: Part, found: Part) -> str:
     """The first sentence of the document; documents of earlier versions have none."""
     if found.texts("sentences"):
         return found.texts("sentences")[0]

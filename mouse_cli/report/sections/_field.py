@@ -6,7 +6,7 @@ from math import inf
 from mouse_cli.model.diagnosis import LAW, Field, Untried
 from mouse_cli.model.units import Units
 from mouse_cli.report.blocks import Block, Column, Table, Text, heads
-from mouse_cli.report.field_words import UNITS, factor, one_spring, telling
+from mouse_cli.report.field_words import UNITS, factor, one_spring, significant
 from mouse_cli.report.sections._diagnosis_wording import place
 from mouse_cli.report.sections._wording import counted
 
@@ -49,7 +49,7 @@ def field_table(field: Field) -> Table:
 
 def _shown(field: Field) -> list:
     """At most _MOST of the telling values, the largest of them, in their order."""
-    found = telling(field)
+    found = significant(field)
     least = sorted((abs(each.value) for each in found), reverse=True)[:_MOST][-1:]
     return [each for each in found if abs(each.value) >= least[0]][:_MOST] if found else []
 

@@ -233,10 +233,10 @@ def held_out(found: RecordDiagnosis | RecordUpdate, options: Options) -> Iterato
 
 
 def _row(one: RecordScore, i: int) -> list[str]:
-    return [_told(part, name, i) for part in (one.short, one.free) for name in (AS_IT_IS, WITH_CAUSE)]
+    return [_error(part, name, i) for part in (one.short, one.free) for name in (AS_IT_IS, WITH_CAUSE)]
 
 
-def _told(errors: dict, name: str, i: int) -> str:
+def _error(errors: dict, name: str, i: int) -> str:
     if name not in errors:
         return ""
     return f"{errors[name][i]:.4g}" if errors[name][i] < float("inf") else "diverges"

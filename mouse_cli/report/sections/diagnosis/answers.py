@@ -115,7 +115,7 @@ def _what(found: Diagnosis) -> Iterator[Block]:
             f"Goodness of fit of the extended model {p_value(best.p)}{_noise(found)}. {conditional}."
         )
         if found.certain is not None:
-            yield Text(_beside(found))
+            yield Text(_companions(found))
         if found.rest is not None:
             yield Text(f"That is not all: {remains(found.rest)}. It has no name here.")
     elif found.kind == ONE_OF:
@@ -141,7 +141,7 @@ def _inside(found: Diagnosis) -> str:
     return f", members within it: {members}" if members else ""
 
 
-def _beside(found: Diagnosis) -> str:
+def _companions(found: Diagnosis) -> str:
     """What is in the extended deck beside what is named."""
     also = found.certain.companions[0][0]
     extended = "" if also == "none" else " The extended deck has the likeliest companion in it too."

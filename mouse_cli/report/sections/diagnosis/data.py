@@ -15,7 +15,7 @@ from mouse_cli.report.sections._diagnosis_wording import likeness, per_cent, pre
 from mouse_cli.report.sections._functions import covered, functions
 from mouse_cli.report.sections._wording import counted, deck_table
 from mouse_cli.report.sections._wording import remarks as worded
-from mouse_cli.report.sections.run.results import told
+from mouse_cli.report.sections.run.results import held_out_words
 from mouse_cli.report.theory import stated
 
 
@@ -69,7 +69,7 @@ def heading(found: Diagnosis, options: Options) -> Iterator[Block]:
     """What was diagnosed: program, deck, model and test. Program and deck, then the size of both."""
     problem = found.problem
     yield deck_table(problem)
-    held = f" Held out: {told(problem.hold_out)}." if problem.hold_out else ""
+    held = f" Held out: {held_out_words(problem.hold_out)}." if problem.hold_out else ""
     yield Text(
         f"{counted(problem.test.m, 'measured mode')} at {counted(problem.test.s, 'sensor')}; a model of "
         f"{counted(problem.structure.n, 'degree', 'degrees')} of freedom with "
@@ -103,7 +103,13 @@ def fitted_functions(found: Diagnosis, options: Options) -> Iterator[Block]:
     yield from functions(found.frf)
     if found.damping:
         rows = (
-            (f"{d.name}: {d.meaning}", f"{d.value:.4g}", f"{d.sd:.2g}", d.unit if d.unit != "1" else "", _said(d.told))
+            (
+                f"{d.name}: {d.meaning}",
+                f"{d.value:.4g}",
+                f"{d.sd:.2g}",
+                d.unit if d.unit != "1" else "",
+                _determined(d.told),
+            )
             for d in found.damping
         )
         yield Table(_COLUMNS, tuple(rows))
@@ -113,7 +119,7 @@ def fitted_functions(found: Diagnosis, options: Options) -> Iterator[Block]:
         )
 
 
-def _said(told: bool) -> str:
+def _determined(told: bool) -> str:
     return "" if told else "hardly determined by the FRFs"
 
 

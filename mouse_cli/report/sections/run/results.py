@@ -165,14 +165,14 @@ def held_out(result: Result, options: Options) -> Iterator[Block]:
     held = result.problem.hold_out
     if held is None:
         return
-    yield Text(f"Held out, and used by no fit: {told(held)}. `mouse diagnose` reports the predictive error.")
+    yield Text(f"Held out, and used by no fit: {held_out_words(held)}. `mouse diagnose` reports the predictive error.")
     if held.test is not None and result.status.answered:
         rows = _predicted(result, held.test)
         if rows:
             yield Table(_HELD_OUT_COLUMNS, rows).without_empty_columns()
 
 
-def told(held: HoldOut) -> str:
+def held_out_words(held: HoldOut) -> str:
     """What is held out, in words."""
     parts = []
     if len(held.modes):
