@@ -134,3 +134,22 @@ def test_a_joint_turns_about_both_axes():
     found = diagnosed(model(points, joins, A, I, 2 * I, "    supports: {1: all}\n") + test)
     assert (found.kind, found.best.physics) == (NAMED, "joint")
     assert "local y and local z" in found.best.causes[0].site.text
+
+
+def test_a_dish_beside_a_mast_is_a_mass_on_an_arm():
+    """Between the ends of a member, where two modes of almost one frequency bend either way."""
+    A, I, m, arm, n, at = 1.5e-3, 4e-6, 6.0, 0.7, 10, 6
+    points = np.column_stack([np.zeros((n + 1, 2)), np.linspace(0, 6, n + 1)])
+    joins = [(i, i + 1) for i in range(n)]
+    K, M = frame(points, joins, A, I, 2 * I)
+    for move, turn, sign in ((0, 0, 0.0), (1, 5, 1.0), (2, 4, -1.0)):  # u + theta x (arm, 0, 0)
+        b = np.zeros(len(K))
+        b[6 * at + move] = 1.0
+        b[6 * at + turn] += sign * arm
+        M += m * np.outer(b, b)
+    rows = np.array([6 * i + d for i in (2, 4, 6, 8, 10) for d in (0, 1)])
+    test = measured(K, M, np.arange(6, len(K)), rows, 6, seed=5)
+    found = diagnosed(model(points, joins, A, I, 2 * I, "    supports: {1: all}\n") + test)
+    assert (found.kind, found.best.physics) == (NAMED, "eccentric-mass")
+    kg, x, *_ = found.best.causes[0].sizes
+    assert abs(kg.value - m) < 3 * kg.sd and abs(abs(x.value) - arm) < 3 * x.sd

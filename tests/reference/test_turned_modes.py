@@ -12,7 +12,6 @@ from scipy.linalg import eigh
 from mouse_cli.diagnosis.diagnose import diagnose
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
-from mouse_cli.diagnosis.likelihoods.modal.turning import turned
 from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.diagnosis.validate.held_out import held_out
 from mouse_cli.dynamics.solver import EigenSolver
@@ -155,18 +154,6 @@ def test_a_triple_mode_may_be_measured_in_any_basis(tmp_path):
         plane = np.linalg.qr(np.column_stack([np.ones(4), rng.standard_normal((4, 3))]))[0]
         one = fitted(deck(K, [1.0, 8.97, 9.0, 9.03], plane + 1e-3 * rng.standard_normal((4, 4)), tmp_path))
         assert one.misfit < 5 and one.dof == 4 + 16 - 4 - 3
-
-
-def test_modes_that_no_sensor_tells_apart(tmp_path):
-    """By accurate sensors: an angle that they see counts, how it is shared out is left to the prior."""
-    deck(9.0 * np.eye(4) - 2, [1.0, 9.0, 9.0, 9.0], np.eye(4), tmp_path)
-    path = tmp_path / "deck.yaml"
-    path.write_text(path.read_text().replace("shape_sd: 0.02", "shape_sd: 1.0e-6"))
-    data = reduced(read_deck(path), np.zeros(0), EigenSolver(lambda text: None)).data
-    seen = np.eye(4)
-    seen[:, 3] = seen[:, 2]
-    turn = turned(data, np.array([1.0, 9.0, 9.0, 9.0]), seen, np.arange(4))
-    assert np.isfinite(turn.angles).all() and np.isfinite(turn.mixed).all()
 
 
 @pytest.mark.parametrize("mass", [0.0, 0.1])

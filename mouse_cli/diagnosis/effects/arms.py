@@ -37,16 +37,17 @@ def arms(model: Reduced, node: int) -> tuple[tuple[Unknown, ...], np.ndarray, li
 
 
 def turning(model: Reduced) -> tuple[list[tuple[int, Attached]], int]:
-    """Ends of members and nodes with point masses that turn in the measured modes, those that turn most, and of how many."""
+    """Nodes that turn in the measured modes, those that turn most, and of how many; ends of members and point masses first."""
     if model.motion is None:
         return [], 0
     mesh, keep = model.problem.mesh, wanted(model)
     heavy = [elements.nodes[:, 0] for elements in mesh.elements if elements.type == "mass"]
-    nodes = np.unique(np.concatenate([ends(mesh), *heavy])).tolist()
-    found = [node for node in nodes if (keep is None or keep[node]) and arms(model, node)[0]]
+    first = set(np.concatenate([ends(mesh), *heavy]).tolist())
+    every = np.unique(np.concatenate([np.array(sorted(first), int)] + [each.nodes.ravel() for each in mesh.elements]))
+    found = [node for node in every.tolist() if (keep is None or keep[node]) and arms(model, node)[0]]
     count = min(model.r, int(model.data.test.number.max()) + 2)
-    turned = [np.abs(model.node(node)[3:, :count]).max() for node in found]
-    chosen = [found[i] for i in sorted(np.argsort(turned, kind="stable")[::-1][:_MOST])]
+    turned = {node: np.abs(model.node(node)[3:, :count]).max() for node in found}
+    chosen = sorted(sorted(found, key=lambda node: (node not in first, -turned[node]))[:_MOST])
     return list(zip(chosen, attached(model, chosen), strict=True)), len(found)
 
 
