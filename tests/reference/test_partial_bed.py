@@ -5,6 +5,8 @@ import pytest
 from scipy.linalg import eigh
 
 from mouse_cli.diagnosis import diagnose
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.mechanisms import added_mass
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.model.diagnosis import NAMED
@@ -34,8 +36,8 @@ def measured(bed: float, first: float, last: float, more: float = 0.0) -> tuple[
     return np.sqrt(lam) / (2 * np.pi), X[6::8]  # node 1 of 30 is the fourth of 120
 
 
-def diagnosed(hz: np.ndarray, shapes: np.ndarray):
-    """What mouse says of a clamped beam that has nothing of it."""
+def clamped(hz: np.ndarray, shapes: np.ndarray):
+    """A clamped beam that has nothing of it."""
     rng = np.random.default_rng(2)
     shapes = shapes[[n - 2 for n in SENSORS]] / np.abs(shapes).max(axis=0)
     shapes = shapes + 0.01 * rng.standard_normal(shapes.shape)
@@ -60,7 +62,12 @@ test:
 {rows}
     shape_sd: 1 %
 """
-    return diagnose(assemble(yaml_deck.read(deck, "beam.yaml")))
+    return assemble(yaml_deck.read(deck, "beam.yaml"))
+
+
+def diagnosed(hz: np.ndarray, shapes: np.ndarray):
+    """What mouse says of it."""
+    return diagnose(clamped(hz, shapes))
 
 
 @pytest.mark.parametrize(("first", "last"), [(0.0, 0.45), (0.6, 1.0)])
@@ -100,3 +107,12 @@ def test_mass_between_two_places_is_named_with_both():
     assert abs(covered.value - 0.3) < 0.04
     assert abs(found.best.causes[0].site.position[0] / LENGTH - 0.4) < 0.02
     assert abs(mass.value - 0.3 * MASS) < 3 * mass.sd
+
+
+def test_mass_on_the_shortest_piece_is_a_lumped_one():
+    """On 5 % of a row it is no farther from its middle than sensors see, and at the limit of its range."""
+    problem = clamped(*measured(0.0, 0.25, 0.55, 0.3 * MASS))
+    made = added_mass.recipes(reduced(problem, problem.prior.mean), added_mass.CANDIDATE)
+    recipe = next(each for each in made if len(each.unknowns) == 2)
+    groups = [recipe.group(recipe.coordinates(np.array([1.0, covered]))) for covered in (0.05, 0.3)]
+    assert groups == ["mass", "added-mass"]

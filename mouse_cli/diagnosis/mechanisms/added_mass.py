@@ -18,6 +18,7 @@ from mouse_cli.model.problem import Problem
 
 _PART, _BETWEEN = 0.5, 0.1  # prior probability that a row is covered in part; of those, that neither end of it is
 _MOST = 12  # rows of bars that may be covered in part
+_SHORTEST, _AT_END = 0.05, 1.01  # share of a row that is covered at least, and up to which multiple it is a lumped mass
 _HEAVIEST = 10.0  # times the mass of the bars: a thin pipe holds several times its own mass of water
 
 
@@ -55,7 +56,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
 
 def _partly(candidate: Candidate, run: Line, wet: Wet, m: Unknown, back: bool, share: float) -> Recipe:
     """Over a part of a row, from its beginning or (`back`) from its end."""
-    covered = Unknown("covered share of the length", "1", 0.05, 0.95, log=False)
+    covered = Unknown("covered share of the length", "1", _SHORTEST, 0.95, log=False)
     L = run.length
 
     def change(values: np.ndarray) -> Change:
@@ -72,7 +73,10 @@ def _partly(candidate: Candidate, run: Line, wet: Wet, m: Unknown, back: bool, s
         return _with_mass(problem, values[0], [ends], site(values).text)
 
     grid = product(steps(m, 3), steps(covered, 3))
-    return Recipe(candidate, (m, covered), change, grid, site, log_prior=float(np.log(share)), extend=extend)
+    limit = lambda values: "mass" if values[1] <= _SHORTEST * _AT_END else ""
+    return Recipe(
+        candidate, (m, covered), change, grid, site, log_prior=float(np.log(share)), extend=extend, limit=limit
+    )
 
 
 def _between(candidate: Candidate, run: Line, wet: Wet, m: Unknown, share: float) -> Recipe:
