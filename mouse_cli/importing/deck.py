@@ -16,6 +16,7 @@ from mouse_cli.importing.separate import Parts
 from mouse_cli.importing.thickness import Thickness
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.geometry import DIRECTIONS
+from mouse_cli.model.revision import THICKNESS, TO_THE_POWER
 
 _E_SD, _DENSITY_SD, _SPRING_SD = "5 %", "1 %", "20 %"  # what is known of a material and of a spring before the test
 _THICKNESS_SD = "5 %"  # of a shell
@@ -128,7 +129,7 @@ def _parameters(model: InputModel, parts: Parts, keep, system: str, thick: list[
 
 def _thickness(one: Thickness, keep, unit: str) -> Iterable[str]:
     """A parameter, and its other powers."""
-    name = f"thickness of {one.name}"
+    name = THICKNESS.format(one.name)
     for n in one.powers:
         scale = one.nominal**n
         files = [f"{key}: {keep(f'{mark}_t{n}_{_slug(one.name)}', by[n] / scale)}"
@@ -137,7 +138,7 @@ def _thickness(one: Thickness, keep, unit: str) -> Iterable[str]:
         if n == 1:
             own = f"{word(name)}, nominal: {real(one.nominal)}{of}, sd: {_THICKNESS_SD}, transform: log"
         else:
-            own = f"{word(f'{name} to the power {n}')}, power_of: [{word(name)}, {n}]"
+            own = f"{word(name + TO_THE_POWER.format(n))}, power_of: [{word(name)}, {n}]"
         yield f"  - {{name: {', '.join([own, *files])}}}"
 
 

@@ -7,6 +7,7 @@ PART_LEFT = "share of element set {} that is left, and of its mass"  # names of 
 MASS_GAINED = "share of element set {} in mass, gained"
 STIFFNESS_LOST, STIFFNESS_GAINED = "share lost by element set {}", "share gained by element set {}"
 ON_SPRINGS = "stiffness of the support {}"
+THICKNESS, TO_THE_POWER = "thickness of {}", " to the power {}"  # of shells, by their element set
 
 
 @dataclass(frozen=True)
@@ -67,6 +68,15 @@ class RevisedSet:
 
 
 @dataclass(frozen=True)
+class RevisedThickness:
+    """Of the shells of the section for element set `name`."""
+
+    name: str
+    value: float
+    note: str = ""
+
+
+@dataclass(frozen=True)
 class RevisedSupport:
     """A support that moves as a rigid body in `directions` (1 to 6) about its centre, on springs of `stiffness` in all."""
 
@@ -80,7 +90,7 @@ class RevisedSupport:
 class Revision:
     """All of it. title, source, units: of the deck; first: number from which new elements count; unwritten: what has no card.
 
-    sets, supports: what only a whole job can have.
+    sets, supports, thicknesses: what only a whole job can have.
     """
 
     title: str
@@ -92,5 +102,6 @@ class Revision:
     masses: tuple[RevisedMass, ...] = ()
     sets: tuple[RevisedSet, ...] = ()
     supports: tuple[RevisedSupport, ...] = ()
+    thicknesses: tuple[RevisedThickness, ...] = ()
     unwritten: tuple[str, ...] = ()
     first: int = 900001

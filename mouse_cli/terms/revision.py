@@ -15,6 +15,8 @@ from mouse_cli.model.revision import (
     PART_LEFT,
     STIFFNESS_GAINED,
     STIFFNESS_LOST,
+    THICKNESS,
+    TO_THE_POWER,
     End,
     RevisedMass,
     RevisedMaterial,
@@ -22,6 +24,7 @@ from mouse_cli.model.revision import (
     RevisedSet,
     RevisedSpring,
     RevisedSupport,
+    RevisedThickness,
     Revision,
 )
 from mouse_cli.model.units import UNDECLARED, system
@@ -30,6 +33,7 @@ Constants = dict[str, tuple[float | None, float | None, float | None]]  # E, nu 
 
 _LABEL = re.compile(r"(\d+)([TR][XYZ])")
 _OF_MATERIAL = re.compile(r"(E|density) of (.+)")
+_OF_SHELLS = re.compile(THICKNESS.format("(.+?)") + f"({TO_THE_POWER.format('.+')})?")
 _EQUAL = 1e-9
 _OF_SETS: dict[str, Callable[[float], dict[str, float]]] = {
     PART_LEFT: lambda share: {"left": share},
@@ -166,6 +170,10 @@ def _of_matrices(made: Revision, problem: Problem, before: Problem, j: int, know
     if part is not None:
         key = "sets" if isinstance(part, RevisedSet) else "supports"
         return replace(made, **{key: (*getattr(made, key), part)})
+    shells = _OF_SHELLS.fullmatch(name)
+    if shells and problem.groups:
+        thickness = RevisedThickness(shells[1], float(problem.prior.mean[j]), note)
+        return made if shells[2] else replace(made, thicknesses=(*made.thicknesses, thickness))
     column = np.asarray(problem.A[:, [j]].todense() if hasattr(problem.A, "todense") else problem.A[:, [j]]).ravel()
     rows = np.flatnonzero(column)
     listed, theta = problem.elements, float(problem.prior.mean[j])

@@ -172,6 +172,25 @@ def test_a_thickness_by_its_powers_is_that_of_the_solver(tmp_path):
     theta = run(read_deck(deck)).revised.theta
     assert theta[i] == pytest.approx(true, rel=1e-3)
     assert np.allclose(theta[i : i + 4], theta[i] ** np.array([1.0, 2.0, 3.0, -1.0]), rtol=1e-9)
+    mouse, job, back = [sys.executable, "-m", "mouse_cli"], tmp_path / "job" / "job.inp", tmp_path / "back.inp"
+    job.write_text(folded(0.01))
+    subprocess.run([*mouse, "run", deck, "--json", "-q", "-o", tmp_path / "r.json"])
+    command = [
+        "export",
+        deck,
+        "--for",
+        "calculix",
+        "--job",
+        job,
+        "--result",
+        tmp_path / "r.json",
+        "-o",
+        back,
+        "--complete",
+    ]
+    subprocess.run([*mouse, *command, "-q"], check=True)
+    (skin,) = re.findall(r"ELSET=SKIN, MATERIAL=M\n(\S+)", back.read_text())
+    assert float(skin) == pytest.approx(theta[i], rel=1e-9)
 
 
 @solver
