@@ -255,6 +255,18 @@ def test_its_covariance_is_that_of_a_smooth_field(share):
     assert np.abs(exact - field.P @ field.P.T).max() < 0.02 * 0.01 + 0.005 * np.trace(exact)
 
 
+def test_corrosion_takes_stiffness_and_mass_together():
+    """15 % of the depth lost in the middle of a long stretch: EI by its cube, mass with it."""
+    depth = lambda x: 1 - 0.15 * max(0.0, 1 - ((x - 0.4) / 0.25) ** 2)
+    found = found_in(Truth(stiffness=lambda x: depth(x) ** 3, mass=depth), False, Choices(NAMES, causes=1))
+    assert (found.kind, found.field.property) == (UNKNOWN, STIFFNESS)
+    assert max(found.groups, key=lambda pair: pair[1])[0] == "field-section"
+    least = min(found.field.values, key=lambda each: each.value)
+    assert abs(least.site.position[0] / LENGTH - 0.4) < 0.1 and abs(least.value - (0.85**3 - 1)) < 3 * least.sd
+    before, after = found.field.held_out.baseline, found.field.held_out.revised
+    assert after.p > 0.01 and after.log_predictive_density > before.log_predictive_density + 10
+
+
 def test_an_axial_force_under_an_even_load_is_a_slope():
     """A pull of 4 EI / L^2 at one end, as large a push at the other: what acts, and each mode from the others."""
     found = found_in(Truth(tension=lambda x: 4.0 * (1 - 2 * x)), False, Choices(NAMES, causes=1))
@@ -286,7 +298,7 @@ def test_its_evidence_is_the_mean_over_spreads_and_lengths():
         assert best - np.log(count) - 1e-6 <= one.log_evidence <= best + 1e-6
 
 
-@pytest.mark.parametrize("key", ["field-stiffness", "field-mass", "field-bed", "force", "compliance"])
+@pytest.mark.parametrize("key", ["field-stiffness", "field-mass", "field-section", "field-bed", "force", "compliance"])
 def test_what_a_field_moves_is_what_differences_of_its_matrices_do(key):
     """Central differences of K and M, times a motion, along the deck's parameters and the field."""
     problem = assemble(yaml_deck.read(deck(Truth(), True), "beam.yaml"))

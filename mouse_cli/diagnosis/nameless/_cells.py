@@ -27,6 +27,7 @@ class Cells:
 
     into: `K` or `M`, the matrix that they change. extend(problem, values (c,), spread): the deck with the field in it;
     of a change of rank one also its sign. rigid: whether an affine field over them is a motion of the whole as one rigid body.
+    beside: mass that changes with a stiffness, cell by cell; None: none does.
     """
 
     sites: tuple[Site, ...]
@@ -36,6 +37,7 @@ class Cells:
     into: str
     extend: Callable[..., Problem] | None = None
     rigid: bool = False
+    beside: "Cells | None" = None
     _fields: dict[float, tuple[float, np.ndarray]] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def __len__(self) -> int:
@@ -65,9 +67,8 @@ class Cells:
     def some(self, kept: np.ndarray) -> "Cells":
         """The cells `kept`, by index."""
         chosen = lambda every: tuple(every[i] for i in kept.tolist())
-        return Cells(
-            chosen(self.sites), self.at[kept], self.unit, chosen(self.blocks), self.into, self.extend, self.rigid
-        )
+        own = {"sites": chosen(self.sites), "at": self.at[kept], "blocks": chosen(self.blocks)}
+        return replace(self, **own, beside=self.beside and self.beside.some(kept))
 
 
 def of_elements(model: Reduced, into: str, properties: tuple[str, ...]) -> Cells | None:

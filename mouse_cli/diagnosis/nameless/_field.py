@@ -48,10 +48,19 @@ def smooth(rival: Nameless, cells: Cells, spread: float, share: float, sign: int
 
 @dataclass(frozen=True, kw_only=True)
 class Fielded(Reduced):
-    """A reduced model with a field in it: z = [z of the deck (k,), w]. of_field (w, r, r): what each w adds to K or M."""
+    """A reduced model with a field in it: z = [z of the deck (k,), w]. of_field (w, r, r): what each w adds to K or M; with_it: to
+    M, where both change; None: one does.
+    """
 
     nameless: Smooth
     of_field: np.ndarray
+    with_it: np.ndarray | None = None
+
+    @property
+    def _added(self) -> dict[str, np.ndarray]:
+        """What each w adds (w, r, r), by matrix."""
+        own = {self.nameless.cells.into: self.of_field}
+        return own if self.with_it is None else own | {"M": self.with_it}
 
     @property
     def deck(self) -> int:
@@ -67,20 +76,22 @@ class Fielded(Reduced):
     def matrices(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """K and M (r, r) at z."""
         found = dict(zip("KM", super().matrices(z), strict=True))
-        into = self.nameless.cells.into
-        found[into] = found[into] + np.tensordot(z[self.deck :], self.of_field, 1)
+        for into, added in self._added.items():
+            found[into] = found[into] + np.tensordot(z[self.deck :], added, 1)
         return found["K"], found["M"]
 
     def slopes(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """dK/dz and dM/dz (k + w, r, r)."""
         found = dict(zip("KM", super().slopes(z), strict=True))
-        found[self.nameless.cells.into][self.deck :] = self.of_field
+        for into, added in self._added.items():
+            found[into][self.deck :] = added
         return found["K"], found["M"]
 
     def moved(self, z: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """dK/dz u and dM/dz u (k + w, r, m) for motion u (r, m)."""
         found = dict(zip("KM", super().moved(z, u), strict=True))
-        found[self.nameless.cells.into][self.deck :] = self.of_field @ u
+        for into, added in self._added.items():
+            found[into][self.deck :] = added @ u
         return found["K"], found["M"]
 
     def bare(self, z: np.ndarray) -> np.ndarray:
@@ -96,4 +107,7 @@ def fielded(base: Reduced, field: Smooth, cells: Cells | None) -> Fielded:
     """`base` with a field in it, in `cells` of its own that are those of the field; None: it does not have it."""
     own = {name: getattr(base, name) for name in Reduced.__dataclass_fields__}
     empty = np.zeros((field.P.shape[1], base.r, base.r))
-    return Fielded(**own, nameless=field, of_field=empty if cells is None else cells.summed(field.P))
+    if cells is None:
+        return Fielded(**own, nameless=field, of_field=empty)
+    beside = cells.beside and cells.beside.summed(field.P)
+    return Fielded(**own, nameless=field, of_field=cells.summed(field.P), with_it=beside)
