@@ -109,7 +109,7 @@ def _answer(target: Target, needs: list[Need], unit: str, confidence: int) -> It
         Column("place", align=LEFT, literal=True),
         f"{target.means} needed [{unit}] | standard deviation [{unit}] | "
         f"for a chance of {confidence} per cent [{unit}] | mode then at [Hz] | limit of the mode there [Hz] | "
-        "likeness",
+        "MAC",
     )
     rows = tuple(
         (

@@ -92,7 +92,7 @@ EFFORTS = {
     Effort.MASS: "an added mass",
     Effort.SUPPORT: "a changed support",
 }
-_COLUMNS = heads("<measurement | <takes | <between | separation [nats] | <outlook")
+_COLUMNS = heads("<measurement | <takes | <between | separation | <outlook")
 
 
 def proposals(found: Diagnosis, options: Options) -> Iterator[Block]:
@@ -133,7 +133,7 @@ def places(found: Diagnosis, options: Options) -> Iterator[Block]:
     location = found.location
     if location is None or not location.places:
         return
-    columns = heads("<site | <channel | probability | below the best [nats]")
+    columns = heads("<site | <channel | probability | log evidence below the best")
     shown = location.places[:_PLACES_MOST]
     yield Table(columns, tuple((place(p.site), p.channel, probable(p.probability), nats(p.deficit)) for p in shown))
     tied, region = sum(p.deficit <= TIE for p in location.places), location.region
