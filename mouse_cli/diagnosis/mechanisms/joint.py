@@ -19,8 +19,8 @@ _MOST = 60  # joints that are looked at: those that bend most in the lowest mode
 _SAME = 1e-6  # of directions
 _SPLICE = 0.5  # prior probability that a joint is a splice along a line, where bars meet too
 _BOTH = 0.5  # prior probability that a joint where bars meet in space turns about both axes
-_PINNED, _RIGID = 1e-2, 3e3  # stiffness over EI / L
-_STARTS = 4  # stiffnesses to begin from
+_PINNED, _RIGID = 0.5, 3e3  # stiffness over EI / L
+_STARTS = 3  # stiffnesses to begin from
 _ROOT = 0.01  # of the length of a line, about half the height of a slender section, up to which a splice is at its end
 _STEP = 1.3  # ratio of stiffnesses or masses from which on a straight line changes its section, and does not taper
 

@@ -41,6 +41,7 @@ def mean_values(one: Fit) -> tuple[np.ndarray, np.ndarray]:
 
 def _values(one: Fit) -> tuple[np.ndarray, np.ndarray]:
     """Values (c,) of one fit and their variances."""
-    field, own = one.nameless, slice(one.model.base.first.deck, one.model.k)
+    field, deck = one.nameless, one.model.base.first.deck
+    own = slice(deck, deck + field.P.shape[1])  # of functions, damping and gains come behind
     noise = scale(one.misfit, one.dof)
     return field.values(one.point.x[own]), noise * np.einsum("cw,wv,cv->c", field.P, one.covariance[own, own], field.P)

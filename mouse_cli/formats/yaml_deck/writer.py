@@ -11,7 +11,7 @@ from mouse_cli.formats.yaml_deck.text import flow, real, word, wrapped
 from mouse_cli.formats.yaml_deck.theory import theory_lines
 from mouse_cli.formats.yaml_deck.writer_parameters import parameters, prior
 from mouse_cli.formats.yaml_deck.writer_structure import structure
-from mouse_cli.formats.yaml_deck.writer_test import test_lines
+from mouse_cli.formats.yaml_deck.writer_tests import test_lines
 from mouse_cli.model.arrays import Matrix, is_sparse, upper_triangle
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.held import freed
