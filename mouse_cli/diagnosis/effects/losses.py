@@ -18,7 +18,7 @@ from mouse_cli.terms.bound_properties import BoundProperties, nominal_properties
 from mouse_cli.terms.elements import Layout, Matrices, registry
 
 _MOST = 60  # places that are looked at: those that hold most energy in the lowest modes
-_FEW = 12  # directions of them that a search in few coordinates knows to give way
+_FEW = 12  # directions of them that a search in few coordinates knows to soften
 _STIFF = {"rod": ("E",), "spring": DIRECTIONS, "storey": DIRECTIONS, "joint": DIRECTIONS}
 _BEGIN, _GAINS = (0.1, 0.5, 0.9), (0.1, 1.0, 8.0)  # shares to begin from: what is left of a stiffness counts
 LOST = "share lost"

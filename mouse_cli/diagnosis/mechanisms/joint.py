@@ -89,7 +89,7 @@ def _spliced(
         own = planes(bar)
         about = [f", local {'yz'[bars.plane[each]]}" if len(own) > 1 else "" for each in own]
         named = [f"splice in {bars.site(bar, share).text}{each}" for each in about]
-        return with_joint(problem, bars, planes(bar), share, named, values)
+        return with_joint(problem, bars, own, share, named, values)
 
     starts = np.column_stack([steps(k, _STARTS if count == 1 else 2)] * count)
     sizes = tuple(replace(k, name=name) for name in names)

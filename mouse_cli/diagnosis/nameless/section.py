@@ -28,7 +28,6 @@ def cells(model: Reduced) -> Cells | None:
     stiff = stiff.some(np.array(kept))
     heavy = heavy.some(np.array([place[site.ids] for site in stiff.sites]))
     blocks = tuple((u, _SHARE * M) for u, M in heavy.blocks)
-
     return replace(stiff, extend=None, beside=replace(heavy, blocks=blocks))
 
 

@@ -62,7 +62,7 @@ class Study:
     def coarse(self) -> "Study":
         """The same in few coordinates, in which all places and sizes are looked at before any is fitted.
 
-        Those are the lowest, and how the rest moves when one end of a line, or a spring, gives way, which they alone do not.
+        Those are the lowest, and how the rest moves when one end of a line, or a spring, softens, which they alone do not.
         """
         model = self.model.looked_at(_lowest)
         if model is self.model:
@@ -216,7 +216,7 @@ def _key(name: str, before: np.ndarray, others: tuple[Recipe, ...]) -> tuple:
 
 
 def _lowest(model: Reduced) -> Reduced:
-    """A model in its lowest coordinates, and those by which ends of lines turn and springs give way; or itself."""
+    """A model in its lowest coordinates, and those by which ends of lines turn and springs soften; or itself."""
     return lowest(model, max(_COARSE, 4 * model.data.m + 8, int(model.data.test.number.max()) + 12))
 
 

@@ -91,10 +91,10 @@ def _by_deck(model: Reduced, baseline: Fit, own: list[Member], refuted: bool) ->
         each.append((tried[0], _cases(held, one.fit, tried[1])))
     labels, old, new = [], [], []
     for i, (title, part) in enumerate(before):
-        told = [(weight, cases[i]) for weight, cases in each if cases[i] is not None]
-        if part is not None and told:
+        predicted = [(weight, cases[i]) for weight, cases in each if cases[i] is not None]
+        if part is not None and predicted:
             labels += [title.format(number) for number in part.test.number]
-            old.append(part), new.append(_mixed(told))
+            old.append(part), new.append(_mixed(predicted))
     if not old:
         return None
     measured = np.concatenate([part.test.frequency_hz for part in old])
@@ -103,8 +103,8 @@ def _by_deck(model: Reduced, baseline: Fit, own: list[Member], refuted: bool) ->
 
 def _cases(held: HoldOut, one: Fit, error: float) -> list[Prediction | None]:
     """What a fit says of each case that is held out; error: variance of ln f that its errors elsewhere ask for at least."""
-    told = [part for _, part in of_cases(held, one, _noise(one))]
-    return [part and _widened(part, error) for part in told]
+    predicted = [part for _, part in of_cases(held, one, _noise(one))]
+    return [part and _widened(part, error) for part in predicted]
 
 
 def _by_mode(model: Reduced, baseline: Fit, own: list[Member], refuted: bool) -> HeldOut | None:
@@ -116,21 +116,21 @@ def _by_mode(model: Reduced, baseline: Fit, own: list[Member], refuted: bool) ->
     ]
     old, new = [], []
     for i in range(test.m):
-        before, told = left_out(baseline, i), []
+        before, predicted = left_out(baseline, i), []
         for one in own:
             again = refitted(one.fit, i)
-            part = None if again is None else _told(again, one.fit.model.base.left_out(i))
+            part = None if again is None else _prediction(again, one.fit.model.base.left_out(i))
             if part is not None:
                 weight, error = _tried(again) if refuted else (one.weight + _evidence(again), 0.0)
-                told.append((weight, _widened(part, error)))
-        if before is None or not told:
+                predicted.append((weight, _widened(part, error)))
+        if before is None or not predicted:
             return None
-        old.append(before), new.append(_mixed(told))
+        old.append(before), new.append(_mixed(predicted))
     labels = tuple(f"mode {number}" for number in test.number)
     return HeldOut(BY_MODE, labels, test.frequency_hz, score(old), score(new))
 
 
-def _told(one: Fit, base: Reduced) -> Prediction | None:
+def _prediction(one: Fit, base: Reduced) -> Prediction | None:
     return predict(one, base, noise=_noise(one))
 
 
@@ -139,7 +139,7 @@ def _tried(one: Fit) -> tuple[float, float]:
     off = []
     for k in np.flatnonzero(one.data.has_frequency).tolist():
         again = refitted(one, k)
-        part = None if again is None else _told(again, one.model.base.left_out(k))
+        part = None if again is None else _prediction(again, one.model.base.left_out(k))
         if part is None or not part.hz[0] > 0:
             return -np.inf, 0.0
         off.append(float(np.log(part.hz[0] / part.test.frequency_hz[0])))
@@ -164,12 +164,12 @@ def _noise(one: Fit) -> float:
     return scale(one.misfit, one.dof)
 
 
-def _mixed(told: Sequence[tuple[float, Prediction]]) -> Prediction:
+def _mixed(predicted: Sequence[tuple[float, Prediction]]) -> Prediction:
     """One prediction of several, with ln of their weights."""
-    log = np.array([weight for weight, _ in told])
+    log = np.array([weight for weight, _ in predicted])
     log = log if np.isfinite(log).any() else np.zeros(len(log))
     log -= np.logaddexp.reduce(log)
-    p, parts = np.exp(log), [part for _, part in told]
+    p, parts = np.exp(log), [part for _, part in predicted]
     mean = lambda name: sum(w * getattr(part, name) for w, part in zip(p, parts, strict=True))
     each, spread = (np.array([getattr(part, name) for part in parts]) for name in ("hz", "sd_hz"))
     hz, test = np.where(np.isfinite(spread).all(axis=0), _quantile(each, spread, p, 0.5), mean("hz")), parts[0].test

@@ -1,4 +1,4 @@
-"""A reduced model in fewer coordinates: its lowest ones, and how the rest moves when one end of a line, or a spring, gives way."""
+"""A reduced model in fewer coordinates: its lowest ones, and how the rest moves when one end of a line, or a spring, softens."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 
 
 def lowest(model: Reduced, count: int) -> Reduced:
-    """A model in its `count` lowest coordinates, and those by which ends of lines turn and springs give way; or itself."""
+    """A model in its `count` lowest coordinates, and those by which ends of lines turn and springs soften; or itself."""
     if count >= model.r:
         return model
     forces = np.concatenate([ends(model), loosened(model)])[: model.r - count, count:]
