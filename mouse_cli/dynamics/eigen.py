@@ -63,7 +63,13 @@ def _by_masses(K: np.ndarray, M: np.ndarray) -> EigenSolution:
             raise IndefiniteError(f"mass of degree of freedom {int(np.argmin(masses)) + 1} is {masses.min():.6g}")
         if (masses > 0).all():
             scale = 1.0 / np.sqrt(masses)
-            eigenvalues, vectors = np.linalg.eigh(K * scale[:, None] * scale)
+            with np.errstate(over="ignore"):
+                reduced = K * scale[:, None] * scale
+            if not np.isfinite(reduced).all():
+                raise np.linalg.LinAlgError(
+                    f"beside the stiffnesses a mass of {masses.min():.3g} is too small for a number"
+                )
+            eigenvalues, vectors = np.linalg.eigh(reduced)
             return EigenSolution(eigenvalues, vectors * scale[:, None])
         return _condensed(K, M)
     try:

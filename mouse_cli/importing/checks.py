@@ -80,12 +80,19 @@ def _asked(model: InputModel, kept: np.ndarray, whole: Exported) -> tuple[str, s
 
 def check(model: InputModel, parts: Parts, solver: Solver) -> Checked:
     """Raises DeckError (MD275) where parts do not sum to the whole, or frequencies differ."""
+    from mouse_cli.dynamics.eigen import IndefiniteError
     from mouse_cli.dynamics.solver import eigensolution
 
     kept = _kept(model, parts.whole)
     K, M = (each[kept][:, kept] for each in (parts.whole.K, parts.whole.M))
     theirs = np.sort(solver.eigenvalues(*_asked(model, kept, parts.whole)))
-    solution = eigensolution(K, M, len(theirs))
+    try:
+        solution = eigensolution(K, M, len(theirs))
+    except (IndefiniteError, np.linalg.LinAlgError) as reason:
+        help = "look for nodes and elements that are out of place, and for densities and moduli in other units"
+        raise DeckError.of(
+            "MD275", f"the matrices have no frequencies: {reason}", Span(model.path, 1), help=help
+        ) from reason
     own, X = solution.eigenvalues[: len(theirs)], solution.shapes[:, : len(theirs)]
     elastic = (theirs > _RIGID * theirs[-1]) & (own > _RIGID * theirs[-1])
     hz = [np.sqrt(each[elastic]) / (2 * np.pi) for each in (theirs, own)]

@@ -55,6 +55,13 @@ def test_numbers_of_which_no_products_can_be_made(capsys, tmp_path, change, code
     assert f"error[{code}]" in said.err and "1e+150" in said.err + "1e+150" * (code == "MD302") and not said.out
 
 
+def test_a_mass_beside_which_stiffnesses_are_no_numbers(capsys, tmp_path):
+    deck = tmp_path / "deck.yaml"
+    deck.write_text(ENTRY.replace("[1.0, 1.0]", "[1.0, 5.0e-324]").format("[1, 1, 1.0e+5], [2, 2, 1.0e+5]"))
+    assert _run(["modes", str(deck)]) == 5
+    assert "error[MD501]" in (said := capsys.readouterr()).err and "4.94e-324" in said.err and not said.out
+
+
 def test_many_findings_of_one_kind_are_counted(capsys, tmp_path):
     """Messages do not grow with the file, and twenty thousand entries in one line are read in seconds."""
     deck, begun = tmp_path / "deck.yaml", time.process_time()

@@ -15,6 +15,7 @@ from mouse_cli.dynamics.solver import eigensolution
 from mouse_cli.formats.matrix_files import read_matrix
 from mouse_cli.importing.jobs import colours
 from mouse_cli.importing.read import read
+from mouse_cli.importing.run import imported as imports
 from mouse_cli.terms.assembly import assembly
 from mouse_cli.updating import forecast
 
@@ -235,6 +236,18 @@ def test_two_free_bodies(tmp_path):
     problem = read_deck(deck)
     hz = forecast(problem, 20).frequencies_hz
     assert hz[11] < 1e-3 * hz[12] and hz[13] == pytest.approx(hz[12], rel=1e-6)
+
+
+@solver
+def test_matrices_without_frequencies_are_refused(tmp_path):
+    """A node far out of all places: CalculiX writes matrices whose eigenvalues are below zero beyond rounding."""
+    text = PLATE.read_text()
+    assert text.count("33, 0.400, 0.120, 0.006") == 1
+    far = text.replace("33, 0.400, 0.120", "33, 0.400, 1e200")
+    with pytest.raises(DeckError) as refused:
+        imports(written(tmp_path, far), tmp_path / "deck.yaml", "SI", False, lambda said: None)
+    assert refused.value.diagnostics[0].code == "MD275" and "no frequencies" in str(refused.value)
+    assert not list(tmp_path.glob("*.yaml"))
 
 
 @solver

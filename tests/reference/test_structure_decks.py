@@ -241,6 +241,8 @@ FAULTS = [  # code, what is replaced, by what, text under the caret (None: not t
     ("MD425", "E: 2.0e+11", "E: -2.0e+11", None, "positive"),
     ("MD214", "type: spring", "type: sprung", "sprung", "sprung"),
     ("MD223", "property: mass, sd: 10 %", "property: Jx, sd: 10 %", "10 %", "is 0"),
+    ("MD213", "3: [2, 0]", "[3, 4]: [2, 0]", "[3, 4]", "a list of 2"),
+    ("MD213", "3: [2, 0]", "99999999999: [2, 0]", "99999999999", "the number of a node"),
 ]
 
 
@@ -254,6 +256,16 @@ def test_each_fault_has_its_code_and_place(code, old, new, caret, word):
     assert span.line > 1 and found[0].help
     if caret:
         assert span.text[span.column - 1 : span.column - 1 + span.width] == caret
+
+
+def test_parameters_keep_their_elements_beside_one_that_was_refused():
+    """What another is bound to is said of the right names; the value that could not be read is one finding, not two."""
+    more = DECK.replace("name: E, material", "name: [E], material")
+    more = more.replace("test:", "  - {name: third, elements: 10, property: mass, sd: 1 %}\ntest:")
+    name, twice = findings(more)
+    assert (name.code, twice.code) == ("MD213", "MD415") and "tip and third" in twice.message
+    (nominal,) = findings(DECK.replace("name: tip, ", "name: tip, nominal: heavy, "))
+    assert nominal.code == "MD213" and "'heavy'" in nominal.message
 
 
 def test_a_written_structure_reads_back_with_its_tables(tmp_path):

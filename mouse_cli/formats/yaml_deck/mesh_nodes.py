@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 
@@ -71,9 +72,9 @@ def _inline(document: Document, node: Node, what: str) -> Nodes | None:
     keys = [key for key, _ in node.value]
     ids = yaml_values.plain_numbers(keys)
     if ids is None or (ids != np.floor(ids)).any() or (ids < 0).any() or (ids > MAX_WHOLE).any():
-        wrong = [key for key in keys if not (yaml_values.as_number(key) or 0.0).is_integer() or not key.value.isdigit()]
-        for key in wrong[:20]:
-            yaml_values.mistyped(document, key, f"a node in {what}", "the number of a node")
+        wrong = (key for key in keys if not _is_whole(yaml_values.as_number(key)))
+        for key in islice(wrong, 20):
+            yaml_values.mistyped(document, key, f"a node in {what}", f"the number of a node, 0 to {MAX_WHOLE}")
         return None
     values = [value for _, value in node.value]
     if all(yaml_values.is_list(value) and len(value.value) == 3 for value in values):
@@ -84,6 +85,10 @@ def _inline(document: Document, node: Node, what: str) -> Nodes | None:
     if any(row is None for row in rows):
         return None
     return Nodes(ids.astype(int), np.array(rows), lambda i: document.span(keys[i]))
+
+
+def _is_whole(number: float | None) -> bool:
+    return number is not None and number.is_integer() and 0 <= number <= MAX_WHOLE
 
 
 def vector(document: Document, node: Node, what: str) -> np.ndarray | None:

@@ -67,8 +67,8 @@ def _sd(section: Section, nominal: float, variance: float | None) -> float | Non
                 "MD224", section.node, message, "give sd: the prior standard deviation; 0 holds the parameter"
             )
         return from_covariance
-    if nominal == 0 and document.incomplete and any(key in section for key in WHOSE):
-        return None  # its elements could not be read, and their value with them
+    if nominal == 0 and document.incomplete and any(key in section for key in (*WHOSE, "nominal")):
+        return None  # its nominal value, or the elements that give it, could not be read
     sd = fraction_of(document, node, section.what("sd"), abs(nominal), "the nominal value, which is 0")
     if sd is None or variance is None or np.isclose(sd, from_covariance, rtol=1e-6, atol=0):
         return sd

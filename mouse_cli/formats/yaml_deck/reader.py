@@ -1,5 +1,7 @@
 """Decks in YAML (version 1): text in, Draft out."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from mouse_cli._errors import DeckError
@@ -101,8 +103,6 @@ def _properties(
     """The parameters, their covariance when they are correlated, and their sections; those of elements are bound to `mesh`."""
     sections = yaml_parameters.sections(deck, mesh)
     bound = [bindings.bound(section, i, mesh, units) for i, section in enumerate(sections)]
-    if mesh is not None:
-        mesh.bindings = [binding for each in bound if each is not None for binding in each.bindings]
     prior = deck.section("prior")
     form = prior.form() if prior else None
     covariance = yaml_prior.covariance(prior, form, len(sections))
@@ -110,7 +110,10 @@ def _properties(
     if covariance is None and form == "covariance":
         variances = [1.0] * len(sections)  # the matrix was refused: a missing sd is no second error
     found, powers = raised(sections, lambda i: yaml_parameters.parameter(sections[i], variances[i], bound[i]))
-    parameters = [parameter for parameter in found if parameter is not None]
+    read = [i for i, parameter in enumerate(found) if parameter is not None]
+    parameters = [found[i] for i in read]
+    if mesh is not None:
+        mesh.bindings = [replace(own, parameter=j) for j, i in enumerate(read) if bound[i] for own in bound[i].bindings]
     if len(parameters) == len(sections) and form != "covariance":
         names, sd = [p.name for p in parameters], np.array([p.sd for p in parameters])
         covariance = yaml_prior.correlated(prior, form, names, sd)
