@@ -1,13 +1,16 @@
-"""What a worker does with one job: nothing where the answer is there, else run it and keep the answer."""
+"""What a worker does with one job: nothing where the answer is there, else run it within a limit of time, and keep the answer."""
 
+import ctypes
+import threading
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 from mouse_cli._errors import ERROR, DeckError, Diagnostic, MouseError, fault
 from mouse_cli.batch import record
 from mouse_cli.batch.changes import CHANGES, changed, edited
 from mouse_cli.batch.job import CHECK, DIAGNOSE, Job
-from mouse_cli.batch.limit import OutOfTime, at_most
 from mouse_cli.batch.outcome import Outcome, outcome, unwritten
 from mouse_cli.batch.record import Answer
 from mouse_cli.formats import file_bytes, read_draft
@@ -124,3 +127,40 @@ def _unexpected(job: Job, error: BaseException) -> Diagnostic:
     if isinstance(error, MemoryError):
         return Diagnostic("MD512", ERROR, f"{job.deck}: not enough memory for a model of this size")
     return fault(error, job.deck)
+
+
+class OutOfTime(BaseException):
+    """The time of the job is over. No Exception, so that nothing takes it for a fault of its own."""
+
+
+@contextmanager
+def at_most(seconds: float | None) -> Iterator[None]:
+    """Raise OutOfTime within the block once it has taken `seconds`; at once, or where a call of a library returns to Python.
+
+    Works in any thread: workers of dask do jobs in others than the main one, which signals do not reach.
+    """
+    if seconds is None:
+        yield
+        return
+    thread, settled, lock = threading.get_ident(), False, threading.Lock()
+
+    def interrupt() -> None:
+        with lock:
+            if not settled:
+                _raise(thread, OutOfTime)
+
+    timer = threading.Timer(seconds, interrupt)
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        with lock:
+            settled = True
+        timer.cancel()
+        _raise(thread, None)  # one that was raised and has not arrived must not meet the next job
+
+
+def _raise(thread: int, kind: type[BaseException] | None) -> None:
+    what = ctypes.py_object(kind) if kind else None
+    ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread), what)

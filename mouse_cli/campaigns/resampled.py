@@ -1,4 +1,4 @@
-"""What the runs of a bootstrap say together."""
+"""What the runs of a bootstrap say together; intervals after Efron and Tibshirani, An Introduction to the Bootstrap, 1993."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -7,7 +7,7 @@ import numpy as np
 
 from mouse_cli._errors import ERROR, WARNING, Diagnostic, NumericalError
 from mouse_cli.batch.outcome import Outcome
-from mouse_cli.campaigns import answers, bootstrap, intervals
+from mouse_cli.campaigns import answers, bootstrap
 from mouse_cli.campaigns.bootstrap import Plan
 from mouse_cli.campaigns.sweep import paired
 from mouse_cli.model.campaign import Bootstrap, Spread
@@ -73,13 +73,13 @@ def _spread(
     samples = [part[np.isfinite(part)] for part in np.split(without, np.cumsum(plan.sizes)[:-1])]
     samples = [part for part in samples if len(part) > 1]
     influence = (without - value) / sd if sd > 0 else np.full(len(without), np.nan)
-    jackknife = intervals.jackknife_sd(samples) if samples else np.nan
+    jackknife = jackknife_sd(samples) if samples else np.nan
     if len(x) < 2:
         none = np.full(2, np.nan)
         return Spread(name, unit, value, sd, predicted, np.nan, np.nan, none, none, jackknife, influence)
     return Spread(
-        name, unit, value, sd, predicted, float(x.std(ddof=1)), float(x.mean() - value), intervals.percentile(x),
-        intervals.bca(x, value, samples), jackknife, influence,
+        name, unit, value, sd, predicted, float(x.std(ddof=1)), float(x.mean() - value), percentile(x),
+        bca(x, value, samples), jackknife, influence,
     )  # fmt: skip
 
 
@@ -126,3 +126,36 @@ def _influential(found: Bootstrap) -> Iterator[Diagnostic]:
         if unit is not None and abs(each.influence[unit]) > _LARGE:
             message = f"without {found.units[unit]} {each.name} moves by {each.influence[unit]:+.2g} posterior standard deviations"
             yield Diagnostic("MD938", WARNING, message, help="check that measurement: the answer depends on it")
+
+
+LEVEL = 0.95
+
+
+def percentile(replicates: np.ndarray) -> np.ndarray:
+    """Ends (2,) of the interval between quantiles of replicates (b,); section 13.3."""
+    return np.quantile(replicates, [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
+
+
+def bca(replicates: np.ndarray, value: float, left_out: list[np.ndarray]) -> np.ndarray:
+    """Ends (2,) of the bias-corrected, accelerated interval; section 14.3. left_out: for each sample, answers without one unit.
+
+    z0 = Phi^-1(share of replicates below the value, ties by half); a = sum l^3 / n^3 / 6 (sum l^2 / n^2)^(3/2), where
+    l = (n - 1)(mean - left out), summed over the n units of every sample. NaN where all replicates lie to one side.
+    """
+    from scipy.special import ndtr, ndtri
+
+    below = (np.mean(replicates < value) + np.mean(replicates <= value)) / 2
+    z0 = ndtri(below)
+    parts = [((len(x) - 1) * (x.mean() - x), len(x)) for x in left_out]
+    cubes = sum(float(np.sum(l**3)) / n**3 for l, n in parts)
+    squares = sum(float(np.sum(l**2)) / n**2 for l, n in parts)
+    a = cubes / (6 * squares**1.5) if squares > 0 else 0.0
+    z = z0 + ndtri(np.array([(1 - LEVEL) / 2, (1 + LEVEL) / 2]))
+    with np.errstate(invalid="ignore"):
+        shares = ndtr(z0 + z / (1 - a * z))
+    return np.quantile(replicates, shares) if np.isfinite(shares).all() else np.full(2, np.nan)
+
+
+def jackknife_sd(left_out: list[np.ndarray]) -> float:
+    """Root of sum (n - 1)/n sum (left out - mean)^2 over the samples; section 11.2."""
+    return float(np.sqrt(sum((len(x) - 1) / len(x) * np.sum((x - x.mean()) ** 2) for x in left_out)))

@@ -1,4 +1,4 @@
-"""A sweep: how the answer depends on what nobody knows exactly."""
+"""A sweep: how the answer depends on quantities that are not known exactly, and how much of that is due to each."""
 
 import json
 from collections.abc import Iterator
@@ -9,7 +9,7 @@ from mouse_cli._errors import WARNING, Diagnostic
 from mouse_cli.batch import changes
 from mouse_cli.batch.job import Job
 from mouse_cli.batch.outcome import Outcome
-from mouse_cli.campaigns import answers, design, shares
+from mouse_cli.campaigns import answers, design
 from mouse_cli.formats import file_bytes
 from mouse_cli.model.campaign import Answered, Moved, Sweep
 from mouse_cli.model.problem import Problem
@@ -38,7 +38,7 @@ def summed(
     numbers, modes = paired(first)
     found = tuple(answers.read(each, names, modes) for each in outcomes)
     usable = [i for i, each in enumerate(found) if each.found]
-    groups = shares.grouped([points[i] for i in usable], len(varied))
+    groups = grouped([points[i] for i in usable], len(varied))
     whole, by_chance = [found[i] for i in usable], any(not each.values for each in varied)
     parameters = tuple(
         _moved(each.name, each.unit, [a.theta[i] for a in whole], [a.sd[i] for a in whole], groups, by_chance)
@@ -71,7 +71,7 @@ def _moved(name: str, unit: str, values: list, sds: list, groups: list[np.ndarra
         return Moved(name, unit, np.nan, np.nan, sd, np.nan, (np.nan,) * len(groups))
     low, high = float(y.min()), float(y.max())
     lengths = (high - low) / sd if sd > 0 else np.nan
-    return Moved(name, unit, low, high, sd, lengths, tuple(shares.share(y, each, by_chance) for each in groups))
+    return Moved(name, unit, low, high, sd, lengths, tuple(share(y, each, by_chance) for each in groups))
 
 
 def most(moved: Moved) -> int | None:
@@ -96,3 +96,35 @@ def _remarks(
     if silent:
         message = f"{silent} of {len(found)} points have no answer and are left out"
         yield Diagnostic("MD931", WARNING, message, help="see their codes in the table")
+
+
+_MOST, _EACH = 8, 4  # groups of values that are all different, and points in each at least
+
+
+def grouped(points: list[tuple], count: int) -> list[np.ndarray]:
+    """For each of `count` quantities the group (n,) of every point: equal values together, or neighbours where all differ."""
+    return [_groups([point[j] for point in points], alone=count == 1) for j in range(count)]
+
+
+def _groups(values: list, alone: bool) -> np.ndarray:
+    distinct = sorted(set(values), key=lambda value: (isinstance(value, str), value))
+    place = np.array([distinct.index(value) for value in values], int)
+    if alone or len(distinct) < len(values):
+        return place
+    return place * max(1, min(_MOST, len(values) // _EACH)) // max(1, len(distinct))
+
+
+def share(y: np.ndarray, group: np.ndarray, by_chance: bool) -> float:
+    """Of the variance of y (n,), what the means of the groups (n,) explain: the correlation ratio R^2 (first-order index of Sobol).
+
+    by_chance: points were drawn, so that means differ by chance too: 1 - (1 - R^2)(n - 1)/(n - groups), zero at least. In a grid
+    all groups have the same values of all other quantities.
+    """
+    kinds, n = np.unique(group), len(y)
+    total = float(np.sum((y - y.mean()) ** 2))
+    if not total > 0:
+        return 0.0
+    ratio = float(sum(np.count_nonzero(group == g) * (y[group == g].mean() - y.mean()) ** 2 for g in kinds)) / total
+    if not by_chance or len(kinds) == n:
+        return ratio
+    return max(0.0, 1 - (1 - ratio) * (n - 1) / (n - len(kinds)))

@@ -1,4 +1,4 @@
-"""Recordings of one set of channels become frequency response functions with their variance."""
+"""Recordings of one set of channels become frequency response functions of a kind, receptance to accelerance, with variance."""
 
 from collections.abc import Sequence
 
@@ -10,7 +10,6 @@ from mouse_cli.model.frf_test import KINDS, FrfTest
 from mouse_cli.model.recording import MOTIONS, Channel, Recording
 from mouse_cli.model.spectra import FOUND, MeasuredFrf, Quality, SpectraOptions
 from mouse_cli.records.blocks import decay_rate, products, starts, window
-from mouse_cli.records.conversion import factor
 from mouse_cli.records.frf_estimators import estimator, multiple_coherence, variance
 from mouse_cli.records.leakage import lag_window
 from mouse_cli.records.periodic import periodic
@@ -229,3 +228,10 @@ def _median(values: np.ndarray) -> float:
     """Of the values that are known; NaN where none is."""
     known = values[np.isfinite(values)]
     return float(np.median(known)) if len(known) else float("nan")
+
+
+def factor(s: np.ndarray, times: int) -> np.ndarray:
+    """s^times (f,); NaN where it divides by 0."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        found = s**times if times >= 0 else 1 / s**-times
+    return np.where(np.isfinite(found), found, np.nan)

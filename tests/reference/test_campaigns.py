@@ -18,7 +18,7 @@ from mouse_cli._errors import DeckError
 from mouse_cli.batch.changes import changed, edited
 from mouse_cli.batch.drawn import weighed
 from mouse_cli.batch.work import perform
-from mouse_cli.campaigns import answers, design, intervals, shares, sweep
+from mouse_cli.campaigns import answers, design, resampled, sweep
 from mouse_cli.cli._vary import varied
 from mouse_cli.cli.main import _run
 from mouse_cli.formats import read_deck
@@ -98,10 +98,10 @@ def test_shares_of_a_sum_whose_shares_are_known():
     for kind, error in (("sobol", 0.04), ("latin-hypercube", 0.09)):
         points = design.drawn(ab, 256, kind, seed=2)
         y = np.array([3 * a + b for a, b in points])
-        a, b = (shares.share(y, each, True) for each in shares.grouped(points, 2))
+        a, b = (sweep.share(y, each, True) for each in sweep.grouped(points, 2))
         assert a == pytest.approx(0.9, abs=error) and b == pytest.approx(0.1, abs=error)
         noise = np.random.default_rng(3).standard_normal(256)
-        assert max(shares.share(noise, each, True) for each in shares.grouped(points, 2)) < 0.08
+        assert max(sweep.share(noise, each, True) for each in sweep.grouped(points, 2)) < 0.08
 
 
 def test_points_fill_their_ranges():
@@ -253,10 +253,10 @@ def test_bca_is_that_of_scipy():
     x = np.random.default_rng(9).exponential(size=15)
     theirs = scipy_bootstrap((x,), np.mean, n_resamples=4000, rng=np.random.default_rng(1))
     left_out = np.array([np.delete(x, i).mean() for i in range(len(x))])
-    ours = intervals.bca(theirs.bootstrap_distribution, x.mean(), [left_out])
+    ours = resampled.bca(theirs.bootstrap_distribution, x.mean(), [left_out])
     expected = theirs.confidence_interval
     assert ours == pytest.approx([expected.low, expected.high], rel=1e-3)
-    assert intervals.jackknife_sd([left_out]) == pytest.approx(x.std(ddof=1) / np.sqrt(15), rel=1e-12)
+    assert resampled.jackknife_sd([left_out]) == pytest.approx(x.std(ddof=1) / np.sqrt(15), rel=1e-12)
 
 
 def test_what_is_drawn_twice_has_half_the_variance_and_what_is_held_out_stays():

@@ -8,8 +8,7 @@ import pytest
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.formats.yaml_deck.reader import read
 from mouse_cli.model.frf_test import FrfTest
-from mouse_cli.observables.frf import ASSUMED_OF_MAGNITUDE, ASSUMED_OF_MEDIAN, accuracy, observe
-from mouse_cli.observables.frf_lines import chosen
+from mouse_cli.observables.frf import ASSUMED_OF_MAGNITUDE, ASSUMED_OF_MEDIAN, accuracy, chosen, observe
 from mouse_cli.observables.frf_smoothing import smoothed
 from mouse_cli.updating import run
 

@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 from mouse_cli._errors import DeckError
 from mouse_cli.formats import read_deck, write_deck, yaml_deck
 from mouse_cli.formats.assemble import assemble
-from mouse_cli.formats.yaml_deck.cross_sections import SHAPES
+from mouse_cli.formats.yaml_deck.mesh_properties import SHAPES
 from mouse_cli.terms.assembly import assembly
 from mouse_cli.updating import forecast, run
 
