@@ -7,6 +7,7 @@ from dataclasses import replace
 from importlib import import_module
 from typing import Any
 
+from mouse_cli import __version__
 from mouse_cli.report.kinds import kind
 from mouse_cli.report.section import Options
 
@@ -47,5 +48,7 @@ def markdown(subject: Any, numbers: str = "modern", options: Options | None = No
 
 def document(subject: Any) -> dict[str, Any]:
     """The report of `subject` as JSON can hold it: no NaN, no infinity, plain Python values."""
-    made_by = import_module(f"{__name__}.{kind(type(subject)).document}")
-    return made_by.document(subject)
+    from mouse_cli.report.json_values import plain
+
+    told = import_module(f"{__name__}.{kind(type(subject)).document}").document(subject)
+    return plain({"schema": told["schema"], "version": __version__, **told})

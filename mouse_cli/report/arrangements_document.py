@@ -5,14 +5,13 @@ from itertools import product
 from math import prod
 from typing import Any
 
-from mouse_cli import __version__
 from mouse_cli.model.arrangements import ArrangementsDiagnosis, Turn
 from mouse_cli.model.diagnosis import ONE_OF, UNKNOWN
 from mouse_cli.model.units import system
 from mouse_cli.report.arrangements_sentences import sentences
 from mouse_cli.report.diagnosis_document import candidate
 from mouse_cli.report.geometry_document import geometry
-from mouse_cli.report.json_values import fields, plain
+from mouse_cli.report.json_values import fields
 from mouse_cli.report.theory import document as theory
 from mouse_cli.report.verdict_document import elsewhere, field, rest, score, site, untried
 
@@ -22,40 +21,37 @@ SCHEMA = "mouse.arrangements/1"
 def document(found: ArrangementsDiagnosis) -> dict[str, Any]:
     """`found` in plain Python values; what was not found out is None."""
     held, told = found.held_out, (found.extended or found.problems)[0].parameters
-    return plain(
-        {
-            "schema": SCHEMA,
-            "version": __version__,
-            "title": found.problem.title.strip(),
-            "sources": [each.source.path for each in found.problems],
-            "changed": None if found.changed is None else list(found.changed),
-            "exit_code": found.exit_code,
-            "verdict": _verdict(found),
-            "turns": [_turn(turn, found.kind != UNKNOWN) for turn in found.turns],
-            "rest": [candidate(found.rest[0], one, found.kind != UNKNOWN) for one in found.rest],
-            "residual": {**fields(found, "chi2", "dof", "p")},
-            "parameters": [
-                {"name": p.name, "unit": p.unit, "prior": p.nominal, "posterior": value, "sd": sd}
-                for p, value, sd in zip(told, found.values, found.sd, strict=True)
-            ],
-            "shared_errors": [{**fields(e, "mode", "value", "sd")} for e in found.shared],
-            "common_sd": found.common_sd,
-            "theory": theory(found),
-            "held_out": None
-            if held is None
-            else {
-                "labels": list(held.labels),
-                "measured_hz": held.measured_hz,
-                "baseline": score(held.baseline),
-                "revised": None if held.revised is None else score(held.revised),
-            },
-            "refuted": found.refuted or None,
-            "geometry": geometry((found.extended or found.problems)[0]),
-            "units": system(found.problem.units) or None,
-            "remarks": list(found.remarks),
-            "warnings": [f"{d.code}: {d.message}" for each in found.problems for d in each.warnings],
-        }
-    )
+    return {
+        "schema": SCHEMA,
+        "title": found.problem.title.strip(),
+        "sources": [each.source.path for each in found.problems],
+        "changed": None if found.changed is None else list(found.changed),
+        "exit_code": found.exit_code,
+        "verdict": _verdict(found),
+        "turns": [_turn(turn, found.kind != UNKNOWN) for turn in found.turns],
+        "rest": [candidate(found.rest[0], one, found.kind != UNKNOWN) for one in found.rest],
+        "residual": fields(found, "chi2", "dof", "p"),
+        "parameters": [
+            {"name": p.name, "unit": p.unit, "prior": p.nominal, "posterior": value, "sd": sd}
+            for p, value, sd in zip(told, found.values, found.sd, strict=True)
+        ],
+        "shared_errors": [fields(e, "mode", "value", "sd") for e in found.shared],
+        "common_sd": found.common_sd,
+        "theory": theory(found),
+        "held_out": None
+        if held is None
+        else {
+            "labels": list(held.labels),
+            "measured_hz": held.measured_hz,
+            "baseline": score(held.baseline),
+            "revised": None if held.revised is None else score(held.revised),
+        },
+        "refuted": found.refuted or None,
+        "geometry": geometry((found.extended or found.problems)[0]),
+        "units": system(found.problem.units) or None,
+        "remarks": list(found.remarks),
+        "warnings": [f"{d.code}: {d.message}" for each in found.problems for d in each.warnings],
+    }
 
 
 def _verdict(found: ArrangementsDiagnosis) -> dict[str, Any]:
@@ -108,7 +104,7 @@ def _cause(turn: Turn, explains: bool) -> dict[str, Any]:
 def _turn(turn: Turn, explains: bool) -> dict[str, Any]:
     before = turn.before
     return {
-        "before": {**fields(before, "chi2", "dof", "p")},
+        "before": fields(before, "chi2", "dof", "p"),
         "candidates": [candidate(turn.before, one, explains) for one in turn.explanations],
         "groups": [{"group": name, "probability": p if explains else None} for name, p in turn.groups],
         "noise_scale": turn.noise_scale,

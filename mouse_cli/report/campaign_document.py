@@ -4,9 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from mouse_cli import __version__
 from mouse_cli.model.campaign import Answered, Bootstrap, Moved, Spread, Sweep
-from mouse_cli.report.json_values import fields, plain
+from mouse_cli.report.json_values import fields
 
 SCHEMA = "mouse.campaign/1"
 
@@ -15,18 +14,15 @@ def document(found: Sweep | Bootstrap) -> dict[str, Any]:
     """`found` in plain Python values; None where there is no answer."""
     problem = found.problem
     own = _sweep(found) if isinstance(found, Sweep) else _bootstrap(found)
-    return plain(
-        {
-            "schema": SCHEMA,
-            "version": __version__,
-            "kind": "sweep" if isinstance(found, Sweep) else "bootstrap",
-            "title": problem.title.strip(),
-            "source": problem.source.path,
-            "exit_code": found.exit_code,
-            **own,
-            "warnings": [f"{each.code}: {each.message}" for each in found.warnings],
-        }
-    )
+    return {
+        "schema": SCHEMA,
+        "kind": "sweep" if isinstance(found, Sweep) else "bootstrap",
+        "title": problem.title.strip(),
+        "source": problem.source.path,
+        "exit_code": found.exit_code,
+        **own,
+        "warnings": [f"{each.code}: {each.message}" for each in found.warnings],
+    }
 
 
 def _sweep(found: Sweep) -> dict[str, Any]:

@@ -5,9 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from mouse_cli import __version__
 from mouse_cli.model.correlation import ALONE, Correlation, Expanded, Orthogonality
-from mouse_cli.report.json_values import dof_name, fields, plain
+from mouse_cli.report.json_values import dof_name, fields
 
 SCHEMA = "mouse.correlation/1"
 
@@ -15,35 +14,32 @@ SCHEMA = "mouse.correlation/1"
 def document(found: Correlation) -> dict[str, Any]:
     """`found` in plain Python values; matrices have a row for each measured mode, columns for model modes 1, 2, ..."""
     problem = found.problem
-    return plain(
-        {
-            "schema": SCHEMA,
-            "version": __version__,
-            "title": problem.title.strip(),
-            "source": problem.source.path,
-            "rigid_modes": found.rigid_modes,
-            "model_hz": found.frequencies_hz,
-            "visible": found.visible,
-            "modes": [_mode(found, i) for i in range(problem.test.m)],
-            "unclaimed": found.unclaimed + 1,
-            "mac": found.mac,
-            "auto_mac_test": found.auto_test,
-            "auto_mac_model": found.auto_model,
-            "sensors": _sensors(found),
-            "sensor_faults": _faults(found),
-            "orthogonality": {judged.key: _orthogonality(judged) for judged in found.orthogonality},
-            "subspaces": [
-                {
-                    "modes": problem.test.number[list(close.test)],
-                    "model_modes": np.array(close.model) + 1,
-                    "mac": close.cosines,
-                }
-                for close in found.subspaces
-            ],
-            "expansion": None if found.expanded is None else _expansion(found, found.expanded),
-            "warnings": [f"{d.code}: {d.message}" for d in (*problem.warnings, *found.warnings)],
-        }
-    )
+    return {
+        "schema": SCHEMA,
+        "title": problem.title.strip(),
+        "source": problem.source.path,
+        "rigid_modes": found.rigid_modes,
+        "model_hz": found.frequencies_hz,
+        "visible": found.visible,
+        "modes": [_mode(found, i) for i in range(problem.test.m)],
+        "unclaimed": found.unclaimed + 1,
+        "mac": found.mac,
+        "auto_mac_test": found.auto_test,
+        "auto_mac_model": found.auto_model,
+        "sensors": _sensors(found),
+        "sensor_faults": _faults(found),
+        "orthogonality": {judged.key: _orthogonality(judged) for judged in found.orthogonality},
+        "subspaces": [
+            {
+                "modes": problem.test.number[list(close.test)],
+                "model_modes": np.array(close.model) + 1,
+                "mac": close.cosines,
+            }
+            for close in found.subspaces
+        ],
+        "expansion": None if found.expanded is None else _expansion(found, found.expanded),
+        "warnings": [f"{d.code}: {d.message}" for d in (*problem.warnings, *found.warnings)],
+    }
 
 
 def _sensors(found: Correlation) -> list[dict[str, Any]]:
@@ -75,7 +71,7 @@ def _mode(found: Correlation, i: int) -> dict[str, Any]:
 
 
 def _orthogonality(judged: Orthogonality) -> dict[str, Any]:
-    return {**fields(judged, "test", "sd", "cross", "model")}
+    return fields(judged, "test", "sd", "cross", "model")
 
 
 def _expansion(found: Correlation, expanded: Expanded) -> dict[str, Any]:

@@ -2,11 +2,10 @@
 
 from typing import Any
 
-from mouse_cli import __version__
 from mouse_cli.model.coupled import Coupled, CoupledModes, InterfaceState
 from mouse_cli.model.coupling import Connection, Coupling
 from mouse_cli.model.frf_test import FrfTest
-from mouse_cli.report.json_values import fields, plain
+from mouse_cli.report.json_values import fields
 
 SCHEMA = "mouse.coupling/1"
 
@@ -14,30 +13,27 @@ SCHEMA = "mouse.coupling/1"
 def document(found: Coupled) -> dict[str, Any]:
     """`found` in plain Python values; complex numbers as [real, imaginary]."""
     coupling = found.coupling
-    return plain(
-        {
-            "schema": SCHEMA,
-            "version": __version__,
-            "title": coupling.title.strip(),
-            "source": coupling.path,
-            "substructures": [
-                {
-                    "name": part.name,
-                    "source": part.problem.source.path if part.problem else part.frf.path,
-                    **fields(part, "measured", "removed", "places"),
-                }
-                for part in coupling.substructures
-            ],
-            "interfaces": [[coupling.name(a), coupling.name(b)] for a, b in coupling.interfaces],
-            "connections": [connection(one, coupling) for one in coupling.connections],
-            "truncate": coupling.truncate,
-            "interface": None if found.interface is None else _interface(found.interface),
-            "functions": None if found.functions is None else functions(found.functions),
-            "peaks": [vars(peak) for peak in found.peaks],
-            "modes": None if found.modes is None else _modes(found.modes),
-            "warnings": [f"{d.code}: {d.message}" for d in found.warnings],
-        }
-    )
+    return {
+        "schema": SCHEMA,
+        "title": coupling.title.strip(),
+        "source": coupling.path,
+        "substructures": [
+            {
+                "name": part.name,
+                "source": part.problem.source.path if part.problem else part.frf.path,
+                **fields(part, "measured", "removed", "places"),
+            }
+            for part in coupling.substructures
+        ],
+        "interfaces": [[coupling.name(a), coupling.name(b)] for a, b in coupling.interfaces],
+        "connections": [connection(one, coupling) for one in coupling.connections],
+        "truncate": coupling.truncate,
+        "interface": None if found.interface is None else _interface(found.interface),
+        "functions": None if found.functions is None else functions(found.functions),
+        "peaks": [vars(peak) for peak in found.peaks],
+        "modes": None if found.modes is None else _modes(found.modes),
+        "warnings": [f"{d.code}: {d.message}" for d in found.warnings],
+    }
 
 
 def connection(one: Connection, coupling: Coupling | None = None, names: tuple[str, ...] = ()) -> dict[str, Any]:

@@ -2,7 +2,6 @@
 
 from typing import Any
 
-from mouse_cli import __version__
 from mouse_cli.model.diagnosis import (
     UNKNOWN,
     Diagnosis,
@@ -17,7 +16,7 @@ from mouse_cli.model.result import Result
 from mouse_cli.model.units import system
 from mouse_cli.report import result_document as of_result
 from mouse_cli.report.frf_document import damping, frf, held_frf
-from mouse_cli.report.json_values import fields, plain
+from mouse_cli.report.json_values import fields
 from mouse_cli.report.theory import document as theory
 from mouse_cli.report.verdict_document import held_out, site, verdict
 
@@ -29,49 +28,42 @@ _NOWHERE = Site("none")
 def document(found: Diagnosis) -> dict[str, Any]:
     """`found` in plain Python values; what was not found out is None."""
     problem, result = found.problem, found.result
-    return plain(
-        {
-            "schema": SCHEMA,
-            "version": __version__,
-            "title": problem.title.strip(),
-            "source": problem.source.path,
-            "exit_code": found.exit_code,
-            "verdict": verdict(found),
-            "candidates": candidates(found),
-            "groups": groups(found),
-            "noise_scale": found.noise_scale,
-            "innovation": of_result.tested(found.innovation),
-            "residual": of_result.tested(result.residual),
-            "prior_shift": of_result.tested(result.prior_shift),
-            "location": None if found.location is None else _location(found.location),
-            "energy": None if found.energy is None else _energy(found.energy),
-            "law": None if found.law is None else _law(found.law),
-            "held_out": None if found.held_out is None else held_out(found.held_out),
-            "frf": frf(found.frf),
-            "held_out_frf": held_frf(found.held_frf),
-            "damping": damping(found.damping),
-            "next_measurement": [_proposal(each) for each in found.proposals],
-            "cautions": list(found.cautions),
-            "refuted": list(found.refuted),
-            "misstated": found.misstated,
-            "asked": _asked(found),
-            "theory": theory(found),
-            "units": system(problem.units) or None,
-            **of_result.drawn(found.extended_result or result),
-            "baseline": _update(result),
-            "extended": None if found.extended_result is None else _update(found.extended_result),
-            "remarks": list(found.remarks),
-            "warnings": [f"{d.code}: {d.message}" for d in (*problem.warnings, *result.warnings)],
-        }
-    )
+    return {
+        "schema": SCHEMA,
+        "title": problem.title.strip(),
+        "source": problem.source.path,
+        "exit_code": found.exit_code,
+        "verdict": verdict(found),
+        "candidates": candidates(found),
+        "groups": groups(found),
+        "noise_scale": found.noise_scale,
+        "innovation": of_result.tested(found.innovation),
+        "residual": of_result.tested(result.residual),
+        "prior_shift": of_result.tested(result.prior_shift),
+        "location": None if found.location is None else _location(found.location),
+        "energy": None if found.energy is None else _energy(found.energy),
+        "law": None if found.law is None else _law(found.law),
+        "held_out": None if found.held_out is None else held_out(found.held_out),
+        "frf": frf(found.frf),
+        "held_out_frf": held_frf(found.held_frf),
+        "damping": damping(found.damping),
+        "next_measurement": [_proposal(each) for each in found.proposals],
+        **fields(found, "cautions", "refuted", "misstated"),
+        "asked": _asked(found),
+        "theory": theory(found),
+        "units": system(problem.units) or None,
+        **of_result.drawn(found.extended_result or result),
+        "baseline": _update(result),
+        "extended": None if found.extended_result is None else _update(found.extended_result),
+        "remarks": list(found.remarks),
+        "warnings": [f"{d.code}: {d.message}" for d in (*problem.warnings, *result.warnings)],
+    }
 
 
 def _proposal(each: Proposal) -> dict[str, Any]:
     return {
         "measure": each.text,
-        "between": list(each.between),
-        "separation": each.separation,
-        "outlook": each.outlook,
+        **fields(each, "between", "separation", "outlook"),
         "effort": int(each.effort),
     }
 

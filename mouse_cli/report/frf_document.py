@@ -25,7 +25,7 @@ def held_frf(fits: tuple[FrfFit, ...]) -> list[dict[str, Any]]:
 
 def damping(found: tuple[Damping, ...]) -> list[dict[str, Any]]:
     """Damping of the structure; told: whether the functions tell it."""
-    return [{**fields(d, "name", "unit", "value", "sd", "told")} for d in found]
+    return [fields(d, "name", "unit", "value", "sd", "told") for d in found]
 
 
 def _measurement(fit: FrfFit) -> dict[str, Any]:
@@ -99,6 +99,4 @@ def conditioned(result: Result) -> dict[str, Any] | None:
     found = result.conditioning
     if found is None or not result.status.answered:
         return None
-    return {
-        **fields(found, "condition", "data", "sensitivities", "shift", "with_prior", "weakest"),
-    }
+    return fields(found, "condition", "data", "sensitivities", "shift", "with_prior", "weakest")

@@ -4,11 +4,10 @@ from typing import Any
 
 import numpy as np
 
-from mouse_cli import __version__
 from mouse_cli.dynamics.frequency import eigenvalue
 from mouse_cli.model.result import DampedModes, Forecast
 from mouse_cli.report.geometry_document import MOST_MODES, Moved, geometry
-from mouse_cli.report.json_values import dof_name, plain
+from mouse_cli.report.json_values import dof_name
 
 SCHEMA = "mouse.modes/1"
 
@@ -17,30 +16,27 @@ def document(forecast: Forecast) -> dict[str, Any]:
     """`forecast` in plain Python values; shape and shape_sd are in the order of dofs."""
     problem = forecast.problem
     modes = zip(forecast.frequencies_hz, forecast.sd_hz, forecast.shapes.T, forecast.shape_sd.T, strict=True)
-    return plain(
-        {
-            "schema": SCHEMA,
-            "version": __version__,
-            "title": problem.title.strip(),
-            "source": problem.source.path,
-            "rigid_modes": forecast.rigid_modes,
-            "dofs": [dof_name(label) for label in problem.structure.labels],
-            "modes": [
-                {
-                    "mode": i,
-                    "eigenvalue": eigenvalue(hz) if i > forecast.rigid_modes else 0.0,
-                    "hz": hz if i > forecast.rigid_modes else 0.0,
-                    "sd_hz": sd,
-                    "shape": shape,
-                    "shape_sd": shape_sd,
-                }
-                for i, (hz, sd, shape, shape_sd) in enumerate(modes, 1)
-            ],
-            "geometry": geometry(problem, _moved(forecast)),
-            **({} if forecast.damped is None else {"damped": _damped(forecast.damped)}),
-            "warnings": [f"{d.code}: {d.message}" for d in problem.warnings],
-        }
-    )
+    return {
+        "schema": SCHEMA,
+        "title": problem.title.strip(),
+        "source": problem.source.path,
+        "rigid_modes": forecast.rigid_modes,
+        "dofs": [dof_name(label) for label in problem.structure.labels],
+        "modes": [
+            {
+                "mode": i,
+                "eigenvalue": eigenvalue(hz) if i > forecast.rigid_modes else 0.0,
+                "hz": hz if i > forecast.rigid_modes else 0.0,
+                "sd_hz": sd,
+                "shape": shape,
+                "shape_sd": shape_sd,
+            }
+            for i, (hz, sd, shape, shape_sd) in enumerate(modes, 1)
+        ],
+        "geometry": geometry(problem, _moved(forecast)),
+        **({} if forecast.damped is None else {"damped": _damped(forecast.damped)}),
+        "warnings": [f"{d.code}: {d.message}" for d in problem.warnings],
+    }
 
 
 def _moved(forecast: Forecast) -> list[Moved]:

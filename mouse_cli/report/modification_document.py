@@ -4,11 +4,10 @@ from typing import Any
 
 import numpy as np
 
-from mouse_cli import __version__
 from mouse_cli.model.modified import Modified, ModifiedFunctions, Need, Place, Swept
 from mouse_cli.model.result import Forecast
 from mouse_cli.report.coupling_document import connection, functions
-from mouse_cli.report.json_values import dof_name, fields, plain
+from mouse_cli.report.json_values import dof_name, fields
 
 SCHEMA = "mouse.modification/1"
 
@@ -17,25 +16,22 @@ def document(found: Modified) -> dict[str, Any]:
     """`found` in plain Python values; covariances and shapes have a row or entry for each mode after the changes, in their
     order."""
     modification, after = found.modification, found.after
-    return plain(
-        {
-            "schema": SCHEMA,
-            "version": __version__,
-            "title": modification.title.strip(),
-            "source": modification.path,
-            "model": modification.problem.source.path,
-            "changes": [connection(one, names=modification.part.places) for one in found.connections],
-            "before": _before(found.before),
-            "modes": _modes(found),
-            "covariance_hz2": after.root_hz @ after.root_hz.T,
-            "dofs": [dof_name(label) for label in after.problem.structure.labels],
-            "damped": None if after.damped is None else _damped(found),
-            "targets": [_need(need) for need in found.needs],
-            "sweeps": [_swept(each) for each in found.swept],
-            "functions": None if found.functions is None else _functions(found.functions),
-            "warnings": [f"{d.code}: {d.message}" for d in found.warnings],
-        }
-    )
+    return {
+        "schema": SCHEMA,
+        "title": modification.title.strip(),
+        "source": modification.path,
+        "model": modification.problem.source.path,
+        "changes": [connection(one, names=modification.part.places) for one in found.connections],
+        "before": _before(found.before),
+        "modes": _modes(found),
+        "covariance_hz2": after.root_hz @ after.root_hz.T,
+        "dofs": [dof_name(label) for label in after.problem.structure.labels],
+        "damped": None if after.damped is None else _damped(found),
+        "targets": [_need(need) for need in found.needs],
+        "sweeps": [_swept(each) for each in found.swept],
+        "functions": None if found.functions is None else _functions(found.functions),
+        "warnings": [f"{d.code}: {d.message}" for d in found.warnings],
+    }
 
 
 def _before(before: Forecast) -> list[dict[str, Any]]:

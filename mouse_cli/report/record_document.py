@@ -4,14 +4,13 @@ from typing import Any
 
 import numpy as np
 
-from mouse_cli import __version__
 from mouse_cli.model.record_diagnosis import RecordDiagnosis, RecordScore, Surface, Trace
 from mouse_cli.model.units import system
 from mouse_cli.report import diagnosis_document as of_diagnosis
 from mouse_cli.report import result_document as of_result
 from mouse_cli.report.frf_document import thinned
 from mouse_cli.report.geometry_document import geometry
-from mouse_cli.report.json_values import plain
+from mouse_cli.report.json_values import fields
 from mouse_cli.report.theory import document as theory
 from mouse_cli.report.verdict_document import verdict
 
@@ -21,39 +20,34 @@ _SAMPLES = 500  # of a restoring force
 def document(found: RecordDiagnosis) -> dict[str, Any]:
     """`found` in plain Python values; keys of the modal diagnosis that recordings do not fill are None or empty."""
     problem = found.problem
-    return plain(
-        {
-            "schema": of_diagnosis.SCHEMA,
-            "version": __version__,
-            "title": problem.title.strip(),
-            "source": problem.source.path,
-            "exit_code": found.exit_code,
-            "verdict": verdict(found),
-            "candidates": of_diagnosis.candidates(found),
-            "groups": of_diagnosis.groups(found),
-            "noise_scale": found.noise_scale,
-            "cautions": list(found.cautions),
-            "refuted": list(found.refuted),
-            "residual": of_result.tested(found.innovation),
-            "noise": None if found.noise is None else vars(found.noise),
-            "held_out": {"records": [score(one) for one in found.scores], "trace": trace(found.trace)},
-            "restoring_force": restoring_force(found.surface),
-            "linearity": vars(found.linearity) | {"levels": [vars(level) for level in found.linearity.levels]},
-            "recordings": {
-                "fitted": list(found.fitted),
-                "inputs": list(found.inputs),
-                "outputs": list(found.channels),
-                "units": list(found.units),
-                "sd": found.sd,
-            },
-            "next_measurement": [],
-            "theory": theory(found),
-            "geometry": geometry(problem),
-            "units": system(problem.units) or None,
-            "remarks": list(found.remarks),
-            "warnings": [f"{d.code}: {d.message}" for d in problem.warnings],
-        }
-    )
+    return {
+        "schema": of_diagnosis.SCHEMA,
+        "title": problem.title.strip(),
+        "source": problem.source.path,
+        "exit_code": found.exit_code,
+        "verdict": verdict(found),
+        "candidates": of_diagnosis.candidates(found),
+        "groups": of_diagnosis.groups(found),
+        **fields(found, "noise_scale", "cautions", "refuted"),
+        "residual": of_result.tested(found.innovation),
+        "noise": None if found.noise is None else vars(found.noise),
+        "held_out": {"records": [score(one) for one in found.scores], "trace": trace(found.trace)},
+        "restoring_force": restoring_force(found.surface),
+        "linearity": vars(found.linearity) | {"levels": [vars(level) for level in found.linearity.levels]},
+        "recordings": {
+            "fitted": list(found.fitted),
+            "inputs": list(found.inputs),
+            "outputs": list(found.channels),
+            "units": list(found.units),
+            "sd": found.sd,
+        },
+        "next_measurement": [],
+        "theory": theory(found),
+        "geometry": geometry(problem),
+        "units": system(problem.units) or None,
+        "remarks": list(found.remarks),
+        "warnings": [f"{d.code}: {d.message}" for d in problem.warnings],
+    }
 
 
 def score(one: RecordScore) -> dict[str, Any]:

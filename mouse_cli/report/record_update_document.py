@@ -2,14 +2,13 @@
 
 from typing import Any
 
-from mouse_cli import __version__
 from mouse_cli.model.diagnosis import Size
 from mouse_cli.model.record_update import RecordUpdate
 from mouse_cli.model.units import system
 from mouse_cli.report import record_document as of_records
 from mouse_cli.report import result_document as of_result
 from mouse_cli.report.geometry_document import geometry
-from mouse_cli.report.json_values import fields, plain
+from mouse_cli.report.json_values import fields
 from mouse_cli.report.theory import document as theory
 from mouse_cli.report.verdict_document import site
 
@@ -17,42 +16,39 @@ from mouse_cli.report.verdict_document import site
 def document(found: RecordUpdate) -> dict[str, Any]:
     """`found` in plain Python values; `--prior` takes parameters and covariance from it."""
     problem = found.problem
-    return plain(
-        {
-            "schema": of_result.SCHEMA,
-            "version": __version__,
-            "title": problem.title.strip(),
-            "source": problem.source.path,
-            "status": "converged",
-            "message": found.message,
-            "exit_code": found.exit_code,
-            "model_form": "accepted" if found.explained else "rejected",
-            "parameters": _parameters(found),
-            "covariance": found.covariance,
-            "laws": [
-                {
-                    "physics": one.physics,
-                    "title": one.title,
-                    "site": site(one.site),
-                    "parameters": [_size(each) for each in one.sizes],
-                }
-                for one in found.laws
-            ],
-            "residual": of_result.tested(found.residual),
-            "noise_scale": found.noise_scale,
-            "noise": None if found.noise is None else vars(found.noise),
-            "held_out": {
-                "records": [of_records.score(one) for one in found.scores],
-                "trace": of_records.trace(found.trace),
-            },
-            "restoring_force": of_records.restoring_force(found.surface),
-            "theory": theory(found),
-            "geometry": geometry(problem),
-            "units": system(problem.units) or None,
-            "remarks": list(found.remarks),
-            "warnings": [f"{d.code}: {d.message}" for d in problem.warnings],
-        }
-    )
+    return {
+        "schema": of_result.SCHEMA,
+        "title": problem.title.strip(),
+        "source": problem.source.path,
+        "status": "converged",
+        "message": found.message,
+        "exit_code": found.exit_code,
+        "model_form": "accepted" if found.explained else "rejected",
+        "parameters": _parameters(found),
+        "covariance": found.covariance,
+        "laws": [
+            {
+                "physics": one.physics,
+                "title": one.title,
+                "site": site(one.site),
+                "parameters": [_size(each) for each in one.sizes],
+            }
+            for one in found.laws
+        ],
+        "residual": of_result.tested(found.residual),
+        "noise_scale": found.noise_scale,
+        "noise": None if found.noise is None else vars(found.noise),
+        "held_out": {
+            "records": [of_records.score(one) for one in found.scores],
+            "trace": of_records.trace(found.trace),
+        },
+        "restoring_force": of_records.restoring_force(found.surface),
+        "theory": theory(found),
+        "geometry": geometry(problem),
+        "units": system(problem.units) or None,
+        "remarks": list(found.remarks),
+        "warnings": [f"{d.code}: {d.message}" for d in problem.warnings],
+    }
 
 
 def _parameters(found: RecordUpdate) -> list[dict[str, Any]]:
@@ -73,4 +69,4 @@ def _parameters(found: RecordUpdate) -> list[dict[str, Any]]:
 
 
 def _size(size: Size) -> dict[str, Any]:
-    return {**fields(size, "name", "unit", "value", "sd")}
+    return fields(size, "name", "unit", "value", "sd")

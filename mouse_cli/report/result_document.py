@@ -13,7 +13,7 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import ChiSquareTest, Result
 from mouse_cli.report.frf_document import conditioned, frf, held_frf
 from mouse_cli.report.geometry_document import geometry, moved, shapes_by_dof
-from mouse_cli.report.json_values import dof_name, fields, plain
+from mouse_cli.report.json_values import dof_name, fields
 from mouse_cli.report.measured import NOT_MEASURED, eigenvalue_index, positions, shape_index
 
 SCHEMA = "mouse.result/1"
@@ -24,43 +24,41 @@ _LARGEST_MATRIX = 140
 def document(result: Result) -> dict[str, Any]:
     """`result` in plain Python values; what is not finite or has no meaning is None."""
     problem = result.problem
-    return plain(
-        {
-            "schema": SCHEMA,
-            "version": result.versions.get("mouse", __version__),
-            "title": problem.title.strip(),
-            "source": problem.source.path,
-            "status": result.status.key,
-            "message": result.status.sentence,
-            "advice": result.status.advice,
-            "exit_code": result.exit_code,
-            "estimator": problem.run.estimator,
-            "recursion": problem.run.recursion,
-            "options": _options(problem),
-            "confidence": problem.run.confidence,
-            "cycles": [_cycle(cycle) for cycle in result.cycles],
-            "parameters": parameters(result),
-            "covariance": _covariance(result),
-            "prior_covariance": problem.prior.dense() if len(problem.parameters) <= _LARGEST_COVARIANCE else None,
-            **({"alternatives": _alternatives(result)} if result.alternatives else {}),
-            **_matrices(result),
-            "rigid_modes": result.rigid_modes,
-            "eigenvalues": result.revised.eigenvalues,
-            "modes": modes(result),
-            "shapes": shapes(result),
-            **drawn(result),
-            "exceedances": [name for name, out in zip(result.labels, result.exceeding, strict=True) if out],
-            "allowed": result.allowed,
-            **_judged(result),
-            "sensitivities": {"method": _method(result), "error": result.partials_error},
-            **_partials(result),
-            **({"frf": frf(result.frf)} if result.frf else {}),
-            **({"held_out_frf": held_frf(result.held_frf)} if result.held_frf else {}),
-            "conditioning": conditioned(result),
-            "warnings": [_warning(d) for d in (*problem.warnings, *result.warnings)],
-            "versions": result.versions,
-        }
-    )
+    return {
+        "schema": SCHEMA,
+        "version": result.versions.get("mouse", __version__),
+        "title": problem.title.strip(),
+        "source": problem.source.path,
+        "status": result.status.key,
+        "message": result.status.sentence,
+        "advice": result.status.advice,
+        "exit_code": result.exit_code,
+        "estimator": problem.run.estimator,
+        "recursion": problem.run.recursion,
+        "options": _options(problem),
+        "confidence": problem.run.confidence,
+        "cycles": [_cycle(cycle) for cycle in result.cycles],
+        "parameters": parameters(result),
+        "covariance": _covariance(result),
+        "prior_covariance": problem.prior.dense() if len(problem.parameters) <= _LARGEST_COVARIANCE else None,
+        **({"alternatives": _alternatives(result)} if result.alternatives else {}),
+        **_matrices(result),
+        "rigid_modes": result.rigid_modes,
+        "eigenvalues": result.revised.eigenvalues,
+        "modes": modes(result),
+        "shapes": shapes(result),
+        **drawn(result),
+        "exceedances": [name for name, out in zip(result.labels, result.exceeding, strict=True) if out],
+        "allowed": result.allowed,
+        **_judged(result),
+        "sensitivities": {"method": _method(result), "error": result.partials_error},
+        **_partials(result),
+        **({"frf": frf(result.frf)} if result.frf else {}),
+        **({"held_out_frf": held_frf(result.held_frf)} if result.held_frf else {}),
+        "conditioning": conditioned(result),
+        "warnings": [_warning(d) for d in (*problem.warnings, *result.warnings)],
+        "versions": result.versions,
+    }
 
 
 def _options(problem: Problem) -> dict[str, Any]:
@@ -206,7 +204,7 @@ def shapes(result: Result) -> list[dict[str, Any]]:
 
 def tested(test: ChiSquareTest) -> dict[str, Any]:
     """A test of the model's form."""
-    return {**fields(test, "chi2", "dof", "p")}
+    return fields(test, "chi2", "dof", "p")
 
 
 def _warning(remark: Diagnostic) -> str:

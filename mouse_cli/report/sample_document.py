@@ -2,9 +2,8 @@
 
 from typing import Any
 
-from mouse_cli import __version__
 from mouse_cli.model.sampled import Quantity, Sampled
-from mouse_cli.report.json_values import fields, plain
+from mouse_cli.report.json_values import fields
 from mouse_cli.report.result_document import tested
 
 SCHEMA = "mouse.sample/1"
@@ -14,32 +13,29 @@ def document(found: Sampled) -> dict[str, Any]:
     """`found` in plain Python values."""
     problem, result = found.problem, found.result
     kept, walkers = found.chain.log_posterior.shape
-    return plain(
-        {
-            "schema": SCHEMA,
-            "version": __version__,
-            "title": problem.title.strip(),
-            "source": problem.source.path,
-            "exit_code": found.exit_code,
-            "status": result.status.key,
-            "model_form": result.model_form,
-            "residual": tested(result.residual),
-            **fields(found, "doubtful", "k_hat", "draws"),
-            "parameters": [_quantity(each) for each in found.parameters],
-            "frequencies": [
-                {**_quantity(each), "measured": each.measured, "foreseen": each.predicted} for each in found.frequencies
-            ],
-            "places": [{"values": each.theta, "cost": each.cost, "share": each.share} for each in found.modes],
-            "chain": {
-                "walkers": walkers,
-                "steps": found.steps,
-                "burn": found.burn,
-                "kept": kept * walkers,
-                **fields(found, "tau", "acceptance", "long_enough", "seed", "evaluations"),
-            },
-            "warnings": [f"{each.code}: {each.message}" for each in (*problem.warnings, *found.warnings)],
-        }
-    )
+    return {
+        "schema": SCHEMA,
+        "title": problem.title.strip(),
+        "source": problem.source.path,
+        "exit_code": found.exit_code,
+        "status": result.status.key,
+        "model_form": result.model_form,
+        "residual": tested(result.residual),
+        **fields(found, "doubtful", "k_hat", "draws"),
+        "parameters": [_quantity(each) for each in found.parameters],
+        "frequencies": [
+            {**_quantity(each), "measured": each.measured, "foreseen": each.predicted} for each in found.frequencies
+        ],
+        "places": [{"values": each.theta, "cost": each.cost, "share": each.share} for each in found.modes],
+        "chain": {
+            "walkers": walkers,
+            "steps": found.steps,
+            "burn": found.burn,
+            "kept": kept * walkers,
+            **fields(found, "tau", "acceptance", "long_enough", "seed", "evaluations"),
+        },
+        "warnings": [f"{each.code}: {each.message}" for each in (*problem.warnings, *found.warnings)],
+    }
 
 
 def _quantity(each: Quantity) -> dict[str, Any]:

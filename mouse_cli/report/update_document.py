@@ -32,7 +32,7 @@ def _update(found: Updated) -> dict[str, Any]:
         "physical": about.physical,
         "expansion": found.expansion or None,
         **fields(found, "iterations", "change", "converged", "exit_code"),
-        "properties": [{**fields(m, "name", "unit", "before", "after")} for m in found.moved],
+        "properties": [fields(m, "name", "unit", "before", "after") for m in found.moved],
         "configurations": [_configuration(one) for one in found.configurations],
         "checked": vars(checked),
         "conditioning": None if found.conditioning is None else _bounds(found.conditioning),
@@ -48,7 +48,7 @@ def _configuration(one: Predicted) -> dict[str, Any]:
 
 
 def _bounds(found: Conditioning) -> dict[str, Any]:
-    return {**fields(found, "condition", "data", "sensitivities")}
+    return fields(found, "condition", "data", "sensitivities")
 
 
 def _matrix(found: Updated) -> dict[str, Any]:

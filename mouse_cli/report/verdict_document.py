@@ -113,9 +113,7 @@ def site(place: Site) -> dict[str, Any]:
 def held_out(held: HeldOut) -> dict[str, Any]:
     """Data kept from the fits, and how either model predicts them."""
     return {
-        "kind": held.kind,
-        "labels": list(held.labels),
-        "measured_hz": held.measured_hz,
+        **fields(held, "kind", "labels", "measured_hz"),
         "baseline": score(held.baseline),
         "revised": None if held.revised is None else score(held.revised),
     }
