@@ -27,17 +27,12 @@ def pairs(section: Section, key: str, known: Known, below: str) -> list[tuple[Se
         found = [(_sensor(each, known), each) for each in sections]
     elif yaml_values.is_mapping(node) and node.value:
         found = [
-            (_named(section, key, name, known), _below(section, what, name, item, below)) for name, item in node.value
+            (placed(section, name, what, known), _below(section, what, name, item, below)) for name, item in node.value
         ]
     else:
         yaml_values.mistyped(document, node, what, words)
         return []
-    kept = [(sensor, item) for sensor, item in found if sensor is not None and item is not None]
-    return kept
-
-
-def _named(section: Section, key: str, node: Node, known: Known) -> SensorDraft | None:
-    return placed(section, node, section.what(key), known)
+    return [(sensor, item) for sensor, item in found if sensor is not None and item is not None]
 
 
 def placed(section: Section, node: Node, what: str, known: Known) -> SensorDraft | None:
@@ -46,20 +41,14 @@ def placed(section: Section, node: Node, what: str, known: Known) -> SensorDraft
         words = f"sensor {node.value} of {what}"
         return SensorDraft(node.value, section.document.span(node), words=words, ground=moving)
     found = yaml_sensors.sensor(section.document, node, what, known)
-    return (
-        replace(found, words=f"sensor {found.name} of {what}", plain=False)
-        if found is not None and found.plain
-        else found
-    )
+    plain = found is not None and found.plain
+    return replace(found, words=f"sensor {found.name} of {what}", plain=False) if plain else found
 
 
 def _sensor(section: Section, known: Known) -> SensorDraft | None:
     node = section.nodes.get("sensor")
     if node is None:
-        message = f"{section.called} names no sensor"
-        return section.document.error(
-            "MD211", section.node, message, "give sensor: a degree of freedom or a name of sensors"
-        )
+        return section.error("MD211", "names no sensor", "give sensor: a degree of freedom or a name of sensors")
     return placed(section, node, section.what("sensor"), known)
 
 
@@ -67,11 +56,8 @@ def _below(section: Section, what: str, name: Node, node: Node, below: str) -> N
     """A plain name as it is; a mapping as a section, in which the sensor may not stand again."""
     document = section.document
     if not yaml_values.is_mapping(node):
-        return (
-            node
-            if yaml_values.text(document, node, f"{what}.{name.value}", "a name, a number, or a mapping") is not None
-            else None
-        )
+        text = yaml_values.text(document, node, f"{what}.{name.value}", "a name, a number, or a mapping")
+        return None if text is None else node
     found = Section(document, node, below, f"{what}.{name.value}")
     if "sensor" in found:
         message = f"{found.called} names its sensor twice"
@@ -98,8 +84,7 @@ def uncertain(section: Section, usual: tuple[float, float] = (0.0, 0.0)) -> tupl
     """Standard deviations of gain and delay, s, that a section states; the usual ones where it states none."""
     own = section.value("delay_sd", usual[1])
     if "delay_sd" in section and not 0 <= own < float("inf"):
-        message = f"{section.what('delay_sd')} is {own:g}; it must be 0 or more"
-        section.document.error("MD215", section.nodes["delay_sd"], message, "give it in s")
+        section.wrong("delay_sd", "MD215", f"is {own:g}; it must be 0 or more", "give it in s")
     return gain_sd(section) or usual[0], own
 
 
@@ -114,4 +99,4 @@ def _moving(item: Section, sensor: SensorDraft) -> SensorDraft:
         )
         item.document.error("MD644", node, message, "delete moves, or call the sensor ground")
         return sensor
-    return replace(sensor, weights=yaml_sensors.weights(item.document, node, item.what("moves")) or {})
+    return replace(sensor, weights=item.read("moves", yaml_sensors.weights) or {})

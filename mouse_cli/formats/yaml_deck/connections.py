@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.coupled_places import Places
 from mouse_cli.formats.yaml_deck.sections import Section
 from mouse_cli.model.coupling import Connection
@@ -12,13 +11,7 @@ _KINDS = ("absorber", "spring", "dashpot", "mass")  # the first of them that is 
 
 def connections(section: Section, key: str, places: Places) -> list[Connection]:
     """The connections that could be read."""
-    if key not in section:
-        return []
-    what, document = section.what(key), section.document
-    items = yaml_values.items(document, section.nodes[key], what, "a list, one item for each") or []
-    read = [
-        _connection(Section(document, item, "connection", f"{what}[{i}]"), places) for i, item in enumerate(items, 1)
-    ]
+    read = [_connection(each, places) for each in section.listed(key)]
     return [one for one in read if one is not None]
 
 
@@ -56,9 +49,7 @@ def _sound(section: Section) -> bool:
     for key in ("mass", "spring", "dashpot", "loss_factor"):
         value = section.value(key, 1.0) if key in section else 1.0
         if not np.isfinite(value) or (value == 0 and key in ("mass", "spring")):
-            document.error(
-                "MD215", section.nodes[key], f"{section.what(key)} is {value:g}", "give a finite number other than 0"
-            )
+            section.wrong(key, "MD215", f"is {value:g}", "give a finite number other than 0")
     return len(document.diagnostics) == before and any(kind in section for kind in _KINDS)
 
 

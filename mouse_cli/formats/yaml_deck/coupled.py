@@ -87,9 +87,8 @@ def _part(section: Section, name: str) -> Substructure | None:
     """One substructure, its files read; None after an error."""
     document = section.document
     if "deck" in section and "functions" in section:
-        message = f"{section.called} gives both deck and functions"
-        return document.error(
-            "MD217", section.node, message, "give deck, with measured: true for its functions; or functions"
+        return section.error(
+            "MD217", "gives both deck and functions", "give deck, with measured: true for its functions; or functions"
         )
     how = {"removed": section.value("remove", False), "reciprocal": section.value("reciprocal", True)}
     if "functions" in section:
@@ -142,13 +141,9 @@ def _named(frf: FrfTest, problem: Problem | None) -> FrfTest:
 
 
 def _interfaces(section: Section, places: Places) -> list[tuple[Point, Point]]:
-    node, found = section.nodes.get("interfaces"), []
-    if node is None:
-        return found
-    what = section.what("interfaces")
-    for i, item in enumerate(yaml_values.items(section.document, node, what, KINDS["joined"].words) or [], 1):
-        found += places.pairs(item, f"{what}[{i}]") or []
-    return found
+    nodes = section.read("interfaces", yaml_values.items, KINDS["joined"].words) or []
+    pairs = (places.pairs(node, f"{section.what('interfaces')}[{i}]") for i, node in enumerate(nodes, 1))
+    return [pair for each in pairs for pair in each or ()]
 
 
 def _points(section: Section, key: str, places: Places) -> list[Point]:
@@ -160,12 +155,11 @@ def lines(section: Section) -> Lines:
     below = section.section("lines")
     if below is None:
         return Lines()
-    band = pair(below, below.nodes["band"], below.what("band")) if "band" in below else None
+    band = below.read("band", pair)
     hz, step = below.value("frequency"), below.value("step")
     if hz is not None:
         if not (np.isfinite(hz).all() and (hz >= 0).all() and (np.diff(hz) > 0).all()):
-            message = f"{below.what('frequency')} does not ascend from 0 on"
-            below.document.error("MD614", below.nodes["frequency"], message, "give ascending frequencies in Hz")
+            below.wrong("frequency", "MD614", "does not ascend from 0 on", "give ascending frequencies in Hz")
         return Lines(hz, band)
     if band is None or step is None:
         return Lines(None, band)
@@ -184,9 +178,7 @@ def _synthesis(section: Section) -> Synthesis | None:
         return None
     keep = below.value("keep", np.zeros(0, int))
     if (np.asarray(keep) < 0).any():
-        below.document.error(
-            "MD215", below.nodes["keep"], f"{below.what('keep')} holds {int(keep.min())}", "keep 0 modes or more"
-        )
+        below.wrong("keep", "MD215", f"holds {int(keep.min())}", "keep 0 modes or more")
     return Synthesis(tuple(below.value("methods", ())), tuple(int(k) for k in keep), below.value("count", COUNT))
 
 

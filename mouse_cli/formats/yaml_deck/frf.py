@@ -16,8 +16,8 @@ from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.channel_maps import Known, pairs, placed
 from mouse_cli.formats.yaml_deck.frf_parts import Parts, gain_sd, listed, parts
 from mouse_cli.formats.yaml_deck.kinds import KINDS
-from mouse_cli.formats.yaml_deck.nodes import Node
-from mouse_cli.formats.yaml_deck.recordings import Files, contents, entries, title
+from mouse_cli.formats.yaml_deck.nodes import Document, Node
+from mouse_cli.formats.yaml_deck.recordings import Files, contents, title
 from mouse_cli.formats.yaml_deck.sections import Section
 from mouse_cli.model.frf_test import FORMS, MOST_LINES
 from mouse_cli.model.units import Units
@@ -27,10 +27,10 @@ FREQUENCY_NAMES = ("f", "freq", "freqs", "frequency", "frequencies", "freq_hz", 
 Placed = tuple[SensorDraft, SensorDraft, Function]  # a function, with the sensors of its response and of its force
 
 
-def functions(test: Section | None, named: list[SensorDraft], files: Files, units: Units) -> list[FrfDraft]:
+def functions(test: Section, named: list[SensorDraft], files: Files, units: Units) -> list[FrfDraft]:
     """The measurements that could be read; entries of one title are one, and each file is read once."""
     known = {sensor.name: sensor for sensor in named}
-    found = [_entry(section, known, files, units) for section in entries(test, "frf", "frf", "one item for each file")]
+    found = [_entry(section, known, files, units) for section in test.listed("frf")]
     return merged([one for one in found if one is not None], test.document) if found else []
 
 
@@ -62,9 +62,7 @@ def _own(section: Section, held: Contents, known: Known) -> list[Placed]:
         if output is not None and force is not None:
             found.append((output, force, each))
     if not found and not section.document.incomplete:
-        section.document.error(
-            "MD600", section.node, f"{section.called} chooses no function of the file", "correct inputs and outputs"
-        )
+        section.error("MD600", "chooses no function of the file", "correct inputs and outputs")
     return found
 
 
@@ -103,9 +101,8 @@ def _columns(section: Section, held: Contents, known: Known) -> list[Placed]:
     document = section.document
     for key in ("inputs", "kind")[:1]:
         if key in section:
-            help = "give input: the sensor of the force"
-            document.error(
-                "MD210", section.nodes[key], f"{section.what(key)} names forces of a file that does not name any", help
+            section.wrong(
+                key, "MD210", "names forces of a file that does not name any", "give input: the sensor of the force"
             )
     absent = [key for key in ("input", "outputs") if key not in section] + (
         [] if "file" in section or "frequency" in section else ["frequency"]
@@ -185,12 +182,7 @@ def _accuracy(section: Section) -> tuple[float | None, float | None]:
         else percent / 100
     )
     if value is not None and not 0 < value < np.inf:
-        section.document.error(
-            "MD215",
-            node,
-            f"{section.what('sd')} is {value}; it must be positive and finite",
-            "give what the repeats show",
-        )
+        section.wrong("sd", "MD215", f"is {value}; it must be positive and finite", "give what the repeats show")
     return (None, value) if percent is None else (value, None)
 
 
@@ -199,7 +191,7 @@ def _banded(section: Section, whole: FrfDraft) -> FrfDraft | None:
     node, document, what = section.nodes.get("band"), section.document, section.what("band")
     if node is None:
         return whole
-    band = pair(section, node, what)
+    band = pair(document, node, what)
     if band is None:
         return None
     keep = (whole.frequency_hz >= band[0]) & (whole.frequency_hz <= band[1])
@@ -211,9 +203,9 @@ def _banded(section: Section, whole: FrfDraft) -> FrfDraft | None:
     return replace(whole, **cut, coherence=None if whole.coherence is None else whole.coherence[keep])
 
 
-def pair(section: Section, node: Node, what: str) -> tuple[float, float] | None:
+def pair(document: Document, node: Node, what: str) -> tuple[float, float] | None:
     """[lowest, highest]; None after an error."""
-    found = yaml_values.numbers(section.document, node, what, KINDS["pair"].words)
+    found = yaml_values.numbers(document, node, what, KINDS["pair"].words)
     if found is not None and (len(found) != 2 or not found[0] <= found[1]):
-        return yaml_values.mistyped(section.document, node, what, f"{KINDS['pair'].words}, ascending")
+        return yaml_values.mistyped(document, node, what, f"{KINDS['pair'].words}, ascending")
     return None if found is None else (float(found[0]), float(found[1]))

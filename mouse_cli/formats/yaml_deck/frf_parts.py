@@ -75,15 +75,11 @@ def _possible(item: Section, coherence: np.ndarray) -> bool:
 
 def gain_sd(section: Section) -> float | None:
     """Standard deviation of gains near 1, as a share; None where they are known, or after an error."""
-    node = section.nodes.get("gain_sd")
-    if node is None:
-        return None
-    percent, what = yaml_values.as_percent(node), section.what("gain_sd")
-    value = yaml_values.number(section.document, node, what, KINDS["sd"].words) if percent is None else percent / 100
-    if value is not None and not 0 < value < 1:
-        help = "write the share by which calibrations differ, such as 2 %"
-        return section.document.error("MD215", node, f"{what} is {value:g}; it must be between 0 and 1", help)
-    return value
+    value = section.read("gain_sd", yaml_values.share)
+    if value is None or 0 < value < 1:
+        return value
+    help = "write the share by which calibrations differ, such as 2 %"
+    return section.wrong("gain_sd", "MD215", f"is {value:g}; it must be between 0 and 1", help)
 
 
 def listed(section: Section, node: Node, held: Contents, what: str, kind: type = float) -> np.ndarray | None:

@@ -35,9 +35,7 @@ def hold_out(test: Section | None) -> HoldOutDraft | None:
     if any(key in section for key in ("recordings", "segments", "frf", "lines")):
         read_records(section, found)
     if "altered" in section:
-        what = section.what("altered")
-        items = yaml_values.items(document, nodes["altered"], what, "a list, one item for each configuration") or []
-        each = [_altered(Section(document, item, "altered", f"{what}[{i}]")) for i, item in enumerate(items, 1)]
+        each = [_altered(one) for one in section.listed("altered")]
         found.altered = [one for one in each if one is not None]
     return found
 
@@ -49,14 +47,8 @@ def _altered(section: Section) -> AlteredDraft | None:
     number = section.value("number", np.arange(1, len(hz) + 1))
     if not matching(section, "number", len(number), len(hz)):
         return None
-    added = [_added(section, "mass"), _added(section, "spring")]
+    added = [section.read(key, weights) or {} for key in ("mass", "spring")]
     return AlteredDraft(title, document.span(section.node), *added, number, hz, frequency_sd(section, hz))
-
-
-def _added(section: Section, key: str) -> dict[int | str, float]:
-    if key not in section:
-        return {}
-    return weights(section.document, section.nodes[key], section.what(key)) or {}
 
 
 def hold_out_lines(held: HoldOut, items: list[str], geometry: Geometry | None) -> list[str]:
@@ -95,13 +87,12 @@ def read_records(section: Section, found: HoldOutDraft) -> None:
     """Put titles, stretches and bands into `found`."""
     document = section.document
     found.recordings, found.frf = _titles(section, "recordings"), _titles(section, "frf")
-    for what, item in _items(section, "segments", "a list, one item for each stretch"):
-        each = Section(document, item, "held_segment", what)
+    for each in section.listed("segments"):
         name, samples = each.value("recording"), span(each)
         if name is not None and samples is not None:
-            found.segments.append((name, samples, document.span(item)))
-    for what, item in _items(section, "lines", KINDS["pairs of numbers"].words):
-        band = pair(section, item, what)
+            found.segments.append((name, samples, document.span(each.node)))
+    for i, item in enumerate(section.read("lines", yaml_values.items, KINDS["pairs of numbers"].words) or [], 1):
+        band = pair(document, item, f"{section.what('lines')}[{i}]")
         if band is not None:
             found.lines.append((band, document.span(item)))
 
@@ -112,12 +103,3 @@ def _titles(section: Section, key: str) -> list[tuple[str, Span]]:
         (name, section.document.span(node))
         for name, node in zip(found, section.nodes[key].value if found else [], strict=True)
     ]
-
-
-def _items(section: Section, key: str, words: str):
-    """The items of a list, each with its full name."""
-    if key not in section:
-        return []
-    what = section.what(key)
-    nodes = yaml_values.items(section.document, section.nodes[key], what, words) or []
-    return [(f"{what}[{i}]", node) for i, node in enumerate(nodes, 1)]

@@ -24,19 +24,16 @@ def supports(section: Section, labels: tuple[str, ...]) -> tuple[SupportDraft, .
     found = []
     for name, below in given.items():
         form = below.form()
-        held = None if form is None else _dofs(below, labels) if form == "dofs" else _nodes(below, labels)
+        held = (
+            None if form is None else below.read("dofs", read_dofs, labels) if form == "dofs" else _nodes(below, labels)
+        )
         if held is not None:
             found.append(SupportDraft(name, held, section.document.span(below.node)))
     return tuple(found)
 
 
-def _dofs(section: Section, labels: tuple[str, ...]) -> np.ndarray | None:
-    return read_dofs(section.document, section.nodes["dofs"], section.what("dofs"), labels)
-
-
 def _nodes(section: Section, labels: tuple[str, ...]) -> np.ndarray | None:
-    numbers = ids(section.document, section.nodes["nodes"], section.what("nodes"))
-    held = directions(section.document, section.nodes["directions"], section.what("directions"))
+    numbers, held = section.read("nodes", ids), section.read("directions", directions)
     if numbers is None or held is None:
         return None
     place = {label: i for i, label in enumerate(labels, 1)}
@@ -54,10 +51,9 @@ def element_sets(section: Section, order: int, rows: Rows) -> tuple[ElementGroup
     found = []
     for name, below in section.named("sets").items():
         K, M = (_matrix(below, key, order, rows) for key in ("stiffness", "mass"))
-        nodes = ids(below.document, below.nodes["nodes"], below.what("nodes")) if "nodes" in below else np.zeros(0, int)
+        nodes = below.read("nodes", ids) if "nodes" in below else np.zeros(0, int)
         if K is None and M is None and not below.document.incomplete:
-            message = f"{below.called} gives neither stiffness nor mass"
-            below.document.error("MD276", below.node, message, "give the file of at least one of them")
+            below.error("MD276", "gives neither stiffness nor mass", "give the file of at least one of them")
         elif nodes is not None:
             found.append(ElementGroup(name, K, M, tuple(nodes.tolist())))
     return tuple(found)

@@ -129,9 +129,10 @@ def _nodes(section: Section, node: Node, kind: ElementType, context: Context) ->
         return _each(section, node, kind)
     chain = read_ids(document, node, what, context.node_ids)
     given = "id" in section
-    count = _count(section) if given else None
-    if chain is None or (given and count is None):
+    numbers = section.read("id", read_ids)
+    if chain is None or (given and numbers is None):
         return None
+    count = len(numbers) if given else None
     apart = 1 in kind.nodes and (2 not in kind.nodes or len(chain) == 1 or count == len(chain))
     if apart:
         return Joined(chain[:, None])
@@ -193,11 +194,6 @@ def _file(section: Section, node: Node, kind: ElementType, context: Context) -> 
     return Joined(whole[:, 1:].astype(int), whole[:, 0].astype(int), properties)
 
 
-def _count(section: Section) -> int | None:
-    found = read_ids(section.document, section.nodes["id"], section.what("id"))
-    return None if found is None else len(found)
-
-
 def _numbers(section: Section, joined: Joined, highest: int) -> np.ndarray | None:
     """Numbers of the elements: from the table, as given, or on from the highest so far."""
     document, count = section.document, len(joined.nodes)
@@ -206,7 +202,7 @@ def _numbers(section: Section, joined: Joined, highest: int) -> np.ndarray | Non
     node = section.nodes["id"]
     if joined.ids is not None:
         return document.error("MD217", node, f"{section.called} gives id and file", "the file holds the numbers")
-    found = read_ids(document, node, section.what("id"))
+    found = section.read("id", read_ids)
     if found is None or len(found) == count:
         return found
     message = f"{section.what('id')} has {len(found)} numbers, but the nodes make {count} elements"

@@ -32,8 +32,7 @@ def _shape(section: Section) -> dict[str, float]:
     if not given:
         return {}
     if len(given) > 1:
-        message = f"{section.called} gives {' and '.join(given)}; a section has one shape"
-        section.document.error("MD217", section.node, message, "delete one of the two")
+        section.error("MD217", f"gives {' and '.join(given)}; a section has one shape", "delete one of the two")
         return {}
     shape, node = given[0], section.nodes[given[0]]
     value = section.value(shape)

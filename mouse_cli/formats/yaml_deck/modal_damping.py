@@ -4,7 +4,6 @@ import numpy as np
 
 from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.kinds import KINDS
-from mouse_cli.formats.yaml_deck.nodes import Node
 from mouse_cli.formats.yaml_deck.sections import Section
 from mouse_cli.formats.yaml_deck.text import flow, real
 from mouse_cli.model.modal_damping import ModalDamping
@@ -15,26 +14,22 @@ def modal_damping(deck: Section) -> ModalDamping | None:
     section = deck.section("modal_damping")
     if section is None or "ratio" not in section:
         return None
-    ratio = _shares(section, section.nodes["ratio"], "ratio", 1.0)
-    sd = _shares(section, section.nodes["sd"], "sd", np.inf) if "sd" in section else np.zeros(1)
+    ratio = _shares(section, "ratio", 1.0)
+    sd = _shares(section, "sd", np.inf) if "sd" in section else np.zeros(1)
     return None if ratio is None or sd is None else ModalDamping(ratio, float(sd[0]))
 
 
-def _shares(section: Section, node: Node, key: str, below: float) -> np.ndarray | None:
+def _shares(section: Section, key: str, below: float) -> np.ndarray | None:
     """Positive numbers or one percentage, each less than `below`."""
-    document, what, words = section.document, section.what(key), KINDS[section.definition.keys[key].kind].words
-    if yaml_values.is_list(node):
-        found = yaml_values.numbers(document, node, what, words)
-    else:
-        percent = yaml_values.as_percent(node)
-        number = yaml_values.number(document, node, what, words) if percent is None else percent / 100
-        found = None if number is None else np.array([number])
+    reader = yaml_values.numbers if yaml_values.is_list(section.nodes[key]) else yaml_values.share
+    found = section.read(key, reader, KINDS[section.definition.keys[key].kind].words)
     if found is None:
         return None
+    found = np.atleast_1d(found)
     bad = found[~((found > 0) & (found < below))] if len(found) else np.zeros(1)
     if len(bad):
         limits = "positive" if below == np.inf else f"between 0 and {below:g}"
-        return document.error("MD215", node, f"{what} is {bad[0]:g}; it must be {limits}", "write for instance 1 %")
+        return section.wrong(key, "MD215", f"is {bad[0]:g}; it must be {limits}", "write for instance 1 %")
     return found
 
 

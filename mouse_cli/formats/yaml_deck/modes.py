@@ -83,8 +83,7 @@ def _with_decimal_commas(modes: Section, frequency: np.ndarray) -> bool:
     comma = yaml_values.decimal_comma(node)
     if not comma or not (np.diff(frequency[np.isfinite(frequency)]) < 0).any():
         return False
-    message = f"{modes.what('frequency')} has {len(frequency)} values that do not ascend"
-    modes.document.error("MD228", node, message, comma)
+    modes.wrong("frequency", "MD228", f"has {len(frequency)} values that do not ascend", comma)
     return True
 
 

@@ -21,8 +21,7 @@ def of_file(modes: Section, units: Units) -> ModeTable | None:
     document, node = modes.document, modes.nodes["file"]
     for key in ("frequency", "shapes"):
         if key in modes:
-            message = f"{modes.what(key)} stands beside {modes.what('file')}, which gives it"
-            document.error("MD217", modes.nodes[key], message, f"delete {key}, or file")
+            modes.wrong(key, "MD217", f"stands beside {modes.what('file')}, which gives it", f"delete {key}, or file")
     held = read_below(document, node, modes.called, read_modes)
     if held is not None and modes.value("mount", "numbers") == "numbers":
         held = replace(held, surveyed={})

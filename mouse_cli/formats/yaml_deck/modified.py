@@ -2,7 +2,6 @@
 
 from mouse_cli._errors import DeckError
 from mouse_cli.formats import read_deck
-from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.connections import connections
 from mouse_cli.formats.yaml_deck.coupled import lines, opened
 from mouse_cli.formats.yaml_deck.coupled_places import Places
@@ -26,8 +25,8 @@ def read(text: str | bytes, path: str, problem: Problem | None = None, outside: 
         raise DeckError(document.diagnostics)
     places = Places(document, [Substructure("", problem)])
     changes = connections(below, "changes", places)
-    targets = [_target(each, places) for each in _items(below, "targets", "target")]
-    sweeps = [_sweep(each) for each in _items(below, "sweeps", "sweep")]
+    targets = [_target(each, places) for each in below.listed("targets")]
+    sweeps = [_sweep(each) for each in below.listed("sweeps")]
     candidates, responses, forces = (_places(below, key, places) for key in ("places", "responses", "forces"))
     asked, count = lines(below), below.value("count")
     if responses and asked.frequency_hz is None:
@@ -42,20 +41,11 @@ def read(text: str | bytes, path: str, problem: Problem | None = None, outside: 
     )  # fmt: skip
 
 
-def _items(section: Section, key: str, kind: str) -> list[Section]:
-    if key not in section:
-        return []
-    what = section.what(key)
-    nodes = yaml_values.items(section.document, section.nodes[key], what, "a list, one item for each") or []
-    return [Section(section.document, node, kind, f"{what}[{i}]") for i, node in enumerate(nodes, 1)]
-
-
 def _target(section: Section, places: Places) -> Target | None:
     given = [side for side in (BELOW, ABOVE, EXACTLY) if side in section]
     mode, at = section.value("mode"), None
     if len(given) > 1:
-        message = f"{section.called} gives {' and '.join(given)}"
-        section.document.error("MD217", section.node, message, "give one of below, above, at")
+        section.error("MD217", f"gives {' and '.join(given)}", "give one of below, above, at")
     if "place" in section:
         found = places.point(section.nodes["place"], section.what("place"))
         at = None if found is None else found.place
@@ -72,9 +62,7 @@ def _target(section: Section, places: Places) -> Target | None:
 def _sweep(section: Section) -> Sweep | None:
     mode, size = section.value("mode"), section.value("size")
     if size is not None and not 0 < size < float("inf"):
-        return section.document.error(
-            "MD215", section.nodes["size"], f"{section.what('size')} is {size:g}", "give a positive number"
-        )
+        return section.wrong("size", "MD215", f"is {size:g}", "give a positive number")
     return None if mode is None or size is None else Sweep(section.value("by", MASS), size, mode)
 
 

@@ -25,14 +25,10 @@ _KEYS = ("stiffness", "mass")
 
 def sections(deck: Section, mesh: MeshDraft | None) -> list[Section]:
     """One section for each parameter; elements of `mesh` that are to be parameters each by itself are parted here."""
-    node = deck.nodes.get("parameters")
-    if node is None:
-        return []
-    nodes, document = yaml_values.items(deck.document, node, "parameters", "a list of parameters") or [], deck.document
     return [
-        Section(document, item, "parameter", f"parameters[{i}]")
-        for i, given in enumerate(nodes, 1)
-        for item in expanded(document, given, f"parameters[{i}]", mesh)
+        Section(deck.document, item, "parameter", f"parameters[{i}]")
+        for i, given in enumerate(deck.read("parameters", yaml_values.items, "a list of parameters") or [], 1)
+        for item in expanded(deck.document, given, f"parameters[{i}]", mesh)
     ]
 
 
@@ -62,10 +58,7 @@ def _sd(section: Section, nominal: float, variance: float | None) -> float | Non
     from_covariance = None if variance is None else max(variance, 0.0) ** 0.5
     if node is None:
         if variance is None and yaml_values.is_mapping(section.node):
-            message = f"{section.called} has no sd"
-            document.error(
-                "MD224", section.node, message, "give sd: the prior standard deviation; 0 holds the parameter"
-            )
+            section.error("MD224", "has no sd", "give sd: the prior standard deviation; 0 holds the parameter")
         return from_covariance
     if nominal == 0 and document.incomplete and any(key in section for key in (*WHOSE, "nominal")):
         return None  # its nominal value, or the elements that give it, could not be read

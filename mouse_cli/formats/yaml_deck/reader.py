@@ -13,7 +13,6 @@ from mouse_cli.formats.rules import review
 from mouse_cli.formats.yaml_deck import bindings
 from mouse_cli.formats.yaml_deck import parameters as yaml_parameters
 from mouse_cli.formats.yaml_deck import prior as yaml_prior
-from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.hold_out import hold_out
 from mouse_cli.formats.yaml_deck.modal_damping import modal_damping
 from mouse_cli.formats.yaml_deck.model import Model, model
@@ -125,18 +124,14 @@ def _properties(
 
 def laws(deck: Section) -> tuple[LawDraft, ...]:
     """Those that could be read."""
-    node, document = deck.nodes.get("laws"), deck.document
-    if node is None:
-        return ()
     found = []
-    for i, item in enumerate(yaml_values.items(document, node, "laws", "a list, one item for each law") or [], 1):
-        section = Section(document, item, "law", f"laws[{i}]")
+    for section in deck.listed("laws"):
         law, dofs, below = section.value("law"), section.value("at"), section.section("values")
         if law is None or dofs is None or below is None:
             continue
         values = {key: below.value(key) for key in below.nodes}
         if None not in values.values():
-            found.append(LawDraft(law, section.value("variant", ""), dofs, values, document.span(section.node)))
+            found.append(LawDraft(law, section.value("variant", ""), dofs, values, deck.document.span(section.node)))
     return tuple(found)
 
 

@@ -3,6 +3,7 @@
 import os
 from dataclasses import replace
 
+from mouse_cli.formats.own_names import own_picks
 from mouse_cli.formats.record_drafts import Pick, RecordingDraft
 from mouse_cli.formats.recording import recording
 from mouse_cli.formats.recording_files import Contents, read_contents
@@ -18,21 +19,11 @@ from mouse_cli.model.units import Units
 Files = dict[str, Contents | None]
 
 
-def recordings(test: Section | None, named: list[SensorDraft], files: Files, units: Units) -> list[RecordingDraft]:
+def recordings(test: Section, named: list[SensorDraft], files: Files, units: Units) -> list[RecordingDraft]:
     """Those that could be read; each file is read once."""
     known = {sensor.name: sensor for sensor in named}
-    sections = entries(test, "recordings", "recording", "one item for each recording")
-    found = [_recording(section, known, files, units) for section in sections]
+    found = [_recording(section, known, files, units) for section in test.listed("recordings")]
     return [one for one in found if one is not None]
-
-
-def entries(test: Section | None, key: str, kind: str, words: str) -> list[Section]:
-    """The items of the list `key` of the test as sections of the `kind`; none where it is not given."""
-    if test is None or key not in test:
-        return []
-    what = test.what(key)
-    items = yaml_values.items(test.document, test.nodes[key], what, f"a list, {words}") or []
-    return [Section(test.document, item, kind, f"{what}[{i}]") for i, item in enumerate(items, 1)]
 
 
 def contents(section: Section, files: Files) -> Contents | None:
@@ -71,18 +62,12 @@ def _recording(section: Section, known: Known, files: Files, units: Units) -> Re
     held = contents(section, files)
     segment, rate = span(section), section.value("sample_rate")
     if rate is not None and not 0 < rate < float("inf"):
-        document.error(
-            "MD215",
-            section.nodes["sample_rate"],
-            f"{section.what('sample_rate')} is {rate}; it must be positive",
-            "give it in Hz",
-        )
+        section.wrong("sample_rate", "MD215", f"is {rate}; it must be positive", "give it in Hz")
     if held is None or (len(document.diagnostics) > before and document.incomplete):
         return None
-    chosen = chosen or _own(held)
+    chosen = chosen or own_picks(held)
     if not chosen:
-        message = f"{section.called} chooses no channel"
-        return document.error("MD211", section.node, message, "give outputs: {sensor: channel, ...}")
+        return section.error("MD211", "chooses no channel", "give outputs: {sensor: channel, ...}")
     where = document.span(section.nodes["file"])
     found = recording(
         held, chosen, section.nodes["file"].value, title(section, segment), document, where,
@@ -90,13 +75,10 @@ def _recording(section: Section, known: Known, files: Files, units: Units) -> Re
     )  # fmt: skip
     if found is None or not _alone(section, chosen):
         return None
-    free, apart = (
-        bool(section.value("free_decay", False)),
-        [_below_half(section, key, found) for key in ("mains", "drift")],
-    )
-    if None in apart:
+    mains, drift = (_below_half(section, key, found) for key in ("mains", "drift"))
+    if mains is None or drift is None:
         return None
-    found = replace(found, free=free, mains_hz=apart[0], drift_hz=apart[1])
+    found = replace(found, free=section.value("free_decay", False), mains_hz=mains, drift_hz=drift)
     return RecordingDraft(found, tuple(pick.sensor for pick in chosen), where)
 
 
@@ -116,10 +98,3 @@ def _alone(section: Section, chosen: list[Pick]) -> bool:
     message = f"{section.called} is a free decay, and has inputs"
     section.document.error("MD645", section.node, message, "delete free_decay where a force acts; else delete inputs")
     return False
-
-
-def _own(held: Contents) -> list[Pick]:
-    """The channels of a file that names their sensors."""
-    from mouse_cli.formats.own_names import own_picks
-
-    return own_picks(held)

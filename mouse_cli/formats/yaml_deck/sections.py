@@ -1,6 +1,8 @@
 """Mappings of a deck, checked against their definition: unknown, doubled, missing and excluded keys."""
 
+from collections.abc import Callable
 from difflib import get_close_matches
+from typing import Any
 
 from mouse_cli.formats.yaml_deck import schema as yaml_schema
 from mouse_cli.formats.yaml_deck import values as yaml_values
@@ -38,6 +40,14 @@ class Section:
         """Full name of a key, for messages."""
         return f"{self.called}.{key}" if self.called else key
 
+    def error(self, code: str, message: str, help: str = "") -> None:
+        """Note an error of the section as a whole; `message` goes on from its name."""
+        self.document.error(code, self.node, f"{self.called} {message}", help)
+
+    def wrong(self, key: str, code: str, message: str, help: str = "") -> None:
+        """Note an error of the value of a key; `message` goes on from its full name."""
+        self.document.error(code, self.nodes[key], f"{self.what(key)} {message}", help)
+
     def value(self, key: str, default: object = None) -> object:
         """The value of a key of a simple kind; `default` when it is not given or was refused."""
         node = self.nodes.get(key)
@@ -51,6 +61,17 @@ class Section:
         node = self.nodes.get(key)
         kind = self.definition.keys[key].kind.removeprefix("section ")
         return None if node is None else Section(self.document, node, kind, self.what(key))
+
+    def listed(self, key: str) -> "list[Section]":
+        """The sections of a list; empty when it is not given."""
+        node, what, kind = self.nodes.get(key), self.what(key), self.definition.keys[key].kind.removeprefix("list ")
+        items = None if node is None else yaml_values.items(self.document, node, what, "a list, one item for each")
+        return [Section(self.document, item, kind, f"{what}[{i}]") for i, item in enumerate(items or [], 1)]
+
+    def read(self, key: str, reader: Callable, *more: object) -> Any:
+        """What `reader(document, node, name, *more)` makes of the value of a key; None when it is not given."""
+        node = self.nodes.get(key)
+        return None if node is None else reader(self.document, node, self.what(key), *more)
 
     def named(self, key: str) -> "dict[str, Section]":
         """The sections below a key that maps names to sections; empty when it is not given."""

@@ -18,15 +18,12 @@ _FORMS = "give node and direction, at and direction, or weights"
 
 def sensors(test: Section) -> list[SensorDraft]:
     """Those of `test.sensors`, as far as they could be read; each name stands once."""
-    node, document = test.nodes.get("sensors"), test.document
-    if node is None:
-        return []
-    nodes = yaml_values.items(document, node, test.what("sensors"), "a list, one item for each sensor")
     found: dict[str, SensorDraft] = {}
-    for i, item in enumerate(nodes or [], 1):
-        sensor = _sensor(Section(document, item, "sensor", f"{test.what('sensors')}[{i}]"))
+    for each in test.listed("sensors"):
+        sensor = _sensor(each)
         if sensor is not None and sensor.name in found:
-            document.error("MD226", item, f"two sensors are called '{sensor.name}'", "give each its own name")
+            message = f"two sensors are called '{sensor.name}'"
+            test.document.error("MD226", each.node, message, "give each its own name")
         elif sensor is not None:
             found[sensor.name] = sensor
     return list(found.values())
@@ -40,14 +37,12 @@ def _sensor(section: Section) -> SensorDraft | None:
         return None
     if len(given) != 1 or ("direction" in section) == ("weights" in section):
         listed = ", ".join(section.nodes)
-        message = f"{section.called} ({name}) gives {listed}; expected one of the forms of a sensor"
-        return document.error("MD217", section.node, message, _FORMS)
+        return section.error("MD217", f"({name}) gives {listed}; expected one of the forms of a sensor", _FORMS)
     where, words = document.span(section.node), f"sensor {name}"
     if given == ["weights"]:
-        shares = weights(document, section.nodes["weights"], section.what("weights"))
+        shares = section.read("weights", weights)
         return None if shares is None else SensorDraft(name, where, shares, words=words)
-    direction = _direction(document, section.nodes["direction"], section.what("direction"))
-    node, at = section.value("node"), _at(section)
+    direction, node, at = section.read("direction", _direction), section.value("node"), _at(section)
     if direction is None or (node is None and at is None):
         return None
     return SensorDraft(name, where, direction=direction, node=node, at=at, words=words)
@@ -57,8 +52,7 @@ def _at(section: Section) -> np.ndarray | None:
     at = section.value("at")
     if at is None or len(at) == 3:
         return at
-    message = f"{section.what('at')} has {len(at)} numbers; expected 3"
-    return section.document.error("MD216", section.nodes["at"], message, "give x, y and z in m")
+    return section.wrong("at", "MD216", f"has {len(at)} numbers; expected 3", "give x, y and z in m")
 
 
 def weights(document: Document, node: Node, what: str) -> dict[int | str, float] | None:

@@ -39,7 +39,7 @@ def structure(section: Section, labels: tuple[str, ...]) -> MeshDraft | None:
         _supports(section, found.ids),
         tuple(links),
         (0,) if on_matrices else _directions(section),
-        _gravity(section),
+        section.read("gravity", vector),
         generic(section, made),
     )
     return MeshDraft(
@@ -68,14 +68,9 @@ def _directions(section: Section) -> tuple[int, ...]:
         message = "model.structure gives plane and directions"
         section.document.error("MD217", given, message, "give one of the two")
     if given is not None:
-        found = directions(section.document, given, section.what("directions"))
+        found = section.read("directions", directions)
         return tuple(sorted(set(found))) if found else _ALL
     return tuple(DIRECTIONS.index(name) for name in PLANES[plane]) if plane else _ALL
-
-
-def _gravity(section: Section) -> np.ndarray | None:
-    node = section.nodes.get("gravity")
-    return None if node is None else vector(section.document, node, section.what("gravity"))
 
 
 def _supports(section: Section, known: np.ndarray) -> np.ndarray:
@@ -111,10 +106,7 @@ def _places(section: Section, node: Node, what: str, known: np.ndarray) -> np.nd
 
 
 def _links(section: Section, known: np.ndarray) -> list[RigidLink]:
-    node, what = section.nodes.get("rigid_links"), section.what("rigid_links")
-    items = [] if node is None else yaml_values.items(section.document, node, what, "a list, one item for each link")
-    sections = (Section(section.document, item, "rigid_link", f"{what}[{i}]") for i, item in enumerate(items or [], 1))
-    return [link for each in sections for link in _link(each, known)]
+    return [link for each in section.listed("rigid_links") for link in _link(each, known)]
 
 
 def _link(section: Section, known: np.ndarray) -> list[RigidLink]:
@@ -122,8 +114,7 @@ def _link(section: Section, known: np.ndarray) -> list[RigidLink]:
         return []
     leads = _places(section, section.nodes["independent"], section.what("independent"), known)
     follow = _places(section, section.nodes["dependent"], section.what("dependent"), known)
-    given = section.nodes.get("directions")
-    along = _ALL if given is None else directions(section.document, given, section.what("directions"))
+    along = section.read("directions", directions) if "directions" in section else _ALL
     if leads is None or follow is None or along is None:
         return []
     if len(leads) != 1 or leads[0] in follow:
@@ -139,14 +130,9 @@ _THEORIES = ("euler-bernoulli", "generic")
 
 def generic(structure: Section, made: Elements) -> tuple[GenericGroup, ...]:
     """Every group; each element stands in one, and is a beam of a theory that has a generic form."""
-    if "generic" not in structure:
-        return ()
-    document, what = structure.document, structure.what("generic")
-    items = yaml_values.items(document, structure.nodes["generic"], what, "a list, one item for each group") or []
-    fit = {int(i): _fits(s) for s in made.sets for i in s.ids}
+    fit = {int(i): _fits(s) for s in made.sets for i in s.ids} if "generic" in structure else {}
     found, seen = [], {}
-    for i, item in enumerate(items, 1):
-        section = Section(document, item, "generic_group", f"{what}[{i}]")
+    for section in structure.listed("generic"):
         group = _group(section, fit)
         if group is not None:
             _once(section, group, seen)

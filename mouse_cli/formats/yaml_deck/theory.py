@@ -3,7 +3,6 @@
 from dataclasses import fields
 
 from mouse_cli.formats.yaml_deck import values as yaml_values
-from mouse_cli.formats.yaml_deck.kinds import KINDS
 from mouse_cli.formats.yaml_deck.sections import Section
 from mouse_cli.formats.yaml_deck.text import real
 from mouse_cli.model.theory import Theory
@@ -18,13 +17,11 @@ def theory(deck: Section) -> Theory:
 
 def _share(section: Section, key: str) -> float | None:
     """A number or a percentage, above 0 and at most 1."""
-    document, node, what = section.document, section.nodes[key], section.what(key)
-    percent, words = yaml_values.as_percent(node), KINDS[section.definition.keys[key].kind].words
-    value = yaml_values.number(document, node, what, words) if percent is None else percent / 100
+    value = section.read(key, yaml_values.share)
     if value is None or 0 < value <= 1:
         return value
     help = "write a share such as 0.1 % or 0.001; for a model that is exact a very small one"
-    return document.error("MD215", node, f"{what} is {value:g}; it must be above 0 and at most 1", help)
+    return section.wrong(key, "MD215", f"is {value:g}; it must be above 0 and at most 1", help)
 
 
 def theory_lines(found: Theory) -> list[str]:

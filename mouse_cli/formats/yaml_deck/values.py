@@ -9,7 +9,7 @@ import numpy as np
 import yaml
 
 from mouse_cli.formats.draft import Entries
-from mouse_cli.formats.yaml_deck.kinds import MAX_WHOLE, PERCENT
+from mouse_cli.formats.yaml_deck.kinds import KINDS, MAX_WHOLE, PERCENT
 from mouse_cli.formats.yaml_deck.nodes import PLAIN, QUOTED, Document, Node, is_null
 from mouse_cli.model.materials import DENSITIES, MODULI
 
@@ -103,6 +103,12 @@ def number(document: Document, node: Node, what: str, words: str = "a number") -
     if value is None:
         mistyped(document, node, what, words)
     return value
+
+
+def share(document: Document, node: Node, what: str, words: str = KINDS["sd"].words) -> float | None:
+    """A number, or a percentage as a share of 1."""
+    percent = as_percent(node)
+    return number(document, node, what, words) if percent is None else percent / 100
 
 
 def decimal_comma(node: Node) -> str:
