@@ -65,7 +65,7 @@ class Section:
     def listed(self, key: str) -> "list[Section]":
         """The sections of a list; empty when it is not given."""
         node, what, kind = self.nodes.get(key), self.what(key), self.definition.keys[key].kind.removeprefix("list ")
-        items = None if node is None else yaml_values.items(self.document, node, what, "a list, one item for each")
+        items = None if node is None else yaml_values.items(self.document, node, what, "a list of mappings")
         return [Section(self.document, item, kind, f"{what}[{i}]") for i, item in enumerate(items or [], 1)]
 
     def read(self, key: str, reader: Callable, *more: object) -> Any:
