@@ -23,18 +23,16 @@ def column(contents: Contents, name: str, say: Findings, where) -> Column | None
             return found[0]
         if found:
             message = f"{len(found)} channels of the file are called '{name[:40]}'"
-            say.error("MD600", where, message, "name it by its number, from 1")
-            return None
+            return say.error("MD600", where, message, "name it by its number, from 1")
     if name.isdecimal() and 1 <= int(name) <= len(contents.columns):
         return contents.columns[int(name) - 1]
-    say.error(
+    return say.error(
         "MD600",
         where,
         f"the file has no channel '{name[:40]}'",
         "name one of them, or give its number, from 1",
         _known(contents, name),
     )
-    return None
 
 
 def _known(contents: Contents, name: str) -> str:
@@ -59,8 +57,7 @@ def channel(pick: Pick, found: Column, units: Units, say: Findings) -> tuple[Cha
         message = (
             f"channel '{found.name}' is declared as {quantity}, but its unit, {spelled}, is one of {known.quantity}"
         )
-        say.error("MD610", pick.where, message, "correct quantity or unit")
-        return None
+        return say.error("MD610", pick.where, message, "correct quantity or unit")
     name, factor = target(quantity, units)
     return _named(pick, found, quantity, name), known.factor / factor
 
@@ -76,8 +73,7 @@ def _unit(pick: Pick, found: Column, say: Findings) -> str | None:
     note = (
         f"1 {found.unit} is {stated.factor / said.factor:.6g} {pick.unit}" if said.quantity == stated.quantity else ""
     )
-    say.error("MD610", pick.where, message, "delete unit, if the file is right; else correct the file", note)
-    return None
+    return say.error("MD610", pick.where, message, "delete unit, if the file is right; else correct the file", note)
 
 
 def _calibrated(pick: Pick, found: Column, spelled: str, units: Units, say: Findings) -> tuple[Channel, float] | None:
@@ -88,19 +84,16 @@ def _calibrated(pick: Pick, found: Column, spelled: str, units: Units, say: Find
         message = (
             f"sensitivity of channel '{found.name}' is '{pick.sensitivity[:40]}'; expected volts per unit measured"
         )
-        say.error("MD611", pick.where, message, "write it as 100 mV/g or 2.2 mV/N")
-        return None
+        return say.error("MD611", pick.where, message, "write it as 100 mV/g or 2.2 mV/N")
     if volts is None or volts.quantity != "voltage":
         message = f"channel '{found.name}' has a sensitivity in volts, but its unit is {spelled}"
-        say.error("MD610", pick.where, message, "delete sensitivity, or give unit: V")
-        return None
+        return say.error("MD610", pick.where, message, "delete sensitivity, or give unit: V")
     measured = parts[1]
     if pick.quantity and pick.quantity != measured.quantity:
         message = (
             f"channel '{found.name}' is declared as {pick.quantity}; its sensitivity is that of {measured.quantity}"
         )
-        say.error("MD610", pick.where, message, "correct quantity or sensitivity")
-        return None
+        return say.error("MD610", pick.where, message, "correct quantity or sensitivity")
     name, factor = target(measured.quantity, units)
     volts_per_unit = float(match[1]) * parts[0].factor / measured.factor
     return _named(pick, found, measured.quantity, name), volts.factor / volts_per_unit / factor
@@ -114,10 +107,9 @@ def _uncalibrated(pick: Pick, found: Column, spelled: str, units: Units, say: Fi
         return _named(pick, found, quantity, target(quantity, units)[0]), 1.0
     if not pick.quantity:
         message = f"channel '{found.name}' is in {spelled}, which does not determine what it measures"
-        say.error(
+        return say.error(
             "MD611", pick.where, message, "give sensitivity, as 100 mV/g; or quantity, and its numbers stay as they are"
         )
-        return None
     return _named(pick, found, quantity, spelled), 1.0
 
 

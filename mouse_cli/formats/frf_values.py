@@ -28,12 +28,10 @@ def scaled(
     known = {name for name in (kind, told, file_kind) if name}
     if len(known) > 1:
         message = f"the FRFs are declared as {' and '.join(sorted(known))} at once"
-        say.error("MD610", where, message, "correct kind or unit", f"unit: {spelled or stated}" if found else "")
-        return None
+        return say.error("MD610", where, message, "correct kind or unit", f"unit: {spelled or stated}" if found else "")
     if not known:
         message = "neither deck nor file states whether the FRFs are receptance, mobility or accelerance"
-        say.error("MD611", where, message, f"give kind: {', '.join(KINDS)}; or unit, as (m/s2)/N")
-        return None
+        return say.error("MD611", where, message, f"give kind: {', '.join(KINDS)}; or unit, as (m/s2)/N")
     if found is None:
         return known.pop(), 1.0
     (_, above), (_, below) = (target(each.quantity, units) for each in found)
@@ -45,8 +43,7 @@ def _parts(text: str, say: Findings, where: Span | None) -> tuple[Unit, Unit] | 
     response = found is not None and found[0].quantity in {**MOTION, **_TURNED}
     if found is None or not response or found[1].quantity not in ("force", "moment"):
         message = f"the unit '{text[:40]}' is no motion per force that is known"
-        say.error("MD611", where, message, "write it as (m/s2)/N, (m/s)/N, m/N, g/N, g/lbf, ...")
-        return None
+        return say.error("MD611", where, message, "write it as (m/s2)/N, (m/s)/N, m/N, g/N, g/lbf, ...")
     return found
 
 

@@ -52,15 +52,13 @@ def _span(
             f"channel '{most.name}' has {len(most.values)} samples, channel '{least.name}' {len(least.values)}; "
             "channels of one recording have equally many"
         )
-        say.error("MD608", where, message, "record them together, or cut the file to what they share")
-        return None
+        return say.error("MD608", where, message, "record them together, or cut the file to what they share")
     n = lengths.pop()
     first, last = segment or (0, n)
     if not 0 <= first < last <= n or last - first < LEAST:
         what = f"segment [{first}, {last}]" if segment else f"a recording of {n} samples"
         message = f"{what} is none of at least {LEAST} samples from 0 to {n}"
-        say.error("MD609", where, message, "samples count from 0; the last one is not included")
-        return None
+        return say.error("MD609", where, message, "samples count from 0; the last one is not included")
     return first, last
 
 

@@ -188,11 +188,8 @@ def _named(
     at = at or ([int(name) - 1] if name.isdecimal() and 1 <= int(name) <= len(names) else [])
     if len(at) != 1:
         listed, count = ", ".join(each.name for each in contents.columns[:8]), "several" if at else "no"
-        _refuse(
-            where,
-            f"the file has {count} channels '{name}'; it has {listed}",
-            "name another, or give its number, from 1",
-        )
+        message = f"the file has {count} channels '{name}'; it has {listed}"
+        _refuse(where, message, "name another, or give its number, from 1")
     column = contents.columns[at[0]]
     own = sensor if stroke else sensors.of(column.name)
     if own is None:

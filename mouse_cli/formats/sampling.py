@@ -45,12 +45,8 @@ def step_s(
     rates = {source: rate for source, rate in rates.items() if rate}
     if not rates:
         if found is None or found.values.dtype.kind == "c":
-            say.error(
-                "MD602",
-                where,
-                "neither deck nor file gives the sample rate",
-                "give sample_rate in Hz, or name the time column: time: NAME",
-            )
+            message = "neither deck nor file gives the sample rate"
+            say.error("MD602", where, message, "give sample_rate in Hz, or name the time column: time: NAME")
         return None
     source, rate = next(iter(rates.items()))
     slack = _AGREE + (2 * ticks.resolution_s / (ticks.step_s * (span[1] - span[0])) if ticks else 0)
@@ -58,8 +54,7 @@ def step_s(
     for other, who in others:
         if abs(other / rate - 1) > slack:
             message = f"{source} says {rate:.7g} samples a second, {who} {other:.7g}"
-            say.error("MD603", where, message, "find out which is right: all frequencies are proportional to it")
-            return None
+            return say.error("MD603", where, message, "find out which is right: all frequencies are proportional to it")
     return 1 / rate
 
 
@@ -89,16 +84,14 @@ def _clock(found: Column, span: tuple[int, int], say: Findings, where: Span | No
     elif ticks.backward is not None:
         sample = span[0] + ticks.backward
         message = f"time runs backwards in column '{found.name}' at sample {sample}"
-        say.error("MD604", where, message, "give one recording at a time: segment: [first, last]")
-        return None
+        return say.error("MD604", where, message, "give one recording at a time: segment: [first, last]")
     elif ticks.breaks:
         sample, missing = ticks.breaks[0]
         more = f", and at {len(ticks.breaks) - 1} more positions" if len(ticks.breaks) > 1 else ""
         message = (
             f"{missing} samples are missing before sample {span[0] + sample} by the time column '{found.name}'{more}"
         )
-        say.error(
+        return say.error(
             "MD604", where, message, f"use a stretch without a gap, e.g. segment: [{span[0]}, {span[0] + sample}]"
         )
-        return None
     return ticks

@@ -25,12 +25,8 @@ def check_rigid_modes(problem: Problem, solution: EigenSolution) -> None:
             help=f"add {least} to the mode numbers of the test; or give the supports, if the structure is held",
         )
     if problem.run.legacy and rigid > _MOST_RIGID_1972:
-        raise DeckError.of(
-            "MD332",
-            f"the model has {rigid} rigid-body modes; the program of 1972 allowed {_MOST_RIGID_1972}",
-            problem.place("order"),
-            help="run without --legacy",
-        )
+        message = f"the model has {rigid} rigid-body modes; the program of 1972 allowed {_MOST_RIGID_1972}"
+        raise DeckError.of("MD332", message, problem.place("order"), help="run without --legacy")
 
 
 def unknown_estimator(problem: Problem, reason: str) -> DeckError:

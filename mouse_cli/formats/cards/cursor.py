@@ -68,12 +68,8 @@ class Cursor:
     def warn_of(self, index: int, field: Field, label: str, group: Group) -> None:
         """Warn of a legal field that is seldom what was meant."""
         for found in field_warnings(field.cut(self.images.cards[index]), str(field.format)):
-            self.findings.warn(
-                SUSPICIONS[found.kind],
-                f"{label}: {found.reason} ({self.place(index, field, group)})",
-                self.span(index, field),
-                help=found.help,
-            )
+            message = f"{label}: {found.reason} ({self.place(index, field, group)})"
+            self.findings.warn(SUSPICIONS[found.kind], message, self.span(index, field), help=found.help)
 
     def refuse_used(self, index: int, group: Group, fields: tuple[Field, ...], note: str = "") -> None:
         """Unused fields must be blank or zero: a READ list would ignore them in silence."""

@@ -99,12 +99,8 @@ def _refuse_characters(deck: Images, index: int, findings: Findings) -> bool:
     span = deck.span(index, card.index(found) + 1, 1)
     if index == 0 and found != "\t":
         deck.cards[0] = _NOT_PUNCHABLE.sub("?", card)
-        findings.warn(
-            "MD106",
-            f"the heading holds {found!a}, which cannot be punched; it becomes ?",
-            span,
-            help="use plain ASCII",
-        )
+        message = f"the heading holds {found!a}, which cannot be punched; it becomes ?"
+        findings.warn("MD106", message, span, help="use plain ASCII")
         return False
     name = "a tab" if found == "\t" else f"the character {found!a}"
     findings.error(

@@ -69,12 +69,8 @@ def _read_card(cursor: Cursor, matrix: Matrix, card: int) -> bool:
         slot for slot, item in enumerate(matrix.group.items) if _read_slot(cursor, matrix, card, slot, item, before)
     ]
     if not used and cursor.findings.errors == errors:
-        cursor.findings.warn(
-            "MD115",
-            f"a card of zeros ends the group (card {card + 1}, {matrix.group.title})",
-            cursor.images.span(card),
-            help="use a blank card",
-        )
+        message = f"a card of zeros ends the group (card {card + 1}, {matrix.group.title})"
+        cursor.findings.warn("MD115", message, cursor.images.span(card), help="use a blank card")
         return False
     if used and used[0] > 0 and cursor.findings.errors == errors:
         cursor.findings.warn(

@@ -124,11 +124,8 @@ def _sizes(found: Losses, problem: Problem) -> None:
         found.error("MD146", "mass elements stand before stiffness elements; cards list stiffness first")
     test = problem.test
     if test is not None and test.s > layout.MOST_INDIC_CARDS * len(layout.INDIC.fields):
-        found.warn(
-            "MD121",
-            f"{test.s} positions are more than the 140 of the 1972 program",
-            "the old program cannot read it",
-        )
+        message = f"{test.s} positions are more than the 140 of the 1972 program"
+        found.warn("MD121", message, "the old program cannot read it")
 
 
 def _parameter(found: Losses, parameter: Parameter) -> None:
@@ -158,11 +155,8 @@ def _options(found: Losses, run: RunOptions) -> None:
         chosen = getattr(run, name)
         if chosen != value:
             option = f"--{name.replace('_', '-')}" + ("" if chosen is True else f" {chosen}")
-            found.warn(
-                "MD151",
-                f"{name}: {chosen} is not on cards, which stand for {value}",
-                f"run the cards with {option}",
-            )
+            message = f"{name}: {chosen} is not on cards, which stand for {value}"
+            found.warn("MD151", message, f"run the cards with {option}")
     if run.fix_total_mass:
         found.error("MD148", "the total mass is held fixed, which cards cannot express")
 

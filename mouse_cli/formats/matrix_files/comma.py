@@ -77,13 +77,8 @@ def _row(path: str, row: tuple[int, str, list[str]], width: int) -> list[float]:
     if None in values:
         cell = cells[values.index(None)]
         span = Span(path, number, line.find(cell) + 1, len(cell), line)
-        reject(
-            "MD252",
-            path,
-            f"'{cell[:40]}' is not a number",
-            "write numbers with a point, separated by commas",
-            span,
-        )
+        message = f"'{cell[:40]}' is not a number"
+        reject("MD252", path, message, "write numbers with a point, separated by commas", span)
     return values
 
 

@@ -54,13 +54,8 @@ def _check_header(path: str) -> None:
     if len(sizes) != (3 if words[2] == "coordinate" else 2):
         reject("MD252", path, f"the size line reads '{line[:60]}'", _HELP, span)
     if max(sizes[:2]) > MAX_ORDER:
-        reject(
-            "MD258",
-            path,
-            f"the matrix is {sizes[0]} x {sizes[1]}; at most {MAX_ORDER} is read",
-            "condense it",
-            span,
-        )
+        message = f"the matrix is {sizes[0]} x {sizes[1]}; at most {MAX_ORDER} is read"
+        reject("MD258", path, message, "condense it", span)
     least = _least_bytes(words, sizes)
     room(path, 16 * min(least // _SHORTEST_VALUE, rest))
     if least > rest + 1:

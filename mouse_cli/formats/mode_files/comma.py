@@ -49,12 +49,8 @@ class _Rows:
         try:
             return float(word.replace(",", ".") if self.comma else word)
         except ValueError:
-            self.refuse(
-                line,
-                f"'{word[:40]}' is no number",
-                "give numbers, and nothing where none was measured",
-                word,
-            )
+            message = f"'{word[:40]}' is no number"
+            self.refuse(line, message, "give numbers, and nothing where none was measured", word)
 
     def refuse(self, line: int, message: str, help: str, part: str = "") -> None:
         """Raise DeckError (MD252) with the line."""
@@ -215,11 +211,8 @@ def _place(rows: _Rows, i: int, places: dict[str, int]) -> tuple[str, float, tup
         at = tuple(rows.number(i, places[key]) if key in places else 0.0 for key in "xyz")
         vector = vector or (tuple(np.eye(6)[DIRECTIONS.index(direction)]) if direction else None)
         if vector is None or not np.isfinite(at).all():
-            rows.refuse(
-                line,
-                "a sensor by coordinates needs x, y, z and a direction",
-                "give x, y, z and direction, or nx, ny, nz",
-            )
+            message = "a sensor by coordinates needs x, y, z and a direction"
+            rows.refuse(line, message, "give x, y, z and direction, or nx, ny, nz")
     named = cell("node") or f"row {line}"
     if vector is not None and at is None:  # on a node of the model, in a direction of its own
         if not named.isdecimal():

@@ -60,12 +60,8 @@ def _read(path: str) -> ModeTable:
             found[block.number].append(_mode(path, first, block, lines))
     modes = [mode for mode in found[55] or found[2414] if mode is not None and mode.frequency_hz > 0]
     if not modes:
-        reject(
-            "MD624",
-            path,
-            "the file has no mode shapes: data sets 55 or 2414 of modes",
-            "export the modes as data set 55",
-        )
+        message = "the file has no mode shapes: data sets 55 or 2414 of modes"
+        reject("MD624", path, message, "export the modes as data set 55")
     modes.sort(key=lambda mode: mode.frequency_hz)
     names = [name for name in dict.fromkeys(n for mode in modes for n in mode.values) if _moves(modes, name)]
     raw = np.array([[mode.values.get(name, np.nan) for mode in modes] for name in names], complex).reshape(

@@ -46,13 +46,8 @@ def _data_sets(path: str) -> Iterator[tuple[int, list[str]]]:
         else:
             begun, inside = number, []
     if begun:
-        reject(
-            "MD252",
-            path,
-            "the data set that begins here does not end",
-            "write the file again",
-            line_span(path, begun, ""),
-        )
+        message = "the data set that begins here does not end"
+        reject("MD252", path, message, "write the file again", line_span(path, begun, ""))
 
 
 FORMAT = NodeFormat("unv", _read, ("unv", "uff", "uf", "ufb"))

@@ -127,12 +127,8 @@ def spread(path: str, arrays: dict[str, np.ndarray]) -> Contents:
             table = values if values.shape[0] >= values.shape[1] else values.T
             columns += [Column(f"{name}[{j + 1}]", table[:, j]) for j in range(min(table.shape[1], MOST_COLUMNS))]
     if len(columns) > MOST_COLUMNS:
-        reject(
-            "MD258",
-            path,
-            f"the file has more than {MOST_COLUMNS} channels",
-            "save tables with time along the longer side",
-        )
+        message = f"the file has more than {MOST_COLUMNS} channels"
+        reject("MD258", path, message, "save tables with time along the longer side")
     return Contents(tuple(columns), rate, remarks=tuple(passed))
 
 

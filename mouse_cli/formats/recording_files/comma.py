@@ -65,12 +65,8 @@ def _first(path: str, lines: list[str]) -> tuple[int, str | None]:
             _number(cell, comma) is not None or cell.lower() in _MISSING for cell in cells
         ):
             return i, separator
-    reject(
-        "MD601",
-        path,
-        f"none of the first {min(len(lines), _MOST_HEAD)} lines is a row of numbers",
-        "give a table of numbers",
-    )
+    message = f"none of the first {min(len(lines), _MOST_HEAD)} lines is a row of numbers"
+    reject("MD601", path, message, "give a table of numbers")
 
 
 def _columns(lines: list[str], separator: str | None) -> int:

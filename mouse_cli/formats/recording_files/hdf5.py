@@ -34,12 +34,8 @@ def read(path: str) -> Contents:
     try:
         import h5py
     except ImportError:
-        reject(
-            "MD261",
-            path,
-            "reading HDF5 needs the package h5py, which is not installed",
-            "pip install 'mouse-cli[hdf5]'",
-        )
+        message = "reading HDF5 needs the package h5py, which is not installed"
+        reject("MD261", path, message, "pip install 'mouse-cli[hdf5]'")
     arrays: dict[str, np.ndarray] = {}
     units: dict[str, str] = {}
     with h5py.File(path, "r") as file:

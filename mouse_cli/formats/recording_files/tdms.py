@@ -22,12 +22,8 @@ def _read(path: str) -> Contents:
     try:
         from nptdms import TdmsFile
     except ImportError:
-        reject(
-            "MD261",
-            path,
-            "reading TDMS needs the package nptdms, which is not installed",
-            "pip install 'mouse-cli[tdms]'",
-        )
+        message = "reading TDMS needs the package nptdms, which is not installed"
+        reject("MD261", path, message, "pip install 'mouse-cli[tdms]'")
     from nptdms.log import log_manager
 
     log_manager.set_level("CRITICAL")  # it would write of damage to standard error

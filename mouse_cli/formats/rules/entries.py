@@ -12,11 +12,9 @@ def inside(draft: Draft, entries: Entries, rows: int, cols: int, what: str) -> n
     """Mask of the entries within (rows, cols), after noting MD301 for each that is not."""
     found = (entries.rows >= 1) & (entries.rows <= rows) & (entries.cols >= 1) & (entries.cols <= cols)
     for i in np.flatnonzero(~found)[:MOST]:
+        message = f"{what} ({entries.rows[i]},{entries.cols[i]}) is outside {rows} x {cols}"
         draft.error(
-            "MD301",
-            f"{what} ({entries.rows[i]},{entries.cols[i]}) is outside {rows} x {cols}",
-            entries.where(int(i)),
-            help=f"give a row from 1 to {rows} and a column from 1 to {cols}",
+            "MD301", message, entries.where(int(i)), help=f"give a row from 1 to {rows} and a column from 1 to {cols}"
         )
     return found
 
@@ -24,9 +22,7 @@ def inside(draft: Draft, entries: Entries, rows: int, cols: int, what: str) -> n
 def finite(draft: Draft, entries: Entries, name: str) -> None:
     """Note MD302 for each value that is infinite, not a number, or larger than any of which products can be made."""
     for i in np.flatnonzero(~(np.abs(entries.values) < LARGEST))[:MOST]:
-        draft.error(
-            "MD302",
-            f"{name}({entries.rows[i]},{entries.cols[i]}) is {entries.values[i]}, not a finite number below {LARGEST:g}",
-            entries.where(int(i)),
-            help="give a finite number",
+        message = (
+            f"{name}({entries.rows[i]},{entries.cols[i]}) is {entries.values[i]}, not a finite number below {LARGEST:g}"
         )
+        draft.error("MD302", message, entries.where(int(i)), help="give a finite number")

@@ -106,12 +106,9 @@ def _definite(draft: Draft, M: Matrix) -> None:
     moving = np.flatnonzero(size > 0.3 * size.max())
     names = [draft.labels[i] if draft.labels else str(i + 1) for i in moving[:6]]
     what = "no" if eigenvalues[0] > -_SINGULAR * eigenvalues[-1] else "a negative"
-    draft.error(
-        "MD304",
-        f"a motion of the degrees of freedom {', '.join(names)} has {what} mass: M is not positive definite",
-        _where_coupled(draft.M, moving) or draft.where_order,
-        help="check the entries of M beside its diagonal",
-    )
+    message = f"a motion of the degrees of freedom {', '.join(names)} has {what} mass: M is not positive definite"
+    help = "check the entries of M beside its diagonal"
+    draft.error("MD304", message, _where_coupled(draft.M, moving) or draft.where_order, help=help)
 
 
 def _pivot(scaled: Matrix) -> float:

@@ -122,11 +122,9 @@ def _dofs(draft: Draft, test: TestDraft) -> None:
     seen: set[int] = set()
     for i, dof in enumerate(test.dofs.tolist()):
         if not 1 <= dof <= draft.order:
+            help = f"give numbers from 1 to {draft.order}"
             draft.error(
-                "MD323",
-                f"measured degree of freedom {dof} is outside 1 to {draft.order}",
-                test.where_dof(i),
-                help=f"give numbers from 1 to {draft.order}",
+                "MD323", f"measured degree of freedom {dof} is outside 1 to {draft.order}", test.where_dof(i), help=help
             )
         elif dof in seen:
             draft.error(

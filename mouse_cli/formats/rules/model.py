@@ -58,8 +58,7 @@ def _built(draft: Draft, base: Structure | None) -> Model | None:
         found = built(given.mesh, tuple(given.bindings), base)
     except MeshFault as fault:
         place = mesh_rules.fault_place(given, fault.nodes, fault.elements)
-        draft.error(_CODES.get(type(fault).__name__, "MD418"), str(fault), place, help=fault.help)
-        return None
+        return draft.error(_CODES.get(type(fault).__name__, "MD418"), str(fault), place, help=fault.help)
     for remark in found.remarks:
         if len(remark.nodes) == len(given.mesh.node_ids) and remark.kind == "floating":
             continue  # a structure that is free as a whole is no slip
@@ -134,17 +133,16 @@ def applied(draft: Draft, base: Structure) -> Structure | None:
         for dof in (support.dofs - 1).tolist():
             if not 0 <= dof < base.n:
                 message = f"support {support.name} holds degree of freedom {dof + 1}; the model has {base.n}"
-                draft.error("MD276", message, support.place, help=f"give numbers from 1 to {base.n}, or labels")
-                return None
+                return draft.error("MD276", message, support.place, help=f"give numbers from 1 to {base.n}, or labels")
             if owner.setdefault(dof, support.name) != support.name:
                 message = f"degree of freedom {base.labels[dof]} is held by {owner[dof]} and by {support.name}"
-                draft.error("MD276", message, support.place, help="let one of the two hold it")
-                return None
+                return draft.error("MD276", message, support.place, help="let one of the two hold it")
             mask[dof] = False
     kept = np.flatnonzero(mask)
     if not len(kept):
-        draft.error("MD276", "the supports hold every degree of freedom", draft.where_order, help="take some away")
-        return None
+        return draft.error(
+            "MD276", "the supports hold every degree of freedom", draft.where_order, help="take some away"
+        )
     border, A = _parted(draft, base.n, mask)
     supports = tuple(Support(each.name, each.dofs - 1) for each in draft.supports)
     draft.held = Held(base, supports, kept, border, A)

@@ -60,18 +60,11 @@ def _idle(draft: Draft) -> None:
     bound = [binding.parameter + 1 for binding in draft.mesh.bindings] if draft.mesh else []
     moved = np.setdiff1d(np.arange(1, len(draft.elements) + 1), draft.A.rows[moving])
     for i in moved[:MOST].tolist():
-        draft.warn(
-            "MD308",
-            f"no property moves listed element {i}, ({draft.elements.rows[i - 1]},{draft.elements.cols[i - 1]})",
-            draft.elements.where(i - 1),
-            help="leave the element out of the list, or give its row of A",
-        )
+        message = f"no property moves listed element {i}, ({draft.elements.rows[i - 1]},{draft.elements.cols[i - 1]})"
+        help = "leave the element out of the list, or give its row of A"
+        draft.warn("MD308", message, draft.elements.where(i - 1), help=help)
     idle = np.setdiff1d(np.arange(1, len(draft.parameters) + 1), [*draft.A.cols[moving].tolist(), *bound])
     for j in idle[:MOST].tolist():
         parameter = draft.parameters[j - 1]
-        draft.warn(
-            "MD309",
-            f"property {j} ({parameter.name}) moves no element of K or M; the test cannot revise it",
-            parameter.span,
-            help="give its column of A, or leave the property out",
-        )
+        message = f"property {j} ({parameter.name}) moves no element of K or M; the test cannot revise it"
+        draft.warn("MD309", message, parameter.span, help="give its column of A, or leave the property out")

@@ -84,9 +84,5 @@ def _shapes(draft: Draft, test: TestDraft) -> None:
         message = (
             f"shape_sd is {sd:g}, and the largest component of all shapes {largest:.4g}: the shapes would not count"
         )
-        draft.warn(
-            "MD453",
-            message,
-            test.where_shape_sd(int(s), int(m)),
-            help=f"write shape_sd: {sd:g} % if a percentage is meant",
-        )
+        help = f"write shape_sd: {sd:g} % if a percentage is meant"
+        draft.warn("MD453", message, test.where_shape_sd(int(s), int(m)), help=help)

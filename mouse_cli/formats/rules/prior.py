@@ -13,12 +13,8 @@ def prior(draft: Draft) -> Gaussian | None:
     for parameter in draft.parameters:
         _one(draft, parameter)
         if parameter.name in names:
-            draft.error(
-                "MD310",
-                f"two parameters are called '{parameter.name}'",
-                parameter.span,
-                help="give each its own name",
-            )
+            message = f"two parameters are called '{parameter.name}'"
+            draft.error("MD310", message, parameter.span, help="give each its own name")
         names.add(parameter.name)
     mean = np.array([p.nominal for p in draft.parameters])
     cov = draft.covariance
@@ -51,19 +47,13 @@ def _one(draft: Draft, parameter: Parameter) -> None:
             help="give lower < upper with the nominal value between them",
         )
     if parameter.transform == "log" and not parameter.nominal > 0:
-        draft.error(
-            "MD314",
-            f"{name} has transform log and the nominal value {parameter.nominal:.8g}; a logarithm needs a positive one",
-            where,
-            help="give a positive nominal value, or transform: identity",
+        message = (
+            f"{name} has transform log and the nominal value {parameter.nominal:.8g}; a logarithm needs a positive one"
         )
+        draft.error("MD314", message, where, help="give a positive nominal value, or transform: identity")
     if parameter.transform == "log" and draft.run.fix_total_mass:
-        draft.error(
-            "MD315",
-            f"{name} has transform log, but the total mass can be held fixed only for transform identity",
-            where,
-            help="use limits (lower: 0) instead of the logarithm",
-        )
+        message = f"{name} has transform log, but the total mass can be held fixed only for transform identity"
+        draft.error("MD315", message, where, help="use limits (lower: 0) instead of the logarithm")
 
 
 def _semidefinite(draft: Draft, cov: np.ndarray) -> None:
@@ -76,9 +66,6 @@ def _semidefinite(draft: Draft, cov: np.ndarray) -> None:
     if not np.allclose(correlation, correlation.T, atol=1e-9):
         draft.error("MD316", "prior covariance is not symmetric", draft.where_covariance)
     elif np.linalg.eigvalsh(correlation).min() < -1e-9:
-        draft.error(
-            "MD316",
-            "prior covariance has a negative eigenvalue: no set of properties can be correlated so",
-            draft.where_covariance,
-            help="check the correlations; each lies within -1 to 1, and they must agree with one another",
-        )
+        message = "prior covariance has a negative eigenvalue: no set of properties can be correlated so"
+        help = "check the correlations; each lies within -1 to 1, and they must agree with one another"
+        draft.error("MD316", message, draft.where_covariance, help=help)

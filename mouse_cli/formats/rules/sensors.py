@@ -67,8 +67,7 @@ def _reading(
         return _carried(draft, sensor, geometry, place, n)
     if geometry is None:
         message = f"{sensor.words} is mounted at a node or a point, but the model is made of matrices without nodes"
-        draft.error("MD329", message, sensor.where, help="give weights: {degree of freedom: 1}")
-        return None
+        return draft.error("MD329", message, sensor.where, help="give weights: {degree of freedom: 1}")
     motion = _motion(draft, sensor, geometry)
     if motion is None:
         return None
@@ -97,10 +96,9 @@ def _carried(
         return dofs, shares[dofs]
     what = "has no direction" if not sensor.ground.any() else "carries nothing along"
     message = f"{sensor.words} {what}: no degree of freedom of the model moves with it"
-    draft.error(
+    return draft.error(
         "MD644", message, sensor.where, help="call it groundTX, groundTY or groundTZ, or give moves: {1: 1, 2: 1}"
     )
-    return None
 
 
 def _motion(draft: Draft, sensor: SensorDraft, geometry: Geometry) -> PointMotion | None:
@@ -129,8 +127,9 @@ def _node(draft: Draft, sensor: SensorDraft, geometry: Geometry, number: int) ->
         :3
     ]  # of any size, as Python has them
     message = f"{sensor.words} is mounted on node {number}, which the model does not have"
-    draft.error("MD329", message, sensor.where, f"numbers near to it: {', '.join(map(str, near))}", "correct the node")
-    return None
+    return draft.error(
+        "MD329", message, sensor.where, f"numbers near to it: {', '.join(map(str, near))}", "correct the node"
+    )
 
 
 def _silent(draft: Draft, sensor: SensorDraft, geometry: Geometry, node: int, direction: np.ndarray) -> None:
@@ -152,8 +151,7 @@ def _sum(draft: Draft, sensor: SensorDraft, geometry: Geometry | None, place: di
     weights = np.array(list(sensor.weights.values()), dtype=float)
     if not np.isfinite(weights).all() or not weights.any():
         message = f"{sensor.words} reads nothing: its weights are {', '.join(f'{w:g}' for w in weights)}"
-        draft.error("MD328", message, sensor.where, help="give finite weights, at least one of them not 0")
-        return None
+        return draft.error("MD328", message, sensor.where, help="give finite weights, at least one of them not 0")
     order = np.argsort(dofs, kind="stable")
     return np.array(dofs, dtype=int)[order], weights[order]
 
@@ -166,8 +164,7 @@ def _dof(
         if 1 <= name <= n:
             return name - 1
         message = f"measured degree of freedom {name} is outside 1 to {n}"
-        draft.error("MD323", message, sensor.where, help=f"give numbers from 1 to {n}")
-        return None
+        return draft.error("MD323", message, sensor.where, help=f"give numbers from 1 to {n}")
     if name in place:
         return place[name]
     direction = name[-2:]
@@ -181,10 +178,9 @@ def _dof(
     message = f"{sensor.words} names '{name[:40]}', which is no label of the model and no sensor"
     if sensor.plain:
         message = f"test.modes.dofs names '{name[:40]}', which is no label of the model and no sensor"
-    draft.error(
+    return draft.error(
         "MD225", f"{message}; {known}", sensor.where, help="give a number, a label, or a sensor of test.sensors"
     )
-    return None
 
 
 def _twice(draft: Draft, sensors: tuple[SensorDraft, ...], readings: list[Reading]) -> None:

@@ -24,12 +24,8 @@ def _connection(section: Section, places: Places) -> Connection | None:
     if values is None:
         return None
     if to == at:
-        return document.error(
-            "MD708",
-            section.nodes["to"],
-            f"{section.called} joins a degree of freedom to itself",
-            "leave to out, for the ground",
-        )
+        message = f"{section.called} joins a degree of freedom to itself"
+        return document.error("MD708", section.nodes["to"], message, "leave to out, for the ground")
     name = section.value("name") or next(kind for kind in _KINDS if kind in section)
     return Connection(name, at, to, where=document.span(section.node), **values)
 

@@ -24,9 +24,7 @@ def _dof(document: Document, node: Node, what: str, place: dict[str, int]) -> in
     if name is None or name in place:
         return place.get(name)
     known = f"the labels are {', '.join(list(place)[:12])}" if place else "the model has no labels"
+    message = f"{what} names '{name[:40]}', which is no label of the model; {known}"
     return document.error(
-        "MD225",
-        node,
-        f"{what} names '{name[:40]}', which is no label of the model; {known}",
-        "give the number of the degree of freedom, or a label of model.labels",
+        "MD225", node, message, "give the number of the degree of freedom, or a label of model.labels"
     )

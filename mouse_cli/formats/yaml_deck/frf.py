@@ -108,12 +108,8 @@ def _columns(section: Section, held: Contents, known: Known) -> list[Placed]:
         [] if "file" in section or "frequency" in section else ["frequency"]
     )
     for key in absent:
-        document.error(
-            "MD211",
-            section.node,
-            f"{section.what(key)} is missing",
-            f"give {key}: {section.definition.keys[key].meaning}",
-        )
+        message = f"{section.what(key)} is missing"
+        document.error("MD211", section.node, message, f"give {key}: {section.definition.keys[key].meaning}")
     if absent:
         return []
     force = placed(section, section.nodes["input"], section.what("input"), known)

@@ -107,12 +107,8 @@ def compose(data: str | bytes, path: str, outside: bool = False) -> tuple[Docume
     _check_text(document)
     root = _parsed(document)
     if not isinstance(root, yaml.MappingNode):
-        _stop(
-            "MD205",
-            document.at(0, 0),
-            "the deck holds no keys",
-            "begin it with 'mouse: 1', 'title:' and 'model:'",
-        )
+        help = "begin it with 'mouse: 1', 'title:' and 'model:'"
+        _stop("MD205", document.at(0, 0), "the deck holds no keys", help)
     _check_aliases(document, root)
     return document, root
 
@@ -207,12 +203,8 @@ def _parsed(document: Document) -> Node | None:
     except _TooDeep as error:
         start = error.args[0].start_mark  # of a node that is not whole and has no end
         span = document.at(start.line, start.column)
-        _stop(
-            "MD202",
-            span,
-            f"values are nested deeper than {MAX_DEPTH}",
-            "close the brackets that are still open",
-        )
+        message = f"values are nested deeper than {MAX_DEPTH}"
+        _stop("MD202", span, message, "close the brackets that are still open")
     except yaml.composer.ComposerError as error:
         _stop(*_composing(document, error))
     except yaml.MarkedYAMLError as error:

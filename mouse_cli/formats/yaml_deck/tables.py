@@ -39,12 +39,8 @@ def _lines(path: str) -> list[str]:
     try:
         return text_lines(path)
     except OSError as error:
-        reject(
-            "MD250",
-            path,
-            f"the file cannot be read: {error.strerror}",
-            "check the name; paths are relative to the deck",
-        )
+        message = f"the file cannot be read: {error.strerror}"
+        reject("MD250", path, message, "check the name; paths are relative to the deck")
 
 
 def _values(path: str, lines: list[str], kept: list[int], width: int) -> np.ndarray:
