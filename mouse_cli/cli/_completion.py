@@ -53,17 +53,16 @@ def _parted(begun: str, words: Iterable[str]) -> list[CompletionItem]:
 
 
 def _keys(kind: str) -> list[str]:
-    from mouse_cli.cli.commands.list import KINDS
+    from mouse_cli.cli.commands.list import entries
 
-    return [key for key, _ in KINDS[kind]()]
+    return [key for key, _ in entries(kind)]
 
 
 def _topics() -> list[str]:
     from mouse_cli.cli.commands.explain import TOPICS
-    from mouse_cli.cli.commands.list import KINDS
 
     kinds = ("codes", "estimators", "recursions", "statuses", "elements", "methods", "candidates")
-    return sorted({*TOPICS, *(key for kind in kinds for key, _ in KINDS[kind]())})
+    return sorted({*TOPICS, *(key for kind in kinds for key in _keys(kind))})
 
 
 def _parameters(context: click.Context) -> list[str]:

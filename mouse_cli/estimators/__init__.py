@@ -6,6 +6,11 @@ from mouse_cli import _registry
 from mouse_cli.estimators.linear import Estimator
 
 
+def registry() -> dict[str, Estimator]:
+    """All estimators by key."""
+    return _registry.discover(__name__, "ESTIMATOR")
+
+
 @cache
 def estimator(key: str) -> Estimator:
     """The estimator called `key`. Raises ValueError that lists the known ones."""

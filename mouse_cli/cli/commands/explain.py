@@ -3,7 +3,8 @@
 import difflib
 import json
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from importlib import import_module
 
 import click
 
@@ -16,57 +17,23 @@ _EXIT = """\
 4    a deck was rejected (diagnostics printed, nothing written)
 5    no answer: numerical failure, or the answer could not be written
 130  interrupted; nothing half-written"""
-
-
-def _exit() -> str:
-    return _EXIT
-
-
-def _schema() -> str:
-    from mouse_cli.formats.yaml_deck import reference
-
-    return json.dumps(reference.schema(), indent=1)
-
-
-def _yaml() -> str:
-    from mouse_cli.formats.yaml_deck import reference as yaml_reference
-
-    return yaml_reference.reference()
-
-
-def _cards() -> str:
-    from mouse_cli.formats.cards import manual as card_manual
-
-    return card_manual.manual()
-
-
-def _candidates() -> str:
-    from mouse_cli.diagnosis import candidate_manual
-
-    return candidate_manual.manual()
-
-
-def _elements() -> str:
-    from mouse_cli.terms import element_manual
-
-    return element_manual.manual()
-
-
-def _methods() -> str:
-    from mouse_cli.methods import manual as method_manual
-
-    return method_manual.manual()
-
-
-TOPICS: dict[str, Callable[[], str]] = {
-    "candidates": _candidates,
-    "cards": _cards,
-    "elements": _elements,
-    "exit": _exit,
-    "methods": _methods,
-    "schema": _schema,
-    "yaml": _yaml,
+TOPICS = {  # where the text of each is made, imported for it alone
+    "candidates": "diagnosis.candidate_manual:manual",
+    "cards": "formats.cards.manual:manual",
+    "elements": "terms.element_manual:manual",
+    "exit": "",
+    "methods": "methods.manual:manual",
+    "schema": "formats.yaml_deck.reference:schema",
+    "yaml": "formats.yaml_deck.reference:reference",
 }
+
+
+def _topic(name: str) -> str:
+    if not TOPICS[name]:
+        return _EXIT
+    module, _, made_by = TOPICS[name].partition(":")
+    text = getattr(import_module(f"mouse_cli.{module}"), made_by)()
+    return text if isinstance(text, str) else json.dumps(text, indent=1)
 
 
 @click.command()
@@ -75,7 +42,7 @@ def command(topic: str) -> int:
     """Explain a code (MD104), an estimator, recursion, status, element or candidate, a field of the cards (NPARD), an operation
     of the report (O-2), or: cards, candidates, elements, methods, yaml, schema, exit."""
     if topic in TOPICS:
-        click.echo(TOPICS[topic]())
+        click.echo(_topic(topic))
         return 0
     entries: dict[str, str] = {}
     for key, told in _entries():  # a mass is an element and a candidate
@@ -95,6 +62,7 @@ def _entries() -> Iterator[tuple[str, str]]:
     from mouse_cli.codes import catalogue
     from mouse_cli.diagnosis import candidate_manual
     from mouse_cli.diagnosis.nameless import registry as rivals
+    from mouse_cli.estimators import registry as estimators
     from mouse_cli.formats.cards.operations import explanations
     from mouse_cli.methods import manual as method_manual
     from mouse_cli.methods import registry as methods
@@ -109,7 +77,7 @@ def _entries() -> Iterator[tuple[str, str]]:
         yield key, f"status {key}, exit {ends[0].exit_code}\n\n{told}"
     for code, entry in catalogue().items():
         yield code, f"{code}: {entry.title}\n\n{entry.meaning}\n\n{entry.remedy}"
-    for key, estimator in discover("mouse_cli.estimators", "ESTIMATOR").items():
+    for key, estimator in estimators().items():
         yield key, f"{estimator.title}\n\n{estimator.equation}"
     for key, method in methods().items():
         yield key, method_manual.about(method)

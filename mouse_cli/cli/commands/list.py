@@ -1,36 +1,22 @@
 """mouse list: what there is to choose from."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from importlib import import_module
 
 import click
 
-
-def _estimators() -> Iterator[tuple[str, str]]:
-    from mouse_cli._registry import discover
-
-    for key, estimator in discover("mouse_cli.estimators", "ESTIMATOR").items():
-        yield key, estimator.equation
-
-
-def _methods() -> Iterator[tuple[str, str]]:
-    from mouse_cli.methods import registry
-
-    for key, method in registry().items():
-        yield key, f"{method.title}: {method.equation}"
-
-
-def _recursions() -> Iterator[tuple[str, str]]:
-    from mouse_cli.updating.loop import RECURSIONS
-
-    for key, recursion in RECURSIONS.items():
-        yield key, recursion.MEANING
-
-
-def _codes() -> Iterator[tuple[str, str]]:
-    from mouse_cli.codes import catalogue
-
-    for code, entry in catalogue().items():
-        yield code, entry.title
+_MEMBERS = {  # of each kind: where its members are (a mapping, or what returns one), and what is told of each
+    "candidates": ("diagnosis.names:known", "{0.title} ({0.group})"),
+    "codes": ("codes:catalogue", "{0.title}"),
+    "elements": ("terms.elements:registry", "{0.meaning}"),
+    "estimators": ("estimators:registry", "{0.equation}"),
+    "expansions": ("dynamics.expansion:registry", "{0.title}: {0.equation}"),
+    "methods": ("methods:registry", "{0.title}: {0.equation}"),
+    "nameless": ("diagnosis.nameless:registry", "{0.title} ({0.property})"),
+    "plots": ("plots:registry", "{0.title}"),
+    "recursions": ("updating.loop:RECURSIONS", "{0.MEANING}"),
+    "reductions": ("coupling.reductions:registry", "{0.title}: {0.equation}"),
+}
 
 
 def _commands() -> Iterator[tuple[str, str]]:
@@ -55,48 +41,6 @@ def _sections() -> Iterator[tuple[str, str]]:
         yield section.key, section.title
 
 
-def _expansions() -> Iterator[tuple[str, str]]:
-    from mouse_cli.dynamics.expansion import registry
-
-    for key, expansion in registry().items():
-        yield key, f"{expansion.title}: {expansion.equation}"
-
-
-def _reductions() -> Iterator[tuple[str, str]]:
-    from mouse_cli.coupling.reductions import registry
-
-    for key, reduction in registry().items():
-        yield key, f"{reduction.title}: {reduction.equation}"
-
-
-def _elements() -> Iterator[tuple[str, str]]:
-    from mouse_cli.terms.elements import registry
-
-    for key, kind in registry().items():
-        yield key, kind.meaning
-
-
-def _candidates() -> Iterator[tuple[str, str]]:
-    from mouse_cli.diagnosis.names import known
-
-    for key, candidate in known().items():
-        yield key, f"{candidate.title} ({candidate.group})"
-
-
-def _nameless() -> Iterator[tuple[str, str]]:
-    from mouse_cli.diagnosis.nameless import registry
-
-    for key, rival in registry().items():
-        yield key, f"{rival.title} ({rival.property})"
-
-
-def _plots() -> Iterator[tuple[str, str]]:
-    from mouse_cli.plots import registry
-
-    for key, plot in registry().items():
-        yield key, plot.title
-
-
 def _groups() -> Iterator[tuple[str, str]]:
     from mouse_cli.formats.cards import layout
 
@@ -104,32 +48,30 @@ def _groups() -> Iterator[tuple[str, str]]:
         yield str(group.number), f"{group.name} {group.symbol}".strip() + f", {group.format}"
 
 
-KINDS: dict[str, Callable[[], Iterator[tuple[str, str]]]] = {
-    "candidates": _candidates,
-    "codes": _codes,
-    "commands": _commands,
-    "elements": _elements,
-    "estimators": _estimators,
-    "expansions": _expansions,
-    "groups": _groups,
-    "methods": _methods,
-    "nameless": _nameless,
-    "plots": _plots,
-    "recursions": _recursions,
-    "reductions": _reductions,
-    "sections": _sections,
-    "statuses": _statuses,
-}
+_OTHERS = {"commands": _commands, "groups": _groups, "sections": _sections, "statuses": _statuses}
+KINDS = sorted([*_MEMBERS, *_OTHERS])
+
+
+def entries(kind: str) -> Iterator[tuple[str, str]]:
+    """Names of a kind, and what each is; where they are is imported for it alone."""
+    if kind in _OTHERS:
+        yield from _OTHERS[kind]()
+        return
+    place, words = _MEMBERS[kind]
+    module, _, name = place.partition(":")
+    found = getattr(import_module(f"mouse_cli.{module}"), name)
+    for key, member in (found() if callable(found) else found).items():
+        yield key, words.format(member)
 
 
 @click.command()
-@click.argument("kind", type=click.Choice(sorted(KINDS)), required=False)
+@click.argument("kind", type=click.Choice(KINDS), required=False)
 def command(kind: str | None) -> int:
     """List names: estimators, recursions, codes, card groups and so on."""
-    for name in [kind] if kind else sorted(KINDS):
+    for name in [kind] if kind else KINDS:
         if not kind:
             click.echo(f"{name}:")
-        rows = list(KINDS[name]())
+        rows = list(entries(name))
         width = max(len(key) for key, _ in rows)
         for key, text in rows:
             click.echo(f"{'' if kind else '  '}{key:<{width}}  {text}".rstrip())
