@@ -9,6 +9,7 @@ from math import log10
 
 from mouse_cli.page.html import Markup, join, tag
 from mouse_cli.page.numbers import shown
+from mouse_cli.page.svg import figure, tenth
 
 _WIDTH, _LEFT, _RIGHT = 400.0, 8.0, 392.0
 _LONGEST = 46  # characters of a label that fit beside what is said of it
@@ -66,8 +67,8 @@ def curve(key: str, title: str, told: str, values: Sequence[float | None]) -> Ma
     step = (_RIGHT - _LEFT - 20) / known[-1][0]
     span = max(high - low, 1e-9)
     points = [(_LEFT + 10 + i * step, 130 - 95 * (y - low) / span) for i, y in known]
-    line = tag("polyline", points=" ".join(f"{_at(x)},{_at(y)}" for x, y in points), class_="curve")
-    marks = [tag("circle", cx=_at(x), cy=_at(y), r=3, class_="after") for x, y in points]
+    line = tag("polyline", points=" ".join(f"{tenth(x)},{tenth(y)}" for x, y in points), class_="curve")
+    marks = [tag("circle", cx=tenth(x), cy=tenth(y), r=3, class_="after") for x, y in points]
     words = [_words(_LEFT, 14, f"largest {shown(10**high, 3)}"), _words(_LEFT, 148, f"least {shown(10**low, 3)}")]
     last = _words(_RIGHT, 148, f"cycle {known[-1][0]}", "end")
     return _figure(key, title, told, 154, [line, *marks, *words, last])
@@ -87,7 +88,9 @@ def _bar(row: Bar, y: float, scale) -> Markup:
         ends = sorted((scale(0.0), scale(length)))
         looks = "after" if i == len(row.lengths) - 1 else "before"
         width = max(ends[1] - ends[0], 0.5)
-        pieces.append(tag("rect", x=_at(ends[0]), y=_at(y + 17 + 9 * i), width=_at(width), height=7, class_=looks))
+        pieces.append(
+            tag("rect", x=tenth(ends[0]), y=tenth(y + 17 + 9 * i), width=tenth(width), height=7, class_=looks)
+        )
     return join(pieces)
 
 
@@ -101,21 +104,21 @@ def _interval(row: Interval, y: float, scale) -> Markup:
 
 def _zero(scale, top: float, bottom: float) -> Markup:
     """The axis beside one line of a chart, so that it crosses no words."""
-    place = _at(scale(0.0))
-    return tag("line", x1=place, x2=place, y1=_at(top), y2=_at(bottom), class_="axis")
+    place = tenth(scale(0.0))
+    return tag("line", x1=place, x2=place, y1=tenth(top), y2=tenth(bottom), class_="axis")
 
 
 def _whisker(scale, centre: float, half: float, y: float, looks: str) -> list[Markup]:
-    low, high = _at(scale(centre - half)), _at(scale(centre + half))
-    line = tag("line", x1=low, x2=high, y1=_at(y), y2=_at(y), class_=f"{looks} whisker")
-    return [line, tag("circle", cx=_at(scale(centre)), cy=_at(y), r=3.5, class_=looks)]
+    low, high = tenth(scale(centre - half)), tenth(scale(centre + half))
+    line = tag("line", x1=low, x2=high, y1=tenth(y), y2=tenth(y), class_=f"{looks} whisker")
+    return [line, tag("circle", cx=tenth(scale(centre)), cy=tenth(y), r=3.5, class_=looks)]
 
 
 def _legend(series: Sequence[str]) -> Markup:
     pieces, x = [], _LEFT
     for i, name in enumerate(series):
         looks = "after" if i == len(series) - 1 else "before"
-        pieces.append(tag("rect", x=_at(x), y=5, width=14, height=7, class_=looks))
+        pieces.append(tag("rect", x=tenth(x), y=5, width=14, height=7, class_=looks))
         pieces.append(_words(x + 18, 13, name))
         x += 36 + 7 * len(name)
     return join(pieces)
@@ -128,17 +131,8 @@ def _label(label: str, words: str, y: float) -> list[Markup]:
 
 
 def _words(x: float, y: float, words: str, anchor: str | None = None) -> Markup:
-    return tag("text", words, x=_at(x), y=_at(y), text_anchor=anchor)
+    return tag("text", words, x=tenth(x), y=tenth(y), text_anchor=anchor)
 
 
 def _figure(key: str, title: str, told: str, height: float, pieces: Sequence[Markup | None]) -> Markup:
-    names = f"{key}-title {key}-told"
-    head = [tag("title", title, id=f"{key}-title"), tag("desc", told, id=f"{key}-told")]
-    size = {"viewBox": f"0 0 {_WIDTH:g} {_at(height)}"}
-    drawn = tag("svg", *head, *pieces, role="img", aria_labelledby=names, **size)
-    return tag("figure", tag("figcaption", title), drawn)
-
-
-def _at(value: float) -> str:
-    """A coordinate to a tenth; what is far beyond the figure stays at its edge."""
-    return f"{min(max(value, -1e4), 1e5):.1f}".removesuffix(".0")
+    return figure(key, title, told, (_WIDTH, height), *pieces)

@@ -12,6 +12,7 @@ from mouse_cli.page.html import Markup, tag
 from mouse_cli.page.marks import Mark
 from mouse_cli.page.projection import TILT, View, view
 from mouse_cli.page.scene import Scene, Shape
+from mouse_cli.page.svg import svg, tenth
 
 WIDTH, HIGHEST, MARGIN = 640.0, 440.0, 34.0
 _SMALL, _LOW, _EDGE = 260.0, 200.0, 16.0  # of a drawing in the row of all modes
@@ -29,19 +30,15 @@ def large(scene: Scene) -> View:
 def stage(scene: Scene, marks: Sequence[Mark], seen: View, title: str, told: str) -> Markup:
     """The large drawing, in its first mode, with the numbers for the script."""
     pieces = [*_pieces(scene, scene.shapes[:1], marks, seen), _names(scene, marks, seen), _triad(seen)]
-    return _svg("stage", title, told, seen, pieces, data_scene=_data(scene, marks, seen), class_="stage")
+    size = (seen.width, seen.height)
+    return svg("stage", title, told, size, *pieces, data_scene=_data(scene, marks, seen), class_="stage")
 
 
 def small(scene: Scene, shape: Shape, marks: Sequence[Mark], key: str, title: str) -> Markup:
     """The drawing of one mode, among others."""
     seen = view(scene, _SMALL, _LOW, _EDGE)
-    return _svg(key, title, f"{title}, drawn on the structure.", seen, _pieces(scene, (shape,), marks, seen))
-
-
-def _svg(key: str, title: str, told: str, seen: View, pieces: Sequence[Markup], **more: object) -> Markup:
-    head = [tag("title", title, id=f"{key}-title"), tag("desc", told, id=f"{key}-told")]
-    size = {"viewBox": f"0 0 {seen.width:g} {seen.height:.1f}"}
-    return tag("svg", *head, *pieces, role="img", aria_labelledby=f"{key}-title {key}-told", **size, **more)
+    told, size = f"{title}, drawn on the structure.", (seen.width, seen.height)
+    return svg(key, title, told, size, *_pieces(scene, (shape,), marks, seen))
 
 
 def _pieces(scene: Scene, shapes: Sequence[Shape], marks: Sequence[Mark], seen: View) -> list[Markup]:
@@ -86,7 +83,7 @@ def _rings(scene: Scene, shapes: Sequence[Shape], marks: Sequence[Mark], seen: V
     for mark, (x, y) in zip(marks, _centres(scene, shapes, marks, seen), strict=True):
         faint = None if mark.strong else f"{0.35 + 0.65 * min(mark.probability or 0.0, 1.0):.2f}"
         looks = "ring" if mark.strong else "ring rival"
-        rings.append(tag("circle", cx=_at(x), cy=_at(y), r=_RING, class_=looks, stroke_opacity=faint))
+        rings.append(tag("circle", cx=tenth(x), cy=tenth(y), r=_RING, class_=looks, stroke_opacity=faint))
     return rings
 
 
@@ -122,7 +119,7 @@ def _names(scene: Scene, marks: Sequence[Mark], seen: View) -> Markup:
         if mark.name:
             short = mark.name if len(mark.name) <= _LONGEST else f"{mark.name[: _LONGEST - 1]}…"
             leftward = x + 16 + _LETTER * len(short) > seen.width
-            place = {"x": _at(x + (-16 if leftward else 16)), "y": _at(y - 14)}
+            place = {"x": tenth(x + (-16 if leftward else 16)), "y": tenth(y - 14)}
             named.append(tag("text", short, text_anchor="end" if leftward else "start", data_mark=i, **place))
     return tag("g", *named, class_="names")
 
@@ -133,8 +130,8 @@ def _triad(seen: View) -> Markup:
     for name, arrow in seen.axes(20.0):
         end = np.array([x, y]) + arrow
         letter = np.array([x, y + 4]) + 1.45 * arrow
-        pieces.append(tag("line", x1=_at(x), y1=_at(y), x2=_at(end[0]), y2=_at(end[1]), class_="axis"))
-        pieces.append(tag("text", name, x=_at(letter[0]), y=_at(letter[1]), text_anchor="middle"))
+        pieces.append(tag("line", x1=tenth(x), y1=tenth(y), x2=tenth(end[0]), y2=tenth(end[1]), class_="axis"))
+        pieces.append(tag("text", name, x=tenth(letter[0]), y=tenth(letter[1]), text_anchor="middle"))
     return tag("g", *pieces, class_="triad")
 
 
@@ -162,7 +159,7 @@ def _data(scene: Scene, marks: Sequence[Mark], seen: View) -> str:
 def _lines(at: np.ndarray, lines: np.ndarray) -> str:
     """Lines as one path; those that begin where the last one ended go on from there."""
     words, last = [], -1
-    places = [f"{_at(x)} {_at(y)}" for x, y in at.tolist()]
+    places = [f"{tenth(x)} {tenth(y)}" for x, y in at.tolist()]
     for i, j in lines.tolist():
         words.append(f"L{places[j]}" if i == last else f"M{places[i]}L{places[j]}")
         last = j
@@ -171,19 +168,16 @@ def _lines(at: np.ndarray, lines: np.ndarray) -> str:
 
 def _dots(at: np.ndarray) -> str:
     """Points as strokes of no length, whose round ends are dots."""
-    return "".join(f"M{_at(x)} {_at(y)}h0" for x, y in at.tolist())
+    return "".join(f"M{tenth(x)} {tenth(y)}h0" for x, y in at.tolist())
 
 
 def _stems(rest: np.ndarray, at: np.ndarray) -> str:
     """From each point at rest to where it is: without lines nothing else says which is which."""
     return "".join(
-        f"M{_at(a)} {_at(b)}L{_at(x)} {_at(y)}" for (a, b), (x, y) in zip(rest.tolist(), at.tolist(), strict=True)
+        f"M{tenth(a)} {tenth(b)}L{tenth(x)} {tenth(y)}"
+        for (a, b), (x, y) in zip(rest.tolist(), at.tolist(), strict=True)
     )
 
 
 def _squares(at: np.ndarray) -> str:
-    return "".join(f"M{_at(x - 4)} {_at(y - 4)}h8v8h-8z" for x, y in at.tolist())
-
-
-def _at(value: float) -> str:
-    return f"{min(max(value, -1e4), 1e4):.1f}".removesuffix(".0")
+    return "".join(f"M{tenth(x - 4)} {tenth(y - 4)}h8v8h-8z" for x, y in at.tolist())

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from math import ceil, floor, log10
 
 from mouse_cli.page.html import Markup, tag
+from mouse_cli.page.svg import figure, tenth
 
 _WIDTH, _HEIGHT, _LEFT, _RIGHT, _TOP, _BOTTOM = 640.0, 304.0, 54.0, 626.0, 44.0, 262.0
 _LEGEND = 130.0
@@ -34,18 +35,15 @@ def lines(key: str, title: str, told: str, x: str, y: str, drawn: Sequence[Line]
         pieces.append(_drawn(line, [(across(a), upward(max(b, low[1]))) for a, b in line.points]))
     named = [line for line in drawn if line.name and line.points]
     pieces += [piece for i, line in enumerate(named) for piece in _named(line, _LEFT + i * _LEGEND * 1.3)]
-    head = [tag("title", title, id=f"{key}-title"), tag("desc", told, id=f"{key}-told")]
-    size = {"viewBox": f"0 0 {_WIDTH:g} {_HEIGHT:g}"}
-    svg = tag("svg", *head, *pieces, role="img", aria_labelledby=f"{key}-title {key}-told", **size)
-    return tag("figure", tag("figcaption", title), svg, class_="functions")
+    return figure(key, title, told, (_WIDTH, _HEIGHT), *pieces, class_="functions")
 
 
 def _drawn(line: Line, at: list[tuple[float, float]]) -> Markup:
     if line.dots:
-        return tag("path", d="".join(f"M{_at(x)} {_at(y)}h0" for x, y in at), class_=f"line dots {line.looks}")
+        return tag("path", d="".join(f"M{tenth(x)} {tenth(y)}h0" for x, y in at), class_=f"line dots {line.looks}")
     if line.filled:
-        return tag("polygon", points=" ".join(f"{_at(x)},{_at(y)}" for x, y in at), class_=f"line {line.looks}")
-    return tag("polyline", points=" ".join(f"{_at(x)},{_at(y)}" for x, y in at), class_=f"line {line.looks}")
+        return tag("polygon", points=" ".join(f"{tenth(x)},{tenth(y)}" for x, y in at), class_=f"line {line.looks}")
+    return tag("polyline", points=" ".join(f"{tenth(x)},{tenth(y)}" for x, y in at), class_=f"line {line.looks}")
 
 
 def ticks(low: float, high: float, count: int = 6) -> list[float]:
@@ -71,10 +69,10 @@ def _scale(low: float, high: float, start: float, end: float):
 def _grid(low: float, high: float, scale, name: str, upward: bool) -> list[Markup]:
     found = []
     for value in ticks(low, high):
-        at, words = _at(scale(value)), f"{value:.6g}".replace("-", "−")
+        at, words = tenth(scale(value)), f"{value:.6g}".replace("-", "−")
         if upward:
             found.append(tag("line", x1=_LEFT, x2=_RIGHT, y1=at, y2=at, class_="grid"))
-            found.append(tag("text", words, x=_LEFT - 6, y=_at(scale(value) + 4), text_anchor="end"))
+            found.append(tag("text", words, x=_LEFT - 6, y=tenth(scale(value) + 4), text_anchor="end"))
         else:
             found.append(tag("line", x1=at, x2=at, y1=_TOP, y2=_BOTTOM, class_="grid"))
             found.append(tag("text", words, x=at, y=_BOTTOM + 16, text_anchor="middle"))
@@ -87,8 +85,4 @@ def _named(line: Line, x: float) -> list[Markup]:
     at = [(x + 13, 12.0)] if line.dots else [(x, 12.0), (x + 26, 12.0)]
     if line.filled:
         at = [(x, 7.0), (x + 26, 7.0), (x + 26, 17.0), (x, 17.0)]
-    return [_drawn(line, at), tag("text", line.name, x=_at(x + 32), y=16)]
-
-
-def _at(value: float) -> str:
-    return f"{min(max(value, -1e4), 1e4):.1f}".removesuffix(".0")
+    return [_drawn(line, at), tag("text", line.name, x=tenth(x + 32), y=16)]

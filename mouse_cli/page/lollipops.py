@@ -7,6 +7,7 @@ from mouse_cli.page.html import Markup, tag
 from mouse_cli.page.marks import named
 from mouse_cli.page.numbers import shown
 from mouse_cli.page.sections._words import drawn_model, listed, paragraphs
+from mouse_cli.page.svg import figure, tenth
 from mouse_cli.report.reading import Part
 
 _WIDTH, _HEIGHT, _LEFT, _TOP = 300.0, 150.0, 16.0, 12.0
@@ -84,28 +85,23 @@ def _figure(one: Stems, places: set[str], number: int) -> Markup:
     for x, name, model, test in zip(across, one.dofs, one.model, one.test, strict=True):
         pieces += _stem(x, model, test, scale, name in places)
         if count <= _NAMED:
-            pieces.append(tag("text", name[:6], x=_at(x), y=_HEIGHT - 2, text_anchor="middle"))
+            pieces.append(tag("text", name[:6], x=tenth(x), y=_HEIGHT - 2, text_anchor="middle"))
     spoken = "; ".join(
         f"{name}: {shown(m, 3)}, test {shown(t, 3)}" for name, m, t in zip(one.dofs, one.model, one.test, strict=True)
     )
-    head = [tag("title", one.title, id=f"{key}-title"), tag("desc", f"Model and test. {spoken}.", id=f"{key}-told")]
-    size = {"viewBox": f"0 0 {_WIDTH:g} {_HEIGHT:g}"}
-    drawn = tag("svg", *head, *pieces, role="img", aria_labelledby=f"{key}-title {key}-told", **size)
-    return tag("figure", tag("figcaption", one.title), drawn)
+    return figure(key, one.title, f"Model and test. {spoken}.", (_WIDTH, _HEIGHT), *pieces)
 
 
 def _stem(x: float, model: float | None, test: float | None, scale: float, marked: bool) -> list[Markup]:
     zero, found = _HEIGHT / 2, []
     if model is not None:
         y = zero - scale * model
-        found.append(tag("line", x1=_at(x), x2=_at(x), y1=_at(zero), y2=_at(y), class_="stem"))
-        found.append(tag("circle", cx=_at(x), cy=_at(y), r=3, class_="after"))
+        found.append(tag("line", x1=tenth(x), x2=tenth(x), y1=tenth(zero), y2=tenth(y), class_="stem"))
+        found.append(tag("circle", cx=tenth(x), cy=tenth(y), r=3, class_="after"))
     if test is not None:
-        found.append(tag("rect", x=_at(x - 4.5), y=_at(zero - scale * test - 4.5), width=9, height=9, class_="test"))
+        found.append(
+            tag("rect", x=tenth(x - 4.5), y=tenth(zero - scale * test - 4.5), width=9, height=9, class_="test")
+        )
     if marked:
-        found.append(tag("circle", cx=_at(x), cy=_at(zero), r=8, class_="ring"))
+        found.append(tag("circle", cx=tenth(x), cy=tenth(zero), r=8, class_="ring"))
     return found
-
-
-def _at(value: float) -> str:
-    return f"{min(max(value, -1e4), 1e4):.1f}".removesuffix(".0")

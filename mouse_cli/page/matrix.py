@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from mouse_cli.page.html import Markup, tag
+from mouse_cli.page.svg import figure, tenth
 
 SHADES = (0.2, 0.4, 0.6, 0.8, 0.9)  # where a darker shade begins
 _WIDTH, _LEFT, _TOP = 320.0, 34.0, 26.0
@@ -29,31 +30,18 @@ def matrix(key: str, title: str, told: str, names: Sequence[str], rows: Sequence
     ]
     for i, name in enumerate(names if count <= _NAMED else ()):
         middle = (i + 0.5) * side
-        pieces.append(tag("text", name[:5], x=_LEFT - 5, y=_at(_TOP + middle + 4), text_anchor="end"))
-        pieces.append(tag("text", name[:5], x=_at(_LEFT + middle), y=_TOP - 6, text_anchor="middle"))
-    head = [tag("title", title, id=f"{key}-title"), tag("desc", told, id=f"{key}-told")]
-    size = {"viewBox": f"0 0 {_WIDTH:g} {_at(_TOP + count * side + 4)}"}
-    svg = tag("svg", *head, *pieces, role="img", aria_labelledby=f"{key}-title {key}-told", **size)
-    return tag("figure", tag("figcaption", title), svg)
+        pieces.append(tag("text", name[:5], x=_LEFT - 5, y=tenth(_TOP + middle + 4), text_anchor="end"))
+        pieces.append(tag("text", name[:5], x=tenth(_LEFT + middle), y=_TOP - 6, text_anchor="middle"))
+    return figure(key, title, told, (_WIDTH, _TOP + count * side + 4), *pieces)
 
 
 def _square(value: float, x: float, y: float, side: float, count: int) -> Markup:
     known = value == value
-    drawn = tag(
-        "rect",
-        x=_at(x),
-        y=_at(y),
-        width=_at(side),
-        height=_at(side),
-        class_=f"tile {shade(value) if known else 'unknown'}",
-    )
+    looks = f"tile {shade(value) if known else 'unknown'}"
+    drawn = tag("rect", x=tenth(x), y=tenth(y), width=tenth(side), height=tenth(side), class_=looks)
     if not known or count > _WRITTEN:
         return drawn
     words = tag(
-        "text", f"{value:.2f}", x=_at(x + side / 2), y=_at(y + side / 2 + 4), text_anchor="middle", class_="tiled"
+        "text", f"{value:.2f}", x=tenth(x + side / 2), y=tenth(y + side / 2 + 4), text_anchor="middle", class_="tiled"
     )
     return Markup(drawn + words)
-
-
-def _at(value: float) -> str:
-    return f"{value:.1f}".removesuffix(".0")

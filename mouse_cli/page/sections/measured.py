@@ -9,6 +9,7 @@ from mouse_cli.page.matrix import matrix
 from mouse_cli.page.numbers import shown, signed_per_cent
 from mouse_cli.page.section import PageSection
 from mouse_cli.page.sections._words import listed, shares
+from mouse_cli.page.svg import svg, tenth
 from mouse_cli.page.tables import Cell, table
 from mouse_cli.report.reading import Part
 
@@ -62,16 +63,10 @@ def _diagram(document: Part, modes: list[float]) -> Markup:
     across = lambda hz: _LEFT + (_WIDTH - _LEFT - 8) * (hz - band[0]) / (band[1] - band[0])
     up = lambda order: _BOTTOM - (_BOTTOM - 12) * order / highest
     inside = [(hz, order, stable) for hz, order, stable in poles if band[0] <= hz <= band[1]][:_MOST]
-    lines = [tag("line", x1=_at(across(hz)), x2=_at(across(hz)), y1=8, y2=_BOTTOM, class_="axis") for hz in modes]
+    lines = [tag("line", x1=tenth(across(hz)), x2=tenth(across(hz)), y1=8, y2=_BOTTOM, class_="axis") for hz in modes]
+    looks = {True: {"r": 2.5, "class_": "after"}, False: {"r": 1.5, "class_": "before"}}
     marks = [
-        tag(
-            "circle",
-            cx=_at(across(hz)),
-            cy=_at(up(order)),
-            r=2.5 if stable else 1.5,
-            class_="after" if stable else "before",
-        )
-        for hz, order, stable in inside
+        tag("circle", cx=tenth(across(hz)), cy=tenth(up(order)), **looks[bool(stable)]) for hz, order, stable in inside
     ]
     words = [
         tag("text", shown(band[0], 4), x=_LEFT, y=_BOTTOM + 16),
@@ -79,14 +74,8 @@ def _diagram(document: Part, modes: list[float]) -> Markup:
         tag("text", f"{highest:.0f}", x=_LEFT - 4, y=20, text_anchor="end"),
     ]
     told = f"{sum(s for *_, s in inside)} of {len(inside)} poles are stable; lines at the {len(modes)} modes of the answer."
-    head = [tag("title", "Stabilisation diagram", id="stable-title"), tag("desc", told, id="stable-told")]
-    size = {"viewBox": f"0 0 {_WIDTH:g} {_HEIGHT:g}"}
-    svg = tag("svg", *head, *lines, *marks, *words, role="img", aria_labelledby="stable-title stable-told", **size)
-    return tag("figure", tag("figcaption", "Stabilisation diagram: model order over frequency"), svg, tag("p", told))
-
-
-def _at(value: float) -> str:
-    return f"{value:.1f}".removesuffix(".0")
+    drawn = svg("stable", "Stabilisation diagram", told, (_WIDTH, _HEIGHT), *lines, *marks, *words)
+    return tag("figure", tag("figcaption", "Stabilisation diagram: model order over frequency"), drawn, tag("p", told))
 
 
 _PAIRS = ("mode", "model mode", "test, Hz", "sd of test", "model, Hz", "off", "off, in sd", "MAC", "scale factor")
