@@ -28,6 +28,13 @@ def frozen(values: Any, shape: tuple[int, ...], name: str, dtype: type = float) 
     return array
 
 
+def freeze(of: object, dtype: type = float, **shapes: tuple[int, ...]) -> None:
+    """Arrays of a frozen dataclass by name, each `frozen` in its shape; those that are None stay None."""
+    for name, shape in shapes.items():
+        if getattr(of, name) is not None:
+            object.__setattr__(of, name, frozen(getattr(of, name), shape, name, dtype))
+
+
 def dense(matrix: Matrix) -> np.ndarray:
     """The matrix as a numpy array; one that is an array already is not copied."""
     return matrix.toarray() if is_sparse(matrix) else matrix

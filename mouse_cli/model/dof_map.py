@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.model.arrays import frozen
+from mouse_cli.model.arrays import freeze
 from mouse_cli.model.geometry import DIRECTIONS, Geometry
 
 SCALAR = -1  # direction of a degree of freedom that has none, such as a scalar point or a modal coordinate
@@ -18,9 +18,7 @@ class DofMap:
     direction: np.ndarray
 
     def __post_init__(self) -> None:
-        n = len(self.node)
-        object.__setattr__(self, "node", frozen(self.node, (n,), "node", int))
-        object.__setattr__(self, "direction", frozen(self.direction, (n,), "direction", int))
+        freeze(self, int, node=(len(self.node),), direction=(len(self.node),))
 
     def __len__(self) -> int:
         return len(self.node)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.model.arrays import Matrix, frozen
+from mouse_cli.model.arrays import Matrix, freeze
 
 FORMS = ("complex", "log", "log-phase")  # what of a function is fitted: it, ln of its magnitude, that and its phase
 MOST_LINES = 200  # of a measurement that are fitted unless a deck says otherwise
@@ -45,11 +45,8 @@ class FrfTest:
 
     def __post_init__(self) -> None:
         shape = (len(self.frequency_hz), self.outputs.shape[0], self.inputs.shape[0])
-        object.__setattr__(self, "frequency_hz", frozen(self.frequency_hz, shape[:1], "frequency_hz"))
-        object.__setattr__(self, "H", frozen(self.H, shape, "H", complex))
-        object.__setattr__(self, "variance", frozen(self.variance, shape, "variance"))
-        if self.coherence is not None:
-            object.__setattr__(self, "coherence", frozen(self.coherence, shape[:2], "coherence"))
+        freeze(self, frequency_hz=shape[:1], variance=shape, coherence=shape[:2])
+        freeze(self, complex, H=shape)
 
     @property
     def omega(self) -> np.ndarray:

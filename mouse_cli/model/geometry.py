@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.model.arrays import frozen
+from mouse_cli.model.arrays import freeze
 
 DIRECTIONS = ("TX", "TY", "TZ", "RX", "RY", "RZ")  # translations, then rotations, about the global axes
 
@@ -25,14 +25,8 @@ class Geometry:
 
     def __post_init__(self) -> None:
         k, n, l = len(self.node_ids), len(self.node), len(self.lines)
-        for name, shape, dtype in (
-            ("node_ids", (k,), int),
-            ("coordinates", (k, 3), float),
-            ("node", (n,), int),
-            ("direction", (n,), int),
-            ("lines", (l, 2), int),
-        ):
-            object.__setattr__(self, name, frozen(getattr(self, name), shape, name, dtype))
+        freeze(self, int, node_ids=(k,), node=(n,), direction=(n,), lines=(l, 2))
+        freeze(self, coordinates=(k, 3))
 
     def labels(self) -> tuple[str, ...]:
         """Names (n,) of the degrees of freedom: node, then direction, such as `12TY`; a number where there is no node."""

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mouse_cli.model.arrays import Matrix, frozen, is_sparse
+from mouse_cli.model.arrays import Matrix, freeze, is_sparse
 from mouse_cli.model.structure import ListedElements, Structure
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ class Support:
     dofs: np.ndarray
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "dofs", frozen(self.dofs, (len(self.dofs),), "dofs", int))
+        freeze(self, int, dofs=(len(self.dofs),))
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Held:
     A: Matrix
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "kept", frozen(self.kept, (len(self.kept),), "kept", int))
+        freeze(self, int, kept=(len(self.kept),))
 
 
 def applied(structure: Structure, kept: np.ndarray) -> Structure:

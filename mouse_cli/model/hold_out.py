@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from mouse_cli.model.arrays import frozen
+from mouse_cli.model.arrays import freeze
 from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.recording import Recording
@@ -27,8 +27,8 @@ class Altered:
 
     def __post_init__(self) -> None:
         k = len(self.number)
-        for name, dtype in (("number", int), ("frequency_hz", float), ("frequency_sd_hz", float)):
-            object.__setattr__(self, name, frozen(getattr(self, name), (k,), name, dtype))
+        freeze(self, int, number=(k,))
+        freeze(self, frequency_hz=(k,), frequency_sd_hz=(k,))
 
 
 @dataclass(frozen=True)
@@ -45,8 +45,7 @@ class HoldOut:
     altered: tuple[Altered, ...] = ()
 
     def __post_init__(self) -> None:
-        for name in ("modes", "sensors"):
-            object.__setattr__(self, name, frozen(getattr(self, name), (len(getattr(self, name)),), name, int))
+        freeze(self, int, modes=(len(self.modes),), sensors=(len(self.sensors),))
 
     @property
     def fitted(self) -> ModalTest:

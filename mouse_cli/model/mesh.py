@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from mouse_cli.model.arrays import frozen
+from mouse_cli.model.arrays import freeze, frozen
 from mouse_cli.model.geometry import DIRECTIONS
 
 
@@ -30,8 +30,7 @@ class ElementSet:
 
     def __post_init__(self) -> None:
         e = len(self.ids)
-        object.__setattr__(self, "ids", frozen(self.ids, (e,), "ids", int))
-        object.__setattr__(self, "nodes", frozen(self.nodes, (e, np.shape(self.nodes)[1]), "nodes", int))
+        freeze(self, int, ids=(e,), nodes=(e, np.shape(self.nodes)[1]))
         values = {name: frozen(value, (e,), name) for name, value in self.properties.items()}
         object.__setattr__(self, "properties", values)
 
@@ -65,7 +64,7 @@ class GenericGroup:
     couplings: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "elements", frozen(self.elements, (len(self.elements),), "elements", int))
+        freeze(self, int, elements=(len(self.elements),))
 
 
 @dataclass(frozen=True)
@@ -88,9 +87,8 @@ class Mesh:
 
     def __post_init__(self) -> None:
         k = len(self.node_ids)
-        object.__setattr__(self, "node_ids", frozen(self.node_ids, (k,), "node_ids", int))
-        object.__setattr__(self, "coordinates", frozen(self.coordinates, (k, 3), "coordinates"))
-        object.__setattr__(self, "supports", frozen(self.supports, (len(self.supports), 2), "supports", int))
+        freeze(self, int, node_ids=(k,), supports=(len(self.supports), 2))
+        freeze(self, coordinates=(k, 3))
 
     @cached_property
     def gathered(self) -> "Gathered":

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.model.arrays import frozen
+from mouse_cli.model.arrays import freeze
 
 
 @dataclass(frozen=True)
@@ -18,4 +18,4 @@ class ModalDamping:
     sd: float = 0.0
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "ratio", frozen(self.ratio, (len(self.ratio),), "ratio"))
+        freeze(self, ratio=(len(self.ratio),))

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mouse_cli.model.arrays import Matrix, frozen
+from mouse_cli.model.arrays import Matrix, freeze
 
 SCALES = ("least-squares", "fitted", "unit", "none")
 
@@ -33,15 +33,8 @@ class ModalTest:
 
     def __post_init__(self) -> None:
         m, s = len(self.number), len(self.dofs)
-        for name, shape, dtype in (
-            ("number", (m,), int),
-            ("frequency_hz", (m,), float),
-            ("frequency_sd_hz", (m,), float),
-            ("dofs", (s,), int),
-            ("shapes", (s, m), float),
-            ("shape_sd", (s, m), float),
-        ):
-            object.__setattr__(self, name, frozen(getattr(self, name), shape, name, dtype))
+        freeze(self, int, number=(m,), dofs=(s,))
+        freeze(self, frequency_hz=(m,), frequency_sd_hz=(m,), shapes=(s, m), shape_sd=(s, m))
 
     @property
     def m(self) -> int:

@@ -6,7 +6,7 @@ from math import inf
 import numpy as np
 
 from mouse_cli._span import Span
-from mouse_cli.model.arrays import frozen
+from mouse_cli.model.arrays import freeze
 
 TRANSFORMS = ("identity", "log")
 
@@ -37,9 +37,7 @@ class Gaussian:
 
     def __post_init__(self) -> None:
         p = len(self.mean)
-        object.__setattr__(self, "mean", frozen(self.mean, (p,), "mean"))
-        shape = (p,) if np.ndim(self.cov) == 1 else (p, p)
-        object.__setattr__(self, "cov", frozen(self.cov, shape, "cov"))
+        freeze(self, mean=(p,), cov=(p,) if np.ndim(self.cov) == 1 else (p, p))
 
     @property
     def sd(self) -> np.ndarray:

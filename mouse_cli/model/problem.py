@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 from mouse_cli._errors import Diagnostic
 from mouse_cli._span import Span
-from mouse_cli.model.arrays import Matrix, frozen
+from mouse_cli.model.arrays import Matrix, freeze
 from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.model.held import ElementGroup, Held
 from mouse_cli.model.hold_out import HeldRecords, HoldOut
@@ -126,6 +126,6 @@ class Problem:
 
     def __post_init__(self) -> None:
         e, p = len(self.elements), len(self.parameters)
-        object.__setattr__(self, "A", frozen(self.A, (e, p), "A"))
+        freeze(self, A=(e, p))
         if len(self.prior.mean) != p:
             raise ValueError(f"prior has {len(self.prior.mean)} means for {p} parameters")

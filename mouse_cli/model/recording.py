@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from mouse_cli.model.arrays import frozen
+from mouse_cli.model.arrays import freeze
 
 INPUT, OUTPUT = "input", "output"
 ABSOLUTE, RELATIVE = FRAMES = ("absolute", "relative")
@@ -54,8 +54,7 @@ class Recording:
     drift_hz: float = 0.0
 
     def __post_init__(self) -> None:
-        shape = (len(self.samples), len(self.channels))
-        object.__setattr__(self, "samples", frozen(self.samples, shape, "samples"))
+        freeze(self, samples=(len(self.samples), len(self.channels)))
 
     @property
     def sample_rate_hz(self) -> float:

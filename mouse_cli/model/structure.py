@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.model.arrays import Matrix, frozen
+from mouse_cli.model.arrays import Matrix, freeze
 from mouse_cli.model.geometry import Geometry
 
 
@@ -25,11 +25,7 @@ class Structure:
 
     def __post_init__(self) -> None:
         n = self.K.shape[0]
-        object.__setattr__(self, "K", frozen(self.K, (n, n), "K"))
-        object.__setattr__(self, "M", frozen(self.M, (n, n), "M"))
-        for name in ("C", "D"):
-            if getattr(self, name) is not None:
-                object.__setattr__(self, name, frozen(getattr(self, name), (n, n), name))
+        freeze(self, **dict.fromkeys("KMCD", (n, n)))
         object.__setattr__(self, "labels", tuple(self.labels) or tuple(str(i + 1) for i in range(n)))
 
     @property
@@ -51,9 +47,8 @@ class ListedElements:
 
     def __post_init__(self) -> None:
         e = len(self.row)
-        object.__setattr__(self, "is_mass", frozen(self.is_mass, (e,), "is_mass", bool))
-        object.__setattr__(self, "row", frozen(self.row, (e,), "row", int))
-        object.__setattr__(self, "col", frozen(self.col, (e,), "col", int))
+        freeze(self, bool, is_mass=(e,))
+        freeze(self, int, row=(e,), col=(e,))
 
     def __len__(self) -> int:
         return len(self.row)

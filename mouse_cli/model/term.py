@@ -5,7 +5,7 @@ from typing import Protocol
 
 import numpy as np
 
-from mouse_cli.model.arrays import frozen
+from mouse_cli.model.arrays import freeze
 
 MATRICES = ("K", "M", "C", "D")  # stiffness, mass, viscous damping, structural damping (imaginary part of K)
 
@@ -22,8 +22,7 @@ class Places:
 
     def __post_init__(self) -> None:
         z = len(self.row)  # up to 1e8 of them: 32 bits each
-        object.__setattr__(self, "row", frozen(self.row, (z,), "row", np.int32))
-        object.__setattr__(self, "col", frozen(self.col, (z,), "col", np.int32))
+        freeze(self, np.int32, row=(z,), col=(z,))
 
     def __len__(self) -> int:
         return len(self.row)
