@@ -35,7 +35,7 @@ def couple(coupling: Coupling, notice: Notice = lambda text: None) -> Coupled:
         found, interface = functions(coupling, common_lines(coupling), notice)
         warnings += _doubts(interface)
     modes = coupled_modes(coupling, notice) if only_models else None
-    if modes is not None and _damped(coupling):
+    if modes is not None and any(one.damping or one.loss_factor for one in coupling.connections):
         message = "natural frequencies and modal coupling leave dashpots and loss factors of connections out"
         warnings.append(Diagnostic("MD721", WARNING, message, help="functions have all of them"))
     told = () if found is None else peaks(found)
@@ -53,10 +53,6 @@ def _doubts(interface: InterfaceState) -> list[Diagnostic]:
     return [Diagnostic("MD713", WARNING, message, help="give truncate: 0.01, or join fewer degrees of freedom")]
 
 
-def _damped(coupling: Coupling) -> bool:
-    return any(one.damping or one.loss_factor for one in coupling.connections)
-
-
 _RIGID = 1e-8  # of the first elastic eigenvalue that is asked for
 _COUNT = 10
 
@@ -64,7 +60,7 @@ _COUNT = 10
 def coupled_modes(coupling: Coupling, notice: Notice = lambda text: None) -> CoupledModes:
     """Lowest natural frequencies of the whole, and those of every reduction asked for. Raises DeckError, NumericalError."""
     asked = coupling.synthesis or Synthesis((), (), _COUNT)
-    matrices = [_matrices(part.problem) for part in coupling.substructures]
+    matrices = [assembly(part.problem).matrices(part.problem.prior.mean) for part in coupling.substructures]
     K, M = assembled(coupling, matrices)
     try:
         solution = EigenSolver(notice).solve(K, M, min(asked.count, K.shape[0]))
@@ -75,10 +71,6 @@ def coupled_modes(coupling: Coupling, notice: Notice = lambda text: None) -> Cou
     hz = np.where(np.arange(len(lam)) < rigid, 0.0, frequency_hz(lam))
     reduced = _reduced(coupling, asked, matrices, hz) if asked.keep else ()
     return CoupledModes(hz, rigid, K.shape[0], reduced)
-
-
-def _matrices(problem) -> tuple[Matrix, Matrix]:
-    return assembly(problem).matrices(problem.prior.mean)
 
 
 def _reduced(

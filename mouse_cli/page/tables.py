@@ -24,13 +24,9 @@ def table(key: str, caption: str, heads: Sequence[str], rows: Iterable[Sequence[
     body = [_row(row) for row in rows]
     if not body:
         return Markup("")
-    top = tag("tr", *(_head(head) for head in heads))
+    top = tag("tr", *(tag("th", tag("button", head, type="button"), scope="col", aria_sort="none") for head in heads))
     written = tag("table", tag("caption", caption, id=f"{key}-caption"), tag("thead", top), tag("tbody", *body))
     return tag("div", written, class_="table", role="region", tabindex=0, aria_labelledby=f"{key}-caption")
-
-
-def _head(name: str) -> Markup:
-    return tag("th", tag("button", name, type="button"), scope="col", aria_sort="none")
 
 
 def _row(cells: Sequence[object]) -> Markup:

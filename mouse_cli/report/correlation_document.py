@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from mouse_cli.model.correlation import ALONE, Correlation, Expanded, Orthogonality
+from mouse_cli.model.correlation import ALONE, Correlation, Expanded
 from mouse_cli.report.json_values import dof_name, fields
 
 SCHEMA = "mouse.correlation/1"
@@ -28,7 +28,7 @@ def document(found: Correlation) -> dict[str, Any]:
         "auto_mac_model": found.auto_model,
         "sensors": _sensors(found),
         "sensor_faults": _faults(found),
-        "orthogonality": {judged.key: _orthogonality(judged) for judged in found.orthogonality},
+        "orthogonality": {judged.key: fields(judged, "test", "sd", "cross", "model") for judged in found.orthogonality},
         "subspaces": [
             {
                 "modes": problem.test.number[list(close.test)],
@@ -68,10 +68,6 @@ def _mode(found: Correlation, i: int) -> dict[str, Any]:
         "mac": found.mac[i, j] if paired else None,
         "scale_factor": found.scale_factor[i],
     }
-
-
-def _orthogonality(judged: Orthogonality) -> dict[str, Any]:
-    return fields(judged, "test", "sd", "cross", "model")
 
 
 def _expansion(found: Correlation, expanded: Expanded) -> dict[str, Any]:

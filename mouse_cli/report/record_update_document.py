@@ -2,7 +2,6 @@
 
 from typing import Any
 
-from mouse_cli.model.diagnosis import Size
 from mouse_cli.model.record_update import RecordUpdate
 from mouse_cli.model.units import system
 from mouse_cli.report import record_document as of_records
@@ -31,7 +30,7 @@ def document(found: RecordUpdate) -> dict[str, Any]:
                 "physics": one.physics,
                 "title": one.title,
                 "site": site(one.site),
-                "parameters": [_size(each) for each in one.sizes],
+                "parameters": [fields(each, "name", "unit", "value", "sd") for each in one.sizes],
             }
             for one in found.laws
         ],
@@ -66,7 +65,3 @@ def _parameters(found: RecordUpdate) -> list[dict[str, Any]]:
         }
         for one, mean, sd, value, left in rows
     ]
-
-
-def _size(size: Size) -> dict[str, Any]:
-    return fields(size, "name", "unit", "value", "sd")

@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 
 from mouse_cli import __version__
-from mouse_cli._errors import Diagnostic
 from mouse_cli.dynamics.frequency import frequency_hz, sd_frequency_hz
 from mouse_cli.model.arrays import dense, is_sparse
 from mouse_cli.model.problem import Problem
@@ -56,7 +55,7 @@ def document(result: Result) -> dict[str, Any]:
         **({"frf": frf(result.frf)} if result.frf else {}),
         **({"held_out_frf": held_frf(result.held_frf)} if result.held_frf else {}),
         "conditioning": conditioned(result),
-        "warnings": [_warning(d) for d in (*problem.warnings, *result.warnings)],
+        "warnings": [f"{d.code}: {d.message}" for d in (*problem.warnings, *result.warnings)],
         "versions": result.versions,
     }
 
@@ -205,7 +204,3 @@ def shapes(result: Result) -> list[dict[str, Any]]:
 def tested(test: ChiSquareTest) -> dict[str, Any]:
     """A test of the model's form."""
     return fields(test, "chi2", "dof", "p")
-
-
-def _warning(remark: Diagnostic) -> str:
-    return f"{remark.code}: {remark.message}"

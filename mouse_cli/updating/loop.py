@@ -128,7 +128,7 @@ def _result(trace: Trace, start: State, status: Status, estimator: Estimator, in
         exceeding=trace.test.exceeding(end.residual, setting.sd),
         B=end.B if problem.run.print_partials else None,
         T=end.T if problem.run.print_partials else None,
-        versions=_versions(),
+        versions={"mouse": __version__, "numpy": np.__version__, "python": sys.version.split()[0]},
         partials_error=end.error,
         conditioning=_conditioning(setting, end, estimator),
         **vars(fits(start, end, _root(setting.coordinates.L), estimate.root)),
@@ -182,7 +182,3 @@ def _snapshot(state: State, variance: np.ndarray) -> Snapshot:
         sd_predicted=np.sqrt(variance),
         mac=state.mac,
     )
-
-
-def _versions() -> dict[str, str]:
-    return {"mouse": __version__, "numpy": np.__version__, "python": sys.version.split()[0]}

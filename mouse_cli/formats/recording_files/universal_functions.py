@@ -48,7 +48,7 @@ def nodal_function(block: Block) -> NodalFunction:
     if len(numbers) < 5:
         raise ValueError(f"the head of the function at byte {block.at} is cut short")
     kind, count, even = (int(float(number)) for number in numbers[:3])
-    start, step = (_real(number) for number in numbers[3:5])
+    start, step = (float(number.replace("D", "e").replace("d", "e")) for number in numbers[3:5])
     if kind not in (2, 4, 5, 6) or not 0 < count <= _MOST:
         raise ValueError(f"the function at byte {block.at} has data type {kind} and {count} values")
     raw = _binary(block, at, kind, count, even) if block.binary else _text(block, at, kind, count, even)
@@ -79,10 +79,6 @@ def _axis(line: str) -> Axis:
     """Format(I10,3I5,2(1X,20A1)); some programs do not keep to the columns of the labels."""
     label = line[46:].strip() or " ".join(line.split()[5:])
     return Axis(int(float(line[:10].strip() or 0)), "" if label.upper() == "NONE" else label)
-
-
-def _real(text: str) -> float:
-    return float(text.replace("D", "e").replace("d", "e"))
 
 
 def _text(block: Block, at: int, kind: int, count: int, even: int) -> np.ndarray:

@@ -31,7 +31,7 @@ def structure(section: Section, labels: tuple[str, ...]) -> MeshDraft | None:
         return None
     context = Context(found.ids, labels if on_matrices else (), materials(section), cross_sections(section))
     made = elements(section, context)
-    links = _links(section, found.ids)
+    links = [link for each in section.listed("rigid_links") for link in _link(each, found.ids)]
     mesh = Mesh(
         found.ids,
         found.coordinates,
@@ -103,10 +103,6 @@ def _places(section: Section, node: Node, what: str, known: np.ndarray) -> np.nd
         message = f"{what} names node {number}, which is not among the nodes"
         section.document.error("MD401", node, message, "give the number of a node")
     return None if len(absent) else sorter[place]
-
-
-def _links(section: Section, known: np.ndarray) -> list[RigidLink]:
-    return [link for each in section.listed("rigid_links") for link in _link(each, known)]
 
 
 def _link(section: Section, known: np.ndarray) -> list[RigidLink]:

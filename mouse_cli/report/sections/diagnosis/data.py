@@ -108,7 +108,7 @@ def fitted_functions(found: Diagnosis, options: Options) -> Iterator[Block]:
                 f"{d.value:.4g}",
                 f"{d.sd:.2g}",
                 d.unit if d.unit != "1" else "",
-                _determined(d.told),
+                "" if d.told else "hardly determined by the FRFs",
             )
             for d in found.damping
         )
@@ -117,10 +117,6 @@ def fitted_functions(found: Diagnosis, options: Options) -> Iterator[Block]:
         yield Text(
             f"Damping of the structure is that of the {which if len(found.frf[0].models) == 1 else f'model {which}'}."
         )
-
-
-def _determined(told: bool) -> str:
-    return "" if told else "hardly determined by the FRFs"
 
 
 _HOW = {
