@@ -12,12 +12,11 @@ import numpy as np
 from mouse_cli._errors import ERROR, DeckError, Diagnostic
 from mouse_cli.batch.drawn import functions, stretches
 from mouse_cli.batch.job import Job
-from mouse_cli.estimators import estimator
 from mouse_cli.estimators.linear import expand, in_prior_units
 from mouse_cli.model.campaign import Answered
 from mouse_cli.model.problem import Problem
 from mouse_cli.updating.posterior import laplace
-from mouse_cli.updating.prior_model import begin
+from mouse_cli.updating.prior_model import begin, estimator
 from mouse_cli.updating.state import Setting
 
 OVER = ("modes", "sensors", "both", "functions", "records")
@@ -54,8 +53,8 @@ def natural(problem: Problem) -> str:
 
 
 def plan(problem: Problem, over: str, replicates: int, seed: int) -> Plan:
-    """Multinomial counts of units, drawn with replacement, as many as there are. Raises DeckError (MD934)."""
-    if not problem.by_recordings and not estimator(problem.run.estimator).weighted:
+    """Multinomial counts of units, drawn with replacement, as many as there are. Raises DeckError (MD334, MD934)."""
+    if not problem.by_recordings and not estimator(problem).weighted:
         raise DeckError(
             _refused(f"the estimator {problem.run.estimator} does not weight data, so that none counts twice")
         )
@@ -128,7 +127,7 @@ def predicted(problem: Problem, answer: Answered, plan: Plan) -> tuple[np.ndarra
 
 def _keeps_prior(problem: Problem) -> bool:
     """Whether the answer is drawn to the prior; else, as where the replaced recursion ends, C is (B'B)^-1."""
-    return problem.run.recursion == "anchored" and estimator(problem.run.estimator).uses_prior
+    return problem.run.recursion == "anchored" and estimator(problem).uses_prior
 
 
 def _variances(setting: Setting, plan: Plan) -> np.ndarray:
