@@ -173,7 +173,7 @@ def test_a_bootstrap_of_what_hardly_varies(capsys, tmp_path):
 def test_a_bootstrap_by_an_estimator_that_there_is_not(capsys, tmp_path):
     """It asks the estimator whether data may count twice before a cycle does."""
     deck = tmp_path / "deck.yaml"
-    deck.write_text((DECKS / "sound_chain.yaml").read_text() + "run: {estimator: replaced}\n")
+    deck.write_text((DECKS / "sound_chain.yaml").read_text().replace("run: {", "run: {estimator: replaced, "))
     assert _run(["bootstrap", str(deck), "--replicates", "2", "-o", str(tmp_path / "out")]) == 4
     assert "error[MD334]" in capsys.readouterr().err
 
