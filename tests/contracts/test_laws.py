@@ -6,7 +6,7 @@ import pytest
 from mouse_cli.terms.laws import Scale, registry
 from mouse_cli.terms.laws.iwan import sliders
 
-SCALE = Scale(1e5, 1.0, 2e-3, 0.4, (5.0, 100.0))
+SCALE = Scale(1e5, 1.0, 2e-3, 0.4, (5.0, 100.0), link=1e5)
 LAWS = list(registry().values())
 NONLINEAR = [law for law in LAWS if not law.linear]
 key = lambda law: law.key

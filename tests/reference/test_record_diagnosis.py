@@ -57,6 +57,21 @@ def test_a_cubic_spring_between_two_masses(tmp_path, sensors):
     assert max(held["error"]["with the cause"]) < 0.2 * max(held["error"]["as it is"])
 
 
+@pytest.mark.parametrize(("place", "k", "g"), [([1, 2], 3.06e4, 3e-4), ([1], 2.04e4, 5e-4)])
+def test_play_in_a_spring_of_the_model(tmp_path, place, k, g):
+    """No stop that is added: within the play the spring is not there."""
+
+    def law(u, v):
+        F = -k * np.clip(u[place[-1] - 1] - (u[0] if len(place) > 1 else 0.0), -g, g)
+        return np.array([-F, F]) if len(place) > 1 else np.array([F, 0.0])
+
+    found = answer(record(tmp_path, law))
+    verdict, sizes = found["verdict"], found["candidates"][0]["parameters"]
+    assert (verdict["kind"], verdict["physics"], verdict["site"]["ids"]) == ("named", "play", place)
+    for size, true in zip(sizes, (k, g), strict=True):
+        assert abs(size["value"] - true) < 3 * size["sd"] + 0.01 * true
+
+
 def test_friction_to_the_ground(tmp_path):
     """Regularised Coulomb friction: tanh of the velocity; no law of the library is exactly that."""
     found = answer(record(tmp_path, lambda u, v: np.array([6 * np.tanh(v[0] / 1e-3), 0.0])))

@@ -84,6 +84,13 @@ def test_bilinear_half_periods():
     np.testing.assert_allclose(found[1::2], np.pi / W, rtol=1e-4)
 
 
+def test_play_takes_its_own_time_on_the_way():
+    """Half a period of the spring beyond the play, and 2 g at constant speed through it."""
+    h, g = 5e-5, 2e-3
+    found = np.diff(crossings(free("play", [K, g], h, 0.3), h))
+    np.testing.assert_allclose(found, np.pi / W + 2 * g / 1.0, rtol=1e-4)
+
+
 def test_coulomb_friction_takes_the_same_from_each_peak():
     F, h = 2.0, 2e-5
     x = free("friction", [1000 * K, F], h, 0.15)

@@ -20,6 +20,7 @@ class Scale:
 
     band: lowest and highest frequency in the record, Hz. stiffest: contact that steps of a simulation can follow, 2 m / h^2.
     inertia: rms of the force that accelerates the mass, N: of bodies that move together it is far below stiffness times motion.
+    link: stiffness, N/m, of the spring that the model has there; 0 where it has none.
     """
 
     stiffness: float
@@ -29,6 +30,7 @@ class Scale:
     band: tuple[float, float]
     stiffest: float = 0.0
     inertia: float = np.inf
+    link: float = 0.0
 
     @property
     def forces(self) -> tuple[float, float]:
@@ -37,7 +39,7 @@ class Scale:
         return min(elastic, self.inertia), elastic
 
 
-_ANY = Scale(1.0, 1.0, 1.0, 1.0, (1.0, 1.0))  # where ranges do not matter
+_ANY = Scale(1.0, 1.0, 1.0, 1.0, (1.0, 1.0), link=1.0)  # where ranges do not matter
 
 
 @dataclass(frozen=True)
@@ -49,8 +51,9 @@ class Law:
     instead, for linear laws, on x and a coordinates of their own. unknowns(scale): parameters. variants: signs and sides, told
     apart as words. homogeneous: indices of parameters with which F grows in proportion. grid: values of each other parameter
     that a first search tries. implicit(v, F before, free, drop, p) -> F, F at the end: of a step, for a law whose force jumps
-    with the velocity, see dynamics.response.Implicit. at: `anywhere` or `ground` where it acts only between a point and the ground.
-    limit: index of the unknown that a record must show, and the group of what the law is where it does not.
+    with the velocity, see dynamics.response.Implicit. at: `anywhere`, `ground` where it acts only between a point and the ground,
+    or `link` where the model has a spring. limit: index of the unknown that a record must show, and
+    the group of what the law is where it does not.
     """
 
     key: str

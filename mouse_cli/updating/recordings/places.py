@@ -14,23 +14,22 @@ from mouse_cli.updating.recordings.hypothesis import Place
 from mouse_cli.updating.recordings.uncertain import links
 
 
-def motions(problem: Problem, sensed: np.ndarray) -> Iterator[tuple[Site, np.ndarray, bool]]:
-    """Site, motion B (n,) and whether it is against the ground. sensed (n,): mask of what is driven or measured."""
+def motions(problem: Problem, sensed: np.ndarray) -> Iterator[tuple[Site, np.ndarray, float]]:
+    """Site, motion B (n,) and the stiffness that links it. sensed (n,): mask of what is driven or measured."""
     labels, n = problem.structure.labels, problem.structure.n
-    for i in range(n):
-        if not _turns(labels[i]) and (n <= LARGEST or sensed[i]):
-            yield Site("dof", (labels[i],), text=f"between {_named(labels[i])} and the ground"), np.eye(n)[i], True
     K, _ = assembly(problem).matrices(problem.prior.mean)
     found = links(K)
-    for b in () if found is None else found.B.T:
-        ends = np.flatnonzero(b)
+    pairs = [] if found is None else [(np.flatnonzero(b), b, k) for b, k in zip(found.B.T, found.values, strict=True)]
+    grounded = {ends[0]: k for ends, _, k in pairs if len(ends) == 1}
+    for i in range(n):
+        if not _turns(labels[i]) and (n <= LARGEST or sensed[i]):
+            text = f"between {_named(labels[i])} and the ground"
+            yield Site("dof", (labels[i],), text=text), np.eye(n)[i], grounded.get(i, 0.0)
+    for ends, b, k in pairs:
         if len(ends) == 2 and _alike(*(labels[i] for i in ends)):
             i, j = ends
-            yield (
-                Site("dof", (labels[i], labels[j]), text=f"between {_named(labels[i])} and {_named(labels[j])}"),
-                b,
-                False,
-            )
+            text = f"between {_named(labels[i])} and {_named(labels[j])}"
+            yield Site("dof", (labels[i], labels[j]), text=text), b, k
 
 
 def _turns(label: str) -> bool:
@@ -55,7 +54,7 @@ def places(problem: Problem, spectrum: Spectrum, basis: np.ndarray, band: tuple[
     sensed = (np.abs(basis @ np.hstack([series.inputs, series.sensing.T])) > 1e-9).any(axis=1)
     u = spectrum.motions(np.zeros((basis.shape[1], 0)))
     found, moved = [], [spectrum.derivative(u, order) for order in (0, 1, 2)]
-    for site, b, ground in motions(problem, sensed):
+    for site, b, link in motions(problem, sensed):
         B = basis.T @ b
         size = float(B @ B)
         x, v, a = (float((one @ B).std()) for one in moved)
@@ -63,6 +62,6 @@ def places(problem: Problem, spectrum: Spectrum, basis: np.ndarray, band: tuple[
             continue
         stiffness, mass = (float(B @ matrix @ B) / size**2 for matrix in (model.K, model.M))
         step = spectrum.series.dt / spectrum.series.factor
-        scale = Scale(max(stiffness, mass * a / x), mass, x, v, band, 2 * mass / step**2, mass * a)
-        found.append(Place(site, B, ground, scale, b))
+        scale = Scale(max(stiffness, mass * a / x), mass, x, v, band, 2 * mass / step**2, mass * a, max(link, 0.0))
+        found.append(Place(site, B, len(site.ids) == 1, scale, b))
     return found

@@ -267,7 +267,8 @@ def _as_measured(spectrum: Spectrum, hypothesis: Hypothesis, x: np.ndarray) -> S
 def allowed(place: Place, laws: list[Law] | None = None) -> list[Law]:
     """The laws that a first look tries at a place."""
     own = registry().values() if laws is None else laws
-    return [law for law in own if law.key != "iwan" and (law.at != "ground" or place.ground)]
+    there = {"anywhere": True, "ground": place.ground, "link": place.scale.link > 0}
+    return [law for law in own if law.key != "iwan" and there[law.at]]
 
 
 def starts(looks: Iterable[Regression], laws: list[Law] | None = None) -> list[Start]:
