@@ -233,7 +233,7 @@ _PARAMETERS["storeys"] = "parameters:\n  - {name: storey, elements: 1-5, propert
 _PARAMETERS["masses"] = "parameters:\n  - {name: k, elements: 11-13, property: TX, sd: 10 %}\n"
 SUPPORTS = {"support-rotation", "support-translation", "rocking"}
 OWN = {
-    "frame": SUPPORTS | {"member", "added-mass", "taper"},
+    "frame": SUPPORTS | {"member", "added-mass", "taper", "turned-section"},
     "weighed": SUPPORTS,
     "pinned": {"support-restraint"},
     "girder": {"eccentric-bearing"},

@@ -1,5 +1,7 @@
 """Elements other than bars, springs between degrees of freedom, and groups of matrix elements, that lose or gain stiffness."""
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from mouse_cli.diagnosis.effects import element_sets
@@ -84,8 +86,11 @@ def _stiffness(model: Reduced, s: int, directed: bool) -> list[tuple[int, str, f
     return found
 
 
-def matrices_of(model: Reduced, s: int, **instead: float) -> Matrices:
-    """Matrices of the elements of set s, at the parameters where causes are weighed; instead: other values of properties."""
+def matrices_of(model: Reduced, s: int, exchanged: Iterable[tuple[str, str]] = (), **instead: float) -> Matrices:
+    """Matrices of the elements of set s, at the parameters where causes are weighed; exchanged: pairs of properties that are.
+
+    instead: other values of properties.
+    """
     mesh = model.problem.mesh
     elements, kind = mesh.elements[s], registry()[mesh.elements[s].type]
     options = {k: o.default for k, o in kind.options.items()} | elements.options
@@ -98,6 +103,8 @@ def matrices_of(model: Reduced, s: int, **instead: float) -> Matrices:
             properties[name][bound.members] = value
     for name in instead.keys() & properties.keys():
         properties[name][:] = instead[name]
+    for one, other in exchanged:
+        properties[one], properties[other] = properties[other], properties[one]
     return kind.matrices(layout, properties)
 
 

@@ -36,13 +36,13 @@ def of_members(model: Reduced, candidate: Candidate, sign: int = -1) -> list[Rec
     if model.motion is None:
         return missing(model, candidate) if sign < 0 else []
     parts: dict[int, Part] = {}
-    found = [(member, _energy(model, member, parts)) for member in members(model.problem.mesh)]
+    found = [(member, energy(model, member, parts)) for member in members(model.problem.mesh)]
     order = np.argsort([-energy for _, energy in found], kind="stable")[:_MOST]
     chosen = [found[i][0] for i in sorted(order.tolist()) if found[i][1] > _HELD]
     kinds = [member.kind for member in chosen]
     recipes = []
     for member in chosen:
-        K, M = (_sum(member, parts, which) for which in (1, 2))
+        K, M = (summed(member, parts, which) for which in (1, 2))
         heavy = bool(np.abs(M).max() > 0)
         share = -float(np.log(len(set(kinds)) * kinds.count(member.kind) * (1 + heavy)))
         stiff = sign * K, _beyond(model, member, parts, sign)
@@ -64,7 +64,7 @@ def _beyond(model: Reduced, member: Member, parts: dict[int, Part], sign: int) -
     return lambda share: scale * left.felt(sign * share)
 
 
-def _part(model: Reduced, s: int) -> Part:
+def of_set(model: Reduced, s: int) -> Part:
     """See `Part`; M without what the section only carries."""
     found = matrices_of(model, s, nonstructural_mass=0.0)
     elements = model.problem.mesh.elements[s]
@@ -73,21 +73,23 @@ def _part(model: Reduced, s: int) -> Part:
     return u, found["K"], M
 
 
-def _energy(model: Reduced, member: Member, parts: dict[int, Part]) -> float:
-    """The largest share of the strain energy of a low mode that a member holds."""
+def energy(
+    model: Reduced, member: Member, parts: dict[int, Part], part: Callable[[Reduced, int], Part] = of_set
+) -> float:
+    """The largest share of the strain energy of a low mode that a member holds, or that `part` of its sets has."""
     count = min(model.r, int(model.data.test.number.max()) + 1)
     scale = np.maximum(model.eigenvalues[:count], 1e-9 * model.eigenvalues[-1])
     held = np.zeros(count)
     for s in sorted({s for s, _ in member.elements}):
         if s not in parts:
-            parts[s] = _part(model, s)
+            parts[s] = part(model, s)
         own = [i for t, i in member.elements if t == s]
         u, K = parts[s][0][own][:, :, :count], parts[s][1][own]
         held += np.einsum("eir,eij,ejr->r", u, K, u, optimize=True)
-    return float((held / scale).max())
+    return float((np.abs(held) / scale).max())
 
 
-def _sum(member: Member, parts: dict[int, Part], which: int) -> np.ndarray:
+def summed(member: Member, parts: dict[int, Part], which: int) -> np.ndarray:
     """K or M (r, r) of a member."""
     total = 0.0
     for s in sorted({s for s, _ in member.elements}):

@@ -91,6 +91,17 @@ class Edit:
             origin = {key: source for key, source in members.origin.items() if key != name}
             self.sets[s] = replace(members, properties=members.properties | {name: own}, origin=origin)
 
+    def exchange(self, elements: list[tuple[int, int]], one: str, other: str) -> None:
+        """Exchanges two properties of `elements`, their values and the parameters bound to them."""
+        values = [np.array([self.values(each, name) for each in elements]) for name in (one, other)]
+        self.put(elements, one, values[1]), self.put(elements, other, values[0])
+        swap, bindings = {one: other, other: one}, []
+        for b in self.bindings:
+            own = np.array([(b.set, int(i)) in elements for i in b.members]) & (b.property in swap)
+            kept = [(b.members[~own], b.property), (b.members[own], swap.get(b.property, b.property))]
+            bindings += [replace(b, members=members, property=name) for members, name in kept if len(members)]
+        self.bindings = bindings
+
     def option(self, s: int, **options: object) -> None:
         """Sets options of a whole set."""
         self.sets[s] = replace(self.sets[s], options=self.sets[s].options | options)

@@ -17,7 +17,7 @@ _PLACES = ("node", "element", "dof")  # kinds of sites that are one place
 
 def implied_law(one: Fit) -> Law | None:
     """The law at the place of a single cause; None where it acts through no translation of one place, and without frequencies."""
-    if len(one.recipes) != 1:
+    if len(one.recipes) != 1 or not one.c.size:
         return None
     recipe, base = one.recipes[0], one.model.base
     values = recipe.values(one.c)

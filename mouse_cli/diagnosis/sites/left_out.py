@@ -17,6 +17,7 @@ import numpy as np
 from mouse_cli.diagnosis.sites.residual import NUMBERS, Static
 from mouse_cli.diagnosis.sites.strains import sparse_rows
 
+_FULL = 1e-9 - 1  # share of its stiffness that a direction loses at most
 _NOTHING = 1e-7  # share of the response to a load that the coordinates leave out, below which it is rounding
 
 
@@ -52,7 +53,7 @@ class Loaded:
         Z = (self.X - U @ kept) @ (scale[:, None] * Q[:, chosen] / np.sqrt(w[chosen]))
         pushed = (self.K @ Z.reshape(len(self.K), 12, -1)).reshape(Z.shape)
         s, Q = np.linalg.eigh(Z.T @ pushed)
-        return Left(U.T @ pushed @ Q, np.clip(s, 0.0, 1.0))
+        return Left(U.T @ pushed @ Q, np.maximum(s, _FULL))
 
 
 def loaded(static: Static | None, key: tuple, nodes: np.ndarray, K: np.ndarray) -> Loaded | None:

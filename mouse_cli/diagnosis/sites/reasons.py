@@ -54,6 +54,13 @@ def bases(model: Any) -> str:
     return "no motion of all supports together carries a load in the measured modes"
 
 
+def oblong(model: Any) -> str:
+    """Without a section that has a strong and a weak axis."""
+    if model.bars is None:
+        return bars(model)
+    return "no beam has Iy and Iz that differ, or none whose turning the measured modes would feel"
+
+
 def members(model: Any) -> str:
     """Without members, or with one."""
     found = bars(model)
