@@ -56,6 +56,22 @@ MODELS = {
 """,
         [(5, "TX"), (9, "TX"), (15, "TX"), (23, "TY")],
     ),
+    "tee": (
+        f"""
+  structure:
+    nodes:
+      - {{line: {{from: 1, to: 17, start: [0, 2], end: [3, 2]}}}}
+      - {{line: {{from: 21, to: 30, start: [1.5, 0], end: [1.5, 1.8]}}}}
+    {STEEL}
+    sections: {{bar: {{rectangle: [0.04, 0.05]}}}}
+    elements:
+      - {{id: 1-16, type: beam, nodes: 1-17, material: steel, section: bar}}
+      - {{id: 21-30, type: beam, nodes: [21-30, 9], material: steel, section: bar}}
+    supports: {{21: all}}
+    plane: XY
+""",
+        [(1, "TY"), (5, "TY"), (13, "TY"), (17, "TY"), (26, "TX")],
+    ),
     "space": (
         f"""
   structure:
@@ -225,7 +241,7 @@ def deck(name: str, folder) -> "Problem":  # noqa: F821
 
 _E = "parameters:\n  - {name: E, material: steel, property: E, sd: 3 %}\n"
 _PARAMETERS = dict.fromkeys(
-    ("cantilever", "girder", "free", "portal", "space", "tower", "frame", "weighed", "pinned"), _E
+    ("cantilever", "girder", "free", "portal", "tee", "space", "tower", "frame", "weighed", "pinned"), _E
 )
 _PARAMETERS["laden"] = _E + "  - {name: tip, elements: 43, property: mass, sd: 30 %}\n"
 _PARAMETERS["frame"] = _E + "  - {name: load, elements: 41-44, property: nonstructural_mass, sd: 20 %}\n"
@@ -233,6 +249,7 @@ _PARAMETERS["storeys"] = "parameters:\n  - {name: storey, elements: 1-5, propert
 _PARAMETERS["masses"] = "parameters:\n  - {name: k, elements: 11-13, property: TX, sd: 10 %}\n"
 SUPPORTS = {"support-rotation", "support-translation", "rocking"}
 OWN = {
+    "tee": {"joint"},
     "frame": SUPPORTS | {"member", "added-mass", "taper", "turned-section"},
     "weighed": SUPPORTS,
     "pinned": {"support-restraint"},

@@ -17,6 +17,7 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.terms.elements import _beam as beam
 
 _STARTS = 15  # places to begin from on a line
+_INSIDE = 0.02  # of the way from an end of a bar to its middle, where no other bar is
 _ENDS = 12  # ends of lines that a search in few coordinates knows to bend
 
 
@@ -151,8 +152,11 @@ def with_joint(
 
 def _end(edit: Edit, bars: Bars, bar: int, share: float) -> tuple[tuple[int, int], int, np.ndarray]:
     """The beam that ends at `share` of a bar, split there, which of its ends that is, and the axes of the bar."""
-    element, there = element_at(edit, np.array(bars.point(bar, share)), bars.axis[bar])
-    node = edit.split(element, there)
+    inside = bars.point(bar, share + _INSIDE * (0.5 - share))  # where bars go straight on, two of them end at one point
+    element, _ = element_at(edit, np.array(inside), bars.axis[bar])
+    start, end = (edit.coordinates[n] for n in edit.sets[element[0]].nodes[element[1]])
+    there = (np.array(bars.point(bar, share)) - start) @ (end - start) / np.sum((end - start) ** 2)
+    node = edit.split(element, float(np.clip(there, 0.0, 1.0)))
     element = edit.meeting(element, node)
     end = int(np.argmax(edit.sets[element[0]].nodes[element[1]] == node))
     axis, across = bars.axis[bar], bars.across[bar]
