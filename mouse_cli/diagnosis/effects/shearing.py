@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Softening, Unknown, steps
-from mouse_cli.diagnosis.extend.edit import Edit, every_beam
+from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.extend.places import every_beam
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.sites.bars import Bars
 from mouse_cli.model.problem import Problem

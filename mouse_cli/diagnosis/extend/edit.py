@@ -297,8 +297,3 @@ def moved_channels(recording: Recording, to: np.ndarray) -> Recording:
     """A recording when degree of freedom i (from 0) of its model has become to[i]."""
     own = (replace(c, weights={int(to[i]): w for i, w in c.weights.items()}) for c in recording.channels)
     return replace(recording, channels=tuple(own))
-
-
-def every_beam(edit: Edit) -> list[tuple[int, int]]:
-    """All beams of the deck."""
-    return [(s, i) for s, members in enumerate(edit.sets) if members.type == "beam" for i in range(len(members))]

@@ -63,6 +63,11 @@ def beams_within(edit: Edit, segments: Iterable[tuple[np.ndarray, np.ndarray]]) 
     return found
 
 
+def every_beam(edit: Edit) -> list[tuple[int, int]]:
+    """All beams of the deck."""
+    return [(s, i) for s, members in enumerate(edit.sets) if members.type == "beam" for i in range(len(members))]
+
+
 def split(edit: Edit, ends: tuple[np.ndarray, np.ndarray]) -> None:
     """Splits the beams in which a segment begins and ends."""
     for end in ends:

@@ -5,8 +5,8 @@ import numpy as np
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product, steps
 from mouse_cli.diagnosis.effects.element_sets import heavier
 from mouse_cli.diagnosis.effects.line_mass import Wet
-from mouse_cli.diagnosis.extend.edit import Edit, every_beam
-from mouse_cli.diagnosis.extend.places import beams_within, split
+from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.extend.places import beams_within, every_beam, split
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.intervals import Interval, from_end

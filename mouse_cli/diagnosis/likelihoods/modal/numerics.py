@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.diagnosis.extend.edit import Edit, every_beam
+from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.extend.places import every_beam
 from mouse_cli.dynamics.eigen import dense_solution
 from mouse_cli.model.arrays import dense
 from mouse_cli.model.problem import Problem
