@@ -90,7 +90,8 @@ CODES = {
     "MD275": Code(
         "import does not agree with the solver",
         "The matrices of the element sets do not sum to those of the whole, or the imported model on its supports has not the "
-        "frequencies that CalculiX finds for the job as it was written. Nothing was written.",
+        "frequencies that CalculiX finds for the job as it was written. Nothing was written. As a warning: shells, such as curved "
+        "ones, do not go by powers of their thickness, and the deck has none for them.",
         "Import parts of the model to find which keyword acts otherwise than it is read, and report it.",
     ),
     "MD276": Code(

@@ -10,12 +10,14 @@ import numpy as np
 
 from mouse_cli._atomic import write_bytes_atomically, write_text_atomically
 from mouse_cli.formats.yaml_deck.text import real, word, wrapped
+from mouse_cli.importing.cards import Card
 from mouse_cli.importing.checks import Checked, held_rows
 from mouse_cli.importing.model import InputModel
 from mouse_cli.importing.separate import Parts
-from mouse_cli.importing.thickness import Thickness
+from mouse_cli.importing.thickness import total
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.geometry import DIRECTIONS
+from mouse_cli.model.held import Thickness
 from mouse_cli.model.revision import THICKNESS, TO_THE_POWER
 
 _E_SD, _DENSITY_SD, _SPRING_SD = "5 %", "1 %", "20 %"  # what is known of a material and of a spring before the test
@@ -38,7 +40,13 @@ def units(model: InputModel) -> str:
 
 
 def write(
-    target: Path, model: InputModel, parts: Parts, checked: Checked, system: str, thick: list[Thickness]
+    target: Path,
+    model: InputModel,
+    parts: Parts,
+    checked: Checked,
+    system: str,
+    thick: dict[int, Thickness],
+    shells: Iterable[Card] = (),
 ) -> list[Path]:
     """The deck `target` and a folder of its files beside it; returns all paths, the deck last. Raises WrittenError."""
     folder = target.parent / f"{target.stem}_model"
@@ -64,8 +72,9 @@ def write(
         f"  dofs: {table('dofs.csv', _dofs(parts.whole.rows.names))}",
         f"  nodes: {table('nodes.csv', _nodes(model))}",
         *_supports(model, parts),
-        *_sets(model, parts, keep),
-        *_parameters(model, parts, keep, system, thick),
+        *_sets(model, parts, keep, thick),
+        *_parameters(model, parts, keep, system),
+        *_thick(model, thick, shells, keep),
         *_stub(checked),
     ]
     write_text_atomically(target, "\n".join(lines) + "\n")
@@ -92,19 +101,20 @@ def _supports(model: InputModel, parts: Parts) -> list[str]:
     return lines + [f"    {word(name)}: {{dofs: {wrapped((names[i] for i in rows), 6)}}}" for name, rows in found]
 
 
-def _sets(model: InputModel, parts: Parts, keep) -> list[str]:
+def _sets(model: InputModel, parts: Parts, keep, thick: dict[int, Thickness]) -> list[str]:
     lines = ["  sets:"] if model.groups else []
     for i, group in enumerate(model.groups):
         files = [f"{key}: {keep(f'{mark}_{_slug(group.name)}', matrix)}"
                  for key, mark, matrix in (("stiffness", "K", parts.K[i]), ("mass", "M", parts.M[i])) if matrix.nnz]  # fmt: skip
         if files:
             nodes = sorted({node for e in group.elements for node in model.elements[e][1]})
+            files += [f"thickness: {_by_power(thick[i], group.name, keep)}"] if i in thick else []
             lines.append(f"    {word(group.name)}: {{{', '.join(files)}, nodes: {wrapped(_ranges(nodes), 6)}}}")
     return lines
 
 
-def _parameters(model: InputModel, parts: Parts, keep, system: str, thick: list[Thickness]) -> list[str]:
-    """E and density of each material, springs by their sets, thickness of shells."""
+def _parameters(model: InputModel, parts: Parts, keep, system: str) -> list[str]:
+    """E and density of each material, springs by their sets."""
     lines = ["", "parameters:"]
     pressure, density = {"SI": ("Pa", "kg/m3"), "mm-t-N": ("MPa", "t/mm3")}.get(system, ("", ""))
     for name, material in model.materials.items():
@@ -122,24 +132,35 @@ def _parameters(model: InputModel, parts: Parts, keep, system: str, thick: list[
         if group.owner.keyword == "SPRING" and parts.K[i].nnz:
             file = keep(f"spring_{_slug(group.name)}", parts.K[i])
             lines.append(_parameter(f"stiffness of {group.name}", 1.0, "1", _SPRING_SD, "stiffness", file))
-    unit = {"SI": "m", "mm-t-N": "mm"}.get(system, "")
-    lines += [line for each in thick for line in _thickness(each, keep, unit)]
     return lines if len(lines) > 2 else []
 
 
-def _thickness(one: Thickness, keep, unit: str) -> Iterable[str]:
-    """A parameter, and its other powers."""
-    name = THICKNESS.format(one.name)
-    for n in one.powers:
-        scale = one.nominal**n
-        files = [f"{key}: {keep(f'{mark}_t{n}_{_slug(one.name)}', by[n] / scale)}"
-                 for key, mark, by in (("stiffness", "K", one.K), ("mass", "M", one.M)) if n in by]  # fmt: skip
-        of = f", unit: {unit}" if unit else ""
-        if n == 1:
-            own = f"{word(name)}, nominal: {real(one.nominal)}{of}, sd: {_THICKNESS_SD}, transform: log"
-        else:
-            own = f"{word(name + TO_THE_POWER.format(n))}, power_of: [{word(name)}, {n}]"
-        yield f"  - {{name: {', '.join([own, *files])}}}"
+def _by_power(one: Thickness, name: str, keep) -> str:
+    """What a set gives to K and M by powers of its thickness."""
+    of = f", unit: {one.unit}" if one.unit else ""
+    powers = [f"{n:g}: {{{', '.join(_of_power(one, n, name, keep, 1.0))}}}" for n in one.powers]
+    return f"{{nominal: {real(one.nominal)}{of}, powers: {{{', '.join(powers)}}}}}"
+
+
+def _of_power(one: Thickness, n: float, name: str, keep, scale: float) -> list[str]:
+    return [f"{key}: {keep(f'{mark}_t{n:g}_{_slug(name)}', by[n] / scale)}"
+            for key, mark, by in (("stiffness", "K", one.K), ("mass", "M", one.M)) if n in by]  # fmt: skip
+
+
+def _thick(model: InputModel, thick: dict[int, Thickness], shells: Iterable[Card], keep) -> Iterable[str]:
+    """A parameter for the thickness of each of the sections `shells`, and its other powers."""
+    for card in shells:
+        one = total(thick[i] for i, group in enumerate(model.groups) if group.owner is card)
+        section = card.options["ELSET"]
+        name = THICKNESS.format(section)
+        for n in one.powers:
+            of = f", unit: {one.unit}" if one.unit else ""
+            if n == 1:
+                own = f"{word(name)}, nominal: {real(one.nominal)}{of}, sd: {_THICKNESS_SD}, transform: log"
+            else:
+                own = f"{word(name + TO_THE_POWER.format(f'{n:g}'))}, power_of: [{word(name)}, {n:g}]"
+            files = _of_power(one, n, f"of_{section}", keep, one.nominal**n)
+            yield f"  - {{name: {', '.join([own, *files])}}}"
 
 
 def _parameter(name: str, value: float, unit: str, sd: str, key: str, file: str) -> str:

@@ -20,12 +20,14 @@ class Rows:
     """T (n, n): from the new coordinates to the rows of the solver, None: the same; names (n, 2): node, direction 1 to 6,
     0 with a number of its own for what is no motion of a node of the input.
 
-    held: for (node, direction) of the input, the coordinates (from 0) that a support of it holds.
+    held: for (node, direction) of the input, the coordinates (from 0) that a support of it holds. beside (n,): the node of the
+    input whose mean a coordinate is measured from, 0 for none.
     """
 
     T: Matrix | None
     names: np.ndarray
     held: dict[tuple[int, int], tuple[int, ...]]
+    beside: np.ndarray
 
     def brought(self, matrix: Matrix) -> Matrix:
         """T' matrix T."""
@@ -37,7 +39,7 @@ def rows(dofs: np.ndarray, own: set[int]) -> Rows:
     places: dict[tuple[int, int], list[int]] = {}
     for i, (node, direction) in enumerate(dofs.tolist()):
         places.setdefault((node, direction), []).append(i)
-    names, held, blocks = dofs.copy(), {}, []
+    names, held, blocks, beside = dofs.copy(), {}, [], np.zeros(len(dofs), int)
     top = max(int(dofs[:, 0].max()), max(own, default=0))
     for (node, direction), at in places.items():
         if node not in own:
@@ -50,8 +52,9 @@ def rows(dofs: np.ndarray, own: set[int]) -> Rows:
         held[node, direction] = (outer[0], *rest) if len(at) == 3 else (outer[0],)
         blocks.append((outer, rest))
         for i in outer[1:] + rest:
-            names[i] = top + 1 + i, _SCALAR
-    return Rows(_basis(len(dofs), blocks) if blocks else None, names, {k: v for k, v in held.items() if k[0] in own})
+            names[i], beside[i] = (top + 1 + i, _SCALAR), node if node in own else 0
+    T = _basis(len(dofs), blocks) if blocks else None
+    return Rows(T, names, {k: v for k, v in held.items() if k[0] in own}, beside)
 
 
 def _basis(n: int, blocks: list[tuple[list[int], list[int]]]):

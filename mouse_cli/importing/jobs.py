@@ -11,10 +11,10 @@ _MATRICES = ["*STEP", "*FREQUENCY, SOLVER=MATRIXSTORAGE", "1", "*END STEP"]
 _PER_LINE, _LONGEST = 8, 20
 
 
-def export(model: InputModel, scaled: Iterable[int] = (), thick: tuple[Card, float] | None = None) -> str:
+def export(model: InputModel, scaled: Iterable[int] = (), thick: float = 1.0) -> str:
     """The job that writes K and M without supports; every group has a section of its own, those of `scaled` with SCALE.
 
-    thick: a section whose thickness is so many times that of the file.
+    thick: thickness of all shells over that of the file.
     """
     scaled, lines = set(scaled), []
     owners = {id(group.owner) for group in model.groups}
@@ -23,8 +23,7 @@ def export(model: InputModel, scaled: Iterable[int] = (), thick: tuple[Card, flo
             lines += card.text()
     for i, group in enumerate(model.groups):
         factor = SCALE if i in scaled else 1.0
-        own = thick[1] if thick is not None and thick[0] is group.owner else 1.0
-        lines += section(group, f"MOUSE_{i}", factor, factor, own)
+        lines += section(group, f"MOUSE_{i}", factor, factor, thick if group.shell else 1.0)
     return "\n".join([*lines, *_MATRICES]) + "\n"
 
 

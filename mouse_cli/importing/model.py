@@ -53,6 +53,11 @@ class Group:
     owner: Card
     material: Material | None
 
+    @property
+    def shell(self) -> bool:
+        """Whether its elements have a thickness."""
+        return self.owner.keyword == "SHELL SECTION"
+
 
 @dataclass
 class InputModel:

@@ -23,7 +23,7 @@ _Factors = tuple[float, float]  # of the moduli and of the density, to those of 
 @dataclass(frozen=True)
 class _Changes:
     """materials, groups (by id): factors; gone: elements that are taken out; released: nodes of supports that are
-    other than before; notes: by the name of a material or a group; thickness: factors by element set.
+    other than before; notes: by the name of a material or a set; thickness: factors of groups (by id).
     """
 
     materials: dict[str, _Factors]
@@ -31,7 +31,7 @@ class _Changes:
     gone: set[int]
     released: set[int]
     notes: dict[str, list[str]]
-    thickness: dict[str, float]
+    thickness: dict[int, float]
 
 
 def revised_job(model: InputModel, problem: Problem, revision: Revision, inertia: bool) -> str:
@@ -81,12 +81,13 @@ def _changes(model: InputModel, revision: Revision, released: set[int]) -> _Chan
             groups[id(group)] = left * e + sum(p.stiffness for p in own), left * r + sum(p.mass for p in own)
             notes.setdefault(group.name, []).extend(part.note for part in own)
             gone |= set(group.elements) if left < _GONE else set()
-    shells = {c.options.get("ELSET", ""): c for c in model.kept if c.keyword == "SHELL SECTION"}
     thickness = {}
     for one in revision.thicknesses:
-        if one.name in shells:
-            thickness[one.name] = one.value / float(shells[one.name].lines[0].words[0])
-            notes.setdefault(one.name, []).append(one.note)
+        for group in model.groups:
+            if group.shell and one.name in (group.name, group.owner.options.get("ELSET")):
+                ratio = one.value / float(group.owner.lines[0].words[0])
+                thickness[id(group)] = thickness.get(id(group), 1.0) * ratio
+        notes.setdefault(one.name, []).append(one.note)
     return _Changes(materials, groups, gone, released, notes, thickness)
 
 
@@ -97,7 +98,8 @@ def _card(card: Card, model: InputModel, changes: _Changes, material: str, used:
     if card.keyword == "BOUNDARY":
         kept = [line.text for line in card.lines if not changes.released & set(_nodes(model, line.words[0]))]
         return [card.head.text, *kept] if kept else []
-    if any(id(group) in changes.groups for group in own):
+    thickness = {changes.thickness.get(id(group), 1.0) for group in own}
+    if any(id(group) in changes.groups for group in own) or len(thickness) > 1:
         return _sections(own, changes, used)
     if card.keyword == "ELASTIC" and factors[0] != 1.0:
         return elastic(model.materials[material], factors[0])
@@ -106,9 +108,9 @@ def _card(card: Card, model: InputModel, changes: _Changes, material: str, used:
     if changes.gone and card.keyword in ("ELEMENT", "ELSET"):
         return _left(card, model, changes.gone)
     named = card.options.get("ELSET")
-    if card.keyword == "SHELL SECTION" and named in changes.thickness:
-        noted, rest = (f"** {note}" for note in changes.notes[named]), (line.text for line in card.lines[1:])
-        return [*noted, card.head.text, times(card, 0, changes.thickness[named], of=1), *rest]
+    if thickness - {1.0}:
+        noted, rest = (f"** {note}" for note in changes.notes.get(named, ())), (line.text for line in card.lines[1:])
+        return [*noted, card.head.text, times(card, 0, thickness.pop(), of=1), *rest]
     if changes.gone and named in model.elsets and changes.gone.issuperset(model.elsets[named]):
         return []
     return card.text()
@@ -123,7 +125,7 @@ def _sections(own: list[Group], changes: _Changes, used: set[str]) -> list[str]:
             lines.append(f"** {group.name} is taken out")
             continue
         of = changes.materials.get(group.material.name, (1.0, 1.0)) if group.material is not None else (1.0, 1.0)
-        thickness = changes.thickness.get(group.owner.options.get("ELSET", ""), 1.0)
+        thickness = changes.thickness.get(id(group), 1.0)
         lines += section(group, tag(f"{group.name}_REVISED", used), *changes.groups.get(id(group), of), thickness)
     return lines
 

@@ -1,7 +1,7 @@
 """The whole of an import: read, export, check, write."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from mouse_cli._errors import WARNING, DeckError, Diagnostic
@@ -12,7 +12,8 @@ from mouse_cli.importing.deck import units, write
 from mouse_cli.importing.model import InputModel
 from mouse_cli.importing.read import read
 from mouse_cli.importing.separate import Parts, parts
-from mouse_cli.importing.thickness import Thickness, chosen, thicknesses
+from mouse_cli.importing.thickness import chosen, thicknesses
+from mouse_cli.model.held import Thickness
 
 
 @dataclass(frozen=True)
@@ -25,7 +26,7 @@ class Imported:
     files: list[Path]
     system: str
     remarks: tuple[Diagnostic, ...]
-    thick: list[Thickness]
+    thick: dict[int, Thickness]
 
     def text(self) -> str:
         """What was read, checked and written, in a few lines."""
@@ -41,8 +42,9 @@ class Imported:
         found += [
             f"{self.parts.jobs} exports; sets sum to the whole to {max(self.parts.error):.1g}",
             *(
-                f"thickness of {one.name}: {one.exports} exports, powers {', '.join(map(str, one.powers))}"
-                for one in self.thick
+                [f"thickness of shells by its powers: {', '.join(self.model.groups[i].name for i in self.thick)}"]
+                if self.thick
+                else []
             ),
             f"{len(self.checked.hz)} frequencies with supports as the solver's, to {self.checked.frequency:.1g}",
             f"written: {self.files[-1]} and {len(self.files) - 1} files in {self.files[0].parent}",
@@ -66,7 +68,7 @@ def imported(
         raise DeckError.of("MD274", message, Span(path, 1), help=help)
     with calculix.Solver(path, calculix.cache_folder() if cached else None, say) as solver:
         found = parts(model, solver, lambda whole: begin(model, whole, solver))
-        thick = thicknesses(model, shells, found.whole, solver)
+        thick = thicknesses(model, found, solver, shells)
         checked = check(model, found, solver)
     named = system or units(model)
     remarks = list(model.remarks)
@@ -77,5 +79,7 @@ def imported(
         remarks.append(
             Diagnostic("MD276", WARNING, f"the units of the job are {spoken}", Span(path, 1), help="give --units")
         )
-    files = write(target, model, found, checked, named, thick)
+    unit = {"SI": "m", "mm-t-N": "mm"}.get(named, "")
+    thick = {i: replace(each, unit=unit) for i, each in thick.items()}
+    files = write(target, model, found, checked, named, thick, shells)
     return Imported(model, found, checked, files, named, tuple(remarks), thick)

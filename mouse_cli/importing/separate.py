@@ -27,12 +27,19 @@ class Parts:
     error: tuple[float, float]
 
 
-def parts(model: InputModel, solver: Solver, meanwhile: Callable[[Exported], None] = lambda whole: None) -> Parts:
-    """Exports the model and its groups; meanwhile: done with the whole before the groups are read. Raises DeckError (MD274)."""
+def parts(
+    model: InputModel, solver: Solver, meanwhile: Callable[[Exported], None] = lambda whole: None, thick: float = 1.0
+) -> Parts:
+    """Exports the model and its groups; meanwhile: done with the whole before the groups are read. Raises DeckError (MD274).
+
+    thick: thickness of all shells over that of the file, of which it then exports the groups of shells alone.
+    """
     from scipy.sparse import csr_array
 
     own, classes = set(model.nodes), colours(model)
-    jobs = [(export(model, chosen), title) for chosen, title in _titled(model, classes)]
+    if thick != 1.0:
+        classes = [each for each in ([i for i in one if model.groups[i].shell] for one in classes) if each]
+    jobs = [(export(model, chosen, thick), title) for chosen, title in _titled(model, classes, thick)]
     ahead = cores() + 1
     solver.begin(jobs[:ahead])
     whole = solver.matrices(*jobs[0], own)
@@ -51,13 +58,13 @@ def parts(model: InputModel, solver: Solver, meanwhile: Callable[[Exported], Non
     return Parts(whole, K, M, len(jobs), error)
 
 
-def _titled(model: InputModel, classes: list[list[int]]) -> Iterator[tuple[list[int], str]]:
+def _titled(model: InputModel, classes: list[list[int]], thick: float) -> Iterator[tuple[list[int], str]]:
     """Groups (numbers) that each export scales, and its title: the whole first."""
-    total = len(classes) + 1
-    yield [], f"export 1 of {total}: the whole"
+    total, at = len(classes) + 1, "" if thick == 1.0 else f" at {thick:g} times the thickness"
+    yield [], f"export 1 of {total}{at}: the whole"
     for j, chosen in enumerate(classes, 2):
         names = ", ".join(model.groups[i].name for i in chosen[:4]) + (", ..." if len(chosen) > 4 else "")
-        yield chosen, f"export {j} of {total}: {names}"
+        yield chosen, f"export {j} of {total}{at}: {names}"
 
 
 def difference(changed: Matrix, whole: Matrix) -> Matrix:

@@ -1,42 +1,30 @@
-"""K and M of a shell section by powers of its thickness t, from exports at several.
+"""K and M of sets of shells by powers of their thickness t, from exports at two thicknesses, checked at a third.
 
-K(t) = K_0 + sum_n K_n (t / t_0)^n. Of a shell with rotations n = 1 (membrane, shear) and 3 (bending). CalculiX makes solids of
-shells, whose unknowns through the thickness are displacements: those see 1 / t and t, and, where shells meet and turn as one body,
-powers up to 3.
+With degrees of freedom in which strains are c_0 + c_1 z, c_0 the same at every t and c_1 z of the order of t, a flat shell has
+K = (t / t_0) K_1 + (t / t_0)^3 K_3, membrane and bending, and M likewise with rotary inertia. CalculiX makes solids of shells: what
+their faces move beside the mean of a node (`dofs`) is half of t times a rotation or a strain and goes by t, the quadratic motion
+of C3D8I through the thickness, which no other element shares, by t^2. Where shells meet it has rotations as they are.
 """
 
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli._errors import ERROR, DeckError, Diagnostic
+from mouse_cli._errors import ERROR, WARNING, DeckError, Diagnostic
 from mouse_cli._span import Span
 from mouse_cli.importing.calculix import Exported, Solver
 from mouse_cli.importing.cards import Card
 from mouse_cli.importing.jobs import export
 from mouse_cli.importing.model import InputModel
-from mouse_cli.importing.separate import difference
+from mouse_cli.importing.separate import Parts, parts
 from mouse_cli.model.arrays import Matrix
+from mouse_cli.model.held import Thickness
 
-POWERS = (1, 2, 3, -1)
-_SIZES = (0.7, 0.85, 1.2, 1.4, 1.6)  # t / t_0 of the exports: one more than powers
-_OPEN = 1e-9  # of the largest difference: what the powers may leave of the exports
-
-
-@dataclass(frozen=True)
-class Thickness:
-    """Of section `name`, t_0 in the units of the file; K and M (n, n) by power, without those that are nothing."""
-
-    name: str
-    nominal: float
-    K: dict[int, Matrix]
-    M: dict[int, Matrix]
-    exports: int = len(_SIZES)
-
-    @property
-    def powers(self) -> tuple[int, ...]:
-        """Those of K or M, 1 first."""
-        return tuple(dict.fromkeys((1, *self.K, *self.M)))
+_SIZE, _OTHER = 1.25, 0.8  # t / t_0 of the exports, and of the one that checks
+_OPEN = 1e-9  # of the largest difference: what the powers may leave of the export that checks
+_ROUNDING = 1e-11  # of the largest element
+_INNER = 1e-6  # relative: to which the stiffness of an inner motion goes by 1 / t
 
 
 def chosen(model: InputModel, names: tuple[str, ...]) -> list[Card]:
@@ -50,44 +38,90 @@ def chosen(model: InputModel, names: tuple[str, ...]) -> list[Card]:
     return [shells[name.upper()] for name in dict.fromkeys(names)]
 
 
-def thicknesses(model: InputModel, sections: list[Card], whole: Exported, solver: Solver) -> list[Thickness]:
-    """Each section by its powers. Raises DeckError (MD274, MD275)."""
-    own, found = set(model.nodes), []
-    for card in sections:
-        jobs = [(export(model, thick=(card, size)), f"{_name(card)} {size:g} times as thick") for size in _SIZES]
-        solver.begin(jobs)
-        exports = [solver.matrices(*job, own) for job in jobs]
-        K, M = (
-            _by_power(model, card, [difference(getattr(one, x), getattr(whole, x)) for one in exports]) for x in "KM"
-        )
-        found.append(Thickness(_name(card), float(card.lines[0].words[0]), K, M))
-    return found
+def thicknesses(model: InputModel, found: Parts, solver: Solver, asked: list[Card]) -> dict[int, Thickness]:
+    """Each group of shells (number) by its powers; none, with a remark, where they do not hold. Raises DeckError (MD274, MD275).
+
+    asked: sections whose thickness must be had.
+    """
+    shells = [i for i, group in enumerate(model.groups) if group.shell]
+    if not shells:
+        return {}
+    check = export(model, thick=_OTHER), f"the whole at {_OTHER:g} times the thickness"
+    solver.begin([check])
+    there, other = parts(model, solver, thick=_SIZE), solver.matrices(*check, set(model.nodes))
+    error = np.inf
+    if there.whole.K.shape == found.whole.K.shape == other.K.shape:
+        order = _order(model, found.whole, there.whole)
+        made = {i: _of_group(model, i, found, there, order) for i in shells}
+        error = max(_left(made.values(), found.whole, other, order, x) for x in "KM")
+    if error <= _OPEN:
+        return made
+    place = (asked[0] if asked else model.groups[shells[0]].owner).head.span
+    message = f"powers of the thickness of shells leave {error:.2g} of what exports differ by"
+    if asked:
+        raise DeckError(Diagnostic("MD275", ERROR, message, place, help="leave out --thickness: the shells are curved"))
+    help = "a diagnosis weighs no thickness: a thinner set stands for itself as one that has lost stiffness and mass"
+    model.remarks.append(Diagnostic("MD275", WARNING, message, place, help=help))
+    return {}
 
 
-def _by_power(model: InputModel, card: Card, moved: list[Matrix]) -> dict[int, Matrix]:
-    """Least squares over K(t) - K(t_0) = sum_n K_n ((t / t_0)^n - 1)."""
-    B = np.array(_SIZES)[:, None] ** np.array(POWERS, float) - 1
-    solve = np.linalg.pinv(B)
-    found = [sum(weight * each for weight, each in zip(row, moved, strict=True)).tocsr() for row in solve]
-    largest = max(abs(each).max() for each in moved)
-    left = [
-        each - sum(b * part for b, part in zip(row, found, strict=True)) for row, each in zip(B, moved, strict=True)
-    ]
-    error = max(abs(each).max() for each in left)
-    if not error <= _OPEN * largest:
-        message = f"powers of the thickness of {_name(card)} leave {error / largest:.2g} of what exports differ by"
-        help = "its shells are not of constant thickness, or of a type whose stiffness goes otherwise: leave out --thickness"
-        raise DeckError(Diagnostic("MD275", ERROR, message, card.head.span, help=help))
-    kept = {n: _clean(part, largest) for n, part in zip(POWERS, found, strict=True)}
-    return {n: part for n, part in kept.items() if part.nnz}
+def total(parts: Iterable[Thickness]) -> Thickness:
+    """Several sets of one thickness as one."""
+    first, *more = parts
+    for each in more:
+        K, M = ({n: a.get(n, 0) + b.get(n, 0) for n in a | b} for a, b in ((first.K, each.K), (first.M, each.M)))
+        first = replace(first, K=K, M=M)
+    return first
+
+
+def _order(model: InputModel, whole: Exported, there: Exported) -> np.ndarray:
+    """By which power (n,) of t the motion of each row goes: 0, 1 or 2."""
+    shells = {node for group in model.groups if group.shell for e in group.elements for node in model.elements[e][1]}
+    faces = np.isin(whole.rows.beside, list(shells)) & (whole.rows.beside > 0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        inner = np.abs(there.K.diagonal() * _SIZE / whole.K.diagonal() - 1) < _INNER
+    return faces + 2 * (inner & ~faces & (whole.rows.names[:, 1] == 0))
+
+
+def _of_group(model: InputModel, i: int, found: Parts, there: Parts, order: np.ndarray) -> Thickness:
+    group, inner = model.groups[i], _diagonal((order == 2).astype(float))
+    alone = inner @ found.M[i] @ inner  # goes by t, and is of motions that go by t^2 both
+    K = _odd(found.K[i], _scaled(there.K[i], order, _SIZE))
+    M = _odd(found.M[i] - alone, _scaled(there.M[i], order, _SIZE) - _SIZE**5 * alone)
+    found_M = {n: each for n, each in (M | {5.0: alone.tocsr()}).items() if each.nnz}
+    return Thickness(float(group.owner.lines[0].words[0]), "", K, found_M)
+
+
+def _odd(at: Matrix, there: Matrix) -> dict[float, Matrix]:
+    """A_1 and A_3 of at = A_1 + A_3 and there = s A_1 + s^3 A_3."""
+    third = (there - _SIZE * at) / (_SIZE**3 - _SIZE)
+    largest = abs(at).max() if at.nnz else 0.0
+    kept = {n: _clean(each, largest) for n, each in ((1.0, at - third), (3.0, third))}
+    return {n: each for n, each in kept.items() if each.nnz}
+
+
+def _left(made: Iterable[Thickness], whole: Exported, other: Exported, order: np.ndarray, name: str) -> float:
+    """What the powers leave of the difference between two exports, over the largest of it."""
+    moved = _scaled(getattr(other, name), order, _OTHER) - getattr(whole, name)
+    said = sum((_OTHER**n - 1) * each for one in made for n, each in getattr(one, name).items())
+    return float(abs(moved - said).max() / max(abs(moved).max(), 1e-300))
+
+
+def _scaled(matrix: Matrix, order: np.ndarray, size: float) -> Matrix:
+    """Of the motions at the thickness of the file."""
+    S = _diagonal(size ** order.astype(float))
+    return (S @ matrix @ S).tocsr()
+
+
+def _diagonal(values: np.ndarray) -> Matrix:
+    from scipy.sparse import diags_array
+
+    return diags_array(values)
 
 
 def _clean(part: Matrix, largest: float) -> Matrix:
     """Without what rounding leaves."""
-    part.data[abs(part.data) <= _OPEN * largest] = 0.0
+    part = part.tocsr()
+    part.data[abs(part.data) <= _ROUNDING * largest] = 0.0
     part.eliminate_zeros()
     return part
-
-
-def _name(card: Card) -> str:
-    return card.options["ELSET"]

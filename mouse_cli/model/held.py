@@ -13,16 +13,32 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
+class Thickness:
+    """Of shells, nominal t_0: K(t) = sum_n K_n (t / t_0)^n with K_n (N, N) by n, and M likewise."""
+
+    nominal: float
+    unit: str
+    K: dict[float, Matrix]
+    M: dict[float, Matrix]
+
+    @property
+    def powers(self) -> tuple[float, ...]:
+        """Those of K or M, 1 first."""
+        return tuple(dict.fromkeys((1.0, *self.K, *self.M)))
+
+
+@dataclass(frozen=True)
 class ElementGroup:
     """An element set by its name: K and M (N, N), None where it gives nothing; nodes (numbers) that its elements join.
 
-    They are in the degrees of freedom of the model without supports, where it has any.
+    They are in the degrees of freedom of the model without supports, where it has any. thickness: of shells, else None.
     """
 
     name: str
     K: Matrix | None = None
     M: Matrix | None = None
     nodes: tuple[int, ...] = ()
+    thickness: Thickness | None = None
 
 
 @dataclass(frozen=True)

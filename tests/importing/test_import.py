@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mouse_cli import DeckError, read_deck, run, write_deck
+from mouse_cli import DeckError, read_deck, write_deck
 from mouse_cli.dynamics.solver import eigensolution
 from mouse_cli.formats.matrix_files import read_matrix
 from mouse_cli.importing.jobs import colours
@@ -129,77 +129,6 @@ def test_what_the_solver_makes_solids_of_keeps_its_supports(tmp_path, element, s
     assert "supports: ENDS (12)" in said
     assert float(re.search(r"solver's, to (\S+)", said)[1]) < 1e-6
     assert read_deck(deck).held.supports[0].name == "ENDS"
-
-
-def folded(thickness: float) -> str:
-    """A plate with a web of another thickness below its middle line: CalculiX lets both turn there as one body."""
-    at = {(x, y, 0.0): 0 for x in range(6) for y in range(-2, 3)} | {(x, 0, -1.0): 0 for x in range(6)}
-    number = {place: n for n, place in enumerate(at, 1)}
-    text = "*NODE\n" + "".join(f"{n}, {0.1 * x}, {0.1 * y}, {0.1 * z}\n" for (x, y, z), n in number.items())
-    square = lambda a, b: [number[each] for each in (a[0], a[1], b[1], b[0])]
-    row = lambda x, y, z: ((x, y, z), (x + 1, y, z))
-    skin = [square(row(x, y, 0.0), row(x, y + 1, 0.0)) for x in range(5) for y in range(-2, 2)]
-    web = [square(row(x, 0, -1.0), row(x, 0, 0.0)) for x in range(5)]
-    for name, first, each in (("SKIN", 1, skin), ("WEB", 101, web)):
-        text += f"*ELEMENT, TYPE=S4, ELSET={name}\n"
-        text += "".join(f"{n}, {', '.join(map(str, nodes))}\n" for n, nodes in enumerate(each, first))
-    text += "*MATERIAL, NAME=M\n*ELASTIC\n7.0e10, 0.3\n*DENSITY\n2700.\n"
-    text += f"*SHELL SECTION, ELSET=SKIN, MATERIAL=M\n{thickness!r}\n*SHELL SECTION, ELSET=WEB, MATERIAL=M\n0.006\n"
-    return (
-        text
-        + f"*NSET, NSET=ENDS\n{number[0, -2, 0.0]}, {number[0, 2, 0.0]}, {number[5, 0, 0.0]}\n*BOUNDARY\nENDS, 1, 3\n"
-    )
-
-
-@solver
-def test_a_thickness_by_its_powers_is_that_of_the_solver(tmp_path):
-    """K and M at a thickness that no export had, and a run by frequencies there, against CalculiX at that thickness."""
-    true = 0.01 * 1.13
-    for name in ("job", "other"):
-        (tmp_path / name).mkdir()
-    deck, said = imported(tmp_path / "job", folded(0.01), "--thickness", "SKIN")
-    assert "thickness of SKIN: 5 exports, powers 1, 2, 3, -1" in said
-    problem, other = read_deck(deck), read_deck(imported(tmp_path / "other", folded(true))[0])
-    names = [p.name for p in problem.parameters]
-    i = names.index("thickness of SKIN")
-    theta = problem.prior.mean.copy()
-    theta[i : i + 4] = true ** np.array([1.0, 2.0, 3.0, -1.0])
-    found, expected = assembly(problem).matrices(theta), assembly(other).matrices(other.prior.mean)
-    for ours, theirs in zip(found, expected, strict=True):
-        assert abs(ours - theirs).max() < 1e-9 * abs(theirs).max()
-    hz = np.sqrt(eigensolution(*expected, 5).eigenvalues[:5]) / (2 * np.pi)
-    test = f"test:\n  modes:\n    frequency: [{', '.join(f'{f:.7g}' for f in hz)}]\n    frequency_sd: 0.01 %\n"
-    deck.write_text(re.sub(r"(E of M|density of M)(.*?)sd: \d+ %", r"\1\2sd: 0.001 %", deck.read_text()) + test)
-    theta = run(read_deck(deck)).revised.theta
-    assert theta[i] == pytest.approx(true, rel=1e-3)
-    assert np.allclose(theta[i : i + 4], theta[i] ** np.array([1.0, 2.0, 3.0, -1.0]), rtol=1e-9)
-    mouse, job, back = [sys.executable, "-m", "mouse_cli"], tmp_path / "job" / "job.inp", tmp_path / "back.inp"
-    job.write_text(folded(0.01))
-    subprocess.run([*mouse, "run", deck, "--json", "-q", "-o", tmp_path / "r.json"])
-    command = [
-        "export",
-        deck,
-        "--for",
-        "calculix",
-        "--job",
-        job,
-        "--result",
-        tmp_path / "r.json",
-        "-o",
-        back,
-        "--complete",
-    ]
-    subprocess.run([*mouse, *command, "-q"], check=True)
-    (skin,) = re.findall(r"ELSET=SKIN, MATERIAL=M\n(\S+)", back.read_text())
-    assert float(skin) == pytest.approx(theta[i], rel=1e-9)
-
-
-@solver
-@pytest.mark.parametrize("name", ["ENDS", "NOTHING"])
-def test_a_thickness_of_what_is_no_shell_is_refused(tmp_path, name):
-    with pytest.raises(subprocess.CalledProcessError) as refused:
-        imported(tmp_path, folded(0.01), "--thickness", name)
-    assert "MD272" in refused.value.stderr and "give one of SKIN, WEB" in refused.value.stderr
 
 
 @solver

@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.extend.edit import moved, moved_functions
 from mouse_cli.model.arrays import Matrix, is_sparse
-from mouse_cli.model.parameter import Parameter
+from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.structure import ListedElements
 from mouse_cli.terms.further import with_parameters
@@ -51,18 +51,44 @@ def with_part_left(
 
     With the entries: how the share of the part grows with each parameter (p,), which then moves what is left of it alone.
     """
-    structure, listed = problem.structure, problem.elements
+    gone = {name: plus(getattr(problem.structure, name), part[0], -1.0) for name, part in (("K", K), ("M", M))}
+    deck = _following(problem, 1 - left.nominal, K, M)
+    return with_entries(replace(deck, structure=replace(problem.structure, **gone)), left, K[0], M[0])
+
+
+def with_powers(
+    problem: Problem, name: str, unit: str, nominal: float, size: float,
+    by: list[tuple[float, str, tuple[Entries, np.ndarray], tuple[Entries, np.ndarray]]],
+) -> Problem:  # fmt: skip
+    """The deck with a part of it that goes by powers of a parameter, `name`, which is `nominal` in it, now `size` times that.
+
+    by: for each power n what its parameter is called after `name`, and what goes by it in K and M, as in `with_part_left`. The
+    prior holds ln theta_n = n ln theta, sd n: theta_n is theta^n in every fit.
+    """
+    deck, first = problem, len(problem.parameters)
+    for n, after, K, M in by:
+        deck = _following(deck, 1 - size**n, K, M)
+        changed = {x: plus(getattr(deck.structure, x), part[0], -1.0) for x, part in (("K", K), ("M", M))}
+        value = (nominal * size) ** n
+        power = Parameter(name + after, abs(n) * value, value, f"({unit})^{n:g}" if n != 1 else unit, transform="log")
+        own = ((*part[0][:2], part[0][2] / nominal**n) for part in (K, M))
+        deck = with_entries(replace(deck, structure=replace(deck.structure, **changed)), power, *own)
+    covariance, spread = deck.prior.dense(), np.array([n * (nominal * size) ** n for n, *_ in by])
+    covariance[first:, first:] = np.outer(spread, spread)
+    return replace(deck, prior=Gaussian(deck.prior.mean, covariance))
+
+
+def _following(problem: Problem, share: float, K: tuple[Entries, np.ndarray], M: tuple[Entries, np.ndarray]) -> Problem:
+    """The deck whose parameters move what is left of a part, as `with_part_left` takes it, after `share` of it is gone."""
+    listed, A = problem.elements, problem.A
     keys = zip(listed.is_mass.tolist(), listed.row.tolist(), listed.col.tolist(), strict=True)
     place = {key: i for i, key in enumerate(keys)}
-    changed, A = {}, problem.A
-    for name, (entries, slopes) in (("K", K), ("M", M)):
-        changed[name] = plus(getattr(structure, name), entries, -1.0)
-        rows, cols, values = entries
-        at = [place.get((name == "M", i, j), -1) for i, j in zip(rows.tolist(), cols.tolist(), strict=True)]
-        known = np.array(at, int) >= 0
-        A = _less(A, np.array(at, int)[known], (1 - left.nominal) * values[known], slopes)
-    deck = replace(problem, structure=replace(structure, **changed), A=A)
-    return with_entries(deck, left, K[0], M[0])
+    for mass, ((rows, cols, values), slopes) in enumerate((K, M)):
+        at = np.array(
+            [place.get((bool(mass), i, j), -1) for i, j in zip(rows.tolist(), cols.tolist(), strict=True)], int
+        )
+        A = _less(A, at[at >= 0], share * values[at >= 0], slopes)
+    return replace(problem, A=A)
 
 
 def _less(A: Matrix, at: np.ndarray, values: np.ndarray, slopes: np.ndarray) -> Matrix:

@@ -7,6 +7,7 @@ import numpy as np
 from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.effects.losses import of_elements, of_springs
 from mouse_cli.diagnosis.effects.members import of_members
+from mouse_cli.diagnosis.effects.thickness import of_shells
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.stretches import of_lines
@@ -17,9 +18,12 @@ _SAME = 0.999  # cosine between the changes of stiffness by a part and by a para
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """EI (1 + d) over a stretch of a line; K_e (1 + d) of an element or a member; K + d k b b' of a spring of matrices."""
+    """EI (1 + d) over a stretch of a line; K_e (1 + d) of an element or a member; K + d k b b' of a spring of matrices;
+    K(t) and M(t) of a set of shells.
+    """
     others = of_elements(model, candidate, 1, directed=True) + of_springs(model, candidate, 1)
-    kinds = [each for each in (of_lines(model, candidate, True), others, of_members(model, candidate, 1)) if each]
+    kinds = [of_lines(model, candidate, True), others, of_members(model, candidate, 1), of_shells(model, candidate, 1)]
+    kinds = [each for each in kinds if each]
     share = float(np.log(_SELDOM / max(len(kinds), 1)))
     found = [each for kind in kinds for each in kind]
     known = [_log_known(model, each) if len(each.unknowns) == 1 else 0.0 for each in found]
@@ -38,8 +42,8 @@ CANDIDATE = Candidate(
     "stiffness-gain",
     "a local gain of stiffness",
     "added-stiffness",
-    "a stretch of a bar, a member, or another element, that is stiffer than modelled: a doubler or a gusset, an infill, a "
-    "repair, a thicker section; a priori ten times less probable than any other mechanism, a part with a parameter of its own a "
-    "hundred times",
+    "a stretch of a bar, a member, a set of shells, or another element, that is stiffer than modelled: a doubler or a gusset, an "
+    "infill, a repair, a thicker section; a priori ten times less probable than any other mechanism, a part with a parameter of "
+    "its own a hundred times",
     recipes,
 )

@@ -10,8 +10,11 @@ from mouse_cli.formats.yaml_deck.ids import ids
 from mouse_cli.formats.yaml_deck.imported import Rows
 from mouse_cli.formats.yaml_deck.mesh_options import directions
 from mouse_cli.formats.yaml_deck.sections import Section
+from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.geometry import DIRECTIONS
-from mouse_cli.model.held import ElementGroup
+from mouse_cli.model.held import ElementGroup, Thickness
+
+_SUM, _LARGEST = 1e-9, 10  # relative error of a sum of parts; power of a thickness
 
 
 def supports(section: Section, labels: tuple[str, ...]) -> tuple[SupportDraft, ...]:
@@ -55,8 +58,46 @@ def element_sets(section: Section, order: int, rows: Rows) -> tuple[ElementGroup
         if K is None and M is None and not below.document.incomplete:
             below.error("MD276", "gives neither stiffness nor mass", "give the file of at least one of them")
         elif nodes is not None:
-            found.append(ElementGroup(name, K, M, tuple(nodes.tolist())))
+            thickness = _thickness(below, order, rows, {"stiffness": K, "mass": M})
+            found.append(ElementGroup(name, K, M, tuple(nodes.tolist()), thickness))
     return tuple(found)
+
+
+def _thickness(section: Section, order: int, rows: Rows, whole: dict) -> Thickness | None:
+    """What a set gives by powers of its thickness, which sums to `whole`, K and M by key."""
+    given = section.section("thickness")
+    if given is None:
+        return None
+    by: dict[str, dict[float, Matrix]] = {"stiffness": {}, "mass": {}}
+    for name, below in given.named("powers").items():
+        n = _power(below, name)
+        for key, found in by.items():
+            matrix = _matrix(below, key, order, rows)
+            if matrix is not None and n is not None:
+                found[n] = matrix
+    nominal = given.value("nominal")
+    if nominal is None or section.document.incomplete:
+        return None
+    if nominal <= 0:
+        return section.document.error("MD276", given.nodes["nominal"], f"{given.what('nominal')} is {nominal:g}",
+                                      "give the thickness of the shells in the model")  # fmt: skip
+    for key, found in by.items():
+        left, all_ = sum(found.values()), whole[key]
+        if found and (all_ is None or not abs(left - all_).max() <= _SUM * abs(all_).max()):
+            message = f"the {key} of {given.called} by powers does not sum to that of the set"
+            section.document.error("MD276", given.node, message, "give K_n and M_n at the nominal thickness")
+    return Thickness(nominal, given.value("unit", ""), by["stiffness"], by["mass"])
+
+
+def _power(section: Section, name: str) -> float | None:
+    try:
+        n = float(name)
+    except ValueError:
+        n = 0.0
+    if not 0 < abs(n) <= _LARGEST:
+        message = f"'{name[:20]}' is no power of a thickness"
+        return section.document.error("MD276", section.node, message, "give a number such as 1 or 3")
+    return n
 
 
 def _matrix(section: Section, key: str, order: int, rows: Rows):

@@ -14,7 +14,7 @@ from mouse_cli.formats.yaml_deck.writer_structure import structure
 from mouse_cli.formats.yaml_deck.writer_tests import test_lines
 from mouse_cli.model.arrays import Matrix, is_sparse, upper_triangle
 from mouse_cli.model.geometry import DIRECTIONS
-from mouse_cli.model.held import freed
+from mouse_cli.model.held import Thickness, freed
 from mouse_cli.model.problem import Problem, RunOptions
 from mouse_cli.model.structure import Structure
 from mouse_cli.model.units import system
@@ -159,15 +159,29 @@ def parts(problem: Problem, stem: str, attachments: dict[str, Matrix | str]) -> 
     if problem.groups:
         lines.append("  sets:")
     for number, group in enumerate(problem.groups, 1):
-        given = []
-        for key, matrix in (("stiffness", group.K), ("mass", group.M)):
-            if matrix is not None:
-                name = f"{stem}_{key}_{number}_{_NO_WORD.sub('_', group.name)}.mtx"
-                attachments[name] = matrix
-                given.append(f"{key}: {{file: {word(name)}}}")
-        nodes = [f"nodes: {wrapped(map(str, group.nodes), 6)}"] if group.nodes else []
-        lines.append(f"    {word(group.name)}: {{{', '.join(given + nodes)}}}")
+        stem_of = f"{stem}_{{}}_{number}_{_NO_WORD.sub('_', group.name)}"
+        given = _files({"stiffness": group.K, "mass": group.M}, stem_of, attachments)
+        given += [f"nodes: {wrapped(map(str, group.nodes), 6)}"] if group.nodes else []
+        if group.thickness is not None:
+            given.append(f"thickness: {_by_thickness(group.thickness, stem_of, attachments)}")
+        lines.append(f"    {word(group.name)}: {{{', '.join(given)}}}")
     return lines
+
+
+def _files(given: dict[str, Matrix | None], name: str, attachments: dict[str, Matrix | str]) -> list[str]:
+    """Keys with the files of matrices; `name` has a place for the key."""
+    there = {key: matrix for key, matrix in given.items() if matrix is not None}
+    attachments |= {f"{name.format(key)}.mtx": matrix for key, matrix in there.items()}
+    return [f"{key}: {{file: {word(f'{name.format(key)}.mtx')}}}" for key in there]
+
+
+def _by_thickness(one: Thickness, name: str, attachments: dict[str, Matrix | str]) -> str:
+    powers = []
+    for n in one.powers:
+        given = {"stiffness": one.K.get(n), "mass": one.M.get(n)}
+        powers.append(f"{n:g}: {{{', '.join(_files(given, f'{name}_t{n:g}', attachments))}}}")
+    of = f", unit: {word(one.unit)}" if one.unit else ""
+    return f"{{nominal: {real(one.nominal)}{of}, powers: {{{', '.join(powers)}}}}}"
 
 
 def laws(problem: Problem) -> list[str]:

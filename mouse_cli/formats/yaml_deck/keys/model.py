@@ -46,6 +46,22 @@ SECTIONS = {
             "stiffness": Key("section file", "what the set gives to stiffness", "nothing", "N/m"),
             "mass": Key("section file", "what the set gives to mass", "nothing", "kg"),
             "nodes": Key("ids", "nodes of its elements", "none"),
+            "thickness": Key("section thickness", "of shells: what it gives by powers of their thickness", "none"),
+        },
+    ),
+    "thickness": Section(
+        "What a set of shells gives to stiffness and mass by powers of its thickness t: the sum of K_n (t / nominal)^n.",
+        {
+            "nominal": Key("number", "the thickness in the model", required=True),
+            "unit": Key("text", "unit of the thickness", "empty"),
+            "powers": Key("map thickness_power", "by n: 1 is membrane and mass, 3 bending", required=True),
+        },
+    ),
+    "thickness_power": Section(
+        "What goes by one power of a thickness, at its nominal value; over all powers these sum to what the set gives.",
+        {
+            "stiffness": Key("section file", "K_n", "nothing", "N/m"),
+            "mass": Key("section file", "M_n", "nothing", "kg"),
         },
     ),
     "matrix": Section(

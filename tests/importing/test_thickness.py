@@ -1,0 +1,182 @@
+"""Thickness of shells of an imported model: K and M by its powers; a parameter, what is missing, and the job. Truth: CalculiX."""
+
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from test_import import imported, solver, written
+
+from mouse_cli import DeckError, read_deck, run, write_deck
+from mouse_cli.cli.main import main
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.dynamics.solver import eigensolution
+from mouse_cli.importing.calculix import Solver
+from mouse_cli.importing.jobs import frequencies
+from mouse_cli.importing.read import read
+from mouse_cli.terms.assembly import assembly
+
+
+def folded(thickness: float) -> str:
+    """A plate with a web of another thickness below its middle line: CalculiX lets both turn there as one body."""
+    at = {(x, y, 0.0): 0 for x in range(6) for y in range(-2, 3)} | {(x, 0, -1.0): 0 for x in range(6)}
+    number = {place: n for n, place in enumerate(at, 1)}
+    text = "*NODE\n" + "".join(f"{n}, {0.1 * x}, {0.1 * y}, {0.1 * z}\n" for (x, y, z), n in number.items())
+    square = lambda a, b: [number[each] for each in (a[0], a[1], b[1], b[0])]
+    row = lambda x, y, z: ((x, y, z), (x + 1, y, z))
+    skin = [square(row(x, y, 0.0), row(x, y + 1, 0.0)) for x in range(5) for y in range(-2, 2)]
+    web = [square(row(x, 0, -1.0), row(x, 0, 0.0)) for x in range(5)]
+    for name, first, each in (("SKIN", 1, skin), ("WEB", 101, web)):
+        text += f"*ELEMENT, TYPE=S4, ELSET={name}\n"
+        text += "".join(f"{n}, {', '.join(map(str, nodes))}\n" for n, nodes in enumerate(each, first))
+    text += "*MATERIAL, NAME=M\n*ELASTIC\n7.0e10, 0.3\n*DENSITY\n2700.\n"
+    text += f"*SHELL SECTION, ELSET=SKIN, MATERIAL=M\n{thickness!r}\n*SHELL SECTION, ELSET=WEB, MATERIAL=M\n0.006\n"
+    return (
+        text
+        + f"*NSET, NSET=ENDS\n{number[0, -2, 0.0]}, {number[0, 2, 0.0]}, {number[5, 0, 0.0]}\n*BOUNDARY\nENDS, 1, 3\n"
+    )
+
+
+@solver
+def test_a_thickness_by_its_powers_is_that_of_the_solver(tmp_path):
+    """K and M at a thickness that no export had, and a run by frequencies there, against CalculiX at that thickness."""
+    true = 0.01 * 1.13
+    for name in ("job", "other"):
+        (tmp_path / name).mkdir()
+    deck, said = imported(tmp_path / "job", folded(0.01), "--thickness", "SKIN")
+    assert "thickness of shells by its powers: SKIN, WEB" in said
+    problem, other = read_deck(deck), read_deck(imported(tmp_path / "other", folded(true))[0])
+    names = [p.name for p in problem.parameters]
+    i = names.index("thickness of SKIN")
+    theta = problem.prior.mean.copy()
+    theta[i : i + 3] = true ** np.array([1.0, 3.0, 5.0])
+    found, expected = assembly(problem).matrices(theta), assembly(other).matrices(other.prior.mean)
+    hz, ours = (np.sqrt(eigensolution(*each, 12).eigenvalues[:12]) / (2 * np.pi) for each in (expected, found))
+    assert np.allclose(ours, hz, rtol=1e-8)
+    hz = hz[:5]
+    test = f"test:\n  modes:\n    frequency: [{', '.join(f'{f:.7g}' for f in hz)}]\n    frequency_sd: 0.01 %\n"
+    deck.write_text(re.sub(r"(E of M|density of M)(.*?)sd: \d+ %", r"\1\2sd: 0.001 %", deck.read_text()) + test)
+    theta = run(read_deck(deck)).revised.theta
+    assert theta[i] == pytest.approx(true, rel=1e-3)
+    assert np.allclose(theta[i : i + 3], theta[i] ** np.array([1.0, 3.0, 5.0]), rtol=1e-9)
+    mouse, job, back = [sys.executable, "-m", "mouse_cli"], tmp_path / "job" / "job.inp", tmp_path / "back.inp"
+    job.write_text(folded(0.01))
+    subprocess.run([*mouse, "run", deck, "--json", "-q", "-o", tmp_path / "r.json"])
+    command = [
+        "export",
+        deck,
+        "--for",
+        "calculix",
+        "--job",
+        job,
+        "--result",
+        tmp_path / "r.json",
+        "-o",
+        back,
+        "--complete",
+    ]
+    subprocess.run([*mouse, *command, "-q"], check=True)
+    (skin,) = re.findall(r"ELSET=SKIN, MATERIAL=M\n(\S+)", back.read_text())
+    assert float(skin) == pytest.approx(theta[i], rel=1e-9)
+
+
+@solver
+@pytest.mark.parametrize("name", ["ENDS", "NOTHING"])
+def test_a_thickness_of_what_is_no_shell_is_refused(tmp_path, name):
+    with pytest.raises(subprocess.CalledProcessError) as refused:
+        imported(tmp_path, folded(0.01), "--thickness", name)
+    assert "MD272" in refused.value.stderr and "give one of SKIN, WEB" in refused.value.stderr
+
+
+def hz(K, M, count: int = 8) -> np.ndarray:
+    return np.sqrt(eigensolution(K, M, count).eigenvalues[:count]) / (2 * np.pi)
+
+
+def solved(folder, text: str) -> np.ndarray:
+    """Frequencies that CalculiX itself finds, without an import."""
+    folder.mkdir()
+    with Solver("job.inp", None, str) as ccx:
+        found = ccx.eigenvalues(frequencies(read(written(folder, text)), 8), "frequencies")
+    return np.sqrt(found[:8]) / (2 * np.pi)
+
+
+@solver
+@pytest.mark.parametrize(("key", "size"), [("thinner", 0.6), ("stiffness-gain", 1.5)])
+def test_another_thickness_is_that_of_the_solver_in_a_diagnosis_its_deck_and_the_job(tmp_path, key, size):
+    """In few coordinates, in the extended deck, in that deck read back, and in the job that is exported of it, which ccx runs."""
+    (tmp_path / "job").mkdir()
+    deck, _ = imported(tmp_path / "job", folded(0.01))
+    expected = solved(tmp_path / "other", folded(0.01 * size))
+    with deck.open("a") as file:
+        file.write("test:\n  modes:\n    frequency: [50, 150, 250, 350]\n    frequency_sd: 0.1 %\n")
+    problem = read_deck(deck)
+    model = reduced(problem, problem.prior.mean)
+    (recipe,) = (each for each in model.recipes(registry()[key])
+                 if "thickness" in each.unknowns[0].name and each.site(np.ones(1)).text == "element set SKIN")  # fmt: skip
+    values = np.array([abs(size - 1)])
+    change = recipe.change(values)
+    K, M = np.diag(model.eigenvalues) + change.K, np.eye(model.r) + change.M
+    assert np.allclose(hz(K, M, 4), expected[:4], rtol=2e-3)
+    extended = recipe.extend(problem, values)
+    write_deck(extended, tmp_path / "extended.yaml")
+    for each in (extended, read_deck(tmp_path / "extended.yaml")):
+        assert np.allclose(hz(*assembly(each).matrices(each.prior.mean)), expected, rtol=1e-6)
+        assert each.groups[0].thickness.powers == (1.0, 3.0, 5.0)
+    with pytest.raises(SystemExit) as left:
+        main(["export", str(tmp_path / "extended.yaml"), "--for", "calculix", "--job", str(tmp_path / "job" / "job.inp"),
+              "--complete", "-o", str(tmp_path / "back.inp")])  # fmt: skip
+    assert left.value.code == 0
+    assert np.allclose(solved(tmp_path / "after", (tmp_path / "back.inp").read_text()), expected, rtol=1e-9)
+
+
+@solver
+def test_a_set_within_a_section_gets_a_section_of_its_thickness(tmp_path):
+    """One thickness of a section that has two sets, changed in one of them: in the job it has a section of its own."""
+    from mouse_cli.importing.revised import revised_job
+    from mouse_cli.model.revision import RevisedThickness, Revision
+
+    within = folded(0.01).replace("*MATERIAL", "*ELSET, ELSET=EDGE\n1, 2, 3, 4\n*MATERIAL", 1)
+    deck, _ = imported(tmp_path, within)
+    revision = Revision("", "", "SI", thicknesses=(RevisedThickness("EDGE", 0.008),))
+    text = revised_job(read(str(tmp_path / "job.inp")), read_deck(deck), revision, False)
+    assert sorted(re.findall(r"\*SHELL SECTION.*\n(\S+)", text)) == ["0.006", "0.008", "0.01"]
+
+
+@solver
+def test_curved_shells_go_by_no_powers(tmp_path):
+    """It is said, and they have none; where it was asked for it is refused. A quarter of a cylinder, R = 10 t."""
+    angles = np.linspace(0, np.pi / 2, 7)
+    at = [(0.1 * np.cos(a), 0.1 * np.sin(a), z) for a in angles for z in (0.0, 0.03, 0.06)]
+    text = "*NODE\n" + "".join(f"{n}, {x:.12g}, {y:.12g}, {z:.12g}\n" for n, (x, y, z) in enumerate(at, 1))
+    text += "*ELEMENT, TYPE=S4, ELSET=ARCH\n" + "".join(
+        f"{2 * i + j + 1}, {3 * i + j + 1}, {3 * i + j + 4}, {3 * i + j + 5}, {3 * i + j + 2}\n" for i in range(6) for j in range(2)
+    )  # fmt: skip
+    text += "*MATERIAL, NAME=M\n*ELASTIC\n7.0e10, 0.3\n*DENSITY\n2700.\n*SHELL SECTION, ELSET=ARCH, MATERIAL=M\n0.01\n"
+    text += "*NSET, NSET=ENDS\n1, 3, 19, 21\n*BOUNDARY\nENDS, 1, 3\n"
+    deck, said = imported(tmp_path, text)
+    assert "powers" not in said and read_deck(deck).groups[0].thickness is None
+    with pytest.raises(subprocess.CalledProcessError) as refused:
+        imported(tmp_path, text, "--thickness", "ARCH")
+    assert "MD275" in refused.value.stderr and "leave out --thickness" in refused.value.stderr
+
+
+@pytest.mark.parametrize(
+    ("given", "what"),
+    [
+        ("{nominal: 0.01, powers: {1: {stiffness: {file: half.csv}}}}", "does not sum"),
+        ("{nominal: -1, powers: {1: {stiffness: {file: K.csv}}}}", "nominal is -1"),
+        ("{nominal: 1, powers: {thick: {stiffness: {file: K.csv}}}}", "no power"),
+        ("{powers: {1: {stiffness: {file: K.csv}}}}", "nominal"),
+    ],
+)
+def test_a_thickness_by_hand_is_checked(tmp_path, given, what):
+    (tmp_path / "K.csv").write_text("2,-1\n-1,2\n")
+    (tmp_path / "half.csv").write_text("1,-0.5\n-0.5,1\n")
+    (tmp_path / "M.csv").write_text("1,0\n0,1\n")
+    deck = tmp_path / "deck.yaml"
+    text = "mouse: 1\nmodel:\n  stiffness: {file: K.csv}\n  mass: {file: M.csv}\n  sets:\n    SKIN: {stiffness: {file: K.csv}, "
+    deck.write_text(text + f"thickness: {given}}}\ntest:\n  modes: {{frequency: [1], frequency_sd: 0.1}}\n")
+    with pytest.raises(DeckError, match=what):
+        read_deck(deck)
