@@ -1,14 +1,18 @@
 """What an answer stands or falls with, in sentences: accuracy of the test, held-out data, the place that shapes point to."""
 
 from collections.abc import Iterator
+from math import erfc, sqrt
 
 import numpy as np
 
+from mouse_cli.diagnosis.gates import GATE
 from mouse_cli.diagnosis.likelihoods.modal.accuracy import scatter
 from mouse_cli.diagnosis.likelihoods.modal.scales import span
 from mouse_cli.diagnosis.search.rank import Ranking
-from mouse_cli.diagnosis.verdict import Verdict
+from mouse_cli.diagnosis.verdict import Verdict, shifts
 from mouse_cli.model.diagnosis import NAMED, NOTHING, Location
+from mouse_cli.model.groups import enumerated
+from mouse_cli.updating.chi_square import upper_tail
 
 _PROBABLE = 0.5  # of an error of the test from which on it is told
 _NOISY = 1.5  # noise scale from which on it is told what the accuracies seem to be
@@ -35,7 +39,8 @@ def cautions(ranking: Ranking, verdict: Verdict, location: Location | None) -> t
     """The sentences, each whole; none where nothing is missing."""
     if verdict.kind == NOTHING:
         return ()
-    return (*verdict.reasons, *_errors(ranking), *_noise(ranking), *_refuted(verdict), *_elsewhere(verdict, location))
+    doubted = *_errors(ranking), *_noise(ranking), *_narrow(ranking)
+    return (*verdict.reasons, *doubted, *_refuted(verdict), *_elsewhere(verdict, location))
 
 
 def _errors(ranking: Ranking) -> Iterator[str]:
@@ -55,6 +60,25 @@ def _noise(ranking: Ranking) -> Iterator[str]:
             f"Even the best explanation leaves {parts} the scatter that the deck states. Unless the mechanism is outside the "
             "library, the test is less accurate by that factor: repeat a measurement to estimate its scatter."
         )
+
+
+def _narrow(ranking: Ranking) -> Iterator[str]:
+    """Where all that speaks against the model as it is are parameters further from their priors than chance allows."""
+    one = ranking.baseline
+    base, z = one.model.base, one.point.x[: one.model.k]
+    off, p = shifts(one), upper_tail(one.misfit - z @ z, max(one.dof - len(z), 1))  # of the data alone
+    chosen = [j for j, far in enumerate(off) if len(off) * erfc(abs(far) / sqrt(2)) < GATE]
+    if not chosen or p < GATE:
+        return
+    prior, value = (base.parameters(at) for at in (np.zeros_like(z), z))
+    parts = [
+        f"'{base.problem.parameters[j].name}' at {value[j]:.4g} instead of {prior[j]:.4g} ({off[j]:+.1f} prior sd)"
+        for j in chosen
+    ]
+    yield (
+        f"The model as it is explains the data (p = {p:.2g}) with {enumerated(parts)}. Where such a prior may be too narrow, a "
+        "value of the deck is wrong and nothing need be missing: check the value, or state a larger sd, and diagnose again."
+    )
 
 
 def _refuted(verdict: Verdict) -> Iterator[str]:

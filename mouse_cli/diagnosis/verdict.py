@@ -212,10 +212,15 @@ def rest(ranking: Ranking) -> Rest | None:
 
 def far_parameters(one: Fit) -> str:
     """Names of the parameters that are FAR from their prior means; empty: none is."""
-    base, z = one.model.base, one.point.x[: one.model.k]
+    names = one.model.base.problem.parameters
+    return ", ".join(f"'{names[j].name}'" for j in np.flatnonzero(np.abs(shifts(one)) > FAR))
+
+
+def shifts(one: Fit) -> np.ndarray:
+    """How far the parameters (p,) are from their prior means, in prior sd."""
+    base = one.model.base
     size = np.sqrt((base.L**2).sum(axis=1))
-    off = np.abs(base.L @ z) / np.where(size > 0, size, np.inf)
-    return ", ".join(f"'{base.problem.parameters[j].name}'" for j in np.flatnonzero(off > FAR))
+    return base.L @ one.point.x[: one.model.k] / np.where(size > 0, size, np.inf)
 
 
 def _gain(proof: HeldOut | None) -> float:

@@ -129,7 +129,7 @@ def with_hinge(
     off: distance from the axis of the point about which it turns.
     """
     edit = Edit(problem)
-    spring, soft = hinge(edit, *_end(edit, bars, bar, share), turning, sliding, parting, off)
+    spring, soft = hinge(edit, *end_of(edit, bars, bar, share), turning, sliding, parting, off)
     if len(soft) == 1:
         edit.bind(name, [spring], tuple(soft), unit="N m/rad")
     else:  # what is soft follows one factor
@@ -144,13 +144,13 @@ def with_joint(
     if len(planes) == 1:
         return with_hinge(problem, bars, planes[0], share, names[0], turning[0])
     edit = Edit(problem)
-    spring, soft = hinge(edit, *_end(edit, bars, planes[0], share), turning[0], other=turning[1])
+    spring, soft = hinge(edit, *end_of(edit, bars, planes[0], share), turning[0], other=turning[1])
     for name, key in zip(names, soft, strict=True):
         edit.bind(name, [spring], (key,), unit="N m/rad")
     return edit.done()
 
 
-def _end(edit: Edit, bars: Bars, bar: int, share: float) -> tuple[tuple[int, int], int, np.ndarray]:
+def end_of(edit: Edit, bars: Bars, bar: int, share: float) -> tuple[tuple[int, int], int, np.ndarray]:
     """The beam that ends at `share` of a bar, split there, which of its ends that is, and the axes of the bar."""
     inside = bars.point(bar, share + _INSIDE * (0.5 - share))  # where bars go straight on, two of them end at one point
     element, _ = element_at(edit, np.array(inside), bars.axis[bar])

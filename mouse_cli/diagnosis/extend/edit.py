@@ -117,9 +117,13 @@ class Edit:
             about, factor = {"factor": 1.0}, True
         nominal = float(about["factor"]) if factor else float(values[0])
         unit = "" if factor else about.get("unit", "")
-        number = len(self.problem.parameters) + len(self.parameters)
         transform = "log" if nominal > 0 else "identity"
         self.parameters.append(Parameter(name, abs(nominal), nominal, unit, transform=transform))
+        self.follow(elements, properties, factor)
+
+    def follow(self, elements: list[tuple[int, int]], properties: tuple[str, ...], factor: bool = False) -> None:
+        """The newest parameter is the value of `properties` of `elements` too, or a factor of it."""
+        number = len(self.problem.parameters) + len(self.parameters) - 1
         for s in sorted({s for s, _ in elements}):
             at = np.array(sorted(i for t, i in elements if t == s))
             self.bindings += [Binding(number, s, at, p, factor) for p in properties]

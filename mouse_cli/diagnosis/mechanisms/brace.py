@@ -1,4 +1,4 @@
-"""A spring between two places that nothing joins in the model: a brace, a cable, a strut."""
+"""A spring between two places that nothing joins in the model: a brace, a cable, a strut; or two that cross in one panel."""
 
 from dataclasses import replace
 
@@ -11,25 +11,39 @@ from mouse_cli.diagnosis.extend.points import found
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import lowest, total_mass
 from mouse_cli.diagnosis.mechanisms import Candidate
-from mouse_cli.diagnosis.sites.pairs import ALONG, chosen, site_of
+from mouse_cli.diagnosis.sites.pairs import ALONG, chosen, left_together, pairs, site_of
+from mouse_cli.diagnosis.sites.panels import crossed, panel
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
 
 _SIZES = 4  # to begin from
+_CROSSED = 0.3  # prior probability that it is two diagonals that cross
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """K + k / (1 + k R) b'b, b the elongation between two nodes, or the relative motion of two masses of a row."""
-    pairs = chosen(model)
-    if not len(pairs):
+    """K + b'(1/k + R)^-1 b, b the elongation between two nodes, or the relative motion of two masses of a row; or b (2, r) of two
+    diagonals of one panel that are alike.
+    """
+    every = pairs(model)
+    if not len(every):
         return []
+    one, two = chosen(model, every), crossed(model, every)
     scale = lowest(model) * total_mass(model)
     k = Unknown("stiffness", "N/m", 1e-3 * scale, 1e3 * scale)
-    left = pairs.left(model.eigenvalues)
-    return [
-        replace(_recipe(candidate, k, key, (b, R), site_of(model, key), float(prior)), starts=_starts(model, key))
-        for key, b, R, prior in zip(pairs.keys, pairs.rows, left, pairs.log_prior, strict=True)
+    left = one.left(model.eigenvalues)[:, None, None]
+    share, each = np.log([1 - _CROSSED, _CROSSED] if len(two) else [1.0, 1.0]), every.log_prior[two].mean(axis=1)
+    alone = [
+        replace(
+            _recipe(candidate, k, key[None], (b[None], R), site_of(model, key), float(prior)),
+            starts=_starts(model, key),
+        )
+        for key, b, R, prior in zip(one.keys, one.rows, left, one.log_prior + share[0], strict=True)
+    ]
+    both = zip(every.keys[two], every.rows[two], left_together(model, every, two), strict=True)
+    return alone + [
+        _recipe(candidate, k, keys, (b, R), panel(model.problem.mesh, keys), float(prior))
+        for (keys, b, R), prior in zip(both, each - np.logaddexp.reduce(each) + share[1], strict=True)
     ]
 
 
@@ -40,37 +54,41 @@ def _starts(model: Reduced, key: np.ndarray) -> tuple[np.ndarray, ...]:
 
 
 def _recipe(
-    candidate: Candidate, k: Unknown, key: np.ndarray, along: tuple[np.ndarray, float], site: Site, log_prior: float
+    candidate: Candidate,
+    k: Unknown,
+    keys: np.ndarray,
+    along: tuple[np.ndarray, np.ndarray],
+    site: Site,
+    log_prior: float,
 ) -> Recipe:
-    """along: b (r,), and R, see `Pairs.left`."""
+    """keys (s, 3): springs of one stiffness. along: b (s, r), and R (s, s), see `Pairs.left`."""
     b, R = along
 
     def change(values: np.ndarray) -> Change:
-        return Change(K=values[0] / (1 + values[0] * R) * np.outer(b, b))
+        return Change(K=b.T @ np.linalg.solve(np.eye(len(b)) / values[0] + R, b))
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
-        return _with_spring(problem, key, site, values[0])
+        return _with_springs(problem, keys, site, values[0])
 
     return Recipe(
         candidate, (k,), change, steps(k, _SIZES)[:, None], lambda values: site, log_prior=log_prior, extend=extend
     )
 
 
-def _with_spring(problem: Problem, key: np.ndarray, site: Site, k: float) -> Problem:
+def _with_springs(problem: Problem, keys: np.ndarray, site: Site, k: float) -> Problem:
     name = f"spring {site.text}"
-    one, other, direction = key.tolist()
+    one, other, direction = keys[0].tolist()
     if of_matrices(problem):
         spring = np.array([one, one, other]), np.array([one, other, other]), np.array([1.0, -1.0, 1.0])
         return with_entries(problem, found(name, k, "N/m"), K=spring)
     edit = Edit(problem)
-    nodes = [edit.index(number) for number in site.ids]
-    along, options = "TX", {}
-    if direction == ALONG:
-        x = edit.coordinates[nodes[1]] - edit.coordinates[nodes[0]]
-        options = {"axes": [x.tolist(), np.eye(3)[np.argmin(np.abs(x))].tolist()]}
-    else:
-        along = DIRECTIONS[direction]
-    edit.bind(name, edit.add("spring", [nodes], {along: k}, options), (along,), unit="N/m")
+    nodes = [[edit.index(number) for number in two] for two in zip(site.ids[::2], site.ids[1::2], strict=True)]
+    along, springs = "TX" if direction == ALONG else DIRECTIONS[direction], []
+    for two in nodes:
+        x = edit.coordinates[two[1]] - edit.coordinates[two[0]]
+        options = {"axes": [x.tolist(), np.eye(3)[np.argmin(np.abs(x))].tolist()]} if direction == ALONG else {}
+        springs += edit.add("spring", [two], {along: k}, options)
+    edit.bind(name, springs, (along,), unit="N/m")
     return edit.done()
 
 
@@ -79,6 +97,7 @@ CANDIDATE = Candidate(
     "a spring between two points",
     "brace",
     "a brace, cable, strut or tie that joins two points which nothing joins in the model: K + k b'b, b their elongation along the "
-    "line between them; floors of a row of storeys, or masses of a chain, that are not neighbours: their relative motion",
+    "line between them; two alike that cross in one panel of a frame; floors of a row of storeys, or masses of a chain, that are "
+    "not neighbours: their relative motion",
     recipes,
 )

@@ -1,32 +1,71 @@
-"""A spring from one place of the structure to the ground."""
+"""A spring from one place of the structure to the ground, in one direction or in all alike."""
+
+from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown
+from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.extend.places import node_at
 from mouse_cli.diagnosis.extend.points import with_spring
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import lowest, total_mass
 from mouse_cli.diagnosis.mechanisms import Candidate
-from mouse_cli.diagnosis.sites.points import directions, sized
+from mouse_cli.diagnosis.sites.points import Points, all_motions, directions, sized
+from mouse_cli.model.diagnosis import Site
+from mouse_cli.model.geometry import DIRECTIONS
+from mouse_cli.model.problem import Problem
 
 _STARTS = 6, 18  # stiffnesses to begin from, along a line and at one place
+_ALIKE = 0.3  # prior probability that it acts in all directions alike
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """K + k B'B, B the motion of a place in one direction."""
+    """K + k B'B, B the motion of a place in one direction, or in all that the deck keeps."""
     scale = lowest(model) * total_mass(model)
     k = Unknown("stiffness", "N/m", 1e-3 * scale, 1e3 * scale)
 
     def change(sizes: np.ndarray, B: np.ndarray) -> Change:
         return Change(K=sizes[0] * B.T @ B)
 
-    return sized(candidate, directions(model), k, _STARTS, change, with_spring)
+    one, alike = directions(model), list(_alike(model))
+    share = np.log([1 - _ALIKE, _ALIKE] if alike else [1.0, 1.0])
+    found = zip(share.tolist(), (one, alike), (with_spring, _with_springs), strict=True)
+    return [
+        replace(each, log_prior=each.log_prior + own)
+        for own, points, extend in found
+        for each in sized(candidate, points, k, _STARTS, change, extend)
+    ]
+
+
+def _alike(model: Reduced) -> Iterator[Points]:
+    """Places that move along more than one axis, with all their translations."""
+    kept = set() if model.motion is None else set(model.problem.mesh.directions)
+    for point in all_motions(model) if len(kept & {0, 1, 2}) > 1 else ():
+        dofs = tuple(d for d in point.dofs if d in kept)
+
+        def site(values: np.ndarray, point: Points = point) -> Site:
+            here = point.site(values)
+            return replace(here, text=f"{here.text}, all directions alike")
+
+        if len(dofs) > 1:
+            yield replace(point, site=site, dofs=dofs)
+
+
+def _with_springs(problem: Problem, point: Points, at: np.ndarray, k: float) -> Problem:
+    edit, site = Edit(problem), point.site(at)
+    along = tuple(DIRECTIONS[d] for d in point.dofs)
+    spring = edit.add("spring", [[node_at(edit, site)]], dict.fromkeys(along, k))
+    edit.bind(f"spring to the ground at {site.text}", spring, along, unit="N/m")
+    return edit.done()
 
 
 CANDIDATE = Candidate(
     "ground-spring",
     "a spring to the ground",
     "ground-spring",
-    "a support, cable or contact that ties one point to the surroundings: K + k B'B",
+    "a support, cable or contact that ties one point to the surroundings in one direction, or guys and mounts in all alike: "
+    "K + k B'B",
     recipes,
 )

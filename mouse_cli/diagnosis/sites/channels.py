@@ -12,7 +12,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.sites.bars import Bars
-from mouse_cli.diagnosis.sites.pairs import chosen, site_of
+from mouse_cli.diagnosis.sites.pairs import chosen, pairs, site_of
 from mouse_cli.model.arrays import is_sparse
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.geometry import DIRECTIONS
@@ -148,7 +148,7 @@ def _between_nodes(model: Reduced) -> list[Channel]:
 
 def _ties(model: Reduced) -> list[Channel]:
     """Pairs that nothing joins."""
-    found = chosen(model)
+    found = chosen(model, pairs(model))
     if not len(found):
         return []
     return [Channel(TIE, found.rows, np.ones(len(found)), lambda i: site_of(model, found.keys[i]))]

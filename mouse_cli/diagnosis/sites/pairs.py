@@ -1,5 +1,6 @@
 """Pairs of places that nothing joins yet: where a brace, a cable or a strut may act, and by which motion."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -50,9 +51,8 @@ class Pairs:
         return np.maximum(self.flexibility - kept, 0.0)
 
 
-def chosen(model: Reduced) -> Pairs:
-    """Those that a first look over the data found worth fitting, or that the measured modes strain most."""
-    found = pairs(model)
+def chosen(model: Reduced, found: Pairs) -> Pairs:
+    """Those of `found` that a first look over the data found worth fitting, or that the measured modes strain most."""
     if model.ties is not None:
         number = {tuple(key): i for i, key in enumerate(found.keys.tolist())}
         return found.only(np.array([number[key] for key in model.ties if key in number], int))
@@ -87,12 +87,12 @@ def _log_prior(model: Reduced, keys: np.ndarray) -> np.ndarray:
     """
     if model.motion is None or not len(keys):
         return np.full(len(keys), -np.log(max(len(keys), 1)))
-    apart = _apart(model.problem.mesh, keys)
-    nearer = np.searchsorted(np.sort(apart), apart, side="right")
+    members = apart(model.problem.mesh, keys)
+    nearer = np.searchsorted(np.sort(members), members, side="right")
     return -np.log(nearer) - np.log((1 / nearer).sum())
 
 
-def _apart(mesh: Mesh, keys: np.ndarray) -> np.ndarray:
+def apart(mesh: Mesh, keys: np.ndarray) -> np.ndarray:
     """Members (c,) on the shortest way from one node of a pair to the other, however many elements one is made of.
 
     Of each element half a member is at each of its nodes at which members end.
@@ -110,16 +110,37 @@ def _apart(mesh: Mesh, keys: np.ndarray) -> np.ndarray:
 
 def _flexibility(model: Reduced, keys: np.ndarray, rows: np.ndarray) -> tuple[np.ndarray, float]:
     """See `Pairs`, and the shift: that of all degrees of freedom of a large model, where it is known."""
+    found = _moved(model, keys)
+    if found is None:
+        shift = -0.3 * lowest(model)
+        return rows**2 @ (1 / (model.eigenvalues - shift)), shift
+    axis = _axes(model.problem.mesh, keys)
+    every = np.arange(len(keys))
+    return np.einsum("ci,cij,cj->c", axis, found(every, every), axis), model.static.shift
+
+
+def _moved(model: Reduced, keys: np.ndarray) -> Callable[[np.ndarray, np.ndarray], np.ndarray] | None:
+    """C(p, q) (c, 3, 3): what unit forces between the nodes of pairs q (c,) of `keys` move those of p (c,) apart; None: unknown."""
     ends, at = np.unique(keys[:, :2], return_inverse=True)
     moved = None if model.motion is None or not len(keys) else between(model.static, ends)
     if moved is None:
-        shift = -0.3 * lowest(model)
-        return rows**2 @ (1 / (model.eigenvalues - shift)), shift
-    one, other = at.reshape(-1, 2).T
+        return None
     C = moved.reshape(len(ends), 3, len(ends), 3).transpose(0, 2, 1, 3)
-    axis = _axes(model.problem.mesh, keys)
-    both = C[one, one] + C[other, other] - C[one, other] - C[other, one]
-    return np.einsum("ci,cij,cj->c", axis, both, axis), model.static.shift
+    one, other = at.reshape(-1, 2).T
+    return lambda p, q: C[one[p], one[q]] + C[other[p], other[q]] - C[one[p], other[q]] - C[other[p], one[q]]
+
+
+def left_together(model: Reduced, found: Pairs, which: np.ndarray) -> np.ndarray:
+    """R (x, 2, 2) of two pairs each, `which` (x, 2) of `found`: what coordinates leave of the flexibility, see `Pairs.left`."""
+    R = np.zeros((len(which), 2, 2))
+    R[:, [0, 1], [0, 1]] = found.left(model.eigenvalues)[which]
+    moved = _moved(model, found.keys)
+    if moved is not None:
+        p, q = which.T
+        axis = _axes(model.problem.mesh, found.keys)
+        kept = (found.rows[p] * found.rows[q]) @ (1 / (model.eigenvalues - found.shift))
+        R[:, 0, 1] = R[:, 1, 0] = np.einsum("xi,xij,xj->x", axis[p], moved(p, q), axis[q]) - kept
+    return R
 
 
 def _axes(mesh: Mesh, keys: np.ndarray) -> np.ndarray:
@@ -172,13 +193,13 @@ def _between_ends(model: Reduced) -> tuple[np.ndarray, np.ndarray]:
     if np.linalg.matrix_rank(xyz - xyz[0], tol=1e-9 * _size(mesh)) < 2:
         return _none(model) if model.bars is not None or len(found) > _SPRINGS else _in_a_row(u, found, together)
     one, other = np.triu_indices(len(found), 1)
-    apart = np.linalg.norm(xyz[other] - xyz[one], axis=1)
-    order = np.argsort(apart, kind="stable")
-    order = order[apart[order] > 1e-6 * _size(mesh)][:_LOOKED]
+    distance = np.linalg.norm(xyz[other] - xyz[one], axis=1)
+    order = np.argsort(distance, kind="stable")
+    order = order[distance[order] > 1e-6 * _size(mesh)][:_LOOKED]
     order = np.array([i for i in order if (int(found[one[i]]), int(found[other[i]])) not in together], int)
     order = np.sort(order[_in_sight(mesh, found[one[order]], found[other[order]])])
-    one, other, apart = one[order], other[order], apart[order]
-    axis = (xyz[other] - xyz[one]) / apart[:, None]
+    one, other, distance = one[order], other[order], distance[order]
+    axis = (xyz[other] - xyz[one]) / distance[:, None]
     rows = np.einsum("cd,cdr->cr", axis, u[other] - u[one])
     return np.stack([found[one], found[other], np.full(len(one), ALONG)], axis=1), rows
 

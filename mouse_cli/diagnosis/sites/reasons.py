@@ -61,6 +61,11 @@ def oblong(model: Any) -> str:
     return "no beam has Iy and Iz that differ, or none whose turning the measured modes would feel"
 
 
+def connections(model: Any) -> str:
+    """Without joints of beams and columns."""
+    return bars(model) if model.bars is None else "no two beams meet columns, members that stand on supports"
+
+
 def members(model: Any) -> str:
     """Without members, or with one."""
     found = bars(model)

@@ -1,0 +1,53 @@
+"""Semi-rigid connections: all joints of a frame at which its beams meet its columns, or one kind of them, with one stiffness."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.effects.connections import turned, with_joints
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites import reasons
+from mouse_cli.diagnosis.sites.connections import Connections, connections
+from mouse_cli.model.diagnosis import Site
+from mouse_cli.model.problem import Problem
+
+_PINNED, _RIGID = 0.1, 3e3  # stiffness over EI / L: pinned below 0.5, rigid above 8 to 25 after EN 1993-1-8, 5.2.2
+_STARTS = 6  # stiffnesses to begin from
+_ALL = 0.5  # prior probability that it is all joints, where there are kinds of them
+
+
+def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
+    """F + sum over the joints of [1, eta]'[1, eta] / k, eta = +-1 at the ends of the bars, k (N m/rad) of all alike."""
+    found = connections(model)
+    share = [1.0] if len(found) == 1 else [_ALL] + [(1 - _ALL) / max(len(found) - 1, 1)] * (len(found) - 1)
+    return [_recipe(model, candidate, one, float(np.log(own))) for one, own in zip(found, share, strict=False)]
+
+
+def _recipe(model: Reduced, candidate: Candidate, found: Connections, log_prior: float) -> Recipe:
+    every, own = model.bars, found.ends
+    scale = np.array([every.EI[bar] / every.lines[every.line[bar]].length for bar in own[:, 0]])
+    k = Unknown("stiffness of each joint", "N m/rad", _PINNED * float(scale.min()), _RIGID * float(scale.max()))
+    nodes = tuple(sorted({int(model.problem.mesh.node_ids[every.nodes[bar, end]]) for bar, end in own.tolist()}))
+    site = Site(
+        "node", nodes, None, f"{found.text}, {len(own)} ends of bars at nodes {', '.join(map(str, nodes))}, all alike"
+    )
+
+    def change(values: np.ndarray) -> Change:
+        return turned(every, own, values[0])
+
+    def extend(problem: Problem, values: np.ndarray) -> Problem:
+        return with_joints(problem, every, own, f"stiffness of {found.text}", values[0])
+
+    grid = steps(k, _STARTS)[:, None]
+    return Recipe(candidate, (k,), change, grid, lambda values: site, log_prior=log_prior, extend=extend)
+
+
+CANDIDATE = Candidate(
+    "semi-rigid",
+    "semi-rigid joints",
+    "semi-rigid",
+    "connections between beams and columns (end plates, cleats, dowels) that the model takes as rigid, and that all turn in "
+    "proportion to the moment with one stiffness: all of a frame, or those of one direction or section",
+    recipes,
+    reasons.connections,
+)

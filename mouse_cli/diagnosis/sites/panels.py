@@ -1,0 +1,59 @@
+"""Panels that two crossed diagonals may brace: four corners, each joined to the next by a member or by the ground."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.sites.pairs import ALONG, Pairs, apart, strained
+from mouse_cli.model.diagnosis import Site
+from mouse_cli.model.mesh import Mesh
+
+MOST = 20  # panels that are fitted
+_FLAT = 1e-3  # of the length of a diagonal: how far two may pass one another
+
+
+def crossed(model: Reduced, found: Pairs) -> np.ndarray:
+    """Pairs of `found` (x, 2) that are the two diagonals of one panel, those first of which one is strained most."""
+    if model.motion is None or not len(found) or (found.keys[:, 2] != ALONG).any():
+        return np.zeros((0, 2), int)
+    mesh = model.problem.mesh
+    number = {frozenset(key): i for i, key in enumerate(found.keys[:, :2].tolist())}
+    beside = _neighbours(mesh, np.unique(found.keys[:, :2]))
+    own = set()
+    for (one, other), i in ((tuple(key), i) for key, i in number.items()):
+        between = sorted(beside[one] & beside[other])
+        for n, c in enumerate(between):
+            others = (number.get(frozenset((c, d))) for d in between[n + 1 :])
+            own |= {(min(i, j), max(i, j)) for j in others if j is not None and _cross(mesh, found.keys[[i, j], :2])}
+    rank = np.empty(len(found), int)
+    rank[strained(model, found)] = np.arange(len(found))
+    return np.array(sorted(own, key=lambda two: (min(rank[list(two)]), two)), int).reshape(-1, 2)[:MOST]
+
+
+def panel(mesh: Mesh, keys: np.ndarray) -> Site:
+    """The panel of two diagonals, keys (2, 3), in words."""
+    ids = mesh.node_ids[keys[:, :2]].tolist()
+    middle = tuple(mesh.coordinates[keys[:, :2].ravel()].mean(axis=0).tolist())
+    (a, b), (c, d) = ids
+    return Site(
+        "node", (a, b, c, d), middle, f"crossed, between nodes {a} and {b} and between nodes {c} and {d}, both alike"
+    )
+
+
+def _neighbours(mesh: Mesh, nodes: np.ndarray) -> dict[int, set[int]]:
+    """Nodes of `nodes` (indices) that one member, or the ground, joins to each of them."""
+    one, other = np.triu_indices(len(nodes), 1)
+    keys = np.column_stack([nodes[one], nodes[other]])
+    held = np.isin(keys, mesh.supports[:, 0]).all(axis=1)
+    beside: dict[int, set[int]] = {int(node): set() for node in nodes}
+    for a, b in keys[held | (apart(mesh, keys) == 1)].tolist():
+        beside[a].add(b), beside[b].add(a)
+    return beside
+
+
+def _cross(mesh: Mesh, keys: np.ndarray) -> bool:
+    """Whether two lines, keys (2, 2), meet between their ends."""
+    (a, b), (c, d) = mesh.coordinates[keys]
+    A = np.column_stack([b - a, c - d])
+    (s, t), *_ = np.linalg.lstsq(A, c - a)
+    off = np.linalg.norm(A @ [s, t] - (c - a))
+    return bool(0 < s < 1 and 0 < t < 1 and off < _FLAT * np.linalg.norm(b - a))
