@@ -59,9 +59,8 @@ class Edit:
     def element(self, number: int) -> tuple[int, int]:
         """The element called `number`."""
         for s, members in enumerate(self.sets):
-            found = np.flatnonzero(members.ids == number)
-            if len(found):
-                return s, int(found[0])
+            for i in np.flatnonzero(members.ids == number):
+                return s, int(i)
         raise KeyError(number)
 
     def values(self, element: tuple[int, int], name: str) -> float:
@@ -117,8 +116,9 @@ class Edit:
             about, factor = {"factor": 1.0}, True
         nominal = float(about["factor"]) if factor else float(values[0])
         unit = "" if factor else about.get("unit", "")
-        transform = "log" if nominal > 0 else "identity"
-        self.parameters.append(Parameter(name, abs(nominal), nominal, unit, transform=transform))
+        self.parameters.append(
+            Parameter(name, abs(nominal), nominal, unit, transform="log" if nominal > 0 else "identity")
+        )
         self.follow(elements, properties, factor)
 
     def follow(self, elements: list[tuple[int, int]], properties: tuple[str, ...], factor: bool = False) -> None:
@@ -224,7 +224,6 @@ class Edit:
         place = {label: i for i, label in enumerate(structure.labels)}
         to = np.array([place[label] for label in old.structure.labels], int)
         deck = with_parameters(old, self.parameters)
-        dofs = tuple(int(to[i]) for i in old.run.total_mass_dofs)
         return replace(
             deck,
             structure=structure,
@@ -235,7 +234,7 @@ class Edit:
             test=None if old.test is None else moved(old.test, to, structure.n),
             frf=tuple(moved_functions(each, to, structure.n) for each in old.frf),
             recordings=tuple(moved_channels(each, to) for each in old.recordings),
-            run=replace(old.run, total_mass_dofs=dofs),
+            run=replace(old.run, total_mass_dofs=tuple(int(to[i]) for i in old.run.total_mass_dofs)),
         )
 
     def _mesh(self) -> Mesh:
