@@ -114,11 +114,9 @@ class Edit:
         values = np.concatenate([self._all(s, p)[[i]] for p in properties for s, i in elements])
         if not factor and not self._plain(values, elements, properties):
             about, factor = {"factor": 1.0}, True
-        nominal = float(about["factor"]) if factor else float(values[0])
-        unit = "" if factor else about.get("unit", "")
-        self.parameters.append(
-            Parameter(name, abs(nominal), nominal, unit, transform="log" if nominal > 0 else "identity")
-        )
+        value, unit = float(about["factor"] if factor else values[0]), "" if factor else about.get("unit", "")
+        transform = "log" if value > 0 else "identity"
+        self.parameters.append(Parameter(name, abs(value), value, unit, transform=transform))
         self.follow(elements, properties, factor)
 
     def follow(self, elements: list[tuple[int, int]], properties: tuple[str, ...], factor: bool = False) -> None:
