@@ -22,7 +22,7 @@ from _paired import paired
 
 from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.model.recording import OUTPUT, Channel, Recording
-from mouse_cli.records.identify import identify_frf, identify_recording
+from mouse_cli.records.identify import identify_frf
 
 ROUNDS, ORDER = 3, 40
 
@@ -62,7 +62,7 @@ def outputs() -> None:
     channels = tuple(Channel(str(k + 1), OUTPUT, "acceleration") for k in range(3))
     recording = Recording("chain", 1 / rate, channels, samples)
     omega, _, _ = vibrating.modes(0.01)
-    found = identify_recording(recording, (4.0, 70.0)).modes
+    found = identify_recordings([recording], (4.0, 70.0)).modes
     _own("outputs", omega, found)
     try:
         from pyoma2.algorithms import SSI
@@ -83,7 +83,7 @@ def outputs() -> None:
     result = peer()
     _compare("pyOMA-2", found, np.ravel(result.Fn), np.ravel(result.Xi))
     print(f"  pyOMA-2 sd {np.ravel(result.Fn_std) if result.Fn_std is not None else 'none'}")
-    _ratio(lambda: identify_recording(recording, (4.0, 70.0)), peer, "pyOMA-2")
+    _ratio(lambda: identify_recordings([recording], (4.0, 70.0)), peer, "pyOMA-2")
 
 
 def _own(what: str, omega: np.ndarray, found) -> None:

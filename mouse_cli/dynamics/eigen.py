@@ -126,12 +126,12 @@ def _condensed(K: np.ndarray, M: np.ndarray) -> EigenSolution:
     return EigenSolution(eigenvalues, follow @ vectors)
 
 
-def clusters(eigenvalues: np.ndarray, zero: float = 0.0, tolerance: float = 1e-6) -> np.ndarray:
-    """Cluster number (k,) of each ascending eigenvalue: neighbours closer than `tolerance`, relative, or `zero` share one.
+def clusters(eigenvalues: np.ndarray, zero: float = 0.0) -> np.ndarray:
+    """Cluster number (k,) of each ascending eigenvalue: neighbours closer than 1e-6, relative, or than `zero` share one.
 
     Within a cluster single vectors are not defined, only their span; derivatives are taken for the span.
     """
     gap = np.diff(eigenvalues)
     size = np.maximum(np.abs(eigenvalues[1:]), np.abs(eigenvalues[:-1]))
     floor = np.finfo(float).eps * np.abs(eigenvalues).max(initial=0.0) * len(eigenvalues)
-    return np.concatenate([[0], np.cumsum(gap > tolerance * size + floor + zero)]).astype(int)
+    return np.concatenate([[0], np.cumsum(gap > 1e-6 * size + floor + zero)]).astype(int)

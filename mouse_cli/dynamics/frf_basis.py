@@ -30,18 +30,17 @@ def frf_model(
     checked: np.ndarray,
     solution: EigenSolution | None = None,
     tolerance: float = FINAL,
-    levels: int = _FIRST,
 ) -> FrfModel:
     """The model for loads at `sensings`: sets of degrees of freedom, or of weights (o, n), of sensors and of forces.
 
     checked: some s (c,), rad/s, of the lines wanted, the highest among them, at which the error of a basis is found and brought
     below `tolerance`. solution: of K and M, with the modes up to BEYOND times the highest line and, for a sparse model, its space
-    alive; a dense one needs none. levels: to begin with. Raises numpy.linalg.LinAlgError.
+    alive; a dense one needs none. Raises numpy.linalg.LinAlgError.
     """
     loads = Loads(sensings)
     if dynamics.n <= WHOLE or (not is_sparse(dynamics.K) and solution is None) or _bare(solution):
         return FrfModel(dynamics.dense(), loads.full(dynamics.n), loads.columns)
-    basis = _Basis(dynamics, loads, solution, float(np.abs(checked).max()))
+    basis, levels = _Basis(dynamics, loads, solution, float(np.abs(checked).max())), _FIRST
     while True:
         while basis.levels < levels:
             basis.extend()
@@ -52,7 +51,7 @@ def frf_model(
 
 
 def galerkin(
-    dynamics: Dynamics, solution: EigenSolution, levels: int = _FIRST
+    dynamics: Dynamics, solution: EigenSolution
 ) -> tuple[np.ndarray | None, Dynamics, Callable[[np.ndarray, np.ndarray], np.ndarray]]:
     """V (d, n) and matrices in it for modes alone, no loads; V None for the model as it is. And residual(s (k,), shapes (n, k)).
 
@@ -62,7 +61,7 @@ def galerkin(
         return None, dynamics.dense(), lambda s, shapes: np.zeros(len(s))
     top = float(np.sqrt(np.abs(solution.eigenvalues[-1])))
     basis = _Basis(dynamics, Loads((np.zeros(0, int),)), solution, top)
-    for _ in range(levels):
+    for _ in range(_FIRST):
         basis.extend()
 
     def residual(s: np.ndarray, shapes: np.ndarray) -> np.ndarray:

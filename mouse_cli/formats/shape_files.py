@@ -4,8 +4,6 @@ import numpy as np
 
 from mouse_cli.model.geometry import DIRECTIONS, Geometry
 
-Marks = dict[str, np.ndarray]  # scalars (k,) at the nodes
-
 
 def at_nodes(geometry: Geometry, shapes: np.ndarray) -> np.ndarray:
     """Shapes (k, 6, m) at all nodes of shapes (n, m); 0 in directions that have no degree of freedom."""
@@ -37,8 +35,8 @@ def universal(title: str, geometry: Geometry, hz: np.ndarray, shapes: np.ndarray
     return "\n".join(lines) + "\n"
 
 
-def vtk(title: str, geometry: Geometry, hz: np.ndarray, shapes: np.ndarray, marks: Marks | None = None) -> str:
-    """Nodes, lines and one field of vectors for each mode; marks: scalars at the nodes besides."""
+def vtk(title: str, geometry: Geometry, hz: np.ndarray, shapes: np.ndarray) -> str:
+    """Nodes with their numbers, lines and one field of vectors for each mode."""
     k, values = len(geometry.node_ids), at_nodes(geometry, shapes)
     lines = [
         "# vtk DataFile Version 3.0",
@@ -54,8 +52,7 @@ def vtk(title: str, geometry: Geometry, hz: np.ndarray, shapes: np.ndarray, mark
         *(f"{width} " + " ".join(map(str, cell)) for cell in cells),
     ]
     lines += [f"CELL_TYPES {len(cells)}", *[str(3 if width == 2 else 1)] * len(cells), f"POINT_DATA {k}"]
-    for name, mark in {"node": geometry.node_ids, **(marks or {})}.items():
-        lines += [f"SCALARS {name} double 1", "LOOKUP_TABLE default", *(f"{x:.9g}" for x in mark)]
+    lines += ["SCALARS node double 1", "LOOKUP_TABLE default", *(f"{x:.9g}" for x in geometry.node_ids)]
     for mode, frequency in enumerate(hz):
         lines.append(f"VECTORS mode_{mode + 1}_{frequency:.6g}_Hz double")
         lines += [" ".join(f"{x:.9g}" for x in value[:3]) for value in values[:, :, mode]]

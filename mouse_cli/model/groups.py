@@ -15,13 +15,13 @@ TITLES = {  # of groups with more than one member; others are called as their me
 }
 
 
-def enumerated(words: Sequence[str], last: str = "and") -> str:
+def enumerated(words: Sequence[str]) -> str:
     """Words as a sentence lists them.
 
-    >>> enumerated(["a crack"]), enumerated(["a crack", "a gap"]), enumerated(["a crack", "a gap", "a mass"], "or")
-    ('a crack', 'a crack and a gap', 'a crack, a gap or a mass')
+    >>> enumerated(["a crack"]), enumerated(["a crack", "a gap"]), enumerated(["a crack", "a gap", "a mass"])
+    ('a crack', 'a crack and a gap', 'a crack, a gap and a mass')
     """
-    return f" {last} ".join(filter(None, [", ".join(words[:-1]), *words[-1:]]))
+    return " and ".join(filter(None, [", ".join(words[:-1]), *words[-1:]]))
 
 
 def joined(groups: Sequence[str]) -> str:

@@ -56,11 +56,14 @@ def _in(units: Units, unit: str) -> str:
     return f", {units.of(unit)}" if units.declared else ""
 
 
-def _explains(along: np.ndarray, force: np.ndarray, bins: int = 40) -> float:
+_BINS = 40  # of the motion
+
+
+def _explains(along: np.ndarray, force: np.ndarray) -> float:
     """Share of the variance of `force` that a function of `along` explains."""
-    at = np.clip(((along - along.min()) / max(np.ptp(along), 1e-300) * bins).astype(int), 0, bins - 1)
-    count = np.maximum(np.bincount(at, minlength=bins), 1)
-    mean = np.bincount(at, force, minlength=bins) / count
+    at = np.clip(((along - along.min()) / max(np.ptp(along), 1e-300) * _BINS).astype(int), 0, _BINS - 1)
+    count = np.maximum(np.bincount(at, minlength=_BINS), 1)
+    mean = np.bincount(at, force, minlength=_BINS) / count
     return 1 - float(((force - mean[at]) ** 2).mean() / max(force.var(), 1e-300))
 
 

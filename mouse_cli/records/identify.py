@@ -12,8 +12,7 @@ from mouse_cli.records import identify_decays as decays
 from mouse_cli.records import identify_output_only as outputs_only
 from mouse_cli.records.identify_combine import combined
 from mouse_cli.records.identify_frf import LEAST_LINES, Found, banded, identify_leaking, lines_of
-from mouse_cli.records.identify_modes import Drive, from_fit, from_subspace
-from mouse_cli.records.identify_output_only import Division
+from mouse_cli.records.identify_output_only import Division, FoundOutputs
 from mouse_cli.records.identify_review import drive_points, reviewed, reviewed_outputs
 from mouse_cli.records.lscf import OrderPoles
 from mouse_cli.records.modal_model import synthesised
@@ -62,24 +61,19 @@ def identify_frf(
     )  # fmt: skip
 
 
-def identify_recording(
-    recording: Recording, band: Band = None, most: int | None = None, say: Callable[[str], None] = _QUIET
-) -> Identification:
-    """Modes of a recording's outputs alone. band: Hz; most: highest order."""
-    return identify_recordings([recording], band, most, say)
-
-
 def identify_recordings(
     recordings: Sequence[Recording], band: Band = None, most: int | None = None, say: Callable[[str], None] = _QUIET
 ) -> Identification:
-    """Modes of the outputs alone of repeats, whose correlations are averaged. Raises RecordError (MD655) where they are none."""
+    """Modes of the outputs alone of a recording, or of repeats, whose correlations are averaged.
+
+    band: Hz; most: highest order. Raises RecordError (MD655) where they are no repeats.
+    """
     first = alike(recordings)
     top = min(band[1] if band else np.inf, _TOP * first.sample_rate_hz)
     longest = max(len(each.samples) for each in recordings)
     edges = (float(band[0]) if band else 2 / (first.time_step_s * max(longest, 1)), float(top))
-    names = tuple(channel.sensor or channel.name for channel in (first.channels[j] for j in first.outputs))
-    title, sources = ", ".join(each.title for each in recordings), tuple(each.path or each.title for each in recordings)
     parts, rates = zip(*(outputs_only.decimated(each, top) for each in recordings), strict=True)
+    title, sources, names = _called(recordings)
     division = outputs_only.division([len(each) for each in parts], len(names)) if names else None
     method, of = "covariance-driven SSI", f"{len(parts)} records" if len(parts) > 1 else "the record"
     noise = f"scatter of {division.blocks if division else outputs_only.BLOCKS} blocks of {of}"
@@ -87,15 +81,20 @@ def identify_recordings(
         doubt = short_of(parts, rates[0], outputs_only.least_samples())
         return _nothing(title, sources, method, names, edges, noise, doubt)
     found = outputs_only.identify_outputs(parts, rates[0], edges, division, most, say)
-    judged = reviewed_outputs(found, edges)
-    level_hz, level = _spectrum(parts, rates[0])
+    judged, remarks = reviewed_outputs(found, edges), lost(division, found.samples, rates[0])
     return Identification(
-        title, sources, method, names, edges, judged.modes,
-        _diagram(found.poles, [*found.tracks, *found.passing], level_hz, level, found.orders[-1]), noise,
+        title, sources, method, names, edges, judged.modes, _diagram_outputs(found, parts, rates[0]), noise,
         rejected=(*judged.rejected, *_rejected(found.dropped, found.passing)), doubts=judged.doubts,
-        remarks=(*judged.remarks, *lost(division, found.samples, rates[0])),
+        remarks=(*judged.remarks, *remarks),
         details={"samples": found.samples, "sample rate": found.rate_hz, "lags": 2 * found.lags, "orders": found.orders[-1]},
     )  # fmt: skip
+
+
+def _called(recordings: Sequence[Recording]) -> tuple[str, tuple[str, ...], tuple[str, ...]]:
+    """Titles, files and sensors of repeats."""
+    outputs = [recordings[0].channels[j] for j in recordings[0].outputs]
+    names = tuple(channel.sensor or channel.name for channel in outputs)
+    return ", ".join(each.title for each in recordings), tuple(each.path or each.title for each in recordings), names
 
 
 def identify_decaying(
@@ -106,18 +105,15 @@ def identify_decaying(
     top = min(band[1] if band else np.inf, _TOP * first.sample_rate_hz)
     parts, rates = zip(*(decays.thinned(each, top) for each in recordings), strict=True)
     edges = (float(band[0]) if band else rates[0] / max(map(len, parts)), float(top))
-    names = tuple(channel.sensor or channel.name for channel in (first.channels[j] for j in first.outputs))
-    title, sources = ", ".join(each.title for each in recordings), tuple(each.path or each.title for each in recordings)
+    title, sources, names = _called(recordings)
     method, noise = "free decays: ERA, maximum likelihood", "what the fit leaves, by its spectrum"
     if not names or min(map(len, parts)) < decays.LEAST:
         doubt = short_of(parts, rates[0], decays.LEAST)
         return _nothing(title, sources, method, names, edges, noise, doubt)
     found, fit = decays.identify_decays(parts, rates[0], edges, most, say)
     judged = reviewed_outputs(found, edges)
-    level_hz, level = _spectrum(parts, rates[0])
     return Identification(
-        title, sources, method, names, edges, judged.modes,
-        _diagram(found.poles, [*found.tracks, *found.passing], level_hz, level, found.orders[-1]), noise,
+        title, sources, method, names, edges, judged.modes, _diagram_outputs(found, parts, rates[0]), noise,
         rejected=(*judged.rejected, *_rejected(found.dropped, found.passing)), doubts=judged.doubts,
         remarks=(*judged.remarks, *decays.falling(fit)),
         details={
@@ -168,20 +164,16 @@ def _diagram(poles: list[OrderPoles], every: list[Track], hz: np.ndarray, level:
     return Diagram(order.astype(int), frequency, damping, stable.astype(bool), hz, level, orders)
 
 
-def _spectrum(parts: Sequence[np.ndarray], rate_hz: float) -> tuple[np.ndarray, np.ndarray]:
-    """Root mean square amplitude spectrum of all outputs, each over its sd, over all records."""
+def _diagram_outputs(found: FoundOutputs, parts: Sequence[np.ndarray], rate_hz: float) -> Diagram:
+    """The diagram over the root mean square amplitude spectrum of all outputs, each over its sd, over all records."""
     from scipy.signal import welch
 
     size = np.concatenate(parts).std(axis=0)
     block = min([2048, *(len(each) for each in parts)])
     every = [welch(each / np.where(size > 0, size, 1), rate_hz, nperseg=block, axis=0) for each in parts]
     power = np.mean([each[1] for each in every], axis=0)
-    return every[0][0][1:], np.sqrt(power[1:].mean(axis=1))
-
-
-__all__ = [
-    "Drive", "from_fit", "from_subspace", "identify_decaying", "identify_frf", "identify_recording", "identify_recordings",
-]  # fmt: skip
+    level_hz, level = every[0][0][1:], np.sqrt(power[1:].mean(axis=1))
+    return _diagram(found.poles, [*found.tracks, *found.passing], level_hz, level, found.orders[-1])
 
 
 _SAME = 1e-6  # relative difference of two sample rates

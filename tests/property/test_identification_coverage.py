@@ -6,7 +6,7 @@ import vibrating
 
 from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.model.recording import OUTPUT, Channel, Recording
-from mouse_cli.records.identify import identify_frf, identify_recording
+from mouse_cli.records.identify import identify_frf, identify_recordings
 
 DRAWS = 200
 NINETY = 1.6449  # standard deviations to either side
@@ -29,7 +29,7 @@ def frf_draw(seed: int, stated: bool):
 def output_draw(seed: int, _: bool):
     samples = vibrating.responses(150.0, 20000, 0.02, 0.01, np.random.default_rng(seed))
     channels = tuple(Channel(str(k + 1), OUTPUT, "acceleration") for k in range(3))
-    return identify_recording(Recording("chain", 1 / 150.0, channels, samples), (4.0, 70.0))
+    return identify_recordings([Recording("chain", 1 / 150.0, channels, samples)], (4.0, 70.0))
 
 
 def scores(modes) -> np.ndarray:

@@ -104,11 +104,6 @@ def test_legal_but_suspicious_fields(format, text, kinds):
     assert {found.kind for found in field_warnings(text, format)} == kinds
 
 
-def test_fortran_77_ignores_blanks():
-    assert read_field("4       ", "I8", blanks="null") == 4
-    assert read_field("1.0E5         ", "E14.8", blanks="null") == 1e5
-
-
 def test_a_short_text_ends_the_record_and_a_padded_one_does_not():
     assert read_field("4", "I8") == 4 and read_field("4".ljust(8), "I8") == 40000000
 

@@ -13,7 +13,7 @@ import vibrating
 from mouse_cli._errors import RecordError
 from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.model.recording import OUTPUT, Channel, Recording
-from mouse_cli.records.identify import identify_frf, identify_recording, identify_recordings
+from mouse_cli.records.identify import identify_frf, identify_recordings
 
 HZ = np.arange(2.0, 80.0, 0.2)
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "data"
@@ -124,7 +124,7 @@ def recorded(seed: int = 0, count: int = 30000) -> Recording:
 
 def test_outputs_alone():
     omega, zeta, _ = vibrating.modes(0.01)
-    modes = identify_recording(recorded(), (4.0, 70.0)).modes
+    modes = identify_recordings([recorded()], (4.0, 70.0)).modes
     assert np.abs((modes.frequency_hz - omega / 2 / np.pi) / modes.frequency_sd_hz).max() < 4
     assert np.abs((modes.damping - zeta) / modes.damping_sd).max() < 4
 
@@ -140,7 +140,7 @@ def near(found) -> np.ndarray:
 def test_a_short_record_says_what_is_lost():
     """7.5 s of modes at 13, 38 and 50 Hz: what is found lies within what is stated, and nothing else is found."""
     omega, _, _ = vibrating.modes(0.01)
-    found = identify_recording(recorded(count=1125), (4.0, 70.0))
+    found = identify_recordings([recorded(count=1125)], (4.0, 70.0))
     assert [each.code for each in found.remarks] == ["MD682"]
     assert "1125 samples at 150 Hz are few: 20 blocks of 28 lags instead of 40 of 60" in found.remarks[0].message
     z = (found.modes.frequency_hz - omega[near(found)] / 2 / np.pi) / found.modes.frequency_sd_hz
@@ -148,7 +148,7 @@ def test_a_short_record_says_what_is_lost():
 
 
 def test_a_record_of_no_length_is_said_to_be_short():
-    found = identify_recording(recorded(count=300), (4.0, 70.0))
+    found = identify_recordings([recorded(count=300)], (4.0, 70.0))
     assert found.exit_code == 1 and codes(found) == ["MD651"] and "at least 320 are needed" in found.doubts[0].message
 
 
@@ -158,7 +158,7 @@ def test_repeats_of_outputs_are_averaged():
     records = [recorded(seed, 1125) for seed in range(11)]
     plain = identify_recordings(records, (4.0, 70.0))
     records[3] = replace(records[3], samples=10 * records[3].samples)
-    found, one = identify_recordings(records, (4.0, 70.0)), identify_recording(records[0], (4.0, 70.0))
+    found, one = identify_recordings(records, (4.0, 70.0)), identify_recordings(records[:1], (4.0, 70.0))
     assert found.modes.frequency_hz == pytest.approx(plain.modes.frequency_hz, rel=1e-9)
     assert near(found).tolist() == [0, 1, 2] and not found.remarks
     assert np.abs((found.modes.frequency_hz - omega / 2 / np.pi) / found.modes.frequency_sd_hz).max() < 4
@@ -280,7 +280,7 @@ def test_agrees_with_pyoma2_on_simulated_outputs():
     from pyoma2.setup import SingleSetup
 
     record = recorded()
-    own = identify_recording(record, (4.0, 70.0)).modes
+    own = identify_recordings([record], (4.0, 70.0)).modes
     setup = SingleSetup(record.samples.copy(), fs=150.0)
     setup.add_algorithms(algorithms.SSI(name="SSIcov", method="cov", br=30, ordmax=20, calc_unc=True, nb=40))
     setup.run_by_name("SSIcov")

@@ -14,8 +14,6 @@ import numpy as np
 
 from mouse_cli.formats.edit.descriptor import LARGEST, LARGEST_INTEGER, SMALLEST, FieldError, Format, parse
 
-BLANKS = ("zero", "null")
-
 _INTEGER = re.compile(r"([+-]?)([0-9 ]*)").fullmatch
 _REAL = re.compile(r"([+-]?)([0-9 ]*)(?:(\.)([0-9 ]*))?(?:([EeDd][+-]?|[+-])([0-9 ]*))?").fullmatch
 # Fields that Python reads as FORTRAN does: a point, no blank after the first character, exponent with E.
@@ -36,29 +34,25 @@ class Suspicion:
     help: str
 
 
-def read_field(text: str, format: str, *, blanks: str = "zero") -> Value:
+def read_field(text: str, format: str) -> Value:
     """The value of one field. A text shorter than the field is a record that ends there; a card never does: pad it first.
 
-    blanks: `zero` as in FORTRAN 66, or `null`: blanks are ignored as in FORTRAN 77.
     Raises FieldError when the field is refused.
 
     >>> read_field("    1.28872+04", "E14.8"), read_field("         85000", "E14.8"), read_field("4   ", "I4")
     (12887.2, 0.00085, 4000)
     """
     descriptor = parse(format)
-    if blanks not in BLANKS:
-        raise ValueError(f"blanks is '{blanks}', expected one of {', '.join(BLANKS)}")
     text = text.removesuffix("\n").removesuffix("\r")
     if len(text) > descriptor.width:
         raise FieldError(f"{len(text)} characters do not fit a field of {descriptor.width}", "keep within the columns")
     if descriptor.kind == "A":
         return text.ljust(descriptor.width)
-    body = text.replace(" ", "") if blanks == "null" else text.lstrip(" ")
     read = _integer if descriptor.kind == "I" else _real
-    return read(body, text, descriptor)
+    return read(text.lstrip(" "), text, descriptor)
 
 
-def read_fields(texts: Sequence[str], format: str, *, blanks: str = "zero") -> np.ndarray:
+def read_fields(texts: Sequence[str], format: str) -> np.ndarray:
     """Many fields at once, as an array of int or float: the same values, and the same refusals, as
     `read_field`.
 
@@ -71,7 +65,7 @@ def read_fields(texts: Sequence[str], format: str, *, blanks: str = "zero") -> n
     values = [clean(text) if len(text) == width else None for text in texts]
     for i, value in enumerate(values):
         if value is None:
-            values[i] = _numbered(texts[i], format, blanks, i)
+            values[i] = _numbered(texts[i], format, i)
     return np.array(values, dtype=np.int64 if descriptor.kind == "I" else np.float64)
 
 
@@ -89,9 +83,9 @@ def field_warnings(text: str, format: str) -> tuple[Suspicion, ...]:
     return tuple(_suspicions(text, descriptor))
 
 
-def _numbered(text: str, format: str, blanks: str, index: int) -> Value:
+def _numbered(text: str, format: str, index: int) -> Value:
     try:
-        return read_field(text, format, blanks=blanks)
+        return read_field(text, format)
     except FieldError as error:
         raise FieldError(error.reason, error.help, error.offset, index) from None
 
