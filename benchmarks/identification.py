@@ -22,7 +22,7 @@ from _paired import paired
 
 from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.model.recording import OUTPUT, Channel, Recording
-from mouse_cli.records.identify import identify_frf
+from mouse_cli.records.identify import identify_frf, identify_recordings
 
 ROUNDS, ORDER = 3, 40
 

@@ -21,7 +21,7 @@ DIAGNOSES = {
 }
 OTHERS = {
     "compared": ("compare", "tube_frame"),
-    "foreseen": ("modes", "three_storey_building"),
+    "predicted": ("modes", "three_storey_building"),
     "correlated": ("correlate", "cantilever"),
     "identified": ("identify", "chain_functions"),
 }
@@ -33,7 +33,7 @@ STRUCTURES = (
     "one-of",
     "drawn",
     "arrangements",
-    "foreseen",
+    "predicted",
 )  # of nodes with positions
 VOID = {"meta", "input"}
 

@@ -17,7 +17,7 @@ from mouse_cli.model.recording import Recording
 _SHORTEST, _MOST = 300, 20  # samples of a stretch, which is simulated from a state of its own; stretches in all
 
 
-def weighed(test: ModalTest, modes: list[int] | None = None, sensors: list[int] | None = None) -> ModalTest:
+def reweighted(test: ModalTest, modes: list[int] | None = None, sensors: list[int] | None = None) -> ModalTest:
     """The test with each mode and sensor counted so often: a datum's variance is divided by both counts, by 0: left out."""
     modes_n = np.ones(test.m) if modes is None else np.array(modes, float)
     sensors_n = np.ones(test.s) if sensors is None else np.array(sensors, float)
@@ -93,4 +93,4 @@ def drawn(problem: Problem, counts: dict[str, list[int]]) -> Problem:
         parts, held = stretches(problem)
         times = zip(parts, counts["records"], strict=True)
         return replace(problem, recordings=tuple(one for one, c in times for _ in range(c)), held_records=held)
-    return replace(problem, test=weighed(problem.test, **counts))
+    return replace(problem, test=reweighted(problem.test, **counts))

@@ -102,7 +102,7 @@ def written(found: ArrangementsDiagnosis, folder: str) -> list[str]:
     return files
 
 
-def told(files: list[str], folder: str) -> str:
+def outcome(files: list[str], folder: str) -> str:
     """What became of `-o`."""
     if not files:
         return f"Nothing was written to {folder}: nothing is missing, or nothing could be named."

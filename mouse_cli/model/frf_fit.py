@@ -104,7 +104,7 @@ class FrfFit:
 class Damping:
     """An amount of damping of the whole structure that functions show: value and sd in `unit`.
 
-    told: whether the functions tell it from none.
+    determined: whether the functions tell it from none.
     """
 
     name: str
@@ -112,4 +112,4 @@ class Damping:
     unit: str
     value: float
     sd: float
-    told: bool
+    determined: bool

@@ -31,7 +31,7 @@ def combined(tests: Sequence[FrfTest]) -> tuple[FrfTest, str]:
     repeated = max(len(group) for group in groups.values())
     stated = any(np.isfinite(each.variance).any() for each in tests)
     noise = f"scatter of {repeated} repeats" if repeated > 1 else "stated variances" if stated else "errors of the fit"
-    return (sets[0] if len(sets) == 1 else _beside(sets)), noise
+    return (sets[0] if len(sets) == 1 else _stacked(sets)), noise
 
 
 def _refuse(message: str, help: str) -> None:
@@ -63,7 +63,7 @@ def _mean(group: list[FrfTest]) -> FrfTest:
     return replace(group[0], H=mean, variance=np.where(known, spread, np.nan), coherence=None)
 
 
-def _beside(sets: list[FrfTest]) -> FrfTest:
+def _stacked(sets: list[FrfTest]) -> FrfTest:
     """Sets of different forces as columns of one."""
     inputs = [each.inputs for each in sets]
     if any(is_sparse(each) for each in inputs):

@@ -79,7 +79,7 @@ def _close(found: Found, kept: list[int]) -> list[Diagnostic]:
     """Doubts where what the fit leaves is that of two modes in one bandwidth."""
     said = "what the fit leaves near the mode at {:.6g} Hz has its resonance and another shape: two modes in one bandwidth?"
     help = "measure with a force at another point too, or with finer lines; compare two levels of force"
-    another = beside(found)
+    another = unresolved(found)
     poles = [found.fit.model.poles[r] for r in kept if another[r]]
     return [Diagnostic("MD681", ERROR, said.format(abs(pole) / 2 / np.pi), help=help) for pole in poles]
 
@@ -200,7 +200,7 @@ _LEAST = 10  # lines there
 _CHANCE = 1e-4  # at most, that noise alone makes it
 
 
-def beside(found: Found) -> np.ndarray:
+def unresolved(found: Found) -> np.ndarray:
     """Mask (m,) of the modes of a fit beside which another one seems to be, within its bandwidth.
 
     Two poles much closer than a bandwidth have, but for terms of second order, R_1 / (s - lambda) + R_2 / (s - lambda)^2. A fit

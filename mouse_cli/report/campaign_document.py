@@ -77,7 +77,7 @@ def _spread(each: Spread, units: tuple[str, ...]) -> dict[str, Any]:
     size = np.nan_to_num(np.abs(each.influence))
     return {
         **fields(each, "name", "unit", "value", "posterior_sd"),
-        "foreseen_sd": each.predicted,
+        "predicted_sd": each.predicted,
         "sd": each.sd,
         "bias": each.bias,
         "percentile_95": each.percentile,

@@ -24,8 +24,8 @@ def held_frf(fits: tuple[FrfFit, ...]) -> list[dict[str, Any]]:
 
 
 def damping(found: tuple[Damping, ...]) -> list[dict[str, Any]]:
-    """Damping of the structure; told: whether the functions tell it."""
-    return [fields(d, "name", "unit", "value", "sd", "told") for d in found]
+    """Damping of the structure; determined: whether the functions tell it."""
+    return [fields(d, "name", "unit", "value", "sd", "determined") for d in found]
 
 
 def _measurement(fit: FrfFit) -> dict[str, Any]:

@@ -24,7 +24,7 @@ def document(found: Sampled) -> dict[str, Any]:
         **fields(found, "doubtful", "k_hat", "draws"),
         "parameters": [_quantity(each) for each in found.parameters],
         "frequencies": [
-            {**_quantity(each), "measured": each.measured, "foreseen": each.predicted} for each in found.frequencies
+            {**_quantity(each), "measured": each.measured, "predicted": each.predicted} for each in found.frequencies
         ],
         "places": [{"values": each.theta, "cost": each.cost, "share": each.share} for each in found.modes],
         "chain": {

@@ -64,7 +64,7 @@ def test_document_of_functions():
     assert fitted["revised_rms_sd"] == pytest.approx(1.0, abs=4 / np.sqrt(2 * 800))
     assert fitted["baseline_rms_sd"] > 3 and len(fitted["functions"]) == 2
     assert held["revised_covered"] == pytest.approx(0.9, abs=4 * np.sqrt(0.09 / 800)) and held["lines"] == 0
-    assert [each["told"] for each in document["damping"]] == [True, False]
+    assert [each["determined"] for each in document["damping"]] == [True, False]
 
 
 def test_document_of_two_causes():

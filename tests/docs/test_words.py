@@ -86,7 +86,7 @@ def test_a_retired_word_is_found(text):
 
 
 def test_names_in_code_are_no_words():
-    assert not found("The key `foreseen_sd`, [configurations](how-to/arrangements.md) and parameters.foreseen stay.")
+    assert not found("The key `foretold_sd`, [configurations](how-to/arrangements.md) and parameters.foretold stay.")
 
 
 @pytest.mark.parametrize("page", [*PAGES, TOP / "README.md"], ids=lambda page: str(page.relative_to(TOP)))

@@ -16,7 +16,7 @@ from scipy.stats import bootstrap as scipy_bootstrap
 
 from mouse_cli._errors import DeckError
 from mouse_cli.batch.changes import changed, edited
-from mouse_cli.batch.drawn import weighed
+from mouse_cli.batch.drawn import reweighted
 from mouse_cli.batch.work import perform
 from mouse_cli.campaigns import answers, design, resampled, sweep
 from mouse_cli.cli._vary import varied
@@ -234,7 +234,7 @@ def test_bootstrap_and_jackknife_of_a_linear_problem_are_the_closed_form(tmp_pat
     predicted = np.sqrt(5 / 6 * information) / (
         1 / 100.0**2 + information
     )  # sd of the sum of what each datum moves, times 1 - 1/6
-    assert k["foreseen_sd"] == pytest.approx(predicted, rel=1e-6)
+    assert k["predicted_sd"] == pytest.approx(predicted, rel=1e-6)
     assert sum(row["kind"] == "replicate" for row in csv.DictReader(Path("t.csv").read_text().splitlines())) == 60 * (
         1 + 6
     )
@@ -289,7 +289,7 @@ def test_a_sensor_left_out_is_the_deck_without_its_row(tmp_path, capsys, monkeyp
 
 def test_weights_of_both_kinds_multiply():
     problem = read_deck(CHAIN)
-    found = weighed(problem.test, [1, 2, 1, 0], [2, 1, 1, 0])
+    found = reweighted(problem.test, [1, 2, 1, 0], [2, 1, 1, 0])
     assert found.shape_sd[0, 1] == pytest.approx(0.05 / 2.0)
     assert found.frequency_sd_hz[1] == pytest.approx(0.546256567 / 2**0.5)
     assert run(replace(problem, test=found)).y.shape == (3 + 9,)
@@ -306,7 +306,7 @@ def test_replicates_without_prior_spread_as_weighted_least_squares(tmp_path, cap
     expected = (counts * SIZES * value / sd**2).sum(axis=1) / (counts * (SIZES / sd) ** 2).sum(axis=1)
     assert [each["posterior"]["k"] for each in found["replicates"]] == pytest.approx(expected, rel=1e-9)
     k = found["parameters"][0]
-    assert k["foreseen_sd"] == pytest.approx((5 / 6 / np.sum((SIZES / sd) ** 2)) ** 0.5, rel=1e-6)
+    assert k["predicted_sd"] == pytest.approx((5 / 6 / np.sum((SIZES / sd) ** 2)) ** 0.5, rel=1e-6)
 
 
 def test_an_estimator_that_does_not_weigh_cannot_count_twice(tmp_path, capsys, monkeypatch):

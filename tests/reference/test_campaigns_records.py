@@ -79,7 +79,7 @@ def test_a_function_left_out_is_the_deck_without_its_column(tmp_path, capsys, mo
         answer = run(read_deck(functions_deck(tmp_path / name, rest)))
         assert found["left_out"][i]["without"] == f"function H({dof},1)"
         assert found["left_out"][i]["posterior"]["k1"] == pytest.approx(answer.revised.theta[0], rel=1e-9)
-    assert k["foreseen_sd"] == pytest.approx(np.sqrt(2 / 3) * k["posterior_sd"], rel=1e-3)  # the prior says nothing
+    assert k["predicted_sd"] == pytest.approx(np.sqrt(2 / 3) * k["posterior_sd"], rel=1e-3)  # the prior says nothing
 
 
 def test_a_function_drawn_twice_has_half_the_variance(tmp_path):

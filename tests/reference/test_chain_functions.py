@@ -59,8 +59,8 @@ def test_the_spring_is_named_with_its_size_and_its_loss(found):
 
 def test_damping_of_the_structure_is_found(found):
     eta, by_mass, by_stiffness = found.damping
-    assert eta.told and abs(eta.value - make.LOSS) < 4 * eta.sd and eta.sd < 0.05 * make.LOSS
-    assert not by_mass.told and not by_stiffness.told  # there is none
+    assert eta.determined and abs(eta.value - make.LOSS) < 4 * eta.sd and eta.sd < 0.05 * make.LOSS
+    assert not by_mass.determined and not by_stiffness.determined  # there is none
 
 
 def test_functions_are_met_to_their_noise_and_foreseen_where_they_were_held_out(found):

@@ -8,7 +8,7 @@ import click
 
 from mouse_cli._texts import shown
 from mouse_cli.cli._answers import answer_text
-from mouse_cli.cli._arrangements import ARRANGEMENTS, Named, diagnosed, several, told, written
+from mouse_cli.cli._arrangements import ARRANGEMENTS, Named, diagnosed, outcome, several, written
 from mouse_cli.cli._options import QUIET, READING, answer_form, options, reading
 from mouse_cli.cli._raw_folder import RAW, asked_of_folder
 
@@ -226,7 +226,7 @@ def _text(found, form: str | None, numbers: str | None, output: str | None, file
     text = answer_text(found, form, numbers or "modern")
     if output is None:
         return text
-    sentence = told(files, output) if _arranged(found) else _written(found, output, files)
+    sentence = outcome(files, output) if _arranged(found) else _written(found, output, files)
     return f"{text}\n{fill(sentence, _WIDTH, break_long_words=False)}\n"
 
 

@@ -20,7 +20,7 @@ _LARGEST = 400  # degrees of freedom up to which a model of matrices is looked a
 _AXES = (("-Z", (0, 0, -1)), ("-Y", (0, -1, 0)), ("-X", (-1, 0, 0)), ("+X", (1, 0, 0)), ("+Y", (0, 1, 0)))
 
 
-def weighed(model: Reduced, candidate: Candidate) -> list[Recipe]:
+def self_weight(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """The recipes of a mesh that does not know gravity yet, one for each direction that may be down, or of a chain."""
     if of_matrices(model.problem):
         return _chain(model, candidate)

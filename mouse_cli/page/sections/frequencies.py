@@ -143,7 +143,7 @@ def predicted(document: Part) -> Iterator[Markup]:
         if len(modes) > _PREDICTED_MOST
         else "Natural frequencies"
     )
-    yield table("foreseen", f"{shown_of} of the model", _PREDICTED_HEADS, map(_predicted_row, modes[:_PREDICTED_MOST]))
+    yield table("predicted", f"{shown_of} of the model", _PREDICTED_HEADS, map(_predicted_row, modes[:_PREDICTED_MOST]))
 
 
 def _predicted_row(mode: Part) -> tuple[object, ...]:
@@ -193,6 +193,6 @@ def _shaded(value: float) -> Cell:
 SECTIONS = (
     PageSection("methods", 25, "Methods", methods),
     PageSection("frequencies", 40, "Frequencies", frequencies),
-    PageSection("foreseen", 41, "Natural frequencies", predicted),
+    PageSection("predicted", 41, "Natural frequencies", predicted),
     PageSection("shapes", 60, "Mode shape correlation (MAC)", shapes),
 )

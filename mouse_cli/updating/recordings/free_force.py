@@ -90,7 +90,7 @@ class Spectrum:
         """History (t, ...) of lines (l, ...)."""
         return np.fft.irfft(X, self.padded, axis=0)[: len(self.series)]
 
-    def weighed(self, x: np.ndarray) -> np.ndarray:
+    def whitened(self, x: np.ndarray) -> np.ndarray:
         """Outputs (t, s) over their sd, without what is slow, and by the weights."""
         own = x / self.series.sd
         own = quick(own, self.series.order, self.series.slow) if self.series.slow else own

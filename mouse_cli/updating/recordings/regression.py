@@ -146,7 +146,7 @@ class Regression:
 
     def stacked(self, columns: np.ndarray) -> np.ndarray:
         """Outputs (t, s) as the fit sees them, in sd."""
-        return self.spectrum.weighed(columns)[self.kept].ravel() / self.sd
+        return self.spectrum.whitened(columns)[self.kept].ravel() / self.sd
 
     def projected(self, column: np.ndarray) -> np.ndarray:
         """What nuisances do not follow of a stacked column."""

@@ -46,14 +46,14 @@ def with_damping(deck: Problem, before: Problem, one: Fit) -> Problem:
     structure = [at for at in _all(edit) if at not in own_law]
     for name, each in zip(_NAMES, found, strict=True):
         damped = [at for at in structure if _has(edit, at, name) and (name != "mass_damping" or at not in brought)]
-        if name != "loss_factor" and not each.told:
+        if name != "loss_factor" and not each.determined:
             continue
         less = stated if name == "loss_factor" else 0.0
         values = [each.value + (0.0 if at in brought else edit.values(at, name) - less) for at in damped]
         edit.put(damped, name, np.array(values))
         taken = {(b.set, int(i)) for b in edit.bindings if b.property == name for i in b.members}  # by a cause
         free = [at for at in damped if at not in taken]
-        if each.told and free:
+        if each.determined and free:
             edit.bind(f"{each.name} of the structure", free, (name,), unit="" if each.unit == "1" else each.unit)
     for name in _NAMES:
         lossy = [at for at in own_law if _has(edit, at, name) and edit.values(at, name)]

@@ -108,7 +108,7 @@ def fitted_functions(found: Diagnosis, options: Options) -> Iterator[Block]:
                 f"{d.value:.4g}",
                 f"{d.sd:.2g}",
                 d.unit if d.unit != "1" else "",
-                "" if d.told else "hardly determined by the FRFs",
+                "" if d.determined else "hardly determined by the FRFs",
             )
             for d in found.damping
         )
