@@ -65,10 +65,10 @@ class _Commands(click.Group):
 @click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__, "-V", "--version", prog_name="mouse", message="%(prog)s %(version)s")
 def cli() -> None:
-    """Revise a structural model from a modal test, and say when the model itself is wrong.
+    """Update a structural model from a modal test, and detect when its form is wrong.
 
     \b
-    mouse run deck.dat       revise the model of a card deck or YAML deck
+    mouse run deck.dat       update the model of a card deck or YAML deck
     mouse check *.dat        look for errors, compute nothing
     mouse explain MD104      what a diagnostic means
     """

@@ -42,9 +42,10 @@ def command(
     quiet: bool,
     **given: object,
 ) -> int:
-    """Run, check or diagnose DECKS: files, folders, patterns, manifests.
+    """Run, check or diagnose many DECKS.
 
-    Existing answers of decks and files that have not changed are kept: the same command resumes a batch.
+    DECKS are files, folders, patterns and manifests. Existing answers of decks and files that have not changed are kept:
+    the same command resumes a batch.
 
     Exit 3: a job missed what its manifest expects. Else the highest of the jobs' own: 5, 4, 1, 0.
     """

@@ -35,9 +35,10 @@ def command(
     quiet: bool,
     **given: object,
 ) -> int:
-    """Bootstrap of DECK: resample its test, report the scatter and the influence of each mode, sensor, function or record.
+    """Resample the test of DECK: how far its answer spreads.
 
-    Each replicate is a job as of `mouse batch`: existing answers are kept.
+    Reports the scatter, and the influence of each mode, sensor, function or record. Each replicate is a job as of `mouse
+    batch`: existing answers are kept.
 
     Exit code: that of the run of DECK itself.
     """

@@ -22,9 +22,9 @@ def command(
     strip_73_80: bool,
     overrides: tuple[str, ...],
 ) -> int:
-    """Report errors in DECKS (files, folders, '-') without running them.
+    """Report errors in DECKS without running them.
 
-    Findings go to standard error, a count line to standard output.
+    DECKS are files, folders, or '-' for standard input. Findings go to standard error, a count line to standard output.
 
     Exit 0: every deck is sound. 4: at least one was rejected.
     """

@@ -33,9 +33,10 @@ def command(
     strip_73_80: bool,
     overrides: tuple[str, ...],
 ) -> int:
-    """Update the model of DECK by several methods, and see the predictive error of each on held-out data.
+    """Compare methods of updating on DECK.
 
-    Fits the modes of the test, predicts those of `hold_out`, then the changed structures. Judges nothing: exit 0.
+    Predictive error of each on held-out data. Fits the modes of the test, predicts those of `hold_out`, then the changed
+    structures. Judges nothing: exit 0.
     """
     from mouse_cli.cli._decks import read_problem
     from mouse_cli.cli._methods import checked

@@ -10,7 +10,7 @@ _ALL_COMMAS = ('string split ","', 'string split -m 1 ","')  # of that for fish:
 @click.command()
 @click.argument("shell", type=click.Choice(["bash", "zsh", "fish"]))
 def command(shell: str) -> int:
-    """Print the script that completes commands and options in SHELL.
+    """Print the completion script for SHELL.
 
     For bash: mouse completion bash > ~/.local/share/bash-completion/completions/mouse
     """

@@ -33,9 +33,10 @@ def command(
     deck: str, written_to: str | None, truncate: float | None, priors: tuple[str, ...], plot: str | None, quiet: bool,
     **how: str | None,
 ) -> int:  # fmt: skip
-    """Couple or decouple the substructures of DECK, a YAML deck that holds `couple:`.
+    """Couple or decouple the substructures of DECK.
 
-    FRFs of the assembly from models and measured FRFs, rigid or elastic connections; natural frequencies by modal coupling.
+    DECK is a YAML deck that holds `couple:`. FRFs of the assembly from models and measured FRFs, rigid or elastic
+    connections; natural frequencies by modal coupling.
 
     Exit 1: noise decides the interface at more than a few lines.
     """

@@ -75,9 +75,10 @@ def command(
     quiet: bool,
     **given: object,
 ) -> int:
-    """Identify the physics missing from the model of DECKS, by its test or by the raw files of --recordings FOLDER.
+    """Identify the physics missing from the model of DECKS.
 
-    Several DECKS are configurations of one structure, such as moved masses: mechanisms are identified sequentially.
+    By its test, or by the raw files of --recordings FOLDER. Several DECKS are configurations of one structure, such as
+    moved masses: mechanisms are identified sequentially.
 
     Site, mechanism, size, validation. Exit 0: nothing is missing. 1: something is. 2: no site. 4: rejected. 5: no answer.
     """

@@ -39,8 +39,11 @@ def _topic(name: str) -> str:
 @click.command()
 @click.argument("topic")
 def command(topic: str) -> int:
-    """Explain a code (MD104), an estimator, recursion, status, element or candidate, a field of the cards (NPARD), an operation
-    of the report (O-2), or: cards, candidates, elements, methods, yaml, schema, exit."""
+    """Explain a code, an estimator, a deck key or another TOPIC.
+
+    TOPIC is a code (MD104), an estimator, recursion, status, element or candidate, a field of the cards (NPARD), an
+    operation of the report (O-2), or: cards, candidates, elements, methods, yaml, schema, exit.
+    """
     if topic in TOPICS:
         click.echo(_topic(topic))
         return 0

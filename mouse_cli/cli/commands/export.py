@@ -39,10 +39,11 @@ def command(
     output: str | None,
     quiet: bool,
 ) -> int:
-    """Write materials, sections, springs and masses of DECK as an include file of a finite-element program.
+    """Write DECK as cards of a finite-element program.
 
-    Every value has a comment with its posterior and standard deviation; what has no card is listed in a comment.
-    --complete writes the job itself, with element sets and supports as they are now.
+    Materials, sections, springs and masses go to an include file. Every value has a comment with its posterior and standard
+    deviation; what has no card is listed in a comment. --complete writes the job itself, with element sets and supports as
+    they are now.
     """
     from mouse_cli.cli._decks import after_result, read_problem
     from mouse_cli.cli._terminal import deliver, show_diagnostics

@@ -41,10 +41,11 @@ def command(
     quiet: bool,
     **given: object,
 ) -> int:
-    """Identify natural frequencies, damping and mode shapes from recordings or frequency response functions.
+    """Identify modes from recordings or FRFs.
 
-    SOURCE: a YAML deck, or files of FRFs or time histories; several are repeats, or have one force each. Without
-    forces, or with --output-only, the outputs alone are used. Exit 0: modes found. 1: none, or none to be trusted. 4: rejected.
+    Natural frequencies, damping and mode shapes. SOURCE: a YAML deck, or files of FRFs or time histories; several are
+    repeats, or have one force each. Without forces, or with --output-only, the outputs alone are used. Exit 0: modes found.
+    1: none, or none to be trusted. 4: rejected.
     """
     from mouse_cli.cli._identify import Excited, identified, write
     from mouse_cli.cli._terminal import drawn, progress, show_diagnostics

@@ -24,7 +24,7 @@ from mouse_cli.cli._options import OUTSIDE, QUIET, options, outside
 def command(
     job: str, output: str | None, units: str | None, thickness: tuple[str, ...], no_cache: bool, quiet: bool
 ) -> int:
-    """Make a deck of JOB, an input file (.inp) of Abaqus or CalculiX.
+    """Make a deck of an Abaqus or CalculiX JOB (.inp).
 
     CalculiX (ccx) writes K and M without supports, once for the whole and once for each set of groups that do not touch; the
     deck names supports, element sets and materials as the job does. Sums and frequencies are checked against the solver.

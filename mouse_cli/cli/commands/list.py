@@ -67,7 +67,7 @@ def entries(kind: str) -> Iterator[tuple[str, str]]:
 @click.command()
 @click.argument("kind", type=click.Choice(KINDS), required=False)
 def command(kind: str | None) -> int:
-    """List names: estimators, recursions, codes, card groups and so on."""
+    """List estimators, mechanisms, codes and other names."""
     for name in [kind] if kind else KINDS:
         if not kind:
             click.echo(f"{name}:")

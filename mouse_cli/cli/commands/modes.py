@@ -25,9 +25,9 @@ def command(
     strip_73_80: bool,
     overrides: tuple[str, ...],
 ) -> int:
-    """Natural frequencies and mode shapes of DECK before any test, with their uncertainty.
+    """Predict natural frequencies and mode shapes of DECK.
 
-    The standard deviations are propagated from those of the properties.
+    Before any test, with their uncertainty. The standard deviations are propagated from those of the properties.
     """
     from mouse_cli.cli._decks import read_problem, without_laws
     from mouse_cli.cli._terminal import deliver, progress, show_diagnostics

@@ -21,9 +21,9 @@ def command(
     deck: str, count: int | None, plot: str | None, prior: str | None, loosen: tuple[str, ...], quiet: bool, legacy: bool,
     strip_73_80: bool, overrides: tuple[str, ...], output: str | None, form: str | None, numbers: str | None, **given: object,
 ) -> int:  # fmt: skip
-    """Structural modification: predict the effect of changes on the model of DECK, with the uncertainty of its properties.
+    """Predict the effect of structural modifications of DECK.
 
-    DECK is a model with changes as options, or a YAML deck that holds `modify:`.
+    With the uncertainty of its properties. DECK is a model with changes as options, or a YAML deck that holds `modify:`.
 
     Exit 1: a target cannot be met.
     """

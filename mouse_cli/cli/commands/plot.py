@@ -10,10 +10,11 @@ import click
 )
 @click.option("--figure", "figures", metavar="NAME", multiple=True, help="Draw this figure; may be repeated.")
 def command(result: str, output: str, figures: tuple[str, ...]) -> int:
-    """Draw figures of RESULT, which `mouse run --json` or `mouse diagnose --json` wrote.
+    """Draw figures of RESULT.
 
-    Frequencies, parameters, MAC, mechanisms, sites, mode shapes, convergence: those for which RESULT has values. A single figure by
-    --figure. Exit 0 whatever the verdict is.
+    RESULT is what `mouse run --json` or `mouse diagnose --json` wrote. Frequencies, parameters, MAC, mechanisms, sites,
+    mode shapes, convergence: those for which RESULT has values. A single figure by --figure. Exit 0 whatever the verdict
+    is.
     """
     from mouse_cli.cli._decks import deck_bytes, shown
     from mouse_cli.cli._terminal import drawn

@@ -8,10 +8,11 @@ import click
 @click.option("--markdown", is_flag=True, help="In short, in GitHub's Markdown: for a merge request.")
 @click.option("-o", "--output", metavar="FILE", help="Write the page to FILE instead of standard output.")
 def command(result: str, markdown: bool, output: str | None) -> int:
-    """Make an HTML page of RESULT: JSON of `run`, `diagnose`, `compare`, `correlate`, `identify`, `modes`, or a job of `batch`.
+    """Make an HTML page of RESULT.
 
-    One file that needs no network: verdict, mode shapes drawn on the structure, frequencies, parameters, FRFs,
-    mechanisms, sites, convergence. Exit 0 whatever the verdict is.
+    RESULT is the JSON of `run`, `diagnose`, `compare`, `correlate`, `identify`, `modes`, or a job of `batch`. One file that
+    needs no network: verdict, mode shapes drawn on the structure, frequencies, parameters, FRFs, mechanisms, sites,
+    convergence. Exit 0 whatever the verdict is.
     """
     from mouse_cli.cli._decks import deck_bytes, shown
     from mouse_cli.cli._terminal import deliver

@@ -33,7 +33,9 @@ def command(
     overrides: tuple[str, ...],
     **given: object,
 ) -> int:
-    """Update the model of DECK (cards or YAML, '-': standard input) by its test.
+    """Update the model of DECK by its test.
+
+    DECK is cards or YAML; '-': standard input.
 
     Exit 0: converged, and the model explains the data. 1: do not trust the answer. 4: deck rejected. 5: no answer.
     """

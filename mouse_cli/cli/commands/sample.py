@@ -47,9 +47,10 @@ def command(
     strip_73_80: bool,
     overrides: tuple[str, ...],
 ) -> int:
-    """Sample the posterior of DECK: its prior and the likelihood of its test, as `mouse run` has them.
+    """Sample the posterior of DECK (MCMC).
 
-    Checks the standard deviations of `mouse run` against the posterior. Needs the extra `sampling`.
+    Of its prior and the likelihood of its test, as `mouse run` has them. Checks the standard deviations of `mouse run`
+    against the posterior. Needs the extra `sampling`.
 
     Exit 0: the chain is long enough, and the model explains the data. 1: do not trust it. 4: deck rejected. 5: no answer.
     """

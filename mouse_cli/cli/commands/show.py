@@ -9,9 +9,9 @@ from mouse_cli.cli._options import READING, options, outside, reading
 @click.argument("deck")
 @options(READING)
 def command(deck: str, legacy: bool, strip_73_80: bool, overrides: tuple[str, ...]) -> int:
-    """Show DECK as read: cards with their fields named, YAML in canonical form.
+    """Show DECK as read.
 
-    A card deck is shown even when it has errors, as far as it was read.
+    Cards with their fields named, YAML in canonical form. A card deck is shown even when it has errors, as far as it was read.
     """
     from mouse_cli._errors import MouseError
     from mouse_cli.cli._decks import deck_bytes, shown

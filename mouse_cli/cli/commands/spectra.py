@@ -26,10 +26,10 @@ def command(
     quiet: bool,
     **given,
 ) -> int:
-    """Estimate frequency response functions from the recordings of SOURCE, a YAML deck or a file of measured data.
+    """Estimate FRFs from the recordings of SOURCE.
 
-    Recordings of a deck that have the same channels are averaged together. The table lists lines, averages,
-    median coherence and noise of each FRF.
+    SOURCE is a YAML deck or a file of measured data. Recordings of a deck that have the same channels are averaged
+    together. The table lists lines, averages, median coherence and noise of each FRF.
     """
     from mouse_cli.cli._spectra import measured_data, spectra_options
     from mouse_cli.cli._terminal import say, show_diagnostics

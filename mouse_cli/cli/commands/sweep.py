@@ -39,9 +39,9 @@ def command(
     quiet: bool,
     **given: object,
 ) -> int:
-    """Run DECK at many values of its assumptions, and report the sensitivity of the answer.
+    """Run DECK over ranges of its assumptions.
 
-    Each point is a job as of `mouse batch`: existing answers are kept.
+    Reports the sensitivity of the answer. Each point is a job as of `mouse batch`: existing answers are kept.
 
     Exit code: the highest of the points' own: 5, 4, 1, 0.
     """
