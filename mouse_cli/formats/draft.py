@@ -10,14 +10,12 @@ import numpy as np
 
 from mouse_cli._errors import ERROR, WARNING, Diagnostic
 from mouse_cli._span import Span
-from mouse_cli.formats.hold_out_draft import HoldOutDraft
-from mouse_cli.formats.law_draft import LawDraft
-from mouse_cli.formats.mesh_draft import MeshDraft
 from mouse_cli.formats.record_drafts import FrfDraft, RecordingDraft
 from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.geometry import Geometry
 from mouse_cli.model.held import ElementGroup, Held
+from mouse_cli.model.mesh import Binding, Mesh
 from mouse_cli.model.modal_damping import ModalDamping
 from mouse_cli.model.parameter import Parameter
 from mouse_cli.model.problem import RunOptions, Source
@@ -67,6 +65,79 @@ class TestDraft:
     where_shape: Callable[[int, int], Span | None] = lambda s, m: None
     where_shape_sd: Callable[[int, int], Span | None] = lambda s, m: None
     sensors: tuple[SensorDraft, ...] = ()
+
+
+@dataclass
+class MeshDraft:
+    """A structure, with the places of its parts.
+
+    mesh, bindings: as read. node_place(i): place of node index i; element_place(s, i): of element i of set s; span: of all.
+    labels: names of the degrees of freedom of a matrix model whose degrees of freedom are the nodes of the mesh, else empty.
+    """
+
+    mesh: Mesh
+    span: Span
+    node_place: Callable[[int], Span]
+    element_place: Callable[[int, int], Span]
+    bindings: list[Binding] = field(default_factory=list)
+    labels: tuple[str, ...] = ()
+
+    def of_element(self, number: int) -> Span:
+        """Place of the element called `number`."""
+        for s, members in enumerate(self.mesh.elements):
+            found = np.flatnonzero(members.ids == number)
+            if len(found):
+                return self.element_place(s, int(found[0]))
+        return self.span
+
+    def of_node(self, number: int) -> Span:
+        """Place of the node called `number`."""
+        found = np.flatnonzero(self.mesh.node_ids == number)
+        return self.node_place(int(found[0])) if len(found) else self.span
+
+
+@dataclass
+class LawDraft:
+    """A law of a local force; dofs: numbers from 1, or labels, as written."""
+
+    law: str
+    variant: str
+    dofs: list[str]
+    values: dict[str, float]
+    where: Span | None = None
+
+
+Additions = dict[int | str, float]
+
+
+@dataclass
+class AlteredDraft:
+    """Another configuration: what is added to degrees of freedom or, for masses, nodes, named by number or label."""
+
+    title: str
+    where: Span
+    masses: Additions
+    springs: Additions
+    number: np.ndarray
+    frequency_hz: np.ndarray
+    frequency_sd_hz: np.ndarray
+
+
+@dataclass
+class HoldOutDraft:
+    """What is kept from every fit. modes: numbers of modes of the test, sensors: as `dofs` names them; each with its place.
+
+    recordings, frf: titles; segments: a title, and first sample and the one after the last; lines: lowest and highest Hz.
+    """
+
+    where: Span
+    modes: list[tuple[int, Span]] = field(default_factory=list)
+    sensors: list[tuple[str, Span]] = field(default_factory=list)
+    altered: list[AlteredDraft] = field(default_factory=list)
+    recordings: list[tuple[str, Span]] = field(default_factory=list)
+    segments: list[tuple[str, tuple[int, int], Span]] = field(default_factory=list)
+    frf: list[tuple[str, Span]] = field(default_factory=list)
+    lines: list[tuple[tuple[float, float], Span]] = field(default_factory=list)
 
 
 @dataclass

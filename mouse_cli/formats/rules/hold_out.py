@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from mouse_cli.formats.draft import Draft
-from mouse_cli.formats.hold_out_draft import AlteredDraft, HoldOutDraft
+from mouse_cli.formats.draft import AlteredDraft, Draft, HoldOutDraft
 from mouse_cli.model.geometry import Geometry
 from mouse_cli.model.hold_out import Altered, HoldOut
 from mouse_cli.model.modal_test import ModalTest

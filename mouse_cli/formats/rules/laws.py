@@ -1,7 +1,6 @@
 """Rules for laws of local forces: each has its own sizes, and acts on one or two degrees of freedom of this model."""
 
-from mouse_cli.formats.draft import Draft
-from mouse_cli.formats.law_draft import LawDraft
+from mouse_cli.formats.draft import Draft, LawDraft
 from mouse_cli.model.geometry import Geometry
 from mouse_cli.model.local_law import LocalLaw
 from mouse_cli.terms.laws import registry

@@ -3,8 +3,7 @@
 import numpy as np
 
 from mouse_cli._span import Span
-from mouse_cli.formats.draft import Draft
-from mouse_cli.formats.mesh_draft import MeshDraft
+from mouse_cli.formats.draft import Draft, MeshDraft
 from mouse_cli.formats.rules.entries import MOST
 from mouse_cli.model.mesh import ElementSet
 from mouse_cli.terms.elements import registry

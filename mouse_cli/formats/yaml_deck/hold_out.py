@@ -5,7 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from mouse_cli._span import Span
-from mouse_cli.formats.hold_out_draft import AlteredDraft, HoldOutDraft
+from mouse_cli.formats.draft import AlteredDraft, HoldOutDraft
 from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.frf import pair
 from mouse_cli.formats.yaml_deck.kinds import KINDS

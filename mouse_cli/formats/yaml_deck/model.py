@@ -5,8 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli.formats import matrix_files
-from mouse_cli.formats.draft import Entries, SupportDraft
-from mouse_cli.formats.mesh_draft import MeshDraft
+from mouse_cli.formats.draft import Entries, MeshDraft, SupportDraft
 from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.files import read_below
 from mouse_cli.formats.yaml_deck.imported import Rows

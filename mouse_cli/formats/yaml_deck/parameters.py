@@ -7,8 +7,7 @@ import numpy as np
 import yaml
 
 from mouse_cli.formats import matrix_files
-from mouse_cli.formats.draft import Entries
-from mouse_cli.formats.mesh_draft import MeshDraft
+from mouse_cli.formats.draft import Entries, MeshDraft
 from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.bindings import WHOSE, Bound
 from mouse_cli.formats.yaml_deck.files import named, read_kept

@@ -5,9 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli._errors import DeckError
-from mouse_cli.formats.draft import Draft
-from mouse_cli.formats.law_draft import LawDraft
-from mouse_cli.formats.mesh_draft import MeshDraft
+from mouse_cli.formats.draft import Draft, LawDraft, MeshDraft
 from mouse_cli.formats.record_drafts import FrfDraft, RecordingDraft
 from mouse_cli.formats.rules import review
 from mouse_cli.formats.yaml_deck import bindings

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mouse_cli.formats.mesh_draft import MeshDraft
+from mouse_cli.formats.draft import MeshDraft
 from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.ids import ids as read_ids
 from mouse_cli.formats.yaml_deck.keys.structure import PLANES
