@@ -1,4 +1,4 @@
-"""Texts from decks and recordings made harmless where they are shown: on terminals and in cells of spreadsheets."""
+"""Texts from decks and recordings made harmless where they are shown, on terminals and in cells of spreadsheets; capitals."""
 
 import csv
 import io
@@ -29,6 +29,15 @@ def shown(text: str, commands: bool = False) -> str:
 def line(text: str) -> str:
     """The same on one line."""
     return shown(text).replace("\n", "?").replace("\t", " ")
+
+
+def capital(text: str) -> str:
+    """`text` as it begins a sentence.
+
+    >>> capital("mode 3 of TX")
+    'Mode 3 of TX'
+    """
+    return text[:1].upper() + text[1:]
 
 
 def cell(value: object) -> str:

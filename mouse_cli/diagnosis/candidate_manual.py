@@ -1,5 +1,6 @@
 """The physics that a diagnosis knows, and the rivals without a name, in Markdown: for `mouse explain` and the reference."""
 
+from mouse_cli._texts import capital
 from mouse_cli.diagnosis.likelihoods.candidates import OWN
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
 from mouse_cli.diagnosis.nameless import Nameless
@@ -59,4 +60,4 @@ def _told(candidate: Candidate | Law) -> str:
 
 
 def _sentence(one: Candidate | Law | Nameless) -> str:
-    return f"{one.title[0].upper()}{one.title[1:]}: {one.meaning.rstrip('.')}."
+    return f"{capital(one.title)}: {one.meaning.rstrip('.')}."

@@ -1,5 +1,6 @@
 """The reference of the methods, made of what each says of itself."""
 
+from mouse_cli._texts import capital
 from mouse_cli.methods import Method, registry
 
 
@@ -20,7 +21,7 @@ def manual() -> str:
 def about(method: Method) -> str:
     """One method, in Markdown."""
     told = method.about
-    lines = [f"{told.title[0].upper()}{told.title[1:]}: {told.source}.", "", f"    {told.equation}", ""]
+    lines = [f"{capital(told.title)}: {told.source}.", "", f"    {told.equation}", ""]
     lines += ["| what a structure has | guaranteed | because |", "|---|---|---|"]
     lines += [f"| {g.aspect} | {g.given} | {_cell(g.why)} |" for g in told.guarantees]
     return "\n".join([*lines, "", f"Needs: {', '.join(_NEEDS[need] for need in method.needs)}."])

@@ -1,5 +1,6 @@
 """The verdict on several configurations of a structure in sentences: the same in printout, JSON document and page."""
 
+from mouse_cli._texts import capital
 from mouse_cli.model.arrangements import ArrangementsDiagnosis, Turn
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, UNKNOWN
 from mouse_cli.report.field_words import field_sentences
@@ -43,12 +44,12 @@ def _step(turn: Turn, explains: bool) -> str:
         f"log evidence {nats(turn.gain)} above none; chi-square {turn.before.chi2:.1f} to {best.chi2:.1f} on {best.dof}"
     )
     p = f"{with_p(turn.probability)}; " if explains else ""
-    at, sizes = f"{where(best)}{rivals_of_site(turn.elsewhere)}", _capital(sized(best.causes[0]))
+    at, sizes = f"{where(best)}{rivals_of_site(turn.elsewhere)}", capital(sized(best.causes[0]))
     if turn.kind == NAMED or not explains:
         if not (explains and within(tried, best)):
-            return f"{_capital(best.title)}: {at} ({p}{gain}). {sizes}."
+            return f"{capital(best.title)}: {at} ({p}{gain}). {sizes}."
         inside = within(tried, best)
-        return f"{_capital(grouped(tried, best))} ({p}{gain}): {inside}. If it is {best.title}: {at}. {sizes}."
+        return f"{capital(grouped(tried, best))} ({p}{gain}): {inside}. If it is {best.title}: {at}. {sizes}."
     rivals = [f"{grouped(tried, one)}, {where(one)}" for one in turn.rivals if one.causes]
     names = f", one of {{{'; '.join(rivals)}}}" if len(rivals) > 1 else f": {''.join(rivals)}"
     none = next((each for name, each in turn.groups if name == "none" and any(not o.causes for o in turn.rivals)), None)
@@ -56,10 +57,6 @@ def _step(turn: Turn, explains: bool) -> str:
     if none is not None:
         likely = f"{'Likely' if none <= _EVEN else 'Possible'}, not proved (probability that nothing is missing {probable(none)})"
     return (
-        f"{likely}{names} ({gain}). {_capital(best.title)} leads ({with_p(turn.probability)} of its "
+        f"{likely}{names} ({gain}). {capital(best.title)} leads ({with_p(turn.probability)} of its "
         f"group) and is what the search goes on with: {at}; {sized(best.causes[0])}."
     )
-
-
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]

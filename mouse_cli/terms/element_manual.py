@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from mouse_cli._texts import capital
 from mouse_cli.terms.elements import (
     AXES,
     END_DIRECTIONS,
@@ -56,7 +57,7 @@ def about(kind: ElementType) -> str:
 def _section(kind: ElementType) -> Iterator[str]:
     yield f"## {kind.key}\n"
     counts = " or ".join(str(n) for n in kind.nodes)
-    yield f"{kind.meaning[0].upper()}{kind.meaning[1:]}. Nodes: {counts}.\n"
+    yield f"{capital(kind.meaning)}. Nodes: {counts}.\n"
     yield "| property | meaning | unit | default |"
     yield "|---|---|---|---|"
     for name, declared in kind.properties.items():

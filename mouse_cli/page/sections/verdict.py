@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from mouse_cli._texts import capital
 from mouse_cli.page.html import Markup, tag
 from mouse_cli.page.numbers import probable
 from mouse_cli.page.section import PageSection
@@ -57,7 +58,7 @@ def _size(document: Part) -> str:
     if document.part("verdict").text("kind") != "named" or not document.parts("candidates"):
         return ""
     sizes = ", ".join(map(size, document.parts("candidates")[0].parts("parameters")))
-    return sizes and f"{sizes[0].upper()}{sizes[1:]}."
+    return sizes and f"{capital(sizes)}."
 
 
 def mark(document: Part) -> tuple[str, str]:
@@ -89,11 +90,7 @@ def further(document: Part) -> list[str]:
 
 def _run(document: Part) -> str:
     message = document.text("message")
-    return (
-        f"{message[0].upper()}{message[1:].removesuffix('.')}."
-        if message
-        else f"The run ended: {document.text('status')}."
-    )
+    return f"{capital(message).removesuffix('.')}." if message else f"The run ended: {document.text('status')}."
 
 
 def _refuted(document: Part) -> str:

@@ -1,9 +1,11 @@
 """Words that several sections share."""
 
 from collections.abc import Iterable, Iterator
+from math import isfinite
 
 from mouse_cli import __version__
 from mouse_cli._errors import Diagnostic
+from mouse_cli._texts import capital
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import ChiSquareTest
 from mouse_cli.report.blocks import Table, Text, heads
@@ -27,6 +29,11 @@ def counted(count: int, one: str, many: str = "") -> str:
     return f"{count} {one if count == 1 else many or one + 's'}"
 
 
+def finite(value: float) -> float | None:
+    """A number for a cell, which stays empty where there is none."""
+    return float(value) if isfinite(value) else None
+
+
 def deck_table(problem: Problem) -> Table:
     """Which program, title and deck."""
     rows = ("program", f"mouse {__version__}"), ("title", problem.title.strip()), ("source", problem.source.path)
@@ -45,7 +52,7 @@ def remarks(found: Iterable[Diagnostic], options: Options) -> Iterator[Text]:
     for remark in found[:_BRIEF] if options.short else found:
         place = f" ({remark.span})" if remark.span else ""
         parts = () if options.short else (remark.note, remark.help)
-        more = "".join(f" {part[0].upper()}{part[1:]}." for part in parts if part)
+        more = "".join(f" {capital(part)}." for part in parts if part)
         yield Text(f"{remark.code}{place}: {remark.message}.{more}")
     if options.short and len(found) > _BRIEF:
         yield Text(f"and {len(found) - _BRIEF} more; `--full`")

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from mouse_cli._texts import capital
 from mouse_cli.model.arrangements import ArrangementsDiagnosis
 from mouse_cli.model.diagnosis import UNKNOWN, Explanation, Score
 from mouse_cli.report.arrangements_sentences import sentences
@@ -67,7 +68,7 @@ def parameters(found: ArrangementsDiagnosis, options: Options) -> Iterator[Block
 def remarks(found: ArrangementsDiagnosis, options: Options) -> Iterator[Block]:
     """What a careful reader of a diagnosis of arrangements should know. One paragraph each."""
     for text in found.remarks:
-        yield Text(f"{text[:1].upper()}{text[1:]}.")
+        yield Text(f"{capital(text)}.")
     yield from worded((remark for each in found.problems for remark in each.warnings), options)
 
 

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from mouse_cli._texts import capital
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, elsewhere
 from mouse_cli.model.record_diagnosis import AS_IT_IS, WITH_CAUSE, RecordDiagnosis, RecordScore
 from mouse_cli.model.record_update import RecordUpdate
@@ -40,7 +41,7 @@ def _where(found: RecordDiagnosis) -> str:
         return "Nowhere: model and records are consistent within their accuracies."
     if found.kind in (NAMED, ONE_OF):
         at = lambda one: f"{where(one)}{rivals_of_site(elsewhere(found.explanations, one))}"
-        return "; ".join(_capital(at(one)) for one in leaders(found)) + "."
+        return "; ".join(capital(at(one)) for one in leaders(found)) + "."
     best = found.best
     if best is None or not best.causes:
         return "No site can be given."
@@ -90,7 +91,7 @@ def _noise(found: RecordDiagnosis) -> str:
 def _how_much(found: RecordDiagnosis) -> str:
     if found.kind not in (NAMED, ONE_OF):
         return "Nothing to be sized." if found.kind == NOTHING else "Without a mechanism there is no size."
-    return "; ".join(f"{_capital(cause.title)}: {sized(cause)}" for one in leaders(found) for cause in one.causes) + "."
+    return "; ".join(f"{capital(cause.title)}: {sized(cause)}" for one in leaders(found) for cause in one.causes) + "."
 
 
 def _true(found: RecordDiagnosis) -> str:
@@ -112,15 +113,11 @@ def _proof(one: RecordScore) -> str:
     return f"{name} {pair(one.short)} over {one.horizon_s:.2g} s, {pair(one.free)} over the whole."
 
 
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]
-
-
 def update(found: RecordUpdate, options: Options) -> Iterator[Block]:
     """The verdict on the model, then one line a parameter."""
     residual = found.residual
     yield Text(
-        f"{found.message[:1].upper()}{found.message[1:]}. It leaves {residual.chi2 / residual.dof:.4g} times the variance that the "
+        f"{capital(found.message)}. It leaves {residual.chi2 / residual.dof:.4g} times the variance that the "
         f"accuracy of the channels has; standard deviations are for {found.noise_scale:.4g} times."
     )
     columns = heads("<property | <unit | prior | prior sd | revised | sd")
@@ -154,7 +151,7 @@ def _laws(found: RecordUpdate) -> Iterator[Block]:
 def remarks(found: RecordDiagnosis | RecordUpdate, options: Options) -> Iterator[Block]:
     """What a careful reader of a diagnosis by recordings should know. One paragraph each."""
     for text in found.remarks:
-        yield Text(f"{text[:1].upper()}{text[1:]}.")
+        yield Text(f"{capital(text)}.")
     for each in getattr(found, "untried", ()):
         yield Text(f"Not considered: {each.physics} ({each.reason}).")
     yield from worded(found.problem.warnings, options)

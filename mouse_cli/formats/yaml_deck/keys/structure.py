@@ -1,5 +1,6 @@
 """Keys of `model: structure:`; what an element may be given follows from the element library."""
 
+from mouse_cli._texts import capital
 from mouse_cli.formats.yaml_deck.kinds import Key, Section
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.terms.elements import AXES, END_DIRECTIONS, END_VECTORS, VECTOR, ElementType, Property, registry
@@ -28,7 +29,7 @@ def _element(kind: ElementType) -> Section:
     if kind.properties.get("TX") and "stiffness" in kind.properties["TX"].meaning:
         keys["stiffness"] = Key("section stiffnesses", "the properties TX to RZ, as a mapping")
     properties = {name: _property(about) for name, about in kind.properties.items()}
-    return Section(f"{kind.meaning[0].upper()}{kind.meaning[1:]}.", keys | properties | _options(kind))
+    return Section(f"{capital(kind.meaning)}.", keys | properties | _options(kind))
 
 
 def _property(about: Property) -> Key:

@@ -6,6 +6,7 @@ from itertools import groupby
 import numpy as np
 
 from mouse_cli import __version__
+from mouse_cli._texts import capital
 from mouse_cli.formats.frf_values import response_unit
 from mouse_cli.model.coupling import ABSORBER, MASS, Target
 from mouse_cli.model.modified import Modified, Need, Swept
@@ -103,7 +104,7 @@ def targets(found: Modified, options: Options) -> Iterator[Block]:
 
 def _answer(target: Target, needs: list[Need], unit: str, confidence: int) -> Iterator[Block]:
     if len(needs) == 1 and not needs[0].place:
-        yield Text(f"{needs[0].reason[0].upper()}{needs[0].reason[1:]}.")
+        yield Text(f"{capital(needs[0].reason)}.")
         return
     columns = heads(
         Column("place", align=LEFT, literal=True),

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from mouse_cli._texts import capital
 from mouse_cli.model.diagnosis import (
     BY_MODE,
     NAMED,
@@ -60,7 +61,7 @@ def _where(found: Diagnosis) -> Iterator[Block]:
     if found.kind == NOTHING:
         yield Text("Nowhere: model and test are consistent within their accuracies.")
     elif found.kind == NAMED:
-        yield Text(f"{_capital(whereabouts(found.best, units, found.elsewhere))}.{shapes}")
+        yield Text(f"{capital(whereabouts(found.best, units, found.elsewhere))}.{shapes}")
     elif found.kind == ONE_OF:
         where = "That depends on what it is" if len(leaders(found)) > 1 else "If it is there, here"
         yield Text(f"{where if found.placed else 'At one of several sites'}.{shapes}")
@@ -111,7 +112,7 @@ def _what(found: Diagnosis) -> Iterator[Block]:
         yield Text(f"Nothing{chances}. {hidden}.{_open(found)}")
     elif found.kind == NAMED:
         yield Text(
-            f"{_capital(called(found))}, group {best.group}, {with_p(found.probability)} of the group{_inside(found)}. "
+            f"{capital(called(found))}, group {best.group}, {with_p(found.probability)} of the group{_inside(found)}. "
             f"Goodness of fit of the extended model {p_value(best.p)}{_noise(found)}. {conditional}."
         )
         if found.certain is not None:
@@ -159,10 +160,10 @@ def _unsettled(found: Diagnosis) -> str:
         return f"No mechanism is probable enough to be named: that takes a probability of {_SURE:g}."
     if not np.isfinite(measured.shapes).any() and any(cause.physics == "oscillator" for cause in best.causes):
         return (
-            f"{_capital(best.title)} is the most probable, with {with_p(found.probability)}, but frequencies without shapes do "
+            f"{capital(best.title)} is the most probable, with {with_p(found.probability)}, but frequencies without shapes do "
             "not prove that the structure has a mode which the model has not. Mode shapes would."
         )
-    return f"{_capital(best.title)} is the most probable, with {with_p(found.probability)}, but without enough support for a name."
+    return f"{capital(best.title)} is the most probable, with {with_p(found.probability)}, but without enough support for a name."
 
 
 def _open(found: Diagnosis) -> str:
@@ -183,7 +184,7 @@ def _how_much(found: Diagnosis) -> Iterator[Block]:
     if found.kind == NOTHING or found.best is None:
         yield Text("Nothing to be sized.")
     elif found.kind == NAMED:
-        yield Text(f"{_capital('; '.join(f'{cause.title}: {sized(cause)}' for cause in found.best.causes))}.")
+        yield Text(f"{capital('; '.join(f'{cause.title}: {sized(cause)}' for cause in found.best.causes))}.")
     elif found.kind == ONE_OF:
         columns = heads("<if it is | <then of")
         yield Table(columns, tuple((one.title, "; ".join(map(sized, one.causes))) for one in leaders(found)))
@@ -278,10 +279,6 @@ def _proof(found: Diagnosis, held: HeldOut) -> str:
             "such as an added mass, hold that out in the deck, and diagnose again."
         )
     return "The extended model passes. A better prediction is necessary for a name, not sufficient."
-
-
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]
 
 
 SECTION = Section("diagnosis-answers", 10, "Diagnosis", answers, (Diagnosis,), place=VERDICT)

@@ -12,7 +12,7 @@ from mouse_cli.model.result import Forecast, Result
 from mouse_cli.report.blocks import Block, Cell, Heading, Lines, Matrix, Table, Text, heads
 from mouse_cli.report.measured import NOT_MEASURED, eigenvalue_index, positions
 from mouse_cli.report.section import APPENDIX, Options, Section
-from mouse_cli.report.sections._wording import counted, names
+from mouse_cli.report.sections._wording import counted, finite, names
 from mouse_cli.updating.loop import RECURSIONS
 
 _SCALES = {
@@ -187,18 +187,14 @@ def _properties(problem: Problem) -> Table:
             p.unit,
             float(mean),
             float(sd),
-            _finite(p.lower),
-            _finite(p.upper),
+            finite(p.lower),
+            finite(p.upper),
             p.transform if p.transform != "identity" else None,
             None if sd > 0 else "held",
         )
         for p, mean, sd in zip(problem.parameters, problem.prior.mean, problem.prior.sd, strict=True)
     )
     return Table(columns, rows).without_empty_columns()
-
-
-def _finite(value: float) -> float | None:
-    return float(value) if np.isfinite(value) else None
 
 
 def _correlations(problem: Problem, options: Options) -> Iterator[Block]:

@@ -7,7 +7,7 @@ import numpy as np
 from mouse_cli.model.result import Result
 from mouse_cli.report.blocks import Block, Matrix, Table, Text, heads
 from mouse_cli.report.section import APPENDIX, Options, Section
-from mouse_cli.report.sections._wording import names
+from mouse_cli.report.sections._wording import finite, names
 
 _LISTED = 4  # properties in the combination that is known least
 _SHARE = 0.3  # of the largest of them, below which one is not named
@@ -21,8 +21,8 @@ def conditioning(result: Result, options: Options) -> Iterator[Block]:
     last = () if not found.shift else (("answer, by the estimated error of the sensitivities", found.shift),)
     rows = (
         ("condition number of the weighted sensitivities", found.condition),
-        ("relative error of the answer by that of the data", _finite(found.data)),
-        ("relative error of the answer by that of the sensitivities", _finite(found.sensitivities)),
+        ("relative error of the answer by that of the data", finite(found.data)),
+        ("relative error of the answer by that of the sensitivities", finite(found.sensitivities)),
         *last,
     )
     yield Table(heads("<bound | at most"), tuple(row for row in rows if row[1] is not None))
@@ -33,10 +33,6 @@ def conditioning(result: Result, options: Options) -> Iterator[Block]:
     )
     if not np.isfinite(found.condition):
         yield Text("The sensitivities leave some combination of the properties undetermined.")
-
-
-def _finite(value: float) -> float | None:
-    return value if np.isfinite(value) else None
 
 
 def _weakest(result: Result) -> str:

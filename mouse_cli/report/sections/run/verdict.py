@@ -3,6 +3,7 @@
 import os
 from collections.abc import Iterator
 
+from mouse_cli._texts import capital
 from mouse_cli.estimators import estimator
 from mouse_cli.model.result import NO_ANSWER, Result
 from mouse_cli.report.blocks import Block, Lines, Text
@@ -47,7 +48,7 @@ def _tests(result: Result) -> str:
     before = result.innovation
     parts += [f"before the revision {p_value(before.p)}"] if before.dof else []
     text = "; ".join(parts) or "nothing is left to test the model by"
-    return f"{text[0].upper()}{text[1:]}."
+    return f"{capital(text)}."
 
 
 def _residual(result: Result) -> str:
