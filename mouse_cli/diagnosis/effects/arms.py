@@ -26,7 +26,7 @@ def arms(model: Reduced, node: int) -> tuple[tuple[Unknown, ...], np.ndarray, li
 
     None matters where the node does not turn.
     """
-    used = slice(0, min(model.r, int(model.data.test.number.max()) + 2))
+    used = slice(0, model.low_modes(2))
     rows, length = model.node(node)[:, used], _LONGEST * span(model)
     added = [at_end(model, rows, axis) - rows[:3] for axis in np.eye(3)]
     felt = [np.abs(each).max(initial=0.0) * length for each in added]
@@ -45,7 +45,7 @@ def turning(model: Reduced) -> tuple[list[tuple[int, Attached]], int]:
     first = set(np.concatenate([ends(mesh), *heavy]).tolist())
     every = np.unique(np.concatenate([np.array(sorted(first), int)] + [each.nodes.ravel() for each in mesh.elements]))
     found = [node for node in every.tolist() if (keep is None or keep[node]) and arms(model, node)[0]]
-    count = min(model.r, int(model.data.test.number.max()) + 2)
+    count = model.low_modes(2)
     turned = {node: np.abs(model.node(node)[3:, :count]).max() for node in found}
     chosen = sorted(sorted(found, key=lambda node: (node not in first, -turned[node]))[:_MOST])
     return list(zip(chosen, attached(model, chosen), strict=True)), len(found)

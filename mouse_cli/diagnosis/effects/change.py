@@ -224,3 +224,23 @@ def steps(unknown: Unknown, count: int) -> np.ndarray:
 def product(*axes: np.ndarray) -> np.ndarray:
     """All combinations (g, t) of values along t axes."""
     return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, len(axes))
+
+
+def proportional(
+    candidate: Any,
+    unknown: Unknown,
+    starts: int,
+    site: Site | Callable[[np.ndarray], Site],
+    log_prior: float,
+    extend: Callable[[Problem, np.ndarray], Problem],
+    K: np.ndarray | None = None,
+    M: np.ndarray | None = None,
+) -> Recipe:
+    """A recipe in one unknown that adds K and M (r, r) in proportion to it; begun from `starts` values in its range."""
+
+    def change(values: np.ndarray) -> Change:
+        return Change(*(None if each is None else values[0] * each for each in (K, M)))
+
+    where = (lambda values: site) if isinstance(site, Site) else site
+    grid = steps(unknown, starts)[:, None]
+    return Recipe(candidate, (unknown,), change, grid, where, log_prior=log_prior, extend=extend)

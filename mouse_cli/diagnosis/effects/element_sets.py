@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.effects.change import Recipe, Unknown, proportional
 from mouse_cli.diagnosis.extend.matrices import Entries, with_entries, with_part_left
 from mouse_cli.diagnosis.extend.points import found as new_parameter
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
@@ -86,15 +86,7 @@ def _recipe(candidate, share: Unknown, group: ElementGroup, count: int, of: tupl
     """of: K and M (r, r) that are added, times `sign`, for a share of 1."""
     K, M = of
     site = Site("dof", (), None, text(group))
-    return Recipe(
-        candidate,
-        (share,),
-        lambda values: Change(K=sign * values[0] * K, M=sign * values[0] * M),
-        steps(share, 4)[:, None],
-        lambda values: site,
-        log_prior=-float(np.log(count)),
-        extend=extend,
-    )
+    return proportional(candidate, share, 4, site, -float(np.log(count)), extend, K=sign * K, M=sign * M)
 
 
 def _sets(model: Reduced) -> list[_Set]:
@@ -113,6 +105,6 @@ def _sets(model: Reduced) -> list[_Set]:
 
 def bears(model: Reduced, K: np.ndarray) -> bool:
     """Whether a set holds a share of the energy of a measured mode."""
-    count = min(model.r, int(model.data.test.number.max()) + 1)
+    count = model.low_modes()
     scale = np.maximum(model.eigenvalues[:count], 1e-9 * model.eigenvalues[-1])
     return bool((np.diag(K)[:count] / scale).max() > _FELT)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.effects.change import Recipe, Unknown, proportional
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.matrices import Entries, of_matrices, with_entries
 from mouse_cli.diagnosis.extend.points import found
@@ -49,7 +49,7 @@ def _softening(model: Reduced, down: tuple[int, int, int]) -> np.ndarray | None:
         return None
     before, _ = model.assembly.matrices(model.theta)
     Kg = model.project(K - before)
-    count = min(model.r, int(model.data.test.number.max()) + 1)
+    count = model.low_modes()
     return Kg if np.abs(Kg[:count, :count]).max() > _NOTHING * lowest(model) else None
 
 
@@ -68,15 +68,10 @@ def _under(model: Reduced, candidate: Candidate, name: str, Kg: np.ndarray, coun
         tall = f", as if storeys were {1 / values[0]:.3g} times as high as in the deck" if stacked else ""
         return Site("structure", text=f"the whole structure, downward {name}{tall}")
 
-    return Recipe(
-        candidate,
-        (factor,),
-        lambda values: Change(K=values[0] * Kg),
-        steps(factor, 3)[:, None],
-        site,
-        log_prior=-float(np.log(count)),
-        extend=lambda problem, values: _with_gravity(problem, down, values[0]),
-    )
+    def extend(problem: Problem, values: np.ndarray) -> Problem:
+        return _with_gravity(problem, down, values[0])
+
+    return proportional(candidate, factor, 3, site, -float(np.log(count)), extend, K=Kg)
 
 
 def _chain(model: Reduced, candidate: Candidate) -> list[Recipe]:
@@ -88,7 +83,6 @@ def _chain(model: Reduced, candidate: Candidate) -> list[Recipe]:
     n = model.problem.structure.n
     Kg = np.zeros((n, n))
     Kg[row, col] = Kg[col, row] = value
-    reduced = model.project(Kg)
     scale = lowest(model)
     a = Unknown("g / h", "1/s2", 0.03 * scale, 10.0 * scale)
 
@@ -99,10 +93,7 @@ def _chain(model: Reduced, candidate: Candidate) -> list[Recipe]:
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         return with_entries(problem, found("gravity g / h", values[0], "1/s2"), K=entries)
 
-    def change(values: np.ndarray) -> Change:
-        return Change(K=values[0] * reduced)
-
-    return [Recipe(candidate, (a,), change, steps(a, 6)[:, None], site, extend=extend)]
+    return [proportional(candidate, a, 6, site, 0.0, extend, K=model.project(Kg))]
 
 
 def _above(model: Reduced) -> Entries | None:

@@ -37,7 +37,7 @@ def ends(model: Reduced) -> np.ndarray:
     b, eta = (np.array(part) for part in zip(*chosen, strict=True))
     yields = bars.rigid(b) @ bars.strain[b]
     moments = yields[:, 0] + eta[:, None] * yields[:, 1]
-    count = min(model.r, int(model.data.test.number.max()) + 1)
+    count = model.low_modes()
     return moments[np.argsort(-np.abs(moments[:, :count]).max(axis=1), kind="stable")[:_ENDS]]
 
 

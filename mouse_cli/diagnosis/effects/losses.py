@@ -42,7 +42,7 @@ def loosened(model: Reduced) -> np.ndarray:
     parts = [K for *_, direction, share, K in _parts(model, True) if direction or share == 1.0]
     if not parts:
         return np.zeros((0, model.r))
-    count = min(model.r, int(model.data.test.number.max()) + 1)
+    count = model.low_modes()
     at = [int(np.argmax(K.diagonal())) for K in parts]
     b = np.array([K[i] / np.sqrt(max(K[i, i], 1e-300)) for i, K in zip(at, parts, strict=True)])
     share = b**2 / np.maximum(model.eigenvalues, 1e-9 * model.eigenvalues[-1])
@@ -59,7 +59,7 @@ def _parts(model: Reduced, directed: bool) -> list[tuple]:
 
 def _strained(model: Reduced, found: list) -> list:
     """Those of (..., K_e (r, r)) that hold most energy in the lowest modes, of those that hold any."""
-    count = min(model.r, int(model.data.test.number.max()) + 1)
+    count = model.low_modes()
     scale = np.maximum(model.eigenvalues[:count], 1e-9 * model.eigenvalues[-1])
     energy = np.array([(np.diag(each[-1])[:count] / scale).max() for each in found])
     return [found[i] for i in sorted(np.argsort(-energy)[:_MOST]) if energy[i] > 1e-6]
@@ -195,7 +195,7 @@ def _springs(model: Reduced) -> list[Listed]:
 
 def _largest(model: Reduced, pairs) -> list[tuple[int, int, float]]:
     """The pairs (i, j, k) whose springs hold most energy in the lowest modes."""
-    count = min(model.r, int(model.data.test.number.max()) + 1)
+    count = model.low_modes()
     pairs = list(pairs)
     if not pairs:
         return []

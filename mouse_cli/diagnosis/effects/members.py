@@ -77,7 +77,7 @@ def energy(
     model: Reduced, member: Member, parts: dict[int, Part], part: Callable[[Reduced, int], Part] = of_set
 ) -> float:
     """The largest share of the strain energy of a low mode that a member holds, or that `part` of its sets has."""
-    count = min(model.r, int(model.data.test.number.max()) + 1)
+    count = model.low_modes()
     scale = np.maximum(model.eigenvalues[:count], 1e-9 * model.eigenvalues[-1])
     held = np.zeros(count)
     for s in sorted({s for s, _ in member.elements}):

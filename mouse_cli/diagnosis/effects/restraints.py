@@ -54,7 +54,7 @@ def turns(model: Reduced) -> Turns | None:
     if model.motion is None:
         return None
     held = {(node, d) for node, d in mesh.supports.tolist()}
-    count = min(model.r, int(model.data.test.number.max()) + 1)
+    count = model.low_modes()
     everywhere = _everywhere(mesh)
     own = sorted({node for node, d in held if d not in everywhere})
     free = [(node, d) for node in own for d in (3, 4, 5)

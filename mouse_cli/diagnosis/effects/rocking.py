@@ -104,7 +104,7 @@ def _blocks(model: Reduced, candidate: Candidate, found: Base | None) -> list[Re
     if len(held) < len(found.labels):
         return []
     s = np.array([free.place[label] for label in found.labels])
-    modes = slice(0, min(model.r, int(model.data.test.number.max()) + 1))
+    modes = slice(0, model.low_modes())
     load = np.abs(found.pattern.T @ free.reactions(model, s, modes)).max(axis=1)
     chosen = loaded(load)
     if not chosen:

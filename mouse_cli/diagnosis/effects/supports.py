@@ -118,7 +118,7 @@ def _loaded(model: Reduced, held: list, free: Free) -> tuple[list, np.ndarray, n
     if not known:
         return [], np.zeros(0, int), np.zeros(0)
     s = np.array([free.place[names[i]] for i in known])
-    modes = slice(0, min(model.r, int(model.data.test.number.max()) + 1))
+    modes = slice(0, model.low_modes())
     size = np.abs(free.reactions(model, s, modes)).max(axis=1)
     order = np.sort(np.argsort(-size, kind="stable")[:_MOST])
     order = order[size[order] > _LOADED * size.max()]

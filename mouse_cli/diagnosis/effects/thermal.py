@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.effects.change import Recipe, Unknown, proportional
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
@@ -74,7 +74,7 @@ def _forces(model: Reduced) -> np.ndarray | None:
 
 def _recipe(model: Reduced, candidate: Candidate, forces: np.ndarray, sign: int, Kg: np.ndarray, most: float) -> Recipe:
     strain = Unknown("free expansion" if sign > 0 else "free contraction", "1", _LEAST * most, most)
-    bars = model.bars
+    bars, site = model.bars, Site("structure", text=f"all bars, {'heated' if sign > 0 else 'cooled'}")
     axial = dict(zip(zip(bars.set.tolist(), bars.ids.tolist(), strict=True), sign * forces, strict=True))
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
@@ -85,15 +85,4 @@ def _recipe(model: Reduced, candidate: Candidate, forces: np.ndarray, sign: int,
         edit.bind("axial forces by temperature", beams, ("preload",), factor=1.0)
         return edit.done()
 
-    def site(values: np.ndarray) -> Site:
-        return Site("structure", text=f"all bars, {'heated' if sign > 0 else 'cooled'}")
-
-    return Recipe(
-        candidate,
-        (strain,),
-        lambda values: Change(K=sign * values[0] * Kg),
-        steps(strain, 4)[:, None],
-        site,
-        log_prior=-float(np.log(2)),
-        extend=extend,
-    )
+    return proportional(candidate, strain, 4, site, -float(np.log(2)), extend, K=sign * Kg)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.effects.change import Recipe, Unknown, proportional
 from mouse_cli.diagnosis.effects.line_mass import Wet
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.places import beams_within
@@ -69,15 +69,7 @@ def _recipe(model: Reduced, candidate: Candidate, name: str, rows: list[Line], M
         edit.bind(f"added mass of {name}", beams, ("nonstructural_mass",), unit="kg/m")
         return edit.done()
 
-    return Recipe(
-        candidate,
-        (m,),
-        lambda values: Change(M=values[0] * M),
-        steps(m, 3)[:, None],
-        lambda values: site,
-        log_prior=-float(np.log(count)),
-        extend=extend,
-    )
+    return proportional(candidate, m, 3, site, -float(np.log(count)), extend, M=M)
 
 
 CANDIDATE = Candidate(

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product, steps
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product, proportional, steps
 from mouse_cli.diagnosis.effects.hinges import lines
 from mouse_cli.diagnosis.effects.line_mass import Wet, across, deflections
 from mouse_cli.diagnosis.extend.edit import Edit
@@ -57,15 +57,7 @@ def _recipe(model: Reduced, candidate: Candidate, some: list, planes: tuple[int,
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         return _with_bed(Edit(problem), [line.ends for line in some], planes, values[0], elements(ids))
 
-    return Recipe(
-        candidate,
-        (k,),
-        lambda values: Change(K=values[0] * K),
-        steps(k, 6)[:, None],
-        lambda values: site,
-        log_prior=log_prior,
-        extend=extend,
-    )
+    return proportional(candidate, k, 6, site, log_prior, extend, K=K)
 
 
 def _partly(candidate: Candidate, line: Line, planes: tuple[int, ...], back: bool, log_prior: float) -> Recipe:

@@ -27,7 +27,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """K + k b'b, b = n'T for the motion T of a place: along a line or at a node, where it moves along more than one axis."""
     if model.motion is None:
         return []
-    count = min(model.r, int(model.data.test.number.max()) + 2)
+    count = model.low_modes(2)
     points = [each for each in all_motions(model) if len(each.dofs) > 1]
     size = [np.max([np.abs(p.motion(at)[:, :count]).max(axis=1) for at in p.starts], axis=0) for p in points]
     least = _MOVES * max((own.max() for own in size), default=0.0)

@@ -30,7 +30,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
 def _items(model: Reduced) -> list[tuple]:
     """Set, member, node (index), mass and how much of it a turn by arms moves, of each point mass whose node turns."""
     mesh, keep, found = model.problem.mesh, wanted(model), []
-    count = min(model.r, int(model.data.test.number.max()) + 2)
+    count = model.low_modes(2)
     for s, members in enumerate(mesh.elements):
         if members.type != "mass":
             continue

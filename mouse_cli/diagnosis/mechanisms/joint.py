@@ -46,7 +46,7 @@ def _corners(model: Reduced, candidate: Candidate) -> list[Recipe]:
     own = dict.fromkeys((int(bars.set[bar]), int(bars.member[bar]), end) for bar, end in ends)
     both = [(tuple(planes), end) for *element, end in own if len(planes := bars.twins[tuple(element)]) > 1]
     share = np.log([1 - _BOTH, _BOTH] if both else [1.0, 1.0])
-    modes = slice(0, min(model.r, int(model.data.test.number.max()) + 1))
+    modes = slice(0, model.low_modes())
     found = []
     for some, prior in zip((one, both), share.tolist(), strict=True):
         bent = [max(np.abs(_moment(bars, bar, end, modes)).max() for bar in planes) for planes, end in some]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.effects.change import Recipe, Unknown, proportional
 from mouse_cli.diagnosis.effects.losses import LOST, matrices_of
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
@@ -38,15 +38,7 @@ def _recipe(model: Reduced, candidate: Candidate, s: int, i: int, M: np.ndarray,
         edit.bind(f"mass left of {site.text}", [element], own, factor=1 - values[0])
         return edit.done()
 
-    return Recipe(
-        candidate,
-        (_SHARE,),
-        lambda values: Change(M=-values[0] * lost),
-        steps(_SHARE, 3)[:, None],
-        lambda values: site,
-        log_prior=-float(np.log(count)),
-        extend=extend,
-    )
+    return proportional(candidate, _SHARE, 3, site, -float(np.log(count)), extend, M=-lost)
 
 
 CANDIDATE = Candidate(

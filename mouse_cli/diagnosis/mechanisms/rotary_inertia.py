@@ -2,11 +2,12 @@
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.effects.change import Recipe, Unknown, proportional
 from mouse_cli.diagnosis.effects.shearing import rotary, slender, with_rotary
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.reasons import bars
+from mouse_cli.model.diagnosis import EVERYWHERE
 from mouse_cli.model.problem import Problem
 
 
@@ -15,15 +16,11 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     if not slender(model):
         return []
     factor = Unknown("times density I of the section", "1", 0.5, 30.0)
-    M = rotary(model)
-
-    def change(values: np.ndarray) -> Change:
-        return Change(M=values[0] * M)
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         return with_rotary(problem, values[0])
 
-    return [Recipe(candidate, (factor,), change, steps(factor, 4)[:, None], extend=extend)]
+    return [proportional(candidate, factor, 4, EVERYWHERE, 0.0, extend, M=rotary(model))]
 
 
 CANDIDATE = Candidate(

@@ -121,7 +121,7 @@ def felt(model: Reduced, cells: Cells) -> Cells | None:
 
 def _moving(model: Reduced, blocks: tuple[Block, ...]) -> np.ndarray:
     """Which blocks have energy in the lowest modes, by index."""
-    count = min(model.r, int(model.data.test.number.max()) + 2)
+    count = model.low_modes(2)
     energy = np.array([np.abs(np.einsum("cr,cd,dr->r", u[:, :count], B, u[:, :count])).max() for u, B in blocks])
     return np.flatnonzero(energy > _TRIFLE * energy.max(initial=0.0))
 

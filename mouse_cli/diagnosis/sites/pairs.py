@@ -165,7 +165,7 @@ def site_of(model: Reduced, key: np.ndarray) -> Site:
 
 
 def _count(model: Reduced) -> int:
-    return min(model.r, int(model.data.test.number.max()) + 1)
+    return model.low_modes()
 
 
 def _uncoupled(model: Reduced) -> tuple[np.ndarray, np.ndarray]:

@@ -101,7 +101,7 @@ def _shared(found: list[Points]) -> list[Points]:
 
 def _reach(model: Reduced) -> np.ndarray:
     """Coordinates (r,) weighed by how much the measured modes hold of them: the lowest, evenly."""
-    count = min(model.r, int(model.data.test.number.max()) + 2)
+    count = model.low_modes(2)
     return (np.arange(model.r) < count).astype(float)
 
 

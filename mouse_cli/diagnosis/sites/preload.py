@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.effects.change import Recipe, Unknown, proportional
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.places import beams_within
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
@@ -52,12 +52,4 @@ def _recipe(model: Reduced, candidate: Candidate, run: Line, sign: int, count: i
         edit.bind(f"axial force of {site.text}", beams, ("preload",), unit="N")
         return edit.done()
 
-    return Recipe(
-        candidate,
-        (T,),
-        lambda values: Change(K=values[0] * Kg),
-        steps(T, 6)[:, None],
-        lambda values: site,
-        log_prior=-float(np.log(count)),
-        extend=extend,
-    )
+    return proportional(candidate, T, 6, site, -float(np.log(count)), extend, K=Kg)

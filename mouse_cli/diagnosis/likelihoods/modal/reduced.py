@@ -60,6 +60,10 @@ class Reduced:
         """Number of coordinates."""
         return len(self.eigenvalues)
 
+    def low_modes(self, beyond: int = 1) -> int:
+        """Number of its modes up to the highest one of the test, and so many beyond."""
+        return min(self.r, int(self.data.test.number.max()) + beyond)
+
     @cached_property
     def L(self) -> np.ndarray:
         """Root (p, k) of the prior, in the coordinates u in which parameters are estimated."""
