@@ -213,12 +213,32 @@ parameters:
 """,
         [(1, ""), (2, ""), (4, "")],
     ),
+    "shells": (
+        """
+  stiffness: {order: 4, entries: [[1, 1, 2100], [1, 2, -1000], [2, 2, 2000], [2, 3, -1000], [3, 3, 2000],
+    [3, 4, -1000], [4, 4, 1000]]}
+  mass: {diagonal: [1, 1.2, 0.9, 1.1]}
+  sets: {SKIN: {stiffness: {file: K.csv}, mass: {file: M.csv}, thickness: {nominal: 0.003, unit: m, powers: {
+    1: {stiffness: {file: K_1.csv}, mass: {file: M.csv}}, 3: {stiffness: {file: K_3.csv}}}}}}
+parameters:
+  - {name: k1, nominal: 1100, sd: 100, stiffness: [[1, 1, 1]]}
+""",
+        [(1, ""), (2, ""), (4, "")],
+    ),
+}
+FILES = {  # springs of a set between 2, 3 and 4, and masses of it
+    "K.csv": "0,0,0,0\n0,500,-500,0\n0,-500,1200,-700\n0,0,-700,700\n",
+    "K_1.csv": "0,0,0,0\n0,100,-100,0\n0,-100,400,-300\n0,0,-300,300\n",
+    "K_3.csv": "0,0,0,0\n0,400,-400,0\n0,-400,800,-400\n0,0,-400,400\n",
+    "M.csv": "0,0,0,0\n0,0.5,0,0\n0,0,0.5,0\n0,0,0,0.5\n",
 }
 
 
 def deck(name: str, folder) -> "Problem":  # noqa: F821
     """A model of MODELS whose test is its own first three elastic modes."""
     model, sensors = MODELS[name]
+    for file, text in FILES.items():
+        (folder / file).write_text(text)
     parameters = "" if "parameters:" in model else _PARAMETERS[name]
     rows = "\n".join(f"      - [{1 + i}, {(-1) ** i}, {2 - i}]" for i in range(len(sensors)))
     dofs = ", ".join(f"{node}{direction}" for node, direction in sensors)

@@ -12,7 +12,7 @@ from mouse_cli.formats.yaml_deck.theory import theory_lines
 from mouse_cli.formats.yaml_deck.writer_parameters import parameters, prior
 from mouse_cli.formats.yaml_deck.writer_structure import structure
 from mouse_cli.formats.yaml_deck.writer_tests import test_lines
-from mouse_cli.model.arrays import Matrix, is_sparse, upper_triangle
+from mouse_cli.model.arrays import Matrix, is_sparse, sparse_symmetric, upper_triangle
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.held import Thickness, freed
 from mouse_cli.model.problem import Problem, RunOptions
@@ -34,7 +34,7 @@ def write(problem: Problem, stem: str = "deck", folder: str | None = None) -> tu
     lines = [
         *_heading(problem),
         *_model(whole, stem, attachments),
-        *parts(problem, stem, attachments),
+        *parts(problem, stem, attachments, whole.structure.n),
         *modal_damping_lines(problem.modal_damping),
         *laws(problem),
         *parameters(whole, stem, attachments),
@@ -146,9 +146,9 @@ def rows(structure: Structure, stem: str, attachments: dict[str, str], places: b
 _NO_WORD = re.compile(r"\W+")
 
 
-def parts(problem: Problem, stem: str, attachments: dict[str, Matrix | str]) -> list[str]:
-    """Lines of `model.supports` and `model.sets`; the matrices of the sets go to files."""
-    lines = []
+def parts(problem: Problem, stem: str, attachments: dict[str, Matrix | str], n: int) -> list[str]:
+    """Lines of `model.supports` and `model.sets`; the matrices of the sets go to files, of order `n` as those of the model."""
+    lines, files = [], {}
     if problem.held is not None:
         labels = problem.held.structure.labels
         lines.append("  supports:")
@@ -160,26 +160,28 @@ def parts(problem: Problem, stem: str, attachments: dict[str, Matrix | str]) -> 
         lines.append("  sets:")
     for number, group in enumerate(problem.groups, 1):
         stem_of = f"{stem}_{{}}_{number}_{_NO_WORD.sub('_', group.name)}"
-        given = _files({"stiffness": group.K, "mass": group.M}, stem_of, attachments)
+        given = _files({"stiffness": group.K, "mass": group.M}, stem_of, files)
         given += [f"nodes: {wrapped(map(str, group.nodes), 6)}"] if group.nodes else []
         if group.thickness is not None:
-            given.append(f"thickness: {_by_thickness(group.thickness, stem_of, attachments)}")
+            given.append(f"thickness: {_by_thickness(group.thickness, stem_of, files)}")
         lines.append(f"    {word(group.name)}: {{{', '.join(given)}}}")
+    for name, each in files.items():  # degrees of freedom that were added since are of no set
+        attachments[name] = each if each.shape[0] == n else sparse_symmetric(*upper_triangle(each), n)
     return lines
 
 
-def _files(given: dict[str, Matrix | None], name: str, attachments: dict[str, Matrix | str]) -> list[str]:
+def _files(given: dict[str, Matrix | None], name: str, files: dict[str, Matrix]) -> list[str]:
     """Keys with the files of matrices; `name` has a place for the key."""
     there = {key: matrix for key, matrix in given.items() if matrix is not None}
-    attachments |= {f"{name.format(key)}.mtx": matrix for key, matrix in there.items()}
+    files |= {f"{name.format(key)}.mtx": matrix for key, matrix in there.items()}
     return [f"{key}: {{file: {word(f'{name.format(key)}.mtx')}}}" for key in there]
 
 
-def _by_thickness(one: Thickness, name: str, attachments: dict[str, Matrix | str]) -> str:
+def _by_thickness(one: Thickness, name: str, files: dict[str, Matrix]) -> str:
     powers = []
     for n in one.powers:
         given = {"stiffness": one.K.get(n), "mass": one.M.get(n)}
-        powers.append(f"{n:g}: {{{', '.join(_files(given, f'{name}_t{n:g}', attachments))}}}")
+        powers.append(f"{n:g}: {{{', '.join(_files(given, f'{name}_t{n:g}', files))}}}")
     of = f", unit: {word(one.unit)}" if one.unit else ""
     return f"{{nominal: {real(one.nominal)}{of}, powers: {{{', '.join(powers)}}}}}"
 
