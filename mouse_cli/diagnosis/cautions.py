@@ -18,6 +18,7 @@ _PROBABLE = 0.5  # of an error of the test from which on it is told
 _NOISY = 1.5  # noise scale from which on it is told what the accuracies seem to be
 _FAR = 0.1  # of the span, between the place of a cause and the nearest one that shapes point to
 _PLAIN = 0.05  # probability of a misfit as large as that of the best single place, from which on it may be the place
+_BEYOND = 0.01  # p-value of the shifts of all parameters below which those that are beyond their priors are named
 _SMALL = 0.2  # share of all places that the 90 % region may hold to point anywhere
 _TOLD = {
     "gains": "every sensor looks off by about {size:.1f} % of what it reads, in all modes alike, which the deck does not state: "
@@ -67,7 +68,7 @@ def _narrow(ranking: Ranking) -> Iterator[str]:
     one = ranking.baseline
     base, z = one.model.base, one.point.x[: one.model.k]
     off, p = shifts(one), upper_tail(one.misfit - z @ z, max(one.dof - len(z), 1))  # of the data alone
-    chosen = [j for j, far in enumerate(off) if len(off) * erfc(abs(far) / sqrt(2)) < GATE]
+    chosen = [j for j, far in enumerate(off) if len(off) * erfc(abs(far) / sqrt(2)) < _BEYOND]
     if not chosen or p < GATE:
         return
     prior, value = (base.parameters(at) for at in (np.zeros_like(z), z))
