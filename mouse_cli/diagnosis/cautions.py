@@ -8,9 +8,10 @@ import numpy as np
 from mouse_cli.diagnosis.gates import GATE
 from mouse_cli.diagnosis.likelihoods.modal.accuracy import scatter
 from mouse_cli.diagnosis.likelihoods.modal.scales import span
+from mouse_cli.diagnosis.search.grounded import one_tie
 from mouse_cli.diagnosis.search.rank import Ranking
 from mouse_cli.diagnosis.verdict import Verdict, shifts
-from mouse_cli.model.diagnosis import NAMED, NOTHING, Location
+from mouse_cli.model.diagnosis import NAMED, NOTHING, RIVAL, Location
 from mouse_cli.model.groups import enumerated
 from mouse_cli.updating.chi_square import upper_tail
 
@@ -41,7 +42,7 @@ def cautions(ranking: Ranking, verdict: Verdict, location: Location | None) -> t
     if verdict.kind == NOTHING:
         return ()
     doubted = *_errors(ranking), *_noise(ranking), *_narrow(ranking)
-    return (*verdict.reasons, *doubted, *_refuted(verdict), *_elsewhere(verdict, location))
+    return (*verdict.reasons, *doubted, *_tied(ranking, verdict), *_refuted(verdict), *_elsewhere(verdict, location))
 
 
 def _errors(ranking: Ranking) -> Iterator[str]:
@@ -80,6 +81,18 @@ def _narrow(ranking: Ranking) -> Iterator[str]:
         f"The model as it is explains the data (p = {p:.2g}) with {enumerated(parts)}. Where such a prior may be too narrow, a "
         "value of the deck is wrong and nothing need be missing: check the value, or state a larger sd, and diagnose again."
     )
+
+
+def _tied(ranking: Ranking, verdict: Verdict) -> Iterator[str]:
+    """A strut from a held node that is the same to the model as the spring to the ground that leads, or the reverse."""
+    best = verdict.best
+    for one, p in zip(ranking.fits, ranking.probabilities.tolist(), strict=True):
+        if best is not None and p > RIVAL and one_tie(best, one):
+            where = [f"{each.recipes[0].candidate.title} ({each.sites[0].text})" for each in (best, one)]
+            yield (
+                f"To the model {where[0]} and {where[1]} are the same tie to the ground, and count as one answer: inspect both "
+                "ends of the strut."
+            )
 
 
 def _refuted(verdict: Verdict) -> Iterator[str]:

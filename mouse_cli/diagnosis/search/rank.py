@@ -21,6 +21,7 @@ from mouse_cli.diagnosis.noise import scale
 from mouse_cli.diagnosis.search.descents import settled
 from mouse_cli.diagnosis.search.disguised import disguised
 from mouse_cli.diagnosis.search.fit import Fit, fit
+from mouse_cli.diagnosis.search.grounded import one_tie
 from mouse_cli.diagnosis.search.optima import within
 from mouse_cli.diagnosis.search.pared import plainest
 from mouse_cli.diagnosis.search.parts import in_turn, promising, single
@@ -89,10 +90,19 @@ def _joined(one: Fit) -> str:
 
 
 def _counted(fits: tuple[Fit, ...], probabilities: np.ndarray) -> Iterator[tuple[str, float]]:
-    """Groups of fits, the most probable first, and what each adds to their probability; a field adds to several."""
+    """Groups of fits, the most probable first, and what each adds to their probability; a field adds to several, and what is one
+    tie to the ground with a more probable fit to that.
+    """
     even: dict[str, Fit] = {}  # of what acts alike everywhere, or moves the whole, the first of each group
-    for one, p in zip(fits, probabilities.tolist(), strict=True):
+    ties: set[str] = set()  # groups that others have been counted to
+    for i, (one, p) in enumerate(zip(fits, probabilities.tolist(), strict=True)):
         name, variants = group(one), one.variants if one.nameless else ()
+        tie = next((each for each in fits[:i] if one_tie(each, one)), None)
+        if tie is not None and name not in ties:
+            there = 1 - sum(share for other, share in one.elsewhere if not one_tie(tie, other))
+            yield group(tie), p * there
+            ties.add(group(tie))
+            p *= 1 - there
         for part, share in ((one, 1 - sum(share for _, share in variants)), *variants):
             limit = part.nameless.rival.even if part.nameless else ""
             yield (limit if limit in even and _contains(even[limit], part) else name), p * share
