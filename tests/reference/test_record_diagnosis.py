@@ -23,6 +23,16 @@ def test_a_linear_record_lacks_nothing(tmp_path):
     assert found["residual"]["chi2"] / found["residual"]["dof"] == pytest.approx(1, abs=0.1)
 
 
+def test_the_zero_of_an_accelerometer_is_no_motion(tmp_path):
+    """Amplifiers have one of their own: at 4 % of the rms the misfit was 20 times its degrees of freedom."""
+    deck, run = record(tmp_path, linear), tmp_path / "run.npz"
+    channels = dict(np.load(run))
+    np.savez(run, f=channels.pop("f"), **{name: a + 0.04 * a.std() for name, a in channels.items()})
+    found = answer(deck)
+    assert found["verdict"]["kind"] == "nothing-missing" and found["noise"] is None
+    assert found["residual"]["chi2"] / found["residual"]["dof"] == pytest.approx(1, abs=0.1)
+
+
 def test_a_disturbing_force_that_nobody_measured_is_noise(tmp_path):
     """It leaves many times the accuracy of the channels, in the shape of the resonances."""
     found = answer(record(tmp_path, linear, disturbance=2.0))

@@ -17,14 +17,21 @@ _UNEVEN = 0.05  # of a step, by which multiples of it may miss in a file: chance
 
 
 def accurate(found: Records, length: int, slow: int) -> Records:
-    """The records with the accuracy that stretches of `length` samples have; slow: see `Series`."""
+    """The records with the accuracy that stretches of `length` samples have; slow: see `Series`.
+
+    Of a structure that something holds the zeros of channels are free: accelerations and velocities have no mean, and nobody
+    knows what an amplifier or a gauge reads at rest. What nothing holds has means of its own, and its initial states.
+    """
     steps = np.max([[resolution(x) for x in one.measured.T] for one in found.fitted], axis=0) / np.sqrt(12)
     sd = np.maximum(found.fitted[0].sd, steps)
     if slow:
         noise = np.max([one.sd if one.floor is None else one.floor for one in found.fitted], axis=0)
         sd = np.max([noise, steps, FLOOR * np.max([forced(one, length) for one in found.fitted], axis=0)], axis=0)
     wider = lambda one: None if one.floor is None else np.maximum(one.floor, steps)
-    with_sd = lambda many: tuple(replace(one, sd=sd, floor=wider(one), slow=min(slow, len(one) // 6)) for one in many)
+    free = lambda one: replace(one.disturbance, offset=not slow)
+    with_sd = lambda many: tuple(
+        replace(one, sd=sd, floor=wider(one), slow=min(slow, len(one) // 6), disturbance=free(one)) for one in many
+    )
     return replace(found, fitted=with_sd(found.fitted), held=with_sd(found.held))
 
 

@@ -1,4 +1,4 @@
-"""Hum and drift of channels: sinusoids of the mains and its multiples, and motion slower than channels are true, left out of fits.
+"""Hum, drift and offsets of channels: the mains and its multiples, and motion slower than channels are true, left out of fits.
 
 Their amplitudes and phases are free in every stretch: y = simulated + Q c + e with a flat prior of c, Q (t, m) orthonormal. What is
 compared are (1 - Q Q') y and (1 - Q Q') simulated, which is the likelihood with c integrated out.
@@ -16,13 +16,14 @@ _LEAKED = 8  # lines of a record on either side of one of the mains over which i
 
 @dataclass(frozen=True)
 class Disturbance:
-    """mains, drift: in Hz; 0 where there is none."""
+    """mains, drift: in Hz; 0 where there is none. offset: whether the zero of a channel is free in every stretch."""
 
     mains: float = 0.0
     drift: float = 0.0
+    offset: bool = False
 
     def __bool__(self) -> bool:
-        return bool(self.mains or self.drift)
+        return bool(self.mains or self.drift or self.offset)
 
     def columns(self, count: int, dt: float) -> int:
         """How many amplitudes a stretch of `count` samples has free in each channel."""
@@ -32,6 +33,8 @@ class Disturbance:
         """A stretch without them."""
         if not self:
             return x
+        if not (self.mains or self.drift):
+            return x - x.mean(axis=axis, keepdims=True)
         Q, y = _basis(self, x.shape[axis], dt), np.moveaxis(x, axis, 0)
         return np.moveaxis(y - np.tensordot(Q, np.tensordot(Q, y, (0, 0)), 1), 0, axis)
 
@@ -65,4 +68,6 @@ def _basis(own: Disturbance, count: int, dt: float) -> np.ndarray:
     if own.drift:
         half = np.arange(int(2 * own.drift * count * dt) + 1)
         found += [np.cos(np.pi * np.outer(t, half)), t[:, None]]
+    elif own.offset:
+        found.append(np.ones((count, 1)))
     return np.linalg.qr(np.concatenate(found, axis=1))[0]

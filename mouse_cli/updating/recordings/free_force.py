@@ -94,7 +94,7 @@ class Spectrum:
         """Outputs (t, s) over their sd, without what is slow, and by the weights."""
         own = x / self.series.sd
         own = quick(own, self.series.order, self.series.slow) if self.series.slow else own
-        if self.series.disturbance:
+        if self._lost.any():
             own = self.history(np.where(self._lost[:, None], 0.0, self.line(own)))
         return own if self.weights is None else self.history(np.einsum("lij,lj->li", self.weights, self.line(own)))
 
@@ -130,13 +130,19 @@ class Spectrum:
         return self.series.force.mean(axis=0)
 
     @cached_property
+    def read(self) -> np.ndarray:
+        """Outputs (t, s), about their mean where their zero is free, and where they are places or speeds."""
+        series = self.series
+        return series.measured - series.measured.mean(axis=0) * ((series.order < 2) | series.disturbance.offset)
+
+    @cached_property
     def _whole(self) -> np.ndarray:
         """Measured less simulated (t, s)."""
         answer = self.history(np.einsum("lsn,ln->ls", self.S, self.motion))
         answer += sum(
             (x @ (self.series.sensing * (self.series.order == k)[:, None]).T for k, x in enumerate(self.released))
         )
-        return self.series.measured - self.series.measured.mean(axis=0) * (self.series.order < 2) - answer
+        return self.read - answer
 
     @cached_property
     def missing(self) -> np.ndarray:
@@ -234,7 +240,7 @@ class Spectrum:
         m = self.first
         columns = (self.begun[:, :m] / series.sd).reshape(len(self.begun), -1).T
         size = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
-        state = np.linalg.lstsq(columns / size, (series.measured[:m] / series.sd).ravel(), rcond=_UNSEEN)[0] / size
+        state = np.linalg.lstsq(columns / size, (self.read[:m] / series.sd).ravel(), rcond=_UNSEEN)[0] / size
         return np.stack([np.tensordot(state, free(model, len(series), series.dt, k), 1) for k in range(3)])
 
     def derivative(self, U: np.ndarray, order: int) -> np.ndarray:
