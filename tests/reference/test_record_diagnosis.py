@@ -82,6 +82,34 @@ def test_play_in_a_spring_of_the_model(tmp_path, place, k, g):
         assert abs(size["value"] - true) < 3 * size["sd"] + 0.01 * true
 
 
+def test_two_masses_that_no_spring_links_pound(tmp_path):
+    def law(u, v):
+        """The spring between the two stands on the ground instead."""
+        x = u[1] - u[0]
+        stop = 4e4 * max(-x - 2e-3, 0.0)
+        return np.array([3.06e4 * x + stop, 3.06e4 * (u[1] - x) - stop])
+
+    deck = Path(record(tmp_path, law))
+    text = deck.read_text().replace("[[1, 1, 5.0e4], [1, 2, -3.0e4], [2, 2, 3.0e4]]", "[[1, 1, 2.0e4], [2, 2, 3.0e4]]")
+    deck.write_text(text.replace("[[1, 1, 1], [1, 2, -1], [2, 2, 1]]", "[[2, 2, 1]]"))
+    found = answer(str(deck))
+    verdict, (stiffness, clearance) = found["verdict"], found["candidates"][0]["parameters"]
+    assert (verdict["kind"], verdict["physics"], verdict["site"]["ids"]) == ("named", "one-sided-gap", [1, 2])
+    assert stiffness["value"] == pytest.approx(4e4, rel=0.05)
+    assert abs(clearance["value"] - 2e-3) < 3 * clearance["sd"] < 1.5e-3  # a constant force on channel f is as free
+
+
+def test_another_damping_in_one_direction(tmp_path):
+    def law(u, v):
+        F = 9.0 * max(v[1] - v[0], 0.0)
+        return np.array([-F, F])
+
+    found = answer(record(tmp_path, law))
+    verdict, size = found["verdict"], found["candidates"][0]["parameters"][0]
+    assert (verdict["kind"], verdict["physics"], verdict["site"]["ids"]) == ("named", "one-way-damping", [1, 2])
+    assert size["value"] == pytest.approx(9.0, rel=0.05)
+
+
 def test_friction_to_the_ground(tmp_path):
     """Regularised Coulomb friction: tanh of the velocity; no law of the library is exactly that."""
     found = answer(record(tmp_path, lambda u, v: np.array([6 * np.tanh(v[0] / 1e-3), 0.0])))

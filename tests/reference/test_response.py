@@ -99,6 +99,17 @@ def test_coulomb_friction_takes_the_same_from_each_peak():
     np.testing.assert_allclose(-np.diff(peaks), 2 * F / K, rtol=3e-3)
 
 
+def test_one_way_damping_decays_in_every_other_half_period():
+    """Only while the velocity is positive: a half cycle of damping ratio c / 2 m W there, none on the way back."""
+    c, h = 20.0, 2e-5
+    x = free("one-way-damping", [c], h, 0.3)
+    slope = np.diff(x)
+    peaks = np.abs(x[1:-1][slope[:-1] * slope[1:] <= 0])
+    ratio = c / 2 / W
+    np.testing.assert_allclose(peaks[2::2] / peaks[1:-1:2], np.exp(-np.pi * ratio / np.sqrt(1 - ratio**2)), rtol=1e-3)
+    np.testing.assert_allclose(peaks[1::2] / peaks[0:-1:2], 1.0, rtol=1e-3)
+
+
 def test_quadratic_damping_peaks():
     a, h = 10.0, 1e-4  # c2/m
     x = free("quadratic-damping", [a], h, 0.2)

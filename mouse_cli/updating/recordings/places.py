@@ -1,6 +1,7 @@
-"""Where a local force may act: between two degrees of freedom that the structure links, and from each to the ground."""
+"""Where a local force may act: between two degrees of freedom that are linked or measured, and from each to the ground."""
 
 from collections.abc import Iterator
+from itertools import combinations
 
 import numpy as np
 
@@ -12,6 +13,8 @@ from mouse_cli.updating.recordings.basis import LARGEST
 from mouse_cli.updating.recordings.free_force import Spectrum
 from mouse_cli.updating.recordings.hypothesis import Place
 from mouse_cli.updating.recordings.uncertain import links
+
+_MOST_APART = 10  # pairs of measured degrees of freedom without a link that are looked at: those of five
 
 
 def motions(problem: Problem, sensed: np.ndarray) -> Iterator[tuple[Site, np.ndarray, float]]:
@@ -25,11 +28,12 @@ def motions(problem: Problem, sensed: np.ndarray) -> Iterator[tuple[Site, np.nda
         if not _turns(labels[i]) and (n <= LARGEST or sensed[i]):
             text = f"between {_named(labels[i])} and the ground"
             yield Site("dof", (labels[i],), text=text), np.eye(n)[i], grounded.get(i, 0.0)
-    for ends, b, k in pairs:
-        if len(ends) == 2 and _alike(*(labels[i] for i in ends)):
-            i, j = ends
-            text = f"between {_named(labels[i])} and {_named(labels[j])}"
-            yield Site("dof", (labels[i], labels[j]), text=text), b, k
+    linked = {tuple(ends): k for ends, _, k in pairs if len(ends) == 2}
+    along = lambda pairs: [(i, j) for i, j in pairs if _alike(labels[i], labels[j])]
+    apart = [pair for pair in along(combinations(np.flatnonzero(sensed).tolist(), 2)) if pair not in linked]
+    for i, j in along(linked) + apart * (len(apart) <= _MOST_APART):  # towers that pound, a cable between floors
+        text = f"between {_named(labels[i])} and {_named(labels[j])}"
+        yield Site("dof", (labels[i], labels[j]), text=text), np.eye(n)[j] - np.eye(n)[i], linked.get((i, j), 0.0)
 
 
 def _turns(label: str) -> bool:
