@@ -8,12 +8,12 @@ LARGEST = 40  # degrees of freedom that are simulated as they are; larger models
 _MOST_MODES = 60
 
 
-def basis_of(K: Matrix, M: Matrix, highest_hz: float, at: np.ndarray) -> np.ndarray:
-    """The degrees of freedom themselves; of a larger model the modes up to `highest_hz`, and what the others add by their static
-    flexibility at the motions `at` (n, q), those of sensors and forces.
+def basis_of(K: Matrix, M: Matrix, highest_hz: float, at: np.ndarray, largest: int = LARGEST) -> np.ndarray:
+    """The degrees of freedom themselves; of a model of more than `largest` the modes up to `highest_hz`, and what the others add by
+    their static flexibility at the motions `at` (n, q), those of sensors and forces.
     """
     n = K.shape[0]
-    if n <= LARGEST:
+    if n <= largest:
         return np.eye(n)
     from scipy.linalg import eigh
     from scipy.sparse import csc_array
@@ -24,6 +24,8 @@ def basis_of(K: Matrix, M: Matrix, highest_hz: float, at: np.ndarray) -> np.ndar
     limit = (2 * np.pi * highest_hz) ** 2
     found = EigenSolver().solve(K, M, min(_MOST_MODES, n))
     modes = np.asarray(found.shapes)[:, :_MOST_MODES][:, found.eigenvalues[:_MOST_MODES] < limit]
+    if modes.shape[1] == n:
+        return np.eye(n)
     static = splu(csc_array(K + limit * M)).solve(np.ascontiguousarray(at))
     static -= modes @ np.linalg.solve(modes.T @ (M @ modes), modes.T @ (M @ static))
     own, shares = np.linalg.svd(static / np.maximum(np.linalg.norm(static, axis=0), 1e-300), full_matrices=False)[:2]

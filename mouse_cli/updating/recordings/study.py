@@ -10,7 +10,6 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
 from mouse_cli.terms.laws import registry
 from mouse_cli.updating.recordings.accuracy import accurate
-from mouse_cli.updating.recordings.basis import LARGEST
 from mouse_cli.updating.recordings.calibration import calibration
 from mouse_cli.updating.recordings.channels import SCALE, channel_sites
 from mouse_cli.updating.recordings.disturbance import BLOCK
@@ -132,9 +131,8 @@ def alike(own: Study, of: Modelled) -> Study:
     found = Study(own.problem, own.records, model, base, seen(own.look), data, own.band, own.length)
     begun = own.at(own.places[0]).spread
     found.spread = found.at(found.places[0]).spread.copy()
-    if (
-        own.problem.structure.n <= LARGEST
-    ):  # further degrees of freedom are those of a mechanism, behind those of the deck
+    if own.model.basis.shape[0] == own.model.basis.shape[1]:
+        # further degrees of freedom are those of a mechanism, behind those of the deck
         for into, known in zip(np.split(found.spread, 2), np.split(begun, 2), strict=True):
             into[: len(known)] = known
     return found

@@ -13,13 +13,14 @@ from mouse_cli.model.arrays import Matrix, dense
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
 from mouse_cli.updating.coordinates import coordinates
-from mouse_cli.updating.recordings.basis import along, basis_of
+from mouse_cli.updating.recordings.basis import LARGEST, along, basis_of
 from mouse_cli.updating.recordings.linear import Linear
 
 UNDAMPED, LOOSE = 0.01, 2.0  # damping ratio assumed of each mode where the deck has no damping; its sd, by its value
 LEFT_OUT = (
     0.01  # sd at least of the damping ratio of a mode where the deck has damping: air, joints and supports add to it
 )
+_PUSHES = 1e-6  # of the largest value of a link: below zero by rounding
 _MOST_LINKED = 400  # degrees of freedom of a model all of whose links are looked at
 _Named = list[tuple[str, np.ndarray]]  # matrices (n, n) with the names of what they belong to
 Own = Callable[[np.ndarray], tuple[np.ndarray, ...]]  # M, C, K at the nuisances
@@ -32,6 +33,11 @@ class Links:
 
     B: np.ndarray
     values: np.ndarray
+
+    @property
+    def springs(self) -> bool:
+        """Whether each of them is one: beams and condensed models have entries that would push, and no link by itself."""
+        return bool((self.values > -_PUSHES * np.abs(self.values).max(initial=0.0)).all())
 
 
 def links(K: Matrix) -> Links | None:
@@ -79,7 +85,8 @@ def uncertain(problem: Problem, highest_hz: float, at: np.ndarray) -> Uncertain:
     L = np.diag(where.L) if where.L.ndim == 1 else where.L
     k = L.shape[1]
     value = lambda z: where.value(where.mean + L @ z)
-    V = basis_of(*found.matrices(value(np.zeros(k))), highest_hz, at)
+    bends = any(label[-2:-1] == "R" for label in problem.structure.labels)  # with modes far above any record
+    V = basis_of(*found.matrices(value(np.zeros(k))), highest_hz, at, 0 if bends else LARGEST)
     reduce = lambda matrix: V.T @ (matrix @ V)
 
     bare = not any(m is not None for m in found.damping(value(np.zeros(k))))
@@ -151,6 +158,7 @@ class _Extra:
 def _extra(M, C, K, slopes, bare: bool, labels: tuple[str, ...], by: tuple[float, float]) -> _Extra:
     """Links, or modes, that the deck's own parameters do not move; where the deck has no damping, that of both."""
     at, (stiffer, loose) = links(K), by
+    at = at if at is not None and at.springs and len(labels) == len(K) else None  # coordinates of modes have no links
     stiff = _by_mode(M, K) if at is None else _by_link(at, labels)
     own = _beyond([d for _, d in stiff], slopes[2])
     found = [(np.zeros_like(K), stiffer * d, stiffer, f"stiffness {name}") for name, d in (stiff[i] for i in own)]
