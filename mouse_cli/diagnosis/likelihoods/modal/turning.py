@@ -21,7 +21,8 @@ from mouse_cli.diagnosis.likelihoods.modal.data import Data
 _COVERED = 0.02  # angle up to which `theory.shape` allows for it, and what a test states
 _EVEN = 2 / np.pi  # c, see above
 _LEAST = 1e-9  # 1 / sd^2 of an angle that is free
-_MOST, _FAR, _SMALL = 20, 0.5, 1e-9  # steps to the best angles, the longest of them, and what the last promises
+_MOST, _FAR, _HALVED = 8, 0.5, 6  # steps to the best angles, the longest of them, and how often one is halved
+_SMALL = 1e-6  # share of a misfit that is noise which the last of them promises; more of one that is larger than noise
 
 
 @dataclass(frozen=True)
@@ -98,17 +99,35 @@ def _angles(
     unit = np.zeros((len(pairs), seen.shape[1], seen.shape[1]))
     for c, (i, j) in enumerate(pairs):
         unit[c, j, i], unit[c, i, j] = 1.0, -1.0
-    one, t = np.eye(seen.shape[1]), np.zeros(len(pairs))
-    for step_number in range(_MOST):
+    one = np.eye(seen.shape[1])
+
+    def at(t: np.ndarray) -> tuple:
+        """|r|^2 + t'P t, and r, the scales and what of R (., m) and of its derivatives belongs to it."""
         T = np.tensordot(t, unit, 1)
         inverse = np.linalg.inv(one - T / 2)
         R = inverse @ (one + T / 2)
         residual, a = data.residual(own, seen @ R[:, :m])
+        return residual @ residual + t @ (P * t), residual, a, R, inverse
+
+    t = np.zeros(len(pairs))
+    now = at(t)
+    for _ in range(_MOST):
+        cost, residual, a, R, inverse = now
         moved = np.moveaxis(seen @ (inverse @ (unit / 2) @ (one + R)[:, :m]), 0, -1)
         J = data.jacobian(own, seen @ R[:, :m], a, still, moved)
         slope = J.T @ residual - P * t  # sensors may tell some of the angles by hardly more than P: no normal equations
         stacked = np.vstack([J, np.diag(np.sqrt(P))]), np.concatenate([residual, -np.sqrt(P) * t])
-        step = np.linalg.lstsq(*stacked, rcond=None)[0]
-        if step_number == _MOST - 1 or slope @ step < _SMALL:
-            return t, R[:, :m], J
-        t = t + step * min(1.0, _FAR / np.abs(step).max())
+        Q, upper = np.linalg.qr(stacked[0])
+        step = np.linalg.solve(upper, Q.T @ stacked[1])
+        if slope @ step < _SMALL * cost * max(1.0, cost / len(residual)):
+            break
+        step *= min(1.0, _FAR / max(np.abs(step).max(), 1e-300))
+        for _ in range(_HALVED):  # shapes far from the measured ones bend more than their slopes say
+            then = at(t + step)
+            if then[0] < cost:
+                t, now = t + step, then
+                break
+            step = step / 2
+        else:
+            break
+    return t, R[:, :m], J
