@@ -44,12 +44,14 @@ def build(
     return found.structure, found.terms
 
 
-def built(mesh: Mesh, bindings: tuple[Binding, ...] = (), base: Structure | None = None) -> Built:
+def built(
+    mesh: Mesh, bindings: tuple[Binding, ...] = (), base: Structure | None = None, searched: bool = True
+) -> Built:
     """The model of `mesh`: degrees of freedom node by node, one term for each kind of element, nothing constant but `base`.
 
     base: matrices that the mesh is attached to; their degrees of freedom come first, and are those of the mesh with the same
     label (`12TY`). Directions that no element stiffens are left out, as after AUTOSPC in Nastran. Dense up to
-    LARGEST_DENSE degrees of freedom, else sparse. Raises a MeshFault.
+    LARGEST_DENSE degrees of freedom, else sparse. searched: for motions that nothing resists. Raises a MeshFault.
     """
     given = mesh
     if mesh.gravity is None:  # whose axial forces are kept set by set
@@ -66,10 +68,10 @@ def built(mesh: Mesh, bindings: tuple[Binding, ...] = (), base: Structure | None
     structure = _structure(given, base, motion, places)
     terms = [ElementTerm(m, _dofs(m.elements), motion) for m in sets]
     K = _nominal_stiffness(structure, terms)
-    held = _touched(mesh, sets, free, "K")
-    held[6 * mesh.supports[:, 0] + mesh.supports[:, 1]] = True
-    held &= motion.counts == 0
-    remarks += search(mesh, sets, motion, K, held, np.isin(motion.places, places))
+    if searched:
+        held = _touched(mesh, sets, free, "K")
+        held[6 * mesh.supports[:, 0] + mesh.supports[:, 1]] = True
+        remarks += search(mesh, sets, motion, K, held & (motion.counts == 0), np.isin(motion.places, places))
     if mesh.gravity is not None:
         for i, axial in axial_forces(mesh, sets, motion, K).items():
             sets[i] = _matrices(i, kinds[i], replace(layouts[i], axial=axial), mesh, bindings)

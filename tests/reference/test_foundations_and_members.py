@@ -162,3 +162,23 @@ def test_candidates_without_a_site_are_refused_with_those_that_have_one(tmp_path
     assert done.exit_code == 2
     said = " ".join(done.output.split())
     assert "the model has no supports" in said and "crack" in said
+
+
+def test_a_body_on_springs_between_nodes_that_are_apart_stands_on_its_supports():
+    """Freed of them, the frame and the body may turn by one angle each, which strains nothing and is no motion of the whole."""
+    text = """\
+mouse: 1
+model:
+  structure:
+    nodes: {1: [0, 0], 2: [2, 0], 3: [0, 1.3], 4: [1, 1.3], 5: [2, 1.3], 6: [1, 1.1], 7: [1, 0.5]}
+    elements:
+      - {id: 1-5, type: beam, nodes: [[1, 3], [3, 4], [4, 5], [5, 2], [6, 7]], E: 2.1e+11, nu: 0.3, density: 7850, A: 0.01, Iz: 1.0e-5}
+      - {id: 6, type: spring, nodes: [4, 6], TX: 8.0e+7, TY: 6.0e+7, RZ: 5.0e+6}
+    supports: {1: all, 2: all}
+    plane: XY
+parameters:
+  - {name: E, elements: 1-5, property: E, sd: 2 %}
+"""
+    model = of(text + TEST.format(20, 60, 90))
+    motions = {each.site(each.grid[0]).text for each in registry()["rocking"].recipes(model, registry()["rocking"])}
+    assert "the foundation of all supports as one body, TX" in motions

@@ -140,7 +140,9 @@ def _without_supports(problem: Problem) -> Problem:
         if term.axial is not None:
             own = [(s, i) for i in range(len(edit.sets[s]))]
             edit.put(own, "preload", np.array([edit.values(element, "preload") for element in own]) + term.axial)
-    return edit.done()
+    return edit.done(
+        searched=False
+    )  # bodies on springs between nodes that are apart may move as supports did not let them
 
 
 def _freed(problem: Problem) -> Problem:

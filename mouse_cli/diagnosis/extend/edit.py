@@ -207,13 +207,13 @@ class Edit:
         """Bindings of properties of one set, to the same members of another."""
         self.bindings = [replace(b, set=to) if b.set == s and b.property in names else b for b in self.bindings]
 
-    def done(self) -> Problem:
-        """The deck: model, parameters and test brought to the new degrees of freedom. Raises a MeshFault."""
+    def done(self, searched: bool = True) -> Problem:
+        """The deck: model, parameters and test brought to the new degrees of freedom; searched: see `built`. Raises a MeshFault."""
         from mouse_cli.terms.build import built
 
         mesh, old = self._mesh(), self.problem
         on_dofs = old.structure.geometry is None
-        found = built(mesh, tuple(self.bindings), self._base(on_dofs))
+        found = built(mesh, tuple(self.bindings), self._base(on_dofs), searched)
         structure = found.structure
         if on_dofs:
             own = len(old.structure.labels)
