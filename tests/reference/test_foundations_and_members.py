@@ -172,7 +172,8 @@ model:
   structure:
     nodes: {1: [0, 0], 2: [2, 0], 3: [0, 1.3], 4: [1, 1.3], 5: [2, 1.3], 6: [1, 1.1], 7: [1, 0.5]}
     elements:
-      - {id: 1-5, type: beam, nodes: [[1, 3], [3, 4], [4, 5], [5, 2], [6, 7]], E: 2.1e+11, nu: 0.3, density: 7850, A: 0.01, Iz: 1.0e-5}
+      - {id: 1-4, type: beam, nodes: [1, 3, 4, 5, 2], E: 2.1e+11, nu: 0.3, density: 7850, A: 0.01, Iz: 1.0e-5}
+      - {id: 5, type: beam, nodes: [6, 7], E: 2.1e+11, nu: 0.3, density: 7850, A: 0.01, Iz: 1.0e-5}
       - {id: 6, type: spring, nodes: [4, 6], TX: 8.0e+7, TY: 6.0e+7, RZ: 5.0e+6}
     supports: {1: all, 2: all}
     plane: XY
