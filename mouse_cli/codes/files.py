@@ -84,7 +84,8 @@ CODES = {
     ),
     "MD274": Code(
         "solver failed",
-        "CalculiX (ccx) is not on the path, or stopped with the error in the message.",
+        "CalculiX (ccx) is not on the path, or stopped with the error in the message. As a warning: it passed over an option of a "
+        "keyword, which may be one that K or M depend on.",
         "Install it, or run the job in it and mend what it objects to.",
     ),
     "MD275": Code(
@@ -97,7 +98,7 @@ CODES = {
     "MD276": Code(
         "supports or sets of imported matrices",
         "A support names degrees of freedom that the matrices have not, two supports hold the same one, or a set gives neither "
-        "stiffness nor mass. As a warning of `mouse import`: which units the job was taken to be in.",
+        "stiffness nor mass. As a warning of `mouse import`: which units the job was taken to be in, and sets that give nothing.",
         "Mend the names; give --units.",
     ),
 }

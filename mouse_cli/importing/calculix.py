@@ -18,18 +18,21 @@ from mouse_cli._span import Span
 from mouse_cli.importing.dofs import Rows, rows
 from mouse_cli.model.arrays import Matrix
 
-_EDITION = "1"  # raised when what is kept of a run changes
+_EDITION = "2"  # raised when what is kept of a run changes
 _SAID = 12  # last lines of the solver that a message shows
+_ERRORS = re.compile(r"\*ERROR[^\n]*(?:\n(?! *\*(?:ERROR|WARNING|INFO))[^\n]*\S[^\n]*){0,4}")
+_UNKNOWN = re.compile(r"reading (\*[^:\n]+): parameter not recognized:\s*(\S[^\n]*)")
 PROGRAM = "ccx"
 
 
 @dataclass(frozen=True)
 class Exported:
-    """K and M (n, n) of one job, sparse, and what their rows are."""
+    """K and M (n, n) of one job, sparse, and what their rows are; unknown: (keyword, option) that the solver passed over."""
 
     K: Matrix
     M: Matrix
     rows: Rows
+    unknown: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -74,7 +77,7 @@ class Solver:
         n = int(held["n"])
         found = rows(held["dofs"], own)
         both = (csr_array((held[f"{x}_data"], held[f"{x}_indices"], held[f"{x}_indptr"]), shape=(n, n)) for x in "KM")
-        return Exported(*(found.brought(matrix) for matrix in both), found)
+        return Exported(*(found.brought(matrix) for matrix in both), found, tuple(map(tuple, held["unknown"].tolist())))
 
     def eigenvalues(self, text: str, title: str) -> np.ndarray:
         """Eigenvalues (m,), rad2/s2, of a job that asks for frequencies."""
@@ -116,12 +119,20 @@ class Solver:
         wrote = job.with_suffix(".sti").exists() or "E I G E N V A L U E" in _text(job.with_suffix(".dat"))
         if "*ERROR" in said or not wrote:
             folder.cleanup()
-            errors = re.findall(r"\*ERROR[^\n]*(?:\n[^\n*]+)*", said)
+            errors = _ERRORS.findall(said)
             why = errors[0] if errors else "\n".join(said.splitlines()[-_SAID:])
             message = f"CalculiX stopped at {title}: {' '.join(why.split())[:400]}"
             help = f"run the job itself in {PROGRAM} and mend what it objects to"
-            raise DeckError.of("MD274", message, Span(self.path, 1), help=help)
+            raise DeckError.of("MD274", message, self._place(why), help=help)
+        job.with_suffix(".said").write_text(said)
         return folder
+
+    def _place(self, why: str) -> Span:
+        """The first line of the input file with the keyword that a message of the solver names, else the first of all."""
+        named = re.search(r"reading (\*[A-Z ]+[A-Z])", why)
+        word = "".join(named[1].split()) if named else None
+        lines = enumerate(_text(Path(self.path)).upper().splitlines(), 1)
+        return Span(self.path, next((i for i, line in lines if "".join(line.partition(",")[0].split()) == word), 1))
 
 
 def available() -> bool:
@@ -148,7 +159,8 @@ def _matrix_arrays(job: Path) -> dict[str, np.ndarray]:
     """K and M with both triangles, in compressed rows, and (n, 2) node and direction of each row."""
     lines = job.with_suffix(".dof").read_text().split()
     dofs = np.array([line.split(".") for line in lines], int)
-    found: dict[str, np.ndarray] = {"n": np.array(len(dofs)), "dofs": dofs}
+    unknown = sorted(set(_UNKNOWN.findall(_text(job.with_suffix(".said")))))
+    found: dict[str, np.ndarray] = {"n": np.array(len(dofs)), "dofs": dofs, "unknown": np.array(unknown, str)}
     for name, suffix in (("K", ".sti"), ("M", ".mas")):
         matrix = _symmetric(job.with_suffix(suffix), len(dofs))
         found |= {f"{name}_data": matrix.data, f"{name}_indices": matrix.indices, f"{name}_indptr": matrix.indptr}

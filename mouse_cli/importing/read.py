@@ -1,5 +1,7 @@
 """Reads an input file of Abaqus or CalculiX into an `InputModel`; what would change K or M and is not understood is refused."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from mouse_cli.importing.cards import Card, Faults, Line, cards
@@ -148,6 +150,8 @@ def _set(name: str):
         if name not in card.options:
             faults.add("MD265", f"*{name} has no name", card.head.span, f"write *{name}, {name}=NAME")
             return
+        if name == "NSET" and "ELSET" in card.options:
+            _nodes_of_elements(model, card, faults)
         found = sets.setdefault(card.options[name], [])
         for line in card.lines:
             if "GENERATE" in card.options:
@@ -159,6 +163,15 @@ def _set(name: str):
                 found += members_of(word, line, sets, members, faults)
 
     return read_set
+
+
+def _nodes_of_elements(model: InputModel, card: Card, faults: Faults) -> None:
+    """*NSET, ELSET=, which the solver does not know, becomes one with the nodes of these elements."""
+    elements = members_of(card.options.pop("ELSET"), card.head, model.elsets, model.elements, faults)
+    nodes = sorted({node for e in elements for node in model.elements[e][1]})
+    text = f"*NSET, NSET={card.options['NSET']}"
+    card.head = replace(card.head, text=text)
+    card.lines = [replace(card.head, words=[str(node)], text=f"{node},") for node in nodes]
 
 
 def members_of(word: str, line: Line, sets: dict, members: dict, faults: Faults) -> list[int]:

@@ -1,12 +1,13 @@
 """The whole of an import: read, export, check, write."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from mouse_cli._errors import WARNING, DeckError, Diagnostic
 from mouse_cli._span import Span
 from mouse_cli.importing import calculix
+from mouse_cli.importing.cards import Card
 from mouse_cli.importing.checks import Checked, begin, check
 from mouse_cli.importing.deck import units, write
 from mouse_cli.importing.model import InputModel
@@ -71,7 +72,7 @@ def imported(
         thick = thicknesses(model, found, solver, shells)
         checked = check(model, found, solver)
     named = system or units(model)
-    remarks = list(model.remarks)
+    remarks = [*model.remarks, *_passed_over(model, found)]
     if not system:
         spoken = (
             f"taken for {named}, as E and density of its materials are" if named else "not determined by its materials"
@@ -83,3 +84,22 @@ def imported(
     thick = {i: replace(each, unit=unit) for i, each in thick.items()}
     files = write(target, model, found, checked, named, thick, shells)
     return Imported(model, found, checked, files, named, tuple(remarks), thick)
+
+
+def _passed_over(model: InputModel, found: Parts) -> Iterator[Diagnostic]:
+    """Warnings: options that the solver does not know, and groups that have no part in K and M."""
+    help = "take the option out if K and M do not depend on it; else write what it does in a way that CalculiX knows"
+    for keyword, option in found.whole.unknown:
+        word = keyword.lstrip("*")
+        named = [card.head.span for card in model.every if card.keyword in word.split("/") and _has(card, option)]
+        message = f"CalculiX passed over {option} of {keyword}, which it does not know"
+        yield Diagnostic("MD274", WARNING, message, named[0] if named else Span(model.path, 1), help=help)
+    for group, K, M in zip(model.groups, found.K, found.M, strict=True):
+        if not K.nnz and not M.nnz:
+            message = f"element set {group.name} gives nothing to K and M of CalculiX: nothing there holds its nodes"
+            help = "join its nodes to the structure, by *RIGID BODY, *COUPLING or *EQUATION, or delete it"
+            yield Diagnostic("MD276", WARNING, message, group.owner.head.span, help=help)
+
+
+def _has(card: Card, option: str) -> bool:
+    return "".join(option.partition("=")[0].split()) in ("".join(name.split()) for name in card.options)

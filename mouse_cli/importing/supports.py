@@ -1,5 +1,7 @@
 """Supports of an input file, by the names of their node sets."""
 
+from collections.abc import Callable
+
 from mouse_cli._errors import WARNING, Diagnostic
 from mouse_cli.importing.cards import Card, Faults, Line
 from mouse_cli.importing.keywords import WORDS, expanded
@@ -12,12 +14,14 @@ def supports(model: InputModel, boundary: list[Card], faults: Faults) -> None:
     """Puts what *BOUNDARY holds into the model; lines that name one set are one support."""
     by_name: dict[str, Support] = {}
     taken: dict[tuple[int, int], str] = {}
-    soft = _nodes_of_expanded(model)
+    soft, solid = _nodes_of(model, expanded), _nodes_of(model, lambda kind: kind.startswith("C3D"))
     for card in boundary:
         for line in card.lines:
             name, nodes = _held(model, line, faults)
             first, last = _directions(line, faults)
             own = by_name.setdefault(name, Support(name, [], card))
+            if last > 3 and not soft & set(nodes) and solid.issuperset(nodes):
+                last = 3  # solids have no rotations that could be held
             for node in nodes:
                 if last > 3 and node in soft:
                     message = f"rotations of node {node} are held, which belongs to shells or beams that CalculiX makes solids of"
@@ -50,6 +54,10 @@ def _held(model: InputModel, line: Line, faults: Faults) -> tuple[str, list[int]
     name = word.upper()
     if name not in model.nsets:
         faults.add("MD272", f"there is no node set '{word[:40]}'", line.span, "define the set, or mend its name")
+    elif not model.nsets[name]:
+        faults.add(
+            "MD272", f"node set {name} is held, and has no nodes", line.span, "list its nodes, or take the line out"
+        )
     return name, list(dict.fromkeys(model.nsets.get(name, [])))
 
 
@@ -75,5 +83,6 @@ def _directions(line: Line, faults: Faults) -> tuple[int, int]:
     return first, last
 
 
-def _nodes_of_expanded(model: InputModel) -> set[int]:
-    return {node for kind, nodes in model.elements.values() if expanded(kind) for node in nodes}
+def _nodes_of(model: InputModel, which: Callable[[str], bool]) -> set[int]:
+    """Nodes of elements of such types."""
+    return {node for kind, nodes in model.elements.values() if which(kind) for node in nodes}
