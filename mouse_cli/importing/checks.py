@@ -14,6 +14,7 @@ from mouse_cli.importing.separate import Parts
 SUM, FREQUENCY = 1e-10, 1e-6  # largest relative differences
 _DIGITS, _SD = 3e-14, 4.0  # sd of a number with 14 digits, relative; how many of what they leave open are no error
 _COUNT, _PER_MODE = 8, 5  # elastic modes that are compared; degrees of freedom that ARPACK takes for each
+_LARGE = 50_000  # degrees of freedom above which a factorisation costs more than another export
 _OF_A_BODY = 6  # motions that it has where nothing holds it
 _RIGID = 1e-6  # eigenvalues below this share of the highest compared are motions of a rigid body
 
@@ -23,6 +24,7 @@ class Checked:
     """Relative differences; hz, own (m,): frequencies by the solver, and by the matrices that were imported.
 
     digits (m,): relative sd of the latter, as the solver writes 14 digits of K; only very thin shells lose as much as shows.
+    matrices: of K and M with supports, of a large model, which then needs no frequencies.
     """
 
     sum_K: float
@@ -30,6 +32,13 @@ class Checked:
     hz: np.ndarray
     own: np.ndarray
     digits: np.ndarray
+    matrices: float | None = None
+
+    def text(self) -> str:
+        """With what of the solver the imported model agrees, and how well."""
+        if self.matrices is not None:
+            return f"K and M with supports as the solver's, to {self.matrices:.1g}"
+        return f"{len(self.hz)} frequencies with supports as the solver's, to {self.frequency:.1g}"
 
     @property
     def frequency(self) -> float:
@@ -59,8 +68,30 @@ def held_rows(model: InputModel, whole: Exported) -> list[tuple[str, list[int]]]
 
 
 def begin(model: InputModel, whole: Exported, solver: Solver) -> None:
-    """Lets the solver look for the frequencies that `check` will ask for."""
-    solver.begin([_asked(model, _kept(model, whole), whole)])
+    """Lets the solver begin what `check` will ask for."""
+    solver.begin([_supported(model) if _by_matrices(whole) else _asked(model, _kept(model, whole), whole)])
+
+
+def _by_matrices(whole: Exported) -> bool:
+    """Whether K and M with supports are compared, from which frequencies follow: a large model, of which nothing is expanded."""
+    return whole.rows.T is None and whole.K.shape[0] > _LARGE
+
+
+def _supported(model: InputModel) -> tuple[str, str]:
+    """The job for K and M of the model as it was written, with its supports, and its title."""
+    return frequencies(model, None), "K and M with supports"
+
+
+def _same_matrices(model: InputModel, parts: Parts, solver: Solver) -> Checked:
+    """With K and M of the solver, supports in place: relative differences of these stand for those of frequencies."""
+    kept, theirs = _kept(model, parts.whole), solver.matrices(*_supported(model), set(model.nodes))
+    error = np.inf
+    if theirs.K.shape[0] == len(kept):
+        pairs = ((each[kept][:, kept], other) for each, other in ((parts.whole.K, theirs.K), (parts.whole.M, theirs.M)))
+        error = max(float(abs(own - other).max() / abs(other).max()) for own, other in pairs)
+    _refuse(model, max(parts.error), SUM, "the matrices of the groups miss the whole by")
+    _refuse(model, error, SUM, "K and M with supports miss the solver's by")
+    return Checked(*parts.error, *np.zeros((3, 0)), error)
 
 
 def _kept(model: InputModel, whole: Exported) -> np.ndarray:
@@ -81,6 +112,9 @@ def _asked(model: InputModel, kept: np.ndarray, whole: Exported) -> tuple[str, s
 def check(model: InputModel, parts: Parts, solver: Solver) -> Checked:
     """Raises DeckError (MD275) where parts do not sum to the whole, or frequencies differ."""
     from mouse_cli.dynamics.eigen import IndefiniteError
+
+    if _by_matrices(parts.whole):
+        return _same_matrices(model, parts, solver)
     from mouse_cli.dynamics.solver import eigensolution
 
     kept = _kept(model, parts.whole)

@@ -3,6 +3,7 @@
 import io
 import os
 import re
+import zipfile
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -86,8 +87,8 @@ def _head(model: InputModel, parts: Parts, checked: Checked, system: str) -> lis
     n = parts.whole.K.shape[0]
     return [
         f"# Made by mouse import of {os.path.basename(model.path)}: {n} degrees of freedom, {len(model.groups)} element sets.",
-        f"# Sets sum to the whole to {max(checked.sum_K, checked.sum_M):.1g}; with its supports the model has CalculiX's own",
-        f"# frequencies to {checked.frequency:.1g}.",
+        f"# Sets sum to the whole to {max(checked.sum_K, checked.sum_M):.1g};",
+        f"# {checked.text()} (CalculiX).",
         "mouse: 1",
         f"title: {word(title or os.path.basename(model.path), flow=False)}",
         *([f"units: {system}"] if system else []),
@@ -170,10 +171,10 @@ def _parameter(name: str, value: float, unit: str, sd: str, key: str, file: str)
 
 def _stub(checked: Checked) -> list[str]:
     """What to fill in when the test is there; the values are the model's own."""
-    hz = ", ".join(f"{f:.4g}" for f in checked.own[:_MOST_MODES])
+    hz = ", ".join(f"{f:.4g}" for f in checked.own[:_MOST_MODES]) or "..."
     return [
         "",
-        "# The test goes here; the frequencies are those of the model before it.",
+        "# The test goes here" + ("; the frequencies are those of the model before it." if len(checked.own) else "."),
         "# test:",
         "#   modes:",
         f"#     frequency: [{hz}]",
@@ -210,8 +211,19 @@ def _slug(name: str) -> str:
 
 
 def _npz(matrix: Matrix) -> bytes:
-    from scipy.sparse import csr_matrix, save_npz
+    """As scipy.sparse.save_npz writes it, compressed less and four times as fast."""
+    from scipy.sparse import csr_matrix
 
-    stream = io.BytesIO()
-    save_npz(stream, csr_matrix(matrix))
+    found, stream = csr_matrix(matrix), io.BytesIO()
+    parts = {
+        "indices": found.indices,
+        "indptr": found.indptr,
+        "format": b"csr",
+        "shape": found.shape,
+        "data": found.data,
+    }
+    with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
+        for name, part in parts.items():
+            with archive.open(f"{name}.npy", "w", force_zip64=True) as file:
+                np.lib.format.write_array(file, np.asanyarray(part), allow_pickle=False)
     return stream.getvalue()

@@ -27,14 +27,12 @@ def export(model: InputModel, scaled: Iterable[int] = (), thick: float = 1.0) ->
     return "\n".join([*lines, *_MATRICES]) + "\n"
 
 
-def frequencies(model: InputModel, count: int) -> str:
-    """The job of the model as it was written, with its supports, for its lowest frequencies."""
+def frequencies(model: InputModel, count: int | None) -> str:
+    """The job of the model as it was written, with its supports, for its lowest frequencies; None: for its matrices."""
     lines = [text for card in model.kept for text in card.text()]
     held = [f"{node}, {d}, {d}" for support in model.supports for node, d in support.dofs]
-    return (
-        "\n".join([*lines, *(["*BOUNDARY", *held] if held else []), "*STEP", "*FREQUENCY", str(count), "*END STEP"])
-        + "\n"
-    )
+    step = _MATRICES if count is None else ["*STEP", "*FREQUENCY", str(count), "*END STEP"]
+    return "\n".join([*lines, *(["*BOUNDARY", *held] if held else []), *step]) + "\n"
 
 
 def colours(model: InputModel) -> list[list[int]]:

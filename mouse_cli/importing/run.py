@@ -47,7 +47,7 @@ class Imported:
                 if self.thick
                 else []
             ),
-            f"{len(self.checked.hz)} frequencies with supports as the solver's, to {self.checked.frequency:.1g}",
+            self.checked.text(),
             f"written: {self.files[-1]} and {len(self.files) - 1} files in {self.files[0].parent}",
         ]
         return "\n".join(found)

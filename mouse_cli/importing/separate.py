@@ -69,11 +69,16 @@ def _titled(model: InputModel, classes: list[list[int]], thick: float) -> Iterat
 
 def difference(changed: Matrix, whole: Matrix) -> Matrix:
     """What two exports differ by: elements that differ by rounding of the files alone are none."""
-    between = (changed - whole).tocsr()
-    size = abs(changed).maximum(abs(whole)).tocsr()
-    close = abs(between) - size * _DIGITS
-    keep = (close > 0).astype(float)
-    found = between.multiply(keep).tocsr()
+    if np.array_equal(changed.indptr, whole.indptr) and np.array_equal(changed.indices, whole.indices):
+        from scipy.sparse import csr_array
+
+        values = changed.data - whole.data
+        values[np.abs(values) <= _DIGITS * np.maximum(np.abs(changed.data), np.abs(whole.data))] = 0.0
+        found = csr_array((values, whole.indices.copy(), whole.indptr.copy()), shape=whole.shape)
+    else:
+        found = (changed - whole).tocsr()
+        close = abs(found) - abs(changed).maximum(abs(whole)) * _DIGITS
+        found = found.multiply((close > 0).astype(float)).tocsr()
     found.eliminate_zeros()
     return found
 

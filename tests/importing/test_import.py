@@ -203,6 +203,22 @@ def test_a_written_deck_reads_back_with_supports_and_sets(tmp_path):
     assert np.array_equal(again.A, problem.A) and np.array_equal(again.held.A.toarray(), problem.held.A.toarray())
 
 
+@solver
+def test_a_large_model_of_solids_is_checked_by_its_matrices(tmp_path, monkeypatch):
+    """K and M with supports as CalculiX writes them; a support that the deck would not have is found out."""
+    from mouse_cli.importing import checks
+    from mouse_cli.importing.run import imported
+
+    monkeypatch.setattr(checks, "_LARGE", 10)
+    found = imported(written(tmp_path, BAR), tmp_path / "deck.yaml", "SI", False, str)
+    assert "K and M with supports as the solver's, to" in found.text() and found.checked.matrices < 1e-12
+    assert "The test goes here.\n" in (tmp_path / "deck.yaml").read_text()
+    kept = checks._kept
+    monkeypatch.setattr(checks, "_kept", lambda model, whole: np.union1d(kept(model, whole), [0]))
+    with pytest.raises(DeckError, match="MD275"):
+        imported(written(tmp_path, BAR), tmp_path / "deck.yaml", "SI", False, str)
+
+
 def test_groups_that_do_not_touch_share_an_export(tmp_path):
     """Feet on a plate: two exports tell any number of them."""
     text = BAR.replace("*ELEMENT, TYPE=C3D8, ELSET=HIGH", "*NODE\n" + "".join(
