@@ -18,9 +18,6 @@ WITHOUT_EFFECT = {
 REMEDIES = {
     "CONTACT PAIR": "replace the contact by *TIE, or leave it out of a linear model",
     "GAP": "a gap has no stiffness of its own: replace it by a spring, or leave it out",
-    "PART": "write the input without parts and assemblies: in Abaqus/CAE, Model attributes",
-    "INSTANCE": "write the input without parts and assemblies: in Abaqus/CAE, Model attributes",
-    "ASSEMBLY": "write the input without parts and assemblies: in Abaqus/CAE, Model attributes",
     "PARAMETER": "write numbers instead of parameters",
     "TRANSFORM": "give the boundary conditions in global directions",
     "SYSTEM": "give the nodes in the global rectangular system",

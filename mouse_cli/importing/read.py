@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from mouse_cli.importing.assembly import flat
 from mouse_cli.importing.cards import Card, Faults, Line, cards
 from mouse_cli.importing.groups import grouped
 from mouse_cli.importing.keywords import NODES, PASSED, READ, RELEVANT, REMEDIES, WITHOUT_EFFECT
@@ -17,7 +18,7 @@ def read(path: str, outside: bool = False) -> InputModel:
     Raises DeckError (MD231 to MD273) with all that is wrong, by file and line.
     """
     model, faults = InputModel(path), Faults()
-    model.every = cards(path, outside)
+    model.every = flat(cards(path, outside), faults)
     known = [card for card in model.every if _understood(card, model, faults)]
     faults.stop()
     _steps(known, model, faults)
@@ -65,11 +66,15 @@ def _understood(card: Card, model: InputModel, faults: Faults) -> bool:
 
 def _steps(known: list[Card], model: InputModel, faults: Faults) -> None:
     """Keeps the cards of the model; a step that stiffens the structure before the frequencies are taken is refused."""
-    inside = False
+    inside, loaded = False, False
     for card in known:
         if card.keyword == "STEP":
-            inside = True
-            if "PERTURBATION" in card.options or card.options.get("NLGEOM", "NO") not in ("NO",):
+            inside, about = (
+                True,
+                "PERTURBATION" in card.options,
+            )  # a perturbation of the model at rest, but after a load
+            loaded, before = loaded or not about, loaded
+            if (about and before) or card.options.get("NLGEOM", "NO") not in ("NO",):
                 message = "the step takes the stresses of earlier loads into the stiffness"
                 faults.add("MD268", message, card.head.span, "import the structure without load: take the option out")
         elif card.keyword == "END STEP":

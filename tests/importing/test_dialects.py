@@ -70,3 +70,82 @@ def test_what_the_solver_stops_at_is_told_by_its_line_and_in_full(tmp_path):
     with pytest.raises(DeckError, match="cannot exceed 3") as refused:
         remarks(tmp_path, BAR + "*NODE\n20, 0., 0., 5.\n" + coupling)
     assert (refused.value.diagnostics[0].code, refused.value.diagnostics[0].span.line) == ("MD274", 36)
+
+
+PART = """\
+*Heading
+*Part, name=Brick
+*Node
+      1,  0., 0., 0.
+      2,  1., 0., 0.
+      3,  1., 1., 0.
+      4,  0., 1., 0.
+      5,  0., 0., 1.
+      6,  1., 0., 1.
+      7,  1., 1., 1.
+      8,  0., 1., 1.
+*Element, type=C3D8
+1, 1, 2, 3, 4, 5,
+ 6, 7, 8
+*Elset, elset=Set-1
+ 1,
+*Nset, nset=Low, generate
+ 1, 4, 1
+** Section: Section-1
+*Solid Section, elset=Set-1, material=Steel
+,
+*End Part
+*Assembly, name=Assembly
+*Instance, name=A-1, part=Brick
+*End Instance
+{more}*Nset, nset=Set-1, instance=A-1
+ 1, 2, 3, 4
+*End Assembly
+*Material, name=Steel
+*Density
+7850.,
+*Elastic
+ 2.1e+11, 0.3
+*Boundary
+Set-1, ENCASTRE
+*Step, name=Step-1, nlgeom=NO, perturbation
+*Frequency, eigensolver=Lanczos, normalization=displacement
+4, , , , ,
+*Output, field, variable=PRESELECT
+*End Step
+"""
+
+
+@solver
+def test_parts_and_instances(tmp_path):
+    """Two instances, one moved, then turned by a quarter about z; one alone has the frequencies of a solid that is written flat."""
+    second = "*Instance, name=B-1, part=Brick\n 1., 0., 1.\n 0., 0., 0., 0., 0., 1., 90.\n*End Instance\n"
+    tie = "*Nset, nset=Other, instance=B-1\n Low,\n"
+    model = read(written(tmp_path, PART.format(more=second + tie)))
+    at = np.array([model.nodes[n] for n in range(9, 17)])
+    assert np.allclose(at[[0, 1, 2, 3]], [[0, 1, 1], [0, 2, 1], [-1, 2, 1], [-1, 1, 1]])
+    first, last = model.elements.values()
+    assert (first[1], last[1]) == (tuple(range(1, 9)), tuple(range(9, 17))) and model.nsets["OTHER"] == [9, 10, 11, 12]
+    assert [group.name for group in model.groups] == ["A-1_SET-1", "B-1_SET-1"]
+    assert [(each.name, len(each.dofs)) for each in model.supports] == [("SET-1", 12)]
+    (tmp_path / "one").mkdir()
+    found = imported(written(tmp_path / "one", PART.format(more="")), tmp_path / "one" / "deck.yaml", "SI", False, str)
+    with Solver("job.inp", None, str) as ccx:
+        high = BAR[BAR.index("*ELEMENT, TYPE=C3D8, ELSET=HIGH") : BAR.index("*NSET")]
+        text = BAR.replace(high, "").replace("*SOLID SECTION, ELSET=HIGH, MATERIAL=STEEL\n", "")
+        expected = ccx.eigenvalues(text + "*STEP\n*FREQUENCY\n2\n*END STEP\n", "by hand")
+    assert np.allclose(found.checked.hz[:2], np.sqrt(np.sort(expected)) / (2 * np.pi), rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("more", "code", "line"),
+    [
+        ("*Instance, name=B-1, part=Absent\n*End Instance\n", "MD272", 26),
+        ("*Instance, name=B-1, part=Brick\n 1., zero, 1.\n*End Instance\n", "MD265", 27),
+        ("*Equation\n2\n1, 1, 1., 2, 1, -1.\n", "MD268", 26),
+    ],
+)
+def test_what_is_not_read_of_an_assembly(tmp_path, more, code, line):
+    with pytest.raises(DeckError) as refused:
+        read(written(tmp_path, PART.format(more=more)))
+    assert (refused.value.diagnostics[0].code, refused.value.diagnostics[0].span.line) == (code, line)

@@ -266,7 +266,7 @@ REFUSED = {
     "short element": (BAR.replace("9, 10, 11, 12\n*NSET", "9, 10, 11\n*NSET"), "MD265", 19),
     "missing include": (BAR + "*INCLUDE, INPUT=absent.inc\n", "MD266", 31),
     "cyclic include": (BAR + "*INCLUDE, INPUT=job.inp\n", "MD267", 31),
-    "prestress": (BAR + "*STEP, PERTURBATION\n*FREQUENCY\n5\n*END STEP\n", "MD268", 31),
+    "prestress": (BAR + "*STEP\n*STATIC\n*END STEP\n*STEP, PERTURBATION\n*FREQUENCY\n5\n*END STEP\n", "MD268", 34),
     "transform": (BAR + "*TRANSFORM, NSET=FOOT\n1, 1, 0, 0, 1, 0\n", "MD268", 31),
 }
 
