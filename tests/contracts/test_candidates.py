@@ -359,6 +359,23 @@ def test_the_deck_with_the_cause_is_the_reduced_model_with_it(models, name, key,
             assert [p.name for p in again.parameters] == [p.name for p in extended.parameters]
 
 
+def test_twice_the_size_makes_twice_of_what_is_proportional_to_it(models):
+    """Its derivative is taken for what it is itself."""
+    keys = set()
+    for model in models.values():
+        recipes = [recipe for candidate in registry().values() for recipe in candidate.recipes(model, candidate)]
+        for recipe in (each for each in recipes if each.linear is not None):
+            values, keys = recipe.grid[0], keys | {recipe.candidate.key}
+            one, two = (
+                recipe.change(values * factor ** (np.arange(len(values)) == recipe.linear)) for factor in (1, 2)
+            )
+            for name in ("K", "M", "sensing", "C", "D"):
+                part, twice = getattr(one, name), getattr(two, name)
+                assert (part is None and twice is None) or np.allclose(twice, 2 * part, rtol=1e-12, atol=0)
+            assert one.softening is None and recipe.rate(recipe.linear, 0.3, 1e-5) in ([(0.3, 1.0)], [(0.3, 1 / 0.3)])
+    assert {"mass", "ground-spring", "added-mass", "foundation", "tension"} <= keys
+
+
 def test_every_candidate_acts_somewhere(models):
     acting = {key for model in models.values() for key, c in registry().items() if c.recipes(model, c)}
     assert acting == set(registry())

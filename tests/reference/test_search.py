@@ -14,6 +14,7 @@ from mouse_cli.diagnosis.likelihoods.modal.unseen import unseen
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.diagnosis.search.descents import settled, tried
 from mouse_cli.diagnosis.search.fit import descended, fit
+from mouse_cli.diagnosis.search.found import Found
 from mouse_cli.diagnosis.search.optima import distinct
 from mouse_cli.diagnosis.search.several import _promised
 from mouse_cli.diagnosis.search.study import Study
@@ -208,6 +209,17 @@ def test_what_is_looked_at_beside_a_cause_is_looked_at_once(monkeypatch):
     count = len(seen)
     assert count >= len(looks) > 0
     assert study.looks("ground-spring", first.point.x, first.recipes) is looks and len(seen) == count
+
+
+def test_what_was_tried_beside_the_same_causes_is_not_tried_again():
+    """Beside them at another size, or at other parameters, it is."""
+    study, found = Study(long_chain(17, 3.0)), Found()
+    first = tried(study, "mass", (), np.zeros(study.k), 1)[0]
+    assert found.untried(first, ["mass", "oscillator"]) == ["mass", "oscillator"]
+    assert found.untried(first, ["ground-spring", "mass"]) == ["ground-spring"]
+    for step in np.diag(0.02 * np.append(np.ones(study.k), first.model.width)):
+        moved = replace(first, point=replace(first.point, x=first.point.x + step))
+        assert found.untried(moved, ["mass"]) == ["mass"] and found.untried(moved, ["mass"]) == []
 
 
 def test_a_brief_descent_ends_where_a_fit_of_as_many_steps_does():

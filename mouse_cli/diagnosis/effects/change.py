@@ -130,6 +130,7 @@ class Recipe:
     limit(values): group that it cannot be told from at such values, the end of their range; empty: none, its candidate's own.
     jumps: coordinates, in order, at which the matrices jump, by number of the unknown; there the piece after it begins.
     parts: names of several things, each with the unknown of the same number, of which there are recipes with fewer; empty: none.
+    linear: number of an unknown to which all that it adds is proportional; None: there is none.
     home: the model that it was made for. grows: how K and M that it adds grow with each parameter of the deck (p,), over what they
     are at those of its model; None: they do not.
     """
@@ -149,6 +150,7 @@ class Recipe:
     jumps: dict[int, np.ndarray] = field(default_factory=dict, repr=False)
     starts: tuple[np.ndarray, ...] = ()
     parts: tuple[str, ...] = ()
+    linear: int | None = None
     home: Any = field(default=None, repr=False, compare=False)
     grows: tuple[np.ndarray, np.ndarray] | None = field(default=None, repr=False, compare=False)
     _last: dict[bytes, Change] = field(default_factory=dict, init=False, repr=False, compare=False)
@@ -192,6 +194,13 @@ class Recipe:
     def bounds(self) -> np.ndarray:
         """Ranges (t, 2) of the coordinates."""
         return np.array([u.bounds for u in self.unknowns]).reshape(-1, 2)
+
+    def rate(self, j: int, coordinate: float, step: float) -> list[tuple[float, float]]:
+        """As `slope`, of the matrices: those that are proportional to unknown j are their own derivative by its logarithm."""
+        log = self.unknowns[j].log
+        if j == self.linear and (log or coordinate):
+            return [(coordinate, 1.0 if log else 1 / coordinate)]
+        return self.slope(j, coordinate, step)
 
     def slope(self, j: int, coordinate: float, step: float) -> list[tuple[float, float]]:
         """Coordinates of unknown j, and weights of what is there, whose sum is the derivative to second order.
@@ -243,4 +252,4 @@ def proportional(
 
     where = (lambda values: site) if isinstance(site, Site) else site
     grid = steps(unknown, starts)[:, None]
-    return Recipe(candidate, (unknown,), change, grid, where, log_prior=log_prior, extend=extend)
+    return Recipe(candidate, (unknown,), change, grid, where, log_prior=log_prior, extend=extend, linear=0)

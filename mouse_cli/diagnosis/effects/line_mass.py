@@ -6,52 +6,48 @@ import numpy as np
 
 from mouse_cli.diagnosis.sites.bars import Bars
 from mouse_cli.diagnosis.sites.lines import Line
-from mouse_cli.diagnosis.sites.stretches import covered
-from mouse_cli.terms.elements import _beam as beam
 
-Seen = Callable[[Bars, int, float], np.ndarray]  # of a bar, at a share of its length: the motion (., r) that counts
-
-
-def deflections(bars: Bars, bar: int, at: float) -> np.ndarray:
-    """Deflection (1, r) in the plane of a bar."""
-    return bars.deflection(bar, at)[None]
+Seen = Callable[[Bars, int], np.ndarray]  # of a bar: what counts (c, 4, r), by powers of the share of its length
+_POWERS = np.add.outer(np.arange(4), np.arange(4)) + 1  # of the share, in integrals of products of two powers
 
 
-def across(bars: Bars, bar: int, at: float) -> np.ndarray:
-    """Deflections (planes, r) in all planes in which the element of a bar bends."""
-    return np.array([bars.deflection(twin, at) for twin in bars.twins[int(bars.set[bar]), int(bars.member[bar])]])
+def deflections(bars: Bars, bar: int) -> np.ndarray:
+    """Deflection in the plane of a bar, (1, 4, r)."""
+    return bars.cubic[[bar]]
 
 
-def uniform(
-    bars: Bars, elements: np.ndarray, a: np.ndarray, b: np.ndarray, mass: np.ndarray, seen: Seen = Bars.motion
-) -> np.ndarray:
-    """Matrix (r, r) of `mass` (c,) per length between the shares a and b (c,) of the length of `elements` (bars, one plane)."""
-    rows, weights = [], []
-    for i, first, last, m in zip(elements.tolist(), a, b, mass, strict=True):
-        for point, weight in zip(beam.POINTS, beam.WEIGHTS, strict=True):
-            rows.append(seen(bars, i, first + (last - first) * point))
-            weights.append(np.full(len(rows[-1]), weight * m * (last - first) * bars.length[i]))
-    if not rows:
-        return np.zeros((bars.ends.shape[2],) * 2)
-    u, w = np.concatenate(rows), np.concatenate(weights)
-    return u.T @ (w[:, None] * u)
+def across(bars: Bars, bar: int) -> np.ndarray:
+    """Deflections (planes, 4, r) in all planes in which the element of a bar bends."""
+    return bars.cubic[bars.twins[int(bars.set[bar]), int(bars.member[bar])]]
+
+
+def motions(bars: Bars, bar: int) -> np.ndarray:
+    """Displacements (1 + planes, 4, r) along the element of a bar, and across it."""
+    along = np.zeros_like(bars.cubic[[bar]])
+    along[0, :2] = bars.axial[bar, 0], bars.axial[bar, 1] - bars.axial[bar, 0]
+    return np.concatenate([along, across(bars, bar)])
+
+
+def uniform(bars: Bars, bar: int, share: float = 1.0, seen: Seen = motions) -> np.ndarray:
+    """Matrix (r, r) of one unit per length on the first `share` of the length of a bar."""
+    u = seen(bars, bar)
+    weighed = (bars.length[bar] * share**_POWERS / _POWERS) @ u
+    return u.reshape(-1, u.shape[2]).T @ weighed.reshape(-1, u.shape[2])
 
 
 class Wet:
     """One unit per length, of mass or of what else feels the motion `seen`, on a row of bars, from its beginning to any place s."""
 
-    def __init__(self, run: Line, seen: Seen = Bars.motion):
-        self.run, self.seen, bars = run, seen, run.bars
-        one = [uniform(bars, np.array([i]), np.zeros(1), np.ones(1), np.ones(1), seen) for i in run.members]
+    def __init__(self, run: Line, seen: Seen = motions):
+        self.run, self.seen = run, seen
+        one = [uniform(run.bars, bar, seen=seen) for bar in run.members.tolist()]
         self.sums = np.cumsum(one, axis=0)
+        self._before = dict(zip(run.members.tolist(), self.sums - one, strict=True))
 
     def upto(self, s: float) -> np.ndarray:
         """M (r, r) of the part before s."""
-        touched, a, b = covered(self.run, 0.0, s)
-        whole = int((b >= 1).sum())
-        M = self.sums[whole - 1] if whole else np.zeros(self.sums.shape[1:])
-        left = np.arange(whole, len(touched))
-        return M + uniform(self.run.bars, touched[left], a[left], b[left], np.ones(len(left)), self.seen)
+        bar, share = self.run.at(s)
+        return self._before[bar] + uniform(self.run.bars, bar, share, self.seen)
 
     def part(self, s: float, back: bool) -> np.ndarray:
         """Matrix (r, r) of the part before s, or (`back`) behind it."""

@@ -46,6 +46,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
         lambda values: Site("element", ids, None, named) if known else EVERYWHERE,
         log_prior=float(np.log(1 - _PART)),
         extend=lambda problem, values: _with_mass(problem, values[0], pieces, named),
+        linear=0,
     )
     ended = list(wet.items())[:_MOST]
     share = _PART / max(len(ended), 1)
@@ -74,9 +75,8 @@ def _partly(candidate: Candidate, run: Line, wet: Wet, m: Unknown, back: bool, s
 
     grid = product(steps(m, 3), steps(covered, 3))
     limit = lambda values: "mass" if values[1] <= _SHORTEST * _AT_END else ""
-    return Recipe(
-        candidate, (m, covered), change, grid, site, log_prior=float(np.log(share)), extend=extend, limit=limit
-    )
+    prior = float(np.log(share))
+    return Recipe(candidate, (m, covered), change, grid, site, 0, prior, extend, limit=limit, linear=0)
 
 
 def _between(candidate: Candidate, run: Line, wet: Wet, m: Unknown, share: float) -> Recipe:
@@ -94,6 +94,7 @@ def _between(candidate: Candidate, run: Line, wet: Wet, m: Unknown, share: float
         lambda values: interval.site(*values[1:]),
         log_prior=float(np.log(share)),
         extend=extend,
+        linear=0,
     )
 
 

@@ -87,6 +87,7 @@ def _partly(candidate: Candidate, line: Line, planes: tuple[int, ...], back: boo
         site,
         log_prior=log_prior,
         extend=extend,
+        linear=0,
     )
 
 
@@ -111,6 +112,7 @@ def _between(candidate: Candidate, line: Line, planes: tuple[int, ...], log_prio
         site,
         log_prior=log_prior,
         extend=extend,
+        linear=0,
     )
 
 

@@ -85,7 +85,7 @@ def _recipe(model: Reduced, candidate: Candidate, point: Points, axes: tuple[int
     each = product(steps(sizes[0], _SIZES), _starts(axes), point.starts)
     grid = np.array([np.concatenate([[k], angles, at]) for k, angles, at in each])
     unknowns, log_prior = (*sizes, *point.unknown), float(np.log(point.share))
-    return Recipe(candidate, unknowns, change, grid, site, log_prior=log_prior, extend=extend)
+    return Recipe(candidate, unknowns, change, grid, site, log_prior=log_prior, extend=extend, linear=0)
 
 
 CANDIDATE = Candidate(

@@ -62,7 +62,7 @@ def _recipe(model: Reduced, candidate: Candidate, chosen: list[tuple[int, int, i
 
     site = Site("element", ids, None, named)
     unknowns, grid = ((m, r), product(steps(m, 5), steps(r, 2))) if extended else ((m,), steps(m, 5)[:, None])
-    return Recipe(candidate, unknowns, change, grid, lambda values: site, log_prior=log_prior, extend=extend)
+    return Recipe(candidate, unknowns, change, grid, lambda values: site, log_prior=log_prior, extend=extend, linear=0)
 
 
 CANDIDATE = Candidate(

@@ -40,8 +40,7 @@ def _recipe(model: Reduced, candidate: Candidate, run: Line, count: int) -> Reci
     xi = np.array([same[int(bars.set[i]), int(bars.member[i])] for i in members])
     F = np.zeros((len(members), 2, 2))
     F[:, 0, 0], F[:, 1, 1] = bars.length[members] / bars.EI[members], bars.length[members] / (3 * bars.EI[members])
-    one = np.ones(len(run.members))
-    M = uniform(bars, run.members, 0 * one, one, bars.line_mass[run.members] * np.array(list(along.values())))
+    M = sum(bars.line_mass[i] * value * uniform(bars, i) for i, value in along.items())
     site = site_of(model, run)
 
     def change(values: np.ndarray) -> Change:

@@ -173,12 +173,12 @@ def _cost(at: Point, k: int) -> float:
 
 def _step(H, slope, damping, scale, x, lower, upper) -> np.ndarray:
     """Damped step; what stands at a limit and would leave it is held. scale: H of unknowns that are as wide as they may be."""
+    A = H + np.diag(damping * H.diagonal() + 1e-12 * scale)
     held = ((x <= lower) & (slope < 0)) | ((x >= upper) & (slope > 0))
-    free = ~held
-    step = np.zeros(len(x))
-    A = H[np.ix_(free, free)]
-    step[free] = np.linalg.solve(A + damping * np.diag(A.diagonal()) + 1e-12 * np.diag(scale[free]), slope[free])
-    return step
+    if held.any():
+        A[held], A[:, held] = 0.0, 0.0
+        A[held, held] = 1.0
+    return np.where(held, 0.0, np.linalg.solve(A, np.where(held, 0.0, slope)))
 
 
 def _evidence(J: float, H: np.ndarray, model: Model) -> float:

@@ -13,6 +13,7 @@ from mouse_cli.diagnosis.gates import GATE, MATERIAL
 from mouse_cli.diagnosis.search.descents import settled, summed
 from mouse_cli.diagnosis.search.escape import shifted, tied, walked
 from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
+from mouse_cli.diagnosis.search.found import Found, best_of, keep, key
 from mouse_cli.diagnosis.search.optima import NEAR, within
 from mouse_cli.diagnosis.search.pared import pared
 from mouse_cli.diagnosis.search.parts import Beside, in_turn, look_beside, partner
@@ -32,13 +33,6 @@ _LIMITS = (  # groups of which one is the other at an end of its range: a crack 
     {"ground-spring", "oscillator"},
 )
 _ADEQUATE = 0.05  # p-value of the misfit below which a further mechanism is sought
-
-Found = dict[tuple[str, ...], Fit]  # the best fit of each set of candidates
-
-
-def key(one: Fit) -> tuple[str, ...]:
-    """Keys of the mechanisms of a fit, sorted; of several parts that of each, for they take as many sizes as so many mechanisms."""
-    return tuple(sorted(recipe.candidate.key for recipe in one.recipes for _ in recipe.parts or (None,)))
 
 
 def plain(found: Iterable[Fit]) -> list[Fit]:
@@ -69,12 +63,12 @@ def several(study: Study, singles: list[Fit], most: int) -> list[Fit]:
     count = 3
     while count <= most and not any(adequate(one) for one in growing):
         begun = sorted(growing, key=lambda one: -one.log_evidence)[:_GROWN]
-        larger: Found = {}
+        larger = Found()
         for one in begun:
             _beside(study, one, study.known, larger)
-        for best in _best_of(larger, 1):
-            _keep(larger, _exchanged(study, best))
-        for best in _best_of(larger, 1):
+        for best in best_of(larger, 1):
+            keep(larger, _exchanged(study, best))
+        for best in best_of(larger, 1):
             _swap(study, best, larger)
         finished = _finished(study, larger)
         fewer = _fewer(study, finished, smaller)
@@ -91,7 +85,7 @@ def _gains(study: Study, singles: list[Fit]) -> bool:
     """Whether a further mechanism beside one of `singles` gains what it must, those fitted to the end that gain in few steps."""
     least = max(one.log_evidence for one in singles)
     for first in sorted(singles, key=lambda one: -one.log_evidence)[:_WIDE]:
-        found: Found = {}
+        found = Found()
         _beside(study, first, study.known, found)
         better = {name: two for name, two in found.items() if two.log_evidence > least}
         if any(material(two, singles) for two in _finished(study, better)):
@@ -109,25 +103,25 @@ def pairs(study: Study, singles: list[Fit]) -> list[Fit]:
         (one.recipes[0].candidate.group, len(key(one)) > 1): one for one in reversed(leading)
     }  # the best of each group
     wide = sorted(firsts.values(), key=lambda one: -one.log_evidence)[:_WIDE]
-    found: Found = {}
+    found = Found()
     for first in leading:
         own = [one.recipes[0].candidate.key for one in leading]
         any_of = any(first is one for one in wide)
         _beside(study, first, study.known if any_of else own, found)
     done: list[Fit] = []
     for _ in range(_ROUNDS):  # both may be there by an alias, or at a wrong site
-        for two in _best_of(found, _SWAPPED):
+        for two in best_of(found, _SWAPPED):
             if not any(two is one for one in done):
                 done.append(two)
                 _swap(study, two, found)
-    for two in _best_of(found, 1):  # the mechanism that leads with a partner may be none of those that lead alone
-        _keep(found, _exchanged(study, two))
+    for two in best_of(found, 1):  # the mechanism that leads with a partner may be none of those that lead alone
+        keep(found, _exchanged(study, two))
     return [two for two in _finished(study, found) if material(two, singles)]
 
 
 def same_kind(study: Study, singles: list[Fit], most: int, reach: float = np.inf) -> list[Fit]:
     """Two and more of one kind at different sites, each moved in turn to where it fits best; reach: misfit that matters."""
-    found: Found = {}
+    found = Found()
     order = sorted(singles, key=lambda one: -one.log_evidence)
     kinds = [one for one in order if len(study.recipes(one.recipes[0].candidate.key)) > 1 and one.c.size][:_ALIKE]
     for one in kinds:
@@ -141,7 +135,7 @@ def _grown(study: Study, one: Fit, most: int, found: Found, reach: float) -> boo
     """Into `found` sets of the kind of `one` that grow from it; whether there are any."""
     name, grew = one.recipes[0].candidate.key, False
     while len(one.recipes) < most and not adequate(one):
-        larger: Found = {}
+        larger = Found()
         _beside(study, one, [name], larger)
         if not any(_promised(one, each, most) < reach for each in larger.values()):
             break
@@ -149,7 +143,7 @@ def _grown(study: Study, one: Fit, most: int, found: Found, reach: float) -> boo
         if not more or more[0].log_evidence < one.log_evidence + MATERIAL:
             break
         one, grew = more[0], True
-        _keep(found, one)
+        keep(found, one)
     return grew
 
 
@@ -186,10 +180,10 @@ def _fewer(study: Study, sets: list[Fit], smaller: list[Fit]) -> list[Fit]:
 
     What was added last may have brought the others to where they do without one that came earlier.
     """
-    parts: Found = {}
+    parts = Found()
     for best in sorted(sets, key=lambda one: -one.log_evidence)[:1]:
         for i in range(len(best.recipes)):
-            _keep(parts, _without(best, i, MOST, within([best])))
+            keep(parts, _without(best, i, MOST, within([best])))
     before = {key(one): one.log_evidence for one in sorted(smaller, key=lambda one: one.log_evidence)}
     better = {name: one for name, one in parts.items() if one.log_evidence > before.get(name, -np.inf) + 1.0}
     return [one for one in _finished(study, better) if material(one, smaller)]
@@ -197,20 +191,8 @@ def _fewer(study: Study, sets: list[Fit], smaller: list[Fit]) -> list[Fit]:
 
 def _finished(study: Study, found: Found) -> list[Fit]:
     """The best fitted to the end, their evidence summed over sites that are as good."""
-    ended = [settled(walked(shifted(pared(one, study)), study), study) for one in _best_of(found, _FINISHED)]
+    ended = [settled(walked(shifted(pared(one, study)), study), study) for one in best_of(found, _FINISHED)]
     return [summed([one, *tied(one, study)]) for one in ended]
-
-
-def _best_of(found: Found, count: int) -> list[Fit]:
-    return sorted(found.values(), key=lambda one: -one.log_evidence)[:count]
-
-
-def _keep(found: Found, one: Fit | None) -> None:
-    if one is None:
-        return
-    other = found.get(key(one))
-    if other is None or one.log_evidence > other.log_evidence:
-        found[key(one)] = one
 
 
 def _swap(study: Study, one: Fit, found: Found) -> None:
@@ -230,7 +212,7 @@ def _swap(study: Study, one: Fit, found: Found) -> None:
 def _beside(study: Study, first: Fit, partners: Iterable[str], found: Found) -> None:
     """Into `found` what `first` and the best of `partners` make together, where it is better than what is there."""
     there = study.about(first)
-    names = _promising(study, there, first, list(partners))
+    names = found.untried(first, _promising(study, there, first, list(partners)))
     beside, own = Beside.of(first, there), there.own(first.recipes)
 
     def reach(i: int) -> float:
@@ -239,7 +221,7 @@ def _beside(study: Study, first: Fit, partners: Iterable[str], found: Found) -> 
 
     def accept(i: int, fits: list) -> None:
         for one in fits:
-            _keep(found, one.fit(there, own, names[i]))
+            keep(found, one.fit(there, own, names[i]))
 
     in_turn(study, partner, [(beside, name, _SECOND, _QUICK) for name in names], accept, reach)
 
@@ -270,7 +252,7 @@ def _exchanged(study: Study, one: Fit, names: tuple[str, ...] | None = None) -> 
             rest = _without(one, i)
             if rest is None:
                 continue
-            found: Found = {}
+            found = Found()
             _beside(study, rest, study.known if names is None else names, found)
             better = max(found.values(), key=lambda each: each.log_evidence, default=one)
             one = better if better.log_evidence > one.log_evidence else one

@@ -121,11 +121,14 @@ class Bars:
         rows = self.ends[bars]
         return rows.reshape(-1, rows.shape[-1]).T @ (blocks @ rows).reshape(-1, rows.shape[-1])
 
-    def deflection(self, bar: int, at: float) -> np.ndarray:
-        """w (r,) at the share `at` of the length of one bar."""
-        x, l = at, self.length[bar]
-        N = np.array([1 - 3 * x**2 + 2 * x**3, l * (x - 2 * x**2 + x**3), 3 * x**2 - 2 * x**3, l * (x**3 - x**2)])
-        return N @ self.ends[bar]
+    def deflection(self, bar: int, at: float | np.ndarray) -> np.ndarray:
+        """w (..., r) at the shares `at` (...) of the length of one bar."""
+        return np.asarray(at)[..., None] ** np.arange(4) @ self.cubic[bar]
+
+    @cached_property
+    def cubic(self) -> np.ndarray:
+        """Deflections (b, 4, r) by powers of the share of the length."""
+        return beam.CUBIC.T @ (self.ends * np.stack([self.length**0, self.length] * 2, axis=1)[:, :, None])
 
     @cached_property
     def twins(self) -> dict[tuple[int, int], list[int]]:

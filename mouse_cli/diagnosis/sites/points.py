@@ -87,11 +87,12 @@ def sized(
     change: Callable[[np.ndarray, np.ndarray], Change],
     extend: Callable[..., Problem],
 ) -> list[Recipe]:
-    """What has one size, at each of `points`; starts: how many sizes to begin from along a line, where each start helps its
+    """What is proportional to one size, at each of `points`; starts: how many to begin from along a line, where each helps its
     neighbours, and at a single place.
     """
     many = lambda point: steps(size, starts[0] if point.unknown else starts[1])
-    return [placed(candidate, point, (size,), (many(point),), change, extend) for point in points]
+    made = (placed(candidate, point, (size,), (many(point),), change, extend) for point in points)
+    return [replace(one, linear=0) for one in made]
 
 
 def _shared(found: list[Points]) -> list[Points]:

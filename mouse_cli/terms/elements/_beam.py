@@ -31,7 +31,7 @@ _SINGULAR = 1e-10  # of eigenvalues of a matrix with unit diagonal
 _SHEARED = np.sqrt(2) - 1  # see `inertial`
 POINTS, WEIGHTS = (_POINTS + 1) / 2, _WEIGHTS / 2
 _POWERS = np.array([2, 3, 2, 3])  # of the length in integrals of shapes that have their derivatives at the ends
-_CUBIC = np.array(
+CUBIC = np.array(
     [[1.0, 0, -3, 2], [0, 1, -2, 1], [0, 0, 3, -2], [0, 0, -1, 1]]
 )  # shapes on a unit length, by powers of x
 
@@ -155,7 +155,7 @@ def _past() -> np.ndarray:
     powers = np.zeros((4, 6))
     powers[:, 0], powers[:, 1] = 1 / (n + 2), -1 / (n + 1)
     powers[n, n + 2] += 1 / ((n + 1) * (n + 2))
-    return _CUBIC @ powers
+    return CUBIC @ powers
 
 
 @cache

@@ -1,6 +1,7 @@
 """The modal test as a diagnosis sees it: logarithms of frequencies, and shapes of unknown sign and length."""
 
 from copy import copy
+from functools import cached_property
 
 import numpy as np
 
@@ -43,8 +44,7 @@ class Data:
 
     def loosened(self, of_frequencies: np.ndarray, of_shapes: np.ndarray) -> "Data":
         """The same data with further errors: sd of ln f (m,), and of shapes (s, m) at their own scale."""
-        found = copy(self)
-        found.sd_log = np.hypot(self.sd_log, of_frequencies)
+        found = self._at(np.hypot(self.sd_log, of_frequencies))
         sd = np.hypot(1 / np.where(self.has_shape, self._w, 1.0), of_shapes)
         found._w = np.where(self.has_shape, 1 / sd, 0.0)
         found._y = np.nan_to_num(self.test.shapes) * found._w
@@ -53,12 +53,18 @@ class Data:
 
     def sharpened(self, known: np.ndarray) -> "Data":
         """The same data without the errors `known` (m,), sd of ln f, where these are unknowns of their own."""
-        found = copy(self)
-        found.sd_log = np.sqrt(np.maximum(self.sd_log**2 - known**2, (1e-3 * self.sd_log) ** 2))
+        found = self._at(np.sqrt(np.maximum(self.sd_log**2 - known**2, (1e-3 * self.sd_log) ** 2)))
         found.slack += found.log_sd - self.log_sd
         return found
 
-    @property
+    def _at(self, sd_log: np.ndarray) -> "Data":
+        """The same data at other sd of ln f (m,)."""
+        found = copy(self)
+        found.__dict__.pop("theory", None)
+        found.sd_log = sd_log
+        return found
+
+    @cached_property
     def theory(self) -> np.ndarray:
         """sd of ln f (m,) beside that of the measurement: what theory and numerics leave; theory alone where none was measured."""
         with np.errstate(invalid="ignore"):

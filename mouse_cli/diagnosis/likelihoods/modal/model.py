@@ -1,19 +1,19 @@
 """A reduced model with causes added to it: what it predicts at any parameters and sizes, and by which derivatives."""
 
 from collections.abc import Iterator
-from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe
+from mouse_cli.diagnosis.likelihoods.modal.carrying import Carrying
 from mouse_cli.diagnosis.likelihoods.modal.growing import growing, grown
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.likelihoods.modal.softened import Softened
 from mouse_cli.diagnosis.likelihoods.modal.turning import measured, turned
 
 _STEP = 1e-5  # of a range, for derivatives of matrices
+_KEPT = 4  # points
 
 Pushed = tuple[np.ndarray, np.ndarray, np.ndarray]  # (p, size, m) (dK - lambda dM) x, (p, m) x'dM x, (p, s, m) dS x
 Parts = list[tuple[Change, float]]  # changes and their weights, whose sum is a derivative
@@ -21,7 +21,7 @@ Softer = tuple[np.ndarray, np.ndarray]  # bars (c,), and what their stiffness ga
 Stencil = tuple[int, Parts, list[Softer]]  # number of a recipe, and the derivative of what it does
 
 
-class Model(Softened):
+class Model(Carrying):
     """A reduced model with causes: what it predicts at x, and by which derivatives."""
 
     def __init__(self, base: Reduced, recipes: tuple[Recipe, ...] = ()):
@@ -33,6 +33,7 @@ class Model(Softened):
         self.bounds = np.concatenate([np.zeros((0, 2)), *(recipe.bounds for recipe in recipes)])
         self.width = self.bounds[:, 1] - self.bounds[:, 0]
         self._slopes: tuple[Point, np.ndarray] | None = None
+        self._points: dict[bytes, Point | None] = {}
         last, self.places = base.r, []
         for recipe in recipes:
             self.places.append(np.concatenate([np.arange(base.r), last + np.arange(recipe.own)]).astype(int))
@@ -47,7 +48,7 @@ class Model(Softened):
         """K, M (size, size) and sensing (s, size) that the causes add at x (k + t,)."""
         changes = self.changes(x[self.k :])
         K, M, S = self.summed([(i, grown(self, i, change, x)) for i, change in enumerate(changes)])
-        self._crossed(K, M)
+        self.crossed(K, M)
         if self.following is not None:
             step = self.base.step(x[: self.k])
             for into, slopes in zip((K, M), self.following, strict=True):
@@ -62,7 +63,7 @@ class Model(Softened):
         K, M = np.zeros((2, self.size, self.size))
         S = np.zeros((self.base.sensing.shape[0], self.size))
         for i, change in parts:
-            at, G = self.places[i], self._carried(i)
+            at, G = self.places[i], self.within[i]
             block = (slice(len(at)),) * 2 if at[-1] == len(at) - 1 else np.ix_(at, at)
             for into, matrix in ((K, change.K), (M, change.M)):
                 if matrix is not None:
@@ -73,61 +74,15 @@ class Model(Softened):
                 S[:, at] += change.sensing
         return K, M, S
 
-    def _crossed(self, K: np.ndarray, M: np.ndarray) -> None:
-        """Adds what is between the own degrees of freedom of two causes that both carry the model along."""
-        own = [j for j, recipe in enumerate(self.recipes) if recipe.carried is not None]
-        for i, j in ((i, j) for i in own for j in own if i != j):
-            one, other = self.recipes[i].carried, self.recipes[j].carried
-            at = np.ix_(self.places[i][self.base.r :], self.places[j][self.base.r :])
-            K[at] += one.whole.T @ other.K
-            M[at] += one.whole.T @ other.M
-
-    @cached_property
-    def following(self) -> tuple[np.ndarray, np.ndarray] | None:
-        """What the deck's parameters, along each of d directions, add to K and M (d, size, size) of the causes; None: nothing."""
-        own = [(i, recipe.carried) for i, recipe in enumerate(self.recipes) if recipe.carried]
-        if not own:
-            return None
-        K, M = np.zeros((2, self.base.directions.shape[1], self.size, self.size))
-        for i, carried in own:
-            at = self.places[i]
-            for into, slopes in zip((K, M), carried.slopes, strict=True):
-                into[:, at[:, None], at] += slopes
-            for j, other in own:
-                if i != j:
-                    between = (slice(None), *np.ix_(self.places[j][self.base.r :], at[self.base.r :]))
-                    for into, slopes in zip((K, M), carried.across(other.whole), strict=True):
-                        into[between] += slopes
-        return K, M
-
-    def followed(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
-        """Its derivatives by z (k, size, size)."""
-        if self.following is None:
-            return None
-        rates = self.base.rates(z)
-        return tuple(np.tensordot(rates, slopes, 1) for slopes in self.following)
-
-    def _carried(self, i: int) -> np.ndarray | None:
-        """Coordinates of cause i from those of all (., size), where other causes carry the model along."""
-        r, at = self.base.r, self.places[i]
-        others = [j for j, recipe in enumerate(self.recipes) if j != i and recipe.carried is not None]
-        if not others or self.recipes[i].carried is not None:
-            return None
-        G = np.zeros((len(at), self.size))
-        G[range(len(at)), at] = 1.0
-        for j in others:
-            G[:r, self.places[j][r:]] = self.recipes[j].carried.model
-        return G
-
-    def moved(self, X: np.ndarray) -> np.ndarray:
-        """Shapes (r, m) of the structure, causes that carry it included, in coordinates of the base, from X (size or more, m)."""
-        own = [(each.carried.model, at) for each, at in zip(self.recipes, self.places, strict=True) if each.carried]
-        return X[: self.base.r] + sum(along @ X[at[self.base.r :]] for along, at in own)
-
     def point(self, x: np.ndarray) -> Point | None:
-        """The model at x (k + t,); None where it is not physical."""
-        found = self.solved(x)
-        return None if found is None else self.paired(x, *found)
+        """The model at x (k + t,); None where it is not physical. Kept for a while: searches begin where points were compared."""
+        key = x.tobytes()
+        if key not in self._points:
+            if len(self._points) == _KEPT:
+                del self._points[next(iter(self._points))]
+            found = self.solved(x)
+            self._points[key] = None if found is None else self.paired(x, *found)
+        return self._points[key]
 
     def solved(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
         """Eigenvalues (size,) and shapes X (size, size) at x (k + t,), and sensing (s, size) that the causes add; None likewise."""
@@ -159,64 +114,54 @@ class Model(Softened):
 
     def _jacobian(self, at: Point) -> np.ndarray:
         X, m = at.X, at.which
-        forces, inertia, sensed = (
-            np.concatenate(pair) for pair in zip(self._by_deck(at), self._by_causes(at), strict=True)
-        )
+        u, lam = X[:, m], at.eigenvalues[m]
+        shape = (self.k + self.t, self.size, len(m))
+        pushed = np.zeros(shape), np.zeros(shape[::2]), np.zeros((shape[0], len(at.seen), shape[2]))
+        self._by_deck(at, u, lam, pushed)
+        self._by_causes(at, u, lam, pushed)
+        forces, inertia, sensed = pushed
         G = (np.swapaxes(forces, 1, 2).reshape(-1, self.size) @ X).reshape(len(forces), len(m), self.size)
-        apart = at.eigenvalues[m][:, None] - at.eigenvalues
-        apart[np.abs(apart) < 1e-9 * np.abs(at.eigenvalues[m])[:, None]] = np.inf
+        apart = lam[:, None] - at.eigenvalues
+        apart[np.abs(apart) < 1e-9 * np.abs(lam)[:, None]] = np.inf
         d_lambda = G[:, np.arange(len(m)), m]
         d_seen = np.swapaxes((G / apart) @ at.seen.T, 1, 2) - 0.5 * inertia[:, None] * at.seen[:, m] + sensed
         return at.jacobian(self.base.data, d_lambda.T, np.moveaxis(d_seen, 0, -1))
 
-    def _by_deck(self, at: Point) -> Pushed:
-        """What the deck's parameters do to the modes `which` of a point."""
-        r, X, m = self.base.r, at.X, at.which
-        stiff, moved = self.base.moved(at.x[: self.k], X[:r, m])
-        forces, inertia = np.zeros((self.k, self.size, len(m))), np.einsum("prm,rm->pm", moved, X[:r, m])
-        forces[:, :r] = stiff - moved * at.eigenvalues[m]
-        forces += self._following(at)
-        if (followed := self.followed(at.x[: self.k])) is not None:
-            moved = followed[1] @ X[:, m]
-            forces += followed[0] @ X[:, m] - moved * at.eigenvalues[m]
-            inertia += np.einsum("prm,rm->pm", moved, X[:, m])
+    def _by_deck(self, at: Point, u: np.ndarray, lam: np.ndarray, pushed: Pushed) -> None:
+        """Into the first k of `pushed` what the deck's parameters do to modes u (size, m) of eigenvalues lam (m,)."""
+        r, k, z = self.base.r, self.k, at.x[: self.k]
+        forces, inertia, _ = pushed
+        stiff, moved = self.base.moved(z, u[:r])
+        forces[:k, :r], inertia[:k] = stiff - moved * lam, np.einsum("prm,rm->pm", moved, u[:r])
+        forces[:k] += self._following(at)
+        if (followed := self.followed(z)) is not None:
+            moved = followed[1] @ u
+            forces[:k] += followed[0] @ u - moved * lam
+            inertia[:k] += np.einsum("prm,rm->pm", moved, u)
         for i, by_K, by_M, change in growing(self, at.x):
-            u = self._own(i, X[:, m])
-            stiff, moved = by_K[:, None, None] * (change.K @ u), by_M[:, None, None] * (change.M @ u)
-            forces += self._lifted(i, stiff - moved * at.eigenvalues[m])
-            inertia += np.einsum("prm,rm->pm", moved, u)
-        return forces, inertia, np.zeros((self.k, len(at.seen), len(m)))
+            own = self.own_of(i, u)
+            stiff, moved = by_K[:, None, None] * (change.K @ own), by_M[:, None, None] * (change.M @ own)
+            self.lift(i, stiff - moved * lam, forces[:k])
+            inertia[:k] += np.einsum("prm,rm->pm", moved, own)
 
-    def _own(self, i: int, X: np.ndarray) -> np.ndarray:
-        """Shapes (., m) in the coordinates of cause i."""
-        G = self._carried(i)
-        return X[self.places[i]] if G is None else G @ X
-
-    def _lifted(self, i: int, push: np.ndarray) -> np.ndarray:
-        """Forces (..., size, m) by those in the coordinates of cause i."""
-        G = self._carried(i)
-        if G is not None:
-            return G.T @ push
-        found = np.zeros((*push.shape[:-2], self.size, push.shape[-1]))
-        found[..., self.places[i], :] = push
-        return found
-
-    def _by_causes(self, at: Point) -> Pushed:
-        """What the coordinates of the causes do to them: matrices meet the shapes one by one, and are never summed."""
-        X, eigenvalues = at.X[:, at.which], at.eigenvalues[at.which]
-        forces, inertia = np.zeros((self.t, *X.shape)), np.zeros((self.t, X.shape[1]))
-        sensed = np.zeros((self.t, len(at.seen), X.shape[1]))
-        for j, (i, parts, softer) in enumerate(self.stencils(at.x)):
-            u = self._own(i, X)
-            K, M, S = (_applied(parts, name, u) for name in ("K", "M", "sensing"))
-            push = (0.0 if K is None else K) - (0.0 if M is None else M * eigenvalues)
-            forces[j] = self._lifted(i, push) if np.ndim(push) else 0.0
-            inertia[j] = 0.0 if M is None else np.einsum("rm,rm->m", M, u)
-            sensed[j] = 0.0 if S is None else S
+    def _by_causes(self, at: Point, u: np.ndarray, lam: np.ndarray, pushed: Pushed) -> None:
+        """Likewise behind them what the coordinates of the causes do: matrices meet the shapes one by one, and are never summed."""
+        forces, inertia, sensed = pushed
+        shapes = [self.own_of(i, u) for i in range(len(self.recipes))]
+        for j, (i, parts, softer) in enumerate(self.stencils(at.x), self.k):
+            own = shapes[i]
+            for change, weight in parts:
+                if change.K is not None:
+                    self.lift(i, weight * (change.K @ own), forces[j])
+                if change.M is not None:
+                    moved = weight * (change.M @ own)
+                    self.lift(i, -lam * moved, forces[j])
+                    inertia[j] += np.einsum("rm,rm->m", moved, own)
+                if change.sensing is not None:
+                    sensed[j] += weight * (change.sensing @ own)
             for bars, core in softer:
                 rows = self.strain[bars].reshape(-1, self.size)
-                forces[j] += rows.T @ (core @ (rows @ X).reshape(len(bars), 3, -1)).reshape(len(rows), -1)
-        return forces, inertia, sensed
+                forces[j] += rows.T @ (core @ (rows @ u).reshape(len(bars), 3, -1)).reshape(len(rows), -1)
 
     def _following(self, at: Point) -> np.ndarray | float:
         """Forces (k, size, m) on the same modes by what softens bars, as it follows their stiffness."""
@@ -257,8 +202,9 @@ class Model(Softened):
         z, c = x[: self.k], x[self.k :]
         changes = self.changes(c)
         for i, (recipe, own) in enumerate(zip(self.recipes, self.own, strict=True)):
-            for j in range(own.start, own.stop):
-                each = ((self._with(recipe, c[own], j - own.start, at), weight) for at, weight in self.slope(c, j))
+            for j, at in enumerate(c[own].tolist()):
+                weights = recipe.rate(j, at, _STEP * self.width[own][j])
+                each = ((self._with(recipe, c[own], j, value), weight) for value, weight in weights)
                 parts = [(grown(self, i, change, x), weight) for change, weight in each]
                 yield i, parts, self._softened(z, changes, i, parts)
 
@@ -268,6 +214,8 @@ class Model(Softened):
         return self.recipes[i].slope(j - self.own[i].start, c[j], _STEP * self.width[j])
 
     def _with(self, recipe: Recipe, c: np.ndarray, j: int, value: float) -> Change:
+        if value == c[j]:
+            return recipe.at(c)
         there = c.copy()
         there[j] = value
         return recipe.change(recipe.values(there))
@@ -284,12 +232,6 @@ class Model(Softened):
             else:
                 found.append((bars, weight * core))
         return [(bars, core * self.follow(bars, z)) for bars, core in found]
-
-
-def _applied(parts: Parts, name: str, u: np.ndarray) -> np.ndarray | None:
-    """The sum of matrices `name` of `parts`, each times its weight, times u; None where they have none."""
-    there = [(getattr(one, name), weight) for one, weight in parts]
-    return None if there[0][0] is None else sum(weight * (matrix @ u) for matrix, weight in there)
 
 
 def modes_of(K: np.ndarray, M: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -59,7 +59,7 @@ def measured(shapes: np.ndarray, modes: np.ndarray, turn: Turn | None) -> np.nda
 
 def turned(data: Data, eigenvalues: np.ndarray, seen: np.ndarray, modes: np.ndarray) -> Turn | None:
     """How the measured ones of the modes with eigenvalues (k,) and shapes `seen` (s, k) turn; None: no two are so close."""
-    if not data.s:
+    if not data.s or _apart(data, eigenvalues, modes):
         return None
     which, pairs, sd = _close(data, eigenvalues, modes)
     if not len(pairs):
@@ -71,6 +71,14 @@ def turned(data: Data, eigenvalues: np.ndarray, seen: np.ndarray, modes: np.ndar
     nats = 0.5 * np.linalg.slogdet(np.eye(len(P)) + known.T @ known)[1]
     free = float((_EVEN / (P + _EVEN))[J.any(axis=0)].sum())
     return Turn(which, mixed, t, J, axes, sizes, float(nats), free)
+
+
+def _apart(data: Data, eigenvalues: np.ndarray, modes: np.ndarray) -> bool:
+    """Whether every measured mode is so far from its neighbours that no two can be close: most are, and pairs need no look."""
+    own = eigenvalues[modes]
+    beside = np.concatenate([[-np.inf], eigenvalues, [np.inf]])
+    gap = np.minimum(own - beside[modes], beside[modes + 2] - own)
+    return bool((_COVERED * gap > np.sqrt(2) * data.theory * own).all())
 
 
 def _close(

@@ -1,0 +1,50 @@
+"""Sets of mechanisms that a search has found, the best fit of each, and what it has tried."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.search.fit import Fit
+from mouse_cli.diagnosis.search.superposed import text
+
+_TRIFLE = 0.01  # of a range, or of a prior standard deviation, by which two places to begin from are as one
+
+
+def key(one: Fit) -> tuple[str, ...]:
+    """Keys of the mechanisms of a fit, sorted; of several parts that of each, for they take as many sizes as so many mechanisms."""
+    return tuple(sorted(recipe.candidate.key for recipe in one.recipes for _ in recipe.parts or (None,)))
+
+
+class Found(dict[tuple[str, ...], Fit]):
+    """The best fit of each set of candidates; what was tried beside what is there already is not tried again."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._tried: list[tuple[str, Fit]] = []
+
+    def untried(self, first: Fit, names: list[str]) -> list[str]:
+        """Those of `names` that were not tried beside the same causes as in `first` at nearly the same x."""
+        known = {name for name, other in self._tried if _alike(first, other)}
+        new = [name for name in names if name not in known]
+        self._tried += [(name, first) for name in new]
+        return new
+
+
+def best_of(found: Found, count: int) -> list[Fit]:
+    """The best of them."""
+    return sorted(found.values(), key=lambda one: -one.log_evidence)[:count]
+
+
+def keep(found: Found, one: Fit | None) -> None:
+    """Into `found` a fit that is better than what is there."""
+    if one is None:
+        return
+    other = found.get(key(one))
+    if other is None or one.log_evidence > other.log_evidence:
+        found[key(one)] = one
+
+
+def _alike(one: Fit, other: Fit) -> bool:
+    """Whether both are the same causes at places, sizes and parameters that are as one to begin from."""
+    if list(map(text, one.recipes)) != list(map(text, other.recipes)) or key(one) != key(other):
+        return False
+    wide = np.concatenate([np.ones(one.model.k), one.model.width])
+    return bool((np.abs(one.point.x - other.point.x) <= _TRIFLE * wide).all())
