@@ -5,6 +5,8 @@ import pytest
 from scipy.linalg import eigh
 
 from mouse_cli.diagnosis.diagnose import diagnose
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.model.diagnosis import NAMED
@@ -87,3 +89,12 @@ def test_a_mass_without_rotary_inertia_is_a_mass():
     """Its place is a node, where a body need not pay for a place along the shaft: what data do not feel is no part of the name."""
     found = diagnose(assemble(yaml_deck.read(deck(*truth(COARSE, 2.0, 0.0)), "shaft.yaml")))
     assert (found.kind, [cause.physics for cause in found.best.causes]) == (NAMED, ["mass"])
+
+
+def test_masses_begin_where_the_deck_has_some():
+    """A pallet that weighs twice: a mass at its node had a fit too narrow for places that are spread along the line alone."""
+    point = f"      - {{id: 90, type: mass, nodes: [{COARSE - 3}], mass: 2.0}}\n"
+    problem = assemble(yaml_deck.read(deck(*truth(COARSE, 2.0, 0.02), point), "shaft.yaml"))
+    model, key = reduced(problem, problem.prior.mean), registry()["mass"]
+    places = np.concatenate([recipe.grid[:, -1] for recipe in key.recipes(model, key) if len(recipe.unknowns) > 1])
+    assert np.abs(places - (COARSE - 4) * LENGTH / COARSE).min() < 1e-9

@@ -148,10 +148,20 @@ def _lines(model: Reduced, direction: int | None) -> list[Points]:
             return here if direction is None else replace(here, text=f"{here.text}, {DIRECTIONS[direction]}")
 
         starts = np.concatenate([[0.0], run.starts(2 * _EACH, run.length / total), [run.length]])
+        if direction is None:  # what weighs more than the deck says may be what weighs there already
+            starts = np.union1d(starts, _laden(model, run))
         where = Unknown(PLACE, "m", 0.0, run.length, log=False)
         dofs = (0, 1, 2) if direction is None else (direction,)
         found.append(Points((where,), starts[:, None], motion, site, run.length / bars.span, dofs))
     return found
+
+
+def _laden(model: Reduced, run: Line) -> np.ndarray:
+    """Places on a line at nodes with point masses, a few."""
+    masses = [each.nodes.ravel() for each in model.problem.mesh.elements if each.type == "mass"]
+    first, members = run.bars.before[run.members], run.bars.nodes[run.members]
+    at = first[np.isin(members[:, 0], np.concatenate([*masses, np.zeros(0, int)]))]
+    return at[:_EACH]
 
 
 def _as_one(run: Line, direction: int, used: np.ndarray) -> bool:

@@ -10,12 +10,11 @@ import numpy as np
 
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.places import every_beam
-from mouse_cli.dynamics.eigen import dense_solution
-from mouse_cli.model.arrays import dense
+from mouse_cli.dynamics.solver import EigenSolver
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
 
-_LARGEST = 600  # degrees of freedom of the finer model up to which it is solved
+_SMALL, _LARGEST = 600, 20_000  # degrees of freedom of the finer model, about, up to which it is small; is solved
 _TELLING = 0.3  # of a standard deviation
 
 
@@ -30,7 +29,7 @@ class Numerics:
 def numerics(problem: Problem, theta: np.ndarray, numbers: np.ndarray, sd: np.ndarray) -> Numerics:
     """What mesh and lumping do to the modes `numbers` (m,), from 0, of `problem` at theta, beside the sd (m,) of ln f."""
     still = Numerics(np.zeros(len(numbers)))
-    if not len(numbers) or not refinable(problem):
+    if not len(numbers) or not refinable(problem, _LARGEST):
         return still
     finer = halved(problem)
     found = [_logarithms(each, theta, int(numbers.max()) + 1) for each in (problem, finer)]
@@ -49,10 +48,10 @@ def numerics(problem: Problem, theta: np.ndarray, numbers: np.ndarray, sd: np.nd
     return Numerics(moved, (told,))
 
 
-def refinable(problem: Problem) -> bool:
-    """Whether the deck has beams, and few enough degrees of freedom, to be looked at on half as long elements."""
+def refinable(problem: Problem, most: int = _SMALL) -> bool:
+    """Whether the deck has beams, and at most so many degrees of freedom, to be looked at on half as long elements."""
     beams = problem.mesh is not None and any(each.type == "beam" for each in problem.mesh.elements)
-    return beams and 2 * problem.structure.n <= _LARGEST
+    return beams and 2 * problem.structure.n <= most
 
 
 def halved(problem: Problem) -> Problem:
@@ -68,7 +67,6 @@ def halved(problem: Problem) -> Problem:
 
 def _logarithms(problem: Problem, theta: np.ndarray, count: int) -> np.ndarray:
     """ln f of the lowest modes, -inf for rigid ones."""
-    K, M = (dense(matrix) for matrix in assembly(problem).matrices(theta))
-    eigenvalues = dense_solution(K, M).eigenvalues[:count]
+    eigenvalues = EigenSolver().solve(*assembly(problem).matrices(theta), count).eigenvalues[:count]
     with np.errstate(divide="ignore", invalid="ignore"):
         return 0.5 * np.log(np.where(eigenvalues > 1e-9 * abs(eigenvalues[-1]), eigenvalues, 0.0))
