@@ -5,7 +5,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
-from mouse_cli.diagnosis.effects.released import SOFTEST, STIFFEST, Free, followed, free_model, resistance, static
+from mouse_cli.diagnosis.effects.released import (
+    SOFTEST,
+    STIFFEST,
+    Followed,
+    Free,
+    followed,
+    free_model,
+    resistance,
+    static,
+)
 from mouse_cli.diagnosis.extend.supports import with_motions
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.model.diagnosis import Site
@@ -37,15 +46,12 @@ def named(model: Reduced, candidate, turning: bool) -> list[Recipe]:
     motions = [each for kind in sets for each in kind]
     s, pattern = _together(motions)
     motion = static(model, free, s, pattern)
-    K, M, carried = followed(model, free, motion)
-    reading = free.read(motion)
+    moved = followed(model, free, motion)
     start, recipes = model.r, []
     for kind in sets:
         for each in kind:
             which = list(range(start - model.r, start - model.r + len(each.labels)))
-            recipes.append(
-                _recipe(model, candidate, each, which, (K, M, reading, carried), len(kind) * len(sets), turning)
-            )
+            recipes.append(_recipe(model, candidate, each, which, moved, len(kind) * len(sets), turning))
             start += len(each.labels)
     return recipes
 
@@ -109,12 +115,12 @@ def _together(motions: list[Motions]) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _recipe(
-    model: Reduced, candidate, own: Motions, which: list[int], moved: tuple, count: int, turning: bool
+    model: Reduced, candidate, own: Motions, which: list[int], moved: Followed, count: int, turning: bool
 ) -> Recipe:
-    K, M, reading, carried = moved
+    K, M = moved.K, moved.M
     r, one = model.r, len(own.labels) == 1
     at = np.concatenate([np.arange(r), r + np.array(which)])
-    own_rows, sensing = np.ix_(at, at), np.hstack([np.zeros((len(reading), r)), reading[:, which]])
+    own_rows, sensing = np.ix_(at, at), moved.sensing[:, at]
     against = resistance(model, K[own_rows], M[own_rows], own.bed)
     unit = "N m/rad" if turning else "N/m"
     k = Unknown("stiffness of the support", unit, SOFTEST * float(against.min()), STIFFEST * float(against.max()))
@@ -138,5 +144,5 @@ def _recipe(
         own=len(which),
         log_prior=-float(np.log(count)),
         extend=extend,
-        carried=carried.part(which, r),
+        carried=moved.carried.part(which, r),
     )

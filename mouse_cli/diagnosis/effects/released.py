@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Carried
+from mouse_cli.diagnosis.effects.change import Carried, Change
 from mouse_cli.diagnosis.extend.edit import Edit, moved, moved_channels, moved_functions
 from mouse_cli.diagnosis.likelihoods.modal.directions import projected
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
@@ -40,14 +40,35 @@ class Free:
         """Number of degrees of freedom."""
         return self.problem.structure.n
 
-    def read(self, motion: np.ndarray) -> np.ndarray:
-        """What sensors read of a motion (n, a)."""
-        return self.problem.test.read(motion)
-
     def reactions(self, model: Reduced, s: np.ndarray, modes: slice) -> np.ndarray:
         """Loads (s, m) that modes put on the supports s."""
         V, f = model.V[:, modes], self.deck
         return self.K[s][:, f] @ V - (self.M[s][:, f] @ V) * model.eigenvalues[modes]
+
+
+@dataclass(frozen=True)
+class Followed:
+    """What a degrees of freedom add to a model of r coordinates that follows them: K, M (r + a, r + a).
+
+    sensing (s, r + a): what sensors read of them; carried: how they carry the model along.
+    """
+
+    K: np.ndarray
+    M: np.ndarray
+    sensing: np.ndarray
+    carried: Carried
+
+    def part(self, which: list[int], r: int) -> "Followed":
+        """The same of a part of the degrees of freedom."""
+        at = np.concatenate([np.arange(r), r + np.array(which)])
+        own = np.ix_(at, at)
+        return Followed(self.K[own], self.M[own], self.sensing[:, at], self.carried.part(which, r))
+
+    def on_springs(self, stiffness: np.ndarray) -> Change:
+        """Each degree of freedom on a spring to the ground, of `stiffness` (a,)."""
+        K, own = self.K.copy(), np.arange(len(self.K) - len(stiffness), len(self.K))
+        K[own, own] += stiffness
+        return Change(K, self.M, self.sensing)
 
 
 def free_model(model: Reduced) -> Free:
@@ -69,8 +90,8 @@ def static(model: Reduced, free: Free, s: np.ndarray, pattern: np.ndarray) -> np
     return motion
 
 
-def followed(model: Reduced, free: Free, motion: np.ndarray) -> tuple[np.ndarray, np.ndarray, Carried]:
-    """K and M (r + a, r + a) that a motion (n, a) adds to those of the model, and how it carries the model along."""
+def followed(model: Reduced, free: Free, motion: np.ndarray) -> Followed:
+    """What a motion (n, a) adds to the model."""
     f, (K, M) = free.deck, (free.K, free.M)
     whole = np.zeros((free.n, model.r + motion.shape[1]))
     whole[f, : model.r], whole[:, model.r :] = model.V, motion
@@ -81,7 +102,10 @@ def followed(model: Reduced, free: Free, motion: np.ndarray) -> tuple[np.ndarray
     within = model.V.T @ (M[f][:, f] @ motion[f])
     none = np.zeros((0, 3, motion.shape[1]))
     strain = none if model.bars is None else strained(free.problem, model.bars, motion)
-    return *blocks, Carried(within, motion, K @ motion, M @ motion, f, slopes, _across(model, stack, motion), strain)
+    reading = free.problem.test.read(motion)
+    sensing = np.hstack([np.zeros((len(reading), model.r)), reading])
+    carried = Carried(within, motion, K @ motion, M @ motion, f, slopes, _across(model, stack, motion), strain)
+    return Followed(*blocks, sensing, carried)
 
 
 def resistance(model: Reduced, K: np.ndarray, M: np.ndarray, bed: np.ndarray | None = None) -> np.ndarray:

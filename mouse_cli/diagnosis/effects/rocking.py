@@ -11,7 +11,7 @@ from itertools import combinations
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product, steps
-from mouse_cli.diagnosis.effects.released import followed, free_model, static
+from mouse_cli.diagnosis.effects.released import Followed, followed, free_model, static
 from mouse_cli.diagnosis.extend.base import joined, on_joints
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
@@ -57,8 +57,8 @@ def _turned(model: Reduced, candidate: Candidate, axis: Axis) -> Recipe:
     for label, factor in axis.heights.items():
         if label in free.place:
             motion[free.place[label], 0] = factor
-    K, M, carried = followed(model, free, motion)
-    r = model.r
+    moved = followed(model, free, motion)
+    r, K, M, carried = model.r, moved.K, moved.M, moved.carried
     K[:, r:], K[r:, :] = 0.0, 0.0
     slopes = carried.slopes
     slopes[0][:, :, r:], slopes[0][:, r:, :] = 0.0, 0.0
@@ -68,7 +68,6 @@ def _turned(model: Reduced, candidate: Candidate, axis: Axis) -> Recipe:
     direction = DIRECTIONS[axis.rotation]
     k = Unknown("stiffness of the foundation", "N m/rad", *_range(model, inertia))
     J = Unknown("rotary inertia of floors and foundation", "kg m2", _SMALL * inertia, _LARGE * inertia)
-    sensing = np.hstack([np.zeros((model.sensing.shape[0], r)), free.read(motion)])
     number = int(model.problem.mesh.node_ids[axis.node])
     position = tuple(model.problem.mesh.coordinates[axis.node].tolist())
     site = Site("node", (number,), position, f"the base at node {number}, {direction}")
@@ -81,7 +80,7 @@ def _turned(model: Reduced, candidate: Candidate, axis: Axis) -> Recipe:
     return Recipe(
         candidate,
         (k, J),
-        lambda values: Change(K + values[0] * one, M + values[1] * one, sensing),
+        lambda values: Change(K + values[0] * one, M + values[1] * one, moved.sensing),
         product(steps(k, _STARTS[0]), steps(J, _STARTS[1])),
         lambda values: site,
         own=1,
@@ -109,44 +108,32 @@ def _blocks(model: Reduced, candidate: Candidate, found: Base | None) -> list[Re
     chosen = loaded(load)
     if not chosen:
         return []
-    motion = static(model, free, s, found.pattern[:, chosen])
-    K, M, carried = followed(model, free, motion)
-    reading = free.read(motion)
+    moved = followed(model, free, static(model, free, s, found.pattern[:, chosen]))
     turns = [i for i, d in enumerate(chosen) if d > 2]
     sets = [[i] for i in range(len(chosen))] + [list(pair) for pair in combinations(turns, 2)]
-    return [_block(model, candidate, found, [chosen[i] for i in own], (K, M, reading, carried), own) for own in sets]
+    return [_block(model, candidate, found, [chosen[i] for i in own], moved.part(own, model.r)) for own in sets]
 
 
-def _block(
-    model: Reduced, candidate: Candidate, found: Base, directions: list[int], parts: tuple, own: list[int]
-) -> Recipe:
-    """In `directions`, each with a stiffness of its own; parts: K, M, reading and motion of all, `own` those of this one."""
-    r, (K, M, reading, carried) = model.r, parts
-    at = np.concatenate([np.arange(r), r + np.array(own)])
-    K, M = K[np.ix_(at, at)], M[np.ix_(at, at)]
-    sensing = np.hstack([np.zeros((len(reading), r)), reading[:, own]])
+def _block(model: Reduced, candidate: Candidate, found: Base, directions: list[int], moved: Followed) -> Recipe:
+    """In `directions`, each with a stiffness of its own; moved: by these alone."""
     names = [DIRECTIONS[d] for d in directions]
     k = [
         Unknown(
             f"stiffness of the foundation, {name}",
             "N m/rad" if d > 2 else "N/m",
-            *_range(model, float(M[r + i, r + i])),
+            *_range(model, float(moved.M[model.r + i, model.r + i])),
         )
         for i, (d, name) in enumerate(zip(directions, names, strict=True))
     ]
-    rows = r + np.arange(len(own))
     site = Site(
         "node", found.numbers, found.centre, f"the foundation of all supports as one body, {' and '.join(names)}"
     )
 
     def change(values: np.ndarray) -> Change:
-        with_springs = K.copy()
-        with_springs[rows, rows] += values
-        return Change(with_springs, M, sensing)
+        return moved.on_springs(values)
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         return joined(problem, found, directions, values)
 
     grid = product(*(steps(each, 6 if len(k) == 1 else 4) for each in k))
-    part = carried.part(own, r)
-    return Recipe(candidate, tuple(k), change, grid, lambda values: site, len(own), extend=extend, carried=part)
+    return Recipe(candidate, tuple(k), change, grid, lambda values: site, len(k), extend=extend, carried=moved.carried)

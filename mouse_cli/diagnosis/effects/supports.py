@@ -5,18 +5,25 @@ from itertools import combinations
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Carried, Change, Recipe, Unknown, product, steps
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product, steps
 from mouse_cli.diagnosis.effects.named_supports import named
-from mouse_cli.diagnosis.effects.released import SOFTEST, STIFFEST, Free, followed, free_model, resistance, static
-from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.effects.released import (
+    SOFTEST,
+    STIFFEST,
+    Followed,
+    Free,
+    followed,
+    free_model,
+    resistance,
+    static,
+)
+from mouse_cli.diagnosis.effects.support_sets import by_direction, sprung, stiffness_name, support_sets, support_site
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
-from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
 
 _LOADED = 0.02  # share of the largest reaction of its kind below which a support is not loaded
-_TOGETHER = 16  # supports that may be flexible alike
 _MOST = 48  # supports that are looked at: those that bear most
 _STARTS = {1: 7, 2: 4}  # stiffnesses to begin from, of one, and of each of two
 _APART = (
@@ -26,25 +33,15 @@ _APART = (
 
 @dataclass(frozen=True)
 class Released:
-    """a supports, (node, direction) in `held`, and their motion: K (r + a, r + a) and M with the cause but without springs.
+    """a supports, (node, direction) in `held`, and their motion `moved`.
 
-    Those of the model itself are taken out. reading (s, a): what sensors read of them; resistance (a,): of the structure
-    against the motion of one support alone; load (a,): largest reactions in the lowest modes. carried: motion of the structure
-    with them.
+    resistance (a,): of the structure against the motion of one support alone; load (a,): largest reactions in the lowest modes.
     """
 
     held: tuple[tuple[int, int], ...]
-    K: np.ndarray
-    M: np.ndarray
-    reading: np.ndarray
+    moved: Followed
     resistance: np.ndarray
     load: np.ndarray
-    carried: Carried
-
-    def some(self, which: list[int], r: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """K, M and reading for a part of the supports."""
-        at = np.concatenate([np.arange(r), r + np.array(which)])
-        return self.K[np.ix_(at, at)], self.M[np.ix_(at, at)], self.reading[:, which]
 
 
 def yielding(model: Reduced, candidate: Candidate, turning: bool) -> list[Recipe]:
@@ -69,20 +66,10 @@ def yielding(model: Reduced, candidate: Candidate, turning: bool) -> list[Recipe
 
 def _sets(found: Released) -> tuple[list[list[list[int]]], ...]:
     """Supports by number that are flexible together, in lists of one stiffness each: single nodes, all alike, several apart."""
-    by: dict[int, list[int]] = {}
-    for i, (_, d) in enumerate(found.held):
-        by.setdefault(d, []).append(i)
-    strongest = sorted(by, key=lambda d: -sum(found.load[i] for i in by[d]))[:2]
-    at = {held: i for i, held in enumerate(found.held)}
-    both = [[[at[node, d]] for d in strongest] for node in dict.fromkeys(node for node, _ in found.held)
-            if len(strongest) == 2 and all((node, d) in at for d in strongest)]  # fmt: skip
-    many = {d: own for d, own in sorted(by.items()) if 1 < len(own) <= _TOGETHER}
-    alike = [[own] for own in many.values()]
-    if len(strongest) == 2 and all(d in many for d in strongest):
-        alike.append([many[d] for d in strongest])
-    few = [own for own in by.values() if len(own) <= _APART]
+    single, alike = support_sets(found.held, found.load)
+    few = [own for own in by_direction(found.held).values() if len(own) <= _APART]
     apart = [[[i] for i in some] for own in few for n in range(2, len(own) + 1) for some in combinations(own, n)]
-    return [[[i]] for i in range(len(found.held))] + both, alike, apart
+    return single, alike, apart
 
 
 def released(model: Reduced, kinds: range) -> Released | None:
@@ -94,9 +81,8 @@ def released(model: Reduced, kinds: range) -> Released | None:
     held, s, load = _loaded(model, held, free)
     if not held:
         return None
-    motion = static(model, free, s, np.eye(len(s)))
-    K, M, carried = followed(model, free, motion)
-    return Released(tuple(held), K, M, free.read(motion), resistance(model, K, M), load, carried)
+    moved = followed(model, free, static(model, free, s, np.eye(len(s))))
+    return Released(tuple(held), moved, resistance(model, moved.K, moved.M), load)
 
 
 def _candidates(model: Reduced, kinds: range) -> list[tuple[int, int]]:
@@ -130,28 +116,17 @@ def _recipe(
 ) -> Recipe:
     """sets: supports by number, those of each list with one stiffness."""
     unit, which = "N m/rad" if turning else "N/m", [i for own in sets for i in own]
-    k = [Unknown(_called(model, found, own, sets), unit, *_range(found, own)) for own in sets]
-    K, M, reading = found.some(which, model.r)
-    number, own_dofs = np.repeat(np.arange(len(sets)), [len(own) for own in sets]), np.arange(model.r, len(K))
-    sensing = np.hstack([np.zeros((len(reading), model.r)), reading])
-    site = _site(model.problem, [found.held[i] for i in which], len(which) > len(sets))
+    held = [[found.held[i] for i in own] for own in sets]
+    k = [Unknown(stiffness_name(model.problem, held, i), unit, *_range(found, own)) for i, own in enumerate(sets)]
+    moved = found.moved.part(which, model.r)
+    number = np.repeat(np.arange(len(sets)), [len(own) for own in sets])
+    site = support_site(model.problem, [found.held[i] for i in which], len(which) > len(sets))
 
     def change(values: np.ndarray) -> Change:
-        with_springs = K.copy()
-        with_springs[own_dofs, own_dofs] += values[number]
-        return Change(with_springs, M, sensing)
+        return moved.on_springs(values[number])
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
-        edit = Edit(problem)
-        for own, value in zip(sets, values, strict=True):
-            held = [found.held[i] for i in own]
-            nodes = [edit.index(int(model.problem.mesh.node_ids[node])) for node, _ in held]
-            direction = held[0][1]
-            edit.supports = [each for each in edit.supports if each not in {(node, direction) for node in nodes}]
-            springs = edit.add("spring", [[node] for node in nodes], {DIRECTIONS[direction]: value})
-            name = f"stiffness of {_site(model.problem, held).text}"
-            edit.bind(name, springs, (DIRECTIONS[direction],), unit=unit)
-        return edit.done()
+        return sprung(problem, model.problem, held, values, unit, released=True)
 
     return Recipe(
         candidate,
@@ -162,7 +137,7 @@ def _recipe(
         own=len(which),
         log_prior=share,
         extend=extend,
-        carried=found.carried.part(which, model.r),
+        carried=moved.carried,
         parts=_parts(model, found, which) if len(which) == len(sets) else (),
     )
 
@@ -173,28 +148,7 @@ def _parts(model: Reduced, found: Released, which: list[int]) -> tuple[str, ...]
     return tuple(f"{node}{d}" for node, d in names) if len({d for _, d in names}) == 1 else ()
 
 
-def _called(model: Reduced, found: Released, own: list[int], sets: list[list[int]]) -> str:
-    """What a stiffness is called: one of several by its direction, or by its node."""
-    if len(sets) == 1:
-        return "stiffness of the support"
-    node, d = found.held[own[0]]
-    apart = len({found.held[i][1] for each in sets for i in each}) == 1
-    return (
-        f"stiffness of the support{f' of node {model.problem.mesh.node_ids[node]}' if apart else f', {DIRECTIONS[d]}'}"
-    )
-
-
 def _range(found: Released, own: list[int]) -> tuple[float, float]:
     """From as good as free to as good as rigid, of supports with one stiffness."""
     against = found.resistance[own]
     return SOFTEST * float(against.min()), STIFFEST * float(against.max())
-
-
-def _site(problem: Problem, held: list[tuple[int, int]], alike: bool = True) -> Site:
-    ids = tuple(dict.fromkeys(int(problem.mesh.node_ids[node]) for node, _ in held))
-    direction = " and ".join(dict.fromkeys(DIRECTIONS[d] for _, d in held))
-    if len(ids) > 1:
-        how = "all alike" if alike else "each with a stiffness of its own"
-        return Site("node", ids, None, f"the supports of nodes {', '.join(map(str, ids))}, {direction}, {how}")
-    position = tuple(problem.mesh.coordinates[held[0][0]].tolist())
-    return Site("node", ids, position, f"the support of node {ids[0]}, {direction}")

@@ -1,0 +1,74 @@
+"""Supports of a mesh that act together: which, what they are called, and the deck with springs in them."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.model.diagnosis import Site
+from mouse_cli.model.geometry import DIRECTIONS
+from mouse_cli.model.problem import Problem
+
+_TOGETHER = 16  # supports that may be alike
+
+Held = tuple[int, int]  # node (index) and direction
+Sets = list[list[int]]  # supports by number, those of each list with one stiffness
+
+
+def support_sets(held: Sequence[Held], size: np.ndarray) -> tuple[list[Sets], list[Sets]]:
+    """Single supports, and those of one node in both directions of largest `size` (a,); all of a direction, and of both, alike."""
+    by = by_direction(held)
+    largest = sorted(by, key=lambda d: -sum(size[by[d]].tolist()))[:2]
+    at = {each: i for i, each in enumerate(held)}
+    nodes = dict.fromkeys(node for node, _ in held) if len(largest) == 2 else ()
+    both = [[[at[node, d]] for d in largest] for node in nodes if all((node, d) in at for d in largest)]
+    many = {d: own for d, own in sorted(by.items()) if 1 < len(own) <= _TOGETHER}
+    alike = [[own] for own in many.values()]
+    if len(largest) == 2 and all(d in many for d in largest):
+        alike.append([many[d] for d in largest])
+    return [[[i]] for i in range(len(held))] + both, alike
+
+
+def by_direction(held: Sequence[Held]) -> dict[int, list[int]]:
+    """Numbers of supports by their direction."""
+    found: dict[int, list[int]] = {}
+    for i, (_, d) in enumerate(held):
+        found.setdefault(d, []).append(i)
+    return found
+
+
+def support_site(problem: Problem, held: Sequence[Held], alike: bool = True) -> Site:
+    """One support, or several."""
+    ids = tuple(dict.fromkeys(int(problem.mesh.node_ids[node]) for node, _ in held))
+    direction = " and ".join(dict.fromkeys(DIRECTIONS[d] for _, d in held))
+    if len(ids) > 1:
+        how = "all alike" if alike else "each with a stiffness of its own"
+        return Site("node", ids, None, f"the supports of nodes {', '.join(map(str, ids))}, {direction}, {how}")
+    position = tuple(problem.mesh.coordinates[held[0][0]].tolist())
+    return Site("node", ids, position, f"the support of node {ids[0]}, {direction}")
+
+
+def stiffness_name(problem: Problem, sets: list[list[Held]], i: int) -> str:
+    """What the stiffness of a set is called: one of several by its direction, or by its node."""
+    if len(sets) == 1:
+        return "stiffness of the support"
+    node, d = sets[i][0]
+    one_direction = len({d for held in sets for _, d in held}) == 1
+    return "stiffness of the support" + (
+        f" of node {problem.mesh.node_ids[node]}" if one_direction else f", {DIRECTIONS[d]}"
+    )
+
+
+def sprung(
+    problem: Problem, known: Problem, sets: list[list[Held]], values: np.ndarray, unit: str, released: bool
+) -> Problem:
+    """The deck with springs of `values`, one a set of supports of `known`; released: in their place, else in addition to them."""
+    edit = Edit(problem)
+    for held, value in zip(sets, values, strict=True):
+        nodes = [edit.index(int(known.mesh.node_ids[node])) for node, _ in held]
+        d = held[0][1]
+        if released:
+            edit.supports = [each for each in edit.supports if each not in {(node, d) for node in nodes}]
+        springs = edit.add("spring", [[node] for node in nodes], {DIRECTIONS[d]: value})
+        edit.bind(f"stiffness of {support_site(known, held).text}", springs, (DIRECTIONS[d],), unit=unit)
+    return edit.done()
