@@ -54,8 +54,8 @@ def cell(value: object) -> str:
         return str(value).lower()
     if isinstance(value, int | float):
         return repr(float(value)) if isinstance(value, float) else str(value)
-    told = line(str(value))
-    return f"'{told}" if told.lstrip().startswith(_FORMULA) else told
+    text = line(str(value))
+    return f"'{text}" if text.lstrip().startswith(_FORMULA) else text
 
 
 def csv_text(rows: Iterable[Iterable[object]]) -> str:

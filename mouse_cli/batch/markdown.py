@@ -35,7 +35,7 @@ def _line(cells: Iterable[str]) -> str:
 
 def _cells(found: Outcome) -> tuple[str, ...]:
     mark = "❌" if found.missed else _MARKS.get(found.counted, "❌")
-    told = [verbatim(each.headline) for each in (*found.missed, *found.errors[:1])]
+    headlines = [verbatim(each.headline) for each in (*found.missed, *found.errors[:1])]
     met = f"{found.expected - len(found.missed)} of {found.expected}" if found.expected else ""
-    ended = "<br>".join([verbatim(found.ended), *told])
+    ended = "<br>".join([verbatim(found.ended), *headlines])
     return (f"{mark} {verbatim(found.deck)}", found.command, str(found.exit_code), ended, met)

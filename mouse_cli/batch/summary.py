@@ -41,8 +41,8 @@ def _plain(text: str) -> str:
 def count(outcomes: list[Outcome]) -> str:
     """How many ended how."""
     codes = [each.exit_code for each in outcomes]
-    told = {0: "trusted or sound", 1: "not to be trusted", 4: "rejected", 5: "without an answer"}
-    parts = [f"{codes.count(code)} {words}" for code, words in told.items() if code in codes]
+    meanings = {0: "trusted or sound", 1: "not to be trusted", 4: "rejected", 5: "without an answer"}
+    parts = [f"{codes.count(code)} {words}" for code, words in meanings.items() if code in codes]
     missed = sum(bool(each.missed) for each in outcomes)
     judged = sum(bool(each.expected) for each in outcomes)
     parts += [f"{missed} of {judged} missed what was expected"] if judged else []
@@ -79,11 +79,11 @@ def junit_text(outcomes: list[Outcome], name: str = "mouse batch") -> str:
         named = {"classname": f"mouse.{each.command}", "name": _xml(each.deck), "file": _xml(each.deck)}
         case = ElementTree.SubElement(suite, "testcase", {**named, "time": f"{each.seconds:.3f}"})
         if _kind(each):
-            told = [found.headline for found in (*each.missed, *each.errors)] or [each.ended]
+            reasons = [found.headline for found in (*each.missed, *each.errors)] or [each.ended]
             below = ElementTree.SubElement(
-                case, _kind(each), {"message": _xml(told[0]), "type": _xml(each.ended.split()[0])}
+                case, _kind(each), {"message": _xml(reasons[0]), "type": _xml(each.ended.split()[0])}
             )
-            below.text = _xml("\n".join(told))
+            below.text = _xml("\n".join(reasons))
     ElementTree.indent(root)
     return ElementTree.tostring(root, encoding="unicode", xml_declaration=False) + "\n"
 
@@ -110,18 +110,18 @@ def _findings(found: Outcome) -> tuple[Diagnostic, ...]:
     return (*found.missed, *found.diagnostics)
 
 
-def _annotation(found: Outcome, told: Diagnostic) -> str:
-    span = told.span
+def _annotation(found: Outcome, finding: Diagnostic) -> str:
+    span = finding.span
     place = {"file": span.file, "line": span.line, "col": span.column} if span else {"file": found.deck}
-    properties = {**place, "title": f"mouse {found.command}: {told.code}"}
+    properties = {**place, "title": f"mouse {found.command}: {finding.code}"}
     given = ",".join(f"{key}={_escaped(str(value), True)}" for key, value in properties.items())
-    kind = "error" if told.severity == ERROR and not _settled(found, told) else "warning"
-    return f"::{kind} {given}::{_escaped(told.message)}"
+    kind = "error" if finding.severity == ERROR and not _settled(found, finding) else "warning"
+    return f"::{kind} {given}::{_escaped(finding.message)}"
 
 
-def _settled(found: Outcome, told: Diagnostic) -> bool:
+def _settled(found: Outcome, finding: Diagnostic) -> bool:
     """An error that the manifest expects is no alarm."""
-    return told not in found.missed and not found.counted
+    return finding not in found.missed and not found.counted
 
 
 def _escaped(text: str, within: bool = False) -> str:

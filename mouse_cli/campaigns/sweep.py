@@ -49,8 +49,8 @@ def summed(
     )
     exit_code = max((each.exit_code for each in found), default=0)
     warned = tuple(_remarks(problem, varied, found, parameters))
-    told = tuple(each.name for each in varied)
-    return Sweep(problem, told, tuple(points), found, parameters, frequencies, exit_code, warned)
+    quantities = tuple(each.name for each in varied)
+    return Sweep(problem, quantities, tuple(points), found, parameters, frequencies, exit_code, warned)
 
 
 def paired(outcome: Outcome) -> tuple[list[int], list[int]]:

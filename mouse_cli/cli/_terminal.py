@@ -78,8 +78,8 @@ def drawn(found: object, path: str, only: tuple[str, ...] = ()) -> None:
     from mouse_cli.plots import draw
 
     if not draw(found, path, only):
-        told = f"nothing was written to {path}: there is nothing to draw of this answer"
-        show_diagnostics([Diagnostic("MD532", WARNING, told, help="see `mouse explain MD532`")])
+        message = f"nothing was written to {path}: there is nothing to draw of this answer"
+        show_diagnostics([Diagnostic("MD532", WARNING, message, help="see `mouse explain MD532`")])
 
 
 @contextmanager

@@ -38,8 +38,8 @@ def couple(coupling: Coupling, notice: Notice = lambda text: None) -> Coupled:
     if modes is not None and any(one.damping or one.loss_factor for one in coupling.connections):
         message = "natural frequencies and modal coupling leave dashpots and loss factors of connections out"
         warnings.append(Diagnostic("MD721", WARNING, message, help="functions have all of them"))
-    told = () if found is None else peaks(found)
-    return Coupled(coupling, found, interface, modes, told, (*coupling.warnings, *warnings))
+    maxima = () if found is None else peaks(found)
+    return Coupled(coupling, found, interface, modes, maxima, (*coupling.warnings, *warnings))
 
 
 def _doubts(interface: InterfaceState) -> list[Diagnostic]:
@@ -48,8 +48,8 @@ def _doubts(interface: InterfaceState) -> list[Diagnostic]:
         lost = interface.condition * interface.noise > 1
     if lost.mean() <= _WORST:
         return []
-    told = f"{int(lost.sum())} of {len(lost)} lines"
-    message = f"noise decides the interface at {told}: its condition number times its noise is above 1"
+    share = f"{int(lost.sum())} of {len(lost)} lines"
+    message = f"noise decides the interface at {share}: its condition number times its noise is above 1"
     return [Diagnostic("MD713", WARNING, message, help="give truncate: 0.01, or join fewer degrees of freedom")]
 
 

@@ -75,7 +75,7 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices, recordings
     problem, doubts = with_modes(given := replace(problem, run=_thorough(problem.run)))
     solver = EigenSolver(notice, sensors=0 if problem.test is None else problem.test.s)
     kept = related(problem, solver)
-    model, told = _model(problem, solver)
+    model, warnings = _model(problem, solver)
     housed(model, choices.candidates)
     measured, enough = given.test is not None, 0.0 if model.places is None else ENOUGH
     result, remarks = _update(problem, kept, notice, _guess(model), enough, solver)
@@ -99,7 +99,7 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices, recordings
         cautions=cautions(ranking, verdict, location),
         misstated=misstated(ranking) if missing else None,
         proposals=_proposals(ranking, verdict),
-        remarks=doubts + remarks + told + getattr(ranking, "remarks", ()) + (() if deck is None else _coarse(deck)),
+        remarks=doubts + remarks + warnings + getattr(ranking, "remarks", ()) + (() if deck is None else _coarse(deck)),
         extended=deck and with_damping(replace(deck, test=given.test and deck.test), problem, put),
         extended_result=deck
         and run(_by_modes(deck), notice=notice, guess=_values(deck, put), enough=enough, search=False),
@@ -114,8 +114,8 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices, recordings
 
 def _tried(ranking: Ranking) -> dict[str, object]:
     """What was tried, and how probable it is."""
-    told = {name: getattr(ranking, name) for name in ("groups", "noise_scale", "untried")}
-    return told | {"explanations": explanations(ranking)}
+    common = {name: getattr(ranking, name) for name in ("groups", "noise_scale", "untried")}
+    return common | {"explanations": explanations(ranking)}
 
 
 def _open(verdict: Verdict) -> dict[str, object]:
@@ -165,9 +165,9 @@ def _update(
     problem, lost = _by_modes(problem), ", ".join(str(number) for number in problem.test.number[~kept])
     if kept.all() or not kept.any():
         return run(problem, notice=notice, guess=guess, enough=enough, solver=solver, search=False), ()
-    told = f"no mode of the model is like measured mode {lost}: the update of the model as it is goes without"
+    message = f"no mode of the model is like measured mode {lost}: the update of the model as it is goes without"
     own = replace(problem, test=restricted(problem.test, kept))
-    return run(own, notice=notice, guess=guess, enough=enough, solver=solver, search=False), (told,)
+    return run(own, notice=notice, guess=guess, enough=enough, solver=solver, search=False), (message,)
 
 
 def _model(problem: Problem, solver: EigenSolver) -> tuple[Reduced, tuple[str, ...]]:

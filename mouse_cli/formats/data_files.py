@@ -76,9 +76,9 @@ def reader(package: str, path: str, what: str) -> Any:
         known = ", ".join(sorted({f".{s}" for each in formats for s in each.suffixes or (each.key,)}))
         reject("MD251", path, f"'.{suffix}' is no suffix of {what}", f"give one of {known}")
     head = _head(path)
-    told = [each for each in own if each.claims is not None and each.claims(head)]
+    claiming = [each for each in own if each.claims is not None and each.claims(head)]
     _undisguised(path, head, suffix)
-    return (told or [each for each in own if each.claims is None] or own)[0]
+    return (claiming or [each for each in own if each.claims is None] or own)[0]
 
 
 def opened(form: Any, path: str, *arguments: object) -> Any:

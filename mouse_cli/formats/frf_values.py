@@ -24,8 +24,8 @@ def scaled(
     if (spelled and parts[0] is None) or (spelled and stated and not _agree(spelled, stated, say, where)):
         return None
     found = parts[0] or parts[1]
-    told = found and {**MOTION, **_TURNED}.get(found[0].quantity)
-    known = {name for name in (kind, told, file_kind) if name}
+    quantity = found and {**MOTION, **_TURNED}.get(found[0].quantity)
+    known = {name for name in (kind, quantity, file_kind) if name}
     if len(known) > 1:
         message = f"the FRFs are declared as {' and '.join(sorted(known))} at once"
         return say.error("MD610", where, message, "correct kind or unit", f"unit: {spelled or stated}" if found else "")

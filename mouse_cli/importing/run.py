@@ -74,11 +74,11 @@ def imported(
     named = system or units(model)
     remarks = [*model.remarks, *_passed_over(model, found)]
     if not system:
-        spoken = (
+        text = (
             f"taken for {named}, as E and density of its materials are" if named else "not determined by its materials"
         )
         remarks.append(
-            Diagnostic("MD276", WARNING, f"the units of the job are {spoken}", Span(path, 1), help="give --units")
+            Diagnostic("MD276", WARNING, f"the units of the job are {text}", Span(path, 1), help="give --units")
         )
     unit = {"SI": "m", "mm-t-N": "mm"}.get(named, "")
     thick = {i: replace(each, unit=unit) for i, each in thick.items()}

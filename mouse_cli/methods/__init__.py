@@ -34,8 +34,8 @@ class Method:
     @property
     def about(self) -> About:
         """The method as reports name it."""
-        told = (Guarantee(aspect, *rest) for aspect, rest in zip(ASPECTS, self.guarantees, strict=True))
-        return About(self.key, self.title, self.equation, self.source, tuple(told))
+        guarantees = (Guarantee(aspect, *rest) for aspect, rest in zip(ASPECTS, self.guarantees, strict=True))
+        return About(self.key, self.title, self.equation, self.source, tuple(guarantees))
 
 
 def registry() -> dict[str, Method]:

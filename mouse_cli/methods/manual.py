@@ -20,10 +20,10 @@ def manual() -> str:
 
 def about(method: Method) -> str:
     """One method, in Markdown."""
-    told = method.about
-    lines = [f"{capital(told.title)}: {told.source}.", "", f"    {told.equation}", ""]
+    own = method.about
+    lines = [f"{capital(own.title)}: {own.source}.", "", f"    {own.equation}", ""]
     lines += ["| what a structure has | guaranteed | because |", "|---|---|---|"]
-    lines += [f"| {g.aspect} | {g.given} | {_cell(g.why)} |" for g in told.guarantees]
+    lines += [f"| {g.aspect} | {g.given} | {_cell(g.why)} |" for g in own.guarantees]
     return "\n".join([*lines, "", f"Needs: {', '.join(_NEEDS[need] for need in method.needs)}."])
 
 

@@ -129,17 +129,17 @@ def _judged(given: Given, chosen: Method, found: Found) -> Updated:
 
 def _configurations(given: Given, found: Found, prior: Modes, revised: Modes) -> list[Predicted]:
     """Fitted modes, modes held out, altered structures."""
-    problem, told = given.problem, []
+    problem, predictions = given.problem, []
     held = problem.hold_out
     if problem.test is not None:
-        told.append(predicted(problem, "fitted", True, problem.test, prior, revised))
+        predictions.append(predicted(problem, "fitted", True, problem.test, prior, revised))
     if held is not None and held.test is not None:
-        told.append(predicted(problem, "held out", False, held.test, prior, revised))
+        predictions.append(predicted(problem, "held out", False, held.test, prior, revised))
     for altered in held.altered if held is not None else ():
         highest = int(altered.number.max())
         sides = [modes(problem, *changed(*pair, altered), highest) for pair in ((given.K, given.M), (found.K, found.M))]
-        told.append(predicted(problem, altered.title, False, as_test(problem, altered), *sides))
-    return told
+        predictions.append(predicted(problem, altered.title, False, as_test(problem, altered), *sides))
+    return predictions
 
 
 def _checked(given: Given, chosen: Method, found: Found, prior: Modes, revised: Modes) -> Checked:

@@ -34,7 +34,7 @@ class Interval:
     half: float | None
 
 
-def bars(key: str, title: str, told: str, rows: Sequence[Bar], series: Sequence[str]) -> Markup:
+def bars(key: str, title: str, description: str, rows: Sequence[Bar], series: Sequence[str]) -> Markup:
     """Horizontal bars from a common zero; several series lie below each other, the last one filled."""
     lengths = [x for row in rows for x in row.lengths if x is not None]
     if not lengths:
@@ -44,10 +44,10 @@ def bars(key: str, title: str, told: str, rows: Sequence[Bar], series: Sequence[
     pitch = 20.0 + 9.0 * len(series)
     drawn = [_bar(row, top + i * pitch, scale) for i, row in enumerate(rows)]
     height = top + pitch * len(rows) + 4
-    return _figure(key, title, told, height, [_legend(series) if len(series) > 1 else None, *drawn])
+    return _figure(key, title, description, height, [_legend(series) if len(series) > 1 else None, *drawn])
 
 
-def intervals(key: str, title: str, told: str, rows: Sequence[Interval]) -> Markup:
+def intervals(key: str, title: str, description: str, rows: Sequence[Interval]) -> Markup:
     """Prior and posterior of each parameter on the axis of its prior standard deviation."""
     ends = [row.centre + sign * (row.half or 0.0) for row in rows if row.centre is not None for sign in (-1, 1)]
     if not ends:
@@ -55,10 +55,10 @@ def intervals(key: str, title: str, told: str, rows: Sequence[Interval]) -> Mark
     scale = _scale(min(-1.2, *ends), max(1.2, *ends))
     drawn = [_interval(row, 22.0 + 40.0 * i, scale) for i, row in enumerate(rows)]
     height = 22.0 + 40.0 * len(rows) + 4
-    return _figure(key, title, told, height, [_legend(("prior", "posterior")), *drawn])
+    return _figure(key, title, description, height, [_legend(("prior", "posterior")), *drawn])
 
 
-def curve(key: str, title: str, told: str, values: Sequence[float | None]) -> Markup:
+def curve(key: str, title: str, description: str, values: Sequence[float | None]) -> Markup:
     """Positive values one after another on a logarithmic axis, a mark at each."""
     known = [(i, log10(v)) for i, v in enumerate(values) if v is not None and v > 0]
     if len(known) < 2:
@@ -71,7 +71,7 @@ def curve(key: str, title: str, told: str, values: Sequence[float | None]) -> Ma
     marks = [tag("circle", cx=tenth(x), cy=tenth(y), r=3, class_="after") for x, y in points]
     words = [_words(_LEFT, 14, f"largest {shown(10**high, 3)}"), _words(_LEFT, 148, f"least {shown(10**low, 3)}")]
     last = _words(_RIGHT, 148, f"cycle {known[-1][0]}", "end")
-    return _figure(key, title, told, 154, [line, *marks, *words, last])
+    return _figure(key, title, description, 154, [line, *marks, *words, last])
 
 
 def _scale(low: float, high: float):
@@ -134,5 +134,5 @@ def _words(x: float, y: float, words: str, anchor: str | None = None) -> Markup:
     return tag("text", words, x=tenth(x), y=tenth(y), text_anchor=anchor)
 
 
-def _figure(key: str, title: str, told: str, height: float, pieces: Sequence[Markup | None]) -> Markup:
-    return figure(key, title, told, (_WIDTH, height), *pieces)
+def _figure(key: str, title: str, description: str, height: float, pieces: Sequence[Markup | None]) -> Markup:
+    return figure(key, title, description, (_WIDTH, height), *pieces)

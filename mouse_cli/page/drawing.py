@@ -27,18 +27,18 @@ def large(scene: Scene) -> View:
     return view(scene, WIDTH, HIGHEST, MARGIN)
 
 
-def stage(scene: Scene, marks: Sequence[Mark], seen: View, title: str, told: str) -> Markup:
+def stage(scene: Scene, marks: Sequence[Mark], seen: View, title: str, description: str) -> Markup:
     """The large drawing, in its first mode, with the numbers for the script."""
     pieces = [*_pieces(scene, scene.shapes[:1], marks, seen), _names(scene, marks, seen), _triad(seen)]
     size = (seen.width, seen.height)
-    return svg("stage", title, told, size, *pieces, data_scene=_data(scene, marks, seen), class_="stage")
+    return svg("stage", title, description, size, *pieces, data_scene=_data(scene, marks, seen), class_="stage")
 
 
 def small(scene: Scene, shape: Shape, marks: Sequence[Mark], key: str, title: str) -> Markup:
     """The drawing of one mode, among others."""
     seen = view(scene, _SMALL, _LOW, _EDGE)
-    told, size = f"{title}, drawn on the structure.", (seen.width, seen.height)
-    return svg(key, title, told, size, *_pieces(scene, (shape,), marks, seen))
+    description, size = f"{title}, drawn on the structure.", (seen.width, seen.height)
+    return svg(key, title, description, size, *_pieces(scene, (shape,), marks, seen))
 
 
 def _pieces(scene: Scene, shapes: Sequence[Shape], marks: Sequence[Mark], seen: View) -> list[Markup]:

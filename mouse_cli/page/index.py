@@ -33,7 +33,7 @@ def _filters(outcomes: list[Outcome]) -> Markup:
 
 def _row(found: Outcome, link: str | None) -> tuple[object, ...]:
     name = found.deck if link is None else tag("a", found.deck, href=link)
-    told = "; ".join(each.message for each in (*found.missed, *found.errors[:1]))
+    messages = "; ".join(each.message for each in (*found.missed, *found.errors[:1]))
     looks = "bad" if found.missed else _LOOKS.get(found.counted, "bad")
     missed = Cell(float(len(found.missed)), f"{len(found.missed)} of {found.expected}") if found.expected else None
     return (
@@ -44,5 +44,5 @@ def _row(found: Outcome, link: str | None) -> tuple[object, ...]:
         found.residual_p,
         missed,
         Cell(found.seconds, f"{found.seconds:.1f}"),
-        told,
+        messages,
     )

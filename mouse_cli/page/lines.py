@@ -22,7 +22,9 @@ class Line:
     filled: bool = False
 
 
-def lines(key: str, title: str, told: str, x: str, y: str, drawn: Sequence[Line], deep: float = float("inf")) -> Markup:
+def lines(
+    key: str, title: str, description: str, x: str, y: str, drawn: Sequence[Line], deep: float = float("inf")
+) -> Markup:
     """`drawn` over the axes called x and y, down to `deep` below the highest point; empty without a point."""
     every = [point for line in drawn for point in line.points]
     if not every:
@@ -35,7 +37,7 @@ def lines(key: str, title: str, told: str, x: str, y: str, drawn: Sequence[Line]
         pieces.append(_drawn(line, [(across(a), upward(max(b, low[1]))) for a, b in line.points]))
     named = [line for line in drawn if line.name and line.points]
     pieces += [piece for i, line in enumerate(named) for piece in _named(line, _LEFT + i * _LEGEND * 1.3)]
-    return figure(key, title, told, (_WIDTH, _HEIGHT), *pieces, class_="functions")
+    return figure(key, title, description, (_WIDTH, _HEIGHT), *pieces, class_="functions")
 
 
 def _drawn(line: Line, at: list[tuple[float, float]]) -> Markup:

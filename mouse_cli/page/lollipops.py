@@ -86,10 +86,10 @@ def _figure(one: Stems, places: set[str], number: int) -> Markup:
         pieces += _stem(x, model, test, scale, name in places)
         if count <= _NAMED:
             pieces.append(tag("text", name[:6], x=tenth(x), y=_HEIGHT - 2, text_anchor="middle"))
-    spoken = "; ".join(
+    description = "; ".join(
         f"{name}: {shown(m, 3)}, test {shown(t, 3)}" for name, m, t in zip(one.dofs, one.model, one.test, strict=True)
     )
-    return figure(key, one.title, f"Model and test. {spoken}.", (_WIDTH, _HEIGHT), *pieces)
+    return figure(key, one.title, f"Model and test. {description}.", (_WIDTH, _HEIGHT), *pieces)
 
 
 def _stem(x: float, model: float | None, test: float | None, scale: float, marked: bool) -> list[Markup]:

@@ -109,8 +109,8 @@ def _frequencies(document: Part) -> Iterator[str]:
     for mode in found[-1].parts("modes"):
         label, test, after = mode.label("mode"), mode.number("test_hz"), mode.number("revised_hz")
         off = [signed_per_cent(apart(value, test)) for value in (before.get(label), after)]
-        told = (shown(test), shown(before.get(label)), off[0], shown(after), off[1], shown(mode.number("mac"), 4))
-        rows.append((escaped(label), *told))
+        cells = (shown(test), shown(before.get(label)), off[0], shown(after), off[1], shown(mode.number("mac"), 4))
+        rows.append((escaped(label), *cells))
     names = ("as it is, Hz", "with the mechanism, Hz") if extended else ("before, Hz", "after, Hz")
     yield from _folded_table(
         "Frequencies", ("mode", "test, Hz", names[0], "off", names[1], "off", "MAC"), rows, "mode", _LONG

@@ -19,7 +19,7 @@ def shade(value: float) -> str:
     return f"shade{sum(value >= edge for edge in SHADES)}"
 
 
-def matrix(key: str, title: str, told: str, names: Sequence[str], rows: Sequence[Sequence[float]]) -> Markup:
+def matrix(key: str, title: str, description: str, names: Sequence[str], rows: Sequence[Sequence[float]]) -> Markup:
     """Rows and columns by `names`; NaN is left white. The numbers stand in a table beside it."""
     count = len(names)
     side = (_WIDTH - _LEFT - 4) / max(count, 1)
@@ -32,7 +32,7 @@ def matrix(key: str, title: str, told: str, names: Sequence[str], rows: Sequence
         middle = (i + 0.5) * side
         pieces.append(tag("text", name[:5], x=_LEFT - 5, y=tenth(_TOP + middle + 4), text_anchor="end"))
         pieces.append(tag("text", name[:5], x=tenth(_LEFT + middle), y=_TOP - 6, text_anchor="middle"))
-    return figure(key, title, told, (_WIDTH, _TOP + count * side + 4), *pieces)
+    return figure(key, title, description, (_WIDTH, _TOP + count * side + 4), *pieces)
 
 
 def _square(value: float, x: float, y: float, side: float, count: int) -> Markup:

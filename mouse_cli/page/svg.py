@@ -3,22 +3,24 @@
 from mouse_cli.page.html import Markup, tag
 
 
-def svg(key: str, title: str, told: str, size: tuple[float, float], *pieces: Markup | None, **more: object) -> Markup:
+def svg(
+    key: str, title: str, description: str, size: tuple[float, float], *pieces: Markup | None, **more: object
+) -> Markup:
     """`pieces` in a drawing of `size`, width and height; `told` is read out where it cannot be seen."""
-    head = [tag("title", title, id=f"{key}-title"), tag("desc", told, id=f"{key}-told")]
+    head = [tag("title", title, id=f"{key}-title"), tag("desc", description, id=f"{key}-description")]
     more = {
         "role": "img",
-        "aria_labelledby": f"{key}-title {key}-told",
+        "aria_labelledby": f"{key}-title {key}-description",
         "viewBox": f"0 0 {tenth(size[0])} {tenth(size[1])}",
     } | more
     return tag("svg", *head, *pieces, **more)
 
 
 def figure(
-    key: str, title: str, told: str, size: tuple[float, float], *pieces: Markup | None, **more: object
+    key: str, title: str, description: str, size: tuple[float, float], *pieces: Markup | None, **more: object
 ) -> Markup:
     """The drawing under its title."""
-    return tag("figure", tag("figcaption", title), svg(key, title, told, size, *pieces), **more)
+    return tag("figure", tag("figcaption", title), svg(key, title, description, size, *pieces), **more)
 
 
 def tenth(value: float) -> str:

@@ -57,8 +57,8 @@ def require(path: str = "") -> None:
         raise MouseError(problem) from None
     kind = _kind(path)
     if kind and kind not in _FILES:
-        told = f"cannot write figures to {path}: '{kind}' is no kind of figure"
-        raise WrittenError.of("MD531", told, help=f"name a folder, or a file that ends in {', '.join(_FILES)}")
+        message = f"cannot write figures to {path}: '{kind}' is no kind of figure"
+        raise WrittenError.of("MD531", message, help=f"name a folder, or a file that ends in {', '.join(_FILES)}")
 
 
 def draw(found: Any, path: str, only: tuple[str, ...] = ()) -> list[str]:
@@ -80,8 +80,8 @@ def draw(found: Any, path: str, only: tuple[str, ...] = ()) -> list[str]:
                 return _pages(drawn, path)
             return _sheet(found, [plot for plot, _ in drawn], path) if kind else _folder(drawn, path)
         except OSError as error:
-            told = f"cannot write figures to {path}: {error.strerror or error}"
-            raise WrittenError.of("MD531", told, help="name a folder or .pdf, .png") from error
+            message = f"cannot write figures to {path}: {error.strerror or error}"
+            raise WrittenError.of("MD531", message, help="name a folder or .pdf, .png") from error
 
 
 def _kind(path: str) -> str:

@@ -50,5 +50,5 @@ def document(subject: Any) -> dict[str, Any]:
     """The report of `subject` as JSON can hold it: no NaN, no infinity, plain Python values."""
     from mouse_cli.report.json_values import plain
 
-    told = import_module(f"{__name__}.{kind(type(subject)).document}").document(subject)
-    return plain({"schema": told["schema"], "version": __version__, **told})
+    body = import_module(f"{__name__}.{kind(type(subject)).document}").document(subject)
+    return plain({"schema": body["schema"], "version": __version__, **body})

@@ -20,7 +20,7 @@ SCHEMA = "mouse.arrangements/1"
 
 def document(found: ArrangementsDiagnosis) -> dict[str, Any]:
     """`found` in plain Python values; what was not found out is None."""
-    held, told = found.held_out, (found.extended or found.problems)[0].parameters
+    held, parameters = found.held_out, (found.extended or found.problems)[0].parameters
     return {
         "schema": SCHEMA,
         "title": found.problem.title.strip(),
@@ -33,7 +33,7 @@ def document(found: ArrangementsDiagnosis) -> dict[str, Any]:
         "residual": fields(found, "chi2", "dof", "p"),
         "parameters": [
             {"name": p.name, "unit": p.unit, "prior": p.nominal, "posterior": value, "sd": sd}
-            for p, value, sd in zip(told, found.values, found.sd, strict=True)
+            for p, value, sd in zip(parameters, found.values, found.sd, strict=True)
         ],
         "shared_errors": [fields(e, "mode", "value", "sd") for e in found.shared],
         "common_sd": found.common_sd,

@@ -52,11 +52,11 @@ def dataset(answer: Any) -> Any:
         variables = dict(_variables(_model(document), coordinates))
         found = xarray.Dataset(variables, coordinates, _attributes(document))
     except (KeyError, TypeError, ValueError, AttributeError) as error:
-        told = f"the document does not follow its schema: {type(error).__name__} {error}"
-        raise rejected("MD922", told[:200]) from error
+        message = f"the document does not follow its schema: {type(error).__name__} {error}"
+        raise rejected("MD922", message[:200]) from error
     if not variables:
-        told = f"{document.get('schema', 'the answer')} has nothing by parameter, mode, degree of freedom or line"
-        raise DeckError.of("MD961", told, help="mouse_cli.frames makes frames of it")
+        message = f"{document.get('schema', 'the answer')} has nothing by parameter, mode, degree of freedom or line"
+        raise DeckError.of("MD961", message, help="mouse_cli.frames makes frames of it")
     return found
 
 

@@ -32,9 +32,9 @@ def field_sentences(field: Field) -> tuple[str, ...]:
     """What is missing, and that it has no name."""
     acts = _law(field) if field.property == LAW else f"It {ACTS[field.property]}{_most(field)}"
     acts = _spring(field) if one_spring(field) else acts
-    told = f"What is missing has no name in the library. {acts}."
+    lead = f"What is missing has no name in the library. {acts}."
     return (
-        told,
+        lead,
         " ".join(filter(None, (_over(field.log_evidence_over_named), held_words(field.held_out)))),
         "Do not trust the revised parameters, and do not name a mechanism.",
     )

@@ -42,16 +42,18 @@ def faulty(best: Explanation) -> bool:
 
 def _nothing(found: Diagnosis) -> str:
     if isinstance(found, RecordDiagnosis):
-        told = "Nothing is missing that these records could show: the linear model, with its parameters revised, explains them"
-        return f"{told}{' but for noise of their own' if found.noise else ''}."
+        sentence = "Nothing is missing that these records could show: the linear model, with its parameters revised, explains them"
+        return f"{sentence}{' but for noise of their own' if found.noise else ''}."
     status = found.result.status
-    told = "Nothing is missing that this test could show: the model, with its parameters revised, explains the data."
+    sentence = (
+        "Nothing is missing that this test could show: the model, with its parameters revised, explains the data."
+    )
     if not found.result.residual.dof:
-        told = (
+        sentence = (
             "Nothing is missing that this test could show, and it could show little: its parameters can follow all of its data, so "
             "that only their shift from the prior shows what is missing."
         )
-    return told if status.exit_code == 0 else f"{told} But its revision is not to be trusted. {status.sentence}"
+    return sentence if status.exit_code == 0 else f"{sentence} But its revision is not to be trusted. {status.sentence}"
 
 
 def _named(found: Diagnosis) -> tuple[str, ...]:

@@ -36,12 +36,12 @@ class Odd:
 
 def odd(mesh: Mesh, units: Units) -> Iterator[Odd]:
     """Everything of `mesh` that another unit explains: materials, then sections against the size of the structure."""
-    told: set[tuple] = set()
+    reported: set[tuple] = set()
     span = _span(mesh)
     for s, members in enumerate(mesh.elements):
         for each in (*_material(s, members, units), *_section(s, members, span, units)):
-            if (each.message, each.help) not in told:
-                told.add((each.message, each.help))
+            if (each.message, each.help) not in reported:
+                reported.add((each.message, each.help))
                 yield each
 
 

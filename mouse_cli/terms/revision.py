@@ -96,8 +96,8 @@ def _of_set(made: Revision, problem: Problem, before: Problem, s: int) -> Revisi
         if {"A", "Iy", "Iz", "J"} & set(notes):
             made = replace(made, sections=made.sections + tuple(_sections(members, values, notes)))
         return made
-    told = tuple(f"{members.type} {members.ids[0]}: {note}" for each in notes.values() for note in each)
-    return replace(made, unwritten=made.unwritten + told)
+    remarks = tuple(f"{members.type} {members.ids[0]}: {note}" for each in notes.values() for note in each)
+    return replace(made, unwritten=made.unwritten + remarks)
 
 
 def _alike(values: dict[str, np.ndarray], names: tuple[str, ...], e: int) -> Iterator[tuple[np.ndarray, list[float]]]:

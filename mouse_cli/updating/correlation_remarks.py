@@ -15,8 +15,8 @@ _MOST = 10
 
 def remarks(found: Correlation) -> Correlation:
     """The comparison with all remarks on it."""
-    told = (*_alone(found), *_unclaimed(found), *_faults(found), *_alike(found))
-    return replace(found, warnings=found.warnings + told)
+    warnings = (*_alone(found), *_unclaimed(found), *_faults(found), *_alike(found))
+    return replace(found, warnings=found.warnings + warnings)
 
 
 def orthogonality_refused(reason: str) -> Diagnostic:

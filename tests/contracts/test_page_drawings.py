@@ -133,7 +133,7 @@ def test_matrices_before_and_after_the_cause():
     told = document("named")
     found = Reader(made("named"))
     for key in ("baseline", "extended"):
-        (desc,) = [e["text"] for e in found.named("desc") if e["attrs"]["id"] == f"matrix-{key}-told"]
+        (desc,) = [e["text"] for e in found.named("desc") if e["attrs"]["id"] == f"matrix-{key}-description"]
         values = [float(x) for x in re.findall(r"mode \d+ ([01]\.\d{3})", desc)]
         assert values == pytest.approx([mode["mac"] for mode in told[key]["modes"]], abs=6e-4)
     assert len([e for e in found.named("rect") if "tile" in e["attrs"].get("class", "")]) == 32
@@ -142,7 +142,7 @@ def test_matrices_before_and_after_the_cause():
 def test_places_along_a_line():
     """ln P over position, highest at 0.3 m; a structure in space has bars alone."""
     found = Reader(made("drawn"))
-    (desc,) = [e["text"] for e in found.named("desc") if e["attrs"]["id"] == "place-along-told"]
+    (desc,) = [e["text"] for e in found.named("desc") if e["attrs"]["id"] == "place-along-description"]
     assert "the best is at 0.3" in desc
     assert "place-along" not in made("one-of")
 

@@ -76,8 +76,8 @@ def _with_results(coupling: Coupling, priors: tuple[str, ...]) -> Coupling:
                 f"'{text}' is not PART=RESULT for a model among the parts: {known}", param_hint="--prior"
             )
         parts[name] = replace(parts[name], problem=after_result(parts[name].problem, path, {}))
-    told = (w for part in parts.values() if part.problem is not None for w in part.problem.warnings)
-    warnings = tuple(dict.fromkeys((*coupling.warnings, *told)))
+    own = (w for part in parts.values() if part.problem is not None for w in part.problem.warnings)
+    warnings = tuple(dict.fromkeys((*coupling.warnings, *own)))
     return replace(coupling, substructures=tuple(parts.values()), warnings=warnings)
 
 
@@ -86,7 +86,7 @@ def _laws(coupling: Coupling) -> tuple:
     from mouse_cli.cli._decks import without_laws
 
     models = [part.problem for part in coupling.substructures if not part.measured]
-    return tuple(told for problem in models for told in without_laws(problem, modes=True))
+    return tuple(remark for problem in models for remark in without_laws(problem, modes=True))
 
 
 def _require_plots(plot: str | None) -> None:

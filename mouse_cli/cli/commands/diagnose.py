@@ -156,7 +156,7 @@ def _measured(deck: str, raw: dict[str, object], how: dict[str, object], quiet: 
 
     said = []
     with progress() as (_, notice):
-        problem = read_raw(deck, raw, how, notice, lambda *told: said.append(told))
+        problem = read_raw(deck, raw, how, notice, lambda *message: said.append(message))
     for lines, passed in said if not quiet else ():
         click.echo(shown("\n".join(lines)), err=True)
         show_diagnostics(passed)

@@ -48,8 +48,8 @@ def command(topic: str) -> int:
         click.echo(_topic(topic))
         return 0
     entries: dict[str, str] = {}
-    for key, told in _entries():  # a mass is an element and a candidate
-        entries[key] = f"{entries[key]}\n\n{told}" if key in entries else told
+    for key, entry in _entries():  # a mass is an element and a candidate
+        entries[key] = f"{entries[key]}\n\n{entry}" if key in entries else entry
     text = entries.get(topic) or entries.get(topic.upper())
     if text is None:
         near = difflib.get_close_matches(topic, [*entries, *TOPICS], 3)
@@ -76,8 +76,8 @@ def _entries() -> Iterator[tuple[str, str]]:
 
     for key in {status.key: None for status in STATUSES.values()}:
         ends = [status for status in STATUSES.values() if status.key == key]
-        told = "\n\n".join(f"{_FACT.sub('...', end.sentence)}\n{end.advice}".rstrip() for end in ends)
-        yield key, f"status {key}, exit {ends[0].exit_code}\n\n{told}"
+        text = "\n\n".join(f"{_FACT.sub('...', end.sentence)}\n{end.advice}".rstrip() for end in ends)
+        yield key, f"status {key}, exit {ends[0].exit_code}\n\n{text}"
     for code, entry in catalogue().items():
         yield code, f"{code}: {entry.title}\n\n{entry.meaning}\n\n{entry.remedy}"
     for key, estimator in estimators().items():

@@ -64,8 +64,8 @@ def _read(deck: str, given: dict[str, object], count: int | None, begun: dict, h
         )
     found = modified.read(data, shown(deck), outside=outside())
     problem = after_result(found.problem, **begun)
-    told = tuple(dict.fromkeys((*found.warnings, *problem.warnings)))
-    return replace(found, part=replace(found.part, problem=problem), warnings=told, count=count or found.count)
+    warnings = tuple(dict.fromkeys((*found.warnings, *problem.warnings)))
+    return replace(found, part=replace(found.part, problem=problem), warnings=warnings, count=count or found.count)
 
 
 def _missed(found) -> bool:

@@ -83,15 +83,15 @@ def readings(one: Fit, test: ModalTest) -> Prediction | None:
     base, at = one.model.base, one.point
     sensing = np.asarray(read(test.measured_at, base.V))
     known, scale = np.isfinite(test.shapes), np.abs(np.nan_to_num(base.data.test.shapes)).max(axis=0)
-    told = lambda point: (point.a * (sensing @ point.measured(point.X[: base.r])))[known]
+    reading = lambda point: (point.a * (sensing @ point.measured(point.X[: base.r])))[known]
     sd = np.hypot(test.shape_sd, base.problem.theory.shape * scale)[known]
-    J = _sensitivity(one, told)
+    J = _sensitivity(one, reading)
     if J is None or not known.any():
         return None
     own = base.data.scale_sd(at.measured(at.seen)) / np.where(at.a == 0, 1.0, at.a)
     of_mode = np.nonzero(known)[1][:, None] == np.arange(test.m)
-    J = np.hstack([J @ one.root, of_mode * (told(at)[:, None] * own)]) / sd[:, None]
-    off = (test.shapes[known] - told(at)) / sd
+    J = np.hstack([J @ one.root, of_mode * (reading(at)[:, None] * own)]) / sd[:, None]
+    off = (test.shapes[known] - reading(at)) / sd
     total = np.eye(len(off)) + J @ J.T
     misfit = float(off @ np.linalg.solve(total, off))
     density = -0.5 * (misfit + np.linalg.slogdet(2 * np.pi * total)[1]) - np.log(sd).sum()
@@ -103,7 +103,7 @@ def readings(one: Fit, test: ModalTest) -> Prediction | None:
     return Prediction(blind, unmeasured, unmeasured, alike, float(density), none, misfit, len(off), left)
 
 
-def _sensitivity(one: Fit, told: Callable[[Point], np.ndarray]) -> np.ndarray | None:
+def _sensitivity(one: Fit, reading: Callable[[Point], np.ndarray]) -> np.ndarray | None:
     """d told / dx (q, k + t) at the end of a fit, by central differences."""
     model, columns = one.model, []
     low, high = np.vstack([np.tile([-np.inf, np.inf], (model.k, 1)), model.bounds]).T
@@ -114,8 +114,8 @@ def _sensitivity(one: Fit, told: Callable[[Point], np.ndarray]) -> np.ndarray | 
         ends = [model.point(x) for x in sides]
         if None in ends:
             return None
-        columns.append((told(ends[0]) - told(ends[1])) / (sides[0][j] - sides[1][j]))
-    return np.column_stack([np.zeros((len(told(one.point)), 0)), *columns])
+        columns.append((reading(ends[0]) - reading(ends[1])) / (sides[0][j] - sides[1][j]))
+    return np.column_stack([np.zeros((len(reading(one.point)), 0)), *columns])
 
 
 def score(parts: list[Prediction]) -> Score:

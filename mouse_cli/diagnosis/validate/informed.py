@@ -25,10 +25,10 @@ def informed(ranking: Ranking) -> Ranking:
     asked = np.flatnonzero(wanted).tolist()
     if len(asked) < 2 or dict(ranking.groups).get("none", 0.0) > LIKELY:
         return ranking
-    told = [log_density(ranking.fits[i]) for i in asked]
-    if None in told:
+    densities = [log_density(ranking.fits[i]) for i in asked]
+    if None in densities:
         return ranking
-    behind = np.max(told) - np.array(told)
+    behind = np.max(densities) - np.array(densities)
     p = ranking.probabilities.copy()
     p[asked] *= np.exp(-np.where(behind > ODDS, behind, 0.0) / ranking.noise_scale)
     p[rivals] *= ranking.probabilities[rivals].sum() / p[rivals].sum()

@@ -83,9 +83,9 @@ _WORDS = {
 
 def explanations() -> Iterator[tuple[str, str]]:
     """Each name with its explanation: words of the report, then the arrays and the fields of the cards."""
-    for name, (title, told) in _WORDS.items():
+    for name, (title, text) in _WORDS.items():
         section = {"I": "4.2", "O": "4.3", "t": "3.8", "V": "1"}[name[0]]
-        yield name, f"{name}: {title} ({_SECTION.format(section)})\n\n{told}"
+        yield name, f"{name}: {title} ({_SECTION.format(section)})\n\n{text}"
     for group in GROUPS:
         if group.symbol:
             yield (
@@ -100,5 +100,5 @@ def explanations() -> Iterator[tuple[str, str]]:
 def _about(group: Group, field: Field) -> str:
     """A field of the cards: what it means, where it is punched, what it may be."""
     row = field.row
-    told = f"{row.name}: {row.meaning}\n\nCards of {group.title}, columns {field.columns}, FORMAT {field.format}."
-    return f"{told} Legal: {row.legal}." if row.legal else told
+    text = f"{row.name}: {row.meaning}\n\nCards of {group.title}, columns {field.columns}, FORMAT {field.format}."
+    return f"{text} Legal: {row.legal}." if row.legal else text

@@ -24,5 +24,7 @@ def refusal(draft: Draft, unread: bool) -> DeckError:
 
     unread: something could not be read and seems to be missing; remarks on that would only mislead.
     """
-    told = [d for d in draft.diagnostics if d.severity == ERROR or not (unread and d.code.startswith(("MD3", "MD4")))]
-    return DeckError(sorted(told, key=lambda d: (d.span.line, d.span.column) if d.span else (0, 0)))
+    reported = [
+        d for d in draft.diagnostics if d.severity == ERROR or not (unread and d.code.startswith(("MD3", "MD4")))
+    ]
+    return DeckError(sorted(reported, key=lambda d: (d.span.line, d.span.column) if d.span else (0, 0)))

@@ -175,7 +175,7 @@ def _parted(draft: Draft, n: int, mask: np.ndarray) -> tuple[ListedElements, obj
     held = coo_array(
         (A.values[~own], (rank[A.rows[~own] - 1] - 1, A.cols[~own] - 1)), shape=(len(bound), len(draft.parameters))
     ).tocsr()
-    index, told = np.flatnonzero(own), A.where
+    index, place = np.flatnonzero(own), A.where
     rows = np.where(known, rank[np.clip(A.rows - 1, 0, max(len(listed) - 1, 0))] if len(listed) else A.rows, A.rows)
-    draft.A = Entries(rows[own], A.cols[own], A.values[own], lambda i: told(int(index[i])))
+    draft.A = Entries(rows[own], A.cols[own], A.values[own], lambda i: place(int(index[i])))
     return bound, held

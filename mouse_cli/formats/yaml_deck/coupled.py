@@ -184,15 +184,17 @@ def _synthesis(section: Section) -> Synthesis | None:
 
 def _units(section: Section, parts: list[Substructure]) -> Units:
     """The units of all: those that the deck states, or its parts. Parts of different units are an error."""
-    told = {part.name: part.problem.units for part in parts if part.problem is not None and part.problem.units.declared}
+    declared = {
+        part.name: part.problem.units for part in parts if part.problem is not None and part.problem.units.declared
+    }
     if "units" in section:
-        told = {"the deck": SYSTEMS.get(section.value("units", ""), UNDECLARED)} | told
-    if len(set(told.values())) > 1:
-        words = ", ".join(f"{name} in {units.length}, {units.mass}, {units.force}" for name, units in told.items())
+        declared = {"the deck": SYSTEMS.get(section.value("units", ""), UNDECLARED)} | declared
+    if len(set(declared.values())) > 1:
+        words = ", ".join(f"{name} in {units.length}, {units.mass}, {units.force}" for name, units in declared.items())
         section.document.error(
             "MD705", section.nodes["couple"], f"parts of different units: {words}", "write all decks in one system"
         )
-    return next(iter(told.values()), UNDECLARED)
+    return next(iter(declared.values()), UNDECLARED)
 
 
 def _sense(section: Section, coupling: Coupling) -> None:

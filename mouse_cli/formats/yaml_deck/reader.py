@@ -142,7 +142,7 @@ def records(test: Section | None, units: Units) -> tuple[tuple[FrfDraft, ...], t
     from mouse_cli.formats.yaml_deck.sensors import sensors
 
     document = test.document
-    told = len(document.diagnostics)
+    count = len(document.diagnostics)
     named, files = sensors(test), {}
-    del document.diagnostics[told:]  # findings on sensors were noted with the modes
+    del document.diagnostics[count:]  # findings on sensors were noted with the modes
     return tuple(functions(test, named, files, units)), tuple(recordings(test, named, files, units))

@@ -35,11 +35,11 @@ def differences(key: str, title: str, rows: list[tuple[str, float | None, float 
     drawn = []
     for label, measured, before, after in rows[:_MOST_BARS]:
         lengths = apart(before, measured), apart(after, measured)
-        told = f"{signed_per_cent(lengths[0])}, then {signed_per_cent(lengths[1])}"
-        drawn.append(Bar(label, told, lengths))
-    told = f"Model minus test in per cent of the test, before and after. {cut(rows)}"
-    spoken = "; ".join(f"{bar.label}: {bar.words}" for bar in drawn)
-    return bars(key, title, f"{told}{spoken}.", drawn, ("before", "after"))
+        words = f"{signed_per_cent(lengths[0])}, then {signed_per_cent(lengths[1])}"
+        drawn.append(Bar(label, words, lengths))
+    description = f"Model minus test in per cent of the test, before and after. {cut(rows)}"
+    values = "; ".join(f"{bar.label}: {bar.words}" for bar in drawn)
+    return bars(key, title, f"{description}{values}.", drawn, ("before", "after"))
 
 
 def drawn_model(document: Part) -> str:
@@ -54,8 +54,8 @@ def cut(rows: list) -> str:
     return f"The first {_MOST_BARS} of {len(rows)}. " if len(rows) > _MOST_BARS else ""
 
 
-def shares(key: str, title: str, told: str, rows: list[tuple[str, str, float | None]]) -> Markup:
+def shares(key: str, title: str, description: str, rows: list[tuple[str, str, float | None]]) -> Markup:
     """Bars of shares or probabilities: (label, words, length) each."""
     drawn = [Bar(label, words, (length,)) for label, words, length in rows[:_MOST_BARS]]
-    spoken = "; ".join(f"{bar.label}: {bar.words}" for bar in drawn)
-    return bars(key, title, f"{told} {cut(rows)}{spoken}.", drawn, (title,))
+    values = "; ".join(f"{bar.label}: {bar.words}" for bar in drawn)
+    return bars(key, title, f"{description} {cut(rows)}{values}.", drawn, (title,))

@@ -41,8 +41,8 @@ def _untried(found: list[Part]) -> Markup:
 def _judged(key: str, which: str, document: Part) -> Iterator[Markup]:
     groups = document.parts("groups")
     rows = [(g.text("group"), probable(g.number("probability")), g.number("probability")) for g in groups]
-    title, told = f"Probability of each group{which}", "Given that what is missing is a candidate or nothing."
-    yield shares(f"groups{key}", title, told, rows)
+    title, description = f"Probability of each group{which}", "Given that what is missing is a candidate or nothing."
+    yield shares(f"groups{key}", title, description, rows)
     caption = f"Candidates, the leading one first{which}"
     yield table(f"candidates{key}", caption, _HEADS, map(_row, document.parts("candidates")))
 

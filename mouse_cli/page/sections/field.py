@@ -85,8 +85,9 @@ def _drawn(found: Part) -> Markup:
     drawn = [Line("two sd", "band", outline, filled=True), Line("value", "revised", points(value))]
     top = int(np.argmax(np.abs(value)))
     unit = _UNITS.get(found.text("property"), "")
-    spoken = f"Over {name}; the largest value is {shown(value[top], 3)} {unit}, sd {shown(sd[top], 2)}, at {shown(at[top], 4)}."
-    return lines("field-along", title(found), spoken, name, unit, drawn)
+    largest = f"{shown(value[top], 3)} {unit}, sd {shown(sd[top], 2)}, at {shown(at[top], 4)}"
+    description = f"Over {name}; the largest value is {largest}."
+    return lines("field-along", title(found), description, name, unit, drawn)
 
 
 def _along(every: list[Part]) -> tuple[np.ndarray, str]:

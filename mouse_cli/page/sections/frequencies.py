@@ -167,8 +167,8 @@ def shapes(document: Part) -> Iterator[Markup]:
             continue
         values = mac(columns(components, modes, "test"), columns(components, modes, which)).tolist()
         title = f"MAC of the measured shapes with those of {name}"
-        told = f"Diagonal: {', '.join(f'mode {m} {row[i]:.3f}' for i, (m, row) in enumerate(zip(modes, values, strict=True)))}."
-        drawn.append(matrix(f"matrix-{key}", title, told, modes, values))
+        diagonal = (f"mode {m} {row[i]:.3f}" for i, (m, row) in enumerate(zip(modes, values, strict=True)))
+        drawn.append(matrix(f"matrix-{key}", title, f"Diagonal: {', '.join(diagonal)}.", modes, values))
         cells = [(f"mode {m}", *map(_shaded, row)) for m, row in zip(modes, values, strict=True)]
         tables.append(table(f"mac-{key}", title, ("test \\ model", *(f"mode {m}" for m in modes)), cells))
     if drawn:

@@ -73,9 +73,11 @@ def _diagram(document: Part, modes: list[float]) -> Markup:
         tag("text", f"{shown(band[1], 4)} Hz", x=_WIDTH - 8, y=_BOTTOM + 16, text_anchor="end"),
         tag("text", f"{highest:.0f}", x=_LEFT - 4, y=20, text_anchor="end"),
     ]
-    told = f"{sum(s for *_, s in inside)} of {len(inside)} poles are stable; lines at the {len(modes)} modes of the answer."
-    drawn = svg("stable", "Stabilisation diagram", told, (_WIDTH, _HEIGHT), *lines, *marks, *words)
-    return tag("figure", tag("figcaption", "Stabilisation diagram: model order over frequency"), drawn, tag("p", told))
+    description = f"{sum(s for *_, s in inside)} of {len(inside)} poles are stable; lines at the {len(modes)} modes of the answer."
+    drawn = svg("stable", "Stabilisation diagram", description, (_WIDTH, _HEIGHT), *lines, *marks, *words)
+    return tag(
+        "figure", tag("figcaption", "Stabilisation diagram: model order over frequency"), drawn, tag("p", description)
+    )
 
 
 _PAIRS = ("mode", "model mode", "test, Hz", "sd of test", "model, Hz", "off", "off, in sd", "MAC", "scale factor")
@@ -117,8 +119,8 @@ def _matrix(document: Part, modes: list[Part], compared: list[Part]) -> Markup:
     columns = [int(m.number("model_mode") or 1) - 1 for m in compared]
     names = [m.label("mode") for m in compared]
     values = [[nan if (x := rows[name][j]) is None else x for j in columns] for name in names]
-    told = "Rows: measured modes; columns: their partners in the model, in the same order."
-    return matrix("mac", "MAC of mode pairs", told, names, values)
+    description = "Rows: measured modes; columns: their partners in the model, in the same order."
+    return matrix("mac", "MAC of mode pairs", description, names, values)
 
 
 def _correlated_row(mode: Part) -> tuple[object, ...]:
@@ -174,8 +176,8 @@ def _curves(slug: str, pair: Part, kind: str, which: str) -> Markup:
         )
     ]
     title = f"{kind.capitalize()} {pair.label('output')} by {pair.label('input')}, {which}"
-    told = f"Magnitudes of {' and '.join(line.name for line in drawn if line.points)} over frequency."
-    return lines(slug, title, told, "frequency, Hz", "dB", drawn, _DEEP)
+    description = f"Magnitudes of {' and '.join(line.name for line in drawn if line.points)} over frequency."
+    return lines(slug, title, description, "frequency, Hz", "dB", drawn, _DEEP)
 
 
 def _functions_row(function: Part) -> tuple[object, ...]:

@@ -19,9 +19,9 @@ def parameters(document: Part) -> Iterator[Markup]:
     for key, name, found in updates(document):
         all_of = found.parts("parameters")
         rows = [_interval(each) for each in all_of[:_MOST]]
-        spoken = "; ".join(f"{row.label}: {row.words}" for row in rows)
-        told = f"Shift from the prior value, and half widths of one sd, both in prior sd. {cut(all_of)}{spoken}."
-        yield intervals(f"intervals-{key}", f"Parameters of {name}, prior and posterior", told, rows)
+        listed = "; ".join(f"{row.label}: {row.words}" for row in rows)
+        description = f"Shift from the prior value, and half widths of one sd, both in prior sd. {cut(all_of)}{listed}."
+        yield intervals(f"intervals-{key}", f"Parameters of {name}, prior and posterior", description, rows)
         yield table(f"parameters-{key}", f"Parameters of {name}", _PARAMETERS_HEADS, map(_row, all_of))
 
 
@@ -93,9 +93,9 @@ def convergence(document: Part) -> Iterator[Markup]:
     """Convergence: the misfit after each cycle. Chi-square by cycle as a curve, then every cycle."""
     cycles = document.parts("cycles")
     chi2 = [cycle.number("chi2") for cycle in cycles]
-    spoken = "; ".join(f"cycle {i}: {shown(value, 4)}" for i, value in enumerate(chi2))
-    told = f"Sum of squared differences over their variances, logarithmic; cycle 0 is the prior model. {spoken}."
-    yield curve("chi-square", "Chi-square after each cycle", told, chi2)
+    listed = "; ".join(f"cycle {i}: {shown(value, 4)}" for i, value in enumerate(chi2))
+    description = f"Sum of squared differences over their variances, logarithmic; cycle 0 is the prior model. {listed}."
+    yield curve("chi-square", "Chi-square after each cycle", description, chi2)
     keys = ("chi2", "exceedances", "allowed", "cost", "damping")
     rows = [(Cell(c.number("cycle"), c.label("cycle")), *(c.number(key) for key in keys)) for c in cycles]
     yield table("cycles", "Cycles of the run", _CONVERGENCE_HEADS, rows)

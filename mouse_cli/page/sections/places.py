@@ -56,9 +56,9 @@ def _along(places: list[Part]) -> Markup:
     top = max(line, key=lambda point: point[1])
     name = f"{'xyz'[axis]}" if len(points[0]) == 3 else "degree of freedom"
     title = "Log probability of each site, below the best"
-    told = f"Over {name}; the best is at {shown(top[0], 4)}."
+    description = f"Over {name}; the best is at {shown(top[0], 4)}."
     drawn = [Line("", "revised", line), Line("", "revised", line, dots=True)]
-    return lines("place-along", title, told, name, "nats", drawn, _DEEP)
+    return lines("place-along", title, description, name, "nats", drawn, _DEEP)
 
 
 def _position(site: Part) -> tuple[float, ...] | None:

@@ -77,9 +77,9 @@ def records(document: Part) -> Iterator[Markup]:
     held, names = document.part("held_out"), document.part("recordings").labels("outputs")
     rows = [row for each in held.parts("records") for row in _rows(each, names)]
     drawn = [_bar(row) for row in rows if row[2]][:_MOST]
-    spoken = "; ".join(f"{bar.label}: {bar.words}" for bar in drawn)
-    told = f"rms of measured less simulated over short horizons, by the rms of the record. {spoken}."
-    yield bars("off-records", "What is missed of records held out", told, drawn, ("before", "after"))
+    listed = "; ".join(f"{bar.label}: {bar.words}" for bar in drawn)
+    description = f"rms of measured less simulated over short horizons, by the rms of the record. {listed}."
+    yield bars("off-records", "What is missed of records held out", description, drawn, ("before", "after"))
     yield table("held-out-records", "Errors of records held out, rms", _RECORDS_HEADS, rows)
     horizon = next((each.number("horizon_s") for each in held.parts("records")), None)
     if rows and horizon is not None:

@@ -84,8 +84,8 @@ def form(document: Part) -> str:
 def further(document: Part) -> list[str]:
     """The other sentences of the verdict; of several configurations, in documents without sentences, one a mechanism."""
     found = document.part("verdict")
-    told = found.texts("sentences")
-    return told[1:] if told else [*map(_cause, found.parts("causes"), document.parts("turns"))]
+    sentences = found.texts("sentences")
+    return sentences[1:] if sentences else [*map(_cause, found.parts("causes"), document.parts("turns"))]
 
 
 def _run(document: Part) -> str:

@@ -180,8 +180,8 @@ def rivals_of_site(elsewhere: tuple[tuple[tuple[Site, ...], float], ...]) -> str
     """
     what = lambda sites: "this site" if len(sites) == 1 else "these sites"
     at = lambda text: text if text.startswith("between") else f"at {text}"
-    told = [f"; or {at(_several([*map(place, s)]))} (probability of {what(s)} {probable(p)})" for s, p in elsewhere]
-    return "".join(told)
+    rivals = [f"; or {at(_several([*map(place, s)]))} (probability of {what(s)} {probable(p)})" for s, p in elsewhere]
+    return "".join(rivals)
 
 
 def in_common(found: SharedPlace, units: Units) -> str:
@@ -191,12 +191,12 @@ def in_common(found: SharedPlace, units: Units) -> str:
     'y = 0 mm, z = 8.1 to 11.2 mm'
     """
     unit = f" {units.of('m')}" if units.declared else ""
-    told = [
+    words = [
         f"{axis} = {low + 0.0:.4g}{'' if low == high else f' to {high + 0.0:.4g}'}{unit}"
         for axis, low, high in found.extents
     ]
     nodes = f"node{'s' if len(found.nodes) > 1 else ''} {', '.join(map(str, found.nodes))}"
-    return ", ".join([*told, *([nodes] if found.nodes else [])])
+    return ", ".join([*words, *([nodes] if found.nodes else [])])
 
 
 def _at(site: Site, units: Units) -> str:

@@ -28,15 +28,17 @@ def field_blocks(field: Field | None, units: Units) -> Iterator[Block]:
         return
     yield field_table(field)
     few, count = len(_shown(field)), len(field.values)
-    told = [f"{counted(count - few, 'site')} with negligible values (below two sd) left out."] if few < count else []
+    sentences = (
+        [f"{counted(count - few, 'site')} with negligible values (below two sd) left out."] if few < count else []
+    )
     unit = units.of("m") if field.unit == "m" else field.unit
     spread = f"{factor(field) * field.spread:.2g} {UNITS[field.property]}"
     along = "from mode to mode" if field.property == LAW else "along the structure"
     over = f" and are correlated over {field.length:.2g} {unit}" if 0 < field.length < inf else ""
     straight = ", along a straight line" if field.length == inf else ""
     if not one_spring(field):
-        told.append(f"The values scatter {along} with sd {spread}{over}{straight}.")
-    yield Text(" ".join(told))
+        sentences.append(f"The values scatter {along} with sd {spread}{over}{straight}.")
+    yield Text(" ".join(sentences))
 
 
 def field_table(field: Field) -> Table:
@@ -60,5 +62,5 @@ def untried_text(untried: Sequence[Untried]) -> Iterator[Text]:
     for each in untried:
         reasons.setdefault(each.reason, []).append(each.physics)
     if reasons:
-        told = "; ".join(f"{', '.join(names)} ({reason})" for reason, names in reasons.items())
-        yield Text(f"Not tried, {counted(len(untried), 'candidate')}: {told}.")
+        listed = "; ".join(f"{', '.join(names)} ({reason})" for reason, names in reasons.items())
+        yield Text(f"Not tried, {counted(len(untried), 'candidate')}: {listed}.")

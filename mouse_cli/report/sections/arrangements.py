@@ -54,10 +54,10 @@ _ERRORS = heads("mode | theory errs [per cent] | sd [per cent]")
 
 def parameters(found: ArrangementsDiagnosis, options: Options) -> Iterator[Block]:
     """Those of the decks first, then those of the causes."""
-    told = (found.extended or found.problems)[0].parameters
+    revised = (found.extended or found.problems)[0].parameters
     rows = tuple(
         (p.name, p.unit, f"{p.nominal:.5g}" if i < len(found.problem.parameters) else "", f"{value:.5g}", f"{sd:.2g}")
-        for i, (p, value, sd) in enumerate(zip(told, found.values, found.sd, strict=True))
+        for i, (p, value, sd) in enumerate(zip(revised, found.values, found.sd, strict=True))
     )
     if rows:
         yield Table(_PARAMETERS_COLUMNS, rows)

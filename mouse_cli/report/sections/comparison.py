@@ -63,8 +63,8 @@ def remarks(found: Compared, options: Options) -> Iterator[Block]:
     for update in found.updates:
         if options.short and not update.warnings:
             continue
-        told = "; ".join(f"{remark.code}: {remark.message}" for remark in update.warnings)
-        yield Text(f"{update.about.key}: {told or 'no remarks'}.")
+        text = "; ".join(f"{remark.code}: {remark.message}" for remark in update.warnings)
+        yield Text(f"{update.about.key}: {text or 'no remarks'}.")
 
 
 def heading(found: Compared, options: Options) -> Iterator[Block]:

@@ -24,14 +24,14 @@ def answers(found: RecordDiagnosis, options: Options) -> Iterator[Block]:
     yield Text(" ".join(sentences(found)))
     yield from field_blocks(found.field, found.problem.units)
     yield from (Text(text) for text in found.cautions)
-    for question, told in (
+    for question, answer in (
         ("Where?", _where(found)),
         ("What?", _what(found)),
         ("How much?", _how_much(found)),
         ("Validated?", _true(found)),
     ):
         yield Heading(question, 2)
-        yield Text(told)
+        yield Text(answer)
 
 
 def _where(found: RecordDiagnosis) -> str:
@@ -59,8 +59,8 @@ def _what(found: RecordDiagnosis) -> str:
         return f"{left}; no law was found that leaves less."
     after = f"with {best.title} {best.chi2 / best.dof:.4g} times"
     gained = f"log evidence over none {best.log_evidence - baseline.log_evidence:.4g}"
-    told = f"{left}, {after} ({gained}).{_conditional(found)}"
-    return f"{told} {_noise(found)}" if found.noise else told
+    text = f"{left}, {after} ({gained}).{_conditional(found)}"
+    return f"{text} {_noise(found)}" if found.noise else text
 
 
 def _conditional(found: RecordDiagnosis) -> str:
@@ -68,11 +68,11 @@ def _conditional(found: RecordDiagnosis) -> str:
     if found.leader is None:
         return ""
     inside = within(found.explanations, found.leader)
-    told = (
+    text = (
         f" Group {found.leader.group}: {with_p(found.probability)}{f', members within it: {inside}' if inside else ''}."
     )
-    told += f" That is not all: {remains(found.rest)}." if found.rest is not None else ""
-    return f"{told} Probabilities hold on condition that the mechanisms are laws of the library at their sites."
+    text += f" That is not all: {remains(found.rest)}." if found.rest is not None else ""
+    return f"{text} Probabilities hold on condition that the mechanisms are laws of the library at their sites."
 
 
 def _noise(found: RecordDiagnosis) -> str:
@@ -97,8 +97,8 @@ def _how_much(found: RecordDiagnosis) -> str:
 def _true(found: RecordDiagnosis) -> str:
     if not found.scores:
         return "Not proved: the records are too short to hold anything out."
-    told = " ".join(_proof(one) for one in found.scores)
-    return f"Held-out records, rms residual of the outputs: {told}"
+    scores = " ".join(_proof(one) for one in found.scores)
+    return f"Held-out records, rms residual of the outputs: {scores}"
 
 
 def _proof(one: RecordScore) -> str:
@@ -122,8 +122,8 @@ def update(found: RecordUpdate, options: Options) -> Iterator[Block]:
     )
     columns = heads("<property | <unit | prior | prior sd | revised | sd")
     prior = found.problem.prior
-    told = zip(found.problem.parameters, prior.mean, prior.sd, found.theta, found.sd_theta, strict=True)
-    rows = [(p.name, p.unit, *(f"{value:.5g}" for value in values)) for p, *values in told]
+    table = zip(found.problem.parameters, prior.mean, prior.sd, found.theta, found.sd_theta, strict=True)
+    rows = [(p.name, p.unit, *(f"{value:.5g}" for value in values)) for p, *values in table]
     yield Table(columns, tuple(rows)).without_empty_columns()
     yield from _laws(found)
 

@@ -21,10 +21,11 @@ def verdict(result: SpectraResult, options: Options) -> Iterator[Block]:
 def _averaged(each: MeasuredFrf) -> str:
     spacing = each.sample_rate_hz / each.block_samples
     coherence = np.array([q.median_coherence for q in each.quality])
-    told = f", median coherence {coherence.min():.3f} to {coherence.max():.3f}" if np.isfinite(coherence).all() else ""
+    known = np.isfinite(coherence).all()
+    median = f", median coherence {coherence.min():.3f} to {coherence.max():.3f}" if known else ""
     stroke = f" The force counts as 0 after {each.force_window} samples of each block." if each.force_window else ""
     return (
-        f"{', '.join(each.recordings)}: {counted(len(each.quality), 'function')}{told if len(coherence) else ''}; "
+        f"{', '.join(each.recordings)}: {counted(len(each.quality), 'function')}{median if len(coherence) else ''}; "
         f"{counted(each.blocks, 'block')} of {each.block_samples} samples at {each.sample_rate_hz:.6g} Hz, lines {spacing:.5g} Hz "
         f"apart, {each.averages:.4g} independent averages.{stroke}"
     )

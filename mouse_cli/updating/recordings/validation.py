@@ -143,5 +143,5 @@ def surface(study: Study, best: Fit) -> Surface | None:
     look = _look(study, study.spectrum, best)
     force = look.free(best.x)
     x, v, own = look.local.x, look.local.v, look.kept
-    told = stepped(law, x, v, p[:, None], words)[:, 0] if law.states else law.force(x, v, None, p, **words)[0]
-    return Surface(part.title, part.place.site.text, x[own], v[own], force[own], told[own])
+    given = stepped(law, x, v, p[:, None], words)[:, 0] if law.states else law.force(x, v, None, p, **words)[0]
+    return Surface(part.title, part.place.site.text, x[own], v[own], force[own], given[own])

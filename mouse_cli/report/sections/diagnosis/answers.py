@@ -50,9 +50,9 @@ def answers(found: Diagnosis, options: Options) -> Iterator[Block]:
     """The verdict and what it stands or falls with, then the answers one by one."""
     yield Text(" ".join(sentences(found)))
     yield from (Text(text) for text in found.cautions)
-    for question, told in (("Where?", _where), ("What?", _what), ("How much?", _how_much), ("Validated?", _true)):
+    for question, answer in (("Where?", _where), ("What?", _what), ("How much?", _how_much), ("Validated?", _true)):
         yield Heading(question, 2)
-        yield from told(found)
+        yield from answer(found)
 
 
 def _where(found: Diagnosis) -> Iterator[Block]:
@@ -170,8 +170,8 @@ def _open(found: Diagnosis) -> str:
     """What data that demand no cause leave possible."""
     if not found.probability < _DEMANDED:
         return ""
-    told = with_p(found.probability)
-    return f" The data demand no mechanism, and do not exclude the first of the table either: that there is none has {told}."
+    probability = with_p(found.probability)
+    return f" The data demand no mechanism, and do not exclude the first of the table either: that there is none has {probability}."
 
 
 def _noise(found: Diagnosis) -> str:
@@ -202,10 +202,10 @@ def _true(found: Diagnosis) -> Iterator[Block]:
             "Not proved: no data were held out from the fits, and there are too few modes to predict each from the others."
         )
         return
-    told = "Each mode, predicted from the others" if held.kind == BY_MODE else "Data that no fit has seen"
+    subject = "Each mode, predicted from the others" if held.kind == BY_MODE else "Data that no fit has seen"
     base, after = held.baseline, held.revised
     if after is None or found.kind == NOTHING:
-        yield Text(f"{told}: {' and '.join(_errors(base))}.{_predicted_frf(found)}")
+        yield Text(f"{subject}: {' and '.join(_errors(base))}.{_predicted_frf(found)}")
         return
     number = int(np.isfinite(held.measured_hz).sum())
     extended = {NAMED: "the extended model", ONE_OF: "all hypotheses together, each with its probability,"}.get(
@@ -216,7 +216,7 @@ def _true(found: Diagnosis) -> Iterator[Block]:
         lie = f"{round(number * after.covered)} of {counted(number, 'frequency', 'frequencies')}"
         within = f", and {lie} lie within its 90 % intervals"
     yield Text(
-        f"{told}: with {extended} {' and '.join(_errors(base, after))}, the log predictive density from "
+        f"{subject}: with {extended} {' and '.join(_errors(base, after))}, the log predictive density from "
         f"{base.log_predictive_density:.1f} to {after.log_predictive_density:.1f}{within}. "
         f"{_proof(found, held)}{_predicted_frf(found)}"
     )
@@ -224,11 +224,11 @@ def _true(found: Diagnosis) -> Iterator[Block]:
 
 def _predicted_frf(found: Diagnosis) -> str:
     """FRFs that no fit has seen, over their noise."""
-    told = ""
+    text = ""
     for fit in found.held_frf:
         left = " and ".join(f"{fit.rms_sd(model.H):.3g} times their noise ({model.name})" for model in fit.models)
-        told += f" FRFs that no fit has seen, {len(fit.test.frequency_hz)} lines: the residual is {left}."
-    return told
+        text += f" FRFs that no fit has seen, {len(fit.test.frequency_hz)} lines: the residual is {left}."
+    return text
 
 
 def _errors(base: Score, after: Score | None = None) -> Iterator[str]:
