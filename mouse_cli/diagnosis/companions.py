@@ -106,16 +106,16 @@ def loose(one: Fit, which: tuple[int, ...] | None = None) -> tuple[tuple[str, fl
 
 
 def _summed(which: tuple[int, ...], own: list[Mechanism], every, reach: float) -> Shared:
-    physics, beside, weights = [], [], []
+    physics, others, weights = [], [], []
     for p, mechanisms in every:
         at = _matched([own[i] for i in which], mechanisms, reach)
         if at is not None:
             physics.append(" + ".join(sorted(mechanisms[i][0] for i in at)))
-            beside.append(joined([group for i, (_, group, _) in enumerate(mechanisms) if i not in at]))
+            others.append(joined([group for i, (_, group, _) in enumerate(mechanisms) if i not in at]))
             weights.append(p)
     total = sum(weights)
     given = [p / total for p in weights] if total > 0 else weights
-    return Shared(which, total, shares(physics, given), shares(beside, given))
+    return Shared(which, total, shares(physics, given), shares(others, given))
 
 
 def _explanations(ranking: Ranking) -> Iterator[tuple[float, list[Mechanism]]]:

@@ -29,8 +29,8 @@ def colours(fit: FrfFit) -> list[str]:
 def unbroken(hz: np.ndarray) -> np.ndarray:
     """Frequencies (f,) with NaN for the first line behind a gap, so that no curve is drawn across it."""
     apart = np.diff(hz)
-    beside = np.maximum(np.append(apart[1:], 0.0), np.append(0.0, apart[:-1]))
-    return np.where(np.append(False, apart > _GAP * beside) if len(apart) > 1 else False, np.nan, hz)
+    spacing = np.maximum(np.append(apart[1:], 0.0), np.append(0.0, apart[:-1]))
+    return np.where(np.append(False, apart > _GAP * spacing) if len(apart) > 1 else False, np.nan, hz)
 
 
 def overlay(fit: FrfFit, o: int, i: int, units: Units, axes: Any) -> None:
@@ -72,13 +72,13 @@ def _coherence(fit: FrfFit, o: int, axes: Any) -> None:
     """On an axis of its own at the foot of the figure, from 0 to 1."""
     if fit.test.coherence is None:
         return
-    beside = axes.twinx()
-    beside.plot(unbroken(fit.test.frequency_hz), fit.test.coherence[:, o], color="C2", lw=0.8)
-    beside.set_ylim(0, _LOW)
-    beside.set_yticks([0, 1])
-    beside.set_ylabel("coherence", loc="bottom", color="C2")
-    beside.spines["right"].set_visible(True)
-    beside.grid(visible=False)
+    right = axes.twinx()
+    right.plot(unbroken(fit.test.frequency_hz), fit.test.coherence[:, o], color="C2", lw=0.8)
+    right.set_ylim(0, _LOW)
+    right.set_yticks([0, 1])
+    right.set_ylabel("coherence", loc="bottom", color="C2")
+    right.spines["right"].set_visible(True)
+    right.grid(visible=False)
 
 
 def worst(fits: tuple[FrfFit, ...], which: int) -> tuple[FrfFit, int, int]:

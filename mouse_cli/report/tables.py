@@ -92,11 +92,9 @@ def _collect(
         elif value and all(isinstance(row, list) for row in value) and any(value):
             found[name] = _matrix(key, value, labels)
         elif value:
-            beside = found.get(path)
-            fits = (
-                beside is not None and beside.index is None and len(next(iter(beside.columns.values()))) == len(value)
-            )
-            found.setdefault(path if path and (beside is None or fits) else name, Table()).columns[key] = value
+            table = found.get(path)
+            fits = table is not None and table.index is None and len(next(iter(table.columns.values()))) == len(value)
+            found.setdefault(path if path and (table is None or fits) else name, Table()).columns[key] = value
 
 
 def _rows(

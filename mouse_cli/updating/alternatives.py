@@ -125,8 +125,8 @@ def _exchanges(setting: Setting, one: Laplace) -> list[np.ndarray]:
     """Places z (k,) that promise most where like parameters are exchanged, or the answer is reflected in the prior mean."""
     small = setting.problem.structure.n <= _SMALL
     found = [z for z in (*_exchanged(setting, one), -one.z) if one.length(z) > _APART]
-    looked = _Screen(setting, one.state).cost if not small else lambda z: cost(setting, z)[0]
-    costs = np.array([looked(z) for z in found])
+    screen = _Screen(setting, one.state).cost if not small else lambda z: cost(setting, z)[0]
+    costs = np.array([screen(z) for z in found])
     order = [i for i in np.argsort(costs, kind="stable") if costs[i] < one.cost + _REACH]
     return [found[i] for i in order[:_DESCENTS]]
 

@@ -29,8 +29,8 @@ def arms(model: Reduced, node: int) -> tuple[tuple[Unknown, ...], np.ndarray, li
     used = slice(0, model.low_modes(2))
     rows, length = model.node(node)[:, used], _LONGEST * span(model)
     added = [at_end(model, rows, axis) - rows[:3] for axis in np.eye(3)]
-    felt = [np.abs(each).max(initial=0.0) * length for each in added]
-    axes = [d for d in range(3) if felt[d] > _STILL * np.abs(rows[:3]).max(initial=0.0)]
+    size = [np.abs(each).max(initial=0.0) * length for each in added]
+    axes = [d for d in range(3) if size[d] > _STILL * np.abs(rows[:3]).max(initial=0.0)]
     unknowns = tuple(Unknown(f"arm along {_AXES[d]}", "m", -length, length, log=False) for d in axes)
     signs = np.concatenate([np.eye(len(axes)), -np.eye(len(axes))])
     return unknowns, _BEGIN * length * signs, axes

@@ -219,8 +219,8 @@ class Recipe:
 
 def outer(rows: np.ndarray, core: np.ndarray) -> np.ndarray:
     """sum over b of rows_b' core_b rows_b (r, r), for rows (b, c, r) and symmetric core (b, c, c)."""
-    weighed = np.einsum("bij,bjr->bir", core, rows)
-    return rows.reshape(-1, rows.shape[-1]).T @ weighed.reshape(-1, rows.shape[-1])
+    loads = np.einsum("bij,bjr->bir", core, rows)
+    return rows.reshape(-1, rows.shape[-1]).T @ loads.reshape(-1, rows.shape[-1])
 
 
 def steps(unknown: Unknown, count: int) -> np.ndarray:

@@ -58,10 +58,10 @@ def locate(model: Reduced) -> Location:
     chi2 = found.matches.cost - np.where(gain < _TRUSTED, gain, 0.0)
     least, dof = float(chi2.min()), max(found.measured.dof, 1)
     score = -0.5 * (chi2 + found.matches.volume()) / max(1.0, least / dof)
-    weighed = score + log_prior(found.channels)
-    probability = np.exp(weighed - weighed.max())
+    log_posterior = score + log_prior(found.channels)
+    probability = np.exp(log_posterior - log_posterior.max())
     probability /= probability.sum()
-    order = np.argsort(-weighed, kind="stable")
+    order = np.argsort(-log_posterior, kind="stable")
     region = int(np.searchsorted(np.cumsum(probability[order]), _REGION)) + 1
     places = tuple(_place(found, i, float(probability[i]), float(score.max() - score[i])) for i in order[:_SHOWN])
     return Location(places, min(region, len(places)), upper_tail(least, dof))

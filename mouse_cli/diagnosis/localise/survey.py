@@ -125,13 +125,13 @@ def _merged(new: np.ndarray, old: np.ndarray, count: int, better: bool) -> np.nd
 
 def _look(model, measured, update: Fit, z: np.ndarray, scale: float, pairs, count: int) -> np.ndarray:
     """Degrees of freedom in the order of what a force on them, or on them and another, leaves at z (k,)."""
-    looked = np.linspace(0, len(measured.modes) - 1, min(_MODES, len(measured.modes))).round().astype(int)
+    modes = np.linspace(0, len(measured.modes) - 1, min(_MODES, len(measured.modes))).round().astype(int)
     own = [_whitening(update, mode, measured.weight[:, i], scale) for i, mode in enumerate(measured.modes)]
     matcher = Matcher(model, measured, z, own)
     one, other = pairs
 
     def left(rows: np.ndarray) -> np.ndarray:
-        return sum(matcher.nearest(i, rows)[1] for i in looked)
+        return sum(matcher.nearest(i, rows)[1] for i in modes)
 
     misfit = np.concatenate([left(model.V[i : i + _EACH] @ matcher.X) for i in range(0, len(model.V), _EACH)])
     near = np.minimum(misfit[one], misfit[other])
@@ -144,8 +144,8 @@ def _look(model, measured, update: Fit, z: np.ndarray, scale: float, pairs, coun
         for i in range(0, len(one), _EACH)
     ]
     order = np.argsort(misfit, kind="stable")[:_LOOKED]
-    rows, size = model.V[order] @ matcher.X, [float(np.sum(matcher.y(i) ** 2)) for i in looked]
-    places = _apart(order, [matcher.nearest(i, rows)[2] for i in looked], size, count - count // 4)
+    rows, size = model.V[order] @ matcher.X, [float(np.sum(matcher.y(i) ** 2)) for i in modes]
+    places = _apart(order, [matcher.nearest(i, rows)[2] for i in modes], size, count - count // 4)
     if not len(one):
         return places
     ends = np.stack([one, other], axis=1)[np.argsort(np.concatenate(between), kind="stable")].ravel()

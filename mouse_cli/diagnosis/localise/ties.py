@@ -68,11 +68,11 @@ def _left(model: Reduced, measured: Shapes, found: Pairs, k: np.ndarray) -> np.n
     dK, dM = model.slopes(np.zeros(model.L.shape[1]))
     T = (dK[:, own, own] - model.eigenvalues[own] * dM[:, own, own]).T / measured.sd[:, None]
     C = np.linalg.inv(np.eye(len(own)) + T @ T.T)
-    cost, felt = np.zeros(len(found)), k / (1 + k * found.left(model.eigenvalues[:r]))
+    cost, effective = np.zeros(len(found)), k / (1 + k * found.left(model.eigenvalues[:r]))
     for first in range(0, len(found), _EACH):
         own = slice(first, first + _EACH)
         b = found.rows[own, :r]
-        A = np.diag(model.eigenvalues[:r]) + felt[own, None, None] * b[:, :, None] * b[:, None, :]
+        A = np.diag(model.eigenvalues[:r]) + effective[own, None, None] * b[:, :, None] * b[:, None, :]
         values, Q = np.linalg.eigh(A)
         cost[own] = _misfit(measured, C, values, model.sensing[:, :r] @ Q)
     return cost

@@ -289,6 +289,6 @@ def motion_of(problem: Problem) -> Motion | None:
     at, mesh = problem.structure.geometry, problem.mesh
     if at is None:
         return None
-    beside = at.node < 0
-    order = np.where(beside, 6 * len(mesh.node_ids) + np.cumsum(beside) - 1, 6 * at.node + at.direction)
-    return links(mesh, int(beside.sum())).motion(order)
+    nodeless = at.node < 0
+    order = np.where(nodeless, 6 * len(mesh.node_ids) + np.cumsum(nodeless) - 1, 6 * at.node + at.direction)
+    return links(mesh, int(nodeless.sum())).motion(order)

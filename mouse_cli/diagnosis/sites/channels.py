@@ -159,14 +159,14 @@ def _bare(model: Reduced) -> list[Channel]:
     structure = model.problem.structure
     at, labels = structure.geometry, structure.labels
     turns = np.zeros(structure.n, bool) if at is None else at.direction > 2
-    looked = np.arange(structure.n) if model.places is None else model.places
+    dofs = np.arange(structure.n) if model.places is None else model.places
 
     def site(i: int) -> Site:
         where = None if at is None or at.node[i] < 0 else tuple(float(x) for x in at.coordinates[at.node[i]])
         return Site("dof", (labels[i],), where, f"degree of freedom {labels[i]}")
 
     found = []
-    for name, own in ((FORCE, looked[~turns[looked]]), (MOMENT, looked[turns[looked]])):
+    for name, own in ((FORCE, dofs[~turns[dofs]]), (MOMENT, dofs[turns[dofs]])):
         if len(own):
             found.append(Channel(name, model.V[own], np.ones(len(own)), lambda i, own=own: site(int(own[i]))))
     one, other = coupled(model)

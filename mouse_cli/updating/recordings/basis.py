@@ -37,5 +37,5 @@ def along(V: np.ndarray, M: Matrix) -> np.ndarray:
     """(V'MV)^-1 V'M (m, n): the coordinates of a motion, as exact in its load on V as the motion itself."""
     if V.shape[0] == V.shape[1]:
         return np.linalg.inv(V)
-    weighed = (M @ V).T
-    return np.linalg.solve(weighed @ V, weighed)
+    momentum = (M @ V).T
+    return np.linalg.solve(momentum @ V, momentum)

@@ -217,8 +217,10 @@ class Hypothesis:
             M, C, K = self._with_matrices(many, M, C, K)
         sensing = np.pad(series.sensing, ((0, 0), (0, a)))
         own = [np.repeat(part.place.B[None] @ series.base, part.extra, 0) for part in self.parts]
-        felt = replace(series, inputs=np.pad(series.inputs, ((0, a), (0, 0))), base=np.concatenate([series.base, *own]))
-        inputs = felt.loads(M) / self.read(many, series).force[:, None, :]
+        driven = replace(
+            series, inputs=np.pad(series.inputs, ((0, a), (0, 0))), base=np.concatenate([series.base, *own])
+        )
+        inputs = driven.loads(M) / self.read(many, series).force[:, None, :]
         constant = np.einsum("pni,pi->pn", inputs, x[:, self.offsets] * self.offset)
         return Plant(M, C, K, np.concatenate([inputs, constant[:, :, None]], axis=2), local, sensing, series.order)
 

@@ -15,14 +15,14 @@ def linear_force(
     """
     K, C, M = matrices
     Z = K + 1j * w[:, None, None] * C - w[:, None, None] ** 2 * M
-    felt = M.sum(axis=1)
+    inertia = M.sum(axis=1)
     if len(K) == 1:
-        return Z[:, 0, 0] * X + felt[0] * carried
+        return Z[:, 0, 0] * X + inertia[0] * carried
     back = np.linalg.solve(
-        Z[:, 1:, 1:], np.concatenate([Z[:, 1:, :1], np.broadcast_to(felt[1:, None], Z[:, 1:, :1].shape)], 2)
+        Z[:, 1:, 1:], np.concatenate([Z[:, 1:, :1], np.broadcast_to(inertia[1:, None], Z[:, 1:, :1].shape)], 2)
     )
     through = (Z[:, :1, 1:] @ back)[:, 0]
-    return (Z[:, 0, 0] - through[:, 0]) * X + (felt[0] - through[:, 1]) * carried
+    return (Z[:, 0, 0] - through[:, 0]) * X + (inertia[0] - through[:, 1]) * carried
 
 
 def stepped(law: Law, x: np.ndarray, v: np.ndarray, p: np.ndarray, words: dict[str, float]) -> np.ndarray:
