@@ -175,7 +175,7 @@ def _whole(run: Line, direction: int, share: float) -> Points:
     ids = tuple(int(run.bars.ids[bar]) for bar in run.members)
     site = Site("element", ids, None, f"anywhere along {elements(ids)}, {DIRECTIONS[direction]}")
     row = run.middles[len(run.members) // 2, direction]
-    return Points((), np.zeros((1, 0)), _fixed(row[None]), _fixed(site), share, (direction,))
+    return _place(row[None], site, share, (direction,))
 
 
 def _nodes(model: Reduced) -> list[Points]:
@@ -192,7 +192,7 @@ def _nodes(model: Reduced) -> list[Points]:
             at = tuple(float(x) for x in mesh.coordinates[i])
             name = int(mesh.node_ids[i])
             site = Site("node", (name,), at, f"node {name}")
-            found.append(Points((), np.zeros((1, 0)), _fixed(u[own]), _fixed(site), 1.0, tuple(own)))
+            found.append(_place(u[own], site, 1.0, tuple(own)))
     return found
 
 
@@ -201,7 +201,7 @@ def _split(node: Points) -> Iterator[Points]:
     for row, d in zip(rows, node.dofs, strict=True):
         name = f"{site.ids[0]}{DIRECTIONS[d]}"
         here = Site("dof", (name,), site.position, name)
-        yield Points((), node.starts, _fixed(row[None]), _fixed(here), 1.0, (d,))
+        yield _place(row[None], here, 1.0, (d,))
 
 
 def _dofs(model: Reduced, together: bool) -> list[Points]:
@@ -235,8 +235,9 @@ def named_dof(structure: Structure, i: int) -> Site:
 
 
 def _single(model: Reduced, site: Site, dofs: tuple[int, ...]) -> Points:
-    return Points((), np.zeros((1, 0)), _fixed(model.V[list(dofs)]), _fixed(site), 1.0, dofs)
+    return _place(model.V[list(dofs)], site, 1.0, dofs)
 
 
-def _fixed(value):
-    return lambda values: value
+def _place(rows: np.ndarray, site: Site, share: float, dofs: tuple[int, ...]) -> Points:
+    """A single place, which has no unknown."""
+    return Points((), np.zeros((1, 0)), lambda values: rows, lambda values: site, share, dofs)
