@@ -77,7 +77,7 @@ def command(
 ) -> int:
     """Identify the physics missing from the model of DECKS.
 
-    By its test, or by raw files (--recordings FOLDER). Several DECKS: configurations of one structure, as by moved masses.
+    By its test, or by raw files (--recordings FOLDER). Several DECKS: configurations of one structure, such as moved masses.
 
     Site, mechanism, size, validation. Exit 0: nothing is missing. 1: something is. 2: no site. 4: rejected. 5: no answer.
     """

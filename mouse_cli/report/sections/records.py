@@ -72,7 +72,7 @@ def _conditional(found: RecordDiagnosis) -> str:
         f" Group {found.leader.group}: {with_p(found.probability)}{f', members within it: {inside}' if inside else ''}."
     )
     text += f" That is not all: {remains(found.rest)}." if found.rest is not None else ""
-    return f"{text} Probabilities hold on condition that the mechanisms are laws of the library at their sites."
+    return f"{text} Probabilities are conditional on the mechanisms being laws of the library at their sites."
 
 
 def _noise(found: RecordDiagnosis) -> str:

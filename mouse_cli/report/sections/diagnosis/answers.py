@@ -100,10 +100,7 @@ def _energy(found: Diagnosis) -> str:
 
 
 def _what(found: Diagnosis) -> Iterator[Block]:
-    best, conditional = (
-        found.best,
-        "Probabilities hold on condition that the mechanism is one of those that mouse knows",
-    )
+    best, conditional = found.best, "Probabilities are conditional on the mechanism being one that mouse knows"
     if found.kind == NOTHING:
         total = found.result.residual
         p = found.baseline.p if found.frf and found.baseline else total.p  # functions alone decide where there are any
