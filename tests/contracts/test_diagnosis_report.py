@@ -101,7 +101,7 @@ def test_exit_codes():
         ("nothing", "Nothing is missing that this test could show"),
         ("named", "The model lacks a spring to the ground: degree of freedom 2 (probability 0.98)."),
         ("named", "all stated variances multiplied by 1.15, which the best fit needs"),
-        ("named", "on condition that the mechanism is one of those that mouse knows"),
+        ("named", "conditional on the mechanism being one that mouse knows"),
         ("named", "stiffness 393.5 N/m (sd 6.8)"),
         ("named", "The extended model passes."),
         (
