@@ -12,11 +12,11 @@ from pathlib import Path
 
 from benchmarks._paired import seconds
 
-SMALL = {  # words of each at its smallest size; None: it has one size, or needs what may not be installed
+SMALL = {  # words of each at its smallest size
     "ambiguity": ("1", "--kinds", "twins"),
     "batch": ("20",),
     "batch_kills": ("--kills", "1", "--decks", "20"),
-    "batch_workers": None,
+    "batch_workers": ("2", "--repeats", "1"),
     "coupling": ("--interface", "20", "--lines", "20", "--rounds", "1"),
     "cycle": (),
     "decks": ("--count", "3"),
@@ -26,12 +26,12 @@ SMALL = {  # words of each at its smallest size; None: it has one size, or needs
     "finite_differences": ("--dofs", "300", "--parameters", "2", "--timed", "1"),
     "frf_speed": ("frame", "-n", "2000", "--lines", "20", "--parameters", "3"),
     "growth": ("frame", "--largest", "2000"),
-    "identification": None,
+    "identification": ("--rounds", "1"),
     "million": ("plate", "--dofs", "3000"),
     "peers": ("P1", "--draws", "1"),
     "posterior_coverage": ("1",),
     "recordings": ("--rounds", "1"),
-    "reliability": None,
+    "reliability": ("--share", "0.01"),
     "scale": ("frame-1e4", "--rounds", "1"),
     "sensitivity_accuracy": ("frame", "--dofs", "300", "--modes", "4", "--sensors", "5"),
     "startup": ("--rounds", "1"),
@@ -67,17 +67,17 @@ def main(words: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__.splitlines()[0])
     parser.add_argument("names", nargs="*", metavar="NAME", help="these alone")
     parser.add_argument("--run", action="store_true", help="run them; without it they are listed")
-    parser.add_argument("--small", action="store_true", help="those that can, at their smallest size")
+    parser.add_argument("--small", action="store_true", help="at their smallest size")
     given = parser.parse_args(words)
     if unknown := set(given.names) - set(SMALL):
         parser.error(f"there is no benchmark called {', '.join(sorted(unknown))}")
-    names = given.names or [name for name in SMALL if not given.small or SMALL[name] is not None]
+    names = given.names or list(SMALL)
     if not given.run:
         print("\n".join(f"{name:22s} {purpose(name)}" for name in names))
         return 0
     outcomes = {}
     for name in names:
-        outcomes[name] = one = ran(name, (SMALL[name] or ()) if given.small else ())
+        outcomes[name] = one = ran(name, SMALL[name] if given.small else ())
         print(f"== {name}\n{one.told}", flush=True)
     print("\n".join(f"{name:22s} {one.seconds:8.1f} CPU s  exit {one.code}" for name, one in outcomes.items()))
     return int(any(one.code for one in outcomes.values()))

@@ -3,6 +3,7 @@
     python benchmarks/batch_workers.py [DECKS] [--repeats 3]
 
 The physical limit is the ratio of two processes of `mouse batch --jobs`, measured in the same run: cores share caches and memory.
+Without dask.distributed that is all there is to measure.
 """
 
 import os
@@ -15,10 +16,13 @@ import subprocess
 import sys
 import tempfile
 import time
+from importlib.util import find_spec
 from pathlib import Path
 from statistics import median
 
 from batch import decks
+
+OPTIONS = ("--cluster", "--jobs") if find_spec("distributed") else ("--jobs",)
 
 
 def wall(folder: Path, out: Path, option: str, workers: int) -> float:
@@ -41,13 +45,13 @@ def main() -> None:
         decks(top / "one", 1)
         decks(top / "many", given.decks)
         for i in range(given.repeats):
-            for option in ("--cluster", "--jobs"):
+            for option in OPTIONS:
                 for workers in (1, 2):
                     for size in ("one", "many"):
                         out = top / f"out{option}{workers}{size}{i}"
                         spent.setdefault((option, workers, size), []).append(wall(top / size, out, option, workers))
     print(f"{given.decks} decks, median of {given.repeats}; load {os.getloadavg()[0]:.1f}, {os.cpu_count()} cores")
-    for option in ("--cluster", "--jobs"):
+    for option in OPTIONS:
         start, whole = ([median(spent[option, n, size]) for n in (1, 2)] for size in ("one", "many"))
         bare = (whole[0] - start[0]) / (whole[1] - start[1])
         print(

@@ -5,6 +5,7 @@ The same simulated data for both sides, timed in turn in one run. The peers are 
 standard deviations; sdypy-EMA is told the frequencies to look for, and pyOMA-2 the order.
 """
 
+import argparse
 import contextlib
 import io
 import os
@@ -24,10 +25,11 @@ from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.model.recording import OUTPUT, Channel, Recording
 from mouse_cli.records.identify import identify_frf, identify_recordings
 
-ROUNDS, ORDER = 3, 40
+ORDER = 40
+AIM = 1.5  # times the processor time of sdypy-EMA
 
 
-def functions() -> None:
+def functions(rounds: int) -> None:
     """One force, three responses, 1 % noise, 1056 lines."""
     hz = np.arange(0, 70, 0.0625)
     omega, zeta, shapes = vibrating.modes(0.01)
@@ -53,10 +55,10 @@ def functions() -> None:
 
     model = peer()
     _compare("sdypy-EMA", found, np.array(model.nat_freq), np.array(model.nat_xi))
-    _ratio(lambda: identify_frf([test], (4.0, 69.0)), peer, "sdypy-EMA")
+    _ratio(lambda: identify_frf([test], (4.0, 69.0)), peer, "sdypy-EMA", rounds, f", aim {AIM:g}")
 
 
-def outputs() -> None:
+def outputs(rounds: int) -> None:
     """Three responses to white forces, 40,000 samples, 1 % noise."""
     samples, rate = vibrating.responses(150.0, 40000, 0.01, 0.01, np.random.default_rng(1)), 150.0
     channels = tuple(Channel(str(k + 1), OUTPUT, "acceleration") for k in range(3))
@@ -83,7 +85,7 @@ def outputs() -> None:
     result = peer()
     _compare("pyOMA-2", found, np.ravel(result.Fn), np.ravel(result.Xi))
     print(f"  pyOMA-2 sd {np.ravel(result.Fn_std) if result.Fn_std is not None else 'none'}")
-    _ratio(lambda: identify_recordings([recording], (4.0, 70.0)), peer, "pyOMA-2")
+    _ratio(lambda: identify_recordings([recording], (4.0, 70.0)), peer, "pyOMA-2", rounds)
 
 
 def _own(what: str, omega: np.ndarray, found) -> None:
@@ -98,12 +100,15 @@ def _compare(peer: str, found, hz: np.ndarray, zeta: np.ndarray) -> None:
     print(f"  {peer} {hz[order]}, damping {zeta[order]}\n  away by {away[0].round(2)} and {away[1].round(2)} sd")
 
 
-def _ratio(own, peer, name: str) -> None:
-    mine, others, ratio = paired(own, peer, ROUNDS)
-    print(f"  mouse {mine:.2f} s, {name} {others:.2f} s, ratio {ratio:.2f}")
+def _ratio(own, peer, name: str, rounds: int, aim: str = "") -> None:
+    mine, others, ratio = paired(own, peer, rounds)
+    print(f"  mouse {mine:.2f} s, {name} {others:.2f} s, ratio {ratio:.2f}{aim}")
 
 
 if __name__ == "__main__":
     np.set_printoptions(precision=5, suppress=True)
-    functions()
-    outputs()
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--rounds", type=int, default=3)
+    given = parser.parse_args()
+    functions(given.rounds)
+    outputs(given.rounds)

@@ -3,6 +3,7 @@
 Counts, not times; the simulated tests are those of tests/property, more of them.
 """
 
+import argparse
 import os
 import sys
 from collections import Counter
@@ -20,6 +21,16 @@ from scipy.stats import kstest
 
 from mouse_cli.updating import run
 
+parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+parser.add_argument("--share", type=float, default=1.0, help="of the counts of all trials, to see that it runs")
+share_of = parser.parse_args().share
+simulated.TRIALS = round(share_of * simulated.TRIALS)
+tests, springs, factors = (
+    round(2000 * share_of),
+    round(100 * share_of),
+    far.FACTORS[: round(share_of * len(far.FACTORS)) or 1],
+)
+
 wide = list(simulated.trials(1, 0.10, 0.01, 0.05))
 print(f"coverage of the anchored posterior, {simulated.TRIALS} simulated tests, each of four properties")
 for confidence, z in simulated.QUANTILE.items():
@@ -33,24 +44,26 @@ for name in ("innovation", "residual", "prior_shift"):
 
 rng = np.random.default_rng(22)
 alarms = Counter()
-for _ in range(2000):
+for _ in range(tests):
     truth = far.NOMINAL * (1 + 0.05 * rng.standard_normal(4))
     test = simulate(far.CHAIN.stiffness(truth), np.eye(4), rng, 0.01, 0.02)
     alarms[run(far.CHAIN.problem(test, 0.05 * far.NOMINAL)).exit_code] += 1
-print(f"false alarms: {2000 - alarms[0]} of 2000 (4 expected: two tests at 1 in 1000)")
+print(f"false alarms: {tests - alarms[0]} of {tests} ({0.002 * tests:g} expected: two tests at 1 in 1000)")
 for position in (1, 2, 3):
-    found = sum(far.alarm(position, np.random.default_rng(seed)).exit_code == 1 for seed in range(100))
-    print(f"spring of 400 N/m to the ground at mass {position + 1}: noticed in {found} of 100")
+    found = sum(far.alarm(position, np.random.default_rng(seed)).exit_code == 1 for seed in range(springs))
+    print(f"spring of 400 N/m to the ground at mass {position + 1}: noticed in {found} of {springs}")
 
-print("springs off by factors 2 to 10: within 2 % of the truth (of 30); farther off, yet exit 0; of these, beyond 6 sd")
+print(
+    f"springs off by factors 2 to 10: within 2 % of the truth (of {len(factors)}); farther off, yet exit 0; of these, beyond 6 sd"
+)
 for recursion in ("replaced", "anchored"):
     for step in (far.FIRST, far.SECOND):
         for transform in ("identity", "log"):
-            runs = [far.attempt(f, recursion, step, transform) for f in far.FACTORS]
-            right = [far.reached(r, f) for r, f in zip(runs, far.FACTORS, strict=True)]
+            runs = [far.attempt(f, recursion, step, transform) for f in factors]
+            right = [far.reached(r, f) for r, f in zip(runs, factors, strict=True)]
             off = [
                 np.abs((r.revised.theta - far.NOMINAL * f) / r.sd_theta).max()
-                for r, f, ok in zip(runs, far.FACTORS, right, strict=True)
+                for r, f, ok in zip(runs, factors, right, strict=True)
                 if r.exit_code == 0 and not ok
             ]
             beyond = sum(distance > 6 for distance in off)
