@@ -109,5 +109,15 @@ def test_semi_rigid_joints_of_beams_that_pass_a_column_are_two():
     assert of_deck(found, recipe, [k])[:4] == pytest.approx(eigenvalues(found, recipe, [k])[:4], rel=1e-3)
 
 
+def test_a_joint_may_be_a_hinge():
+    """At the lower end of its range it is one: the far end of the beam resists turning by 3 EI / W, the near column is free."""
+    found = model(PORTAL)
+    (recipe,) = recipes(found, "joint", "element 4 at node 2") or recipes(found, "joint", "element 2 at node 2")
+    restraint, column = 3 * EIB / W, EIC / H
+    sway = EIC / H**3 * (3 + 12 * (restraint + column) / (restraint + 4 * column))
+    lower = np.exp(recipe.bounds[0, 0])
+    assert eigenvalues(found, recipe, [lower])[0] == pytest.approx(sway / (2 * KG), rel=5e-3)
+
+
 def test_a_frame_that_stands_on_nothing_has_no_columns():
     assert recipes(model(BAYS.replace("    supports: {1: all, 3: all, 5: all}\n", "")), "semi-rigid") == []

@@ -16,6 +16,7 @@ from mouse_cli.diagnosis.sites.points import wanted
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.elements import _beam as beam
 
+_PINNED, _SOFTEST, _RIGID = 1e-2, 0.5, 3e3  # stiffness over EI / L; softest in coordinates that leave some out
 _STARTS = 15  # places to begin from on a line
 _INSIDE = 0.02  # of the way from an end of a bar to its middle, where no other bar is
 _ENDS = 12  # ends of lines that a search in few coordinates knows to bend
@@ -148,6 +149,19 @@ def with_joint(
     for name, key in zip(names, soft, strict=True):
         edit.bind(name, [spring], (key,), unit="N m/rad")
     return edit.done()
+
+
+def joint_stiffness(
+    model: Reduced, scale: float, largest: float = 0.0, name: str = "stiffness of the joint"
+) -> Unknown:
+    """That of a joint in a line of bending stiffness over length `scale`: from what counts as pinned to as good as rigid.
+
+    largest: the same of the stiffest, where several lines have joints of one stiffness, `scale` that of the softest.
+    Eurocode 3 (EN 1993-1-8, 5.2.2) calls a joint pinned below 0.5 of the EI / L of its beam, rigid above 8 to 25; L is here that of
+    a line, which may pass several beams.
+    """
+    softest = _PINNED if model.r == model.V.shape[0] else _SOFTEST
+    return Unknown(name, "N m/rad", softest * scale, _RIGID * max(scale, largest))
 
 
 def end_of(edit: Edit, bars: Bars, bar: int, share: float) -> tuple[tuple[int, int], int, np.ndarray]:

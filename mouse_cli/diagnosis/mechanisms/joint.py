@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps, summed
-from mouse_cli.diagnosis.effects.hinges import hinged, lines, places, with_joint
+from mouse_cli.diagnosis.effects.change import Change, Recipe, steps, summed
+from mouse_cli.diagnosis.effects.hinges import hinged, joint_stiffness, lines, places, with_joint
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import Bars
@@ -19,7 +19,6 @@ _MOST = 60  # joints that are looked at: those that bend most in the lowest mode
 _SAME = 1e-6  # of directions
 _SPLICE = 0.5  # prior probability that a joint is a splice along a line, where bars meet too
 _BOTH = 0.5  # prior probability that a joint where bars meet in space turns about both axes
-_PINNED, _SOFTEST, _RIGID = 1e-2, 0.5, 3e3  # stiffness over EI / L; softest in coordinates that leave some out
 _STARTS = 3  # stiffnesses to begin from
 _ROOT = 0.01  # of the length of a line, about half the height of a slender section, up to which a splice is at its end
 _STEP = 1.3  # ratio of stiffnesses or masses from which on a straight line changes its section, and does not taper
@@ -76,7 +75,7 @@ def _spliced(
     if not chosen:
         return []
     bars = model.bars
-    k = _stiffness(model, max(float(bars.EI[line.members].max() / line.length) for line in chosen))
+    k = joint_stiffness(model, max(float(bars.EI[line.members].max() / line.length) for line in chosen))
     count = len(planes(chosen[0].members[0]))
     names = [k.name] if count == 1 else [f"{k.name}, local {axis}" for axis in "yz"]
 
@@ -107,16 +106,6 @@ def _root(model: Reduced, line: Line) -> Callable[[np.ndarray], str]:
         return "support" if any(abs(values[-1] - s) < _ROOT * line.length for s in ends) else ""
 
     return limit
-
-
-def _stiffness(model: Reduced, scale: float) -> Unknown:
-    """That of a joint in a line of bending stiffness over length `scale`: from what counts as pinned to as good as rigid.
-
-    Eurocode 3 (EN 1993-1-8, 5.2.2) calls a joint pinned below 0.5 of the EI / L of its beam, rigid above 8 to 25; L is here that of
-    a line, which may pass several beams.
-    """
-    softest = _PINNED if model.r == model.V.shape[0] else _SOFTEST
-    return Unknown("stiffness of the joint", "N m/rad", softest * scale, _RIGID * scale)
 
 
 def _moment(bars: Bars, bar: int, end: int, modes: slice) -> np.ndarray:
@@ -174,7 +163,7 @@ def _recipe(model: Reduced, candidate: Candidate, planes: tuple[int, ...], end: 
         f"element {bars.ids[first]} at node {node}, {' and '.join(axes)}",
     )
     several = len(planes) > 1
-    k = [_stiffness(model, bars.EI[bar] / bars.lines[bars.line[bar]].length) for bar in planes]
+    k = [joint_stiffness(model, bars.EI[bar] / bars.lines[bars.line[bar]].length) for bar in planes]
     k = [
         replace(each, name=f"{each.name}, {axis}" if several else each.name) for each, axis in zip(k, axes, strict=True)
     ]

@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.effects.change import Change, Recipe, steps
 from mouse_cli.diagnosis.effects.connections import turned, with_joints
+from mouse_cli.diagnosis.effects.hinges import joint_stiffness
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites import reasons
@@ -11,7 +12,6 @@ from mouse_cli.diagnosis.sites.connections import Connections, connections
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 
-_PINNED, _RIGID = 0.1, 3e3  # stiffness over EI / L: pinned below 0.5, rigid above 8 to 25 after EN 1993-1-8, 5.2.2
 _STARTS = 6  # stiffnesses to begin from
 _ALL = 0.5  # prior probability that it is all joints, where there are kinds of them
 
@@ -26,7 +26,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
 def _recipe(model: Reduced, candidate: Candidate, found: Connections, log_prior: float) -> Recipe:
     every, own = model.bars, found.ends
     scale = np.array([every.EI[bar] / every.lines[every.line[bar]].length for bar in own[:, 0]])
-    k = Unknown("stiffness of each joint", "N m/rad", _PINNED * float(scale.min()), _RIGID * float(scale.max()))
+    k = joint_stiffness(model, float(scale.min()), float(scale.max()), "stiffness of each joint")
     nodes = tuple(sorted({int(model.problem.mesh.node_ids[every.nodes[bar, end]]) for bar, end in own.tolist()}))
     site = Site(
         "node", nodes, None, f"{found.text}, {len(own)} ends of bars at nodes {', '.join(map(str, nodes))}, all alike"
