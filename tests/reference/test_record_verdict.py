@@ -275,6 +275,17 @@ def test_a_law_that_takes_most_is_named_with_what_remains(weighed_laws):
     assert said(0.3, baseline, partly, as_good).kind == "unknown"
 
 
+def test_two_laws_or_a_mode_of_its_own_that_leave_something_are_no_name(weighed_laws):
+    """Gyroscopic coupling was two oscillators, with 25 % of the misfit left and a probability above 0.999."""
+    baseline, law, _ = weighed_laws
+    here = law.hypothesis.place
+    for hypothesis, key in ((law.hypothesis, "bilinear"), (baseline.hypothesis, "oscillator")):
+        other = hypothesis.placed(here).at(registry()[key], 0)
+        x = np.concatenate([law.x[: other.nuisances], other.mean[other.nuisances :]])
+        partly = replace(law, hypothesis=other, x=x, covariance=np.eye(len(x)), misfit=0.1 * baseline.misfit)
+        assert said(0.3, baseline, partly).kind == "unknown"
+
+
 def test_what_predicts_worse_or_leaves_its_prior_is_no_name(weighed_laws):
     baseline, law, _ = weighed_laws
     assert said(0.3, baseline, law).kind == "named" and said(0.3, baseline, law).rest is None

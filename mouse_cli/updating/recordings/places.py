@@ -20,9 +20,14 @@ _MOST_APART = 10  # pairs of measured degrees of freedom without a link that are
 def motions(problem: Problem, sensed: np.ndarray) -> Iterator[tuple[Site, np.ndarray, float]]:
     """Site, motion B (n,) and the stiffness that links it. sensed (n,): mask of what is driven or measured."""
     labels, n = problem.structure.labels, problem.structure.n
+    bends = any(_turns(label) for label in labels)  # entries of its K are no springs by themselves
     K, _ = assembly(problem).matrices(problem.prior.mean)
     found = links(K)
-    pairs = [] if found is None else [(np.flatnonzero(b), b, k) for b, k in zip(found.B.T, found.values, strict=True)]
+    pairs = (
+        []
+        if found is None or bends
+        else [(np.flatnonzero(b), b, k) for b, k in zip(found.B.T, found.values, strict=True)]
+    )
     grounded = {ends[0]: k for ends, _, k in pairs if len(ends) == 1}
     for i in range(n):
         if not _turns(labels[i]) and (n <= LARGEST or sensed[i]):
@@ -31,7 +36,8 @@ def motions(problem: Problem, sensed: np.ndarray) -> Iterator[tuple[Site, np.nda
     linked = {tuple(ends): k for ends, _, k in pairs if len(ends) == 2}
     along = lambda pairs: [(i, j) for i, j in pairs if _alike(labels[i], labels[j])]
     apart = [pair for pair in along(combinations(np.flatnonzero(sensed).tolist(), 2)) if pair not in linked]
-    for i, j in along(linked) + apart * (len(apart) <= _MOST_APART):  # towers that pound, a cable between floors
+    near = [] if len(apart) > _MOST_APART else apart  # towers that pound, a cable between floors
+    for i, j in along(linked) + near:
         text = f"between {_named(labels[i])} and {_named(labels[j])}"
         yield Site("dof", (labels[i], labels[j]), text=text), np.eye(n)[j] - np.eye(n)[i], linked.get((i, j), 0.0)
 

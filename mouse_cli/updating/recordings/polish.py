@@ -20,7 +20,11 @@ from mouse_cli.updating.recordings.series import passed, sampled
 _DAMPING, _UP, _DOWN = 1e-3, 10.0, 0.2  # of Levenberg and Marquardt
 _STEPS = 25
 _SETTLED = 0.05  # of the cost in nats, at which a step is no more worth its time
-_PATIENCE, _BEHIND = 3, 2.0  # steps of a fit whose cost is so many times that of a better one
+_PATIENCE, _BEHIND, _ASTRAY = (
+    3,
+    2.0,
+    100.0,
+)  # steps of a fit whose cost is so many times that of a better one, or of no motion
 _HALVED = 10  # times that a start without stiffness is brought nearer to the mean
 _PROBE, _LESS = 0.1, 0.75  # share of a step where its curvature is seen; most of the second order by the first
 _PERTURBED = 1e-4  # of prior or range
@@ -114,10 +118,11 @@ class Polish:
         self.internal = internal
         here = self._point(x, states)
         cost, damping = self._cost(here, x, states), _DAMPING
-        if not np.isfinite(cost):
+        if not np.isfinite(cost) or not self._stands(x):
             return None
+        most = min(_BEHIND * beat, _ASTRAY * float((self.measured**2).sum()))
         for step in range(steps):
-            if step >= _PATIENCE and cost > _BEHIND * beat:
+            if step >= _PATIENCE and cost > most:
                 break
             moved, d_states = self._step(here, x, states, damping)
             if len(x):
@@ -165,6 +170,12 @@ class Polish:
                 break
             x = np.concatenate([x[:k] / 2, x[k:]])
         return x
+
+    def _stands(self, x: np.ndarray) -> bool:
+        """Whether the linear part has no negative stiffness: more lost than there is, and every motion would grow."""
+        K = self.h.plant(x[None], self.series).K[0]
+        least = np.linalg.eigvalsh(K)[0]
+        return bool(least >= -_PERTURBED * np.abs(np.diag(K)).max())
 
     def _point(self, x: np.ndarray, states: np.ndarray) -> _Point:
         """Simulations at x, at every perturbed x and at every perturbed state, all at once."""
