@@ -19,7 +19,7 @@ from mouse_cli.updating.recordings.series import passed, sampled
 
 _DAMPING, _UP, _DOWN = 1e-3, 10.0, 0.2  # of Levenberg and Marquardt
 _STEPS = 25
-_SETTLED = 0.05  # of the cost in nats, at which a step is no more worth its time
+_SETTLED, _ROUGH = 0.05, 1e-3  # of the cost in nats, at which a step is no more worth its time; of what is above noise
 _PATIENCE, _BEHIND, _ASTRAY = (
     3,
     2.0,
@@ -27,7 +27,7 @@ _PATIENCE, _BEHIND, _ASTRAY = (
 )  # steps of a fit whose cost is so many times that of a better one, or of no motion
 _HALVED = 10  # times that a start without stiffness is brought nearer to the mean
 _PROBE, _LESS = 0.1, 0.75  # share of a step where its curvature is seen; most of the second order by the first
-_PERTURBED = 1e-4  # of prior or range
+_PERTURBED, _ROUNDED = 1e-4, 1e-9  # of prior or range; of the largest stiffness, below zero
 _SPEEDS, _TRIED = 2.5, 33  # speeds that no channel shows: how far, by their rms, and how many at a time
 
 
@@ -137,7 +137,7 @@ class Polish:
                     break
                 continue
             gained, x, states, here, cost, damping = cost - new, nx, ns, there, new, damping * _DOWN
-            if gained < 2 * _SETTLED:
+            if gained < max(2 * _SETTLED, _ROUGH * (cost - here.residual.size)):
                 break
         return self._fit(here, x, states, cost)
 
@@ -175,7 +175,7 @@ class Polish:
         """Whether the linear part has no negative stiffness: more lost than there is, and every motion would grow."""
         K = self.h.plant(x[None], self.series).K[0]
         least = np.linalg.eigvalsh(K)[0]
-        return bool(least >= -_PERTURBED * np.abs(np.diag(K)).max())
+        return bool(least >= -_ROUNDED * np.abs(np.diag(K)).max())
 
     def _point(self, x: np.ndarray, states: np.ndarray) -> _Point:
         """Simulations at x, at every perturbed x and at every perturbed state, all at once."""
