@@ -174,8 +174,7 @@ class Polish:
     def _stands(self, x: np.ndarray) -> bool:
         """Whether the linear part has no negative stiffness: more lost than there is, and every motion would grow."""
         K = self.h.plant(x[None], self.series).K[0]
-        least = np.linalg.eigvalsh(K)[0]
-        return bool(least >= -_ROUNDED * np.abs(np.diag(K)).max())
+        return bool(np.linalg.eigvalsh(K)[0] >= -_ROUNDED * np.abs(np.diag(K)).max())
 
     def _point(self, x: np.ndarray, states: np.ndarray) -> _Point:
         """Simulations at x, at every perturbed x and at every perturbed state, all at once."""
