@@ -21,13 +21,14 @@ class Rows:
     0 with a number of its own for what is no motion of a node of the input.
 
     held: for (node, direction) of the input, the coordinates (from 0) that a support of it holds. beside (n,): the node of the
-    input whose mean a coordinate is measured from, 0 for none.
+    input whose mean a coordinate is measured from, 0 for none; middle (n,): whether it is of a row between the outer ones.
     """
 
     T: Matrix | None
     names: np.ndarray
     held: dict[tuple[int, int], tuple[int, ...]]
     beside: np.ndarray
+    middle: np.ndarray
 
     def brought(self, matrix: Matrix) -> Matrix:
         """T' matrix T."""
@@ -39,7 +40,7 @@ def rows(dofs: np.ndarray, own: set[int]) -> Rows:
     places: dict[tuple[int, int], list[int]] = {}
     for i, (node, direction) in enumerate(dofs.tolist()):
         places.setdefault((node, direction), []).append(i)
-    names, held, blocks, beside = dofs.copy(), {}, [], np.zeros(len(dofs), int)
+    names, held, blocks, beside, middle = dofs.copy(), {}, [], np.zeros(len(dofs), int), np.zeros(len(dofs), bool)
     top = max(int(dofs[:, 0].max()), max(own, default=0))
     for (node, direction), at in places.items():
         if node not in own:
@@ -51,10 +52,11 @@ def rows(dofs: np.ndarray, own: set[int]) -> Rows:
         rest = [i for i in at if i not in outer]
         held[node, direction] = (outer[0], *rest) if len(at) == 3 else (outer[0],)
         blocks.append((outer, rest))
+        middle[rest] = True
         for i in outer[1:] + rest:
             names[i], beside[i] = (top + 1 + i, _SCALAR), node if node in own else 0
     T = _basis(len(dofs), blocks) if blocks else None
-    return Rows(T, names, {k: v for k, v in held.items() if k[0] in own}, beside)
+    return Rows(T, names, {k: v for k, v in held.items() if k[0] in own}, beside, middle)
 
 
 def _basis(n: int, blocks: list[tuple[list[int], list[int]]]):

@@ -22,7 +22,7 @@ from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.held import Thickness
 
 _SIZE, _OTHER = 1.25, 0.8  # t / t_0 of the exports, and of the one that checks
-_OPEN = 1e-9  # of the largest difference: what the powers may leave of the export that checks
+_OPEN = 1e-9  # of the largest difference: what the powers may leave of the export that checks; low modes go by small elements
 _ROUNDING = 1e-11  # of the largest element
 _INNER = 1e-6  # relative: to which the stiffness of an inner motion goes by 1 / t
 
@@ -39,9 +39,9 @@ def chosen(model: InputModel, names: tuple[str, ...]) -> list[Card]:
 
 
 def thicknesses(model: InputModel, found: Parts, solver: Solver, asked: list[Card]) -> dict[int, Thickness]:
-    """Each group of shells (number) by its powers; none, with a remark, where they do not hold. Raises DeckError (MD274, MD275).
+    """Each group of shells (number) by its powers; none, with a remark, where they do not hold.
 
-    asked: sections whose thickness must be had.
+    asked: sections whose thickness must be had. Raises DeckError (MD274, MD275).
     """
     shells = [i for i, group in enumerate(model.groups) if group.shell]
     if not shells:
@@ -59,7 +59,9 @@ def thicknesses(model: InputModel, found: Parts, solver: Solver, asked: list[Car
     place = (asked[0] if asked else model.groups[shells[0]].owner).head.span
     message = f"powers of the thickness of shells leave {error:.2g} of what exports differ by"
     if asked:
-        raise DeckError(Diagnostic("MD275", ERROR, message, place, help="leave out --thickness: the shells are curved"))
+        raise DeckError(
+            Diagnostic("MD275", ERROR, message, place, help="leave out --thickness: the shells are curved, or S4R")
+        )
     help = "a diagnosis weighs no thickness: a thinner set stands for itself as one that has lost stiffness and mass"
     model.remarks.append(Diagnostic("MD275", WARNING, message, place, help=help))
     return {}
@@ -80,24 +82,32 @@ def _order(model: InputModel, whole: Exported, there: Exported) -> np.ndarray:
     faces = np.isin(whole.rows.beside, list(shells)) & (whole.rows.beside > 0)
     with np.errstate(divide="ignore", invalid="ignore"):
         inner = np.abs(there.K.diagonal() * _SIZE / whole.K.diagonal() - 1) < _INNER
-    return faces + 2 * (inner & ~faces & (whole.rows.names[:, 1] == 0))
+    quadratic = (faces & whole.rows.middle) | (inner & ~faces & (whole.rows.names[:, 1] == 0))
+    return np.where(quadratic, 2, faces)
 
 
 def _of_group(model: InputModel, i: int, found: Parts, there: Parts, order: np.ndarray) -> Thickness:
-    group, inner = model.groups[i], _diagonal((order == 2).astype(float))
-    alone = inner @ found.M[i] @ inner  # goes by t, and is of motions that go by t^2 both
-    K = _odd(found.K[i], _scaled(there.K[i], order, _SIZE))
-    M = _odd(found.M[i] - alone, _scaled(there.M[i], order, _SIZE) - _SIZE**5 * alone)
-    found_M = {n: each for n, each in (M | {5.0: alone.tocsr()}).items() if each.nnz}
-    return Thickness(float(group.owner.lines[0].words[0]), "", K, found_M)
+    nominal = float(model.groups[i].owner.lines[0].words[0])
+    return Thickness(
+        nominal, "", *(_powers(getattr(found, x)[i], _scaled(getattr(there, x)[i], order, _SIZE), order) for x in "KM")
+    )
 
 
-def _odd(at: Matrix, there: Matrix) -> dict[float, Matrix]:
-    """A_1 and A_3 of at = A_1 + A_3 and there = s A_1 + s^3 A_3."""
-    third = (there - _SIZE * at) / (_SIZE**3 - _SIZE)
+def _powers(at: Matrix, there: Matrix, order: np.ndarray) -> dict[float, Matrix]:
+    """A_1, A_3 and A_5 of at = sum A_n and there = sum s^n A_n: 3 and 5 between quadratic motions, 1 and 3 elsewhere."""
+    both = _diagonal((order == 2).astype(float))
+    quadratic = both @ at @ both, both @ there @ both
+    low, mid = _pair(at - quadratic[0], there - quadratic[1], 1)
+    more, high = _pair(*quadratic, 3)
     largest = abs(at).max() if at.nnz else 0.0
-    kept = {n: _clean(each, largest) for n, each in ((1.0, at - third), (3.0, third))}
+    kept = {n: _clean(each, largest) for n, each in ((1.0, low), (3.0, mid + more), (5.0, high))}
     return {n: each for n, each in kept.items() if each.nnz}
+
+
+def _pair(at: Matrix, there: Matrix, n: int) -> tuple[Matrix, Matrix]:
+    """A_n and A_(n + 2)."""
+    upper = (there - _SIZE**n * at) / (_SIZE ** (n + 2) - _SIZE**n)
+    return at - upper, upper
 
 
 def _left(made: Iterable[Thickness], whole: Exported, other: Exported, order: np.ndarray, name: str) -> float:

@@ -144,6 +144,37 @@ def test_a_set_within_a_section_gets_a_section_of_its_thickness(tmp_path):
     assert sorted(re.findall(r"\*SHELL SECTION.*\n(\S+)", text)) == ["0.006", "0.008", "0.01"]
 
 
+def square(thickness: float, kind: str) -> str:
+    """A plate of shells with nodes on their edges, S8 or S6."""
+    at = [(i, j) for i in range(7) for j in range(5) if kind == "S6" or not (i % 2 and j % 2)]
+    number = {place: n for n, place in enumerate(at, 1)}
+    text = "*NODE\n" + "".join(f"{n}, {0.05 * i}, {0.05 * j}, 0.\n" for (i, j), n in number.items())
+    eight = [[(0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1)]]
+    six = [[(0, 0), (2, 0), (2, 2), (1, 0), (2, 1), (1, 1)], [(0, 0), (2, 2), (0, 2), (1, 1), (1, 2), (0, 1)]]
+    cells = [(i, j, each) for i in range(0, 6, 2) for j in (0, 2) for each in (six if kind == "S6" else eight)]
+    made = [[number[i + p, j + q] for p, q in each] for i, j, each in cells]
+    text += f"*ELEMENT, TYPE={kind}, ELSET=P\n" + "".join(
+        f"{n}, {', '.join(map(str, e))}\n" for n, e in enumerate(made, 1)
+    )
+    text += (
+        f"*MATERIAL, NAME=M\n*ELASTIC\n7.0e10, 0.3\n*DENSITY\n2700.\n*SHELL SECTION, ELSET=P, MATERIAL=M\n{thickness}\n"
+    )
+    return text + f"*NSET, NSET=ENDS\n1, 5, {len(at)}\n*BOUNDARY\nENDS, 1, 3\n"
+
+
+@solver
+@pytest.mark.parametrize("kind", ["S6", "S8"])
+def test_shells_with_nodes_on_their_edges(tmp_path, kind):
+    """Quadratic motions through their thickness go by its square: frequencies at 0.6 of it are those of CalculiX there."""
+    deck, _ = imported(tmp_path, square(0.004, kind))
+    problem = read_deck(deck)
+    one, held = problem.groups[0].thickness, problem.held
+    K, M = (A + sum((0.6**n - 1) * each for n, each in by.items())
+            for A, by in ((held.structure.K, one.K), (held.structure.M, one.M)))  # fmt: skip
+    found = hz(K[held.kept][:, held.kept], M[held.kept][:, held.kept])
+    assert np.allclose(found, solved(tmp_path / "other", square(0.0024, kind)), rtol=1e-4)
+
+
 @solver
 def test_curved_shells_go_by_no_powers(tmp_path):
     """It is said, and they have none; where it was asked for it is refused. A quarter of a cylinder, R = 10 t."""
