@@ -19,6 +19,7 @@ import numpy as np
 from mouse_cli.diagnosis.likelihoods.modal.data import Data
 
 _COVERED = 0.02  # angle up to which `theory.shape` allows for it, and what a test states
+_SLIGHT = 0.1  # sd of an angle up to which shapes follow it in proportion: to half a percent
 _EVEN = 2 / np.pi  # c, see above
 _LEAST = 1e-9  # 1 / sd^2 of an angle that is free
 _MOST, _FAR, _HALVED = 8, 0.5, 6  # steps to the best angles, the longest of them, and how often one is halved
@@ -99,43 +100,64 @@ def _close(
     return np.array(list(place), int), [(i, place[j]) for i, j in near], np.array([sd[each] for each in near])
 
 
+@dataclass(frozen=True)
+class _Pairs:
+    """Pairs of modes `i` and `j` (c,) with eigenvalues `own` (m,) of the measured ones and shapes `seen` (s, m + u)."""
+
+    data: Data
+    own: np.ndarray
+    seen: np.ndarray
+    i: np.ndarray
+    j: np.ndarray
+
+    def at(self, t: np.ndarray, P: np.ndarray) -> tuple:
+        """|r|^2 + t'P t at angles t (c,), and r, the scales, R (m + u, m) and (I - T/2)^-1."""
+        one = np.eye(self.seen.shape[1])
+        T = np.zeros(one.shape)
+        T[self.j, self.i], T[self.i, self.j] = t, -t
+        inverse = np.linalg.inv(one - T / 2)
+        R = (inverse @ (one + T / 2))[:, : self.data.m]
+        residual, a = self.data.residual(self.own, self.seen @ R)
+        return residual @ residual + t @ (P * t), residual, a, R, inverse
+
+    def slopes(self, of: np.ndarray, a: np.ndarray, R: np.ndarray, inverse: np.ndarray) -> np.ndarray:
+        """J (q, .) of the angles `of`: dR/dt = (I - T/2)^-1 dT/2 (I + R)."""
+        i, j, m = self.i[of], self.j[of], self.data.m
+        before, after = self.seen @ inverse / 2, np.eye(*R.shape) + R
+        moved = before[:, None, j] * after[i].T - before[:, None, i] * after[j].T
+        return self.data.jacobian(self.own, self.seen @ R, a, np.zeros((m, len(of))), moved)
+
+
 def _angles(
     data: Data, own: np.ndarray, seen: np.ndarray, pairs: list[tuple[int, int]], P: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The best angles t (c,) of `pairs`, what measured shapes are of `seen` (s, m + u) there, and J (q, c)."""
-    m, still = data.m, np.zeros((data.m, len(pairs)))
-    unit = np.zeros((len(pairs), seen.shape[1], seen.shape[1]))
-    for c, (i, j) in enumerate(pairs):
-        unit[c, j, i], unit[c, i, j] = 1.0, -1.0
-    one = np.eye(seen.shape[1])
+    """The best angles t (c,) of `pairs`, what measured shapes are of `seen` (s, m + u) there, and J (q, c).
 
-    def at(t: np.ndarray) -> tuple:
-        """|r|^2 + t'P t, and r, the scales and what of R (., m) and of its derivatives belongs to it."""
-        T = np.tensordot(t, unit, 1)
-        inverse = np.linalg.inv(one - T / 2)
-        R = inverse @ (one + T / 2)
-        residual, a = data.residual(own, seen @ R[:, :m])
-        return residual @ residual + t @ (P * t), residual, a, R, inverse
-
-    t = np.zeros(len(pairs))
-    now = at(t)
-    for _ in range(_MOST):
-        cost, residual, a, R, inverse = now
-        moved = np.moveaxis(seen @ (inverse @ (unit / 2) @ (one + R)[:, :m]), 0, -1)
-        J = data.jacobian(own, seen @ R[:, :m], a, still, moved)
-        slope = J.T @ residual - P * t  # sensors may tell some of the angles by hardly more than P: no normal equations
-        stacked = np.vstack([J, np.diag(np.sqrt(P))]), np.concatenate([residual, -np.sqrt(P) * t])
-        Q, upper = np.linalg.qr(stacked[0])
-        step = np.linalg.solve(upper, Q.T @ stacked[1])
-        if slope @ step < _SMALL * cost * max(1.0, cost / len(residual)):
+    Those that are small a priori stay 0, where `Turn.left` has the best of them: their slopes say all of them.
+    """
+    large, t = np.flatnonzero(P < 1 / _SLIGHT**2), np.zeros(len(pairs))
+    both, weight = _Pairs(data, own, seen, *np.array(pairs).T), np.sqrt(P[large])
+    now = both.at(t, P)
+    for _ in range(_MOST if len(large) else 0):
+        cost, residual, *here = now
+        J = both.slopes(large, *here)
+        stacked = np.concatenate(
+            [residual, -weight * t[large]]
+        )  # no normal equations: sensors may tell little more than P
+        Q, upper = np.linalg.qr(np.vstack([J, np.diag(weight)]))
+        along = Q.T @ stacked
+        if along @ along < _SMALL * cost * max(1.0, cost / len(residual)):
             break
+        step = np.zeros(len(t))
+        step[large] = np.linalg.solve(upper, along)
         step *= min(1.0, _FAR / max(np.abs(step).max(), 1e-300))
         for _ in range(_HALVED):  # shapes far from the measured ones bend more than their slopes say
-            then = at(t + step)
+            then = both.at(t + step, P)
             if then[0] < cost:
                 t, now = t + step, then
                 break
             step = step / 2
         else:
             break
-    return t, R[:, :m], J
+    _, _, *here = now
+    return t, here[1], both.slopes(np.arange(len(t)), *here)
