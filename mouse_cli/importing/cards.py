@@ -1,6 +1,7 @@
 """Input of Abaqus and CalculiX as cards: a keyword, its options and its lines of data, with included files in their place."""
 
 import os
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
@@ -10,6 +11,11 @@ from mouse_cli.formats import below
 from mouse_cli.formats.data_files import existing, line_span, reject, text_lines
 
 _MOST = 40  # findings that one reading lists
+_OF_OTHERS = re.compile(r"\s*(SOL\b|CEND|BEGIN|GRID|ID\b|ASSIGN|NASTRAN|INIT|\$|/PREP7|/COM|/BATCH|!|N?BLOCK)", re.I)
+_OTHERS = (
+    "Nastran and ANSYS do not run here: let them write K and M (DMIG, OUTPUT4, HBMAT), and name these in a deck below model, "
+    "with the nodes of this file: docs/how-to/import-models.md"
+)
 
 
 @dataclass
@@ -71,9 +77,8 @@ def cards(path: str, outside: bool = False) -> list[Card]:
         elif found:
             found[-1].lines.append(line)
         else:
-            reject(
-                "MD265", path, "data stand before the first keyword", "begin with a keyword such as *NODE", line.span
-            )
+            help = _OTHERS if _OF_OTHERS.match(line.text) else "begin with a keyword such as *NODE"
+            reject("MD265", path, "data stand before the first keyword", help, line.span)
     return found
 
 

@@ -149,3 +149,11 @@ def test_what_is_not_read_of_an_assembly(tmp_path, more, code, line):
     with pytest.raises(DeckError) as refused:
         read(written(tmp_path, PART.format(more=more)))
     assert (refused.value.diagnostics[0].code, refused.value.diagnostics[0].span.line) == (code, line)
+
+
+@pytest.mark.parametrize("text", ["SOL 103\nCEND\nBEGIN BULK\n", "$ plate\nGRID,1,,0.,0.,0.\n", "/PREP7\nET,1,181\n"])
+def test_an_input_file_of_another_program_is_told_its_way(tmp_path, text):
+    """Nastran and ANSYS: their matrices are read, not their input."""
+    with pytest.raises(DeckError) as refused:
+        read(written(tmp_path, text))
+    assert refused.value.diagnostics[0].code == "MD265" and "DMIG, OUTPUT4, HBMAT" in refused.value.diagnostics[0].help
