@@ -1,10 +1,12 @@
 """What acts between places or with motions of its own: soil, arms, struts, mounts, thrust, parts that stand on others."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from benchmarks.trials.case import Blank, Mechanism
 from benchmarks.trials.library import joint_at, log_uniform, somewhere
-from benchmarks.trials.outside.places import BRACE, FOOT, LOCAL, MASS, MOUNT, OSCILLATOR, ROCKING, around
+from benchmarks.trials.outside.places import BRACE, CORNERS, FOOT, LOCAL, MASS, MOUNT, OSCILLATOR, ROCKING, around
 
 
 def rocking(blank: Blank, rng: np.random.Generator) -> Mechanism:
@@ -127,4 +129,5 @@ CLAMPED_FREE, FREQUENCIES = (0.613, 0.188), (1.0, 6.267)  # effective masses ove
 
 def every_corner(blank: Blank, rng: np.random.Generator) -> list[Mechanism]:
     """All corners of a frame turn, each by its own amount: bolts instead of welds."""
-    return [joint_at(blank, number, end, rng, 0.02, 0.2) for number, end in blank.corners]
+    each = [joint_at(blank, number, end, rng, 0.02, 0.2) for number, end in blank.corners]
+    return [replace(one, also=(*one.also, CORNERS)) for one in each]

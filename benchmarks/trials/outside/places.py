@@ -5,7 +5,7 @@ from benchmarks.trials.case import Blank
 Box = tuple[tuple[float, ...], tuple[float, ...]]
 # names (physics, group) that are as true where they are declared, at the site of the mechanism
 BED, SOFT, FOOT = ("foundation", "foundation"), ("stiffness-loss", "local-stiffness"), ("support-rotation", "support")
-BRACE, ROCKING = ("brace", "brace"), ("rocking", "support")
+BRACE, ROCKING, CORNERS = ("brace", "brace"), ("rocking", "support"), ("semi-rigid", "semi-rigid")
 MOUNT, OSCILLATOR, MASS = ("ground-spring", "ground-spring"), ("oscillator", "oscillator"), ("mass", "mass")
 LOCAL = ("stiffness", "force")  # properties of nameless fields that describe what acts at places
 
