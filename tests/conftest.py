@@ -1,11 +1,18 @@
 """Options of the test run."""
 
+import os
 import signal
 from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
 from quick import QUICK
+
+for _threads in (
+    "OPENBLAS_NUM_THREADS",
+    "OMP_NUM_THREADS",
+):  # processes share the cores, and small matrices gain nothing
+    os.environ.setdefault(_threads, "1")
 
 settings.register_profile(
     "mouse", deadline=None, suppress_health_check=[HealthCheck.too_slow]
