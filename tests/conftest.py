@@ -8,10 +8,8 @@ import pytest
 from hypothesis import HealthCheck, settings
 from quick import QUICK
 
-for _threads in (
-    "OPENBLAS_NUM_THREADS",
-    "OMP_NUM_THREADS",
-):  # processes share the cores, and small matrices gain nothing
+# processes share the cores, and small matrices gain nothing by threads
+for _threads in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"):
     os.environ.setdefault(_threads, "1")
 
 settings.register_profile(
