@@ -48,14 +48,19 @@ def play(arguments: list[str], folder: Path, limits: Limits) -> Outcome:
     for name in ("out", "tmp"):
         (folder / name).mkdir(exist_ok=True)
     sys.stdout.flush()
+    own = _resident()
     pid = os.fork()
     if pid == 0:
         _child(arguments, folder, limits)
     _, status, usage = os.wait4(pid, 0)
-    own = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     cpu, memory = usage.ru_utime + usage.ru_stime, max(0.0, usage.ru_maxrss / 1024 - own)
     code = os.waitstatus_to_exitcode(status)
     return _outcome(arguments, folder, code, cpu, memory, limits)
+
+
+def _resident() -> float:
+    """MB of this process now, with which a child begins; its peak may long be over."""
+    return int(Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize() / _MB
 
 
 def _outcome(arguments: list[str], folder: Path, code: int, cpu: float, memory: float, limits: Limits) -> Outcome:
