@@ -176,6 +176,7 @@ class Polish:
         K = self.h.plant(x[None], self.series).K[0]
         return bool(np.linalg.eigvalsh(K)[0] >= -_ROUNDED * np.abs(np.diag(K)).max())
 
+    @np.errstate(over="ignore", invalid="ignore")  # simulations may diverge; they are given up by their cost
     def _point(self, x: np.ndarray, states: np.ndarray) -> _Point:
         """Simulations at x, at every perturbed x and at every perturbed state, all at once."""
         k, n2 = len(x), len(states)
@@ -186,12 +187,9 @@ class Polish:
         begin[1 + k + np.arange(n2), np.arange(n2)] += nudge[:, None]
         seen = self._simulated(many, begin)
         residual = self.measured - seen[0]
-        J = (
-            np.stack([(seen[1 + j] - seen[0]) / steps[j] for j in range(k)], -1)
-            if k
-            else np.zeros((*residual.shape, 0))
-        )
-        X = np.stack([(seen[1 + k + j] - seen[0]) / nudge[j] for j in range(n2)], -1)
+        moved = seen[1:] - seen[0]
+        J = np.stack([moved[j] / steps[j] for j in range(k)], -1) if k else np.zeros((*residual.shape, 0))
+        X = np.stack([moved[k + j] / nudge[j] for j in range(n2)], -1)
         return _Point(residual, J, X)
 
     def _simulated(self, many: np.ndarray, begin: np.ndarray) -> np.ndarray:
@@ -213,6 +211,7 @@ class Polish:
                 found[(read.delay == at).all(axis=1)] += self.measured - self._cleared(prompt)
         return found
 
+    @np.errstate(over="ignore", invalid="ignore")
     def _cost(self, at: _Point, x: np.ndarray, states: np.ndarray) -> float:
         prior = (((x - self.h.mean) / self.h.sd) ** 2).sum() + ((states / self.spread[:, None]) ** 2).sum()
         return float((at.residual**2).sum() + prior)
