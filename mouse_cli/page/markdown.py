@@ -14,7 +14,7 @@ from mouse_cli.report.reading import Part, updates
 from mouse_cli.report.renderers.markdown import verbatim
 
 _LONG, _MOST = 10, 200  # rows beyond which a table is folded, and beyond which it is cut
-_COUNTS = 1e-3  # probability from which on a cause is told
+_COUNTS = 1e-3  # probability from which on a cause is reported
 _JOINER = "\u2060"  # takes no room; servers find no mention, link or reference across it
 _MARKUP = re.compile(r"([\\`*_{}\[\]<>()#+!|~&$^=-])")
 _HIDDEN = re.compile("[\x00-\x1f\x7f-\x9f\u200b-\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufeff]+")

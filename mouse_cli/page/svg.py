@@ -6,7 +6,7 @@ from mouse_cli.page.html import Markup, tag
 def svg(
     key: str, title: str, description: str, size: tuple[float, float], *pieces: Markup | None, **more: object
 ) -> Markup:
-    """`pieces` in a drawing of `size`, width and height; `told` is read out where it cannot be seen."""
+    """`pieces` in a drawing of `size`, width and height; `description` is read out where it cannot be seen."""
     head = [tag("title", title, id=f"{key}-title"), tag("desc", description, id=f"{key}-description")]
     more = {
         "role": "img",

@@ -16,9 +16,8 @@ _WITHIN = 2.0  # sd of a place
 
 def one_tie(one: Fit, other: Fit) -> bool:
     """Whether one of two fits is a strut from a held node, and the other a spring to the ground where that ends."""
-    keys = [[recipe.candidate.key for recipe in each.recipes] for each in (one, other)]
-    strut, spring = (one, other) if keys[0] == [STRUT] else (other, one)
-    if sorted(keys, key=lambda own: own != [STRUT])[0] != [STRUT] or not any([key] in keys for key in SPRINGS):
+    strut, spring = sorted((one, other), key=lambda fit: _key(fit) != STRUT)
+    if _key(strut) != STRUT or _key(spring) not in SPRINGS:
         return False
     mesh, site = strut.model.base.problem.mesh, spring.sites[0]
     if mesh is None or len(strut.sites[0].ids) != 2 or site.position is None:
@@ -29,6 +28,11 @@ def one_tie(one: Fit, other: Fit) -> bool:
         return False
     off = np.linalg.norm(mesh.coordinates[nodes[~held][0]] - site.position)
     return bool(off <= max(SAME_SITE * span(spring.model.base), _WITHIN * _sd(spring)))
+
+
+def _key(fit: Fit) -> str | None:
+    """Key of its mechanism, where it is one alone."""
+    return fit.recipes[0].candidate.key if len(fit.recipes) == 1 else None
 
 
 def _sd(spring: Fit) -> float:

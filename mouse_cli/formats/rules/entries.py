@@ -4,7 +4,7 @@ import numpy as np
 
 from mouse_cli.formats.draft import Draft, Entries
 
-MOST = 20  # findings of one list that are told one by one
+MOST = 20  # findings of one list that are reported one by one
 LARGEST = 1e150  # of a value: products of larger ones are beyond all floating-point numbers
 
 

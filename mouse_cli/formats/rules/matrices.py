@@ -11,7 +11,7 @@ from mouse_cli.model.arrays import Matrix, is_sparse, sparse_symmetric
 
 LARGEST_DENSE = 1500  # orders up to this are kept as dense arrays: eigh of the whole matrix is then the fastest way
 _TWICE = 18  # elements given twice that are listed one by one
-_LISTED = 3  # findings of one kind that are told one by one where one cause is likely to make many
+_LISTED = 3  # findings of one kind that are reported one by one where one cause is likely to make many
 _SINGULAR = 1e-13  # smallest over largest eigenvalue of M, scaled to a unit diagonal, that rounding alone can make
 _MASSIVE = "give the elements a density, add masses (with inertia where a node rotates), or keep fewer `directions`"
 

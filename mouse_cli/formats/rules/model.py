@@ -91,7 +91,7 @@ def _massive(draft: Draft, K: Matrix, M: Matrix) -> None:
         masses(draft, K, M)
 
 
-_LISTED = 3  # findings that are told one by one
+_LISTED = 3  # findings that are reported one by one
 
 
 def masses(draft: Draft, K: Matrix, M: Matrix) -> None:
