@@ -26,6 +26,17 @@ def laplace(misfit: float, hessian: np.ndarray, width: np.ndarray) -> float:
     return float(-0.5 * misfit - np.log(width).sum() + 0.5 * len(width) * np.log(2 * np.pi) - 0.5 * size)
 
 
+def marginal(residual: np.ndarray, root: np.ndarray) -> tuple[float, float]:
+    """Chi-square of `residual` (n,) ~ N(0, I + B B') and ln |I + B B'|, with B = `root` (n, d).
+
+    By the singular values of B, so that an unknown that is open by many powers of ten takes its direction out of the chi-square;
+    the covariance itself would be singular to rounding.
+    """
+    U, s, _ = np.linalg.svd(root, full_matrices=False)
+    known = U.T @ residual
+    return float(residual @ residual - known**2 @ (s**2 / (1 + s**2))), float(np.log1p(s**2).sum())
+
+
 def _log_determinant(H: np.ndarray) -> float:
     """ln |H| of a positive definite matrix; infinite where it has no numbers.
 

@@ -21,3 +21,18 @@ def test_the_report_is_explained(topic, capsys):
 def test_fields_of_the_control_card_are_explained(field, capsys):
     assert _run(["explain", field.row.name]) == 0
     assert f"columns {field.columns}, FORMAT I8" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "topic, words",
+    [
+        ("shape_sd", ["deck key shape_sd, in section modes", "standard deviations"]),
+        ("test.modes.frequency", ["deck key frequency, in section modes", "unit: Hz"]),
+        ("hold_out", ["section hold_out", "| `sensors` |"]),
+        ("mass", ["Point mass", "candidate mass", "deck key mass, in section model"]),
+    ],
+)
+def test_keys_of_decks_are_explained(topic, words, capsys):
+    assert _run(["explain", topic]) == 0
+    told = capsys.readouterr().out
+    assert all(word in told for word in words) and "](#" not in told

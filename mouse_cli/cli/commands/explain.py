@@ -42,7 +42,8 @@ def command(topic: str) -> int:
     """Explain a code, an estimator, a deck key or another TOPIC.
 
     TOPIC is a code (MD104), an estimator, recursion, status, element or candidate, a field of the cards (NPARD), an
-    operation of the report (O-2), or: cards, candidates, elements, methods, yaml, schema, exit.
+    operation of the report (O-2), a key of YAML decks (shapes, or modes.shapes), or: cards, candidates, elements,
+    methods, yaml, schema, exit.
     """
     if topic in TOPICS:
         click.echo(_topic(topic))
@@ -50,11 +51,15 @@ def command(topic: str) -> int:
     entries: dict[str, str] = {}
     for key, entry in _entries():  # a mass is an element and a candidate
         entries[key] = f"{entries[key]}\n\n{entry}" if key in entries else entry
-    text = entries.get(topic) or entries.get(topic.upper())
+    parts = topic.split(".")
+    names = [topic, topic.upper(), *(".".join(parts[k:]) for k in range(1, len(parts)))]  # test.modes.shapes: modes.shapes
+    text = next((entries[name] for name in names if name in entries), None)
     if text is None:
         near = difflib.get_close_matches(topic, [*entries, *TOPICS], 3)
         hint = f" Near to it: {', '.join(near)}." if near else ""
-        raise click.UsageError(f"nothing is known of '{topic}'.{hint} `mouse list` shows all that there is.")
+        raise click.UsageError(
+            f"nothing is known of '{topic}'.{hint} `mouse list` shows the names, `mouse explain yaml` the keys of decks."
+        )
     click.echo(text)
     return 0
 
@@ -67,6 +72,7 @@ def _entries() -> Iterator[tuple[str, str]]:
     from mouse_cli.diagnosis.nameless import registry as rivals
     from mouse_cli.estimators import registry as estimators
     from mouse_cli.formats.cards.operations import explanations
+    from mouse_cli.formats.yaml_deck import reference
     from mouse_cli.methods import manual as method_manual
     from mouse_cli.methods import registry as methods
     from mouse_cli.terms.element_manual import about
@@ -94,3 +100,4 @@ def _entries() -> Iterator[tuple[str, str]]:
     for key, rival in rivals().items():
         yield key, candidate_manual.about_nameless(rival)
     yield from explanations()
+    yield from reference.entries()

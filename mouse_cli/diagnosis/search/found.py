@@ -46,5 +46,7 @@ def _alike(one: Fit, other: Fit) -> bool:
     """Whether both are the same causes at places, sizes and parameters that are as one to begin from."""
     if list(map(text, one.recipes)) != list(map(text, other.recipes)) or key(one) != key(other):
         return False
+    if one.point.x.shape != other.point.x.shape:  # the same name with another number of sizes
+        return False
     wide = np.concatenate([np.ones(one.model.k), one.model.width])
     return bool((np.abs(one.point.x - other.point.x) <= _TRIFLE * wide).all())

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe
+from mouse_cli.diagnosis.evidence import marginal
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.search.fit import Fit, fit
@@ -56,14 +57,14 @@ def predict(one: Fit, base: Reduced, fixed: tuple[Recipe, ...] = (), noise: floa
     if at is None:
         return None
     T, data = model.jacobian(at), base.data
-    spread = T @ one.covariance @ T.T
-    total = noise * (np.eye(len(spread)) + spread)
-    misfit, size = float(at.residual @ np.linalg.solve(total, at.residual)), np.linalg.slogdet(total)[1]
+    spread = T @ one.root
+    misfit, size = marginal(at.residual, spread)
+    misfit, size = misfit / noise, size + len(spread) * np.log(noise)
     density = -0.5 * (misfit + size) - at.nats
     if noise == 1.0 and (beyond := beyond_linear(one, model, at, T, misfit)):
         misfit, density = beyond
     frequencies = int(data.has_frequency.sum())
-    off, sd = at.residual[:frequencies], np.sqrt(np.diag(total)[:frequencies])
+    off, sd = at.residual[:frequencies], np.sqrt(noise * (1 + (spread[:frequencies] ** 2).sum(axis=1)))
     hz = np.sqrt(np.maximum(at.eigenvalues[at.modes], 0.0)) / (2 * np.pi)
     sd_hz = np.full(data.m, np.nan)
     sd_hz[data.has_frequency] = hz[data.has_frequency] * data.sd_log[data.has_frequency] * sd
@@ -92,9 +93,8 @@ def readings(one: Fit, test: ModalTest) -> Prediction | None:
     of_mode = np.nonzero(known)[1][:, None] == np.arange(test.m)
     J = np.hstack([J @ one.root, of_mode * (reading(at)[:, None] * own)]) / sd[:, None]
     off = (test.shapes[known] - reading(at)) / sd
-    total = np.eye(len(off)) + J @ J.T
-    misfit = float(off @ np.linalg.solve(total, off))
-    density = -0.5 * (misfit + np.linalg.slogdet(2 * np.pi * total)[1]) - np.log(sd).sum()
+    misfit, size = marginal(off, J)
+    density = -0.5 * (misfit + size + len(off) * np.log(2 * np.pi)) - np.log(sd).sum()
     unmeasured = np.full(test.m, np.nan)
     alike = mac(test.shapes, sensing @ at.measured(at.X[: base.r])).diagonal() if len(sensing) > 1 else unmeasured
     left = off * sd / scale[np.nonzero(known)[1]]

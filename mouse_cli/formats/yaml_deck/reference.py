@@ -1,5 +1,7 @@
 """The definitions of the YAML deck for others: a JSON Schema for editors, a table for readers."""
 
+import re
+from collections.abc import Iterator
 from typing import Any
 
 from mouse_cli.formats.yaml_deck.kinds import KINDS, VERSION, Key, Section
@@ -27,6 +29,28 @@ def reference() -> str:
     """Every key in Markdown: one table for each section."""
     parts = [_table(name, section) for name, section in SECTIONS.items()]
     return "\n".join(["# The keys of a YAML deck", "", _NUMBERS, "", *parts])
+
+
+def entries() -> Iterator[tuple[str, str]]:
+    """What each key and section of a deck means, by its name: `shapes`, `modes`, and by `modes.shapes` in that section alone."""
+    for name, section in SECTIONS.items():
+        yield name, _plain(f"section {_table(name, section).removeprefix('## ').rstrip()}")
+        for key, definition in section.keys.items():
+            text = _plain(_entry(name, key, definition))
+            yield key, text
+            yield f"{name}.{key}", text
+
+
+def _plain(text: str) -> str:
+    """Without Markdown's links, for a terminal."""
+    return re.sub(r"\[(\w+)\]\(#\w+\)", r"\1", text)
+
+
+def _entry(section: str, name: str, key: Key) -> str:
+    unit = f"unit: {key.unit}" if key.unit else ""
+    default = "required" if key.required else f"default: {key.default}" if key.default else ""
+    facts = "\n".join(filter(None, [f"value: {_words(key)}", unit, default]))
+    return f"deck key {name}, in section {section}\n\n{key.meaning}\n{facts}"
 
 
 _NUMBERS = (
