@@ -8,7 +8,7 @@ from scipy.integrate import dblquad, quad
 from scipy.linalg import eigh
 from scipy.stats import multivariate_normal
 
-from mouse_cli.diagnosis.evidence import laplace
+from mouse_cli.diagnosis.evidence import laplace, marginal
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.search.fit import fit
@@ -109,3 +109,16 @@ def test_rounding_is_no_evidence(noise):
     expected = -0.5 * np.log(2e20)
     assert expected - 10 < laplace(0.0, hessian, np.zeros(0)) < expected + 0.1
     assert laplace(0.0, np.full((2, 2), np.nan), np.zeros(0)) == -np.inf
+
+
+def test_an_open_unknown_takes_its_direction_out_of_a_prediction():
+    """At moderate sizes the density of a normal distribution; of unknowns without bound the chi-square of what they cannot make."""
+    rng = np.random.default_rng(5)
+    B, left = rng.standard_normal((7, 2)), rng.standard_normal(7)
+    misfit, size = marginal(left, B)
+    density = multivariate_normal(np.zeros(7), np.eye(7) + B @ B.T).logpdf(left)
+    assert -0.5 * (misfit + size + 7 * np.log(2 * np.pi)) == pytest.approx(density, rel=1e-12)
+    beyond = left - B @ np.linalg.lstsq(B, left, rcond=None)[0]
+    misfit, size = marginal(left, 1e12 * B)
+    assert misfit == pytest.approx(beyond @ beyond, rel=1e-9)
+    assert size == pytest.approx(np.linalg.slogdet(B.T @ B)[1] + 4 * np.log(1e12), rel=1e-9)

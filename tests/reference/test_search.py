@@ -220,6 +220,8 @@ def test_what_was_tried_beside_the_same_causes_is_not_tried_again():
     for step in np.diag(0.02 * np.append(np.ones(study.k), first.model.width)):
         moved = replace(first, point=replace(first.point, x=first.point.x + step))
         assert found.untried(moved, ["mass"]) == ["mass"] and found.untried(moved, ["mass"]) == []
+    longer = replace(first, point=replace(first.point, x=np.append(first.point.x, 0.0)))  # a size more by the same name
+    assert found.untried(longer, ["mass"]) == ["mass"]
 
 
 def test_a_brief_descent_ends_where_a_fit_of_as_many_steps_does():
