@@ -29,4 +29,16 @@ CODES = {
         "was written where a percentage was meant, or the other way round. A plain number is in the unit of the value.",
         "Write `5 %` for a percentage, else check the number and its unit.",
     ),
+    "MD454": Code(
+        "shapes that fit in another reading of the sensors",
+        "The measured shapes are unlike those of the model, and like them once their signs are left out of the comparison, two "
+        "directions are exchanged, the nodes are numbered one on, or a sensor is in another unit than the rest.",
+        "Follow the message, and mend the table or `dofs`.",
+    ),
+    "MD455": Code(
+        "two modes that may be one",
+        "Two measured modes have nearly one frequency and one shape, as where the peak of one mode was taken twice, or where all "
+        "sensors look in one direction.",
+        "Give the mode once, or measure what the two modes differ in.",
+    ),
 }

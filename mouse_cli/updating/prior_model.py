@@ -12,7 +12,7 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.observables.modal import UnrelatedShapes, observe
 from mouse_cli.terms.assembly import assembly as assemble
 from mouse_cli.terms.modal_damping import with_modal_damping
-from mouse_cli.updating import mistakes, refusals
+from mouse_cli.updating import mistakes, refusals, shape_mistakes
 from mouse_cli.updating.coordinates import coordinates
 from mouse_cli.updating.frf_gains import with_gains
 from mouse_cli.updating.frf_setting import begin as begin_frf
@@ -36,6 +36,7 @@ def begin(
         raise refusals.unphysical(problem, str(reason)) from None
     mistakes.check(problem, solution)
     refusals.check_rigid_modes(problem, solution)
+    shape_mistakes.check(problem, solution)
     modes = paired(problem, solution)
     try:
         observable = observe(problem.test, M, solution, modes)
@@ -69,6 +70,7 @@ def related(problem: Problem, solver: EigenSolver | None = None) -> np.ndarray:
     except (IndefiniteError, np.linalg.LinAlgError) as reason:
         raise refusals.unphysical(problem, str(reason)) from None
     mistakes.check(problem, solution)
+    shape_mistakes.check(problem, solution)
     modes, kept = paired(problem, solution), np.ones(problem.test.m, bool)
     while kept.any():
         try:

@@ -55,6 +55,14 @@ class ModeFormat:
     claims: Callable[[bytes], bool] | None = None
 
 
+def turned(shape: np.ndarray) -> np.ndarray:
+    """Real parts of a shape turned so that they are largest; NaN stays."""
+    known = shape[np.isfinite(shape)]
+    if not known.imag.any():
+        return shape.real
+    return (shape * np.exp(-0.5j * np.angle((known**2).sum()))).real
+
+
 def read_modes(path: str) -> ModeTable:
     """The mode shapes in the file `path`. Raises DeckError (MD250 to MD262)."""
     form = data_files.reader(__name__, path, "a file of mode shapes")

@@ -11,7 +11,7 @@ import numpy as np
 
 from mouse_cli._span import Span
 from mouse_cli.formats.data_files import reject
-from mouse_cli.formats.mode_files import ModeFormat, ModeTable
+from mouse_cli.formats.mode_files import ModeFormat, ModeTable, turned
 from mouse_cli.formats.mode_files._survey import survey
 from mouse_cli.formats.recording_files.universal_blocks import Block, blocks
 from mouse_cli.model.geometry import DIRECTIONS
@@ -67,7 +67,7 @@ def _read(path: str) -> ModeTable:
     raw = np.array([[mode.values.get(name, np.nan) for mode in modes] for name in names], complex).reshape(
         len(names), -1
     )
-    shapes = np.stack([_real(raw[:, r]) for r in range(len(modes))], axis=1)
+    shapes = np.stack([turned(raw[:, r]) for r in range(len(modes))], axis=1)
     sizes = np.array([np.sqrt(mode.mass) if mode.mass > 0 else 1.0 for mode in modes])
     hz, damping = np.array([m.frequency_hz for m in modes]), np.array([m.damping for m in modes])
     return ModeTable(tuple(names), hz, damping, shapes / sizes, mass, surveyed=survey(path, data, tuple(names)))
@@ -76,14 +76,6 @@ def _read(path: str) -> ModeTable:
 def _moves(modes: list[_Mode], name: str) -> bool:
     """Whether some mode moves there: programs write zeros in directions that were not measured."""
     return any(abs(mode.values.get(name, 0)) > 0 for mode in modes)
-
-
-def _real(shape: np.ndarray) -> np.ndarray:
-    """Real parts of a shape turned so that they are largest; NaN stays."""
-    known = shape[np.isfinite(shape)]
-    if not known.imag.any():
-        return shape.real
-    return (shape * np.exp(-0.5j * np.angle((known**2).sum()))).real
 
 
 def _mode(path: str, first: int, block: Block, lines: list[str]) -> _Mode | None:

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from mouse_cli.dynamics.correlation import mac
 from mouse_cli.formats.draft import Draft, TestDraft
 from mouse_cli.model.parameter import Parameter
 from mouse_cli.terms.elements import registry
@@ -11,6 +12,8 @@ _CERTAIN = 1e-7  # sd over value, below which nothing is known so well
 _NUMBERS = (0.01, 50.0)  # what a percentage looks like that was written as a number
 _COARSE = 0.2  # sd over frequency, above which a frequency says next to nothing
 _FINE, _SHARE = 3e-5, 0.05  # sd over frequency, below which no test is; and the largest number that may be a share
+_NEAR, _ALIKE = 0.01, 0.95  # relative difference of two frequencies, and MAC, of what may be one mode given twice
+_SENSORS = 4
 _BLIND = 0.5  # sd of shapes over their largest component
 
 
@@ -23,6 +26,7 @@ def plausible(draft: Draft) -> None:
     if draft.test is not None:
         _frequencies(draft, draft.test)
         _shapes(draft, draft.test)
+        _twins(draft, draft.test)
 
 
 def _structure(draft: Draft) -> None:
@@ -86,3 +90,18 @@ def _shapes(draft: Draft, test: TestDraft) -> None:
         )
         help = f"write shape_sd: {sd:g} % if a percentage is meant"
         draft.warn("MD453", message, test.where_shape_sd(int(s), int(m)), help=help)
+
+
+def _twins(draft: Draft, test: TestDraft) -> None:
+    """Warn of two modes with nearly one frequency and one shape: the peak of one mode, taken twice."""
+    if len(test.shapes) < _SENSORS:  # fewer see two modes alike
+        return
+    likeness, hz = mac(test.shapes, test.shapes), test.frequency_hz
+    for i, j in zip(*np.triu_indices(len(hz), 1), strict=True):
+        if abs(hz[j] - hz[i]) <= _NEAR * abs(hz[i]) and likeness[i, j] > _ALIKE:
+            message = (
+                f"test frequencies {i + 1} and {j + 1}, {hz[i]:.6g} and {hz[j]:.6g} Hz, have like shapes "
+                f"(MAC {likeness[i, j]:.3f}): one mode may be given twice"
+            )
+            help = "give it once; two modes in two directions need sensors in both"
+            draft.warn("MD455", message, test.where_frequency(int(j)), help=help)

@@ -106,6 +106,9 @@ def _motion(draft: Draft, sensor: SensorDraft, geometry: Geometry) -> PointMotio
     if sensor.node is not None:
         node = _node(draft, sensor, geometry, sensor.node)
         return None if node is None else at_node(geometry, node)
+    if sensor.at is None:
+        message = f"{sensor.words} names no degree of freedom of the model"
+        return draft.error("MD329", message, sensor.where, help="call it 12TY or the like, or take its column out")
     motion = at_point(geometry, sensor.at)
     if motion.distance > motion.reach:
         kind = "element" if len(geometry.lines) else "node"

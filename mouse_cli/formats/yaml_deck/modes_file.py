@@ -39,7 +39,9 @@ def own_sensors(modes: Section, held: ModeTable) -> list[SensorDraft]:
     where = modes.document.span(modes.nodes["file"])
     words = lambda name: f"sensor {name} of {modes.what('file')}"
     return [
-        _placed(held, name, where, words(name)) or own_sensor(name, where, words(name)) or SensorDraft(name, where)
+        _placed(held, name, where, words(name))
+        or own_sensor(name, where, words(name))
+        or SensorDraft(name, where, words=words(name))
         for name in held.names
     ]
 
