@@ -78,7 +78,7 @@ def without_laws(problem: Problem, modes: bool = False) -> tuple[Diagnostic, ...
     if not problem.laws or not linear:
         return ()
     laws = ", ".join(dict.fromkeys(one.law for one in problem.laws))
-    message = f"the laws of the deck ({laws}) are not linear: the modes are those of the linear structure without them"
+    message = f"the laws of the deck ({laws}) are not in its matrices: the modes are those of the structure without them"
     help = "see `mouse explain MD642`; recordings alone are simulated with the laws"
     return (Diagnostic("MD642", WARNING, message, problem.place("laws"), help=help),)
 

@@ -11,8 +11,8 @@ from mouse_cli.diagnosis.extend.matrices import of_matrices
 from mouse_cli.diagnosis.extend.points import Ends, add_dashpot, add_mass, add_oscillator, add_spring
 from mouse_cli.model.local_law import LocalLaw
 from mouse_cli.model.problem import Problem
+from mouse_cli.updating.recordings.acting import Part
 from mouse_cli.updating.recordings.channels import Misreading
-from mouse_cli.updating.recordings.hypothesis import Part
 from mouse_cli.updating.recordings.polish import Fit
 
 
@@ -22,8 +22,8 @@ def extended(problem: Problem, best: Fit) -> Problem | None:
     for part, values in best.hypothesis.sizes(best.x[None]):
         if isinstance(part.law, Misreading):
             return None
-        if not part.law.linear:
-            laws.append(_law(part, values[:, 0]))
+        if part.law.listed:
+            laws.append(_law(part, values[:, 0], problem.structure.labels))
             continue
         deck = with_linear(deck, part, values[:, 0])
         if deck is None:
@@ -63,10 +63,12 @@ def with_linear(problem: Problem, part: Part, p: np.ndarray) -> Problem | None:
     )
 
 
-def _law(part: Part, p: np.ndarray) -> LocalLaw:
+def _law(part: Part, p: np.ndarray, labels: tuple[str, ...]) -> LocalLaw:
     sizes = {size.name: float(value) for size, value in zip(part.unknowns, p, strict=True)}
     motion = part.place.motion
     dofs = tuple(int(i) for i in np.argsort(motion) if motion[i])
+    if part.law.motions > 1:  # in the order of its site, which its spin is about
+        dofs = tuple(labels.index(label) for label in part.place.site.ids)
     return LocalLaw(part.law.key, part.law.words[part.variant], dofs, sizes)
 
 

@@ -33,6 +33,9 @@ def _law(draft: Draft, each: LawDraft, labels: list[str]) -> LocalLaw | None:
     if not 1 <= len(dofs) <= 2 or len(set(dofs)) < len(dofs):
         message = f"law {law.key} acts on {len(dofs)} degrees of freedom, {', '.join(each.dofs)}; expected one, or two different"
         return draft.error("MD641", message, each.where, help="give at: [one] or at: [one, other]")
+    if len(dofs) < law.motions:
+        message = f"law {law.key} couples {law.motions} degrees of freedom; the deck gives {', '.join(each.dofs)}"
+        return draft.error("MD641", message, each.where, help="give at: [one, other]")
     return LocalLaw(law.key, variant, dofs, {sizes[key]: value for key, value in each.values.items()})
 
 

@@ -52,8 +52,8 @@ class Law:
     apart as words. homogeneous: indices of parameters with which F grows in proportion. grid: values of each other parameter
     that a first search tries. implicit(v, F before, free, drop, p) -> F, F at the end: of a step, for a law whose force jumps
     with the velocity, see dynamics.response.Implicit. at: `anywhere`, `ground` where it acts only between a point and the ground,
-    or `link` where the model has a spring. limit: index of the unknown that a record must show, and
-    the group of what the law is where it does not.
+    `link` where the model has a spring, or `plane` between two directions of one body. limit: index of the unknown that a record
+    must show, and the group of what the law is where it does not. motions: how many it couples, the first rows of `matrices`.
     """
 
     key: str
@@ -72,6 +72,7 @@ class Law:
     odd: bool = True
     implicit: Callable | None = None
     limit: tuple[int, str] | None = None
+    motions: int = 1
 
     def seen_as(self, log_sd: np.ndarray) -> str:
         """Its group where its unknowns are known to those sd (q,) of their logarithms; that of its limit where one is not seen."""
@@ -81,6 +82,11 @@ class Law:
     def linear(self) -> bool:
         """Whether superposition holds."""
         return self.force is None
+
+    @property
+    def listed(self) -> bool:
+        """Whether a deck states it under `laws`: symmetric matrices do not hold it."""
+        return not self.linear or self.motions > 1
 
     @property
     def parameters(self) -> tuple[Unknown, ...]:

@@ -1,86 +1,16 @@
 """A model of a record: the deck's parameters and nuisances, and laws at places."""
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
 from mouse_cli.dynamics.response import LocalForces, Plant
-from mouse_cli.model.diagnosis import Site
-from mouse_cli.terms.laws import Law, Scale, Unknown
+from mouse_cli.terms.laws import Law, Unknown
+from mouse_cli.updating.recordings.acting import Acting, Part, Place
 from mouse_cli.updating.recordings.calibration import KNOWN, Calibration
 from mouse_cli.updating.recordings.channels import Read, read
 from mouse_cli.updating.recordings.linear import Linear
 from mouse_cli.updating.recordings.series import Series
-
-
-@dataclass(frozen=True)
-class Place:
-    """Where a law may act. B (m,): the motion in the coordinates of the simulation; motion (n,): by the degrees of freedom of the
-    deck; ground: whether its other end is the ground. channel: number of a channel instead, outputs before forces.
-    """
-
-    site: Site
-    B: np.ndarray
-    ground: bool
-    scale: Scale
-    motion: np.ndarray
-    channel: int = -1
-
-
-@dataclass(frozen=True)
-class Acting:
-    """A nonlinear law that the deck has already: its motion B (n,), its parameters p (q,)."""
-
-    B: np.ndarray
-    law: Law
-    words: dict[str, float]
-    p: np.ndarray
-
-
-@dataclass(frozen=True)
-class Part:
-    """A law at a place, in one of its variants; ranges: of its parameters, where they are not those of the law there."""
-
-    place: Place
-    law: Law
-    variant: int
-    ranges: tuple[Unknown, ...] = ()
-
-    @property
-    def unknowns(self) -> tuple[Unknown, ...]:
-        """Its parameters and how large they may be."""
-        return self.ranges or self.law.unknowns(self.place.scale)
-
-    @property
-    def candidate(self) -> Law:
-        """What has the name, as in every hypothesis."""
-        return self.law
-
-    @property
-    def title(self) -> str:
-        """The law and its variant in words."""
-        word = self.law.words[self.variant]
-        return f"{self.law.title} ({word})" if word else self.law.title
-
-    @property
-    def words(self) -> dict[str, float]:
-        """Its variant, as the law takes it."""
-        return self.law.variants[self.variant]
-
-    def matrices(self, p: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """K, C, M of a linear law."""
-        return self.law.matrices(p, **self.words)
-
-    @cached_property
-    def extra(self) -> int:
-        """Degrees of freedom of a linear law's own."""
-        middle = np.array([np.sqrt(u.lower * u.upper) for u in self.unknowns])
-        return len(self.matrices(middle)[0]) - 1 if self.law.linear else 0
-
-    def acting(self, p: np.ndarray) -> Acting:
-        """With parameters p."""
-        return Acting(self.place.B, self.law, self.words, p)
 
 
 @dataclass(frozen=True)
@@ -177,12 +107,13 @@ class Hypothesis:
 
     def acting(self, x: np.ndarray) -> list[Acting]:
         """The laws that are not linear at x (k,): those of the deck, then those of the hypothesis."""
-        return [*self.known, *(part.acting(p[:, 0]) for part, p in self.sizes(x[None]) if not part.law.linear)]
+        known = (one for one in self.known if not one.law.linear)
+        return [*known, *(part.acting(p[:, 0]) for part, p in self.sizes(x[None]) if not part.law.linear)]
 
     def local(self, many: np.ndarray) -> LocalForces | None:
         """The forces of all laws at x (P, k), internal states as a list; None where all is linear."""
         own = [part.acting(p[:, :, None, None]) for part, p in self.sizes(many) if not part.law.linear]
-        every = [*self.known, *own]
+        every = [*(one for one in self.known if not one.law.linear), *own]
         if not every:
             return None
         shaped = [one.p if one.p.ndim > 1 else one.p[:, None, None, None] for one in every]
@@ -210,10 +141,12 @@ class Hypothesis:
         x, a = self.whole(many), self.extra
         M, C, K = self.linear.matrices(x[:, : self.linear.k])
         m = M.shape[1]
-        motions = [one.B for one in self.known] + [part.place.B for part in self.parts if not part.law.linear]
+        motions = [one.B for one in self.known if not one.law.linear] + [
+            part.place.B for part in self.parts if not part.law.linear
+        ]
         local = np.zeros((m + a, len(motions)))
         local[:m] = np.array(motions).reshape(-1, m).T
-        if any(part.law.linear for part in self.parts):
+        if any(one.law.linear for one in (*self.known, *self.parts)):
             M, C, K = self._with_matrices(many, M, C, K)
         sensing = np.pad(series.sensing, ((0, 0), (0, a)))
         own = [np.repeat(part.place.B[None] @ series.base, part.extra, 0) for part in self.parts]
@@ -228,13 +161,18 @@ class Hypothesis:
         """M, C, K (P, m + a, m + a) with those of linear laws."""
         a, m = self.extra, matrices[0].shape[1]
         M, C, K = (np.pad(one, ((0, 0), (0, a), (0, a))) for one in matrices)
+        for one in (each for each in self.known if each.law.linear):
+            B = np.pad(one.directions, ((0, a), (0, 0)))
+            for whole, own in zip((K, C, M), one.law.matrices(one.p, **one.words), strict=True):
+                whole += B @ own @ B.T
         at = m
         for part, values in self.sizes(many):
             if not part.law.linear:
                 continue
-            B = np.zeros((m + a, 1 + part.extra))
-            B[:m, 0] = part.place.B
-            B[at : at + part.extra, 1:] = np.eye(part.extra)
+            d = part.law.motions
+            B = np.zeros((m + a, d + part.extra))
+            B[:m, :d] = part.place.directions
+            B[at : at + part.extra, d:] = np.eye(part.extra)
             at += part.extra
             for i, p in enumerate(values.T):
                 for whole, own in zip((K, C, M), part.matrices(p), strict=True):

@@ -5,24 +5,20 @@ import numpy as np
 from mouse_cli.terms.laws import Law
 
 
-def linear_force(
-    matrices: tuple[np.ndarray, ...], w: np.ndarray, X: np.ndarray, carried: np.ndarray | float
-) -> np.ndarray:
-    """Lines (l,) of the force of a linear law against its motion X (l,), its own degrees of freedom eliminated.
+def linear_force(matrices: tuple[np.ndarray, ...], w: np.ndarray, X: np.ndarray, carried: np.ndarray) -> np.ndarray:
+    """Lines (l, d) of the forces of a linear law against its motions X (l, d), its own degrees of freedom Q eliminated.
 
-    All of them are carried along with the acceleration `carried` of the ground: with 1 = (1, ..., 1),
-    [F, 0]' = Z [X, Q]' + M 1 carried.
+    The acceleration `carried` (l, d) of the ground carries its motions along, and what hangs on them with the first:
+    [F, 0]' = Z [X, Q]' + M [carried, carried_1].
     """
     K, C, M = matrices
-    Z = K + 1j * w[:, None, None] * C - w[:, None, None] ** 2 * M
-    inertia = M.sum(axis=1)
-    if len(K) == 1:
-        return Z[:, 0, 0] * X + inertia[0] * carried
-    back = np.linalg.solve(
-        Z[:, 1:, 1:], np.concatenate([Z[:, 1:, :1], np.broadcast_to(inertia[1:, None], Z[:, 1:, :1].shape)], 2)
-    )
-    through = (Z[:, :1, 1:] @ back)[:, 0]
-    return (Z[:, 0, 0] - through[:, 0]) * X + (inertia[0] - through[:, 1]) * carried
+    Z, d = K + 1j * w[:, None, None] * C - w[:, None, None] ** 2 * M, X.shape[1]
+    along = np.concatenate([carried, np.repeat(carried[:, :1], len(K) - d, axis=1)], axis=1) @ M.T
+    F = np.einsum("lij,lj->li", Z[:, :d, :d], X) + along[:, :d]
+    if len(K) == d:
+        return F
+    rest = np.einsum("lij,lj->li", Z[:, d:, :d], X) + along[:, d:]
+    return F - (Z[:, :d, d:] @ np.linalg.solve(Z[:, d:, d:], rest[:, :, None]))[:, :, 0]
 
 
 def stepped(law: Law, x: np.ndarray, v: np.ndarray, p: np.ndarray, words: dict[str, float]) -> np.ndarray:

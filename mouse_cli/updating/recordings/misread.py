@@ -4,9 +4,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from mouse_cli.updating.recordings.acting import Place
 from mouse_cli.updating.recordings.calibration import answer, as_read, only
 from mouse_cli.updating.recordings.channels import GAINS, Misreading, earlier
-from mouse_cli.updating.recordings.hypothesis import Place
 from mouse_cli.updating.recordings.regression import Regression, Start
 
 _ROUNDS = 4  # of Gauss and Newton from each delay that is tried

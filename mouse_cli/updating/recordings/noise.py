@@ -10,8 +10,9 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli.model.record_diagnosis import Noise
+from mouse_cli.updating.recordings.acting import Place
 from mouse_cli.updating.recordings.free_force import Spectrum
-from mouse_cli.updating.recordings.hypothesis import Hypothesis, Place
+from mouse_cli.updating.recordings.hypothesis import Hypothesis
 from mouse_cli.updating.recordings.regression import Regression, allowed
 
 EXPLAINED = 0.1  # share of what is left that a law takes, from which on it is no noise
@@ -43,7 +44,7 @@ def noise(spectrum: Spectrum, base: Hypothesis, places: list[Place], begun: np.n
     most = max(EXPLAINED, _CHANCE / count)
     explained = 0.0
     for share in (_freely, _by_laws):  # the quicker one decides most
-        for place in places:
+        for place in places if share is _by_laws else [one for one in places if one.across is None]:
             explained = max(explained, share(look(white, place)))
             if explained > most:
                 return None

@@ -9,9 +9,9 @@ from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
 from mouse_cli.terms.laws import Scale
+from mouse_cli.updating.recordings.acting import Place
 from mouse_cli.updating.recordings.basis import LARGEST
 from mouse_cli.updating.recordings.free_force import Spectrum
-from mouse_cli.updating.recordings.hypothesis import Place
 from mouse_cli.updating.recordings.uncertain import links
 
 _MOST_APART = 10  # pairs of measured degrees of freedom without a link that are looked at: those of five
@@ -42,6 +42,34 @@ def motions(problem: Problem, sensed: np.ndarray) -> Iterator[tuple[Site, np.nda
         yield Site("dof", (labels[i], labels[j]), text=text), np.eye(n)[j] - np.eye(n)[i], linked.get((i, j), 0.0)
 
 
+def planes(problem: Problem, sensed: np.ndarray) -> Iterator[tuple[Site, int, int]]:
+    """Site and degrees of freedom of pairs of directions of one body, of which one at least is driven or measured.
+
+    Numbers of a matrix model have no directions: two of them are of different planes where neither stiffness nor mass joins them.
+    """
+    labels = problem.structure.labels
+    part = _parts(problem)
+    for i, j in combinations(range(len(labels)), 2):
+        if not (sensed[i] or sensed[j]):
+            continue
+        if labels[i].isdigit() and labels[j].isdigit():
+            crossing = part[i] != part[j]
+        else:
+            crossing = labels[i][:-2] == labels[j][:-2] and labels[i][-2:-1] == labels[j][-2:-1]
+        if crossing:
+            text = f"between {_named(labels[i])} and {_named(labels[j])}"
+            yield Site("dof", (labels[i], labels[j]), text=text), i, j
+
+
+def _parts(problem: Problem) -> np.ndarray:
+    """Number (n,) of the part of the model, joined by stiffness or mass, that each degree of freedom belongs to."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    K, M = assembly(problem).matrices(problem.prior.mean)
+    return connected_components(abs(coo_array(K)) + abs(coo_array(M)), directed=False)[1]
+
+
 def _turns(label: str) -> bool:
     return label[-2:-1] == "R"
 
@@ -64,14 +92,23 @@ def places(problem: Problem, spectrum: Spectrum, basis: np.ndarray, band: tuple[
     sensed = (np.abs(basis @ np.hstack([series.inputs, series.sensing.T])) > 1e-9).any(axis=1)
     u = spectrum.motions(np.zeros((basis.shape[1], 0)))
     found, moved = [], [spectrum.derivative(u, order) for order in (0, 1, 2)]
-    for site, b, link in motions(problem, sensed):
-        B = basis.T @ b
+
+    def scale(B: np.ndarray, link: float) -> Scale | None:
         size = float(B @ B)
         x, v, a = (float((one @ B).std()) for one in moved)
         if size < 1e-24 or x == 0:
-            continue
+            return None
         stiffness, mass = (float(B @ matrix @ B) / size**2 for matrix in (model.K, model.M))
         step = spectrum.series.dt / spectrum.series.factor
-        scale = Scale(max(stiffness, mass * a / x), mass, x, v, band, 2 * mass / step**2, mass * a, max(link, 0.0))
-        found.append(Place(site, B, len(site.ids) == 1, scale, b))
+        return Scale(max(stiffness, mass * a / x), mass, x, v, band, 2 * mass / step**2, mass * a, max(link, 0.0))
+
+    for site, b, link in motions(problem, sensed):
+        own = scale(basis.T @ b, link)
+        if own is not None:
+            found.append(Place(site, basis.T @ b, len(site.ids) == 1, own, b))
+    for site, i, j in planes(problem, sensed):
+        both = [one for one in (scale(basis[i], 0.0), scale(basis[j], 0.0)) if one is not None]
+        if len(both) == 2:
+            own = max(both, key=lambda one: one.stiffness * one.x / one.v)
+            found.append(Place(site, basis[i], False, own, np.eye(problem.structure.n)[i], across=basis[j]))
     return found

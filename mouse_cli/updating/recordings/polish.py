@@ -12,7 +12,8 @@ import numpy as np
 
 from mouse_cli.dynamics.response import simulate
 from mouse_cli.model.diagnosis import Cause, Size
-from mouse_cli.updating.recordings.hypothesis import Hypothesis, Part
+from mouse_cli.updating.recordings.acting import Part
+from mouse_cli.updating.recordings.hypothesis import Hypothesis
 from mouse_cli.updating.recordings.linear import rigid
 from mouse_cli.updating.recordings.segments import Segments
 from mouse_cli.updating.recordings.series import passed, sampled

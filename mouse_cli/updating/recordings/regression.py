@@ -10,9 +10,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mouse_cli.terms.laws import Law, registry
+from mouse_cli.updating.recordings.acting import Acting, Place
 from mouse_cli.updating.recordings.channels import corrected, read
 from mouse_cli.updating.recordings.free_force import Spectrum
-from mouse_cli.updating.recordings.hypothesis import Acting, Hypothesis, Place
+from mouse_cli.updating.recordings.hypothesis import Hypothesis
 from mouse_cli.updating.recordings.law_forces import linear_force, stepped
 
 _APART = 0.15  # of the logarithm of a size, from which on two starts are two
@@ -33,9 +34,10 @@ class Start:
 
 @dataclass(frozen=True)
 class Local:
-    """All that a place needs: histories x, v (t,) of its motion, lines X (l,), answer (l, s) of sensors to a force there.
+    """All that a place needs: histories x, v (t,) of its motion, lines X (l, d) of its motions, answers (l, s, d) of sensors to
+    forces there.
 
-    carried (l,): lines of the acceleration of the ground along it.
+    carried (l, d): lines of the acceleration of the ground along it.
     """
 
     place: Place
@@ -43,7 +45,7 @@ class Local:
     v: np.ndarray
     X: np.ndarray
     answer: np.ndarray
-    carried: np.ndarray | float = 0.0
+    carried: np.ndarray
 
 
 class Regression:
@@ -58,16 +60,16 @@ class Regression:
         self.begun = np.zeros(hypothesis.nuisances) if begun is None else begun
         self.spectrum = spectrum = _as_measured(spectrum, hypothesis, self.begun)
         place = hypothesis.place
-        others = [*(one.B for one in hypothesis.known), *(part.place.B for part in hypothesis.parts)]
-        self._U = U = spectrum.motions(np.stack([place.B, *others], axis=1))
-        X = U @ place.B
+        others = [*(one.directions for one in hypothesis.known), *(part.place.directions for part in hypothesis.parts)]
+        self._U = U = spectrum.motions(np.concatenate([place.directions, *others], axis=1))
         self._states = spectrum.with_speed(np.concatenate([spectrum.derivative(U, order).T for order in (0, 1)]))
         self._states[:, : spectrum.first] = np.concatenate(spectrum.released[:2, : spectrum.first].transpose(0, 2, 1))
         self.spread = self._states.std(axis=1)
         if spectrum.series.free:
             self.spread = np.maximum(self.spread, np.abs(np.concatenate(spectrum.released[:2], axis=1)).max(axis=0))
         histories = (place.B @ half for half in np.split(self._states, 2))
-        self.local = Local(place, *histories, X, spectrum.SH @ place.B, self._carried(place))
+        B = place.directions
+        self.local = Local(place, *histories, U @ B, spectrum.SH @ B, self._carried(B))
         t = len(spectrum.series)
         edge = int(_BEGIN * t) + spectrum.series.slow
         self.kept = slice(edge, t - edge - int(_BEGIN * t))
@@ -107,16 +109,18 @@ class Regression:
             else:
                 F = one.law.force(along, speed, None, one.p, **one.words)[0]
             found += add(s.line(F * s.window), one.B)
-        for part, p in self.base.sizes(x[None]):
-            if part.law.linear:
-                along, B = self._carried(part.place), part.place.B
-                found += add(linear_force(part.matrices(p[:, 0]), s.w, self._U @ B, along), B)
+        linear = [one for one in self.base.known if one.law.linear]
+        linear += [part.acting(p[:, 0]) for part, p in self.base.sizes(x[None]) if part.law.linear]
+        for one in linear:
+            B = one.directions
+            F = linear_force(one.law.matrices(one.p, **one.words), s.w, self._U @ B, self._carried(B))
+            found += s.history(np.einsum("ld,lsd->ls", F, s.SH @ B)) * s.window[:, None]
         return found
 
-    def _carried(self, place: Place) -> np.ndarray | float:
-        """Lines (l,) of the acceleration with which the ground carries a place along."""
+    def _carried(self, B: np.ndarray) -> np.ndarray:
+        """Lines (l, d) of the acceleration with which the ground carries motions B (n, d) along."""
         carried = self.spectrum.carried
-        return 0.0 if carried is None else carried @ place.B
+        return np.zeros((len(self.spectrum.w), B.shape[1])) if carried is None else carried @ B
 
     def _slopes(self) -> Iterator[np.ndarray]:
         """Answers (t, s) to a change of the ln parameters of the laws that the hypothesis has."""
@@ -182,7 +186,7 @@ class Regression:
         for z, column in zip(x[:k], self._nuisances(self._U), strict=True):
             answer += z * column
         E = s.line(self.missing - answer) / s.series.sd
-        A = self.local.answer / s.series.sd
+        A = self.local.answer[:, :, 0] / s.series.sd
         size = (np.abs(A) ** 2).sum(axis=1)
         G = -(A.conj() * E).sum(axis=1) / np.where(size > 1e-6 * size.max(), size, np.inf)
         return s.history(G)
@@ -197,10 +201,7 @@ class Regression:
     def share(self, forces: list[np.ndarray]) -> float:
         """Share of what is left that any sum of histories (t,) of a force at the place takes."""
         s, k = self.spectrum, len(self._prior)
-        columns = [
-            self.stacked(s.history(s.line(F * s.window)[:, None] * self.local.answer) * s.window[:, None])
-            for F in forces
-        ]
+        columns = [self._answered(s.line(F * s.window)[:, None]) for F in forces]
         A = np.vstack([np.stack(columns, axis=1), np.zeros((k, len(forces)))])
         A -= self.Q @ (self.Q.T @ A)
         A /= np.maximum(np.linalg.norm(A, axis=0), 1e-300)
@@ -213,17 +214,22 @@ class Regression:
         return float(self.target @ self.target)
 
     def forces(self, law: Law, variant: int, many: np.ndarray) -> Iterator[np.ndarray]:
-        """Lines (l,) of the force of a law for each of its parameters (m, q)."""
+        """Lines (l, d) of the forces of a law for each of its parameters (m, q)."""
         words, local, s = law.variants[variant], self.local, self.spectrum
         if law.states:
             found = stepped(law, local.x, local.v, many.T, words)
-            yield from (s.line(column * s.window) for column in found.T)
+            yield from (s.line(column * s.window)[:, None] for column in found.T)
             return
         for p in many:
             if law.linear:
                 yield linear_force(law.matrices(p, **words), s.w, local.X, local.carried)
             else:
-                yield s.line(law.force(local.x, local.v, None, p, **words)[0] * s.window)
+                yield s.line(law.force(local.x, local.v, None, p, **words)[0] * s.window)[:, None]
+
+    def _answered(self, force: np.ndarray) -> np.ndarray:
+        """Stacked answer of the outputs to lines (l, d) of forces at the place."""
+        s = self.spectrum
+        return self.stacked(s.history(np.einsum("ld,lsd->ls", force, self.local.answer)) * s.window[:, None])
 
     def best(self, law: Law, variant: int) -> Start | None:
         """The sizes of the law that leave least; None where no force of its sign leaves less than none."""
@@ -231,9 +237,9 @@ class Regression:
 
     def apart(self, law: Law, variant: int, most: int) -> list[Start]:
         """Up to `most` sizes of the law, that which leaves least first, each far from those before it in what is not linear."""
-        many, s, tried = np.array(list(law.inner(self.local.place.scale))), self.spectrum, []
+        many, tried = np.array(list(law.inner(self.local.place.scale))), []
         for p, force in zip(many, self.forces(law, variant, many), strict=True):
-            column = self.stacked(s.history(-force[:, None] * self.local.answer) * s.window[:, None])
+            column = self._answered(-force)
             own = self.projected(column)
             size = float(own @ own)
             factor = float(own @ self.target) / size if size > 0 else 0.0
@@ -248,10 +254,9 @@ class Regression:
 
     def _start(self, law: Law, variant: int, p: np.ndarray, left: float) -> Start:
         """The nuisances that go with sizes p (q,) of a law."""
-        hypothesis, s = self.base.at(law, variant), self.spectrum
+        hypothesis = self.base.at(law, variant)
         (force,) = self.forces(law, variant, p[None])
-        column = self.stacked(s.history(-force[:, None] * self.local.answer) * s.window[:, None])
-        x, _ = self.begin(column, np.log(p))
+        x, _ = self.begin(self._answered(-force), np.log(p))
         return Start(hypothesis, np.clip(x, *hypothesis.bounds), left)
 
 
@@ -267,7 +272,9 @@ def _as_measured(spectrum: Spectrum, hypothesis: Hypothesis, x: np.ndarray) -> S
 def allowed(place: Place, laws: list[Law] | None = None) -> list[Law]:
     """The laws that a first look tries at a place."""
     own = registry().values() if laws is None else laws
-    there = {"anywhere": True, "ground": place.ground, "link": place.scale.link > 0}
+    if place.across is not None:
+        return [law for law in own if law.at == "plane"]
+    there = {"anywhere": True, "ground": place.ground, "link": place.scale.link > 0, "plane": False}
     return [law for law in own if law.key != "iwan" and there[law.at]]
 
 

@@ -10,11 +10,12 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
 from mouse_cli.terms.laws import registry
 from mouse_cli.updating.recordings.accuracy import accurate
+from mouse_cli.updating.recordings.acting import Acting, Place
 from mouse_cli.updating.recordings.calibration import calibration
 from mouse_cli.updating.recordings.channels import SCALE, channel_sites
 from mouse_cli.updating.recordings.disturbance import BLOCK
 from mouse_cli.updating.recordings.free_force import Spectrum
-from mouse_cli.updating.recordings.hypothesis import Acting, Hypothesis, Place
+from mouse_cli.updating.recordings.hypothesis import Hypothesis
 from mouse_cli.updating.recordings.places import places
 from mouse_cli.updating.recordings.polish import Fit, followed
 from mouse_cli.updating.recordings.records import Records, reduced, steps
@@ -31,9 +32,12 @@ def acting(problem: Problem, basis: np.ndarray) -> tuple[Acting, ...]:
 
 def _acting(one: LocalLaw, basis: np.ndarray) -> Acting:
     law = registry()[one.law]
-    B = basis[one.dofs[-1]] - (basis[one.dofs[0]] if len(one.dofs) > 1 else 0.0)
     p = np.array([one.values[size.name] for size in law.parameters])
-    return Acting(B, law, law.variants[law.words.index(one.variant)], p)
+    words = law.variants[law.words.index(one.variant)]
+    if law.motions > 1:
+        return Acting(basis[one.dofs[0]], law, words, p, basis[one.dofs[1]])
+    B = basis[one.dofs[-1]] - (basis[one.dofs[0]] if len(one.dofs) > 1 else 0.0)
+    return Acting(B, law, words, p)
 
 
 Modelled = Callable[[Problem, float, np.ndarray], Uncertain]

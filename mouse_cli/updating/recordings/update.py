@@ -12,8 +12,8 @@ from mouse_cli.model.record_update import RecordUpdate
 from mouse_cli.model.result import ChiSquareTest
 from mouse_cli.terms.laws import Scale, registry
 from mouse_cli.updating.chi_square import upper_tail
+from mouse_cli.updating.recordings.acting import Part, Place
 from mouse_cli.updating.recordings.adequacy import strained, unlikely, with_noise
-from mouse_cli.updating.recordings.hypothesis import Part, Place
 from mouse_cli.updating.recordings.noise import noise
 from mouse_cli.updating.recordings.polish import Fit, Polish, followed
 from mouse_cli.updating.recordings.records import named, records
@@ -64,12 +64,15 @@ def _part(one: LocalLaw, own: Study) -> tuple[Part, np.ndarray]:
     """A law of the deck with free parameters, and their values."""
     law, structure, basis = registry()[one.law], own.problem.structure, own.model.basis
     names = tuple(structure.labels[i] for i in one.dofs)
-    motion = np.zeros(structure.n)
+    motion, across = np.zeros(structure.n), None
     motion[one.dofs[-1]] = 1.0
     if len(one.dofs) > 1:
         motion[one.dofs[0]] = -1.0
+    if law.motions > 1:
+        motion, across = np.eye(structure.n)[one.dofs[0]], basis[one.dofs[1]]
     text = f"between {' and '.join((*names, 'the ground') if len(names) == 1 else names)}"
-    place = Place(Site("dof", names, text=text), basis.T @ motion, len(names) == 1, Scale(1, 1, 1, 1, (1, 1)), motion)
+    scale = Scale(1, 1, 1, 1, (1, 1))
+    place = Place(Site("dof", names, text=text), basis.T @ motion, len(names) == 1, scale, motion, across=across)
     values = np.array([one.values[size.name] for size in law.parameters])
     sizes = zip(law.parameters, values, strict=True)
     ranges = tuple(replace(size, lower=value / _RANGE, upper=value * _RANGE) for size, value in sizes)
@@ -95,5 +98,5 @@ def _covariance(model: Uncertain, fit: Fit) -> np.ndarray:
     """Of the parameters of the deck (p, p): J S J', J the slope of their values by the nuisances that they are."""
     z = fit.x[: model.own]
     J = [(model.theta(z + step) - model.theta(z - step)) / (2 * _STEP) for step in _STEP * np.eye(model.own)]
-    J = np.array(J).reshape(model.own, -1).T
+    J = np.array(J).reshape(model.own, len(model.theta(z))).T
     return J @ fit.covariance[: model.own, : model.own] @ J.T

@@ -8,9 +8,9 @@ import numpy as np
 from mouse_cli.model.record_diagnosis import Noise
 from mouse_cli.terms.laws import Law
 from mouse_cli.terms.laws import registry as laws
+from mouse_cli.updating.recordings.acting import Place
 from mouse_cli.updating.recordings.adequacy import adequate, innovation, missing, strained, unlikely, with_noise
 from mouse_cli.updating.recordings.channels import Misreading, misreadings
-from mouse_cli.updating.recordings.hypothesis import Place
 from mouse_cli.updating.recordings.misread import misread
 from mouse_cli.updating.recordings.noise import doubtful, noise
 from mouse_cli.updating.recordings.polish import Fit

@@ -3,7 +3,7 @@
 from mouse_cli.formats.yaml_deck.kinds import Key, Section
 from mouse_cli.terms.laws import registry
 
-_LAWS = [law for law in registry().values() if not law.linear]
+_LAWS = [law for law in registry().values() if law.listed]
 
 
 def _values() -> dict[str, Key]:
@@ -17,7 +17,8 @@ def _values() -> dict[str, Key]:
 
 SECTIONS = {
     "law": Section(
-        "A force that is not linear. Diagnosis by recordings simulates it; modes are those of the structure without it.",
+        "A force that symmetric matrices do not hold: not linear, or gyroscopic. Diagnosis by recordings simulates it; "
+        "modes are those of the structure without it.",
         {
             "law": Key("choice", "which law", required=True, choices=tuple(law.key for law in _LAWS)),
             "variant": Key(
@@ -28,7 +29,8 @@ SECTIONS = {
             ),
             "at": Key(
                 "texts",
-                "one degree of freedom: against the ground; two: of the second relative to the first",
+                "one degree of freedom: against the ground; two: of the second relative to the first, or those that a gyroscopic "
+                "law couples",
                 required=True,
             ),
             "values": Key("section law_values", "its sizes", required=True),

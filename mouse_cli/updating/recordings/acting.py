@@ -1,0 +1,95 @@
+"""Laws at their places: of a deck, and of a hypothesis with free parameters."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from mouse_cli.model.diagnosis import Site
+from mouse_cli.terms.laws import Law, Scale, Unknown
+
+
+def _columns(B: np.ndarray, across: np.ndarray | None) -> np.ndarray:
+    return np.stack([B] if across is None else [B, across], axis=1)
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a law may act. B (m,): the motion in the coordinates of the simulation; motion (n,): by the degrees of freedom of the
+    deck; ground: whether its other end is the ground. channel: number of a channel instead, outputs before forces. across (m,):
+    another motion of the same body, where a law of two acts.
+    """
+
+    site: Site
+    B: np.ndarray
+    ground: bool
+    scale: Scale
+    motion: np.ndarray
+    channel: int = -1
+    across: np.ndarray | None = None
+
+    @property
+    def directions(self) -> np.ndarray:
+        """Its motions (m, d)."""
+        return _columns(self.B, self.across)
+
+
+@dataclass(frozen=True)
+class Acting:
+    """A law that the deck has already: its motion B (n,), its parameters p (q,); across (n,): its other motion, if it has two."""
+
+    B: np.ndarray
+    law: Law
+    words: dict[str, float]
+    p: np.ndarray
+    across: np.ndarray | None = None
+
+    @property
+    def directions(self) -> np.ndarray:
+        """Its motions (n, d)."""
+        return _columns(self.B, self.across)
+
+
+@dataclass(frozen=True)
+class Part:
+    """A law at a place, in one of its variants; ranges: of its parameters, where they are not those of the law there."""
+
+    place: Place
+    law: Law
+    variant: int
+    ranges: tuple[Unknown, ...] = ()
+
+    @property
+    def unknowns(self) -> tuple[Unknown, ...]:
+        """Its parameters and how large they may be."""
+        return self.ranges or self.law.unknowns(self.place.scale)
+
+    @property
+    def candidate(self) -> Law:
+        """What has the name, as in every hypothesis."""
+        return self.law
+
+    @property
+    def title(self) -> str:
+        """The law and its variant in words."""
+        word = self.law.words[self.variant]
+        return f"{self.law.title} ({word})" if word else self.law.title
+
+    @property
+    def words(self) -> dict[str, float]:
+        """Its variant, as the law takes it."""
+        return self.law.variants[self.variant]
+
+    def matrices(self, p: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """K, C, M of a linear law."""
+        return self.law.matrices(p, **self.words)
+
+    @cached_property
+    def extra(self) -> int:
+        """Degrees of freedom of a linear law's own."""
+        middle = np.array([np.sqrt(u.lower * u.upper) for u in self.unknowns])
+        return len(self.matrices(middle)[0]) - self.law.motions if self.law.linear else 0
+
+    def acting(self, p: np.ndarray) -> Acting:
+        """With parameters p."""
+        return Acting(self.place.B, self.law, self.words, p, self.place.across)
