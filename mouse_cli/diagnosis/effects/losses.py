@@ -42,12 +42,18 @@ def loosened(model: Reduced) -> np.ndarray:
     parts = [K for *_, direction, share, K in _parts(model, True) if direction or share == 1.0]
     if not parts:
         return np.zeros((0, model.r))
-    count = model.low_modes()
     at = [int(np.argmax(K.diagonal())) for K in parts]
     b = np.array([K[i] / np.sqrt(max(K[i, i], 1e-300)) for i, K in zip(at, parts, strict=True)])
+    return telling(model, b)[:_FEW]
+
+
+def telling(model: Reduced, b: np.ndarray, least: float = 0.0) -> np.ndarray:
+    """Those b (c, r) first, of stiffnesses b b', whose loss tells most; only such as change an eigenvalue by that share."""
+    count = model.low_modes()
     share = b**2 / np.maximum(model.eigenvalues, 1e-9 * model.eigenvalues[-1])
     tells = share[:, :count].max(axis=1) / (1 - _LOST.upper * np.minimum(share.sum(axis=1), 1.0))
-    return b[np.argsort(-tells, kind="stable")[:_FEW]]
+    order = np.argsort(-tells, kind="stable")
+    return b[order[tells[order] >= least]]
 
 
 def _parts(model: Reduced, directed: bool) -> list[tuple]:

@@ -9,18 +9,22 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.effects.element_sets import missing
-from mouse_cli.diagnosis.effects.losses import LOST, matrices_of
+from mouse_cli.diagnosis.effects.losses import LOST, matrices_of, telling
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import displacements
 from mouse_cli.diagnosis.sites.left_out import loaded
-from mouse_cli.diagnosis.sites.members import SLENDER, Member, members
+from mouse_cli.diagnosis.sites.members import ONE, SLENDER, Member, members
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
 
 _MOST = 240  # members that are looked at: those that hold most energy in the lowest modes
 _HELD = 1e-6  # share of the energy of a mode below which a member has no part in it
+_FEW, _TELLS = (
+    24,
+    0.01,
+)  # members that a search in few coordinates knows to stretch, with that share of the energy of a low mode
 _LOST, _GAINED = Unknown(LOST, "1", 0.02, 0.99), Unknown("share gained", "1", 0.02, 20.0)
 _STIFF = {"beam": ("E",), "rod": ("E",), "storey": DIRECTIONS}
 _SECTIONS = {"beam": ("A", "Iy", "Iz", "J"), "rod": ("A",)}
@@ -62,6 +66,34 @@ def _beyond(model: Reduced, member: Member, parts: dict[int, Part], sign: int) -
     left = given.left(u, model.eigenvalues, model.static.shift)
     scale = float(np.einsum("eii->", K) / np.einsum("eii->", given.K))
     return lambda share: scale * left.felt(sign * share)
+
+
+def stretching(model: Reduced) -> np.ndarray:
+    """Pairs of forces (c, r) by which members hold their ends apart: those whose loss tells most, few at most; see `loosened`."""
+    if model.motion is None:
+        return np.zeros((0, model.r))
+    parts: dict[int, Part] = {}
+    alone = [member for member in members(model.problem.mesh) if member.kind == ONE]
+    return telling(model, np.array([_stretch(model, member, parts) for member in alone]).reshape(-1, model.r), _TELLS)[
+        :_FEW
+    ]
+
+
+def _stretch(model: Reduced, member: Member, parts: dict[int, Part]) -> np.ndarray:
+    """b (r,), where b b' is the stiffness of a straight member against elongation."""
+    mesh, soft, nodes, motion = model.problem.mesh, 0.0, [], []
+    for s, i in member.elements:
+        if s not in parts:
+            parts[s] = of_set(model, s)
+        u, K = parts[s][0][i], parts[s][1][i]
+        pair = mesh.elements[s].nodes[i]
+        along = np.diff(mesh.coordinates[pair], axis=0)[0]
+        along = along / max(float(np.linalg.norm(along)), 1e-300)
+        soft += 1 / max(float(along @ K[6:9, 6:9] @ along), 1e-300)
+        nodes += pair.tolist()
+        motion += [along @ u[:3], along @ u[6:9]]
+    first, last = ([n for n, node in enumerate(nodes) if nodes.count(node) == 1] + [0, 0])[:2]
+    return (motion[last] - motion[first]) / np.sqrt(soft)
 
 
 def of_set(model: Reduced, s: int) -> Part:
@@ -132,7 +164,7 @@ def _recipe(
         candidate,
         (d,),
         change,
-        steps(d, 4)[:, None],
+        (steps(d, 4) if sign > 0 else np.append(steps(d, 4), _LOST.upper))[:, None],  # that it is missing is common
         lambda values: site,
         log_prior=share,
         extend=extend,

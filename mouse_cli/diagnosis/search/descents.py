@@ -8,7 +8,7 @@ from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unseen
 from mouse_cli.diagnosis.search.escape import shifted, uncrossed
 from mouse_cli.diagnosis.search.fit import MOST, Fit, descended, fit
-from mouse_cli.diagnosis.search.optima import NEAR, TIED, distinct, within
+from mouse_cli.diagnosis.search.optima import BEYOND, NEAR, TIED, distinct, within
 from mouse_cli.diagnosis.search.pared import pared
 from mouse_cli.diagnosis.search.starts import cost
 from mouse_cli.diagnosis.search.study import BRIEF, MOVED, Study, weighed_beside
@@ -73,7 +73,7 @@ def tried(
     first = study if sum(len(recipe.grid) for recipe in study.recipes(name)) <= _FEW else study.coarse
     near_by = first.approached(name, before, others, _SLACK * reach)
     tied = 0 if others or not near_by else sum(left < near_by[0][0] + TIED for left, _, _ in near_by)
-    count = max(count, min(tied, _TIES))
+    count = max(count, min(tied, _TIES)) if near_by and near_by[0][0] < BEYOND * reach else 1
     chosen = near_by[:count] if first is study else _weighed(study, before, others, name, near_by, count)
     ways = [(first, *each) for each in chosen] + (
         [] if others else [(study, *each) for each in _screened(study, name, reach)]
@@ -136,7 +136,8 @@ def _ended(
         return None
     x = min(points, key=lambda at: at.chi2 + at.x[:k] @ at.x[:k]).x
     one = fit(whole, x[k:], x[:k], most, reach)
-    return one if one is None or (others and one.misfit > reach) else uncrossed(one, most, reach)
+    lost = one is None or one.misfit > (reach if others else BEYOND * reach)
+    return one if lost else uncrossed(one, most, reach)
 
 
 def summed(found: list[Fit], reach: float = np.inf) -> Fit | None:

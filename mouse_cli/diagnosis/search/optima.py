@@ -10,6 +10,7 @@ from mouse_cli.diagnosis.search.fit import Fit
 _RISE, _BETWEEN = 1.0, (0.25, 0.5, 0.75)  # of the misfit between two fits, and where it is looked for, that parts them
 FAR = 200.0  # misfit above the best one, by its degrees of freedom, from which on a fit is no rival
 TIED = 6.0  # misfit above the best up to which other places are as good
+BEYOND = 100.0  # times the misfit that matters, from which on what descents begin with, or end at, is far from explaining the data
 NEAR = 40.0  # the same of fits of the same causes at other places, of which the best alone is kept
 
 

@@ -14,11 +14,13 @@ from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
 from mouse_cli.diagnosis.search.fit import End, Fit, descended
+from mouse_cli.diagnosis.search.optima import BEYOND
 from mouse_cli.diagnosis.search.starts import cost, leading, spread
 from mouse_cli.diagnosis.search.superposed import KEPT, Alone, by_itself, chosen, text
 from mouse_cli.dynamics.eigen import IndefiniteError
 
 _LOOKS, _MOST, BRIEF = 12, 40, 4  # brief descents at least, at most, and their steps
+_POOR = 4  # brief descents where no first look is anywhere near what would matter
 _WEIGHED = 12  # ends of brief descents that are weighed in all coordinates
 MOVED = 5e-3  # share of parameters within which causes weigh alike
 _ABOUT = 4  # studies at other parameters that are kept
@@ -127,8 +129,10 @@ class Study:
         over, and the true one at a wrong size.
         """
         trials = {i: self.with_cause(beside, name, i) for i in range(len(self.recipes(name)))}
+        looks = self.looks(name, before, beside)
         most = min(max(_LOOKS, len(trials)), _MOST) // (2 if beside else 1)  # a partner is tried beside many
-        chosen = spread(self.starts(name, before, beside), trials, most)
+        most = _POOR if looks and looks[0][0] > BEYOND * reach else most
+        chosen = spread([(number, x) for _, number, x in looks], trials, most)
         if len(chosen) < 2:
             return [(0.0, i, [x]) for i, x in chosen]
         led: list[tuple[int, np.ndarray, End]] = []

@@ -17,6 +17,9 @@ from mouse_cli.updating.chi_square import upper_tail
 
 _SAMPLE, _BEGUN = 64, 4  # points of the posterior at which new data are predicted; of these, where descents begin
 _CHANCE = 0.05  # p-value of what the best of them leaves from which on no other is begun
+_NOTHING = (
+    100.0  # times its degrees of freedom: misfit of a fit from which on what its data leave open says nothing of others
+)
 _CURVED = 0.1  # chi-square from which on a prediction one standard deviation away is another than the linear one
 
 
@@ -57,9 +60,9 @@ def beyond_linear(one: Fit, held: Model, at: Point, T: np.ndarray, misfit: float
     """Misfit that the data of `held` add to that of a fit, and ln p of these given those, but for their own `log_sd`.
 
     at, T (q, k + t): what `held` predicts at the fit, and its derivatives; misfit: that of the linear prediction. None where that
-    is as good.
+    is as good, or the fit explains nothing.
     """
-    if not T.size:
+    if not T.size or one.misfit > _NOTHING * max(one.dof, 1):
         return None
     root = one.root
     least = root @ np.linalg.svd(T @ root, full_matrices=False)[2][0]

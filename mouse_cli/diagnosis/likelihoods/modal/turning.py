@@ -23,6 +23,7 @@ _SLIGHT = 0.1  # sd of an angle up to which shapes follow it in proportion: to h
 _EVEN = 2 / np.pi  # c, see above
 _LEAST = 1e-9  # 1 / sd^2 of an angle that is free
 _MOST, _FAR, _HALVED = 8, 0.5, 6  # steps to the best angles, the longest of them, and how often one is halved
+_POOR, _FIRST = 30.0, 3  # misfit per datum above which no angles make a prediction good, and steps that it gets
 _SMALL = 1e-6  # share of a misfit that is noise which the last of them promises; more of one that is larger than noise
 
 
@@ -136,20 +137,19 @@ def _angles(
     Those that are small a priori stay 0, where `Turn.left` has the best of them: their slopes say all of them.
     """
     large, t = np.flatnonzero(P < 1 / _SLIGHT**2), np.zeros(len(pairs))
-    both, weight = _Pairs(data, own, seen, *np.array(pairs).T), np.sqrt(P[large])
+    both, weight = _Pairs(data, own, seen, *np.array(pairs).T), P[large]
     now = both.at(t, P)
-    for _ in range(_MOST if len(large) else 0):
+    for n in range(_MOST if len(large) else 0):
         cost, residual, *here = now
+        if n >= _FIRST and cost > _POOR * len(residual):
+            break
         J = both.slopes(large, *here)
-        stacked = np.concatenate(
-            [residual, -weight * t[large]]
-        )  # no normal equations: sensors may tell little more than P
-        Q, upper = np.linalg.qr(np.vstack([J, np.diag(weight)]))
-        along = Q.T @ stacked
-        if along @ along < _SMALL * cost * max(1.0, cost / len(residual)):
+        slope = J.T @ residual - weight * t[large]
+        best = _solved(J, weight, slope)
+        if slope @ best < _SMALL * cost * max(1.0, cost / len(residual)):
             break
         step = np.zeros(len(t))
-        step[large] = np.linalg.solve(upper, along)
+        step[large] = best
         step *= min(1.0, _FAR / max(np.abs(step).max(), 1e-300))
         for _ in range(_HALVED):  # shapes far from the measured ones bend more than their slopes say
             then = both.at(t + step, P)
@@ -161,3 +161,16 @@ def _angles(
             break
     _, _, *here = now
     return t, here[1], both.slopes(np.arange(len(t)), *here)
+
+
+def _solved(J: np.ndarray, weight: np.ndarray, slope: np.ndarray) -> np.ndarray:
+    """(J'J + P)^-1 slope (c,) for P = diag(weight).
+
+    Sensors may tell little more of an angle than P does: where rounding of J'J is more than that, P is as large.
+    """
+    from scipy.linalg.lapack import dposv
+
+    H = J.T @ J
+    least = len(H) * np.finfo(float).eps * H.diagonal().max()
+    H[np.diag_indices(len(H))] += np.maximum(weight, least)
+    return dposv(H, slope, overwrite_a=1)[1]
