@@ -21,7 +21,8 @@ def made_up(*groups: str, misfit: float = 20.0, dof: int = 20, z=(0.3, -0.4), na
     problem = SimpleNamespace(parameters=named, structure=BEAM)
     base = SimpleNamespace(L=np.diag([2.0, 0.1]), data=data, problem=problem, first=SimpleNamespace(bars=BARS))
     recipes = tuple(_recipe(name, more.get("own", 0)) for name in groups)
-    field = SimpleNamespace(rival=SimpleNamespace(key=nameless, even=more.pop("even", ""))) if nameless else None
+    rival = SimpleNamespace(key=nameless, even=more.pop("even", ""), gradient=more.pop("gradient", ""))
+    field = SimpleNamespace(rival=rival) if nameless else None
     own = {
         "strained": False,
         "variants": (),

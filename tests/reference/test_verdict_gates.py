@@ -345,6 +345,21 @@ def test_only_what_a_mechanism_contains_counts_as_it(own, of_spring):
     )
 
 
+@pytest.mark.parametrize(("along", "counted"), [((1, 2, 3), 0.98), ((1, 2, 3, 4), 0.89)])
+def test_a_gradient_of_a_section_is_a_taper_of_its_own_member(along, counted):
+    """And none of a taper that ends before it does; a section that varies otherwise is a rival."""
+    known, free, wavy = (
+        made_up("taper"),
+        made_up(nameless="field-section", even="taper", gradient="taper"),
+        made_up(nameless="field-section", gradient="taper"),
+    )
+    known.recipes[0].unknowns, known.sites = ("slope of EI", "slope of the mass"), [Site("element", (1, 2, 3))]
+    free.nameless.cells = SimpleNamespace(sites=tuple(Site("element", (i,)) for i in along))
+    free.variants = ((wavy, 0.1),)
+    groups = dict(ranked(known, free, BARE, p=(0.89, 0.1, 0.01)).groups)
+    assert groups["taper"] == pytest.approx(counted)
+
+
 def test_an_oscillator_above_the_band_is_a_mass():
     """An item on a mount so stiff that it follows the structure, or so soft that it stands still."""
     problem = assemble(yaml_deck.read(deck(Truth(), modes=6, held=1), "beam.yaml"))

@@ -18,7 +18,7 @@ class Nameless:
     cells(model): what it changes; None where there are fewer than three. spreads: sd of the field that are integrated over.
     signs: of a change of rank one along the field (`_tied`), 1 a spring, -1 a compliance; empty: K or M change in proportion to
     it. even: group of the mechanism that it is where it is the same everywhere, moves the whole as one rigid body, or acts between
-    its places; empty: none has a name.
+    its places; empty: none has a name. gradient: likewise where it is a constant and a slope along one straight row.
     """
 
     key: str
@@ -29,6 +29,7 @@ class Nameless:
     cells: Callable[[Reduced], Cells | None]
     signs: tuple[int, ...] = ()
     even: str = ""
+    gradient: str = ""
 
 
 def registry() -> dict[str, Nameless]:

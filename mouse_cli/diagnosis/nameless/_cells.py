@@ -27,7 +27,8 @@ class Cells:
 
     into: `K` or `M`, the matrix that they change. extend(problem, values (c,), spread): the deck with the field in it;
     of a change of rank one also its sign. rigid: whether an affine field over them is a motion of the whole as one rigid body.
-    beside: mass that changes with a stiffness, cell by cell; None: none does.
+    beside: mass that changes with a stiffness, cell by cell; None: none does. positive: of what can only be added, as springs to
+    the ground where the model has none, the extent of each (c,): the sum of values over these is positive; None: of either sign.
     """
 
     sites: tuple[Site, ...]
@@ -38,6 +39,7 @@ class Cells:
     extend: Callable[..., Problem] | None = None
     rigid: bool = False
     beside: "Cells | None" = None
+    positive: np.ndarray | None = None
     _fields: dict[float, tuple[float, np.ndarray]] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def __len__(self) -> int:
@@ -68,6 +70,7 @@ class Cells:
         """The cells `kept`, by index."""
         chosen = lambda every: tuple(every[i] for i in kept.tolist())
         own = {"sites": chosen(self.sites), "at": self.at[kept], "blocks": chosen(self.blocks)}
+        own["positive"] = None if self.positive is None else self.positive[kept]
         return replace(self, **own, beside=self.beside and self.beside.some(kept))
 
 

@@ -16,6 +16,7 @@ from mouse_cli.diagnosis.nameless._correlated import affine
 
 LENGTHS = (0.08, 0.2, 0.5, np.inf)  # correlation lengths, of the extent of the cells; infinite: a gradient
 MOTIONS = (0.2, 0.5, np.inf)  # those of a motion about one that is affine; infinite: it is affine
+_LINEAR = 2  # unknowns of a constant and a slope
 
 
 @dataclass(frozen=True)
@@ -42,6 +43,8 @@ def smooth(rival: Nameless, cells: Cells, spread: float, share: float, sign: int
     if rival.signs and not (cells.rigid and np.isinf(share)):
         rival = replace(rival, even="")  # no motion of the whole as one body
     length, P = (share, affine(cells.at)) if np.isinf(share) else cells.correlated(share)
+    if rival.gradient and np.isinf(share) and np.linalg.matrix_rank(P) == _LINEAR:
+        rival = replace(rival, even=rival.gradient)
     P = np.hstack([affine(cells.at), P]) if rival.signs and np.isfinite(share) else P
     return Smooth(rival, cells, spread * P, spread, length, sign)
 

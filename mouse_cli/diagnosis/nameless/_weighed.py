@@ -20,6 +20,7 @@ def weighed(fits: Sequence[Fit], weights: Sequence[float], total: float) -> Fit:
     share, first = np.exp(weights - np.logaddexp.reduce(weights)), int(np.argmax(weights))
     known = [(one, float(p)) for one, p in zip(fits, share, strict=True) if p > _LEAST and one is not fits[first]]
     ideal = idealised(fits[first])
+    ideal = ideal if ideal is fits[first] else signed(ideal)
     evidence = total + ideal.log_evidence - fits[first].log_evidence
     return replace(ideal, log_evidence=float(evidence), variants=tuple(known))
 
@@ -39,9 +40,30 @@ def mean_values(one: Fit) -> tuple[np.ndarray, np.ndarray]:
     return mean, np.sqrt(p @ (variance + (values - mean) ** 2))
 
 
+def signed(one: Fit) -> Fit:
+    """The fit with the evidence that it has where only a positive sum of its values is possible: Z P(sum > 0 | data) / P(sum > 0).
+
+    By the same normal distributions as Laplace's method: 1/2 beforehand.
+    """
+    from scipy.special import log_ndtr
+
+    extent = one.nameless.cells.positive
+    if extent is None:
+        return one
+    own = _own(one)
+    g = one.nameless.P.T @ extent
+    mean, sd = float(g @ one.point.x[own]), float(np.sqrt(g @ one.covariance[own, own] @ g))
+    return replace(one, log_evidence=one.log_evidence + float(np.log(2) + log_ndtr(mean / sd)))
+
+
+def _own(one: Fit) -> slice:
+    """Unknowns of the field; of functions, damping and gains come behind."""
+    deck = one.model.base.first.deck
+    return slice(deck, deck + one.nameless.P.shape[1])
+
+
 def _values(one: Fit) -> tuple[np.ndarray, np.ndarray]:
     """Values (c,) of one fit and their variances."""
-    field, deck = one.nameless, one.model.base.first.deck
-    own = slice(deck, deck + field.P.shape[1])  # of functions, damping and gains come behind
+    field, own = one.nameless, _own(one)
     noise = scale(one.misfit, one.dof)
     return field.values(one.point.x[own]), noise * np.einsum("cw,wv,cv->c", field.P, one.covariance[own, own], field.P)

@@ -46,7 +46,9 @@ def _under_bars(model: Reduced) -> Cells | None:
             edit.parameters[-1] = replace(edit.parameters[-1], sd=spread * unit, transform="identity")
         return edit.done()
 
-    return Cells(sites, at, "m", tuple(zip(bars.ends, parts, strict=True)), "K", extend)
+    on_bed = any(own.type == "foundation" for own in model.problem.mesh.elements)
+    blocks, added = tuple(zip(bars.ends, parts, strict=True)), None if on_bed else bars.length
+    return Cells(sites, at, "m", blocks, "K", extend, positive=added)
 
 
 def _at_dofs(model: Reduced) -> Cells | None:
@@ -69,7 +71,7 @@ NAMELESS = Nameless(
     "a bed of springs to the ground that varies along the structure",
     BED,
     "springs per length to the ground, neighbours alike: a smooth random field whose spread and correlation length are integrated "
-    "out, in units of EI / L^4",
+    "out, in units of EI / L^4; together stiffer than nothing where the model has no bed that could be softer",
     (10.0, 100.0, 1000.0),
     cells,
     even="foundation",

@@ -12,7 +12,7 @@ from mouse_cli.diagnosis.nameless import Nameless, registry
 from mouse_cli.diagnosis.nameless._cells import FEWEST, Cells
 from mouse_cli.diagnosis.nameless._field import LENGTHS, MOTIONS, fielded, smooth
 from mouse_cli.diagnosis.nameless._tied import tied
-from mouse_cli.diagnosis.nameless._weighed import mean_values, weighed
+from mouse_cli.diagnosis.nameless._weighed import mean_values, signed, weighed
 from mouse_cli.diagnosis.nameless.local import best_law
 from mouse_cli.diagnosis.nameless.spring import best_spring
 from mouse_cli.diagnosis.search.fit import Fit, fit
@@ -122,7 +122,7 @@ def _integrated(base, start: Fit, field: Spread, kind: type[Model], reach: float
         found: list[Fit] = []
         for x in _starts(model, start, sign, before.get((share, sign))):
             one = fit(model, np.zeros(0), x, _STEPS, min(reach, within(found, NEAR)) if found else reach)
-            found += [] if one is None else [one]
+            found += [] if one is None else [signed(one)]
         ended = sorted(found, key=lambda one: -one.log_evidence)[:1]
         before.update(((share, sign), _values(one)) for one in ended)
         fits += ended

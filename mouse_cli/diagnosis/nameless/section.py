@@ -39,4 +39,5 @@ NAMELESS = Nameless(
     "field whose spread and correlation length are integrated out",
     (0.03, 0.1, 0.3),
     cells,
+    gradient="taper",
 )

@@ -39,6 +39,7 @@ _LOUD = 4.0  # noise scale from which on no error of the test is all, and as man
 _IDLE = (
     0.5  # probability of no mechanism above which what has no name is not asked where that leaves no more than chance
 )
+_SIZES = ("support", "taper")  # groups that have more than one size and yet no place that these could move
 _FURTHER = (
     0.2  # p-value of the best single mechanism below which several may gain what their prior takes, some ten nats
 )
@@ -69,7 +70,8 @@ class Ranking:
         """Probability of each group, the largest first; `none` among them, and what has no name by its own key.
 
         A field counts as the mechanism that it is where it does not vary, if that is the more probable of the two: soil on which
-        a building moves as one rigid body as a flexible support, a spring in the panels of a brace as a brace.
+        a building moves as one rigid body as a flexible support, a spring in the panels of a brace as a brace, a section that
+        changes linearly along one member as a taper.
         """
         return shares(*zip(*_counted(self.fits, self.probabilities), strict=True))
 
@@ -106,16 +108,20 @@ def _counted(fits: tuple[Fit, ...], probabilities: np.ndarray) -> Iterator[tuple
         for part, share in ((one, 1 - sum(share for _, share in variants)), *variants):
             limit = part.nameless.rival.even if part.nameless else ""
             yield (limit if limit in even and _contains(even[limit], part) else name), p * share
-        if len(one.recipes) == 1 and (len(one.recipes[0].unknowns) == 1 or name == "support"):
+        if len(one.recipes) == 1 and (len(one.recipes[0].unknowns) == 1 or name in _SIZES):
             even.setdefault(name, one)
 
 
 def _contains(known: Fit, field: Fit) -> bool:
-    """Whether a field acts where a mechanism does: one between two places in the line of panels that a spring crosses.
+    """Whether a field acts where a mechanism does: one between two places in the line of panels that a spring crosses, a gradient
+    along the member of a taper.
 
     What else is even acts everywhere.
     """
-    if field.nameless.rival.key != "spring":
+    rival = field.nameless.rival
+    if rival.gradient:
+        return {i for site in field.nameless.cells.sites for i in site.ids} <= set(known.sites[0].ids)
+    if rival.key != "spring":
         return True
     mesh = known.model.base.problem.mesh
     return mesh is not None and panels(mesh, [known.sites[0], together(mesh, field.nameless.cells.sites)])
