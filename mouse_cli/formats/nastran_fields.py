@@ -8,6 +8,7 @@ from mouse_cli._span import Span
 from mouse_cli.formats.data_files import line_span, reject, text_lines
 
 _SHORT_EXPONENT = re.compile(r"(?<=[0-9.])([+-][0-9]+)$")  # 1.5-3 is 1.5E-3
+_BEGUN = re.compile(r"\s*BEGIN\s+(SUPER\s*=\s*0\s+)?BULK", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -25,14 +26,18 @@ class Bulk:
     def __init__(self, path: str):
         self.path = path
         self.lines = text_lines(path)
+        begun = (i for i, line in enumerate(self.lines, 1) if _BEGUN.match(line))
+        self.begun = next(begun, 0)  # lines of executive and case control, which are no cards
 
-    def cards(self, wanted: str) -> Iterator[Card]:
-        """The cards called `wanted`, which others may stand between."""
+    def cards(self, wanted: str | None = None) -> Iterator[Card]:
+        """The cards called `wanted`, which others may stand between; None: all of them."""
         card: Card | None = None
-        for number, raw in enumerate(self.lines, 1):
+        for number, raw in enumerate(self.lines[self.begun :], self.begun + 1):
             line = raw.split("$", 1)[0].rstrip()
             if not line.strip():
                 continue
+            if line.upper().startswith("ENDDATA"):
+                break
             if line[0] in "+*," or not line[:8].strip(", "):
                 if card is not None:
                     card.fields.extend(self._fields(line, number))
@@ -40,7 +45,7 @@ class Bulk:
             if card is not None:
                 yield card
             name = re.split("[,*]", line[:8], maxsplit=1)[0].strip().upper()
-            card = Card(name, self._fields(line, number), number) if name == wanted else None
+            card = Card(name, self._fields(line, number), number) if wanted in (None, name) else None
         if card is not None:
             yield card
 

@@ -11,26 +11,27 @@ from mouse_cli.formats import below
 from mouse_cli.formats.data_files import existing, line_span, reject, text_lines
 
 _MOST = 40  # findings that one reading lists
-_OF_OTHERS = re.compile(r"\s*(SOL\b|CEND|BEGIN|GRID|ID\b|ASSIGN|NASTRAN|INIT|\$|/PREP7|/COM|/BATCH|!|N?BLOCK)", re.I)
+_OF_OTHERS = re.compile(r"\s*(/PREP7|/COM|/BATCH|!|N?BLOCK)", re.I)
 _OTHERS = (
-    "Nastran and ANSYS do not run here: let them write K and M (DMIG, OUTPUT4, HBMAT), and name these in a deck below model, "
-    "with the nodes of this file: docs/how-to/import-models.md"
+    "ANSYS does not run here: let it write K and M (HBMAT), and name these in a deck below model, with the nodes of this file: "
+    "docs/how-to/import-models.md"
 )
 
 
 @dataclass
 class Line:
-    """A line of data: its words, and where it stands."""
+    """A line of data: its words, and where it stands; written: the line of the file, where that is of another program."""
 
     words: list[str]
     text: str
     file: str
     number: int
+    written: str = ""
 
     @property
     def span(self) -> Span:
         """Where the line stands."""
-        return line_span(self.file, self.number, self.text)
+        return line_span(self.file, self.number, self.written or self.text)
 
 
 @dataclass

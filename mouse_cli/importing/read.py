@@ -1,9 +1,10 @@
-"""Reads an input file of Abaqus or CalculiX into an `InputModel`; what would change K or M and is not understood is refused."""
+"""Reads an input file of Abaqus, CalculiX or Nastran into an `InputModel`; what may change K or M and is not known is refused."""
 
 from dataclasses import replace
 
 import numpy as np
 
+from mouse_cli.importing import bulk
 from mouse_cli.importing.assembly import flat
 from mouse_cli.importing.cards import Card, Faults, Line, cards
 from mouse_cli.importing.groups import grouped
@@ -18,7 +19,8 @@ def read(path: str, outside: bool = False) -> InputModel:
     Raises DeckError (MD231 to MD273) with all that is wrong, by file and line.
     """
     model, faults = InputModel(path), Faults()
-    model.every = flat(cards(path, outside), faults)
+    model.every = bulk.cards(path, faults) if bulk.is_bulk(path) else flat(cards(path, outside), faults)
+    faults.stop()
     known = [card for card in model.every if _understood(card, model, faults)]
     faults.stop()
     _steps(known, model, faults)

@@ -151,9 +151,15 @@ def test_what_is_not_read_of_an_assembly(tmp_path, more, code, line):
     assert (refused.value.diagnostics[0].code, refused.value.diagnostics[0].span.line) == (code, line)
 
 
-@pytest.mark.parametrize("text", ["SOL 103\nCEND\nBEGIN BULK\n", "$ plate\nGRID,1,,0.,0.,0.\n", "/PREP7\nET,1,181\n"])
-def test_an_input_file_of_another_program_is_told_its_way(tmp_path, text):
-    """Nastran and ANSYS: their matrices are read, not their input."""
+def test_an_input_file_of_another_program_is_told_its_way(tmp_path):
+    """ANSYS: its matrices are read, not its input."""
     with pytest.raises(DeckError) as refused:
+        read(written(tmp_path, "/PREP7\nET,1,181\n"))
+    assert refused.value.diagnostics[0].code == "MD265" and "HBMAT" in refused.value.diagnostics[0].help
+
+
+@pytest.mark.parametrize("text", ["SOL 103\nCEND\nBEGIN BULK\n", "$ plate\nGRID,1,,0.,0.,0.\n"])
+def test_bulk_data_without_elements(tmp_path, text):
+    with pytest.raises(DeckError, match="no elements") as refused:
         read(written(tmp_path, text))
-    assert refused.value.diagnostics[0].code == "MD265" and "DMIG, OUTPUT4, HBMAT" in refused.value.diagnostics[0].help
+    assert refused.value.diagnostics[0].code == "MD265"

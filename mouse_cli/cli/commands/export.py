@@ -14,7 +14,7 @@ _WHOLE = ("abaqus", "calculix")  # programs whose jobs are read
 )
 @click.option("--result", metavar="RESULT", help="What `mouse run --json` found: its values instead of the deck's.")
 @click.option(
-    "--job", metavar="FILE", help="The input file (.inp) that the deck was imported from, for constants of materials."
+    "--job", metavar="FILE", help="The input file that the deck was imported from, for constants of materials."
 )
 @click.option(
     "--complete",

@@ -1,4 +1,4 @@
-"""mouse import: an input file of Abaqus or CalculiX becomes a deck with supports, element sets and materials by name."""
+"""mouse import: an input file of Abaqus, CalculiX or Nastran becomes a deck with supports, element sets and materials by name."""
 
 import click
 
@@ -24,7 +24,7 @@ from mouse_cli.cli._options import OUTSIDE, QUIET, options, outside
 def command(
     job: str, output: str | None, units: str | None, thickness: tuple[str, ...], no_cache: bool, quiet: bool
 ) -> int:
-    """Make a deck of an Abaqus or CalculiX JOB (.inp).
+    """Make a deck of an Abaqus or CalculiX JOB (.inp), or of bulk data of Nastran (.bdf).
 
     CalculiX (ccx) writes K and M without supports, once for the whole and once for each set of groups that do not touch; the
     deck names supports, element sets and materials as the job does. Sums and frequencies are checked against the solver.

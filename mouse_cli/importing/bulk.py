@@ -1,0 +1,212 @@
+"""Bulk data of Nastran as cards of CalculiX, whose elements then stand for those of Nastran; what has no such card is refused.
+
+Sets are the properties, under the names that comments of preprocessors give them, else PSHELL_3; supports are SPC_1, SPC1_1_2.
+"""
+
+import re
+from dataclasses import replace
+
+from mouse_cli.formats import nastran_fields
+from mouse_cli.formats.data_files import existing, text_lines
+from mouse_cli.importing.bulk_deck import BulkDeck, text
+from mouse_cli.importing.bulk_supports import supports
+from mouse_cli.importing.cards import Card, Faults, Line
+
+_IS_BULK = re.compile(
+    r"\s*(SOL\b|CEND|BEGIN\s+BULK|GRID[ *,]|ASSIGN\b|NASTRAN\b|INIT\b|ID\s+\w+\s*,|\$)", re.IGNORECASE
+)
+_HEXA = (
+    *range(12),
+    *range(16, 20),
+    *range(12, 16),
+)  # mid-side nodes: those of the far face before those between the faces
+_PENTA = (*range(9), *range(12, 15), *range(9, 12))
+_ELEMENTS = {  # type of CalculiX by the number of nodes, and their order
+    "CQUAD4": {4: ("S4", range(4))}, "CTRIA3": {3: ("S3", range(3))},
+    "CQUAD8": {8: ("S8R", range(8))}, "CTRIA6": {6: ("S6", range(6))},
+    "CHEXA": {8: ("C3D8I", range(8)), 20: ("C3D20R", _HEXA)}, "CPENTA": {6: ("C3D6", range(6)), 15: ("C3D15", _PENTA)},
+    "CTETRA": {4: ("C3D4", range(4)), 10: ("C3D10", range(10))}, "CROD": {2: ("T3D2", range(2))},
+}  # fmt: skip
+_SHELLS = {  # fields of the nodes end before the first; then those of an offset and of thicknesses of its own
+    "CQUAD4": (6, 7, 9, 10, 11, 12, 13), "CTRIA3": (5, 6, 9, 10, 11, 12), "CQUAD8": (10, 10, 11, 12, 13, 15),
+    "CTRIA6": (8, 9, 10, 11, 12),
+}  # fmt: skip
+_PASSED = {
+    "PARAM", "EIGRL", "EIGR", "EIGB", "EIGC", "FORCE", "FORCE1", "FORCE2", "MOMENT", "PLOAD", "PLOAD1", "PLOAD2", "PLOAD4",
+    "LOAD", "GRAV", "TEMP", "TEMPD", "DLOAD", "RLOAD1", "RLOAD2", "TLOAD1", "TLOAD2", "DAREA", "DELAY", "DPHASE", "FREQ",
+    "FREQ1", "FREQ2", "FREQ3", "FREQ4", "TSTEP", "TABLED1", "TABLED2", "TABLED3", "TABDMP1", "CORD2R", "CORD2C", "CORD2S",
+    "CORD1R", "CORD1C", "CORD1S", "SET1", "SUPORT", "SUPORT1", "ASET", "ASET1", "SPCADD", "SPC", "SPC1", "MAT1", "PSHELL",
+    "PSOLID", "PROD", "PELAS", "PLOTEL", "SPOINT",
+}  # fmt: skip
+_NAMES = re.compile(
+    r"\$\s*(?:Femap (Property|Material) ([0-9]+)\s*:\s*(.+)|HMNAME (PROP|MAT)\s+([0-9]+)\s*\"([^\"]+)\")", re.IGNORECASE
+)
+
+
+def is_bulk(path: str) -> bool:
+    """Whether the first line of a file that is not empty is of Nastran."""
+    existing(path)
+    first = next((line for line in text_lines(path) if line.strip()), "")
+    return bool(_IS_BULK.match(first))
+
+
+def cards(path: str, faults: Faults) -> list[Card]:
+    """The bulk data of a file as cards of CalculiX. Raises DeckError (MD252) where a field is no number."""
+    deck = BulkDeck(nastran_fields.Bulk(path), faults)
+    for card in deck.bulk.cards():
+        deck.by.setdefault(card.name, []).append(card)
+    _named(deck)
+    read = {"GRID", "CONM2", "CELAS1", "CELAS2", "RBE2", *_ELEMENTS, *_PASSED}
+    for name in deck.by.keys() - read:
+        deck.refuse(deck.by[name][0], f"{name[:12]} has no counterpart that is read, and may change K or M")
+    for card in deck.of("PARAM"):
+        if card.fields[0].upper() == "WTMASS":
+            deck.mass = deck.real(card, 1)
+    for step in (_nodes, _elements, _materials, _sections, _masses, _springs, _rigid, supports, _step):
+        step(deck)
+    return deck.found
+
+
+def _named(deck: BulkDeck) -> None:
+    """Names that comments give to properties and materials, each once, with letters that a set may have."""
+    for line in deck.bulk.lines:
+        if found := _NAMES.match(line):
+            kind = "MAT" if (found[1] or found[4]).upper().startswith("MAT") else "PROP"
+            name = re.sub(r"\W+", "_", (found[3] or found[6]).strip()).strip("_").upper()
+            if name and not name.isdigit() and name not in deck.names.values():
+                deck.names[kind, int(found[2] or found[5])] = name
+
+
+def _nodes(deck: BulkDeck) -> None:
+    lines = []
+    for card in deck.of("GRID"):
+        if deck.whole(card, 1) or deck.whole(card, 5):
+            deck.refuse(
+                card, "this GRID is in a local system of coordinates", "write the grid points in the basic system"
+            )
+        lines.append(deck.line(card, deck.whole(card, 0), *(deck.real(card, k) for k in (2, 3, 4))))
+    if lines:
+        deck.card(deck.of("GRID")[0], "NODE", lines)
+
+
+def _elements(deck: BulkDeck) -> None:
+    """A card for each property and type of element."""
+    found: dict[tuple[str, str], list] = {}
+    for card in deck.of(*_ELEMENTS):
+        kinds = _ELEMENTS[card.name]
+        ends, *own = _SHELLS.get(card.name, (None,))
+        nodes = deck.rest(replace(card, fields=card.fields[:ends]), 2)
+        if any(_given(card, at) for at in own):
+            deck.refuse(card, f"this {card.name} has an offset or thicknesses of its own")
+        if len(nodes) not in kinds:
+            deck.refuse(
+                card, f"this {card.name} has {len(nodes)} nodes; expected {' or '.join(map(str, kinds))}", code="MD265"
+            )
+            continue
+        kind, order = kinds[len(nodes)]
+        line = deck.line(card, deck.whole(card, 0), *(nodes[k] for k in order))
+        found.setdefault((_set_of(deck, deck.whole(card, 1)), kind), []).append((card, line))
+    for (name, kind), each in found.items():
+        deck.card(each[0][0], "ELEMENT", [line for _, line in each], TYPE=kind, ELSET=name)
+
+
+def _given(card: nastran_fields.Card, at: int) -> bool:
+    return at < len(card.fields) and bool(card.fields[at]) and card.fields[at].strip("0.+-") != ""
+
+
+def _set_of(deck: BulkDeck, number: int) -> str:
+    """The name of the element set of a property."""
+    own = [card for card in deck.of("PSHELL", "PSOLID", "PROD") if deck.whole(card, 0) == number]
+    return deck.name("PROP", number, f"{own[0].name if own else 'PROPERTY'}_{number}")
+
+
+def _materials(deck: BulkDeck) -> None:
+    for card in deck.of("MAT1"):
+        E, G, nu = (deck.real(card, k) for k in (1, 2, 3))
+        if not text(card, 3) and E and G:
+            nu = E / (2 * G) - 1
+        number = deck.whole(card, 0)
+        deck.card(card, "MATERIAL", NAME=deck.name("MAT", number, f"MAT1_{number}"))
+        deck.card(card, "ELASTIC", [deck.line(card, E or 2 * G * (1 + nu), nu)])
+        if deck.real(card, 4):
+            deck.card(card, "DENSITY", [deck.line(card, deck.real(card, 4) * deck.mass)])
+
+
+def _sections(deck: BulkDeck) -> None:
+    for card in deck.of("PSHELL", "PSOLID", "PROD"):
+        name = deck.name("PROP", deck.whole(card, 0), f"{card.name}_{deck.whole(card, 0)}")
+        if not any(each.keyword == "ELEMENT" and each.options["ELSET"] == name for each in deck.found):
+            continue  # no element has it
+        material = deck.name("MAT", deck.whole(card, 1), f"MAT1_{deck.whole(card, 1)}")
+        lines = []
+        if card.name == "PSHELL":
+            if deck.whole(card, 3) != deck.whole(card, 1) or (text(card, 4) and deck.real(card, 4) != 1):
+                deck.refuse(card, "this PSHELL bends otherwise than its membrane material does")
+            if deck.real(card, 7):
+                deck.refuse(card, "this PSHELL has a nonstructural mass", "give it by density, or by CONM2")
+            lines = [deck.line(card, deck.real(card, 2))]
+        elif card.name == "PROD":
+            if deck.real(card, 3) or deck.real(card, 5):
+                deck.refuse(card, "this PROD has a torsional stiffness or a nonstructural mass, which a truss has not")
+            lines = [deck.line(card, deck.real(card, 2))]
+        elif text(card, 6).upper() not in ("", "SMECH"):
+            deck.refuse(card, "this PSOLID is a fluid")
+        keyword = "SHELL SECTION" if card.name == "PSHELL" else "SOLID SECTION"
+        deck.card(card, keyword, lines, ELSET=name, MATERIAL=material)
+
+
+def _masses(deck: BulkDeck) -> None:
+    for card in deck.of("CONM2"):
+        if deck.whole(card, 2) or any(_given(card, k) for k in (4, 5, 6)):
+            deck.refuse(card, "this CONM2 is off its node", "give a GRID at its centre, joined by RBE2")
+        if any(_given(card, k) for k in range(8, 14)):
+            deck.refuse(
+                card,
+                "this CONM2 has a rotary inertia, which a MASS of CalculiX has not",
+                "spread it over several CONM2",
+            )
+        _single(deck, card, "MASS", [deck.whole(card, 1)], [deck.line(card, deck.real(card, 3) * deck.mass)])
+
+
+def _springs(deck: BulkDeck) -> None:
+    stiffness = {
+        deck.whole(card, k): deck.real(card, k + 1) for card in deck.of("PELAS") for k in (0, 4) if text(card, k)
+    }
+    for card in deck.of("CELAS1", "CELAS2"):
+        own = card.name == "CELAS2"
+        k = deck.real(card, 1) if own else stiffness.get(deck.whole(card, 1), 0.0)
+        ends = [(deck.whole(card, at), deck.whole(card, at + 1)) for at in (2, 4)]
+        ends = [(node, d) for node, d in ends if node]
+        if not ends or any(not 1 <= d <= 3 for _, d in ends):
+            deck.refuse(card, f"this {card.name} acts on a rotation or on a scalar point")
+            continue
+        data = [deck.line(card, *(str(d) for _, d in ends)), deck.line(card, k)]
+        _single(deck, card, "SPRING", [node for node, _ in ends], data)
+
+
+def _single(deck: BulkDeck, card: nastran_fields.Card, keyword: str, nodes: list[int], data: list[Line]) -> None:
+    """An element of a set of its own, such as CONM2_7, with its section."""
+    number = deck.whole(card, 0)
+    kind = "MASS" if keyword == "MASS" else f"SPRING{len(nodes)}"
+    deck.card(card, "ELEMENT", [deck.line(card, number, *nodes)], TYPE=kind, ELSET=f"{card.name}_{number}")
+    deck.card(card, keyword, data, ELSET=f"{card.name}_{number}")
+
+
+def _rigid(deck: BulkDeck) -> None:
+    for card in deck.of("RBE2"):
+        nodes, components = deck.rest(card, 3), text(card, 2)
+        if "." in card.fields[-1] or set(components) != set("123456"):
+            deck.refuse(card, f"this RBE2 joins the directions {components[:6]} alone" if len(components) < 6
+                        else "this RBE2 has a thermal expansion")  # fmt: skip
+            continue
+        name = f"RBE2_{deck.whole(card, 0)}"
+        deck.card(card, "NSET", [deck.line(card, str(node)) for node in nodes], NSET=name)
+        deck.card(card, "RIGID BODY", NSET=name, REF_NODE=str(deck.whole(card, 1)))
+
+
+def _step(deck: BulkDeck) -> None:
+    """The frequencies that the job asks for, so that a revised job asks for them too."""
+    for card in deck.of("EIGRL")[:1]:
+        deck.card(card, "STEP")
+        deck.card(card, "FREQUENCY", [deck.line(card, str(deck.whole(card, 3) or 10))])
+        deck.card(card, "END STEP")

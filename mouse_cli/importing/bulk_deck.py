@@ -1,0 +1,75 @@
+"""Bulk data of Nastran being translated: fields of its cards, findings with their places, and what became of them."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from mouse_cli.formats import nastran_fields
+from mouse_cli.importing.cards import Card, Faults, Line
+
+_HELP = "let Nastran write K and M (DMIG, OUTPUT4), or use what docs/how-to/import-models.md lists: shells, solids, CONM2, RBE2"
+
+
+def text(card: nastran_fields.Card, at: int) -> str:
+    """A field (from 0); empty beyond the last."""
+    return card.fields[at] if at < len(card.fields) else ""
+
+
+@dataclass
+class BulkDeck:
+    """Bulk data being translated; by: its cards by their names; found: what they became."""
+
+    bulk: nastran_fields.Bulk
+    faults: Faults
+    by: dict[str, list[nastran_fields.Card]] = field(default_factory=dict)
+    found: list[Card] = field(default_factory=list)
+    names: dict[tuple[str, int], str] = field(default_factory=dict)
+    mass: float = 1.0  # PARAM,WTMASS
+
+    @cached_property
+    def grids(self) -> list[int]:
+        """Numbers of all grid points."""
+        return sorted(self.whole(card, 0) for card in self.of("GRID"))
+
+    def of(self, *names: str) -> list[nastran_fields.Card]:
+        """The cards of these names."""
+        return [card for name in names for card in self.by.get(name, [])]
+
+    def line(self, card: nastran_fields.Card, *words: object) -> Line:
+        """A line of data with the place of the card that it comes from."""
+        texts = [word if isinstance(word, str) else repr(word) for word in words]
+        text = ", ".join(texts) + ("," if len(texts) == 1 else "")
+        return Line(texts, text, self.bulk.path, card.line, self.bulk.lines[card.line - 1])
+
+    def card(self, of: nastran_fields.Card, keyword: str, lines: Iterable[Line] = (), **options: str) -> None:
+        """Adds a card."""
+        named = {key.replace("_", " "): value for key, value in options.items()}
+        text = f"*{keyword}" + "".join(f", {key}={value}" for key, value in named.items())
+        head = Line([], text, self.bulk.path, of.line, self.bulk.lines[of.line - 1])
+        self.found.append(Card(keyword, named, head, list(lines)))
+
+    def refuse(self, card: nastran_fields.Card, message: str, help: str = _HELP, code: str = "MD268") -> None:
+        """Notes what cannot be read."""
+        self.faults.add(code, message, self.bulk.where(card), help)
+
+    def whole(self, card: nastran_fields.Card, at: int) -> int:
+        return self.bulk.whole(card, at)
+
+    def real(self, card: nastran_fields.Card, at: int) -> float:
+        return self.bulk.real(card, at)
+
+    def rest(self, card: nastran_fields.Card, at: int) -> list[int]:
+        """Whole numbers of the fields from `at` on; 4 THRU 7 is 4, 7 and what grid points there are between."""
+        words, numbers = [word.upper() for word in card.fields[at:] if word], []
+        for k, word in enumerate(words):
+            if word == "THRU" and numbers and k + 1 < len(words) and words[k + 1].isdigit():
+                numbers += [n for n in self.grids if numbers[-1] < n < int(words[k + 1])]
+            elif word.isdigit():
+                numbers.append(int(word))
+            else:
+                self.bulk.refuse(card, f"'{word[:16]}' of this {card.name} is no whole number")
+        return numbers
+
+    def name(self, kind: str, number: int, default: str) -> str:
+        """Of a property or a material: as comments give it."""
+        return self.names.get((kind, number), default)

@@ -1,0 +1,57 @@
+"""What SPC, SPC1 and GRID of Nastran bulk data hold, as cards of CalculiX."""
+
+import re
+
+from mouse_cli.formats import nastran_fields
+from mouse_cli.importing.bulk_deck import BulkDeck, text
+
+
+def supports(deck: BulkDeck) -> None:
+    """What the chosen set of SPC and SPC1 holds, a support for each SPC1, and one for all SPC of a set; what GRID holds."""
+    held: dict[tuple[str, str], list] = {}
+    for card in _chosen(deck):
+        number = deck.whole(card, 0)
+        if card.name == "SPC":
+            for at in (1, 4):
+                if text(card, at):
+                    held.setdefault((f"SPC_{number}", text(card, at + 1)), []).append((card, [deck.whole(card, at)]))
+                    if deck.real(card, at + 2):
+                        deck.refuse(card, "this SPC moves its node", "hold it at 0")
+        else:
+            name = f"SPC1_{number}_{1 + len({n for n, _ in held if n.startswith(f'SPC1_{number}_')})}"
+            held[name, text(card, 1)] = [(card, deck.rest(card, 2))]
+    for card in deck.of("GRID"):
+        if text(card, 6):
+            held.setdefault(("GRID", text(card, 6)), []).append((card, [deck.whole(card, 0)]))
+    for k, ((name, components), each) in enumerate(held.items()):
+        known = {card.options.get("NSET") for card in deck.found}
+        name = f"{name}_{k}" if name in known else name
+        deck.card(each[0][0], "NSET", [deck.line(card, str(n)) for card, nodes in each for n in nodes], NSET=name)
+        if set(components) - set("0123456"):
+            deck.refuse(each[0][0], f"'{components[:8]}' are no directions", "give some of 123456", "MD265")
+            continue
+        lines = [deck.line(each[0][0], name, run[0], run[-1]) for run in _runs(components)]
+        deck.card(each[0][0], "BOUNDARY", lines)
+
+
+def _chosen(deck: BulkDeck) -> list[nastran_fields.Card]:
+    """SPC and SPC1 of the set that case control asks for, or of the only one. Notes several without a choice."""
+    every = deck.of("SPC", "SPC1")
+    sets = {deck.whole(card, 0) for card in every}
+    asked = (re.match(r"\s*SPC\s*=\s*([0-9]+)", line, re.IGNORECASE) for line in deck.bulk.lines[: deck.bulk.begun])
+    number = next((int(found[1]) for found in asked if found), None)
+    if number is None and len(sets) > 1:
+        listed = ", ".join(map(str, sorted(sets)))
+        deck.refuse(
+            every[0], f"no case control chooses among the sets {listed} of SPC", "write SPC = and its number", "MD273"
+        )
+    wanted: set[int] = {number} if number is not None else sets
+    for card in deck.of("SPCADD"):
+        if deck.whole(card, 0) in wanted:
+            wanted |= set(deck.rest(card, 1))
+    return [card for card in every if deck.whole(card, 0) in wanted]
+
+
+def _runs(components: str) -> list[str]:
+    """Directions that follow one another: 12 and 456 of 12456."""
+    return "".join(d if d in components else " " for d in "123456").split()
