@@ -9,6 +9,7 @@ from mouse_cli.diagnosis.cautions import cautions, misstated
 from mouse_cli.diagnosis.companions import loose
 from mouse_cli.diagnosis.extend.deck import extended
 from mouse_cli.diagnosis.likelihoods.frf.compared import compared
+from mouse_cli.diagnosis.likelihoods.frf.compared import remarks as of_windows
 from mouse_cli.diagnosis.likelihoods.frf.deck import with_damping
 from mouse_cli.diagnosis.likelihoods.frf.identified import with_modes
 from mouse_cli.diagnosis.likelihoods.frf.rank import ranked_by_frf
@@ -99,7 +100,14 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices, recordings
         cautions=cautions(ranking, verdict, location),
         misstated=misstated(ranking) if missing else None,
         proposals=_proposals(ranking, verdict),
-        remarks=doubts + remarks + warnings + getattr(ranking, "remarks", ()) + (() if deck is None else _coarse(deck)),
+        remarks=(
+            *doubts,
+            *remarks,
+            *of_windows(ranking),
+            *warnings,
+            *getattr(ranking, "remarks", ()),
+            *(() if deck is None else _coarse(deck)),
+        ),
         extended=deck and with_damping(replace(deck, test=given.test and deck.test), problem, put),
         extended_result=deck
         and run(_by_modes(deck), notice=notice, guess=_values(deck, put), enough=enough, search=False),

@@ -44,6 +44,9 @@ def _npz(frf: FrfTest, units: Units) -> bytes:
     }
     if frf.coherence is not None:
         arrays["coherence"] = frf.coherence
+    if frf.window is not None:
+        own = {"window": frf.window.name, "block_s": frf.window.seconds, "burst": frf.window.burst}
+        arrays |= {key: np.array(value) for key, value in own.items()}
     np.savez_compressed(stream, **arrays)
     return stream.getvalue()
 

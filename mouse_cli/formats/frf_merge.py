@@ -29,6 +29,9 @@ def _fit(group: list[FrfDraft], say: Findings) -> bool:
             message = f"functions of '{each.title}' have exponential windows of {first.decay_rate:g} and {each.decay_rate:g} 1/s"
             say.error("MD614", where, message, help)
             return False
+        if each.window != first.window:
+            say.error("MD614", where, f"functions of '{each.title}' have different windows, blocks or bursts", help)
+            return False
         if each.kind != first.kind:
             say.error("MD614", where, f"'{each.title}' holds functions of {first.kind} and of {each.kind}", help)
             return False

@@ -32,7 +32,7 @@ def read_frf(path: str, kind: str = "") -> tuple[FrfTest, tuple[Diagnostic, ...]
     outputs, inputs = (tuple(sensor.name for sensor in sensors) for sensors in (one.outputs, one.inputs))
     found = FrfTest(
         one.frequency_hz, one.H, one.kind, np.arange(len(outputs)), np.arange(len(inputs)), one.variance, outputs, inputs,
-        one.coherence, title, path, decay_rate=one.decay_rate,
+        one.coherence, title, path, decay_rate=one.decay_rate, window=one.window,
     )  # fmt: skip
     return found, tuple(say.diagnostics)
 
@@ -49,5 +49,5 @@ def _draft(each: Function, kind: str, path: str, title: str, say: Findings, wher
     return FrfDraft(
         title, path, scale[0], each.frequency_hz, H.reshape(shape), spread.reshape(shape), (SensorDraft(each.output, where),),
         (SensorDraft(each.input, where),), None if each.coherence is None else each.coherence[:, None], where,
-        decay_rate=each.decay_rate,
+        decay_rate=each.decay_rate, window=each.window,
     )  # fmt: skip

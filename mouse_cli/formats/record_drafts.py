@@ -7,6 +7,7 @@ import numpy as np
 from mouse_cli._errors import ERROR, WARNING, Diagnostic
 from mouse_cli._span import Span
 from mouse_cli.formats.sensor import SensorDraft
+from mouse_cli.model.block_window import BlockWindow
 from mouse_cli.model.frf_test import FORMS, MOST_LINES
 from mouse_cli.model.recording import ABSOLUTE, Recording
 
@@ -58,6 +59,7 @@ class FrfDraft:
     lines: int = MOST_LINES
     decay_rate: float = 0.0
     gain_sd: float = 0.0
+    window: BlockWindow | None = None
 
 
 @dataclass

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli.model.arrays import Matrix, freeze
+from mouse_cli.model.block_window import BlockWindow
 
 FORMS = ("complex", "log", "log-phase")  # what of a function is fitted: it, ln of its magnitude, that and its phase
 MOST_LINES = 200  # of a measurement that are fitted unless a deck says otherwise
@@ -22,8 +23,8 @@ class FrfTest:
     coherence (f, o): multiple coherence, None where it was not recorded. title: of the measurement; path: its file.
     form: one of FORMS; lines: at most so many are fitted. decay_rate: a of an exponential window e^{-a t}, 1/s; H is then that of
     the structure at s = a + i omega, see `laplace`. gain_sd: standard deviation of the gain of each response and of each force; 0:
-    they are known. lag_window (b,): autocorrelation of the window of blocks of b samples by which the structure's impulse response
-    is multiplied in H, see `records.leakage`; None: unknown, or none.
+    they are known. window: of the blocks that H1 averaged, whose lag window multiplies the impulse response of the structure in H,
+    see `records.leakage`; None: H is that of the structure itself.
     """
 
     frequency_hz: np.ndarray
@@ -41,7 +42,7 @@ class FrfTest:
     lines: int = MOST_LINES
     decay_rate: float = 0.0
     gain_sd: float = 0.0
-    lag_window: np.ndarray | None = None
+    window: BlockWindow | None = None
 
     def __post_init__(self) -> None:
         shape = (len(self.frequency_hz), self.outputs.shape[0], self.inputs.shape[0])

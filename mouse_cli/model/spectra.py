@@ -4,9 +4,10 @@ from dataclasses import dataclass
 
 from mouse_cli._errors import Diagnostic
 from mouse_cli._notebook import Shown
+from mouse_cli.model import block_window
 from mouse_cli.model.frf_test import FrfTest
 
-WINDOWS = ("hann", "hamming", "blackmanharris", "flattop", "uniform", "exponential")
+WINDOWS = (*block_window.WINDOWS, "exponential")
 ESTIMATORS = ("h1", "h2", "hv")
 FOUND = -1  # as force_window: its length is found in the strokes
 

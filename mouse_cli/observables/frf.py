@@ -7,11 +7,13 @@ its own noise is left out: its logarithm tells of the noise. What is NaN, or kno
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from mouse_cli.dynamics.frf import kind_factor
 from mouse_cli.model.frf_test import KINDS, FrfTest
+from mouse_cli.observables.frf_leakage import Leakage, of_window
 
 # Standard deviation of real and imaginary part where none is known: root of the sum of squares of these shares.
 ASSUMED_OF_MAGNITUDE = 0.05  # of the value's own magnitude
@@ -41,10 +43,25 @@ class FrfObservable:
         """Where on the complex plane (l,), rad/s."""
         return self.test.laplace[self.lines] + self.width * self.test.omega[self.lines]
 
+    @cached_property
+    def leakage(self) -> Leakage | None:
+        """What H1 makes of the functions of a model; None: nothing, as of those that were smoothed, whose resonances are broad."""
+        return None if self.width else of_window(self.test, self.s)
+
     @property
+    def nodes(self) -> np.ndarray:
+        """Where the model is solved (n,), rad/s."""
+        return self.leakage.nodes if self.leakage else self.s
+
+    @cached_property
     def factor(self) -> np.ndarray:
-        """What receptance is multiplied by (l, 1, 1)."""
-        return kind_factor(KINDS[self.test.kind], self.s)
+        """What receptance is multiplied by at the nodes (n, 1, 1)."""
+        return kind_factor(KINDS[self.test.kind], self.nodes)
+
+    def expected(self, receptance: np.ndarray) -> np.ndarray:
+        """What is measured (l, o, i, ...) of a receptance (n, o, i, ...) at the nodes, but for noise."""
+        H = receptance * self.factor.reshape(-1, *[1] * (receptance.ndim - 1))
+        return self.leakage.expected(H) if self.leakage else H
 
     def __len__(self) -> int:
         return int(self.have.sum()) * (1 if self.form == "log" else 2)
@@ -60,8 +77,8 @@ class FrfObservable:
         return np.concatenate([np.log(np.abs(own)), np.angle(own)]), np.tile(sd, 2)
 
     def predicted(self, receptance: np.ndarray) -> np.ndarray:
-        """The data (q,) of a model with this receptance (l, o, i); phases are those nearest to the measured ones."""
-        own = (receptance * self.factor)[self.have]
+        """The data (q,) of a model with this receptance (n, o, i); phases are those nearest to the measured ones."""
+        own = self.expected(receptance)[self.have]
         if self.form == "complex":
             return np.concatenate([own.real, own.imag])
         size = np.log(np.maximum(np.abs(own), 1e-300))
@@ -71,13 +88,11 @@ class FrfObservable:
         return np.concatenate([size, np.angle(measured) + np.angle(own / measured)])
 
     def partials(self, receptance: np.ndarray, slopes: Iterable[tuple[slice, np.ndarray]], p: int) -> np.ndarray:
-        """T (q, p) from d receptance (l, o, i, p'), some parameters at a time."""
+        """T (q, p) from d receptance (n, o, i, p'), some parameters at a time."""
         T, half = np.empty((len(self), p)), int(self.have.sum())
-        scale = np.broadcast_to(self.factor, self.have.shape)[self.have]
-        if self.form != "complex":
-            scale = 1 / receptance[self.have]  # d ln H = dH / H
+        scale = 1.0 if self.form == "complex" else 1 / self.expected(receptance)[self.have][:, None]  # d ln H = dH / H
         for part, change in slopes:
-            own = change[self.have] * scale[:, None]
+            own = self.expected(change)[self.have] * scale
             T[:half, part] = own.real
             if self.form != "log":
                 T[half:, part] = own.imag

@@ -40,9 +40,8 @@ def identify_frf(
         doubt = Diagnostic("MD651", ERROR, few, help="take finer lines, or a wider band")
         return _nothing(title, sources, method, test.output_names, edges, noise, doubt)
     lines, stated = lines_of(test, use)
-    leaks = [each.lag_window for each in tests]
-    alike = all(each is not None and np.array_equal(each, leaks[0]) for each in leaks)
-    found = identify_leaking(lines, stated, most, say, leaks[0] if alike else None)
+    windows = {each.window for each in tests}
+    found = identify_leaking(lines, stated, most, say, windows.pop() if len(windows) == 1 else None)
     drives = drive_points(test)
     judged = reviewed(found, drives)
     modes = judged.modes

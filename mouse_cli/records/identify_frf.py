@@ -5,9 +5,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mouse_cli.model.block_window import BlockWindow
 from mouse_cli.model.frf_test import KINDS, FrfTest
 from mouse_cli.records import identify_noise
-from mouse_cli.records.leakage import leakage
+from mouse_cli.records.leakage import lags, leakage
 from mouse_cli.records.local_fit import approached
 from mouse_cli.records.maximum_likelihood import ROUGH, Fit, fitted
 from mouse_cli.records.modal_covariance import Correlation, ModalCovariance, correlation, covariance
@@ -72,15 +73,15 @@ def identify_lines(lines: Lines, stated: bool, most: int | None, say: Callable[[
 
 
 def identify_leaking(
-    lines: Lines, stated: bool, most: int | None, say: Callable[[str], None], r: np.ndarray | None
+    lines: Lines, stated: bool, most: int | None, say: Callable[[str], None], window: BlockWindow | None
 ) -> Found:
-    """Modes of lines that a window has broadened, r its lag window: what it makes of the modes found is taken out, and so on.
+    """Modes of lines that a window has broadened: what it makes of the modes found is taken out, and so on.
 
     As long as the fit gets better by it: of a force that is not white around a resonance the leakage is another.
     """
     found, out = identify_lines(lines, stated, most, say), np.zeros(lines.H.shape, complex)
-    for _ in range(_UNLEAKED if r is not None else 0):
-        before, out = out, leakage(lines, found.fit.model, r)
+    for _ in range(_UNLEAKED if window is not None else 0):
+        before, out = out, leakage(lines, found.fit.model, lags(window), window.seconds)
         known = np.isfinite(lines.sd)
         change, whole = (np.sqrt(np.mean(np.abs(x[known] / found.lines.sd[known]) ** 2)) for x in (out - before, out))
         if not change > _UNSEEN:

@@ -6,12 +6,12 @@ import numpy as np
 
 from mouse_cli._errors import WARNING, Diagnostic, RecordError
 from mouse_cli.model.arrays import Matrix
+from mouse_cli.model.block_window import BlockWindow
 from mouse_cli.model.frf_test import KINDS, FrfTest
 from mouse_cli.model.recording import MOTIONS, Channel, Recording
 from mouse_cli.model.spectra import FOUND, MeasuredFrf, Quality, SpectraOptions
-from mouse_cli.records.blocks import decay_rate, products, starts, window
+from mouse_cli.records.blocks import decay_rate, products, starts
 from mouse_cli.records.frf_estimators import estimator, multiple_coherence, variance
-from mouse_cli.records.leakage import lag_window
 from mouse_cli.records.periodic import periodic
 from mouse_cli.records.strokes import contact, strokes, windowed
 
@@ -58,17 +58,18 @@ def functions(
         hz, H * by[:, :, None], kind, weights(outputs, n), weights(inputs, n), spread * np.abs(by[:, :, None]) ** 2,
         tuple(c.sensor or c.name for c in outputs), tuple(c.sensor or c.name for c in inputs), coherence,
         first.title if len(recordings) == 1 else f"{first.title} and {len(recordings) - 1} more", first.path, decay_rate=added,
-        lag_window=lag_window(window(options.window, block, options.final)) if _leaks(options, by) else None,
+        window=_window(options, block / fs, by),
     )  # fmt: skip
     return MeasuredFrf(
         frf, averages, blocks, block, fs, tuple(r.title for r in recordings), qualities(frf), length
     ), remarks
 
 
-def _leaks(options: SpectraOptions, by: np.ndarray) -> bool:
-    """Whether a window has broadened resonances in a way that is known: H1 of a random force, of the kind that was recorded."""
+def _window(options: SpectraOptions, seconds: float, by: np.ndarray) -> BlockWindow | None:
+    """The window that broadened resonances in a way that is known: H1 of a random force, of the kind that was recorded."""
     random = not (options.period or options.impact) and options.window != "exponential"
-    return random and options.estimator == "h1" and bool((by == 1).all())
+    known = random and options.estimator == "h1" and bool((by == 1).all())
+    return BlockWindow(options.window, seconds) if known else None
 
 
 def _refuse(code: str, message: str, help: str) -> None:

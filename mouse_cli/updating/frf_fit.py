@@ -1,7 +1,7 @@
 """What the frequency response functions say at the beginning and at the end of a run."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -63,15 +63,17 @@ def _sd(state: State, k: int, o: FrfObservable, root: np.ndarray) -> np.ndarray:
     slope = setting.coordinates.slope(state.u)
     for first in range(0, len(out), _LINES):
         at = slice(first, first + _LINES)
-        out[at] = _of_lines(frf, k, o.test.laplace[at], change, slope[:, None] * root)
+        lines = np.arange(len(out))[at]
+        out[at] = _of_lines(frf, k, replace(o, lines=lines, width=0.0), change, slope[:, None] * root)
     return out
 
 
-def _of_lines(frf: FrfState, k: int, s: np.ndarray, change: Change, root: np.ndarray) -> np.ndarray:
-    fields = frf.model.at(s)
+def _of_lines(frf: FrfState, k: int, o: FrfObservable, change: Change, root: np.ndarray) -> np.ndarray:
+    fields = frf.model.at(o.nodes)
     alpha = frf.read(k, fields)
-    T = np.empty((*alpha.shape, change.p))
     with np.errstate(divide="ignore", invalid="ignore"):
+        H = o.expected(alpha)
+        T = np.empty((*H.shape, change.p))
         for part, values in frf.slopes(k, fields, change, alpha):
-            T[..., part] = (values / alpha[..., None]).real
+            T[..., part] = (o.expected(values) / H[..., None]).real
         return np.linalg.norm(T @ root, axis=-1)

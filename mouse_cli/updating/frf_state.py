@@ -82,7 +82,7 @@ class FrfState:
             solution,
             FINAL if final else ITERATING,
         )
-        self.fields = [self.model.at(o.s) for o in setting.observables]
+        self.fields = [self.model.at(o.nodes) for o in setting.observables]
         self.receptance = [self.read(k, fields) for k, fields in enumerate(self.fields)]
 
     @property
@@ -102,10 +102,10 @@ class FrfState:
         for k, o in enumerate(self.setting.everything):
             whole = replace(o, lines=np.arange(len(o.test.omega)), width=0.0)
             with np.errstate(divide="ignore", invalid="ignore"):
-                yield self.read(k, self.model.at(whole.s)) * whole.factor
+                yield whole.expected(self.read(k, self.model.at(whole.nodes)))
 
     def read(self, k: int, fields: Fields) -> np.ndarray:
-        """Receptance (f, o, i) of measurement k, gains in it."""
+        """Receptance (n, o, i) of measurement k at the nodes of its lines, gains in it."""
         return fields.receptance(2 * k, 2 * k + 1) * self.setting.gains.factor(k, self.theta)
 
     def slopes(

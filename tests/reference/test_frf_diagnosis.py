@@ -25,6 +25,7 @@ from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.dynamics.solver import EigenSolver
 from mouse_cli.formats import read_deck, yaml_deck
 from mouse_cli.formats.assemble import assemble
+from mouse_cli.model.block_window import BlockWindow
 from mouse_cli.terms.assembly import assembly
 
 K, C, LOSS = 2.0e3, 2.0, 0.3  # N/m, N s/m
@@ -47,7 +48,7 @@ def model_of(control, recipe):
     case, base, own, _ = control
     model = FrfModel(base, own, () if recipe is None else (recipe,))
     x = np.zeros(model.k + model.t)
-    x[model.of_deck : model.lossy] = (np.log([case.nominal.eta, 1e-12, 1e-12]) - own.mean) / own.sd
+    x[model.of_deck : model.lossy] = (np.log([case.nominal.eta, 1e-12, 1e-12, 1e-12]) - own.mean) / own.sd
     return model, x
 
 
@@ -103,6 +104,23 @@ def test_jacobian_is_the_slope_of_the_functions(control, name):
     x = x + 0.3 * np.cos(np.arange(len(x)))
     x[model.of_deck : model.lossy] = 0.2
     x[model.k :] = recipe.coordinates(values)
+    slopes_agree(model, x)
+
+
+def test_jacobian_of_averages_under_a_window_with_damping_of_each_mode(control):
+    """H1 of blocks of 2 s, whose lines are broader than the resonances; the damping of each of five modes is its own."""
+    _, base, _, modal = control
+    test = replace(modal.problem.frf[0], window=BlockWindow("hann", 2.0))
+    data = FrfData((lines(test, modal.problem.theory),), np.full(5, 4e-4))
+    model = FrfModel(replace(base, data=data), damping(modal, 5).unevenly(), (recipe_of(control, "dashpot")[0],))
+    recipe, values = recipe_of(control, "dashpot")
+    x = 0.3 * np.cos(np.arange(model.k + model.t))
+    x[model.k :] = recipe.coordinates(values)
+    slopes_agree(model, x)
+
+
+def slopes_agree(model, x):
+    """The Jacobian is that of central differences."""
     J, h = model.jacobian(model.point(x)), 3e-4
     for j in range(len(x)):
         step = h * (model.width[j - model.k] if j >= model.k else 1.0) * (np.arange(len(x)) == j)

@@ -85,7 +85,7 @@ def test_functions_of_a_freed_structure_are_read_where_the_deck_says(deck):
     own = damping(base)
     model = FrfModel(replace(base, data=data), own, (recipe,))
     x = np.zeros(model.k + model.t)
-    x[model.of_deck : model.lossy] = (np.log([ETA, 1e-12, 1e-12]) - own.mean) / own.sd
+    x[model.of_deck : model.lossy] = (np.log([ETA, 1e-12, 1e-12, 1e-12]) - own.mean) / own.sd
     x[model.k :] = recipe.coordinates(np.array([SPRING]))
     block = data.blocks[0]
     exact = -receptance(block.omega) * (block.omega**2)[:, None]
@@ -172,7 +172,7 @@ def test_functions_with_a_mechanism_are_those_of_the_deck_that_has_it(freed, key
         values = recipe.values(inside)
         model = FrfModel(replace(freed, data=FrfData(blocks)), damping(freed), (recipe,))
         x = np.zeros(model.k + model.t)
-        x[model.of_deck : model.lossy] = (np.log([LOSS, 1e-12, 1e-12]) - model.damping.mean) / model.damping.sd
+        x[model.of_deck : model.lossy] = (np.log([LOSS, 1e-12, 1e-12, 1e-12]) - model.damping.mean) / model.damping.sd
         x[model.k :] = recipe.coordinates(values)
         at = model.point(x)
         if at is None:

@@ -10,8 +10,10 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parents[1] / "property"))
 import vibrating
 
+from mouse_cli.model.block_window import BlockWindow
 from mouse_cli.model.recording import INPUT, OUTPUT, Channel, Recording
 from mouse_cli.model.spectra import SpectraOptions
+from mouse_cli.observables import frf_leakage
 from mouse_cli.records.identify import identify_frf
 from mouse_cli.records.leakage import lag_window, leakage
 from mouse_cli.records.measurements import measure
@@ -61,5 +63,46 @@ def test_damping_is_that_of_the_structure_at_two_lines_a_bandwidth(lines):
     assert (np.abs(modes.damping[-2:] - ZETA) < 4 * modes.damping_sd[-2:]).all()
     assert (np.abs(modes.frequency_hz[-2:] - omega) < 4 * modes.frequency_sd_hz[-2:]).all()
     assert found.misfit < 1.5
-    left = identify_frf([replace(test, lag_window=None)], (4.0, 70.0)).modes.damping[-2:]
+    left = identify_frf([replace(test, window=None)], (4.0, 70.0)).modes.damping[-2:]
     assert (left > 1.02 * ZETA).all() if lines == 160 else (left > ZETA).all()
+
+
+def hann_lags(x: np.ndarray) -> np.ndarray:
+    """r of the Hann window at lags of x blocks: (1 - x)(2 + cos 2 pi x) / 3 + sin(2 pi x) / 2 pi."""
+    return (1 - x) * (2 + np.cos(2 * np.pi * x)) / 3 + np.sin(2 * np.pi * x) / (2 * np.pi)
+
+
+@pytest.mark.parametrize("zeta", [5e-4, 3e-3, 2e-2])
+@pytest.mark.parametrize(
+    ("name", "burst", "r", "least"),
+    [
+        ("hann", 1.0, hann_lags, 3e-4),
+        ("uniform", 1.0, lambda x: 1 - x, 3e-4),
+        ("uniform", 0.5, lambda x: np.minimum(1, 2 * (1 - x)), 1e-3),
+    ],
+)
+def test_averages_of_a_model_are_its_impulse_response_times_the_lag_window(name, burst, r, least, zeta):
+    """Accelerance of one mass with a resonance of 0.02 to 0.8 lines: 1 + int h r e^(-s t) dt over a block, by the midpoint rule."""
+    T, w, n = 4.0, 2 * np.pi * 5.08, 200_000
+    pole, s = w * (-zeta + 1j * np.sqrt(1 - zeta**2)), 2j * np.pi * np.arange(2, 60) / T
+    t = (np.arange(n) + 0.5) * T / n
+    h = (pole**2 * np.exp(pole * t)).imag / pole.imag
+    exact = 1 + np.array([np.sum(h * r(t / T) * np.exp(-each * t)) for each in s]) * T / n
+    H = lambda s: s**2 / (s**2 + 2 * zeta * w * s + w**2)
+    leakage = frf_leakage.leakage(BlockWindow(name, T, burst), s)
+    found = leakage.expected(H(leakage.nodes)[:, None])[:, 0]
+    assert np.abs(found - exact).max() < least * np.abs(exact).max()
+    assert np.abs(H(s) - exact).max() > 0.1 * np.abs(exact).max()  # it matters
+
+
+@pytest.mark.parametrize("window", ["hann", "uniform"])
+def test_averages_of_a_record_scatter_about_those_of_its_structure_by_what_coherence_says(window):
+    """Lines of 2.5 Hz, three times as wide as the lowest resonance."""
+    test = measure([record(2)], SpectraOptions(lines=40, window=window)).measured[0].frf
+    omega, modes = test.omega, vibrating.modes(ZETA)
+    leakage = frf_leakage.of_window(test, 1j * omega)
+    exact = lambda s: vibrating.accelerance(s / (2j * np.pi), *modes, [2])[:, :, 0]
+    used = (test.frequency_hz > 4) & (test.frequency_hz < 70)
+    scatter = lambda H: np.mean(np.abs(test.H[:, :, 0] - H)[used] ** 2 / test.variance[:, :, 0][used])
+    assert 0.7 < scatter(leakage.expected(exact(leakage.nodes))) < 1.4
+    assert scatter(exact(1j * omega)) > 5

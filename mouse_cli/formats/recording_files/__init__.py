@@ -8,6 +8,7 @@ import numpy as np
 from mouse_cli._errors import DeckError, RecordError
 from mouse_cli.formats import data_files
 from mouse_cli.formats.data_files import kept, reject, room
+from mouse_cli.model.block_window import BlockWindow
 
 __all__ = ["Column", "Contents", "Function", "RecordingFormat", "kept", "read_contents", "reject", "room", "spread"]
 MOST_COLUMNS = 20_000  # of one file
@@ -35,6 +36,7 @@ class Function:
 
     frequency_hz, values (f,); kind: of model.frf_test.KINDS, empty where the file does not say; unit: as it spells it.
     variance: E|H - mean|^2 (f,); coherence (f,): both None where the file has none. decay_rate: that of an exponential window, 1/s.
+    window: of the blocks that were averaged; None where the file does not say.
     """
 
     output: str
@@ -46,6 +48,7 @@ class Function:
     variance: np.ndarray | None = None
     coherence: np.ndarray | None = None
     decay_rate: float = 0.0
+    window: BlockWindow | None = None
 
 
 @dataclass(frozen=True)

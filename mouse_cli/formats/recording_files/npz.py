@@ -1,7 +1,7 @@
 """NumPy archives (.npz) and arrays (.npy): vectors are channels, tables are channels side by side.
 
 An archive with frequency_hz (f,), H (f, o, i), output_names (o,) and input_names (i,) holds frequency response functions; `mouse
-spectra` writes such ones, with kind, variance (f, o, i) and coherence (f, o).
+spectra` writes such ones, with kind, variance (f, o, i) and coherence (f, o), and the window of the blocks, their length block_s.
 """
 
 import sys
@@ -10,6 +10,7 @@ import numpy as np
 
 from mouse_cli.formats.matrix_files import npz as npz_matrices
 from mouse_cli.formats.recording_files import Contents, Function, RecordingFormat, spread
+from mouse_cli.model.block_window import WINDOWS, BlockWindow
 
 _LONGEST = 200  # characters of a name or a unit
 _OWN = ("frequency_hz", "H", "output_names", "input_names")
@@ -39,15 +40,25 @@ def functions(arrays: dict[str, np.ndarray]) -> tuple[Function, ...]:
         )
     kind, unit = ("".join(_texts(arrays.get(key, ""))) for key in ("kind", "unit"))
     rate = float(arrays["decay_rate"]) if "decay_rate" in arrays else 0.0
+    window = _window(arrays) if "window" in arrays else None
     return tuple(
         Function(
             output, force, hz, H[:, o, i], kind, unit,
             None if variance is None else variance[:, o, i],
-            None if coherence is None else coherence[:, o], rate,
+            None if coherence is None else coherence[:, o], rate, window,
         )
         for i, force in enumerate(inputs)
         for o, output in enumerate(outputs)
     )  # fmt: skip
+
+
+def _window(arrays: dict[str, np.ndarray]) -> BlockWindow:
+    """The window of an archive. Raises ValueError for one that is not known."""
+    name = "".join(_texts(arrays["window"]))
+    seconds, burst = (float(arrays.get(key, default)) for key, default in (("block_s", np.nan), ("burst", 1.0)))
+    if name not in WINDOWS or not 0 < seconds < np.inf or not 0 <= burst <= 1:
+        raise ValueError(f"window '{name}' of blocks of {seconds:g} s, burst {burst:g}: none that is known")
+    return BlockWindow(name, seconds, burst)
 
 
 def _texts(array: object) -> list[str]:

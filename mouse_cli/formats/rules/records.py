@@ -29,7 +29,7 @@ def _frf(draft: Draft, each: FrfDraft, geometry: Geometry | None) -> FrfTest | N
     names = [tuple(sensor.name for sensor in sensors) for sensors in (each.outputs, each.inputs)]
     return FrfTest(
         each.frequency_hz, each.H, each.kind, outputs, inputs, each.variance, *names, each.coherence, each.title, each.path,
-        each.form, each.lines, each.decay_rate, each.gain_sd,
+        each.form, each.lines, each.decay_rate, each.gain_sd, each.window,
     )  # fmt: skip
 
 

@@ -19,6 +19,7 @@ from mouse_cli.formats.yaml_deck.kinds import KINDS
 from mouse_cli.formats.yaml_deck.nodes import Document, Node
 from mouse_cli.formats.yaml_deck.recordings import Files, contents, title
 from mouse_cli.formats.yaml_deck.sections import Section
+from mouse_cli.model.block_window import BlockWindow
 from mouse_cli.model.frf_test import FORMS, MOST_LINES
 from mouse_cli.model.units import Units
 
@@ -160,10 +161,36 @@ def _draft(section: Section, lines: list[Placed], units: Units) -> FrfDraft | No
         found.append(FrfDraft(
             title(section), section.nodes["file"].value if "file" in section else "", scale[0], line.frequency_hz, H.reshape(shape),
             each.reshape(shape), (output,), (force,), coherence, where,
-            decay_rate=section.value("decay_rate", line.decay_rate),
+            decay_rate=section.value("decay_rate", line.decay_rate), window=_window(section, line),
         ))  # fmt: skip
     whole = merged(found, document)
     return _banded(section, whole[0]) if len(whole) == 1 else None
+
+
+def _window(section: Section, line: Function) -> BlockWindow | None:
+    """The window that the deck states, or the file."""
+    stated, hz = line.window, line.frequency_hz
+    name = section.value("window", stated.name if stated else None)
+    alone = [key for key in ("block", "burst") if key in section and name is None]
+    if alone:
+        section.wrong(
+            alone[0], "MD215", "belongs to a window, which neither deck nor file states", "give window: hann, ..."
+        )
+    burst = section.value("burst", stated.burst if stated else 1.0)
+    if burst > 1:
+        section.wrong(
+            "burst", "MD215", f"is {burst:g}; it must be between 0 and 1", "give the share of a block, such as 0.5"
+        )
+    if name is None or len(hz) < 2:
+        return None
+    spaced = (
+        1 / float(np.median(np.diff(hz))) if (np.diff(hz) > 0).all() else 1.0
+    )  # lines that do not ascend are an error
+    seconds = section.value("block", stated.seconds if stated else spaced)
+    if not seconds > 0:
+        section.wrong("block", "MD215", f"is {seconds:g}; it must be positive", "give the length of a block in s")
+        return None
+    return BlockWindow(name, seconds, burst)
 
 
 def _accuracy(section: Section) -> tuple[float | None, float | None]:

@@ -12,11 +12,12 @@ from mouse_cli.diagnosis.likelihoods.frf.data import FrfData, Lines, lines
 from mouse_cli.diagnosis.likelihoods.frf.model import FrfModel
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.rank import Ranking
-from mouse_cli.dynamics.frf import kind_factor
+from mouse_cli.model.block_window import BlockWindow
 from mouse_cli.model.frf_fit import Damping, FrfFit, Modelled
-from mouse_cli.model.frf_test import FORMS, KINDS, FrfTest
+from mouse_cli.model.frf_test import FORMS, FrfTest
 from mouse_cli.model.problem import Problem
 from mouse_cli.observables.frf import accuracy, names, usable
+from mouse_cli.observables.frf_leakage import of_window
 
 _MOST = 40_000_000  # derivatives of all functions at all lines by all unknowns, above which bands are left out
 _LINES = 256  # worked on at once
@@ -25,6 +26,7 @@ _KINDS = (
     ("loss factor", "structural damping, of all stiffness", "1"),
     ("damping by mass", "viscous damping over mass", "1/s"),
     ("damping by stiffness", "viscous damping over stiffness", "s"),
+    ("damping ratio", "viscous damping, of the same ratio in all modes", "1"),
 )
 Tests = tuple[FrfTest, ...]
 
@@ -44,6 +46,10 @@ def compared(problem: Problem, ranking: Ranking, best: Fit | None) -> Compared:
     if not fitted and not held:
         return Compared()
     found = [("baseline", "model as it is", of_functions(ranking.baseline))]
+    if inferred := window_of(found[0][2]):
+        fitted, held = (
+            tuple(replace(each, window=each.window or inferred) for each in tests) for tests in (fitted, held)
+        )
     if best is not None:
         title = " and ".join(recipe.candidate.title for recipe in best.recipes)
         found.append(("revised", f"with {title}", of_functions(best)))
@@ -53,6 +59,24 @@ def compared(problem: Problem, ranking: Ranking, best: Fit | None) -> Compared:
     chosen = tuple(np.flatnonzero(np.isin(test.laplace, lines(test, problem.theory).s)) for test in fitted)
     fits = tuple(replace(one, lines=own) for one, own in zip(_beside(fitted, found, fitted), chosen, strict=True))
     return Compared(fits, _beside(held, found, fitted), found_damping(found[-1][2]))
+
+
+def window_of(one: Fit) -> BlockWindow | None:
+    """The window that a fit of functions found where the deck states none; None: there is none."""
+    if not isinstance(one.model, FrfModel):
+        return None
+    stated = {test.title: test.window for test in one.model.base.problem.frf}
+    tests = [block.test for block in one.model.base.data.blocks]
+    return next((test.window for test in tests if test.window and stated[test.title] is None), None)
+
+
+def remarks(ranking: Ranking) -> tuple[str, ...]:
+    """What to say of windows that no deck states."""
+    found = window_of(of_functions(ranking.baseline))
+    if found is None:
+        return ()
+    text = "the functions are explained as H1 of blocks of {:.4g} s under a window '{}', which the deck does not state"
+    return (f"{text.format(found.seconds, found.name)}: check it, and give window: {found.name}",)
 
 
 def of_functions(one: Fit) -> Fit:
@@ -110,8 +134,7 @@ def _over(one: Fit, tests: Tests, at: slice) -> FrfModel:
     blocks = []
     for test in tests:
         s, shape = test.laplace[at], test.H[at].shape
-        factor = kind_factor(KINDS[test.kind], s)
-        blocks.append(Lines(test, s, np.zeros(shape), np.ones(shape), np.ones(shape, bool), factor))
+        blocks.append(Lines(test, s, np.zeros(shape), np.ones(shape), np.ones(shape, bool), of_window(test, s)))
     data = replace(one.model.base.data, blocks=tuple(blocks), modes=None)
     model = FrfModel(replace(one.model.base, data=data), one.model.damping, one.recipes)
     model.losses.middle = one.model.losses.middle  # which loss factors of viscous springs belong to
@@ -150,11 +173,11 @@ def _chains(model: FrfModel, tests: Tests) -> dict[tuple[str, ...], int]:
 
 
 def found_damping(one: Fit) -> tuple[Damping, ...]:
-    """Loss factor and viscous damping of the structure, each with its standard deviation."""
+    """Loss factor and viscous damping of the structure, each with its standard deviation; those of single modes left out."""
     _, own, *_ = one.model.split(one.point.x)
     values = one.model.damping.values(own)
     spread = np.sqrt(np.diag(one.covariance)[one.model.of_deck : one.model.lossy])
-    sd = values * one.model.damping.sd * spread
+    values, sd = (each[: len(_KINDS)] for each in (values, values * one.model.damping.sd * spread))
     units = one.model.base.problem.units
     return tuple(
         Damping(name, meaning, units.of(unit), float(value), float(own_sd), bool(own_sd < _TOLD * value))

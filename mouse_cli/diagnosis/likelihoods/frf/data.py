@@ -1,13 +1,17 @@
 """Frequency response functions as a diagnosis sees them: real and imaginary parts over their standard deviations."""
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
 from mouse_cli.diagnosis.likelihoods.modal.data import Data
-from mouse_cli.model.frf_test import MOST_LINES, FrfTest
+from mouse_cli.dynamics.frf import kind_factor
+from mouse_cli.model.block_window import BlockWindow
+from mouse_cli.model.frf_test import KINDS, MOST_LINES, FrfTest
 from mouse_cli.model.theory import Theory
 from mouse_cli.observables.frf import observe
+from mouse_cli.observables.frf_leakage import Leakage, of_window
 from mouse_cli.observables.frf_smoothing import smoothed
 
 _VALUES, _FEW, _MOST = (
@@ -15,13 +19,15 @@ _VALUES, _FEW, _MOST = (
     MOST_LINES,
     2 * MOST_LINES,
 )  # values of one measurement, and its lines, at least and at most
+_EVEN = 1e-3  # of the spacing of lines, by which that of one block may scatter
 
 
 @dataclass(frozen=True)
 class Lines:
     """f lines of o responses to i forces: s (f,), rad/s; H, sd (f, o, i), sd of the real and of the imaginary part.
 
-    has (f, o, i): what was measured. factor (f, 1, 1): what receptance is multiplied by. assumed: no accuracy was stated.
+    has (f, o, i): what was measured. leakage: what H1 makes of the functions of a model; None: nothing. assumed: no accuracy was
+    stated.
     """
 
     test: FrfTest
@@ -29,7 +35,7 @@ class Lines:
     H: np.ndarray
     sd: np.ndarray
     has: np.ndarray
-    factor: np.ndarray
+    leakage: Leakage | None = None
     assumed: bool = False
 
     @property
@@ -37,16 +43,39 @@ class Lines:
         """rad/s (f,)."""
         return self.s.imag
 
+    @property
+    def nodes(self) -> np.ndarray:
+        """Where the model is solved (n,), rad/s."""
+        return self.leakage.nodes if self.leakage else self.s
+
+    @cached_property
+    def factor(self) -> np.ndarray:
+        """What receptance is multiplied by at the nodes (n, 1, 1)."""
+        return kind_factor(KINDS[self.test.kind], self.nodes)
+
+    def expected(self, H: np.ndarray) -> np.ndarray:
+        """What was measured (f, ...) of functions H (n, ...) at the nodes, but for noise."""
+        return self.leakage.expected(H) if self.leakage else H
+
     def every(self, count: int) -> "Lines":
         """Every so manieth line of them."""
         own = {name: getattr(self, name)[::count] for name in ("s", "H", "sd", "has")}
-        return replace(self, **own, factor=self.factor[::count])
+        return replace(self, **own, leakage=of_window(self.test, own["s"]))
+
+    def windowed(self, name: str) -> "Lines":
+        """The same as H1 of blocks of that window, as long as the spacing of the lines says; itself where more is stated."""
+        apart = np.diff(self.test.frequency_hz)
+        even = len(apart) > 0 and float(np.ptp(apart)) < _EVEN * float(apart.min(initial=np.inf))
+        if self.test.window is not None or self.test.decay_rate or not even:
+            return self
+        test = replace(self.test, window=BlockWindow(name, 1 / float(np.median(apart))))
+        return replace(self, test=test, leakage=of_window(test, self.s))
 
     def broadened(self, width: float) -> "Lines":
         """The same functions with every resonance as broad as by a damping ratio larger by `width`, known to some per cent."""
         seen = smoothed(self.test, width)
         H, sd = (np.where(seen.have, each, other) for each, other in ((seen.H, 0.0), (seen.sd, 1.0)))
-        return replace(self, s=seen.s, H=H, sd=sd, has=seen.have, factor=seen.factor)
+        return replace(self, s=seen.s, H=H, sd=sd, has=seen.have, leakage=None)
 
     def stacked(self, H: np.ndarray) -> np.ndarray:
         """Real and imaginary parts (2 q, ...) of what was measured of H (f, o, i, ...), over their standard deviations."""
@@ -60,7 +89,7 @@ def lines(test: FrfTest, theory: Theory) -> Lines:
     seen = observe(replace(test, lines=max(test.lines, most)), "complex")
     H = np.where(seen.have, seen.H, 0.0)
     sd = np.where(seen.have, np.hypot(seen.sd, theory.shape / np.sqrt(2) * _largest(H)), 1.0)
-    return Lines(test, seen.s, H, sd, seen.have, seen.factor, seen.assumed)
+    return Lines(test, seen.s, H, sd, seen.have, seen.leakage, seen.assumed)
 
 
 def _largest(H: np.ndarray) -> np.ndarray:

@@ -1,6 +1,6 @@
 """Losses that are not spread like stiffness and mass: dashpots, lossy elements, and springs of causes with a law of their own.
 
-They are of low rank, G' W(s) G with rows G (c, size) and cores W (f, c, c), beside Z_0 = g(s) K + s^2 M + s alpha M.
+They are of low rank, G' W(s) G with rows G (c, size) and cores W (f, c, c), beside Z_0 of the structure, diagonal in its modes.
 """
 
 import numpy as np
@@ -20,14 +20,14 @@ class Losses:
     def __init__(self, model: Model, damping: Damping, middle: float):
         self.model, self.damping, self.middle = model, damping, middle
 
-    def of_structure(self, s: np.ndarray, own: np.ndarray) -> tuple[np.ndarray, float]:
-        """g (f,) and alpha (1/s) of the structure, for unknowns `own` (3,) of its damping."""
-        eta, alpha, beta = self.damping.values(own)
-        return 1 + 1j * eta + s * beta, alpha
+    def of_structure(self, s: np.ndarray, own: np.ndarray) -> np.ndarray:
+        """g (f,) of the structure, its stiffness over that without damping, for unknowns `own` of its damping."""
+        eta, _, beta, *_ = self.damping.values(own)
+        return 1 + 1j * eta + s * beta
 
     def local(self, s: np.ndarray, z: np.ndarray, own: np.ndarray, c: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Rows G (c, size) and cores W (f, c, c), for parameters z of the deck, `own` of the damping and c of the causes."""
-        changes, g = self.model.changes(c), self.of_structure(s, own)[0]
+        changes, g = self.model.changes(c), self.of_structure(s, own)
         rows, cores = [np.zeros((0, self.model.size))], [np.zeros((len(s), 0, 0))]
         if len(stated := self.damping.rows):
             rows.append(self._wide(stated, np.arange(self.model.base.r)))

@@ -23,7 +23,8 @@ def of_mesh(one: Fit, base: Reduced) -> float:
     theta = base.parameters(one.point.x[: one.model.of_deck])
     finer = reduced(halved(base.problem), theta, EigenSolver())
     data = replace(one.model.base.data, modes=None)
-    there = FrfModel(replace(finer, data=data), damping(finer)).point(one.point.x)
+    same = replace(damping(finer, len(data.theory)), sd=one.model.damping.sd)
+    there = FrfModel(replace(finer, data=data), same).point(one.point.x)
     if there is None:
         return 0.0
     blocks = tuple(replace(block, H=part.H) for block, part in zip(data.blocks, there.parts, strict=True))

@@ -1,7 +1,7 @@
 """A reduced model with causes and their losses: its frequency response functions at x, and their derivatives.
 
-With the modes X of the structure and its causes, all elastic, Z_0 = g(s) diag(lambda) + s^2 + s alpha is diagonal, and other losses
-are of low rank: Z = Z_0 + G' W(s) G. Then
+With the modes X of the structure and its causes, all elastic, Z_0 = diag(lambda (1 + d (i eta + s beta)) + s d (alpha + 2 zeta
+lambda^1/2)) + s^2, d of each mode, is diagonal, and other losses are of low rank: Z = Z_0 + G' W(s) G. Then
 
     H = s^k S Z^-1 B',   Z^-1 = Z_0^-1 - Z_0^-1 G' (I + W G Z_0^-1 G')^-1 W G Z_0^-1,   dH = s^k (dS Z^-1 - S Z^-1 dZ Z^-1) B'
 
@@ -47,7 +47,10 @@ class FrfPoint(Left):
 
 @dataclass(frozen=True)
 class Functions:
-    """left (f, o, size) = S Z^-1 and right (f, size, i) = Z^-1 B' in modes; H (f, o, i) as measured, gains in it."""
+    """left (n, o, size) = S Z^-1 and right (n, size, i) = Z^-1 B' in modes, factor (n, o, i): at the nodes of the lines.
+
+    H (f, o, i): as measured, gains and leakage in it.
+    """
 
     left: np.ndarray
     right: np.ndarray
@@ -125,9 +128,8 @@ class FrfModel:
     ) -> Functions:
         """Functions of block i; sensing (s, size): what causes add to what the sensors of the test read."""
         block, (S, B), (z, own, u, _, c) = self.base.data.blocks[i], self._ends[i], self.split(x)
-        s, S = block.s, S + self._sensors[i] @ sensing
-        g, alpha = self.losses.of_structure(s, own)
-        flat = 1 / (g[:, None] * eigenvalues + (s**2 + s * alpha)[:, None])
+        s, S = block.nodes, S + self._sensors[i] @ sensing
+        flat = 1 / (eigenvalues + (s**2)[:, None] + self.damping.of_modes(s, eigenvalues, own).sum(axis=0))
         left, right = (S @ X)[None] * flat[:, None], (flat[:, :, None] * (B @ X).T[None])
         G, W = self.losses.local(s, z, own, c)
         if len(G):
@@ -137,7 +139,7 @@ class FrfModel:
             right = right - np.swapaxes(carried, 1, 2) @ (core @ (rows @ right))
             left = left - (left @ rows.T) @ core @ carried
         factor = block.factor * self.gains.factor(i, u)
-        return Functions(left, right, factor * ((S @ X) @ right), factor)
+        return Functions(left, right, block.expected(factor * ((S @ X) @ right)), factor)
 
     def parts(self, at: FrfPoint) -> list:
         """None that pairs modes, see `Model.parts`."""
@@ -155,18 +157,17 @@ class FrfModel:
 
     def _moved(self, i: int, at: FrfPoint) -> np.ndarray:
         """dH/dx (f, o, i, k + t) of block i."""
-        part, s = at.parts[i], self.base.data.blocks[i].s
+        part, block = at.parts[i], self.base.data.blocks[i]
+        s = block.nodes
         _, own, _, errs, _ = self.split(at.x)
-        g, _ = self.losses.of_structure(s, own)
+        g = self.losses.of_structure(s, own)
         left, right = part.left @ at.X.T, at.X @ part.right  # in the coordinates of the model
         K, M, S = self._slopes(at)
         elastic = g[:, None, None, None] * _between(left, K, right) + (s**2)[:, None, None, None] * _between(
             left, M, right
         )
         elastic -= np.einsum("pos,fsi->foip", self._sensors[i] @ S, right)
-        stiff, inert = part.left @ (at.eigenvalues[:, None] * part.right), part.left @ part.right
-        s = s[:, None, None]
-        damping = self.damping.values(own) * self.damping.sd * np.stack([1j * stiff, s * inert, s * stiff], axis=-1)
+        damping = self._damped(part, s, at.eigenvalues, own)
         found = np.concatenate([elastic[..., : self.of_deck], damping, elastic[..., self.of_deck :]], axis=-1)
         for j, slope in self._of_losses(i, at.x, left, right):
             found[..., j - (self.k - self.lossy) * (j >= self.k)] += slope
@@ -176,13 +177,22 @@ class FrfModel:
         factor = part.factor[..., None]
         return np.concatenate(
             [
-                -factor * found[..., : self.lossy],
+                block.expected(-factor * found[..., : self.lossy]),
                 self.gains.slopes(i, part.H),
-                -factor * own,
-                -factor * found[..., self.lossy :],
+                block.expected(-factor * own),
+                block.expected(-factor * found[..., self.lossy :]),
             ],
             axis=-1,
         )
+
+    def _damped(self, part: "Functions", s: np.ndarray, eigenvalues: np.ndarray, own: np.ndarray) -> np.ndarray:
+        """S Z^-1 dZ Z^-1 B' (f, o, i, d) by the unknowns of the damping."""
+        kinds = self.damping.of_modes(s, eigenvalues, own)
+        found = [part.left @ (each[:, :, None] * part.right) for each in kinds]
+        whole = kinds.sum(axis=0)
+        for r in range(len(own) - len(kinds)):
+            found.append(part.left[:, :, r : r + 1] * (whole[:, r, None] * part.right[:, r])[:, None])
+        return np.stack(found, axis=-1) * self.damping.sd
 
     def _slopes(self, at: FrfPoint) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """dK, dM (p, size, size) and d(sensing) (p, s, size) by the deck's parameters, then by the causes, all elastic."""
@@ -208,7 +218,7 @@ class FrfModel:
 
     def _of_losses(self, i: int, x: np.ndarray, left: np.ndarray, right: np.ndarray):
         """j and S Z^-1 d(G' W G)/dx_j Z^-1 B' (f, o, i), by differences, of every x_j that the losses may follow."""
-        s, (z, own, _, _, c) = self.base.data.blocks[i].s, self.split(x)
+        s, (z, own, _, _, c) = self.base.data.blocks[i].nodes, self.split(x)
         if not len(self.losses.local(s[:1], z, own, c)[0]):
             return
         for j in chain(range(self.lossy), range(self.k, self.k + self.t)):

@@ -8,19 +8,15 @@ from typing import ClassVar
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.gates import GATE
 from mouse_cli.diagnosis.likelihoods.frf.correlated import correlated
-from mouse_cli.diagnosis.likelihoods.frf.damping import Damping, damping
-from mouse_cli.diagnosis.likelihoods.frf.dashpots import dashpots
+from mouse_cli.diagnosis.likelihoods.frf.damping import damping
 from mouse_cli.diagnosis.likelihoods.frf.data import FrfData, lines
-from mouse_cli.diagnosis.likelihoods.frf.lossy import GROUPS, LAWS, LOSS, SAME, lossy
-from mouse_cli.diagnosis.likelihoods.frf.lossy_parts import lossy_parts
+from mouse_cli.diagnosis.likelihoods.frf.judge import BRIEF, THIN, Judge
+from mouse_cli.diagnosis.likelihoods.frf.lossy import GROUPS, LAWS
 from mouse_cli.diagnosis.likelihoods.frf.mesh import of_mesh
-from mouse_cli.diagnosis.likelihoods.frf.model import FrfModel
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
-from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
+from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.optima import distinct
 from mouse_cli.diagnosis.search.rank import Ranking, ranking
 from mouse_cli.diagnosis.search.several import adequate
@@ -33,9 +29,9 @@ _SINGLES, _ELSEWHERE = (
     3,
     2,
 )  # single causes that are judged in any case; other places at which modes leave a cause possible
-_PLACES, _KEPT = 5, 2  # places from which what only damps begins, and how many of its kind go on
-_THIN, _BRIEF = 4, 12  # in a first look: every so manieth line, and steps
 _WIDTHS = WIDTHS[1:]  # damping ratios by which resonances are broadened
+_UNSTATED = ("hann", "uniform")  # windows that are tried where a deck states none
+_PLAIN = 10.0  # nats that one must gain
 _WEIGHED = 3  # times that accuracies nobody stated are taken from what is left
 _FAR, _LEAST = (
     200.0,
@@ -63,94 +59,6 @@ class Heard(Fit):
         return self.frf.model.base.data.assumed and upper_tail(float(z @ z), max(len(z), 1)) < GATE
 
 
-@dataclass(frozen=True)
-class Judge:
-    """FRFs of a test and the damping of the structure as it is held likely.
-
-    known (m,): sd of ln f of modes measured beside them by what theory leaves of both; None: the modes are those of the functions.
-    """
-
-    data: FrfData
-    damping: Damping
-    known: np.ndarray | None = None
-
-    def thinned(self) -> "Judge":
-        """By few lines."""
-        return replace(self, data=replace(self.data, blocks=tuple(block.every(_THIN) for block in self.data.blocks)))
-
-    def broadened(self, width: float) -> "Judge":
-        """By functions with broader resonances."""
-        return replace(
-            self, data=replace(self.data, blocks=tuple(block.broadened(width) for block in self.data.blocks))
-        )
-
-    def model(self, base: Reduced, recipes: tuple = ()) -> FrfModel:
-        """The reduced model `base` with causes, as the FRFs see it, and the modes that were measured beside them."""
-        modes = base.data
-        if isinstance(modes, FrfData):
-            modes = modes.modes
-        elif self.known is None:
-            modes = None
-        else:
-            modes = modes.sharpened(self.known)
-        return FrfModel(replace(base, data=replace(self.data, modes=modes)), self.damping, recipes)
-
-    def fitted(self, one: Fit, law: str = SAME, most: int = MOST) -> Fit | None:
-        """The explanation `one` of modes, or of FRFs, fitted from where it is; law: of its springs, where they have none yet."""
-        recipes = tuple(lossy(recipe, law, self.data.middle) for recipe in one.recipes)
-        model = self.model(one.model.base, recipes)
-        parts = zip(one.recipes, recipes, one.model.own, strict=True)
-        c = [np.append(one.c[own], [np.log(LOSS)] * (len(r.unknowns) - len(was.unknowns))) for was, r, own in parts]
-        start = np.concatenate([one.point.x[: one.model.k], model.start[one.model.k :]])
-        return fit(model, np.concatenate([np.zeros(0), *c]), start, most)
-
-    def all_of(self, fits: list[Fit]) -> list[Fit]:
-        """Each fitted to the end, from where it is."""
-        found = [self.fitted(one) for one in fits]
-        return [one for one in found if one is not None]
-
-    def near(self, one: Fit, stages: "tuple[Judge, ...]") -> Fit | None:
-        """`one` where its resonances are near the measured ones: as it is, or fitted with ever narrower resonances, `stages`."""
-        end = one
-        for stage in stages:
-            end = stage.fitted(end, most=_BRIEF // 2) or end
-        starts = [at for at in (self.fitted(one, most=0), self.fitted(end, most=0)) if at is not None]
-        return min(starts, key=lambda at: at.misfit, default=None)
-
-    def laws(self, one: Fit) -> list[Fit]:
-        """A first look at the explanation `one` under each law of damping that its springs may follow."""
-        may = any(recipe.candidate.group in GROUPS for recipe in one.recipes)
-        found = [self.fitted(one, law, _BRIEF) for law in (LAWS if may else (SAME,))]
-        return [each for each in found if each is not None]
-
-    def damped(self, one: Fit, base: Reduced) -> list[Fit]:
-        """A first look at what only damps, beside the causes of `one`, a fit of FRFs; base: its model with its modes."""
-        found = []
-        for recipes in (dashpots(base), lossy_parts(base, self.data.middle)):
-            recipes = [replace(recipe, number=i) for i, recipe in enumerate(recipes)]
-            fits = [fit(trial, x[trial.k :], x[: trial.k], _BRIEF) for trial, x in self._starts(one, recipes)]
-            found += sorted((each for each in fits if each is not None), key=lambda each: -each.log_evidence)[:_KEPT]
-        return found
-
-    def _starts(self, one: Fit, recipes: list[Recipe]) -> list[tuple[FrfModel, np.ndarray]]:
-        """Where what only damps does most: models and x, at most one for each place of a recipe.
-
-        The damping of the structure is as it is held likely: `one` has made that of the cause.
-        """
-        x, tried = one.point.x.copy(), []
-        x[one.model.of_deck : one.model.lossy] = 0.0
-        for recipe in recipes:
-            trial = self.model(one.model.base, (*one.recipes, recipe))
-            places: dict[bytes, tuple] = {}
-            for values in recipe.grid:
-                at = trial.point(np.concatenate([x, recipe.coordinates(values)]))
-                place = values[1:].tobytes()
-                if at is not None and (place not in places or at.chi2 < places[place][0]):
-                    places[place] = at.chi2, trial, at.x
-            tried += places.values()
-        return [(trial, x) for _, trial, x in sorted(tried, key=lambda item: item[0])[:_PLACES]]
-
-
 def ranked_by_frf(modal: Ranking, measured: bool) -> Ranking:
     """The ranking `modal` by modes, ranked again by the FRFs of the test; `modal` itself where there are none.
 
@@ -160,18 +68,13 @@ def ranked_by_frf(modal: Ranking, measured: bool) -> Ranking:
     if not base.problem.frf:
         return modal
     blocks = tuple(lines(test, base.problem.theory) for test in base.problem.frf)
-    judge = Judge(FrfData(blocks, _theory(modal.baseline)), damping(base), base.data.theory if measured else None)
-    quick, stages = judge.thinned(), tuple(judge.broadened(width) for width in _WIDTHS)
-    begun = quick.near(modal.baseline, stages)
-    none = None if begun is None else quick.fitted(begun)
-    if none is None:
+    theory = _theory(modal.baseline)
+    judge = Judge(FrfData(blocks, theory), damping(base, len(theory)), base.data.theory if measured else None)
+    fits = _searched(judge, modal)
+    if not fits:
         return modal
-    starts = [quick.near(one, stages) for one in _promising(modal)]
-    looked = [law for one in starts if one for law in quick.laws(one)] + quick.damped(none, base)
-    if measured or not any(map(adequate, looked)):
-        starts = [quick.near(one, stages[1:]) for one in anew(stages[0], modal)]
-        looked += [law for one in starts if one for law in quick.laws(one)]
-    fits = judge.all_of([none, *_leading(looked)])
+    if not any(map(adequate, fits)) and (leaking := _leaking(judge, fits)):
+        judge, fits = leaking, _searched(leaking, modal) or fits
     alike = None
     for _ in range(_WEIGHED):
         nearest = min(fits, key=lambda one: one.misfit)
@@ -185,6 +88,38 @@ def ranked_by_frf(modal: Ranking, measured: bool) -> Ranking:
     found = ranking(fits[0], fits)
     views = {id(one): _beside_modes(one, base.data) for one in fits}
     return replace(found, baseline=views[id(fits[0])], fits=tuple(views[id(one)] for one in found.fits))
+
+
+def _searched(judge: Judge, modal: Ranking) -> list[Fit]:
+    """The explanations `modal` of modes and what only damps, fitted to the functions to the end, that without a cause first.
+
+    None where the model without a cause is not physical.
+    """
+    base = modal.baseline.model.base
+    quick, stages = judge.thinned(), tuple(judge.broadened(width) for width in _WIDTHS)
+    begun = quick.near(modal.baseline, stages)
+    none = None if begun is None else quick.fitted(begun)
+    if none is None:
+        return []
+    starts = [quick.near(one, stages) for one in _promising(modal)]
+    looked = [law for one in starts if one for law in quick.laws(one)] + quick.damped(none, base)
+    if judge.known is not None or not any(map(adequate, looked)):
+        starts = [quick.near(one, stages[1:]) for one in anew(stages[0], modal)]
+        looked += [law for one in starts if one for law in quick.laws(one)]
+    return judge.uneven(judge.all_of([none, *_leading(looked)]))
+
+
+def _leaking(judge: Judge, fits: list[Fit]) -> Judge | None:
+    """By the window that the deck does not state, if what is nearest in `fits` explains the functions with one; None: with none."""
+    nearest = min(fits, key=lambda one: one.misfit)
+    trials = []
+    for name in _UNSTATED:
+        if (there := judge.windowed(name)) and (one := there.fitted(nearest)):
+            trials.append((one.misfit, there, one))
+    if not trials:
+        return None
+    misfit, there, one = min(trials, key=lambda trial: trial[0])
+    return there if adequate(one) and nearest.misfit - misfit > 2 * _PLAIN else None
 
 
 def anew(judge: Judge, modal: Ranking) -> list[Fit]:
@@ -201,7 +136,7 @@ def anew(judge: Judge, modal: Ranking) -> list[Fit]:
         for _, number, x in study.looks(name, np.zeros(k), ()):
             first.setdefault(number, x)
         for number, x in list(first.items())[:_ELSEWHERE]:
-            found.append(fit(judge.model(base, (recipes[number],)), x[k:], x[:k], _BRIEF))
+            found.append(fit(judge.model(base, (recipes[number],)), x[k:], x[:k], BRIEF))
     return [one for one in found if one is not None]
 
 
@@ -238,7 +173,7 @@ def _leading(looked: list[Fit]) -> list[Fit]:
     """Those of a first look that may lead when all lines are used."""
     order = sorted(looked, key=lambda one: -one.log_evidence)
     best = order[0].log_evidence if order else 0.0
-    return [one for i, one in enumerate(order) if i < _LEAST or best - one.log_evidence < _FAR / _THIN]
+    return [one for i, one in enumerate(order) if i < _LEAST or best - one.log_evidence < _FAR / THIN]
 
 
 def _together(fits: list[Fit]) -> list[Fit]:

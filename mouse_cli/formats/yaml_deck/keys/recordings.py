@@ -1,6 +1,7 @@
 """Keys of `test: recordings:` and `test: frf:`."""
 
 from mouse_cli.formats.yaml_deck.kinds import Key, Section
+from mouse_cli.model.block_window import WINDOWS
 from mouse_cli.model.frf_test import FORMS, KINDS, MOST_LINES
 from mouse_cli.model.recording import FRAMES, QUANTITIES
 
@@ -86,6 +87,20 @@ SECTIONS = {
             ),
             "decay_rate": Key(
                 "number", "a of an exponential window e^(-a t) on force and response", "the value in the file, else 0", "1/s", low=0
+            ),
+            "window": Key(
+                "choice",
+                "of the blocks that H1 averaged: the model is compared with the resonances that it broadens and lowers",
+                "the value in the file; else none: lines as of the structure itself",
+                choices=WINDOWS,
+            ),
+            "block": Key("number", "length of those blocks", "the value in the file, else 1 / spacing of lines", "s", low=0),
+            "burst": Key(
+                "number",
+                "share of each block, from its beginning, in which the force acts: 1 for a stationary random one, less for burst "
+                "random, 0 for a blow of a hammer",
+                "1",
+                low=0,
             ),
             "averages": Key("number", "effective number of independent averages, which makes accuracies of coherences", low=1),
         },

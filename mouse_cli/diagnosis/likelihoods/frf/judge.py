@@ -1,0 +1,126 @@
+"""FRFs of a test as they judge explanations: each fitted from where modes left it, by few lines or by all, with laws of damping."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mouse_cli.diagnosis.effects.change import Recipe
+from mouse_cli.diagnosis.likelihoods.frf.damping import Damping
+from mouse_cli.diagnosis.likelihoods.frf.dashpots import dashpots
+from mouse_cli.diagnosis.likelihoods.frf.data import FrfData
+from mouse_cli.diagnosis.likelihoods.frf.lossy import GROUPS, LAWS, LOSS, SAME, lossy
+from mouse_cli.diagnosis.likelihoods.frf.lossy_parts import lossy_parts
+from mouse_cli.diagnosis.likelihoods.frf.model import FrfModel
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
+
+_PLACES, _KEPT = 5, 2  # places from which what only damps begins, and how many of its kind go on
+THIN, BRIEF = 4, 12  # in a first look: every so manieth line, and steps
+
+
+@dataclass(frozen=True)
+class Judge:
+    """FRFs of a test and the damping of the structure as it is held likely.
+
+    known (m,): sd of ln f of modes measured beside them by what theory leaves of both; None: the modes are those of the functions.
+    """
+
+    data: FrfData
+    damping: Damping
+    known: np.ndarray | None = None
+
+    def windowed(self, name: str) -> "Judge | None":
+        """By functions of blocks of that window, where a deck states none, and no decay rate; None where it states all."""
+        blocks = tuple(block.windowed(name) for block in self.data.blocks)
+        same = all(new is old for new, old in zip(blocks, self.data.blocks, strict=True))
+        return None if same else replace(self, data=replace(self.data, blocks=blocks))
+
+    def thinned(self) -> "Judge":
+        """By few lines."""
+        return replace(self, data=replace(self.data, blocks=tuple(block.every(THIN) for block in self.data.blocks)))
+
+    def broadened(self, width: float) -> "Judge":
+        """By functions with broader resonances."""
+        return replace(
+            self, data=replace(self.data, blocks=tuple(block.broadened(width) for block in self.data.blocks))
+        )
+
+    def model(self, base: Reduced, recipes: tuple = ()) -> FrfModel:
+        """The reduced model `base` with causes, as the FRFs see it, and the modes that were measured beside them."""
+        modes = base.data
+        if isinstance(modes, FrfData):
+            modes = modes.modes
+        elif self.known is None:
+            modes = None
+        else:
+            modes = modes.sharpened(self.known)
+        return FrfModel(replace(base, data=replace(self.data, modes=modes)), self.damping, recipes)
+
+    def fitted(self, one: Fit, law: str = SAME, most: int = MOST, damping: Damping | None = None) -> Fit | None:
+        """The explanation `one` of modes, or of FRFs, fitted from where it is; law: of its springs, where they have none yet.
+
+        damping: of the structure; None: as `one` has it, of modes as it is held likely.
+        """
+        recipes = tuple(lossy(recipe, law, self.data.middle) for recipe in one.recipes)
+        own = replace(self, damping=damping or getattr(one.model, "damping", self.damping))
+        model = own.model(one.model.base, recipes)
+        parts = zip(one.recipes, recipes, one.model.own, strict=True)
+        c = [np.append(one.c[own], [np.log(LOSS)] * (len(r.unknowns) - len(was.unknowns))) for was, r, own in parts]
+        start = np.concatenate([one.point.x[: one.model.k], model.start[one.model.k :]])
+        return fit(model, np.concatenate([np.zeros(0), *c]), start, most)
+
+    def all_of(self, fits: list[Fit]) -> list[Fit]:
+        """Each fitted to the end, from where it is."""
+        found = [self.fitted(one) for one in fits]
+        return [one for one in found if one is not None]
+
+    def uneven(self, fits: list[Fit]) -> list[Fit]:
+        """Each with damping of every mode of its own where that is the more probable; before, both are equally likely."""
+        found = []
+        for one in fits:
+            other = self.fitted(one, damping=one.model.damping.unevenly()) or one
+            likelier = max(one, other, key=lambda each: each.log_evidence)
+            total = np.logaddexp(one.log_evidence, other.log_evidence) - np.log(2)
+            found.append(replace(likelier, log_evidence=float(total)))
+        return found
+
+    def near(self, one: Fit, stages: "tuple[Judge, ...]") -> Fit | None:
+        """`one` where its resonances are near the measured ones: as it is, or fitted with ever narrower resonances, `stages`."""
+        end = one
+        for stage in stages:
+            end = stage.fitted(end, most=BRIEF // 2) or end
+        starts = [at for at in (self.fitted(one, most=0), self.fitted(end, most=0)) if at is not None]
+        return min(starts, key=lambda at: at.misfit, default=None)
+
+    def laws(self, one: Fit) -> list[Fit]:
+        """A first look at the explanation `one` under each law of damping that its springs may follow."""
+        may = any(recipe.candidate.group in GROUPS for recipe in one.recipes)
+        found = [self.fitted(one, law, BRIEF) for law in (LAWS if may else (SAME,))]
+        return [each for each in found if each is not None]
+
+    def damped(self, one: Fit, base: Reduced) -> list[Fit]:
+        """A first look at what only damps, beside the causes of `one`, a fit of FRFs; base: its model with its modes."""
+        found = []
+        for recipes in (dashpots(base), lossy_parts(base, self.data.middle)):
+            recipes = [replace(recipe, number=i) for i, recipe in enumerate(recipes)]
+            fits = [fit(trial, x[trial.k :], x[: trial.k], BRIEF) for trial, x in self._starts(one, recipes)]
+            found += sorted((each for each in fits if each is not None), key=lambda each: -each.log_evidence)[:_KEPT]
+        return found
+
+    def _starts(self, one: Fit, recipes: list[Recipe]) -> list[tuple[FrfModel, np.ndarray]]:
+        """Where what only damps does most: models and x, at most one for each place of a recipe.
+
+        The damping of the structure is as it is held likely: `one` has made that of the cause.
+        """
+        x, tried = one.point.x.copy(), []
+        x[one.model.of_deck : one.model.lossy] = 0.0
+        for recipe in recipes:
+            trial = self.model(one.model.base, (*one.recipes, recipe))
+            places: dict[bytes, tuple] = {}
+            for values in recipe.grid:
+                at = trial.point(np.concatenate([x, recipe.coordinates(values)]))
+                place = values[1:].tobytes()
+                if at is not None and (place not in places or at.chi2 < places[place][0]):
+                    places[place] = at.chi2, trial, at.x
+            tried += places.values()
+        return [(trial, x) for _, trial, x in sorted(tried, key=lambda item: item[0])[:_PLACES]]
