@@ -111,9 +111,10 @@ CODES = {
     "MD327": Code("test without data", "The test holds neither a frequency nor a shape component.", "Give one."),
     "MD328": Code(
         "sensor that reads nothing",
-        "The position of a sensor cannot move in its direction: it is supported there, the model has no such direction, or all "
-        "weights are 0. The sensor would read 0 whatever the model does.",
-        "Correct its node, point or direction, or leave it out.",
+        "The position of a sensor cannot move in its direction: the model has no such direction, the point lies on a support, or "
+        "all weights are 0. The sensor would read 0 whatever the model does. A sensor on the node of a support is no error: it "
+        "reads 0 of the model as it is, and the motion of a support that is flexible. A force that a support takes is one.",
+        "Correct its node, point or direction, mount it on the node of the support, or leave it out.",
     ),
     "MD329": Code(
         "sensor at a position that the model does not have",

@@ -6,6 +6,7 @@ import numpy as np
 
 from mouse_cli.model.arrays import Matrix, freeze
 from mouse_cli.model.block_window import BlockWindow
+from mouse_cli.model.held_reading import HeldReading
 
 FORMS = ("complex", "log", "log-phase")  # what of a function is fitted: it, ln of its magnitude, that and its phase
 MOST_LINES = 200  # of a measurement that are fitted unless a deck says otherwise
@@ -24,7 +25,8 @@ class FrfTest:
     form: one of FORMS; lines: at most so many are fitted. decay_rate: a of an exponential window e^{-a t}, 1/s; H is then that of
     the structure at s = a + i omega, see `laplace`. gain_sd: standard deviation of the gain of each response and of each force; 0:
     they are known. window: of the blocks that H1 averaged, whose lag window multiplies the impulse response of the structure in H,
-    see `records.leakage`; None: H is that of the structure itself.
+    see `records.leakage`; None: H is that of the structure itself. held: what responses read besides
+    where supports hold the model, 0 in it.
     """
 
     frequency_hz: np.ndarray
@@ -43,6 +45,7 @@ class FrfTest:
     decay_rate: float = 0.0
     gain_sd: float = 0.0
     window: BlockWindow | None = None
+    held: tuple[HeldReading, ...] = ()
 
     def __post_init__(self) -> None:
         shape = (len(self.frequency_hz), self.outputs.shape[0], self.inputs.shape[0])

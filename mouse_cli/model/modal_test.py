@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mouse_cli.model.arrays import Matrix, freeze
+from mouse_cli.model.held_reading import HeldReading
 
 SCALES = ("least-squares", "fitted", "unit", "none")
 
@@ -18,7 +19,8 @@ class ModalTest:
     dofs (s,): measured degrees of freedom, from 0. shapes, shape_sd (s, m): components in the units measured; NaN: missing.
     scale: how shapes are brought to the scale of the theory, one of SCALES. sensing (s, n), sparse: what each sensor reads, for
     sensors that are mounted backwards, in a direction between the axes, or between nodes; then dofs are the nearest ones. None:
-    each sensor reads its degree of freedom. sensors: their names, when those of the degrees of freedom do not serve.
+    each sensor reads its degree of freedom. sensors: their names, when those of the degrees of freedom do not serve. held:
+    what they read besides where supports hold the model, 0 in it, see `HeldReading`.
     """
 
     number: np.ndarray
@@ -30,6 +32,7 @@ class ModalTest:
     scale: str = "least-squares"
     sensing: Matrix | None = None
     sensors: tuple[str, ...] = ()
+    held: tuple[HeldReading, ...] = ()
 
     def __post_init__(self) -> None:
         m, s = len(self.number), len(self.dofs)

@@ -97,7 +97,7 @@ STRUCTURES = [  # code, deck, line:column, words
     ("MD421", changed(BAR, (BENT, BENT + ", releases: {1: [TX], 2: [TX]}")), "8:9", "move by themselves"),
     ("MD412", changed(BAR, (BENT, BENT + ", orientation: [1, 0, 0]")), "8:9", "parallel to elements 1, 2"),
     ("MD329", changed(BAR, ("2TY, 3TY", "2TY, 7TY")), "15:58", "node 7, which the model does not have"),
-    ("MD328", changed(BAR, ("2TY, 3TY", "2TY, 1TX")), "15:58", "node 1 cannot move"),
+    ("MD328", changed(BAR, ("2TY, 3TY", "2TY, 1TZ")), "15:58", "node 1 cannot move"),
 ]
 
 

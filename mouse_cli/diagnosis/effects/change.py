@@ -1,7 +1,7 @@
 """What a cause does to a model: changes of K, M and of what sensors read, in the coordinates of the reduced model."""
 
 from bisect import bisect_right
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import inf, nextafter
@@ -9,7 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from mouse_cli.dynamics.sensing import read
+from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.diagnosis import EVERYWHERE, Site
+from mouse_cli.model.held_reading import HeldReading
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.unknown import Unknown
 
@@ -88,7 +91,7 @@ class Carried:
 
     deck: which of those n the degrees of freedom of the deck are. every: what the deck's parameters, d directions, add to K and M
     of the cause (d, r + a, r + a), or of several, whose rows `own` are of this one; across(motion (n, b)): to K and M between that
-    motion and this one (d, b, a). strain (b, 3, a): natural strains of the bars in it.
+    motion and this one (d, b, a). strain (b, 3, a): natural strains of the bars in it. place: of the n by label.
     """
 
     model: np.ndarray
@@ -100,6 +103,15 @@ class Carried:
     across: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
     strain: np.ndarray
     own: np.ndarray | None = None
+    place: Mapping[str, int] = field(default_factory=dict)
+
+    def read(self, sensing: Matrix, names: tuple[str, ...], held: tuple[HeldReading, ...]) -> np.ndarray:
+        """What sensors of the deck, `sensing`, read of the motion (s, a), those where supports held it too, by their names."""
+        found = np.array(read(sensing, self.whole[self.deck]))
+        for each in held:
+            if each.sensor in names and each.label in self.place:
+                found[names.index(each.sensor)] += each.weight * self.whole[self.place[each.label]]
+        return found
 
     @property
     def slopes(self) -> tuple[np.ndarray, np.ndarray]:
@@ -115,7 +127,7 @@ class Carried:
             return tuple(each[..., which] for each in self.across(other))
 
         rows = at if self.own is None else self.own[at]
-        return Carried(*own, self.deck, self.every, across, self.strain[..., which], rows)
+        return Carried(*own, self.deck, self.every, across, self.strain[..., which], rows, self.place)
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Carried, Change
-from mouse_cli.diagnosis.extend.edit import Edit, moved, moved_channels, moved_functions
+from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.extend.renumbered import moved, moved_channels, moved_functions
 from mouse_cli.diagnosis.likelihoods.modal.directions import projected
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
@@ -104,7 +105,9 @@ def followed(model: Reduced, free: Free, motion: np.ndarray) -> Followed:
     strain = none if model.bars is None else strained(free.problem, model.bars, motion)
     reading = free.problem.test.read(motion)
     sensing = np.hstack([np.zeros((len(reading), model.r)), reading])
-    carried = Carried(within, motion, K @ motion, M @ motion, f, slopes, _across(model, stack, motion), strain)
+    carried = Carried(
+        within, motion, K @ motion, M @ motion, f, slopes, _across(model, stack, motion), strain, place=free.place
+    )
     return Followed(*blocks, sensing, carried)
 
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli.diagnosis.effects.sensors import name, readings
-from mouse_cli.diagnosis.extend.edit import moved, moved_functions
+from mouse_cli.diagnosis.extend.renumbered import moved, moved_functions
 from mouse_cli.diagnosis.nameless.fit import extended as of_field
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.model.hold_out import HoldOut

@@ -4,13 +4,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from mouse_cli.model.arrays import Matrix
-from mouse_cli.model.frf_test import FrfTest
+from mouse_cli.diagnosis.extend.renumbered import moved, moved_channels, moved_functions
 from mouse_cli.model.mesh import Binding, ElementSet, Mesh, RigidLink
-from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Parameter
 from mouse_cli.model.problem import Problem
-from mouse_cli.model.recording import Recording
 from mouse_cli.model.structure import ListedElements, Structure
 from mouse_cli.terms.further import with_parameters
 
@@ -229,9 +226,9 @@ class Edit:
             terms=found.terms,
             mesh=mesh,
             bindings=tuple(self.bindings),
-            test=None if old.test is None else moved(old.test, to, structure.n),
-            frf=tuple(moved_functions(each, to, structure.n) for each in old.frf),
-            recordings=tuple(moved_channels(each, to) for each in old.recordings),
+            test=None if old.test is None else moved(old.test, to, structure.n, place),
+            frf=tuple(moved_functions(each, to, structure.n, place) for each in old.frf),
+            recordings=tuple(moved_channels(each, to, place) for each in old.recordings),
             run=replace(old.run, total_mass_dofs=tuple(int(to[i]) for i in old.run.total_mass_dofs)),
         )
 
@@ -271,30 +268,3 @@ def _shifted(binding: Binding, i: int) -> Binding:
     """A binding after member i of its set was split in two."""
     members = np.where(binding.members > i, binding.members + 1, binding.members)
     return replace(binding, members=np.append(members, i + 1) if i in binding.members else members)
-
-
-def moved(test: ModalTest, to: np.ndarray, n: int) -> ModalTest:
-    """The test when degree of freedom i (from 0) of a model has become to[i] of n."""
-    sensing = None if test.sensing is None else _moved_weights(test.sensing, to, n)
-    return replace(test, dofs=to[test.dofs], sensing=sensing)
-
-
-def _moved_weights(weights: Matrix, to: np.ndarray, n: int) -> Matrix:
-    """What is read of n degrees of freedom (s, n), or which ones (s,)."""
-    if weights.ndim == 1:
-        return to[weights]
-    from scipy.sparse import coo_array
-
-    stored = coo_array(weights)
-    return coo_array((stored.data, (stored.row, to[stored.col])), shape=(weights.shape[0], n)).tocsr()
-
-
-def moved_functions(test: FrfTest, to: np.ndarray, n: int) -> FrfTest:
-    """Functions when degree of freedom i (from 0) of their model has become to[i] of n."""
-    return replace(test, outputs=_moved_weights(test.outputs, to, n), inputs=_moved_weights(test.inputs, to, n))
-
-
-def moved_channels(recording: Recording, to: np.ndarray) -> Recording:
-    """A recording when degree of freedom i (from 0) of its model has become to[i]."""
-    own = (replace(c, weights={int(to[i]): w for i, w in c.weights.items()}) for c in recording.channels)
-    return replace(recording, channels=tuple(own))

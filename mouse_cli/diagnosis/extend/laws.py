@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli.diagnosis.extend.deck import in_its_units
-from mouse_cli.diagnosis.extend.edit import moved_channels
 from mouse_cli.diagnosis.extend.matrices import of_matrices
 from mouse_cli.diagnosis.extend.points import Ends, add_dashpot, add_mass, add_oscillator, add_spring
+from mouse_cli.diagnosis.extend.renumbered import moved_channels
 from mouse_cli.model.local_law import LocalLaw
 from mouse_cli.model.problem import Problem
 from mouse_cli.updating.recordings.acting import Part

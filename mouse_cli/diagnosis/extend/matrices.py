@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.extend.edit import moved, moved_functions
+from mouse_cli.diagnosis.extend.renumbered import moved, moved_functions
 from mouse_cli.model.arrays import Matrix, is_sparse
 from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.problem import Problem

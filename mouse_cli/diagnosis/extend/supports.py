@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.extend.edit import moved, moved_functions
 from mouse_cli.diagnosis.extend.matrices import with_entries
 from mouse_cli.diagnosis.extend.points import found
+from mouse_cli.diagnosis.extend.renumbered import moved, moved_functions
 from mouse_cli.model.arrays import Matrix, is_sparse, upper_triangle
 from mouse_cli.model.held import ElementGroup, Held, applied, freed, places
 from mouse_cli.model.problem import Problem

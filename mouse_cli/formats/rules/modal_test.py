@@ -42,6 +42,7 @@ def modal_test(draft: Draft, geometry: Geometry | None = None) -> ModalTest | No
         test.scale,
         found.weights,
         found.names,
+        found.held,
     )
 
 

@@ -6,12 +6,13 @@ import numpy as np
 
 from mouse_cli.formats.draft import Draft
 from mouse_cli.formats.record_drafts import FrfDraft, RecordingDraft
-from mouse_cli.formats.rules.sensors import weights
+from mouse_cli.formats.rules.sensors import Reading, weights
 from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.model.geometry import Geometry
-from mouse_cli.model.recording import INPUT, MOTIONS, RELATIVE, Recording
+from mouse_cli.model.held_reading import HeldReading
+from mouse_cli.model.recording import INPUT, MOTIONS, RELATIVE, Channel, Recording
 
 
 def records(draft: Draft, geometry: Geometry | None) -> tuple[tuple[FrfTest, ...], tuple[Recording, ...]]:
@@ -23,36 +24,55 @@ def records(draft: Draft, geometry: Geometry | None) -> tuple[tuple[FrfTest, ...
 
 
 def _frf(draft: Draft, each: FrfDraft, geometry: Geometry | None) -> FrfTest | None:
-    outputs, inputs = (_matrix(draft, sensors, geometry) for sensors in (each.outputs, each.inputs))
-    if outputs is None or inputs is None:
+    readings = [weights(draft, sensors, geometry, draft.order) for sensors in (each.outputs, each.inputs)]
+    if None in readings or not _acting(draft, each.inputs, readings[1]):
         return None
+    outputs, inputs = (_matrix(draft, found) for found in readings)
     names = [tuple(sensor.name for sensor in sensors) for sensors in (each.outputs, each.inputs)]
     return FrfTest(
         each.frequency_hz, each.H, each.kind, outputs, inputs, each.variance, *names, each.coherence, each.title, each.path,
-        each.form, each.lines, each.decay_rate, each.gain_sd, each.window,
+        each.form, each.lines, each.decay_rate, each.gain_sd, each.window, 
+        tuple(held for reading in readings[0] for held in reading.held),
     )  # fmt: skip
 
 
-def _matrix(draft: Draft, sensors: tuple[SensorDraft, ...], geometry: Geometry | None) -> Matrix | None:
-    """What each of `sensors` reads: degrees of freedom (s,), or weights (s, n) where that is not enough."""
-    found = weights(draft, sensors, geometry, draft.order)
-    if found is None:
-        return None
-    if all(list(each.values()) == [1.0] for each in found):
-        return np.array([next(iter(each)) for each in found], dtype=int)
+def _matrix(draft: Draft, found: list[Reading]) -> Matrix:
+    """What sensors read: degrees of freedom (s,), or weights (s, n) where that is not enough."""
+    if all(each.weights.tolist() == [1.0] for each in found):
+        return np.array([each.dofs[0] for each in found], dtype=int)
     from scipy.sparse import csr_array
 
-    ends = np.cumsum([0] + [len(each) for each in found])
-    dofs, shares = ([x for each in found for x in part(each)] for part in (dict.keys, dict.values))
-    return csr_array((np.array(shares), np.array(dofs, dtype=int), ends), shape=(len(found), draft.order))
+    ends = np.cumsum([0] + [len(each.dofs) for each in found])
+    dofs, shares = (np.concatenate([each[k] for each in found]) for k in (0, 1))
+    return csr_array((shares, dofs.astype(int), ends), shape=(len(found), draft.order))
+
+
+def _acting(draft: Draft, forces: tuple[SensorDraft, ...], found: list[Reading]) -> bool:
+    """Whether each force acts on something that can move: a support takes what acts where it holds the model."""
+    taken = [force for force, each in zip(forces, found, strict=True) if each.held]
+    for force in taken:
+        message = f"the force at {force.words} acts where a support holds the model, which takes it"
+        draft.error(
+            "MD328", message, force.where, help="correct its position or direction, or free the support by a spring"
+        )
+    return not taken
 
 
 def _recording(draft: Draft, each: RecordingDraft, geometry: Geometry | None) -> Recording | None:
     found = weights(draft, each.sensors, geometry, draft.order)
     if found is None or not (_grounded(draft, each) and _estimable(draft, each)):
         return None
+    inputs = each.recording.inputs.tolist()
+    if not _acting(draft, *(tuple(part[j] for j in inputs) for part in (each.sensors, found))):
+        return None
     channels = zip(each.recording.channels, found, strict=True)
-    return replace(each.recording, channels=tuple(replace(channel, weights=shares) for channel, shares in channels))
+    return replace(each.recording, channels=tuple(_reading(channel, *own) for channel, own in channels))
+
+
+def _reading(channel: Channel, dofs: np.ndarray, shares: np.ndarray, held: tuple[HeldReading, ...]) -> Channel:
+    """The channel with what it reads; one that reads only what supports hold reads 0 of the first degree of freedom."""
+    own = dict(zip(dofs.tolist(), shares.tolist(), strict=True)) or {0: 0.0}
+    return replace(channel, weights=own, held=held)
 
 
 def _grounded(draft: Draft, each: RecordingDraft) -> bool:

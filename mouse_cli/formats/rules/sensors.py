@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from difflib import get_close_matches
+from typing import NamedTuple
 
 import numpy as np
 
@@ -10,18 +11,28 @@ from mouse_cli.formats.draft import Draft
 from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.geometry import DIRECTIONS, Geometry
+from mouse_cli.model.held_reading import HeldReading
 
 
 @dataclass(frozen=True)
 class Sensing:
-    """dofs (s,), from 0: the nearest of each sensor; weights (s, n), sparse, None where each reads just its own; names (s,)."""
+    """dofs (s,), from 0: the nearest of each sensor; weights (s, n), sparse, None where each reads just its own; names (s,).
+
+    held: what they read where supports hold the model.
+    """
 
     dofs: np.ndarray
     weights: Matrix | None
     names: tuple[str, ...]
+    held: tuple[HeldReading, ...] = ()
 
 
-Reading = tuple[np.ndarray, np.ndarray]  # degrees of freedom from 0, and their weights
+class Reading(NamedTuple):
+    """Degrees of freedom from 0, and their weights; what else is read where supports hold the model."""
+
+    dofs: np.ndarray
+    weights: np.ndarray
+    held: tuple[HeldReading, ...] = ()
 
 
 def sensing(draft: Draft, sensors: tuple[SensorDraft, ...], geometry: Geometry | None, n: int) -> Sensing | None:
@@ -32,29 +43,39 @@ def sensing(draft: Draft, sensors: tuple[SensorDraft, ...], geometry: Geometry |
     if any(reading is None for reading in readings):
         return None
     _twice(draft, sensors, readings)
-    dofs = np.array([dof[np.argmax(np.abs(weight))] for dof, weight in readings], dtype=int)
-    plain = all(len(dof) == 1 and weight[0] == 1.0 for dof, weight in readings)
+    dofs = np.array([_largest(each, geometry) for each in readings], dtype=int)
+    plain = all(len(each.dofs) == 1 and each.weights[0] == 1.0 and not each.held for each in readings)
     names = () if all(sensor.plain for sensor in sensors) and plain else tuple(sensor.name for sensor in sensors)
-    return Sensing(dofs, None if plain else _matrix(readings, n), names)
+    return Sensing(
+        dofs, None if plain else _matrix(readings, n), names, tuple(h for each in readings for h in each.held)
+    )
 
 
-def weights(
-    draft: Draft, sensors: tuple[SensorDraft, ...], geometry: Geometry | None, n: int
-) -> list[dict[int, float]] | None:
-    """What each of `sensors` reads: weights by degree of freedom, from 0; None after errors. Two may read the same."""
+def _largest(reading: Reading, geometry: Geometry | None) -> int:
+    """The degree of freedom that a sensor reads most of; of one that a support holds, the nearest of its direction."""
+    if len(reading.dofs):
+        return int(reading.dofs[np.argmax(np.abs(reading.weights))])
+    label = reading.held[0].label
+    node, direction = np.flatnonzero(geometry.node_ids == int(label[:-2]))[0], DIRECTIONS.index(label[-2:])
+    apart = np.linalg.norm(geometry.coordinates[geometry.node] - geometry.coordinates[node], axis=1)
+    return int(np.argmin(np.where(geometry.direction == direction, apart, apart + apart.max(initial=0.0) + 1.0)))
+
+
+def weights(draft: Draft, sensors: tuple[SensorDraft, ...], geometry: Geometry | None, n: int) -> list[Reading] | None:
+    """What each of `sensors` reads; None after errors. Two may read the same."""
     labels = draft.labels if geometry is None else geometry.labels()
     place = {label: i for i, label in enumerate(labels)}
     readings = [_reading(draft, sensor, geometry, place, n) for sensor in sensors]
     if any(reading is None for reading in readings):
         return None
-    return [dict(zip(dofs.tolist(), shares.tolist(), strict=True)) for dofs, shares in readings]
+    return readings
 
 
 def _matrix(readings: list[Reading], n: int) -> Matrix:
     from scipy.sparse import csr_array
 
-    ends = np.cumsum([0] + [len(dof) for dof, _ in readings])
-    dofs, weights = (np.concatenate(part) for part in zip(*readings, strict=True))
+    ends = np.cumsum([0] + [len(each.dofs) for each in readings])
+    dofs, weights = (np.concatenate([each[k] for each in readings]) for k in (0, 1))
     return csr_array((weights, dofs, ends), shape=(len(readings), n))
 
 
@@ -72,10 +93,24 @@ def _reading(
     if motion is None:
         return None
     dofs, weights = motion.along(sensor.direction)
-    if not len(dofs):
+    held = () if sensor.node is None else _held(draft, sensor, sensor.node, sensor.direction)
+    if not len(dofs) and not held:
         _silent(draft, sensor, geometry, motion.node, sensor.direction)
         return None
-    return dofs, weights
+    return Reading(dofs, weights, held)
+
+
+def _held(draft: Draft, sensor: SensorDraft, number: int, direction: np.ndarray) -> tuple[HeldReading, ...]:
+    """What a sensor at the node called `number` reads along `direction` (6,) where a support holds it."""
+    if draft.mesh is None:
+        return ()
+    mesh = draft.mesh.mesh
+    held = [(int(mesh.node_ids[node]), d) for node, d in mesh.supports.tolist() if d in mesh.directions]
+    return tuple(
+        HeldReading(sensor.name, f"{number}{DIRECTIONS[d]}", float(direction[d]))
+        for d in range(6)
+        if direction[d] and (number, d) in held
+    )
 
 
 def _carried(
@@ -87,13 +122,13 @@ def _carried(
     elif all(label[-2:] in DIRECTIONS for label in place) and place:
         direction = np.eye(6)[[DIRECTIONS.index(label[-2:]) for label in place]]
     elif not sensor.ground.any():
-        return np.arange(n), np.ones(n)
+        return Reading(np.arange(n), np.ones(n))
     else:
         direction = np.zeros((n, 6))
     shares = direction @ sensor.ground
     dofs = np.flatnonzero(shares)
     if len(dofs):
-        return dofs, shares[dofs]
+        return Reading(dofs, shares[dofs])
     what = "has no direction" if not sensor.ground.any() else "carries nothing along"
     message = f"{sensor.words} {what}: no degree of freedom of the model moves with it"
     return draft.error(
@@ -143,20 +178,39 @@ def _silent(draft: Draft, sensor: SensorDraft, geometry: Geometry, node: int, di
         distance = np.linalg.norm(geometry.coordinates[geometry.node[alike]] - geometry.coordinates[node], axis=1)
         note = f"the nearest degree of freedom in its direction is {geometry.labels()[alike[np.argmin(distance)]]}"
     message = f"{sensor.words} reads nothing: node {geometry.node_ids[node]} cannot move in its direction"
-    draft.error("MD328", message, sensor.where, note, "correct position or direction, or leave the sensor out")
+    draft.error(
+        "MD328",
+        message,
+        sensor.where,
+        note,
+        "correct position or direction, give the node of the support, or leave the sensor out",
+    )
 
 
 def _sum(draft: Draft, sensor: SensorDraft, geometry: Geometry | None, place: dict[str, int], n: int) -> Reading | None:
     """The reading of a sensor that names degrees of freedom."""
-    dofs = [_dof(draft, sensor, geometry, place, name, n) for name in sensor.weights]
+    held = tuple(each for name, share in sensor.weights.items() for each in _named(draft, sensor, place, name, share))
+    free = {name: share for name, share in sensor.weights.items() if name not in {each.label for each in held}}
+    dofs = [_dof(draft, sensor, geometry, place, name, n) for name in free]
     if None in dofs:
         return None
-    weights = np.array(list(sensor.weights.values()), dtype=float)
+    weights = np.array(list(free.values()), dtype=float)
+    if held and np.isfinite(weights).all() and np.isfinite([each.weight for each in held]).all():
+        order = np.argsort(dofs, kind="stable")
+        return Reading(np.array(dofs, dtype=int)[order], weights[order], held)
     if not np.isfinite(weights).all() or not weights.any():
         message = f"{sensor.words} reads nothing: its weights are {', '.join(f'{w:g}' for w in weights)}"
         return draft.error("MD328", message, sensor.where, help="give finite weights, at least one of them not 0")
     order = np.argsort(dofs, kind="stable")
-    return np.array(dofs, dtype=int)[order], weights[order]
+    return Reading(np.array(dofs, dtype=int)[order], weights[order])
+
+
+def _named(
+    draft: Draft, sensor: SensorDraft, place: dict[str, int], name: int | str, share: float
+) -> tuple[HeldReading, ...]:
+    """What a sensor that names `12TY` reads where a support holds that; nothing of a degree of freedom that the model has."""
+    known = isinstance(name, str) and name not in place and name[-2:] in DIRECTIONS and name[:-2].isdecimal()
+    return _held(draft, sensor, int(name[:-2]), share * np.eye(6)[DIRECTIONS.index(name[-2:])]) if known else ()
 
 
 def _dof(
@@ -189,9 +243,11 @@ def _dof(
 def _twice(draft: Draft, sensors: tuple[SensorDraft, ...], readings: list[Reading]) -> None:
     """Two sensors that read the same, whatever their sign, are one datum counted twice."""
     seen: dict[tuple, str] = {}
-    for sensor, (dofs, weights) in zip(sensors, readings, strict=True):
-        signed = weights * np.sign(weights[0])
-        key = (*dofs.tolist(), *np.round(signed / np.abs(signed).max(), 9).tolist())
+    for sensor, (dofs, weights, held) in zip(sensors, readings, strict=True):
+        shares = np.concatenate([weights, [each.weight for each in held]])
+        signed = shares * np.sign(shares[0])
+        places = (*dofs.tolist(), *(each.label for each in held))
+        key = (*places, *np.round(signed / np.abs(signed).max(), 9).tolist())
         if key in seen:
             what = "degree of freedom" if len(dofs) == 1 else "motion"
             message = f"{what} {sensor.words} is measured twice, by {seen[key]} and {sensor.words}"

@@ -147,6 +147,8 @@ def _draft(section: Section, lines: list[Placed], units: Units) -> FrfDraft | No
     document, where = section.document, section.document.span(section.nodes.get("file", section.node))
     kind, spelled, averages = section.value("kind", ""), section.value("unit", ""), section.value("averages")
     relative, absolute = _accuracy(section)
+    hz = lines[0][2].frequency_hz
+    windows = {stated: _window(section, stated, hz) for stated in {line.window for _, _, line in lines}}
     found = []
     for output, force, line in lines:
         scale = scaled(kind, spelled, line.unit, line.kind, units, document, where)
@@ -161,15 +163,14 @@ def _draft(section: Section, lines: list[Placed], units: Units) -> FrfDraft | No
         found.append(FrfDraft(
             title(section), section.nodes["file"].value if "file" in section else "", scale[0], line.frequency_hz, H.reshape(shape),
             each.reshape(shape), (output,), (force,), coherence, where,
-            decay_rate=section.value("decay_rate", line.decay_rate), window=_window(section, line),
+            decay_rate=section.value("decay_rate", line.decay_rate), window=windows[line.window],
         ))  # fmt: skip
     whole = merged(found, document)
     return _banded(section, whole[0]) if len(whole) == 1 else None
 
 
-def _window(section: Section, line: Function) -> BlockWindow | None:
-    """The window that the deck states, or the file."""
-    stated, hz = line.window, line.frequency_hz
+def _window(section: Section, stated: BlockWindow | None, hz: np.ndarray) -> BlockWindow | None:
+    """The window that the deck states of functions at lines hz (f,), or the file, `stated`."""
     name = section.value("window", stated.name if stated else None)
     alone = [key for key in ("block", "burst") if key in section and name is None]
     if alone:

@@ -49,11 +49,13 @@ def _rows(test: ModalTest, labels: tuple[str, ...]) -> tuple[list[str], list[str
         return [_label(labels, dof) if _is_node_label(labels, dof) else str(dof + 1) for dof in test.dofs], []
     items, sensors = [], []
     for name, (dofs, weights) in zip(test.sensors, _readings(test), strict=True):
-        plain = _plain(labels, dofs, weights)
-        if name == plain:
-            items.append(plain)
+        held = [each for each in test.held if each.sensor == name]
+        read = [(_label(labels, dof), weight) for dof, weight in zip(dofs, weights, strict=True)]
+        read += [(each.label, each.weight) for each in held]
+        if len(read) == 1 and name == (_spelled(*read[0]) if held else _plain(labels, dofs, weights)):
+            items.append(name)
             continue
-        shares = ", ".join(f"{_label(labels, dof)}: {real(weight)}" for dof, weight in zip(dofs, weights, strict=True))
+        shares = ", ".join(f"{label}: {real(weight)}" for label, weight in read)
         items.append(_quoted(name))
         sensors.append(f"{{name: {_quoted(name)}, weights: {{{shares}}}}}")
     return items, sensors
@@ -87,9 +89,12 @@ def _plain(labels: tuple[str, ...], dofs: np.ndarray, weights: np.ndarray) -> st
     if len(dofs) != 1 or abs(weights[0]) != 1:
         return ""
     label = _label(labels, dofs[0])
-    if weights[0] > 0:
-        return label
-    return f"{label[:-2]}-{label[-2:]}" if _is_node_label(labels, dofs[0]) else ""
+    return label if weights[0] > 0 else _spelled(label, weights[0]) if _is_node_label(labels, dofs[0]) else ""
+
+
+def _spelled(label: str, weight: float) -> str:
+    """`12TY` or `12-TY` for a sensor that reads a direction of a node as it is, or backwards; else empty."""
+    return {1.0: label, -1.0: f"{label[:-2]}-{label[-2:]}"}.get(float(weight), "")
 
 
 def _quoted(name: str) -> str:

@@ -33,7 +33,7 @@ def with_modes(problem: Problem) -> tuple[Problem, tuple[str, ...]]:
         )
     doubts = tuple(f"modes of the functions: {each.message}" for each in found.doubts)
     functions = combined(problem.frf)[0]
-    test = measured_test(found.modes, functions.outputs, functions.output_names)
+    test = replace(measured_test(found.modes, functions.outputs, functions.output_names), held=functions.held)
     kept = _strongest(found.modes, problem.structure.n)
     if not kept.all():
         hz = ", ".join(f"{value:.6g} Hz" for value in test.frequency_hz[~kept])

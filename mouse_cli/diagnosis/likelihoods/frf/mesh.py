@@ -24,7 +24,9 @@ def of_mesh(one: Fit, base: Reduced) -> float:
     finer = reduced(halved(base.problem), theta, EigenSolver())
     data = replace(one.model.base.data, modes=None)
     same = replace(damping(finer, len(data.theory)), sd=one.model.damping.sd)
-    there = FrfModel(replace(finer, data=data), same).point(one.point.x)
+    blocks = zip(data.blocks, finer.problem.frf, strict=True)
+    own = replace(data, blocks=tuple(replace(block, test=test) for block, test in blocks))
+    there = FrfModel(replace(finer, data=own), same).point(one.point.x)
     if there is None:
         return 0.0
     blocks = tuple(replace(block, H=part.H) for block, part in zip(data.blocks, there.parts, strict=True))

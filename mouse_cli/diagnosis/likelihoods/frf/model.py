@@ -24,6 +24,7 @@ from mouse_cli.diagnosis.likelihoods.modal.point import Left, Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.turning import Turn
 from mouse_cli.dynamics.sensing import read
+from mouse_cli.model.frf_test import FrfTest
 
 _STEP = 1e-5  # of a range, for derivatives of losses
 
@@ -74,7 +75,7 @@ class FrfModel:
         self.theory, self.measured = base.data.theory, self.lossy + self.gains.count
         self.k, self.t = self.measured + len(self.theory), self.elastic.t
         self.bounds, self.width, self.own = self.elastic.bounds, self.elastic.width, self.elastic.own
-        self._ends = [(self._rows(block.test.outputs), self._rows(block.test.inputs)) for block in base.data.blocks]
+        self._ends = [self._rows(block.test) for block in base.data.blocks]
         self._sensors = [_same(S[:, : base.r], base.sensing) for S, _ in self._ends]
         for (S, _), same in zip(self._ends, self._sensors, strict=True):
             S[same.any(axis=1), base.r :] = 0.0  # what a cause says of the sensors has its own motion in it
@@ -88,14 +89,16 @@ class FrfModel:
         """Coordinates of the deck's parameters, of the damping, of the gains, of what theory errs, and of the causes."""
         return tuple(np.split(x, [self.of_deck, self.lossy, self.measured, self.k]))
 
-    def _rows(self, sensing) -> np.ndarray:
-        """What is read of, or forces on, each coordinate (s, size)."""
-        found = np.zeros((sensing.shape[0], self.elastic.size))
-        found[:, : self.base.r] = read(sensing, self.base.V)
-        for places, recipe in zip(self.elastic.places, self.recipes, strict=True):
-            if recipe.carried is not None:
-                found[:, places[self.base.r :]] = read(sensing, recipe.carried.whole[recipe.carried.deck])
-        return found
+    def _rows(self, test: FrfTest) -> tuple[np.ndarray, np.ndarray]:
+        """What responses read of each coordinate (o, size), and forces on it (i, size)."""
+        ends = (test.outputs, test.output_names, test.held), (test.inputs, test.input_names, ())
+        found = [np.zeros((sensing.shape[0], self.elastic.size)) for sensing, _, _ in ends]
+        for rows, (sensing, names, held) in zip(found, ends, strict=True):
+            rows[:, : self.base.r] = read(sensing, self.base.V)
+            for places, recipe in zip(self.elastic.places, self.recipes, strict=True):
+                if recipe.carried is not None:
+                    rows[:, places[self.base.r :]] = recipe.carried.read(sensing, names, held)
+        return found[0], found[1]
 
     def point(self, x: np.ndarray) -> FrfPoint | None:
         """The model at x (k + t,); None where it is not physical."""
