@@ -142,8 +142,9 @@ def _outside(results: list[Scored]) -> str:
     kinds = Counter("named" if np.isfinite(one.probability) else one.said.split()[0].strip(",") for one in own)
     share = lambda i: [one.field[i] for one in own if one.field[i] is not None]
     counts = ", ".join(f"{kind} {n}" for kind, n in kinds.most_common())
-    gains = [one.gain for one in own if one.gain]
-    halved = sum(after <= before / 2 for before, after in gains)
+    gains = [one for one in own if one.gain]
+    missed = [one for one in gains if one.gain[0] > 2 * 100 * QUALITIES[one.truth["quality"]].frequency_sd]
+    halved = lambda some: f"{sum(one.gain[1] <= one.gain[0] / 2 for one in some)} of {len(some)}"
     accepted = sorted(
         {f"{name} for {m['kind']}" for one in own for m in one.truth["mechanisms"] for name, _ in m["also"]}
     )
@@ -152,9 +153,10 @@ def _outside(results: list[Scored]) -> str:
     return (
         f"{len(own)} decks: {counts or 'none'}. Of fields without a name, {sum(share(0))} of {len(share(0))} have a property "
         f"of what is missing, {sum(share(1))} of {len(share(1))} are largest within {100 * REGION:g} % of the span of where it "
-        f"acts most. What was held out is predicted with at most half of the error in {halved} of {len(gains)}, by the answer's "
-        f"model, named or not. Properties that are right because of what a truth is (what acts at one place by a law that mouse "
-        f"leaves free, a force along bars): {meant}.{names}\n"
+        f"acts most. What was held out is predicted with at most half of the error in {halved(gains)}, by the answer's "
+        f"model, named or not; in {halved(missed)} where the deck's model errs by more than twice the noise of a frequency, "
+        f"half of which is noise by itself. Properties that are right because of what a truth is (what acts at one place by a law "
+        f"that mouse leaves free, a force along bars): {meant}.{names}\n"
     )
 
 

@@ -2,6 +2,7 @@
 
 import json
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,8 @@ from benchmarks.trials.case import Blank, Mechanism
 from benchmarks.trials.draw import trials
 from benchmarks.trials.frame import frame
 from benchmarks.trials.kinds import CLASSES, Kind, kinds
-from benchmarks.trials.scoring import scored
+from benchmarks.trials.page import _outside
+from benchmarks.trials.scoring import Scored, scored
 from benchmarks.trials.test_data import QUALITIES, difference, measured, truth_of
 from mouse_cli.formats import read_deck
 
@@ -235,6 +237,15 @@ def test_what_is_held_out_is_predicted_by_the_model_of_the_answer():
     assert scored("x", bed, said | {"held_out": held(108.0)}).gain == pytest.approx((10.0, 1.0))
     said = verdict("one-of", "mass", "mass", 0.1)
     assert scored("x", bed, said | {"held_out": held(108.0)}).gain == pytest.approx((10.0, 8.0))
+
+
+def test_no_model_halves_what_is_noise():
+    """An error of less than twice the noise of a frequency is counted apart: the truth itself would leave the noise."""
+    bed = next(trials(1, 1, ["outside/beam/half bed"]))
+    noise = 100 * QUALITIES[bed.quality].frequency_sd
+    gain = lambda before: Scored("x", bed, "abstained", "unknown", 1.0, gain=(before * noise, 0.4 * before * noise))
+    text = _outside([gain(1.9), replace(gain(1.9), gain=(1.9 * noise, 1.8 * noise)), gain(2.1)])
+    assert "half of the error in 2 of 3," in text and "in 1 of 1 where" in text
 
 
 def test_calibration_error():
