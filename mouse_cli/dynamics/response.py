@@ -14,6 +14,7 @@ LocalForce = Callable[[np.ndarray, np.ndarray, np.ndarray], tuple[np.ndarray, np
 # (v, F before, free, drop) -> (F, F at the end): of a step that begins with v, ends with free - drop F, and may hold a jump of the
 # force; F is what would do the same without a jump
 Implicit = Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
+_BLOCK = 250_000  # numbers of states that are kept until sensors read them: what a cache holds
 CORRECTIONS = 2  # of the local force at the end of a step; each gains a factor h^2 F'/(6 m)
 
 
@@ -130,30 +131,46 @@ def simulate(
     if not local:
         plant = replace(plant, local=plant.local[:, :0])
     by, r = discrete(plant, h), plant.local.shape[1]
-    x, motion = np.zeros((P, n2 + 2 * i + r, G)), np.zeros((t, 3, P, r, G))
-    x[:, :n2] = start
+    steps = max(1, min(t, _BLOCK // max(P * (n2 + 2 * i + r) * G, 1)))
+    x, motion = np.zeros((steps + 1, P, n2 + 2 * i + r, G)), np.zeros((t, 3, P, r, G))
+    x[0, :, :n2] = start
     if local:
         motion[0], z = _begun(plant, start, local, z)
-        x[:, n2 + 2 * i :] = motion[0, 2]
-        x[:, :n2] += by.hold @ motion[0, 2]
-    seen, out, jumps = _Sensors(by, n2, i), np.zeros((P, len(plant.order), t, G)), {}
-    for k in range(t):
-        x[:, n2 : n2 + i] = force[k]
-        seen.put(x, out, k)
-        if k == t - 1:
-            break
-        x[:, n2 + i : n2 + 2 * i] = force[k + 1]
-        y = by.next @ x
-        x[:, :n2] = y[:, :n2]
-        if local:
-            over, F, z, moved = _corrected(local, y[:, n2:], by.drop, motion[k, 1:], z)
-            x[:, n2 + 2 * i :] = F
-            if over is not F:
-                x[:, :n2] += by.hold @ (F - over)
-                jumps[k + 1] = (over - F) / 2
-            motion[k + 1, 0], motion[k + 1, 1], motion[k + 1, 2] = moved[:, :r], moved[:, r:], F
+        x[0, :, n2 + 2 * i :] = motion[0, 2]
+        x[0, :, :n2] += by.hold @ motion[0, 2]
+    idle = np.zeros((P, len(plant.order), i))  # sensors do not read the forces of the next step
+    seen = np.concatenate([by.outputs[:, :, : n2 + i], idle, by.outputs[:, :, n2 + i :]], axis=2)
+    out, jumps = np.zeros((P, len(plant.order), t, G)), {}
+    for begin in range(0, t, steps):
+        count = min(steps, t - begin)
+        following = min(count, t - 1 - begin)
+        x[:count, :, n2 : n2 + i] = force[begin : begin + count, None]
+        x[:following, :, n2 + i : n2 + 2 * i] = force[begin + 1 : begin + 1 + following, None]
+        z, jumped = _advanced(by, local, x, motion[begin:], z, following)
+        jumps |= {begin + k: jump for k, jump in jumped.items()}
+        out[:, :, begin : begin + count] = np.matmul(seen, x[:count]).transpose(1, 2, 0, 3)
+        x[0] = x[count]
     _shared(out, jumps, by.outputs[:, :, n2 + i :] + by.outputs[:, :, :n2] @ by.hold)
     return out, motion
+
+
+def _advanced(by: Discrete, local: LocalForce | LocalForces | None, x: np.ndarray, motion: np.ndarray, z, count: int):
+    """`count` steps of states and forces x (t, P, 2n + 2i + r, G) and of local motions, in place; internal states after them, and
+    by step how much forces jumped within the one before.
+    """
+    n2, r, jumps = by.hold.shape[1], by.hold.shape[2], {}
+    for k in range(count):
+        y, after = by.next @ x[k], x[k + 1]
+        after[:, :n2] = y[:, :n2]
+        if not local:
+            continue
+        over, F, z, moved = _corrected(local, y[:, n2:], by.drop, motion[k, 1:], z)
+        after[:, after.shape[1] - r :] = F
+        if over is not F:
+            after[:, :n2] += by.hold @ (F - over)
+            jumps[k + 1] = (over - F) / 2
+        motion[k + 1] = moved[:, :r], moved[:, r:], F
+    return z, jumps
 
 
 def _shared(out: np.ndarray, jumps: dict[int, np.ndarray], feed: np.ndarray) -> None:
@@ -162,24 +179,6 @@ def _shared(out: np.ndarray, jumps: dict[int, np.ndarray], feed: np.ndarray) -> 
     """
     for k, jump in jumps.items():
         out[:, :, k] += feed @ jump
-
-
-class _Sensors:
-    """What sensors read, worked out for blocks of steps."""
-
-    def __init__(self, by: Discrete, n2: int, i: int):
-        self.outputs, self.n2, self.i = by.outputs, n2, i
-        self.kept: np.ndarray | None = None
-
-    def put(self, x: np.ndarray, out: np.ndarray, k: int) -> None:
-        """Note step k; write the block into `out` (P, s, t, G) when it is full, or the last."""
-        t, n2, i = out.shape[2], self.n2, self.i
-        if self.kept is None:
-            self.kept = np.zeros((max(1, min(t, 4_000_000 // x.size)), x.shape[0], x.shape[1] - i, x.shape[2]))
-        at = k % len(self.kept)
-        self.kept[at, :, : n2 + i], self.kept[at, :, n2 + i :] = x[:, : n2 + i], x[:, n2 + 2 * i :]
-        if at == len(self.kept) - 1 or k == t - 1:
-            out[:, :, k - at : k + 1] = np.matmul(self.outputs, self.kept[: at + 1]).transpose(1, 2, 0, 3)
 
 
 def _begun(plant: Plant, start: np.ndarray, local: LocalForce, z):

@@ -53,6 +53,8 @@ def _what(found: RecordDiagnosis) -> str:
     left = f"The linear model leaves {baseline.chi2 / baseline.dof:.4g} times the variance that the accuracy of the channels has"
     if found.kind == NOTHING and found.noise:
         return f"{left}. {_noise(found)}"
+    if found.kind == NOTHING and len(found.explanations) > 1:
+        return f"{left}: goodness of fit {p_value(baseline.p)}, but no law at any site has a log evidence over none."
     if found.kind == NOTHING:
         return f"{left}: goodness of fit {p_value(baseline.p)}, and less than 1.1 times is taken as none."
     if best is None or not best.causes:

@@ -5,7 +5,7 @@ from mouse_cli.terms.laws import SIGNS, Law, Scale, Unknown
 
 def force(x, v, z, p, sign=1.0):
     """F = k3 x^3."""
-    return sign * p[0] * x**3, z
+    return sign * p[0] * x * x * x, z
 
 
 def unknowns(scale: Scale) -> tuple[Unknown, ...]:

@@ -84,11 +84,15 @@ class Spectrum:
 
     def line(self, x: np.ndarray) -> np.ndarray:
         """Lines (l, ...) of a history (t, ...), zero after it."""
-        return np.fft.rfft(x, self.padded, axis=0)
+        from scipy.fft import rfft
+
+        return rfft(x, self.padded, axis=0)
 
     def history(self, X: np.ndarray) -> np.ndarray:
         """History (t, ...) of lines (l, ...)."""
-        return np.fft.irfft(X, self.padded, axis=0)[: len(self.series)]
+        from scipy.fft import irfft
+
+        return irfft(X, self.padded, axis=0)[: len(self.series)]
 
     def whitened(self, x: np.ndarray) -> np.ndarray:
         """Outputs (t, s) over their sd, without what is slow, and by the weights."""
@@ -96,7 +100,7 @@ class Spectrum:
         own = quick(own, self.series.order, self.series.slow) if self.series.slow else own
         if self._lost.any():
             own = self.history(np.where(self._lost[:, None], 0.0, self.line(own)))
-        return own if self.weights is None else self.history(np.einsum("lij,lj->li", self.weights, self.line(own)))
+        return own if self.weights is None else self.history((self.weights @ self.line(own)[:, :, None])[:, :, 0])
 
     @cached_property
     def motion(self) -> np.ndarray:

@@ -119,8 +119,11 @@ class Hypothesis:
         shaped = [one.p if one.p.ndim > 1 else one.p[:, None, None, None] for one in every]
 
         def forces(x: np.ndarray, v: np.ndarray, z: list):
+            if len(every) == 1:
+                F, after = every[0].law.force(x, v, z[0], shaped[0], **every[0].words)
+                return F, [after]
             found = [
-                one.law.force(x[:, [i]], v[:, [i]], z[i], p, **one.words)
+                one.law.force(x[:, i : i + 1], v[:, i : i + 1], z[i], p, **one.words)
                 for i, (one, p) in enumerate(zip(every, shaped, strict=True))
             ]
             return np.concatenate([F for F, _ in found], axis=1), [after for _, after in found]

@@ -18,7 +18,9 @@ def linear_force(matrices: tuple[np.ndarray, ...], w: np.ndarray, X: np.ndarray,
     if len(K) == d:
         return F
     rest = np.einsum("lij,lj->li", Z[:, d:, :d], X) + along[:, d:]
-    return F - (Z[:, :d, d:] @ np.linalg.solve(Z[:, d:, d:], rest[:, :, None]))[:, :, 0]
+    one = len(K) == d + 1
+    Q = rest / Z[:, d, d:] if one else np.linalg.solve(Z[:, d:, d:], rest[:, :, None])[:, :, 0]
+    return F - np.einsum("lij,lj->li", Z[:, :d, d:], Q)
 
 
 def stepped(law: Law, x: np.ndarray, v: np.ndarray, p: np.ndarray, words: dict[str, float]) -> np.ndarray:

@@ -21,11 +21,8 @@ from mouse_cli.updating.recordings.series import passed, sampled
 _DAMPING, _UP, _DOWN = 1e-3, 10.0, 0.2  # of Levenberg and Marquardt
 _STEPS = 25
 _SETTLED, _ROUGH = 0.05, 1e-3  # of the cost in nats, at which a step is no more worth its time; of what is above noise
-_PATIENCE, _BEHIND, _ASTRAY = (
-    3,
-    2.0,
-    100.0,
-)  # steps of a fit whose cost is so many times that of a better one, or of no motion
+# steps of a fit whose cost is so many times that of a better one, or of no motion
+_PATIENCE, _BEHIND, _ASTRAY = 3, 2.0, 100.0
 _HALVED = 10  # times that a start without stiffness is brought nearer to the mean
 _PROBE, _LESS = 0.1, 0.75  # share of a step where its curvature is seen; most of the second order by the first
 _PERTURBED, _ROUNDED = 1e-4, 1e-9  # of prior or range; of the largest stiffness, below zero
@@ -290,11 +287,15 @@ def followed(
     internal,
     beat: float = np.inf,
 ) -> Fit | None:
-    """The fit over the first quarters of the segments, then over the whole of them: a short horizon has fewer false minima."""
+    """The fit over the first quarters of the segments, then over the whole of them: a short horizon has fewer false minima.
+
+    One whose quarters alone cost far more than the whole of a better fit, `beat`, is not followed further.
+    """
     begun = Polish(hypothesis, [part.begun() for part in data], spread)
     if data[0].series.adrift and not data[0].series.at_rest:
         states = begun.with_speed(x, states, internal)
-    first = begun.fit(x, states, internal)
+    first, steps = begun.fit(x, states, internal), _STEPS
     if first is not None:
         x, states = first.x, first.states
-    return Polish(hypothesis, data, spread).fit(x, states, internal, beat=beat)
+        steps = _STEPS if first.cost <= _BEHIND * beat else 0
+    return Polish(hypothesis, data, spread).fit(x, states, internal, steps, beat)

@@ -6,6 +6,7 @@ u is known. u is taken from the record, so that the fit has a closed form; it gi
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from itertools import islice
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from mouse_cli.updating.recordings.law_forces import linear_force, stepped
 _APART = 0.15  # of the logarithm of a size, from which on two starts are two
 _FAR = 0.7  # most that ln parameters of a law that is there already move in a first look
 _HELD = 1e3  # times as sure as its prior that a factor of all masses, stiffnesses and dampings is
+_SIDE_BY_SIDE, _FOLLOWED = 16, 1e-9  # columns at a time; share of one that is left where nuisances do the same
 _STEP = 1e-3  # of ln parameters, in differences
 _BEGIN = 0.02  # share of the record whose states are not known well, left out
 
@@ -229,7 +231,8 @@ class Regression:
     def _answered(self, force: np.ndarray) -> np.ndarray:
         """Stacked answer of the outputs to lines (l, d) of forces at the place."""
         s = self.spectrum
-        return self.stacked(s.history(np.einsum("ld,lsd->ls", force, self.local.answer)) * s.window[:, None])
+        answer = sum(F[:, None] * each for F, each in zip(force.T, self.local.answer.transpose(2, 0, 1), strict=True))
+        return self.stacked(s.history(answer) * s.window[:, None])
 
     def best(self, law: Law, variant: int) -> Start | None:
         """The sizes of the law that leave least; None where no force of its sign leaves less than none."""
@@ -238,13 +241,14 @@ class Regression:
     def apart(self, law: Law, variant: int, most: int) -> list[Start]:
         """Up to `most` sizes of the law, that which leaves least first, each far from those before it in what is not linear."""
         many, tried = np.array(list(law.inner(self.local.place.scale))), []
-        for p, force in zip(many, self.forces(law, variant, many), strict=True):
-            column = self._answered(-force)
-            own = self.projected(column)
-            size = float(own @ own)
-            factor = float(own @ self.target) / size if size > 0 else 0.0
-            if factor > 0:
-                tried.append((self.nothing - factor**2 * size, p, factor))
+        forces, Q = self.forces(law, variant, many), self.Q[: len(self.y)]
+        for some in np.array_split(many, -(-len(many) // _SIDE_BY_SIDE)):
+            columns = np.stack([self._answered(-force) for force in islice(forces, len(some))], axis=1)
+            whole = (columns**2).sum(axis=0)
+            sizes = whole - ((Q.T @ columns) ** 2).sum(axis=0)  # of what nuisances do not follow
+            shared = columns.T @ self.target[: len(self.y)]  # nothing of the target is along Q
+            for i in np.flatnonzero((sizes > _FOLLOWED * whole) & (shared > 0)):
+                tried.append((self.nothing - shared[i] ** 2 / sizes[i], some[i], shared[i] / sizes[i]))
         found, near = [], []
         for left, p, factor in sorted(tried, key=lambda one: one[0]):
             if len(found) < most and all(np.abs(np.log(p / other)).max() > _APART for other in near):

@@ -35,7 +35,7 @@ def diagnose_records(problem: Problem, notice: Notice, choices: Choices, own: St
     notice("records that no fit has seen")
     best = leader(ranking)
     proof = scores(own, baseline, best)
-    decision = decided(ranking, searched, ratio(proof), own.look.free)
+    decision = decided(ranking, searched, ratio(proof), own.look.free, known is None)
     kind = decision.kind
     told = best if kind in (NAMED, ONE_OF) else None
     dof = max(int(baseline.dof), 1)

@@ -68,10 +68,12 @@ class Decision:
     cautions: tuple[str, ...] = ()
 
 
-def decided(ranking: Ranking, found: Weighed, ratio: float, free: bool = False) -> Decision:
+def decided(ranking: Ranking, found: Weighed, ratio: float, free: bool = False, whole: bool = True) -> Decision:
     """What may be said; ratio: error on held-out records with the cause over that without, nan where they do not judge.
 
     free: of free decays, whose loud beginning is one stretch or two: a law that leaves more than noise there may stand for another.
+    whole: whether all laws were tried. The model as it is is held to what a law is held to: where none of them has a log evidence
+    over none, it is adequate if it leaves no more than a law may.
     """
     best, first = leader(ranking), ranking.fits[0]
     if not missing(ranking.baseline) or found.beside is found.baseline:
@@ -80,7 +82,8 @@ def decided(ranking: Ranking, found: Weighed, ratio: float, free: bool = False) 
     if distant:
         return Decision(UNKNOWN, cautions=(_distant(distant),))
     if best is None or ranking.groups[0][0] == "none":
-        return Decision(UNKNOWN)
+        sound = whole and first is ranking.baseline and adequate(first)
+        return Decision(NOTHING if sound else UNKNOWN)
     if not unlikely(ranking.baseline) and not ratio > _WORSE:
         ratio = np.nan  # parameters pushed out of their prior predict as well as what is true
     if ratio > 1:
