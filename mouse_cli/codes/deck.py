@@ -124,8 +124,9 @@ CODES = {
     "MD335": Code(
         "sensor far from the structure",
         "The point of a sensor lies farther from the nearest element than that is long (without elements: farther from the nearest "
-        "node than its neighbours are). The sensor is taken to move with it as if a rigid arm joined them.",
-        "Check the coordinates, their order and their unit, m.",
+        "node than its neighbours are). The sensor is taken to move with it as if a rigid arm joined them. As an error: all "
+        "sensors together are as small or as large against the structure as another unit of length would make them.",
+        "Check the coordinates, their order and their unit, that of the nodes.",
     ),
     "MD330": Code(
         "rigid-body mode named as measured",

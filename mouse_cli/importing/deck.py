@@ -83,7 +83,7 @@ def write(
 
 
 def _head(model: InputModel, parts: Parts, checked: Checked, system: str) -> list[str]:
-    title = next((card.lines[0].text.strip() for card in model.kept if card.keyword == "HEADING" and card.lines), "")
+    title = next((card.lines[0].text.strip() for card in model.every if card.keyword == "HEADING" and card.lines), "")
     n = parts.whole.K.shape[0]
     return [
         f"# Made by mouse import of {os.path.basename(model.path)}: {n} degrees of freedom, {len(model.groups)} element sets.",
@@ -117,7 +117,8 @@ def _sets(model: InputModel, parts: Parts, keep, thick: dict[int, Thickness]) ->
 def _parameters(model: InputModel, parts: Parts, keep, system: str) -> list[str]:
     """E and density of each material, springs by their sets."""
     lines = ["", "parameters:"]
-    pressure, density = {"SI": ("Pa", "kg/m3"), "mm-t-N": ("MPa", "t/mm3")}.get(system, ("", ""))
+    known = {"SI": ("Pa", "kg/m3", "N/m"), "mm-t-N": ("MPa", "t/mm3", "N/mm")}
+    pressure, density, of_length = known.get(system, ("", "", ""))
     for name, material in model.materials.items():
         own = [i for i, group in enumerate(model.groups) if group.material is material]
         K, M = (sum(each[i] for i in own) if own else None for each in (parts.K, parts.M))
@@ -131,8 +132,9 @@ def _parameters(model: InputModel, parts: Parts, keep, system: str) -> list[str]
             lines.append(_parameter(f"density of {name}", material.rho, density, _DENSITY_SD, "mass", file))
     for i, group in enumerate(model.groups):
         if group.owner.keyword == "SPRING" and parts.K[i].nnz:
-            file = keep(f"spring_{_slug(group.name)}", parts.K[i])
-            lines.append(_parameter(f"stiffness of {group.name}", 1.0, "1", _SPRING_SD, "stiffness", file))
+            k = float(group.owner.lines[min(1, len(group.owner.lines) - 1)].words[0].upper().replace("D", "E"))
+            file = keep(f"spring_{_slug(group.name)}", parts.K[i] / k)
+            lines.append(_parameter(f"stiffness of {group.name}", k, of_length, _SPRING_SD, "stiffness", file))
     return lines if len(lines) > 2 else []
 
 

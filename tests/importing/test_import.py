@@ -144,7 +144,8 @@ def test_springs_masses_and_sets_within_sets(tmp_path):
     i = problem.held.structure.labels.index("10TX")
     assert tie[i, i] == pytest.approx(1e8, rel=1e-5)  # of a difference of files with 14 digits
     assert by["DOT"].M.sum() == pytest.approx(300.0, rel=1e-6)
-    assert "stiffness of TIE" in [p.name for p in problem.parameters]
+    spring = next(p for p in problem.parameters if p.name == "stiffness of TIE")
+    assert (spring.nominal, spring.unit, problem.title) == (1e8, "N/m", "two solids in a row")
 
 
 @solver

@@ -145,15 +145,15 @@ def test_a_deck_that_contradicts_the_file_is_refused(tmp_path, more, code):
     assert code in [each.code for each in caught.value.diagnostics]
 
 
-def surveyed(folder, systems: str, moved: int) -> None:
-    """Modes by pyuff at nodes 102 to 105 of the test, which stand on 2 to 5 of the model; geometry by its layout."""
+def surveyed(folder, systems: str, moved: int, size: float = 1.0) -> None:
+    """Modes by pyuff at nodes 102 to 105 of the test, which stand on 2 to 5 of the model, in 1 / size m; geometry by its layout."""
     (folder / "shapes.unv").unlink(missing_ok=True)  # pyuff would add to it
     pyuff_55(folder / "shapes.unv")
     text = (folder / "shapes.unv").read_text()
     for node in NODES:
         text = text.replace(f"\n{node:10d}\n", f"\n{node + 100:10d}\n")
     nodes = "".join(
-        f"{n + 100:10d}{0:10d}{moved:10d}{1:10d}\n{(n - 1) / 4:25.16E}{0.0:25.16E}{0.0:25.16E}\n" for n in NODES
+        f"{n + 100:10d}{0:10d}{moved:10d}{1:10d}\n{(n - 1) / 4 * size:25.16E}{0.0:25.16E}{0.0:25.16E}\n" for n in NODES
     )
     (folder / "shapes.unv").write_text(f"    -1\n  2411\n{nodes}    -1\n{systems}{text}")
 
@@ -172,6 +172,36 @@ def test_sensors_stand_at_the_coordinates_of_the_test(tmp_path):
     assert read == pytest.approx(np.array([[label == f"{n}TY" for label in labels] for n in NODES], float))
     with pytest.raises(DeckError):
         read_deck(deck(tmp_path))  # by numbers: the model has no node 102
+
+
+def test_coordinates_are_in_the_unit_of_the_file(tmp_path):
+    """Code 5 of data set 164 is mm, of a deck in m; without the set, a test of another size than the structure is refused."""
+    units = f"    -1\n   164\n{5:10d}{'NONE':>20}{2:10d}\n{1:25.17E}{1:25.17E}{1:25.17E}\n{273.15:25.17E}\n    -1\n"
+    surveyed(tmp_path, units, 0, 1e3)
+    problem = read_deck(in_si(tmp_path))
+    labels = problem.structure.labels
+    expected = np.array([[label == f"{n}TY" for label in labels] for n in NODES], float)
+    assert problem.test.read(np.eye(len(labels))) == pytest.approx(expected)
+    surveyed(tmp_path, "", 0, 1e3)
+    with pytest.raises(DeckError) as told:
+        read_deck(in_si(tmp_path))
+    assert [d.code for d in told.value.diagnostics] == ["MD335"] and "by 0.001" in told.value.diagnostics[0].help
+
+
+def in_si(folder) -> str:
+    """The deck with its units, and sensors by coordinates."""
+    path = folder / "deck.yaml"
+    path.write_text(DECK.replace("mouse: 1\n", "mouse: 1\nunits: SI\n") + ", mount: coordinates}\n")
+    return str(path)
+
+
+def test_shapes_that_are_zero_everywhere(tmp_path):
+    text = text_2414()
+    for value in SHAPES.ravel():
+        text = text.replace(f"{0:13.5E}{value:13.5E}", f"{0:13.5E}{0:13.5E}")
+    (tmp_path / "shapes.unv").write_text(text)
+    with pytest.raises(DeckError, match="zero, or no numbers"):
+        read_modes(str(tmp_path / "shapes.unv"))
 
 
 def test_directions_of_other_systems(tmp_path):

@@ -16,7 +16,7 @@ class ModeTable:
     are largest, and those parts. Those with a modal mass are divided by its root. mass_kg: one of the
     file's unit of mass, None where it says none. frequency_sd_hz (m,), shape_sd (s, m): None where the file states none. places,
     directions: by name, coordinates (3) or node, and direction (6, over TX to RZ), of sensors given by these.
-    surveyed: the same of sensors that have numbers of nodes as well.
+    surveyed: the same of sensors that have numbers of nodes as well. metre: one of the file's unit of length, None where not said.
     """
 
     names: tuple[str, ...]
@@ -29,6 +29,7 @@ class ModeTable:
     places: dict[str, tuple | int] = field(default_factory=dict)
     directions: dict[str, tuple] = field(default_factory=dict)
     surveyed: dict[str, tuple[tuple, tuple]] = field(default_factory=dict)
+    metre: float | None = None
 
     def ascending(self) -> "ModeTable":
         """The same with the modes in ascending order of frequency."""

@@ -34,6 +34,8 @@ _MASSES = {
     8: _G / 1e-3,
     10: 1e3,
 }
+# their units of length, m
+_METRES = {1: 1.0, 2: _FOOT, 3: 1.0, 4: _FOOT, 5: 1e-3, 6: 1e-2, 7: _INCH, 8: 1e-3, 10: 1e-3}
 _SAME = 1e-9
 
 
@@ -50,12 +52,13 @@ class _Mode:
 def _read(path: str) -> ModeTable:
     with open(path, "rb") as stream:
         data = stream.read()
-    mass, found, first, counted = None, {55: [], 2414: []}, 1, 0
+    mass, metre, found, first, counted = None, None, {55: [], 2414: []}, 1, 0
     for block in blocks(data):
         first, counted = first + data.count(b"\n", counted, block.at), block.at
         lines = bytes(block.content).decode("latin-1").splitlines() if block.number in (55, 2414, 164) else []
         if block.number == 164 and lines:
-            mass = _MASSES.get(int(lines[0][:10].strip() or 0))
+            units = int(lines[0][:10].strip() or 0)
+            mass, metre = _MASSES.get(units), _METRES.get(units)
         elif block.number in found:
             found[block.number].append(_mode(path, first, block, lines))
     modes = [mode for mode in found[55] or found[2414] if mode is not None and mode.frequency_hz > 0]
@@ -64,13 +67,16 @@ def _read(path: str) -> ModeTable:
         reject("MD624", path, message, "export the modes as data set 55")
     modes.sort(key=lambda mode: mode.frequency_hz)
     names = [name for name in dict.fromkeys(n for mode in modes for n in mode.values) if _moves(modes, name)]
+    if not names:
+        reject("MD252", path, "the shapes of all modes are zero, or no numbers", "export the modes again")
     raw = np.array([[mode.values.get(name, np.nan) for mode in modes] for name in names], complex).reshape(
         len(names), -1
     )
     shapes = np.stack([turned(raw[:, r]) for r in range(len(modes))], axis=1)
     sizes = np.array([np.sqrt(mode.mass) if mode.mass > 0 else 1.0 for mode in modes])
     hz, damping = np.array([m.frequency_hz for m in modes]), np.array([m.damping for m in modes])
-    return ModeTable(tuple(names), hz, damping, shapes / sizes, mass, surveyed=survey(path, data, tuple(names)))
+    return ModeTable(tuple(names), hz, damping, shapes / sizes, mass, metre=metre,
+                     surveyed=survey(path, data, tuple(names)))  # fmt: skip
 
 
 def _moves(modes: list[_Mode], name: str) -> bool:

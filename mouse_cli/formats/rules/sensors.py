@@ -13,6 +13,11 @@ from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.geometry import DIRECTIONS, Geometry
 from mouse_cli.model.held_reading import HeldReading
 
+_FEWEST = 3  # sensors whose spread is looked at
+_LENGTHS = (1e3, 1e-3, 100, 0.01, 25.4, 1 / 25.4, 39.37007874, 0.0254, 12, 1 / 12)  # units of length to one another
+_LOCAL, _BEYOND = 0.05, 5.0  # spread over the size of the structure that sensors may have
+_LEAST, _MOST = 0.3, 1.5  # and that they must have in the other unit
+
 
 @dataclass(frozen=True)
 class Sensing:
@@ -37,6 +42,8 @@ class Reading(NamedTuple):
 
 def sensing(draft: Draft, sensors: tuple[SensorDraft, ...], geometry: Geometry | None, n: int) -> Sensing | None:
     """What each of `sensors` reads of a model of n degrees of freedom; None after errors."""
+    if geometry is not None and _of_another_size(draft, sensors, geometry):
+        return None
     labels = draft.labels if geometry is None else geometry.labels()
     place = {label: i for i, label in enumerate(labels)}
     readings = [_reading(draft, sensor, geometry, place, n) for sensor in sensors]
@@ -155,6 +162,24 @@ def _motion(draft: Draft, sensor: SensorDraft, geometry: Geometry) -> PointMotio
             "check the coordinates and their unit, m",
         )
     return motion
+
+
+def _of_another_size(draft: Draft, sensors: tuple[SensorDraft, ...], geometry: Geometry) -> bool:
+    """Whether coordinates spread over another size than the structure, and over its own in another unit of length; says so."""
+    placed = [sensor for sensor in sensors if sensor.at is not None]
+    if len(placed) < _FEWEST:
+        return False
+    own, whole = (
+        float(np.linalg.norm(np.ptp(x, axis=0))) for x in (np.array([s.at for s in placed]), geometry.coordinates)
+    )
+    ratio = own / whole if whole > 0 else 1.0
+    factor = next((f for f in _LENGTHS if _LEAST <= ratio * f <= _MOST), None)
+    found = factor is not None and not _LOCAL <= ratio <= _BEYOND
+    if found:
+        message = f"the sensors by coordinates lie within {own:.4g}, and the nodes of the model within {whole:.4g}"
+        help = f"give their coordinates in the unit of the model: multiply them by {factor:.6g}; or name the units of the deck"
+        draft.error("MD335", message, placed[0].where, help=help)
+    return found
 
 
 def _node(draft: Draft, sensor: SensorDraft, geometry: Geometry, number: int) -> int | None:

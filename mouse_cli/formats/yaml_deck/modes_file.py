@@ -17,7 +17,7 @@ _SHOWN = 12  # names of sensors in a message
 
 
 def of_file(modes: Section, units: Units) -> ModeTable | None:
-    """The modes of the file that `modes` names, shapes of unit modal mass in the units of the deck; None after an error."""
+    """The modes of the file that `modes` names, in the units of the deck, shapes of unit modal mass; None after an error."""
     document, node = modes.document, modes.nodes["file"]
     for key in ("frequency", "shapes"):
         if key in modes:
@@ -28,6 +28,10 @@ def of_file(modes: Section, units: Units) -> ModeTable | None:
     elif held is not None and not held.surveyed and not held.places:
         message = f"{modes.what('mount')} is coordinates, and the file has none"
         document.error("MD600", modes.nodes["mount"], message, "export data set 15 or 2411 with the modes")
+    if held is not None and held.metre is not None and units.declared:
+        size = held.metre / units.metre
+        at = {name: (tuple(size * x for x in place), vector) for name, (place, vector) in held.surveyed.items()}
+        held = replace(held, surveyed=at)
     if held is None or held.mass_kg is None:
         return held
     own = unit(units.force).factor / units.metre if units.declared else 1.0
