@@ -10,6 +10,7 @@ from mouse_cli.diagnosis import diagnose
 from mouse_cli.diagnosis.likelihoods.frf.damping import damping
 from mouse_cli.diagnosis.likelihoods.frf.data import FrfData, lines
 from mouse_cli.diagnosis.likelihoods.frf.identified import with_modes
+from mouse_cli.diagnosis.likelihoods.frf.lossy import STRUCTURAL, lossy
 from mouse_cli.diagnosis.likelihoods.frf.model import FrfModel
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.mechanisms import registry
@@ -184,3 +185,13 @@ def test_functions_with_a_mechanism_are_those_of_the_deck_that_has_it(freed, key
             solve = lambda w, K=K, M=M, f=force, r=motion: r(np.linalg.solve(K * (1 + LOSS * 1j) - w * w * M, f))
             exact = np.array([solve(w) for w in block.omega])
             assert np.abs(part.H - exact).max() < 0.03 * np.abs(exact).max(), (recipe.site(values), values)
+
+
+def test_a_lossy_joint_is_told_from_a_support_by_its_place_whatever_its_loss(freed):
+    """A loss factor of 0.001 is no place 1 mm from a foot."""
+    candidate = registry()["joint"]
+    for recipe in candidate.recipes(freed, candidate):
+        values = recipe.values(recipe.bounds.mean(axis=1))
+        own = lossy(recipe, STRUCTURAL, 100.0)
+        there = np.append(values, 1e-3)
+        assert own.group(own.coordinates(there)) == recipe.group(recipe.coordinates(values)) == "local-stiffness"

@@ -42,6 +42,7 @@ def lossy(recipe: Recipe, law: str, middle: float) -> Recipe:
         unknowns=(*recipe.unknowns, LOSSES[law]),
         change=lambda values: recipe.change(values[:count]),
         site=lambda values: recipe.site(values[:count]),
+        limit=lambda values: recipe.limit(values[:count]),
         grid=np.hstack([recipe.grid, np.full((len(recipe.grid), 1), LOSS)]),
         extend=recipe.extend and extend,
         law=law,
