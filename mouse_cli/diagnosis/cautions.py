@@ -9,14 +9,13 @@ from mouse_cli.diagnosis.gates import GATE
 from mouse_cli.diagnosis.likelihoods.modal.accuracy import scatter
 from mouse_cli.diagnosis.likelihoods.modal.scales import span
 from mouse_cli.diagnosis.search.grounded import one_tie
-from mouse_cli.diagnosis.search.rank import Ranking
+from mouse_cli.diagnosis.search.rank import NOISY, Ranking
 from mouse_cli.diagnosis.verdict import Verdict, shifts
 from mouse_cli.model.diagnosis import NAMED, NOTHING, RIVAL, Location
 from mouse_cli.model.groups import enumerated
 from mouse_cli.updating.chi_square import upper_tail
 
-_PROBABLE = 0.5  # of an error of the test from which on it is told
-_NOISY = 1.5  # noise scale from which on it is told what the accuracies seem to be
+_PROBABLE = 0.5  # of errors of the test from which on they are told
 _FAR = 0.1  # of the span, between the place of a cause and the nearest one that shapes point to
 _PLAIN = 0.05  # probability of a misfit as large as that of the best single place, from which on it may be the place
 _BEYOND = 0.01  # p-value of the shifts of all parameters below which those that are beyond their priors are named
@@ -28,13 +27,17 @@ _TOLD = {
     "state: measure the sensor positions, or add the resulting shape error to shape_sd",
     "drift": "the frequencies look off by about {size:.2f} % each, one from another, which the deck does not state (temperature, "
     "amplitude, sensors moved between modes): repeat the test, or add that much to frequency_sd",
+    "frequency": "the frequency of mode {modes} does not agree with all that agrees among the others: check that entry, or leave "
+    "it out (null)",
+    "mode": "mode {modes} is none that the structure can have beside the others: a false mode of the identification, of another "
+    "part, or paired wrongly: check it, or leave it out",
 }
 
 
 def misstated(ranking: Ranking) -> str | None:
     """Key of the error that explains the data better than the accuracies of the deck do; None where those may be right."""
-    likely = [each.key for each in ranking.doubts if each.probability > _PROBABLE and ranking.noise_scale <= _NOISY]
-    return likely[0] if likely else None
+    likely = sum(each.probability for each in ranking.doubts) > _PROBABLE and ranking.noise_scale <= NOISY
+    return ranking.doubts[0].key if likely else None
 
 
 def cautions(ranking: Ranking, verdict: Verdict, location: Location | None) -> tuple[str, ...]:
@@ -46,15 +49,18 @@ def cautions(ranking: Ranking, verdict: Verdict, location: Location | None) -> t
 
 
 def _errors(ranking: Ranking) -> Iterator[str]:
-    for doubt in ranking.doubts:
-        if doubt.key == misstated(ranking):
+    for doubt in ranking.doubts if misstated(ranking) else ():
+        if doubt.probability > RIVAL:
             p = f"P = {doubt.probability:.2f}" if doubt.probability < 0.995 else "P > 0.99"
-            yield f"The test is less accurate than stated in the deck ({p}): {_TOLD[doubt.key].format(size=100 * doubt.size)}."
+            number = ranking.baseline.data.test.number
+            modes = enumerated([str(number[j]) for j in doubt.modes])
+            said = _TOLD[doubt.key].format(size=100 * doubt.size, modes=modes)
+            yield f"The test {'has an error' if doubt.modes else 'is less accurate than stated in the deck'} ({p}): {said}."
 
 
 def _noise(ranking: Ranking) -> Iterator[str]:
     """What the accuracies would have to be for the best explanation to be right."""
-    if ranking.noise_scale > _NOISY:
+    if ranking.noise_scale > NOISY:
         best = min((one for one in ranking.fits if one.dof > 0), key=lambda one: one.misfit / one.dof)
         named = zip(("frequencies", "shapes"), scatter(best), strict=True)
         parts = " and ".join(f"{name} {factor:.2g} times" for name, factor in named if np.isfinite(factor))

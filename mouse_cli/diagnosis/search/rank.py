@@ -33,9 +33,11 @@ from mouse_cli.model.groups import joined, shares
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.shared_place import panels, together
 
+NOISY = 1.5  # noise scale above which the accuracies of the test themselves are in doubt
 _UNPHYSICAL = "no size of it makes a model whose modes can be paired with the test"
 _TRUSTED = 0.5  # share of the stated accuracies in the leading explanation below which errors of the test may be all
 _LOUD = 4.0  # noise scale from which on no error of the test is all, and as many are sought as beside a test that is trusted
+_ENTRY = 0.99  # probability of one wrong entry of the test from which on nothing further is sought behind it
 _IDLE = (
     0.5  # probability of no mechanism above which what has no name is not asked where that leaves no more than chance
 )
@@ -166,6 +168,8 @@ def _ranked(study: Study, causes: int, hear: Callable[[Ranking], Ranking], last:
     )
     fits = [baseline, *singles]
     found = hear(ranking(baseline, fits))
+    if sum(doubt.probability for doubt in found.doubts if doubt.modes) > _ENTRY and found.noise_scale <= NOISY:
+        return replace(found, untried=_untried(study, singles))
     if last and (dict(found.groups).get("none", 0.0) < _IDLE or not adequate(found.baseline, gates.GATE)):
         fits += rivals(model, baseline, kind, within(fits))
     alone = plain(one for one in found.fits if one.recipes)

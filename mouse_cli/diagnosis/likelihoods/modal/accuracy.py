@@ -1,6 +1,7 @@
-"""Is the test as accurate as its deck says? Errors of all sensors, or of all frequencies, weighed beside every explanation.
+"""Is the test as accurate as its deck says? Errors of all sensors or frequencies, or of one mode, weighed beside every explanation.
 
-Let the readings be off by G g, g ~ N(0, tau^2 I), each g an error of one sensor in all modes, or of one frequency. With the
+Let the readings be off by G g, g ~ N(0, tau^2 I), each g an error of one sensor in all modes, or of one frequency; or of one mode
+alone, which any of them may be, with the prior shared by them. With the
 residual r of a fit, the derivatives T of what it predicts, A = T'T + its prior, and B = G'G - G'T A^-1 T'G, what its parameters
 cannot follow,
 
@@ -25,10 +26,13 @@ _NODES = 9  # sizes tau that are weighed, evenly spaced in their logarithm
 
 @dataclass(frozen=True)
 class Error:
-    """A kind of error of a test. readings(fit): G (q, d), whitened, by unit errors; smallest, largest: of its sd tau."""
+    """A kind of error of a test. readings(fit): G (q, d), whitened, by unit errors, by the modes that it may be of, () of all.
+
+    smallest, largest: of its sd tau.
+    """
 
     key: str
-    readings: Callable[[Fit], np.ndarray]
+    readings: Callable[[Fit], dict[tuple[int, ...], np.ndarray]]
     smallest: float
     largest: float
 
@@ -40,49 +44,61 @@ class Error:
 
 @dataclass(frozen=True)
 class Weighed:
-    """A fit beside one kind of error, None: the accuracies as stated. gained, misfit (t,): of ln Z, and left, at each tau."""
+    """A fit beside one kind of error, None: the accuracies as stated. gained, misfit (w, t): of ln Z, and left, at each tau.
+
+    which (w,): the modes, from 0, that it may be of.
+    """
 
     error: Error | None
     gained: np.ndarray
     misfit: np.ndarray
+    which: tuple[tuple[int, ...], ...] = ((),)
 
     def log_weight(self, dof: float) -> float:
         """ln of what the evidence of the fit is multiplied by: the prior of the error, and noise larger than stated, integrated."""
         prior = _PROBABLE if self.error else 1 - len(ERRORS) * _PROBABLE
         more = self.gained + 0.5 * self.misfit + log_density(self.misfit, dof)
-        return float(np.logaddexp.reduce(more) + np.log(prior / len(self.gained)))
+        return float(np.logaddexp.reduce(more, axis=None) + np.log(prior / self.gained.size))
 
     @property
-    def size(self) -> float:
-        """The most probable tau; 0 without an error."""
-        return float(self.error.sizes[np.argmax(self.gained)]) if self.error else 0.0
+    def leading(self) -> tuple[tuple[int, ...], float]:
+        """The most probable modes and tau; () and 0 without an error."""
+        if self.error is None:
+            return (), 0.0
+        w, t = np.unravel_index(np.argmax(self.gained), self.gained.shape)
+        return self.which[w], float(self.error.sizes[t])
 
 
 @dataclass(frozen=True)
 class Doubt:
-    """An error of the test, how probable it is whatever the cause, and its most probable sd."""
+    """An error of the test, how probable it is whatever the cause, its most probable sd, and the modes, from 0, () of all."""
 
     key: str
     probability: float
     size: float
+    modes: tuple[int, ...] = ()
 
 
 def doubts(parts: list[tuple[float, tuple[Weighed, ...], np.ndarray]]) -> tuple[Doubt, ...]:
     """The most probable first, from probability of a fit, its ways, and their shares (w,) in it."""
     total: dict[str, float] = {}
-    leading: dict[str, tuple[float, float]] = {}
+    leading: dict[str, tuple[float, tuple[tuple[int, ...], float]]] = {}
     for p, own, shares in parts:
         for way, share in zip(own, shares, strict=True):
             if way.error:
                 key, weight = way.error.key, float(p * share)
                 total[key] = total.get(key, 0.0) + weight
-                leading[key] = max(leading.get(key, (-1.0, 0.0)), (weight, way.size))
-    return tuple(Doubt(key, total[key], leading[key][1]) for key in sorted(total, key=lambda key: -total[key]))
+                leading[key] = max(leading.get(key, (-1.0, ((), 0.0))), (weight, way.leading))
+    found = []
+    for key in sorted(total, key=lambda key: -total[key]):
+        modes, size = leading[key][1]
+        found.append(Doubt(key, total[key], size, modes))
+    return tuple(found)
 
 
 def ways(one: Fit) -> tuple[Weighed, ...]:
     """The fit with the accuracies as stated, and beside each kind of error that has a meaning for its test, if that is modal."""
-    stated = Weighed(None, np.zeros(1), np.array([one.misfit]))
+    stated = Weighed(None, np.zeros((1, 1)), np.array([[one.misfit]]))
     if not isinstance(one.data, Data):
         return (stated,)
     descent = _descent(one)
@@ -90,16 +106,22 @@ def ways(one: Fit) -> tuple[Weighed, ...]:
 
 
 def _weighed(one: Fit, error: Error, T: np.ndarray, A: np.ndarray, slope: np.ndarray) -> Weighed | None:
-    G = error.readings(one)
-    if not G.any():
+    readings = {modes: G for modes, G in error.readings(one).items() if G.any()}
+    if not readings:
         return None
+    each = [_gained(one, G, error.sizes, T, A, slope) for G in readings.values()]
+    return Weighed(error, *map(np.array, zip(*each, strict=True)), tuple(readings))
+
+
+def _gained(one: Fit, G: np.ndarray, sizes: np.ndarray, T, A, slope) -> tuple[np.ndarray, np.ndarray]:
+    """What ln Z gains (t,), and the misfit that is left (t,), with readings off by G at sd of `sizes` (t,)."""
     along = T.T @ G
     followed = np.linalg.solve(A, np.column_stack([along, slope]))
     beta, U = np.linalg.eigh(G.T @ G - along.T @ followed[:, :-1])
     beta, b = np.maximum(beta, 0.0), U.T @ (G.T @ one.point.residual - along.T @ followed[:, -1])
-    tau2 = error.sizes[:, None] ** 2
+    tau2 = sizes[:, None] ** 2
     less = (b**2 * tau2 / (1 + tau2 * beta)).sum(axis=1)
-    return Weighed(error, 0.5 * (less - np.log1p(tau2 * beta).sum(axis=1)), np.maximum(one.misfit - less, 0.0))
+    return 0.5 * (less - np.log1p(tau2 * beta).sum(axis=1)), np.maximum(one.misfit - less, 0.0)
 
 
 def _descent(one: Fit) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -123,36 +145,64 @@ def scatter(one: Fit) -> tuple[float, float]:
     return tuple(float(np.sqrt(size / dof)) if dof > 0.5 else float("nan") for size, dof in left)
 
 
-def _gains(one: Fit) -> np.ndarray:
+def _gains(one: Fit) -> dict[tuple[int, ...], np.ndarray]:
     """Every sensor reads a multiple of what it should."""
     return _of_sensors(one, one.point.measured(one.point.seen))
 
 
-def _places(one: Fit) -> np.ndarray:
+def _places(one: Fit) -> dict[tuple[int, ...], np.ndarray]:
     """Every sensor stands a share of the length of its row of bars away from where the deck has it."""
     base, at = one.model.base, one.point
     return _of_sensors(one, sliding(base) @ at.measured(at.X[: base.r]))
 
 
-def _of_sensors(one: Fit, moved: np.ndarray) -> np.ndarray:
+def _of_sensors(one: Fit, moved: np.ndarray) -> dict[tuple[int, ...], np.ndarray]:
     """G (q, s) of errors that move what sensors read by `moved` (s, m); in one mode alone they are noise, and left out."""
-    at, data, each = one.point, one.model.base.data, np.arange(len(moved))
+    data, each = one.model.base.data, np.arange(len(moved))
     apart = np.zeros((*moved.shape, len(each)))
     apart[each, :, each] = moved
     apart[data.has_shape.sum(axis=1) < 2] = 0.0
-    still = np.zeros((len(at.modes), len(each)))
-    found = data.jacobian(at.eigenvalues[at.modes], at.measured(at.seen), at.a, still, apart)
+    return {(): _read(one, np.zeros((data.m, len(each))), apart)}
+
+
+def _read(one: Fit, of_frequencies: np.ndarray, of_shapes: np.ndarray) -> np.ndarray:
+    """G (q, d), whitened, of errors that move ln f by (m, d), and what sensors see of the modes of the model by (s, m, d)."""
+    at, data = one.point, one.model.base.data
+    lam = at.eigenvalues[at.modes]
+    found = data.jacobian(lam, at.measured(at.seen), at.a, 2 * lam[:, None] * of_frequencies, of_shapes)
     return found if at.turn is None else at.turn.whitened(found)
 
 
-def _drift(one: Fit) -> np.ndarray:
+def _drift(one: Fit) -> dict[tuple[int, ...], np.ndarray]:
     """Every frequency is off by a share of its own."""
-    sd = one.model.base.data.sd_log[one.model.base.data.has_frequency]
-    return np.vstack([np.diag(1 / sd), np.zeros((len(one.point.residual) - len(sd), len(sd)))])
+    of = _each_frequency(one)
+    return {(): np.hstack(list(of.values()))} if of else {}
+
+
+def _each_frequency(one: Fit) -> dict[tuple[int, ...], np.ndarray]:
+    """One frequency is off."""
+    data = one.model.base.data
+    rows = np.diag(1 / data.sd_log)[data.has_frequency]
+    G = np.vstack([rows, np.zeros((len(one.point.residual) - len(rows), data.m))])
+    return {(j,): G[:, [j]] for j in np.flatnonzero(data.has_frequency).tolist()}
+
+
+def _each_mode(one: Fit) -> dict[tuple[int, ...], np.ndarray]:
+    """One mode is none of the structure's: its frequency is off by tau, each component of its shape by as much of the largest."""
+    at, data, of = one.point, one.model.base.data, _each_frequency(one)
+    largest, found = np.abs(np.nan_to_num(data.test.shapes)).max(axis=0, initial=0.0), {}
+    for j in np.flatnonzero(data.has_shape.sum(axis=0) >= 2).tolist():
+        apart = np.zeros((data.s, data.m, data.s))
+        apart[:, j] = np.diag(np.where(data.has_shape[:, j], largest[j] / at.a[j] if at.a[j] else 0.0, 0.0))
+        shape = _read(one, np.zeros((data.m, data.s)), apart)
+        found[j,] = np.hstack([of[j,], shape]) if (j,) in of else shape
+    return found
 
 
 ERRORS = (
     Error("gains", _gains, 3e-3, 0.1),
     Error("places", _places, 1e-3, 0.02),
     Error("drift", _drift, 5e-4, 0.02),
+    Error("frequency", _each_frequency, 5e-3, 0.3),
+    Error("mode", _each_mode, 0.05, 1.0),
 )
