@@ -1,7 +1,6 @@
 """One wrong entry of a test: a frequency that was misread, a shape that is no mode's, on a pinned beam in closed form."""
 
 import numpy as np
-import pytest
 
 import mouse_cli
 from mouse_cli.model.diagnosis import NOTHING, UNKNOWN
