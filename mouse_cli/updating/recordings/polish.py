@@ -287,9 +287,8 @@ def followed(
     internal,
     beat: float = np.inf,
 ) -> Fit | None:
-    """The fit over the first quarters of the segments, then over the whole of them: a short horizon has fewer false minima.
-
-    One whose quarters alone cost far more than the whole of a better fit, `beat`, is not followed further.
+    """The fit over the first quarters of the segments, with fewer false minima, then over the whole of them, unless those alone
+    cost far more than the whole of a better fit, `beat`.
     """
     begun = Polish(hypothesis, [part.begun() for part in data], spread)
     if data[0].series.adrift and not data[0].series.at_rest:

@@ -13,10 +13,12 @@ from mouse_cli.model.result import ChiSquareTest
 from mouse_cli.terms.laws import Scale, registry
 from mouse_cli.updating.chi_square import upper_tail
 from mouse_cli.updating.recordings.acting import Part, Place
-from mouse_cli.updating.recordings.adequacy import strained, unlikely, with_noise
+from mouse_cli.updating.recordings.adequacy import close, strained, unlikely, with_noise
+from mouse_cli.updating.recordings.hypothesis import Hypothesis
 from mouse_cli.updating.recordings.noise import noise
 from mouse_cli.updating.recordings.polish import Fit, Polish, followed
 from mouse_cli.updating.recordings.records import named, records
+from mouse_cli.updating.recordings.regression import Regression
 from mouse_cli.updating.recordings.study import Study, begin, study
 from mouse_cli.updating.recordings.uncertain import Uncertain
 from mouse_cli.updating.recordings.validation import scores, surface, trace
@@ -91,7 +93,18 @@ def _fitted(own: Study, parts: list[tuple[Part, np.ndarray]]) -> tuple[Fit | Non
     as_it_is = Polish(hypothesis.held(x), own.data, spread).fit(np.zeros(0), states, internal)
     if as_it_is is None:
         return None, None
-    return replace(as_it_is, hypothesis=hypothesis, x=x), followed(hypothesis, own.data, spread, x, states, internal)
+    found = followed(hypothesis, own.data, spread, x, states, internal)
+    if found is None or not close(found):  # the parameters of the deck may be too far for a simulation to find the way
+        nearer = _begun(own, hypothesis, x)
+        again = followed(hypothesis, own.data, spread, nearer, *begin(hypothesis, nearer, own.data, looks))
+        found = min((one for one in (found, again) if one is not None), key=lambda one: one.cost, default=None)
+    return replace(as_it_is, hypothesis=hypothesis, x=x), found
+
+
+def _begun(own: Study, hypothesis: Hypothesis, x: np.ndarray) -> np.ndarray:
+    """x (k,) moved to where the record has it in closed form, laws along its own motion."""
+    look = Regression(own.spectrum, hypothesis.placed(own.places[0]), x)
+    return np.clip(look.begin(np.zeros_like(look.y), np.zeros(0))[0], *hypothesis.bounds)
 
 
 def _covariance(model: Uncertain, fit: Fit) -> np.ndarray:
