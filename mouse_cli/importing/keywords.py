@@ -2,7 +2,7 @@
 
 READ = {
     "NODE", "ELEMENT", "NSET", "ELSET", "MATERIAL", "ELASTIC", "DENSITY", "SOLID SECTION", "SHELL SECTION", "BEAM SECTION",
-    "MASS", "SPRING", "BOUNDARY", "STEP", "END STEP",
+    "MASS", "SPRING", "BOUNDARY", "STEP", "END STEP", "TRANSFORM",
 }  # fmt: skip
 TIES = {"EQUATION", "MPC", "COUPLING", "KINEMATIC", "DISTRIBUTING", "DISTRIBUTING COUPLING", "RIGID BODY", "TIE"}
 PASSED = TIES | {"ORIENTATION", "SURFACE", "NORMAL"}
@@ -19,7 +19,6 @@ REMEDIES = {
     "CONTACT PAIR": "replace the contact by *TIE, or leave it out of a linear model",
     "GAP": "a gap has no stiffness of its own: replace it by a spring, or leave it out",
     "PARAMETER": "write numbers instead of parameters",
-    "TRANSFORM": "give the boundary conditions in global directions",
     "SYSTEM": "give the nodes in the global rectangular system",
     "HYPERELASTIC": "give *ELASTIC: the small vibration of the material",
     "SUBMODEL": "take the submodel's own supports",

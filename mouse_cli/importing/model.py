@@ -64,6 +64,7 @@ class InputModel:
     """nodes: coordinates by number; elements: type and nodes by number; kept: the cards of the model, without steps and supports.
 
     every: all cards of the file, included files in their place. ignored: keywords without effect on K and M, and how often.
+    turned: nodes whose boundary conditions are in directions of their own (*TRANSFORM).
     """
 
     path: str
@@ -78,6 +79,7 @@ class InputModel:
     groups: list[Group] = field(default_factory=list)
     ignored: dict[str, int] = field(default_factory=dict)
     remarks: list[Diagnostic] = field(default_factory=list)
+    turned: set[int] = field(default_factory=set)
 
     @property
     def expanded(self) -> bool:

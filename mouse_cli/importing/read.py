@@ -8,7 +8,7 @@ from mouse_cli.importing import bulk
 from mouse_cli.importing.assembly import flat
 from mouse_cli.importing.cards import Card, Faults, Line, cards
 from mouse_cli.importing.groups import grouped
-from mouse_cli.importing.keywords import NODES, PASSED, READ, RELEVANT, REMEDIES, WITHOUT_EFFECT
+from mouse_cli.importing.keywords import NODES, PASSED, READ, RELEVANT, REMEDIES, TIES, WITHOUT_EFFECT
 from mouse_cli.importing.model import InputModel, Material
 from mouse_cli.importing.supports import supports
 
@@ -40,7 +40,7 @@ def read(path: str, outside: bool = False) -> InputModel:
     _materials(model, faults)
     grouped(model, faults)
     faults.stop()
-    model.kept = [card for card in model.kept if not _damps(card)]
+    model.kept = [card for card in model.kept if not _damps(card) and card.keyword != "TRANSFORM"]
     return model
 
 
@@ -194,6 +194,15 @@ def members_of(word: str, line: Line, sets: dict, members: dict, faults: Faults)
     return list(sets.get(name, []))
 
 
+def _transform(model: InputModel, card: Card, faults: Faults) -> None:
+    """*TRANSFORM: its directions may be those of supports, and of no constraint."""
+    model.turned |= set(members_of(card.options.get("NSET", ""), card.head, model.nsets, model.nodes, faults))
+    ties = [each for each in model.kept if each.keyword in TIES]
+    if ties:
+        message = f"*TRANSFORM beside *{ties[0].keyword}, whose directions it may turn"
+        faults.add("MD268", message, card.head.span, "give constraints and boundary conditions in global directions")
+
+
 def _material(model: InputModel, card: Card, faults: Faults) -> None:
     name = card.options.get("NAME", "")
     if not name or name in model.materials:
@@ -236,6 +245,7 @@ _READERS = {
     "ELEMENT": _element,
     "NSET": _set("NSET"),
     "ELSET": _set("ELSET"),
+    "TRANSFORM": _transform,
     "MATERIAL": _material,
     "ELASTIC": _of_material("elastic"),
     "DENSITY": _of_material("density"),

@@ -1,6 +1,6 @@
 """Supports of an input file, by the names of their node sets."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 from mouse_cli._errors import WARNING, Diagnostic
 from mouse_cli.importing.cards import Card, Faults, Line
@@ -29,7 +29,20 @@ def supports(model: InputModel, boundary: list[Card], faults: Faults) -> None:
                     faults.add("MD273", message, line.span, help)
                     break
                 _hold(model, own, [(node, d) for d in range(first, last + 1)], taken, line)
+    _turned(model, by_name.values(), set(taken), faults)
     model.supports += [support for support in by_name.values() if support.dofs]
+
+
+def _turned(model: InputModel, found: Iterable[Support], held: set[tuple[int, int]], faults: Faults) -> None:
+    """Refuse a node of *TRANSFORM that is held in some of its directions; one that is held in all needs no directions."""
+    for support in found:
+        for node, d in support.dofs:
+            first = 1 if d <= 3 else 4
+            if node in model.turned and not {(node, k) for k in range(first, first + 3)} <= held:
+                message = f"node {node} of support {support.name} is held in some directions of *TRANSFORM alone"
+                help = "hold it in global directions, or in all three"
+                faults.add("MD273", message, support.card.head.span, help)
+                break
 
 
 def _hold(model: InputModel, own: Support, dofs: list[tuple[int, int]], taken: dict, line: Line) -> None:

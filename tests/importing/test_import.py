@@ -253,6 +253,22 @@ def test_exports_run_beside_one_another(tmp_path, monkeypatch):
     assert "sets sum to the whole" in imported(tmp_path, BAR)[1]
 
 
+TURNED = BAR + "*TRANSFORM, NSET=FOOT\n1, 1, 0, -1, 1, 0\n"
+
+
+@solver
+def test_a_clamp_in_directions_of_its_own(tmp_path):
+    """*TRANSFORM of nodes that are held in all directions: the solver's own frequencies of the file as it is."""
+    from mouse_cli.importing.calculix import Solver
+
+    found = imports(written(tmp_path, TURNED), tmp_path / "deck.yaml", "SI", False, str)
+    with Solver("job.inp", None, str) as ccx:
+        expected = ccx.eigenvalues(TURNED + "*STEP\n*FREQUENCY\n4\n*END STEP\n", "by hand")
+    np.testing.assert_allclose(
+        found.checked.hz[:4], np.sqrt(np.sort(expected)[: len(found.checked.hz)][:4]) / (2 * np.pi), rtol=1e-6
+    )
+
+
 REFUSED = {
     "contact": (BAR + "*CONTACT PAIR, INTERACTION=A\nX, Y\n", "MD268", 37),
     "unknown keyword": (BAR.replace("*NSET", "*FANCY\n*NSET"), "MD268", 20),
@@ -268,7 +284,12 @@ REFUSED = {
     "missing include": (BAR + "*INCLUDE, INPUT=absent.inc\n", "MD266", 31),
     "cyclic include": (BAR + "*INCLUDE, INPUT=job.inp\n", "MD267", 31),
     "prestress": (BAR + "*STEP\n*STATIC\n*END STEP\n*STEP, PERTURBATION\n*FREQUENCY\n5\n*END STEP\n", "MD268", 34),
-    "transform": (BAR + "*TRANSFORM, NSET=FOOT\n1, 1, 0, 0, 1, 0\n", "MD268", 31),
+    "transform": (TURNED.replace("FOOT, 1, 3", "FOOT, 1, 2"), "MD273", 29),
+    "transform beside a constraint": (
+        BAR + "*EQUATION\n2\n5, 1, 1., 6, 1, -1.\n*TRANSFORM, NSET=FOOT\n1, 1, 0, 0, 1, 0\n",
+        "MD268",
+        34,
+    ),
 }
 
 
