@@ -179,14 +179,17 @@ def _update(
 
 
 def _model(problem: Problem, solver: EigenSolver) -> tuple[Reduced, tuple[str, ...]]:
-    """The reduced model at the prior mean, its data allowed what numerics do to them; and what to say of that."""
+    """The reduced model at the prior mean, corrected for its mesh, its data allowed what that leaves; and what to say of it.
+
+    Functions are of the matrices as they are, so that a model of these is not corrected.
+    """
     model = reduced(problem, problem.prior.mean, solver)
     bare = Model(model).point(model.z)
     if bare is None:
         return model, ()
-    found = numerics(problem, problem.prior.mean, bare.modes, model.data.sd_log)
+    found = numerics(problem, problem.prior.mean, bare.modes, model.data.sd_log, corrects=not problem.frf)
     still = np.zeros(model.data.has_shape.shape)
-    model = replace(model, data=model.data.loosened(np.abs(found.moved), still))
+    model = replace(model, finer=found.finer, data=model.data.loosened(found.allowed(model, bare), still))
     return replace(model, ties=ties(model)), found.remarks
 
 

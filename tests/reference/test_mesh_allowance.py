@@ -1,8 +1,11 @@
 """What a coarse mesh does to frequencies is allowed for in models of any size; truth in closed form, and by Hermite elements."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.numerics import numerics
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
@@ -35,3 +38,7 @@ test:
     found = numerics(problem, problem.prior.mean, np.array([0]), np.array([1e-3]))
     assert found.moved[0] == pytest.approx(HALVED, rel=0.01)
     assert "a finer mesh would be better" in found.remarks[0]
+    corrected = numerics(problem, problem.prior.mean, np.array([0]), np.array([1e-3]), corrects=True).finer
+    model = replace(reduced(problem, problem.prior.mean), finer=corrected)
+    rates = model.refined(model.eigenvalues, np.eye(model.r))
+    assert 0.5 * np.log(rates[0]) - np.log(2 * np.pi * exact) == pytest.approx(0.0, abs=0.1 * abs(HALVED))

@@ -24,8 +24,11 @@ _HELD = 1e-6  # share of the energy of a mode below which a member has no part i
 _FEW, _TELLS = (
     24,
     0.01,
-)  # members that a search in few coordinates knows to stretch, with that share of the energy of a low mode
+)  # members that a search in few coordinates knows to stretch; share of an eigenvalue that is lost with one
 _LOST, _GAINED = Unknown(LOST, "1", 0.02, 0.99), Unknown("share gained", "1", 0.02, 20.0)
+# Of a member that is missing, its mass alike: a hundredth of a diagonal is as stiff as the chords that do what it did, and what is
+# left of it hardly is a tuned mass in members like it, whose modes it splits by the root of its mass over theirs.
+_GONE = Unknown(LOST, "1", 0.02, 1 - 1e-7)
 _STIFF = {"beam": ("E",), "rod": ("E",), "storey": DIRECTIONS}
 _SECTIONS = {"beam": ("A", "Iy", "Iz", "J"), "rod": ("A",)}
 
@@ -142,7 +145,7 @@ def _recipe(
 ) -> Recipe:
     """stiff: K that is added for a share of 1, and what goes beyond it; M: for a share of 1."""
     K, beyond = stiff
-    d, site = _LOST if sign < 0 else _GAINED, member.site
+    d, site = _GAINED if sign > 0 else _LOST if M is None else _GONE, member.site
     kind, beside = deck.mesh.elements[member.elements[0][0]].type, "" if M is None else ", its mass alike"
     numbers = [int(deck.mesh.elements[s].ids[i]) for s, i in member.elements]
 
@@ -164,7 +167,7 @@ def _recipe(
         candidate,
         (d,),
         change,
-        (steps(d, 4) if sign > 0 else np.append(steps(d, 4), _LOST.upper))[:, None],  # that it is missing is common
+        (steps(d, 4) if sign > 0 else np.append(steps(d, 4), d.upper))[:, None],  # that it is missing is common
         lambda values: site,
         log_prior=share,
         extend=extend,

@@ -36,7 +36,7 @@ class Again:
 def known_to_all(study) -> dict[str, Any]:
     """What every process of a pool has, by name."""
     model = study.model
-    shared = {name: getattr(model, name) for name in ("problem", "assembly", "static", "data")}
+    shared = {name: getattr(model, name) for name in ("problem", "assembly", "static", "finer", "data")}
     return {name: value for name, value in shared.items() if value is not None} | {
         "model": model,
         "once": model.built_once,

@@ -13,6 +13,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.likelihoods.modal.data import Data
 from mouse_cli.diagnosis.likelihoods.modal.directions import Directions, directions, projected
+from mouse_cli.diagnosis.likelihoods.modal.finer import Finer, refined
 from mouse_cli.diagnosis.sites.bars import Bars, bars, motion_of, stiffening
 from mouse_cli.diagnosis.sites.residual import Static
 from mouse_cli.dynamics.contraction import Stack
@@ -26,6 +27,7 @@ from mouse_cli.terms.constraints import Motion
 from mouse_cli.updating.coordinates import Coordinates
 
 WHOLE = 200  # degrees of freedom up to which a model is not reduced
+_BEYOND = 6  # modes that are corrected for their mesh, beyond twice those of the test
 
 
 @dataclass(frozen=True)
@@ -35,7 +37,7 @@ class Reduced:
 
     sensing (s, r); V (n, r); data: the test. places: degrees of freedom (from 0) at which a force is exact, of a large model;
     None: everywhere. ties: pairs of places that are worth looking at, and sizes, see `localise/ties.py`; None: no look was taken.
-    static: what a large model does statically in all degrees of freedom.
+    static: what a large model does statically in all degrees of freedom. finer: by what its mesh is corrected; None: it is not.
     """
 
     problem: Problem
@@ -53,6 +55,7 @@ class Reduced:
     origin: np.ndarray | None = None
     ties: dict[tuple[int, int, int], float] | None = None
     static: Static | None = None
+    finer: Finer | None = None
     built_once: dict = field(default_factory=dict, repr=False, compare=False)
 
     @property
@@ -63,6 +66,18 @@ class Reduced:
     def low_modes(self, beyond: int = 1) -> int:
         """Number of its modes up to the highest one of the test, and so many beyond."""
         return min(self.r, int(self.data.test.number.max()) + beyond)
+
+    def refined(self, eigenvalues: np.ndarray, X: np.ndarray) -> np.ndarray:
+        """Eigenvalues (size,) of the modes X (r or more, size), of the lowest as half as long elements have them."""
+        if self.finer is None:
+            return eigenvalues
+        count = min(len(eigenvalues), 2 * int(self.data.test.number.max()) + _BEYOND)
+        return refined(self._finer, eigenvalues, X[: self.r, :count])
+
+    @cached_property
+    def _finer(self) -> tuple[np.ndarray, np.ndarray]:
+        """What corrects the mesh, in the coordinates."""
+        return self.finer.of(self.V)
 
     @cached_property
     def L(self) -> np.ndarray:
@@ -220,7 +235,7 @@ class Reduced:
         if self.V.shape[0] <= WHOLE:
             matrices = self.assembly.matrices(theta)
             there = exact(self.problem, self.assembly, *matrices, theta)
-            return replace(there, data=self.data, ties=self.ties, built_once=self.built_once)
+            return replace(there, data=self.data, ties=self.ties, finer=self.finer, built_once=self.built_once)
         return replace(self, theta=theta, origin=self.theta if self.origin is None else self.origin)
 
     def without(self, keep_modes: np.ndarray) -> "Reduced":

@@ -1,0 +1,62 @@
+"""The inertia that elements of half the length have, in the degrees of freedom of the deck: its mesh corrected, for any mechanism.
+
+Bars that are halved have nodes i in their middles beside those of the deck, c. In static equilibrium these follow by
+T = -K_ii^-1 K_ic: K is the same then, and M that of consistent masses (Guyan, AIAA J. 3, 1965). Vibrating at lambda they move by
+lambda K_ii^-1 B u beyond that, B = M_ic + M_ii T, so that to first order in lambda over the eigenvalues of halves that are clamped
+
+    lambda' = lambda / (1 + u'(M_T - M) u + lambda u'D u),     M_T = M_cc + M_ci T + T'B,  D = B'K_ii^-1 B,  u'M u = 1
+
+A mechanism changes the modes u and with them what the mesh does to them, so that each prediction is corrected by itself. Where a
+bar is all but missing, M is less than that of the deck, and u'M u of the deck is what the two forms are over.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.model.arrays import Matrix
+from mouse_cli.model.problem import Problem
+from mouse_cli.terms.assembly import assembly
+
+_LEAST = -0.5  # of what inertia may grow by: masses that were lumped may be less when they are spread
+_SAME = 1e-6  # relative difference of K up to which halves are as stiff as the whole
+
+
+@dataclass(frozen=True)
+class Finer:
+    """M_T - M and D (n, n), sparse, see above."""
+
+    spread: Matrix
+    within: Matrix
+
+    def of(self, V: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Both in coordinates V (n, r)."""
+        return V.T @ (self.spread @ V), V.T @ (self.within @ V)
+
+
+def inertia(problem: Problem, halves: Problem, theta: np.ndarray) -> Finer | None:
+    """What `halves`, the deck with every beam in two, has more than `problem` at theta (p,); None where it is not as stiff."""
+    from scipy.sparse import csc_array, csc_matrix
+    from scipy.sparse.linalg import spsolve
+
+    place = {label: i for i, label in enumerate(halves.structure.labels)}
+    old = np.array([place[label] for label in problem.structure.labels])
+    new = np.setdiff1d(np.arange(halves.structure.n), old)
+    K, M = (csc_array(each) for each in assembly(halves).matrices(theta))
+    stiff, mass = (csc_array(each) for each in assembly(problem).matrices(theta))
+    own = csc_matrix(K[new][:, new])
+    T = -csc_array(spsolve(own, csc_matrix(K[new][:, old])))
+    if abs(K[old][:, old] + K[old][:, new] @ T - stiff).max() > _SAME * abs(stiff).max():
+        return None
+    B = M[new][:, old] + M[new][:, new] @ T
+    spread = M[old][:, old] + M[old][:, new] @ T + T.T @ B - mass
+    return Finer(spread.tocsr(), (B.T @ csc_array(spsolve(own, csc_matrix(B)))).tocsr())
+
+
+def refined(parts: tuple[np.ndarray, np.ndarray], eigenvalues: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """Eigenvalues, the first (m,) of which are corrected, for these modes u (r, m) and both matrices (r, r) of a `Finer`."""
+    found, count = eigenvalues.copy(), u.shape[1]
+    spread, within = (np.einsum("rm,rm->m", u, each @ u) for each in parts)
+    more = (spread + found[:count] * within) / np.maximum(1.0, np.einsum("rm,rm->m", u, u))
+    found[:count] /= 1 + np.maximum(more, _LEAST)
+    return found
