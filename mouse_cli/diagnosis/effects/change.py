@@ -176,6 +176,10 @@ class Recipe:
             self._last[key] = found
         return self._last[key]
 
+    def forget(self) -> None:
+        """Nothing is kept: matrices of thousands of sites that are looked at once would fill the memory."""
+        self._last.clear()
+
     def grown(self, change: Change, moved: np.ndarray) -> Change:
         """A change of it where the deck's parameters have moved by `moved` (p,)."""
         if self.grows is None or not moved.any():

@@ -1,5 +1,6 @@
 """What each mechanism can do to a model: a first look at all of its places and sizes, and brief descents from the best."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
 from typing import Any
@@ -80,11 +81,13 @@ class Study:
         others = self.own(beside)
         key = _key(name, before, others)
         if key not in self._looked:
-            points = self._points(name, before, others)
-            found = [(self.predicted(at, before, others), recipe.number, at.x) for recipe, _, at in points]
+            found, seen = [], []
+            for recipe, i, at in self._points(name, before, others):
+                found.append((self.predicted(at, before, others), recipe.number, at.x))
+                seen.append((text(recipe), i, at.residual))
             self._looked[key] = sorted(found, key=lambda item: item[0])
-            if not others and len(points) > KEPT:
-                self.alone[name] = by_itself(points, self.kind(self.model).point(np.zeros(self.k)))
+            if not others and len(seen) > KEPT:
+                self.alone[name] = by_itself(seen, self.kind(self.model).point(np.zeros(self.k)))
         return self._looked[key]
 
     def keep(self, name: str, looks: list[tuple[float, int, np.ndarray]], alone: Alone | None) -> None:
@@ -97,9 +100,9 @@ class Study:
         """Looks at a candidate beside others, likewise."""
         self._looked.setdefault(_key(name, before, self.own(beside)), looks)
 
-    def _points(self, name: str, before: np.ndarray, others: tuple[Recipe, ...]) -> list[tuple[Recipe, int, Point]]:
+    def _points(self, name: str, before: np.ndarray, others: tuple[Recipe, ...]) -> Iterator[tuple[Recipe, int, Point]]:
         """Recipe, number of the size and point of what candidate `name` does beside `others`, where that is worth a look."""
-        worth, found = self._worth(name, before, others), []
+        worth = self._worth(name, before, others)
         for recipe in self.recipes(name):
             if others and len(recipe.parts) > 1:  # several grow one by one beside others
                 continue
@@ -107,8 +110,9 @@ class Study:
             for i, values in enumerate(recipe.grid):
                 if worth is None or (place, i) in worth:
                     at = trial.point(np.concatenate([before, recipe.coordinates(values)]))
-                    found += [] if at is None else [(recipe, i, at)]
-        return found
+                    if at is not None:
+                        yield recipe, i, at
+            recipe.forget()
 
     def _worth(self, name: str, before: np.ndarray, others: tuple[Recipe, ...]) -> set[tuple[str, int]] | None:
         """Sites, and numbers of sizes, that are worth a look beside `others`; None: all."""

@@ -29,10 +29,9 @@ class Alone:
     none: np.ndarray
 
 
-def by_itself(looks: list[tuple[Recipe, int, Point]], none: Point) -> Alone:
-    """Of looks (recipe, number of the size, point) at the prior mean, and the point there without a cause."""
-    at = [(text(recipe), i) for recipe, i, _ in looks]
-    return Alone(at, np.array([each.residual for *_, each in looks]), none.residual)
+def by_itself(looks: list[tuple[str, int, np.ndarray]], none: Point) -> Alone:
+    """Of looks (site, number of the size, residual) at the prior mean, and the point there without a cause."""
+    return Alone([each[:2] for each in looks], np.array([residual for *_, residual in looks]), none.residual)
 
 
 def chosen(
