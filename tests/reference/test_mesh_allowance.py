@@ -40,5 +40,5 @@ test:
     assert "a finer mesh would be better" in found.remarks[0]
     corrected = numerics(problem, problem.prior.mean, np.array([0]), np.array([1e-3]), corrects=True).finer
     model = replace(reduced(problem, problem.prior.mean), finer=corrected)
-    rates = model.refined(model.eigenvalues, np.eye(model.r))
+    rates, _ = model.refined(model.eigenvalues, np.eye(model.r))
     assert 0.5 * np.log(rates[0]) - np.log(2 * np.pi * exact) == pytest.approx(0.0, abs=0.1 * abs(HALVED))

@@ -105,15 +105,14 @@ def gained(update: Fit, T: np.ndarray, B: np.ndarray) -> tuple[np.ndarray, np.nd
 def _effects(update: Fit, B: np.ndarray) -> np.ndarray:
     """Derivatives (2, q, n) of the whitened data by a spring to the ground, and by a mass, at each row of B (n, r) in own modes."""
     at, data = update.point, update.model.base.data
-    measured = at.of_matrices[at.which]
-    apart = measured[:, None] - at.of_matrices
+    measured = at.eigenvalues[at.which]
+    apart = measured[:, None] - at.eigenvalues
     apart[np.abs(apart) < 1e-9 * np.abs(measured)[:, None]] = np.inf
     own = B[:, at.which].T  # (m, n)
     stretched = np.stack([(at.seen / apart[i]) @ B.T for i in range(len(measured))], axis=1) * own  # (s, m, n)
     spring = own**2, stretched
     mass = -measured[:, None] * own**2, -measured[:, None] * stretched - 0.5 * own**2 * at.seen[:, at.which, None]
-    ratio = (at.eigenvalues / at.of_matrices)[at.which][:, None]
-    return np.stack([at.jacobian(data, ratio * d_lambda, d_seen) for d_lambda, d_seen in (spring, mass)])
+    return np.stack([at.jacobian(data, *each) for each in (spring, mass)])
 
 
 def _merged(new: np.ndarray, old: np.ndarray, count: int, better: bool) -> np.ndarray:

@@ -46,11 +46,12 @@ class OneLaw(Model):
             eigenvalues, X = modes_of(own, M.copy())
             if not np.isfinite(eigenvalues).all():
                 return None
-            p = int(base.data.pair(base.refined(eigenvalues, X), S @ X)[i])
+            eigenvalues, X = base.refined(eigenvalues, X)
+            p = int(base.data.pair(eigenvalues, S @ X)[i])
             if p >= len(eigenvalues) or eigenvalues[p] <= 0:
                 return None
             each.append((eigenvalues, X, p))
-        lam = np.array([base.refined(eigenvalues, X)[p] for eigenvalues, X, p in each])
+        lam = np.array([eigenvalues[p] for eigenvalues, _, p in each])
         shapes = np.stack([X[:, p] for _, X, p in each], axis=1)
         residual, a = base.data.residual(lam, S @ shapes)
         return ByMode(x, lam, shapes, S @ shapes, np.arange(len(lam)), residual, a, each=tuple(each))
@@ -74,6 +75,6 @@ class OneLaw(Model):
             apart = lam - eigenvalues
             apart[np.abs(apart) < 1e-9 * abs(lam)] = np.inf
             seen = base.sensing @ X[:r]
-            d_lambda[i] = G[:, p] * (at.eigenvalues[i] / lam)
+            d_lambda[i] = G[:, p]
             d_seen[:, i] = seen @ (G / apart).T - 0.5 * np.outer(seen[:, p], inertia @ x)
         return data.jacobian(at.eigenvalues, at.seen, at.a, d_lambda, d_seen)

@@ -6,8 +6,9 @@ lambda K_ii^-1 B u beyond that, B = M_ic + M_ii T, so that to first order in lam
 
     lambda' = lambda / (1 + u'(M_T - M) u + lambda u'D u),     M_T = M_cc + M_ci T + T'B,  D = B'K_ii^-1 B,  u'M u = 1
 
-A mechanism changes the modes u and with them what the mesh does to them, so that each prediction is corrected by itself. Where a
-bar is all but missing, M is less than that of the deck, and u'M u of the deck is what the two forms are over.
+and modes turn into one another as what this adds to M has it between them, lambda taken as the root of both. A mechanism changes
+the modes u and with them what the mesh does to them, so that each prediction is corrected by itself. Where a bar is all but
+missing, M is less than that of the deck, and u'M u of the deck is what the two forms are over.
 """
 
 from dataclasses import dataclass
@@ -18,7 +19,6 @@ from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
 
-_LEAST = -0.5  # of what inertia may grow by: masses that were lumped may be less when they are spread
 _SAME = 1e-6  # relative difference of K up to which halves are as stiff as the whole
 
 
@@ -53,10 +53,20 @@ def inertia(problem: Problem, halves: Problem, theta: np.ndarray) -> Finer | Non
     return Finer(spread.tocsr(), (B.T @ csc_array(spsolve(own, csc_matrix(B)))).tocsr())
 
 
-def refined(parts: tuple[np.ndarray, np.ndarray], eigenvalues: np.ndarray, u: np.ndarray) -> np.ndarray:
-    """Eigenvalues, the first (m,) of which are corrected, for these modes u (r, m) and both matrices (r, r) of a `Finer`."""
-    found, count = eigenvalues.copy(), u.shape[1]
-    spread, within = (np.einsum("rm,rm->m", u, each @ u) for each in parts)
-    more = (spread + found[:count] * within) / np.maximum(1.0, np.einsum("rm,rm->m", u, u))
-    found[:count] /= 1 + np.maximum(more, _LEAST)
-    return found
+def refined(
+    parts: tuple[np.ndarray, np.ndarray], eigenvalues: np.ndarray, X: np.ndarray, u: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Eigenvalues and modes X (size, size), the first (m,) of which are corrected, close ones turned into one another.
+
+    u (r, m): these in the coordinates of both matrices (r, r) of a `Finer`.
+    """
+    from scipy.linalg.lapack import dsygvd
+
+    count = u.shape[1]
+    own, root = u / np.maximum(1.0, np.linalg.norm(u, axis=0)), np.sqrt(np.maximum(eigenvalues[:count], 0.0))
+    spread, within = (own.T @ each @ own for each in parts)
+    more = np.eye(count) + spread + root[:, None] * within * root
+    rates, Q, fault = dsygvd(np.diag(eigenvalues[:count]), more)
+    if fault:
+        return eigenvalues, X
+    return np.concatenate([rates, eigenvalues[count:]]), np.hstack([X[:, :count] @ Q, X[:, count:]])

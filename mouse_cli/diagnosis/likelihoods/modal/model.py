@@ -97,15 +97,15 @@ class Model(Carrying):
 
     def paired(self, x: np.ndarray, eigenvalues: np.ndarray, X: np.ndarray, S: np.ndarray) -> Point | None:
         """Those modes beside the test; None where it has modes that are none of theirs."""
+        eigenvalues, X = self.base.refined(eigenvalues, X)
         seen = S @ X
         seen += self.base.sensing @ X[: self.base.r]
-        meshed, eigenvalues = eigenvalues, self.base.refined(eigenvalues, X)
         modes = self.base.data.pair(eigenvalues, seen)
         if modes.max() >= len(eigenvalues) or eigenvalues[modes].min() <= 0:
             return None
         turn = turned(self.base.data, eigenvalues, seen, modes)
         residual, a = self.base.data.residual(eigenvalues[modes], measured(seen, modes, turn))
-        return Point(x, eigenvalues, X, seen, modes, residual if turn is None else turn.left(residual), a, turn, meshed)
+        return Point(x, eigenvalues, X, seen, modes, residual if turn is None else turn.left(residual), a, turn)
 
     def jacobian(self, at: Point) -> np.ndarray:
         """d(prediction)/dx (q, k + t), whitened; that of the last point is kept."""
@@ -115,16 +115,16 @@ class Model(Carrying):
 
     def _jacobian(self, at: Point) -> np.ndarray:
         X, m = at.X, at.which
-        u, lam = X[:, m], at.of_matrices[m]
+        u, lam = X[:, m], at.eigenvalues[m]
         shape = (self.k + self.t, self.size, len(m))
         pushed = np.zeros(shape), np.zeros(shape[::2]), np.zeros((shape[0], len(at.seen), shape[2]))
         self._by_deck(at, u, lam, pushed)
         self._by_causes(at, u, lam, pushed)
         forces, inertia, sensed = pushed
         G = (np.swapaxes(forces, 1, 2).reshape(-1, self.size) @ X).reshape(len(forces), len(m), self.size)
-        apart = lam[:, None] - at.of_matrices
+        apart = lam[:, None] - at.eigenvalues
         apart[np.abs(apart) < 1e-9 * np.abs(lam)[:, None]] = np.inf
-        d_lambda = G[:, np.arange(len(m)), m] * (at.eigenvalues[m] / lam)
+        d_lambda = G[:, np.arange(len(m)), m]
         d_seen = np.swapaxes((G / apart) @ at.seen.T, 1, 2) - 0.5 * inertia[:, None] * at.seen[:, m] + sensed
         return at.jacobian(self.base.data, d_lambda.T, np.moveaxis(d_seen, 0, -1))
 

@@ -39,8 +39,9 @@ class Numerics:
         """sd of ln f (m,) of the measured modes of a point of `model` as it is: of what the correction leaves."""
         if self.finer is None:
             return np.abs(self.moved)
-        corrected = replace(model, finer=self.finer).refined(at.eigenvalues, at.X)
-        return np.abs(self.moved - 0.5 * np.log(corrected / at.eigenvalues)[at.modes]) + _LEFT * np.abs(self.moved)
+        corrected, _ = replace(model, finer=self.finer).refined(at.eigenvalues, at.X)
+        by = 0.5 * np.log(corrected[at.modes] / at.eigenvalues[at.modes])
+        return np.abs(self.moved - by) + _LEFT * np.abs(self.moved)
 
 
 def numerics(

@@ -35,7 +35,6 @@ class Point(Left):
     """Model at x: all eigenvalues, shapes X (size, size), what sensors see of them (s, size), measured modes, residual, scales.
 
     turn: how close modes are turned into those that were measured, and for what the residual is whitened; None: none are close.
-    meshed: the eigenvalues that X has in the matrices, where `eigenvalues` are corrected for the mesh; None: they are not.
     """
 
     x: np.ndarray
@@ -46,12 +45,6 @@ class Point(Left):
     residual: np.ndarray
     a: np.ndarray
     turn: Turn | None = None
-    meshed: np.ndarray | None = None
-
-    @property
-    def of_matrices(self) -> np.ndarray:
-        """The eigenvalues that X has in the matrices."""
-        return self.eigenvalues if self.meshed is None else self.meshed
 
     @property
     def turns(self) -> tuple[Turn, ...]:

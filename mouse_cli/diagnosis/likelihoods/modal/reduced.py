@@ -67,12 +67,12 @@ class Reduced:
         """Number of its modes up to the highest one of the test, and so many beyond."""
         return min(self.r, int(self.data.test.number.max()) + beyond)
 
-    def refined(self, eigenvalues: np.ndarray, X: np.ndarray) -> np.ndarray:
-        """Eigenvalues (size,) of the modes X (r or more, size), of the lowest as half as long elements have them."""
+    def refined(self, eigenvalues: np.ndarray, X: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Eigenvalues (size,) and modes X (r or more, size), the lowest as half as long elements have them."""
         if self.finer is None:
-            return eigenvalues
+            return eigenvalues, X
         count = min(len(eigenvalues), 2 * int(self.data.test.number.max()) + _BEYOND)
-        return refined(self._finer, eigenvalues, X[: self.r, :count])
+        return refined(self._finer, eigenvalues, X, X[: self.r, :count])
 
     @cached_property
     def _finer(self) -> tuple[np.ndarray, np.ndarray]:
