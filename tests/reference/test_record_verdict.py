@@ -21,8 +21,10 @@ from mouse_cli.report.sections.records import _proof, _row
 from mouse_cli.report.verdict_sentences import remains
 from mouse_cli.terms.laws import registry
 from mouse_cli.updating.recordings.adequacy import missing, shift_p, shifted, unlikely
+from mouse_cli.updating.recordings.free_force import Spectrum
 from mouse_cli.updating.recordings.records import _floor, records
-from mouse_cli.updating.recordings.regression import Start
+from mouse_cli.updating.recordings.regression import Regression, Start
+from mouse_cli.updating.recordings.series import Series
 from mouse_cli.updating.recordings.study import fitted, study
 from mouse_cli.updating.recordings.uncertain import UNDAMPED, uncertain
 from mouse_cli.updating.recordings.validation import ratio
@@ -331,3 +333,14 @@ def test_laws_like_one_that_is_adequate_are_fitted_too(weighed_laws):
     assert alike(order, [gap], ("gap", here.site.text)) == [cubic, far_gap]
     assert alike(order, [gap, cubic, far_gap], ("gap", here.site.text)) == []
     assert alike(order, [gap], ("gap", "nowhere")) == [far_gap]
+
+
+def test_a_part_too_short_for_its_edges_keeps_no_sample(weighed_laws):
+    """As of a stretch that figures show: its regression divided by the mean of nothing, and all that it found was nan."""
+    base = weighed_laws[1].hypothesis.without_last  # with a place
+    short, at = np.ones((40, 2)), np.eye(2)
+    series = Series(
+        "short", 1e-3, short[:, :1], short, np.ones(2), at[:, :1], at, np.zeros(2, int), 0 * at[:, :1], slow=40
+    )
+    found = Regression(Spectrum(series, base.linear), base)
+    assert not len(found.y) and found.sd == 1.0 and np.isfinite(found.begin(np.zeros(0), np.zeros(0))[0]).all()

@@ -78,7 +78,9 @@ class Regression:
         self.missing = spectrum.missing + self._answer(self.begun)
         self.sd = 1.0
         self.y = self.stacked(self.missing)
-        self.sd = float(np.hypot(1.0, error * np.sqrt((self.y**2).mean())))
+        self.sd = float(
+            np.hypot(1.0, error * np.sqrt((self.y**2).sum() / max(len(self.y), 1)))
+        )  # a short part may keep no sample
         self.y /= self.sd
         channels = hypothesis.channels.columns(spectrum)
         columns = *self._nuisances(U), *channels, *self._slopes(), *spectrum.begins

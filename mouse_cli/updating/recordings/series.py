@@ -106,6 +106,7 @@ def passed() -> float:
     return float((limiter(1) ** 2).sum())
 
 
+@np.errstate(over="ignore", invalid="ignore")  # simulations may diverge
 def sampled(fine: np.ndarray, factor: int) -> np.ndarray:
     """Simulated channels (P, s, t * factor, G), band-limited and at the samples; REACH samples at either end are lost.
 
