@@ -100,14 +100,7 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices, recordings
         cautions=cautions(ranking, verdict, location),
         misstated=misstated(ranking) if missing else None,
         proposals=_proposals(ranking, verdict),
-        remarks=(
-            *doubts,
-            *remarks,
-            *of_windows(ranking),
-            *warnings,
-            *getattr(ranking, "remarks", ()),
-            *(() if deck is None else _coarse(deck)),
-        ),
+        remarks=(*doubts, *remarks, *of_windows(ranking), *warnings, *_of(ranking, deck)),
         extended=deck and with_damping(replace(deck, test=given.test and deck.test), problem, put),
         extended_result=deck
         and run(_by_modes(deck), notice=notice, guess=_values(deck, put), enough=enough, search=False),
@@ -118,6 +111,11 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices, recordings
         **_tried(ranking),
         **vars(compared(problem, ranking, best if missing else None)),
     )
+
+
+def _of(ranking: Ranking, deck: Problem | None) -> tuple[str, ...]:
+    """Remarks on a ranking, and on the deck that was extended."""
+    return (*getattr(ranking, "remarks", ()), *(() if deck is None else _coarse(deck)))
 
 
 def _tried(ranking: Ranking) -> dict[str, object]:
