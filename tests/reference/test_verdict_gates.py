@@ -360,18 +360,6 @@ def test_a_gradient_of_a_section_is_a_taper_of_its_own_member(along, counted):
     assert groups["taper"] == pytest.approx(counted)
 
 
-@pytest.mark.parametrize(("at", "counted"), [(0.53, 0.98), (0.6, 0.89)])
-def test_a_law_at_the_site_of_a_spring_is_that_spring(proofs, at, counted):
-    """A force at one place that may differ from mode to mode is no rival of the spring there, as long as that is more probable."""
-    spring, law = made_up("ground-spring@0.5"), made_up(nameless="law", even="ground-spring")
-    spring.recipes[0].unknowns, spring.sites = ("place", "stiffness"), [Site("element", (5,), (0.5, 0.0, 0.0))]
-    law.nameless.cells = SimpleNamespace(sites=(Site("element", (6,), (at, 0.0, 0.0)),))
-    found = ranked(spring, law, BARE, p=(0.89, 0.09, 0.02))
-    assert dict(found.groups)["ground-spring"] == pytest.approx(counted)
-    assert decide(found)[0] == (NAMED if counted > 0.95 else ONE_OF)
-    assert dict(ranked(law, spring, BARE, p=(0.89, 0.09, 0.02)).groups)["law"] == pytest.approx(0.89)
-
-
 def test_an_oscillator_above_the_band_is_a_mass():
     """An item on a mount so stiff that it follows the structure, or so soft that it stands still."""
     problem = assemble(yaml_deck.read(deck(Truth(), modes=6, held=1), "beam.yaml"))

@@ -15,7 +15,6 @@ from mouse_cli.diagnosis import gates
 from mouse_cli.diagnosis.likelihoods.modal.accuracy import Doubt, doubts, ways
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.likelihoods.modal.scales import span
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.nameless.fit import rivals
 from mouse_cli.diagnosis.noise import scale
@@ -29,11 +28,10 @@ from mouse_cli.diagnosis.search.parts import in_turn, promising, single
 from mouse_cli.diagnosis.search.pool import Pool
 from mouse_cli.diagnosis.search.several import adequate, plain, several
 from mouse_cli.diagnosis.search.study import Study
-from mouse_cli.model.diagnosis import LAW, Untried
+from mouse_cli.model.diagnosis import Untried
 from mouse_cli.model.groups import joined, shares
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.shared_place import panels, together
-from mouse_cli.model.site import gap
 
 NOISY = 1.5  # noise scale above which the accuracies of the test themselves are in doubt
 _UNPHYSICAL = "no size of it makes a model whose modes can be paired with the test"
@@ -75,7 +73,7 @@ class Ranking:
 
         A field counts as the mechanism that it is where it does not vary, if that is the more probable of the two: soil on which
         a building moves as one rigid body as a flexible support, a spring in the panels of a brace as a brace, a section that
-        changes linearly along one member as a taper, a law at the site of a spring as that spring.
+        changes linearly along one member as a taper.
         """
         return shares(*zip(*_counted(self.fits, self.probabilities), strict=True))
 
@@ -100,7 +98,6 @@ def _counted(fits: tuple[Fit, ...], probabilities: np.ndarray) -> Iterator[tuple
     tie to the ground with a more probable fit to that.
     """
     even: dict[str, Fit] = {}  # of what acts alike everywhere, or moves the whole, the first of each group
-    single: dict[str, Fit] = {}  # of single mechanisms, wherever they act
     ties: set[str] = set()  # groups that others have been counted to
     for i, (one, p) in enumerate(zip(fits, probabilities.tolist(), strict=True)):
         name, variants = group(one), one.variants if one.nameless else ()
@@ -112,23 +109,18 @@ def _counted(fits: tuple[Fit, ...], probabilities: np.ndarray) -> Iterator[tuple
             p *= 1 - there
         for part, share in ((one, 1 - sum(share for _, share in variants)), *variants):
             limit = part.nameless.rival.even if part.nameless else ""
-            known = (single if name == LAW else even).get(limit)
-            yield (limit if known is not None and _contains(known, part) else name), p * share
-        if len(one.recipes) == 1:
-            single.setdefault(name, one)
+            yield (limit if limit in even and _contains(even[limit], part) else name), p * share
         if len(one.recipes) == 1 and (len(one.recipes[0].unknowns) == 1 or name in _SIZES):
             even.setdefault(name, one)
 
 
 def _contains(known: Fit, field: Fit) -> bool:
     """Whether a field acts where a mechanism does: one between two places in the line of panels that a spring crosses, a gradient
-    along the member of a taper, a law at the site of a spring or a hinge.
+    along the member of a taper.
 
     What else is even acts everywhere.
     """
     rival = field.nameless.rival
-    if rival.key == LAW:
-        return gap(known.sites[0], field.nameless.cells.sites[0]) <= gates.SAME_SITE * span(known.model.base)
     if rival.gradient:
         return {i for site in field.nameless.cells.sites for i in site.ids} <= set(known.sites[0].ids)
     if rival.key != "spring":
