@@ -7,12 +7,8 @@ from pathlib import Path
 from xml.sax.saxutils import escape
 
 TOP = Path(__file__).resolve().parents[1]
-_WIDTH, _GAP, _LINE, _CHARACTER = (
-    960,
-    12,
-    15,
-    6.1,
-)  # of the drawing, between boxes, of a line of text, of a letter: pixels
+# Of the drawing, between boxes, of a line of text, of a letter: pixels
+_WIDTH, _GAP, _LINE, _CHARACTER = 960, 12, 15, 6.1
 _STYLE = (
     "text{font:12px sans-serif;fill:#1a1a1a} .name{font-weight:bold;font-size:13px} rect{fill:#eef3f8;stroke:#55708c}"
 )

@@ -8,12 +8,8 @@ import numpy as np
 from benchmarks.blind.case import generator, log_uniform, near
 from benchmarks.blind_frf.exact import Beam, Joint, receptance
 
-SENSORS, LINES, NOISE, FLOOR = (
-    8,
-    1200,
-    0.01,
-    0.002,
-)  # noise: of each reading, and of the rms of all readings of a sensor
+# Noise: of each reading, and of the rms of all readings of a sensor
+SENSORS, LINES, NOISE, FLOOR = 8, 1200, 0.01, 0.002
 MODES = 5.5  # the band ends there, in modes of the beam
 DENSITY, E = 7850.0, 2.1e11
 ELEMENTS = 40

@@ -30,9 +30,8 @@ _SIDES = {
     95: 1.644854,
     99: 2.326348,
 }  # standard deviations by which one side is met at a confidence level
-_LIKE = (
-    0.25  # likeness below which the mode that comes to the frequency is called another, and its place is passed over
-)
+# Likeness below which the mode that comes to the frequency is called another, and its place is passed over
+_LIKE = 0.25
 _STEPS = 4  # towards what meets a target for sure
 _MET = 1e-6  # relative, to which the modified model must have the frequency that was asked for
 

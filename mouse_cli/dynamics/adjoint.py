@@ -17,10 +17,8 @@ _SAMPLE = 48  # properties by which the error is estimated
 _ROWS, _PROPERTIES = 8192, 256  # worked on at once
 _CAUTION = 3.0  # times what the estimate says
 _ITERATING = 1e-3  # accuracy that is enough to iterate with
-_ROUNDED, _REFINED = (
-    1e-3,
-    2e-2,
-)  # shares of the bound of rounding that derivatives may show, by plain and by refined solutions
+# Shares of the bound of rounding that derivatives may show, by plain and by refined solutions
+_ROUNDED, _REFINED = 1e-3, 2e-2
 _MATCH = 1e-7  # theta of a space and of the mode that it shows agree so well, relative
 _SMALL = 1e-3  # derivatives below this share of the largest one of a mode are judged by that share
 

@@ -3,9 +3,8 @@
 import numpy as np
 
 LIKELY = 0.8  # a measured and a model mode farther apart than this are not one mode, such as MAC 0.3 and 5 %
-ANY_FREQUENCY = (
-    0.6  # detuning beyond which frequencies tell no more: a MAC above 0.8 makes a pair even in a model far too stiff
-)
+# Detuning beyond which frequencies tell no more: a MAC above 0.8 makes a pair even in a model far too stiff
+ANY_FREQUENCY = 0.6
 
 
 def mac(one: np.ndarray, other: np.ndarray) -> np.ndarray:

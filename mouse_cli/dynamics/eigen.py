@@ -8,10 +8,8 @@ from mouse_cli.dynamics.frequency import frequency_hz
 from mouse_cli.dynamics.krylov import Krylov
 
 RIGID = 1e-6  # |lambda| up to this share of the first measured eigenvalue is a rigid-body mode
-_ROUNDED, _LOW = (
-    1e-13,
-    1e-6,
-)  # shares of the largest eigenvalue: no more than rounding; a mode that has lost digits to it
+_ROUNDED = 1e-13  # shares of the largest eigenvalue: no more than rounding
+_LOW = 1e-6  # that share, of a mode that has lost digits to rounding
 _MASSLESS = 1e-13  # eigenvalues of M up to this share of the largest are no mass
 
 

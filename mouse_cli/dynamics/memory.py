@@ -8,10 +8,8 @@ from mouse_cli._errors import ERROR, Diagnostic, NumericalError
 from mouse_cli.model.arrays import Matrix
 
 _LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
-_FRONTS, _LEAVES = (
-    14.0,
-    8.0,
-)  # entries of L by squares of the separator, and by n log2 n: fitted to plates and solids of 1e5
+# Entries of L by squares of the separator, and by n log2 n: fitted to plates and solids of 1e5
+_FRONTS, _LEAVES = 14.0, 8.0
 
 
 def available() -> int:

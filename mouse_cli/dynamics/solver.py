@@ -21,17 +21,13 @@ TOLERANCE = 1e-8  # residual |A^-1 M x - theta x| / theta of a mode: its eigenva
 EXACT = 1e-12  # the same for partial derivatives that are to be exact to rounding
 _PARTED = 1e-4  # eigenvalues that lie so far apart, relative, can be counted from between them
 _TRIES = 4
-_COSTLY, _NOISY_LARGE = (
-    30_000,
-    1e-2,
-)  # degrees of freedom from which on refining costs too much for less, and then less than what
+# Degrees of freedom from which on refining costs too much for less, and then less than what
+_COSTLY, _NOISY_LARGE = 30_000, 1e-2
 _NOISY, _NOISY_EXACT = 1e-5, 1e-10  # rounding above which solutions are refined, by a bound 30 to 3000 times too large
 _CLEAN = 1e-9  # the same above which modes are freed of what rounding mixed into them
 _STEPS = 3  # of Newton's method for exact shapes
-_BELOW, _FAR = (
-    0.3,
-    0.02,
-)  # the shift, and the lowest elastic eigenvalue that makes a new one worth its while, by the other
+# The shift, and the lowest elastic eigenvalue that makes a new one worth its while, by the other
+_BELOW, _FAR = 0.3, 0.02
 _SEARCHES, _TRIAL = 8, 4  # most factorisations to find a shift, and steps of Lanczos in each
 
 

@@ -21,10 +21,8 @@ LEAST = 64  # samples of a decay
 _ROWS, _COLUMNS, _BLOCKS = 400, 1200, 60  # of the Hankel matrix, at most; block rows
 _ORDERS, _STEP, _ROUNDS = 40, 2, 3  # highest order; times that poles are sought in what a fit leaves
 _MARGIN = 2.56  # samples a second per Hz of the band
-_PARTS, _FALLS = (
-    8,
-    1.5,
-)  # of a decay; times the noise of the others that the first one leaves, from which on it is remarked upon
+_PARTS = 8  # of a decay
+_FALLS = 1.5  # times the noise of the others that the first one leaves, from which on it is remarked upon
 
 
 def begun(recording: Recording) -> Recording:

@@ -17,11 +17,8 @@ from mouse_cli.report.coarsened import coarsened
 from mouse_cli.report.json_values import dof_name
 from mouse_cli.terms.constraints import links
 
-MOST_NODES, MOST_MODES, LARGEST = (
-    1500,
-    20,
-    140,
-)  # that a page still draws; degrees of freedom of a shape without positions
+# That a page still draws; degrees of freedom of a shape without positions
+MOST_NODES, MOST_MODES, LARGEST = 1500, 20, 140
 _LOWEST = 6  # modes of a model whose test has none
 _DIGITS = 4
 

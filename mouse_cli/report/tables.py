@@ -6,10 +6,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 SUMMARY = "summary"  # name of the table of one row
-_OF_PARAMETERS, _OF_DOFS = (
-    ("theta",),
-    ("shape", "shape_sd", "test"),
-)  # lists in objects that become columns of their own
+# Lists in objects that become columns of their own
+_OF_PARAMETERS, _OF_DOFS = ("theta",), ("shape", "shape_sd", "test")
 _KEPT = ("ids", "position")  # lists that stay what they are: of a place
 _BY_PARAMETERS, _BY_MODES = ("covariance", "prior_covariance"), ("covariance_hz2", "auto_mac_test")  # square matrices
 

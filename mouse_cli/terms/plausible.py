@@ -13,10 +13,8 @@ from mouse_cli.model.units import KILOGRAM, SYSTEMS, Units
 
 _LONGEST = 0.5  # radius of gyration over the span of the structure, above which the section is no section of it
 _THINNEST, _USUAL = 5e-5, (2e-3, 0.3)  # the same, below which no bar can be; and of most structures
-_SQUAT, _USUAL_SHAPE = (
-    (1e-5, 1e5),
-    (5e-3, 1e2),
-)  # I / A^2: 1/(4 pi) of a disc, 1/12 of a square, about 1 of rolled sections
+# I / A^2: 1/(4 pi) of a disc, 1/12 of a square, about 1 of rolled sections
+_SQUAT, _USUAL_SHAPE = (1e-5, 1e5), (5e-3, 1e2)
 _LENGTHS = {"mm": 1e-3, "cm": 1e-2, "in": 0.0254, "ft": 0.3048}
 _TOYS = (
     300.0,

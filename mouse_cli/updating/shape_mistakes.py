@@ -13,10 +13,8 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.updating.state import reference_eigenvalue
 
 _FEWEST = 4, 2  # sensors and modes: fewer are like anything in some reading
-_UNLIKE, _WITHOUT_SIGNS = (
-    0.7,
-    0.9,
-)  # mean MAC as read, below which another reading is thought of; where no component is negative
+_UNLIKE = 0.7  # mean MAC as read, below which another reading is thought of
+_WITHOUT_SIGNS = 0.9  # the same, where no component is negative
 _LIKE, _EACH = 0.95, 0.9  # mean MAC and MAC of each mode that the reading must give
 _FACTORS = ((1e3, "in mm beside m"), (1e-3, "in m beside mm"), (9.80665, "in m/s2 beside g"), (1 / 9.80665, "in g beside m/s2"),
             (25.4, "in mm beside in"), (1 / 25.4, "in in beside mm"))  # fmt: skip

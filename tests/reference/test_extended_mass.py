@@ -11,14 +11,8 @@ from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.model.diagnosis import NAMED
 
-EI, MASS, LENGTH, SUPPORT, COARSE, FINE = (
-    700.0,
-    6.0,
-    1.5,
-    8,
-    15,
-    4,
-)  # N m2, kg/m, m; node of the second bearing; elements
+# N m2, kg/m, m; node of the second bearing; elements
+EI, MASS, LENGTH, SUPPORT, COARSE, FINE = 700.0, 6.0, 1.5, 8, 15, 4
 COUNT, SENSORS = 5, (1, 2, 4, 5, 7, 9, 11, 13, 14, 15)
 
 

@@ -9,10 +9,8 @@ from scipy.signal import lsim
 
 from mouse_cli.cli.main import cli
 
-M, C0 = (
-    np.diag([10.0, 8.0, 10.0, 8.0]),
-    np.diag([12.0, 10.0, 12.0, 10.0]),
-)  # two discs; degrees of freedom x1, x2, y1, y2
+M = np.diag([10.0, 8.0, 10.0, 8.0])  # two discs
+C0 = np.diag([12.0, 10.0, 12.0, 10.0])  # degrees of freedom x1, x2, y1, y2
 K = np.zeros((4, 4))
 K[:2, :2] = [[9e4, -4e4], [-4e4, 6e4]]
 K[2:, 2:] = [[9.4e4, -4e4], [-4e4, 6.5e4]]

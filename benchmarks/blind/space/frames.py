@@ -11,9 +11,8 @@ from benchmarks.blind.test_data import Config
 E, NU, DENSITY = 2.1e11, 0.3, 7850.0
 FEWEST, MOST = 60, 150  # members
 KEPT, FITTED = 10, 8  # modes measured, and of them fitted
-VISIBLE = (
-    200.0  # chi-square by which a cause must move the data: with less, one of a hundred members is nobody's to name
-)
+# Chi-square by which a cause must move the data: with less, one of a hundred members is nobody's to name
+VISIBLE = 200.0
 _RETUNED = 20  # modes of the sound frame among which those of the other are sought
 
 

@@ -14,9 +14,8 @@ from mouse_cli import __version__
 from mouse_cli._atomic import write_bytes_atomically
 
 _ARRAYS = ("accepted", "chain", "log_prob", "hz")
-_GROWTH = (
-    0.1  # share by which a chain grows before it is written again: so all writing together is of the order of one chain
-)
+# Share by which a chain grows before it is written again: so all writing together is of the order of one chain
+_GROWTH = 0.1
 
 
 class Kept:

@@ -21,10 +21,8 @@ from mouse_cli.model.problem import Problem
 
 _MOST = 240  # members that are looked at: those that hold most energy in the lowest modes
 _HELD = 1e-6  # share of the energy of a mode below which a member has no part in it
-_FEW, _TELLS = (
-    24,
-    0.01,
-)  # members that a search in few coordinates knows to stretch; share of an eigenvalue that is lost with one
+_FEW = 24  # members that a search in few coordinates knows to stretch
+_TELLS = 0.01  # share of an eigenvalue that is lost with such a member, at least
 _LOST, _GAINED = Unknown(LOST, "1", 0.02, 0.99), Unknown("share gained", "1", 0.02, 20.0)
 # Of a member that is missing, its mass alike: a hundredth of a diagonal is as stiff as the chords that do what it did, and what is
 # left of it hardly is a tuned mass in members like it, whose modes it splits by the root of its mass over theirs.

@@ -26,9 +26,8 @@ from mouse_cli.model.problem import Problem
 _LOADED = 0.02  # share of the largest reaction of its kind below which a support is not loaded
 _MOST = 48  # supports that are looked at: those that bear most
 _STARTS = {1: 7, 2: 4}  # stiffnesses to begin from, of one, and of each of two
-_APART = (
-    4  # supports of one direction up to which any of them may be flexible together, each with a stiffness of its own
-)
+# Supports of one direction up to which any of them may be flexible together, each with a stiffness of its own
+_APART = 4
 
 
 @dataclass(frozen=True)

@@ -13,10 +13,8 @@ from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.units import KILOGRAM
 
-_FELT, _LARGEST = (
-    1e-3,
-    0.1,
-)  # of the mass of the structure, shared by the sensors: what may be felt, and what nobody would mount
+# Of the mass of the structure, shared by the sensors: what may be felt, and what nobody would mount
+_FELT, _LARGEST = 1e-3, 0.1
 _HEAVIEST = 20.0  # kg of a sensor with its base plate and cable: geophones and servo accelerometers weigh less
 
 

@@ -16,10 +16,8 @@ from mouse_cli.model.problem import Problem
 
 _FEWEST = 4  # bars in a row that show a slope
 _MOST = 0.6  # change from the middle to an end
-_LEAST_MASS, _MOST_MASS = (
-    0.3,
-    1.0,
-)  # of b h over that of b h^3: a third where the depth h changes, all where the width b does
+# Of b h over that of b h^3: a third where the depth h changes, all where the width b does
+_LEAST_MASS, _MOST_MASS = 0.3, 1.0
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:

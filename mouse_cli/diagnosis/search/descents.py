@@ -17,9 +17,8 @@ _STARTS = 3  # fits of a candidate to the end, from different optima
 _SLACK = 1.5  # times the misfit that matters in all coordinates: what matters in few
 _TIES = 12  # places as good as the best that are fitted
 _SETTLE = 3  # times that causes are weighed anew
-_OF_SETS = (
-    1e-5  # share of parameters within which what element sets give is alike: of a missing one nothing must be left
-)
+# Share of parameters within which what element sets give is alike: of a missing one nothing must be left
+_OF_SETS = 1e-5
 _FEW = 16  # places and sizes that are looked at in all coordinates
 
 

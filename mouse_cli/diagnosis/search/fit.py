@@ -21,10 +21,8 @@ _TRIFLE = 1e-5 * _SMALL  # what a step promises likewise, below which no shorter
 MOST = 40
 _GIVE_UP = 1e8
 _HOPE = 4.0  # times the gain that a full step promises: what a search may gain at most, unless it gains more
-_LEAST, _AHEAD = (
-    3,
-    8,
-)  # steps before a search may be given up (of a brief one a third), and that may gain as the last one did
+# Steps before a search may be given up (of a brief one a third), and that may gain as the last one did
+_LEAST, _AHEAD = 3, 8
 
 
 @dataclass(frozen=True)

@@ -38,13 +38,11 @@ _UNPHYSICAL = "no size of it makes a model whose modes can be paired with the te
 _TRUSTED = 0.5  # share of the stated accuracies in the leading explanation below which errors of the test may be all
 _LOUD = 4.0  # noise scale from which on no error of the test is all, and as many are sought as beside a test that is trusted
 _ENTRY = 0.99  # probability of one wrong entry of the test from which on nothing further is sought behind it
-_IDLE = (
-    0.5  # probability of no mechanism above which what has no name is not asked where that leaves no more than chance
-)
+# Probability of no mechanism above which what has no name is not asked where that leaves no more than chance
+_IDLE = 0.5
 _SIZES = ("support", "taper")  # groups that have more than one size and yet no place that these could move
-_FURTHER = (
-    0.2  # p-value of the best single mechanism below which several may gain what their prior takes, some ten nats
-)
+# P-value of the best single mechanism below which several may gain what their prior takes, some ten nats
+_FURTHER = 0.2
 
 
 @dataclass(frozen=True)

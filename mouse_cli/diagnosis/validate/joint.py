@@ -17,9 +17,8 @@ from mouse_cli.updating.chi_square import upper_tail
 
 _SAMPLE, _BEGUN = 64, 4  # points of the posterior at which new data are predicted; of these, where descents begin
 _CHANCE = 0.05  # p-value of what the best of them leaves from which on no other is begun
-_NOTHING = (
-    100.0  # times its degrees of freedom: misfit of a fit from which on what its data leave open says nothing of others
-)
+# Times its degrees of freedom: misfit of a fit from which on what its data leave open says nothing of others
+_NOTHING = 100.0
 _CURVED = 0.1  # chi-square from which on a prediction one standard deviation away is another than the linear one
 
 

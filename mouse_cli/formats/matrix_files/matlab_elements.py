@@ -10,15 +10,8 @@ from mouse_cli.formats.data_files import room
 
 _MATRIX, _COMPRESSED = 14, 15
 _TYPES = frozenset((1, 2, 3, 4, 5, 6, 7, 9, 12, 13, _MATRIX, _COMPRESSED, 16, 17, 18))  # MAT-File Format, Table 1-1
-_CELL, _STRUCT, _OBJECT, _TEXT, _SPARSE, _FUNCTION, _OPAQUE = (
-    1,
-    2,
-    3,
-    4,
-    5,
-    16,
-    17,
-)  # classes of arrays, Table 1-3
+# Classes of arrays, Table 1-3
+_CELL, _STRUCT, _OBJECT, _TEXT, _SPARSE, _FUNCTION, _OPAQUE = 1, 2, 3, 4, 5, 16, 17
 _NUMERIC, _HOLDERS = range(6, 16), (_CELL, _STRUCT, _OBJECT)
 _NUMBERS, _LETTERS = (1, 2, 3, 4, 5, 6, 7, 9, 12, 13), (1, 2, 3, 4, 16, 17, 18)  # types of their parts
 _HEAD = ((6,), (5, 6), (1, 2, 16))  # flags, dimensions, name

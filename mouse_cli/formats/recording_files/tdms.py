@@ -9,11 +9,8 @@ from mouse_cli.formats.recording_files import MOST_COLUMNS, Column, Contents, Re
 
 _UNITS = ("unit_string", "NI_UnitDescription", "Unit", "unit")
 _SCALES, _MOST_SCALES = "NI_Number_Of_Scales", 100
-_LEAD, _LISTS, _BIG_ENDIAN = (
-    28,
-    2,
-    64,
-)  # bytes before a segment; flags: channels are listed, most significant byte first
+# Bytes before a segment; flags: channels are listed, most significant byte first
+_LEAD, _LISTS, _BIG_ENDIAN = 28, 2, 64
 _MOST_LISTED = 10_000_000
 _STEP = "wf_increment"
 

@@ -14,10 +14,8 @@ from mouse_cli.updating.recordings.uncertain import Uncertain
 
 FLOOR = 0.01  # of the rms of a channel: no transducer and no theory is more accurate
 HELD = 0.3  # share at the end of each record that is held out where the deck holds nothing out
-_LINES, _LOWEST = (
-    32,
-    1.41,
-)  # spectral lines averaged for the noise floor; white noise over the lowest tenth of such means
+_LINES = 32  # spectral lines averaged for the noise floor
+_LOWEST = 1.41  # white noise over the lowest tenth of means of so many
 _RUNG, _SHORTEST = 0.999, 256  # share of the energy of a free decay that is used; its samples, at least
 _FORCES = ("force", "moment")
 _ORDERS = MOTIONS | {"rotation": 0, "angular velocity": 1, "angular acceleration": 2}  # how many times differentiated

@@ -17,9 +17,8 @@ from mouse_cli.updating.recordings.basis import LARGEST, along, basis_of
 from mouse_cli.updating.recordings.linear import Linear
 
 UNDAMPED, LOOSE = 0.01, 2.0  # damping ratio assumed of each mode where the deck has no damping; its sd, by its value
-LEFT_OUT = (
-    0.01  # sd at least of the damping ratio of a mode where the deck has damping: air, joints and supports add to it
-)
+# Sd at least of the damping ratio of a mode where the deck has damping: air, joints and supports add to it
+LEFT_OUT = 0.01
 _PUSHES = 1e-6  # of the largest value of a link: below zero by rounding
 _MOST_LINKED = 400  # degrees of freedom of a model all of whose links are looked at
 _Named = list[tuple[str, np.ndarray]]  # matrices (n, n) with the names of what they belong to

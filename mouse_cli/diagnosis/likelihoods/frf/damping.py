@@ -13,9 +13,8 @@ _TRACE, _WIDE = 1e-4, 3.0  # viscous damping ratio in mid-band that may come bes
 _KINDS = 4  # of damping that all modes share
 _UNEVEN = 0.5  # sd of ln of the damping of each mode over what the kinds make of it, where modes are damped unevenly
 _FAR = 8.0  # standard deviations beyond which damping does not change
-_RIGID = (
-    1e-6  # of the eigenvalue of the lowest measured mode, below which a mode has no strain that would lose anything
-)
+# Of the eigenvalue of the lowest measured mode, below which a mode has no strain that would lose anything
+_RIGID = 1e-6
 _SAME = 1e-6  # share of the damping below which what a deck states is like the rest
 
 

@@ -14,11 +14,8 @@ from mouse_cli.observables.frf import observe
 from mouse_cli.observables.frf_leakage import Leakage, of_window
 from mouse_cli.observables.frf_smoothing import smoothed
 
-_VALUES, _FEW, _MOST = (
-    4000,
-    MOST_LINES,
-    2 * MOST_LINES,
-)  # values of one measurement, and its lines, at least and at most
+# Values of one measurement, and its lines, at least and at most
+_VALUES, _FEW, _MOST = 4000, MOST_LINES, 2 * MOST_LINES
 _EVEN = 1e-3  # of the spacing of lines, by which that of one block may scatter
 
 

@@ -25,18 +25,14 @@ from mouse_cli.updating.chi_square import upper_tail
 from mouse_cli.updating.frf_start import WIDTHS
 
 _REACH = 60.0  # nats by which modes may speak against an explanation that is judged by FRFs still
-_SINGLES, _ELSEWHERE = (
-    3,
-    2,
-)  # single causes that are judged in any case; other places at which modes leave a cause possible
+_SINGLES = 3  # single causes that are judged in any case
+_ELSEWHERE = 2  # other places at which modes leave a cause possible
 _WIDTHS = WIDTHS[1:]  # damping ratios by which resonances are broadened
 _UNSTATED = ("hann", "uniform")  # windows that are tried where a deck states none
 _PLAIN = 10.0  # nats that one must gain
 _WEIGHED = 3  # times that accuracies nobody stated are taken from what is left
-_FAR, _LEAST = (
-    200.0,
-    4,
-)  # nats below the leading one up to which an explanation is fitted to the end, and how many are at least
+# Nats below the leading one up to which an explanation is fitted to the end, and how many are at least
+_FAR, _LEAST = 200.0, 4
 
 
 @dataclass(frozen=True)

@@ -19,10 +19,8 @@ from mouse_cli.updating.recordings.study import Study, alike, fitted, study
 
 _REACH = 60.0  # nats by which all else may speak against an explanation that recordings judge still
 _SINGLES = 3  # single mechanisms that are judged in any case
-_ELSEWHERE, _SHARE = (
-    6,
-    0.01,
-)  # other sites of an explanation that are judged, and the share of it that they hold at least
+# Other sites of an explanation that are judged, and the share of it that they hold at least
+_ELSEWHERE, _SHARE = 6, 0.01
 _CLIMBED, _LEAST = 2, -300.0  # explanations that are moved to sites nearby; ln of the share that such a site may hold
 _BEHIND = 2.0  # times the cost of a better one, from which on what modes say is not expanded anew
 _AWAY = 1.0  # nats by which the expansion of what modes say may be wrong where recordings lead

@@ -19,9 +19,8 @@ from mouse_cli.updating.recordings.study import Study, fitted
 from mouse_cli.updating.refusals import not_simulated
 
 _POLISHED, _MORE, _AGAIN = 4, 12, 8  # starts that are fitted; where none of them is adequate; of the nearest law again
-_FIRST_ORDER = (
-    0.02  # of what is missing: error of first looks, where nuisances that leave their prior explain it by first order
-)
+# Of what is missing: error of first looks, where nuisances that leave their prior explain it by first order
+_FIRST_ORDER = 0.02
 _ALIKE = 6  # starts that are fitted although an adequate law was found, as they are like it
 _TAKEN = 0.5  # of what may be noise, that a law leaves at most to be more than it
 _SERIES = "smooth-stiffness"  # group of laws that are terms of one power series

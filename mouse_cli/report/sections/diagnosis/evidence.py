@@ -17,10 +17,8 @@ from mouse_cli.report.sections._diagnosis_wording import (
 from mouse_cli.report.sections._field import untried_text
 from mouse_cli.report.sections._wording import counted, test_table
 
-_LEAST, _EVIDENCE_MOST = (
-    1e-3,
-    30,
-)  # probability of explanations that are listed, and how many; a few are, however improbable
+_LEAST = 1e-3  # probability of explanations that are listed; a few are, however improbable
+_EVIDENCE_MOST = 30  # of them
 _ALWAYS = 8
 _COUNTS, _FEW = 0.01, 5  # the same of a short report
 _JUDGED = heads("<candidate | <group | <site | log evidence over none | probability | p-value")
