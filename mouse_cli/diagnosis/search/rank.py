@@ -166,9 +166,11 @@ def _ranked(study: Study, causes: int, hear: Callable[[Ranking], Ranking], last:
     )
     fits = [baseline, *singles]
     found = hear(ranking(baseline, fits))
-    if sum(doubt.probability for doubt in found.doubts if doubt.modes) > _ENTRY and found.noise_scale <= NOISY:
+    none = dict(found.groups).get("none", 0.0)
+    entry = sum(doubt.probability for doubt in found.doubts if doubt.modes)
+    if none > _IDLE and entry > _ENTRY and found.noise_scale <= NOISY:
         return replace(found, untried=_untried(study, singles))
-    if last and (dict(found.groups).get("none", 0.0) < _IDLE or not adequate(found.baseline, gates.GATE)):
+    if last and (none < _IDLE or not adequate(found.baseline, gates.GATE)):
         fits += rivals(model, baseline, kind, within(fits))
     alone = plain(one for one in found.fits if one.recipes)
     if causes > 1 and len(found.fits) > 1 and not any(adequate(one, _FURTHER) for one in alone):
