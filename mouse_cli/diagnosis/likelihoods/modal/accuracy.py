@@ -21,6 +21,7 @@ from mouse_cli.diagnosis.noise import log_density
 from mouse_cli.diagnosis.search.fit import Fit
 
 _PROBABLE = 0.03  # of each kind of error, before the test
+_FOLLOWED = 1e-6  # of its size, below which a difference is rounding
 _NODES = 9  # sizes tau that are weighed, evenly spaced in their logarithm
 
 
@@ -101,43 +102,54 @@ def ways(one: Fit) -> tuple[Weighed, ...]:
     stated = Weighed(None, np.zeros((1, 1)), np.array([[one.misfit]]))
     if not isinstance(one.data, Data):
         return (stated,)
-    descent = _descent(one)
-    return (stated, *(found for error in ERRORS if (found := _weighed(one, error, *descent)) is not None))
+    Q, left = _followed(one)
+    return (stated, *(found for error in ERRORS if (found := _weighed(one, error, Q, left)) is not None))
 
 
-def _weighed(one: Fit, error: Error, T: np.ndarray, A: np.ndarray, slope: np.ndarray) -> Weighed | None:
+def _weighed(one: Fit, error: Error, Q: np.ndarray, left: np.ndarray) -> Weighed | None:
     readings = {modes: G for modes, G in error.readings(one).items() if G.any()}
     if not readings:
         return None
-    each = [_gained(one, G, error.sizes, T, A, slope) for G in readings.values()]
+    each = [_gained(one.misfit, G, error.sizes, Q, left) for G in readings.values()]
     return Weighed(error, *map(np.array, zip(*each, strict=True)), tuple(readings))
 
 
-def _gained(one: Fit, G: np.ndarray, sizes: np.ndarray, T, A, slope) -> tuple[np.ndarray, np.ndarray]:
-    """What ln Z gains (t,), and the misfit that is left (t,), with readings off by G at sd of `sizes` (t,)."""
-    along = T.T @ G
-    followed = np.linalg.solve(A, np.column_stack([along, slope]))
-    beta, U = np.linalg.eigh(G.T @ G - along.T @ followed[:, :-1])
-    beta, b = np.maximum(beta, 0.0), U.T @ (G.T @ one.point.residual - along.T @ followed[:, -1])
+def _gained(misfit: float, G: np.ndarray, sizes: np.ndarray, Q: np.ndarray, left: np.ndarray) -> tuple:
+    """What ln Z gains (t,), and what is left of the misfit (t,), with readings off by G at sd of `sizes` (t,).
+
+    B and b are products of what Q does not follow of G: each difference by itself would be rounding where it follows all.
+    """
+    beyond = np.vstack([G, np.zeros((len(Q) - len(G), G.shape[1]))])
+    beyond -= Q @ (Q.T @ beyond)
+    beyond[:, np.linalg.norm(beyond, axis=0) < _FOLLOWED * np.linalg.norm(G, axis=0)] = 0.0
+    beta, U = np.linalg.eigh(beyond.T @ beyond)
+    beta, b = np.maximum(beta, 0.0), U.T @ (beyond.T @ left)
     tau2 = sizes[:, None] ** 2
-    less = (b**2 * tau2 / (1 + tau2 * beta)).sum(axis=1)
-    return 0.5 * (less - np.log1p(tau2 * beta).sum(axis=1)), np.maximum(one.misfit - less, 0.0)
+    less = np.minimum((b**2 * tau2 / (1 + tau2 * beta)).sum(axis=1), misfit)
+    return 0.5 * (less - np.log1p(tau2 * beta).sum(axis=1)), misfit - less
 
 
-def _descent(one: Fit) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """T (q, f), A (f, f) and the slope (f,) of the misfit along x, but for coordinates at a limit that they would leave."""
-    model, x, T = one.model, one.point.x, one.model.jacobian(one.point)
-    slope = T.T @ one.point.residual - np.where(np.arange(len(x)) < model.k, x, 0.0)
+def _followed(one: Fit) -> tuple[np.ndarray, np.ndarray]:
+    """Orthonormal Q (q + f, f) of all that the unknowns of a fit can follow, and what is left (q + f,); f unknowns are free.
+
+    Behind the q data stand the priors of the unknowns, S'S = A - T'T. An unknown at a limit that it would leave is not free.
+    """
+    model, x, T, r = one.model, one.point.x, one.model.jacobian(one.point), one.point.residual
+    pull = np.where(np.arange(len(x)) < model.k, -x, 0.0)
     low, high = np.vstack([np.tile([-np.inf, np.inf], (model.k, 1)), model.bounds]).T
+    slope = T.T @ r + pull
     free = ~(((x <= low) & (slope < 0)) | ((x >= high) & (slope > 0)))
-    return T[:, free], np.linalg.inv(one.covariance)[np.ix_(free, free)], slope[free]
+    T, A = T[:, free], np.linalg.inv(one.covariance)[np.ix_(free, free)]
+    values, vectors = np.linalg.eigh(A - T.T @ T)
+    size = np.sqrt(np.maximum(values, 0.0))
+    own = np.divide(vectors.T @ pull[free], size, out=np.zeros(len(size)), where=size > _FOLLOWED * size.max(initial=0.0))
+    return np.linalg.qr(np.vstack([T, size[:, None] * vectors.T]))[0], np.concatenate([r, own])
 
 
 def scatter(one: Fit) -> tuple[float, float]:
     """By what the sd of frequencies, and of shapes, are to be multiplied for what a fit leaves of either; NaN without data."""
     data, r = one.model.base.data, one.point.residual
-    T, A, _ = _descent(one)
-    free = 1 - np.einsum("qf,fq->q", T, np.linalg.solve(A, T.T))
+    free = 1 - (_followed(one)[0][: len(r)] ** 2).sum(axis=1)
     own = np.arange(len(r)) < data.has_frequency.sum()
     profiled = data.has_shape.any(axis=0).sum() if data.scaled else 0
     parts = ((own, 0), (~own, profiled))
