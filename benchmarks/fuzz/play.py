@@ -63,6 +63,12 @@ def _resident() -> float:
     return int(Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize() / _MB
 
 
+def _addresses(limits: Limits) -> int:
+    """Bytes of addresses that a child may have: those that it begins with, what an input may take, and room for libraries."""
+    own = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+    return own + int((limits.memory + 3000) * _MB)
+
+
 def _outcome(arguments: list[str], folder: Path, code: int, cpu: float, memory: float, limits: Limits) -> Outcome:
     fault, place = _judged(arguments, folder, code, cpu, memory, limits)
     return Outcome(code, round(cpu, 2), round(memory), fault, place)
@@ -179,7 +185,7 @@ def chained(jobs: list, made: Callable[[object, Path], list[str]], limits: Limit
 
 
 def _chain(jobs: list, made: Callable, limits: Limits, top: Path, writing: int) -> None:
-    resource.setrlimit(resource.RLIMIT_AS, (int((limits.memory + 3000) * _MB),) * 2)
+    resource.setrlimit(resource.RLIMIT_AS, (_addresses(limits),) * 2)
     resource.setrlimit(resource.RLIMIT_FSIZE, (200 * _MB,) * 2)
     _watch()
     start = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
@@ -209,7 +215,7 @@ def _bound(limits: Limits) -> None:
     cpu = int(limits.cpu) + 1
     faulthandler.register(signal.SIGXCPU, file=2, all_threads=False)
     resource.setrlimit(resource.RLIMIT_CPU, (cpu, cpu + 2))
-    resource.setrlimit(resource.RLIMIT_AS, (int((limits.memory + 3000) * _MB),) * 2)
+    resource.setrlimit(resource.RLIMIT_AS, (_addresses(limits),) * 2)
     resource.setrlimit(resource.RLIMIT_FSIZE, (200 * _MB,) * 2)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     signal.alarm(_HANG)
