@@ -170,8 +170,8 @@ MUTANTS = (
             "test_rivals_without_a_name_share_their_prior",
         ),
         nameless_never_asked=(
-            "if last and (dict",
-            "if not last and (dict",
+            "if last and (none",
+            "if not last and (none",
             "test_a_field_over_the_masses_of_a_chain",
         ),
     ),
