@@ -2,13 +2,8 @@
 
 from dataclasses import dataclass
 
-WINDOWS = (
-    "hann",
-    "hamming",
-    "blackmanharris",
-    "flattop",
-    "uniform",
-)  # of one shape; an exponential one is a decay rate
+# Of one shape; an exponential one is a decay rate
+WINDOWS = ("hann", "hamming", "blackmanharris", "flattop", "uniform")
 
 
 @dataclass(frozen=True)

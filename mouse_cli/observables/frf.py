@@ -11,9 +11,8 @@ from functools import cached_property
 
 import numpy as np
 
-from mouse_cli.dynamics.frf import kind_factor
 from mouse_cli.model.frf_test import KINDS, FrfTest
-from mouse_cli.observables.frf_leakage import Leakage, of_window
+from mouse_cli.observables.frf_leakage import AtNodes, Leakage, of_window
 
 # Standard deviation of real and imaginary part where none is known: root of the sum of squares of these shares.
 ASSUMED_OF_MAGNITUDE = 0.05  # of the value's own magnitude
@@ -22,7 +21,7 @@ LEAST = 1e-3  # no value is held to be known better than to this share of its ma
 
 
 @dataclass(frozen=True)
-class FrfObservable:
+class FrfObservable(AtNodes):
     """The values of `test` in `form` at its `lines` (l,), from 0; q data.
 
     H (l, o, i), sd (l, o, i): as fitted, and standard deviation of its real and of its imaginary part. have (l, o, i): what is
@@ -48,20 +47,9 @@ class FrfObservable:
         """What H1 makes of the functions of a model; None: nothing, as of those that were smoothed, whose resonances are broad."""
         return None if self.width else of_window(self.test, self.s)
 
-    @property
-    def nodes(self) -> np.ndarray:
-        """Where the model is solved (n,), rad/s."""
-        return self.leakage.nodes if self.leakage else self.s
-
-    @cached_property
-    def factor(self) -> np.ndarray:
-        """What receptance is multiplied by at the nodes (n, 1, 1)."""
-        return kind_factor(KINDS[self.test.kind], self.nodes)
-
     def expected(self, receptance: np.ndarray) -> np.ndarray:
         """What is measured (l, o, i, ...) of a receptance (n, o, i, ...) at the nodes, but for noise."""
-        H = receptance * self.factor.reshape(-1, *[1] * (receptance.ndim - 1))
-        return self.leakage.expected(H) if self.leakage else H
+        return super().expected(receptance * self.factor.reshape(-1, *[1] * (receptance.ndim - 1)))
 
     def __len__(self) -> int:
         return int(self.have.sum()) * (1 if self.form == "log" else 2)

@@ -11,13 +11,14 @@ conjugate. A lag window that ends with a bend or a step has a longer series, and
 """
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
+from mouse_cli.dynamics.frf import kind_factor
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.block_window import BlockWindow
-from mouse_cli.model.frf_test import FrfTest
+from mouse_cli.model.frf_test import KINDS, FrfTest
 from mouse_cli.records.leakage import lags
 
 _DECAY = 9.0  # p sigma T
@@ -37,6 +38,28 @@ class Leakage:
         """H1 (l, ...) of functions H (n, ...), linear in their real and imaginary parts."""
         flat = H.reshape(len(H), int(np.prod(H.shape[1:])))
         return (self.above @ flat + self.below @ flat.conj()).reshape(self.above.shape[0], *H.shape[1:])
+
+
+class AtNodes:
+    """Lines s (l,), rad/s, of a measurement `test`, as a model is solved for them; leakage: what H1 makes of it, None: nothing."""
+
+    test: FrfTest
+    s: np.ndarray
+    leakage: Leakage | None
+
+    @property
+    def nodes(self) -> np.ndarray:
+        """Where the model is solved (n,), rad/s."""
+        return self.leakage.nodes if self.leakage else self.s
+
+    @cached_property
+    def factor(self) -> np.ndarray:
+        """What receptance is multiplied by at the nodes (n, 1, 1)."""
+        return kind_factor(KINDS[self.test.kind], self.nodes)
+
+    def expected(self, H: np.ndarray) -> np.ndarray:
+        """What was measured (l, ...) of functions H (n, ...) at the nodes, but for noise."""
+        return self.leakage.expected(H) if self.leakage else H
 
 
 def of_window(test: FrfTest, s: np.ndarray) -> Leakage | None:

@@ -29,22 +29,22 @@ def check(problem: Problem, solution: EigenSolution) -> None:
     reach = min(solution.shapes.shape[1], 2 * int(test.number.max(initial=0)) + 6)
     phi, hz = solution.shapes[:, :reach], solution.frequencies_hz[:reach].copy()
     hz[solution.eigenvalues[:reach] <= RIGID * reference_eigenvalue(problem, solution.eigenvalues)] = 0.0
-    before = _likeness(test.frequency_hz, hz, test.shapes, test.read(phi))
+    before = _mac_of_pairs(test.frequency_hz, hz, test.shapes, test.read(phi))
     positive = bool((test.shapes >= 0).all())
     if before.mean() >= (_WITHOUT_SIGNS if positive else _UNLIKE):
         return
     found = []
     for x, read, said, help in _readings(problem, phi, positive):
-        likeness = _likeness(test.frequency_hz, hz, x, read)
-        if likeness.mean() >= _LIKE and likeness.min() >= _EACH:
-            found.append((likeness.mean(), said, help))
+        each = _mac_of_pairs(test.frequency_hz, hz, x, read)
+        if each.mean() >= _LIKE and each.min() >= _EACH:
+            found.append((each.mean(), said, help))
     if found:
         mean, said, help = max(found)
         message = f"the shapes are like those of the model by a mean MAC of {before.mean():.2f}; {said}, by {mean:.2f}"
         raise DeckError(Diagnostic("MD454", ERROR, message, problem.place(f"mode {test.number[0]}"), help=help))
 
 
-def _likeness(frequency_hz: np.ndarray, hz: np.ndarray, x: np.ndarray, read: np.ndarray) -> np.ndarray:
+def _mac_of_pairs(frequency_hz: np.ndarray, hz: np.ndarray, x: np.ndarray, read: np.ndarray) -> np.ndarray:
     """MAC (m,) of each measured mode and its partner."""
     return mac(x, read[:, pair(x, frequency_hz, read, hz)]).diagonal()
 

@@ -75,7 +75,7 @@ def remarks(ranking: Ranking) -> tuple[str, ...]:
     found = window_of(of_functions(ranking.baseline))
     if found is None:
         return ()
-    text = "the functions are explained as H1 of blocks of {:.4g} s under a window '{}', which the deck does not state"
+    text = "the FRFs are explained as H1 of blocks of {:.4g} s under a window '{}', which the deck does not state"
     return (f"{text.format(found.seconds, found.name)}: check it, and give window: {found.name}",)
 
 

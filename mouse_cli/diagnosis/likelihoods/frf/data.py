@@ -1,17 +1,15 @@
 """Frequency response functions as a diagnosis sees them: real and imaginary parts over their standard deviations."""
 
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 
 import numpy as np
 
 from mouse_cli.diagnosis.likelihoods.modal.data import Data
-from mouse_cli.dynamics.frf import kind_factor
 from mouse_cli.model.block_window import BlockWindow
-from mouse_cli.model.frf_test import KINDS, MOST_LINES, FrfTest
+from mouse_cli.model.frf_test import MOST_LINES, FrfTest
 from mouse_cli.model.theory import Theory
 from mouse_cli.observables.frf import observe
-from mouse_cli.observables.frf_leakage import Leakage, of_window
+from mouse_cli.observables.frf_leakage import AtNodes, Leakage, of_window
 from mouse_cli.observables.frf_smoothing import smoothed
 
 # Values of one measurement, and its lines, at least and at most
@@ -20,7 +18,7 @@ _EVEN = 1e-3  # of the spacing of lines, by which that of one block may scatter
 
 
 @dataclass(frozen=True)
-class Lines:
+class Lines(AtNodes):
     """f lines of o responses to i forces: s (f,), rad/s; H, sd (f, o, i), sd of the real and of the imaginary part.
 
     has (f, o, i): what was measured. leakage: what H1 makes of the functions of a model; None: nothing. assumed: no accuracy was
@@ -39,20 +37,6 @@ class Lines:
     def omega(self) -> np.ndarray:
         """rad/s (f,)."""
         return self.s.imag
-
-    @property
-    def nodes(self) -> np.ndarray:
-        """Where the model is solved (n,), rad/s."""
-        return self.leakage.nodes if self.leakage else self.s
-
-    @cached_property
-    def factor(self) -> np.ndarray:
-        """What receptance is multiplied by at the nodes (n, 1, 1)."""
-        return kind_factor(KINDS[self.test.kind], self.nodes)
-
-    def expected(self, H: np.ndarray) -> np.ndarray:
-        """What was measured (f, ...) of functions H (n, ...) at the nodes, but for noise."""
-        return self.leakage.expected(H) if self.leakage else H
 
     def every(self, count: int) -> "Lines":
         """Every so manieth line of them."""

@@ -19,9 +19,8 @@ from mouse_cli.terms.assembly import assembly
 
 _SMALL, _LARGEST = 600, 20_000  # degrees of freedom of the finer model, about, up to which it is small; is solved
 _TELLING = 0.3  # of a standard deviation
-_LEFT = (
-    1 / 15
-)  # of what halving moves a frequency by, that half as long elements leave: the error of consistent ones goes with h^4
+# Of what halving moves a frequency by, that half as long elements leave: the error of consistent ones goes with h^4
+_LEFT = 1 / 15
 
 
 @dataclass(frozen=True)
