@@ -7,6 +7,7 @@ import numpy as np
 
 from mouse_cli.importing.cards import Card, Faults, Line
 from mouse_cli.importing.keywords import NODES, SECTIONS, WITHOUT_EFFECT
+from mouse_cli.importing.model import LAYER_ORIENTATION, layered
 
 _BLOCKS = {"PART", "ASSEMBLY", "INSTANCE", "END PART", "END ASSEMBLY", "END INSTANCE"}
 _MATERIAL = {"MATERIAL", "ELASTIC", "DENSITY"}
@@ -155,11 +156,19 @@ def _moved(
     elif card.keyword in _LISTS:
         raised = of.elements if card.keyword in ("ELSET", "SURFACE") else of.nodes
         lines = [_line(line, _members(line, card, raised, called)) for line in lines]
+    elif layered(card):
+        lines = [_layer(line, named) for line in lines]
     elif card.keyword not in _AS_THEY_ARE | WITHOUT_EFFECT:
         where = "the assembly" if top else "a part"
         help = "write the input without parts and assemblies: in Abaqus/CAE, Model attributes"
         faults.add("MD268", f"*{card.keyword[:40]} of {where} is not read", card.head.span, help)
     return Card(card.keyword, options, head, lines)
+
+
+def _layer(line: Line, named: Callable[[str], str]) -> Line:
+    """A layer with the name that its orientation has in the model."""
+    after = [named(word) if word.strip("+-.0123456789") else word for word in line.words[LAYER_ORIENTATION:]]
+    return _line(line, [*line.words[:LAYER_ORIENTATION], *after])
 
 
 def _members(line: Line, card: Card, raised: int, called: Callable[[str], str]) -> list[str]:

@@ -3,7 +3,7 @@
 from mouse_cli._errors import WARNING, Diagnostic
 from mouse_cli.importing.cards import Card, Faults
 from mouse_cli.importing.keywords import SECTIONS
-from mouse_cli.importing.model import Group, InputModel
+from mouse_cli.importing.model import Group, InputModel, materials_of
 
 _MOST = 200  # groups
 _OWNERS = (*SECTIONS, "MASS", "SPRING")
@@ -66,18 +66,16 @@ def _owned(model: InputModel, card: Card, owner: dict[int, Card], faults: Faults
 
 
 def _material_known(model: InputModel, card: Card, faults: Faults) -> None:
-    name, place = card.options.get("MATERIAL", ""), card.head.span
-    found = model.materials.get(name)
-    if "COMPOSITE" in card.options:
-        faults.add("MD268", "composite sections are not read", place, "give one layer an element set of its own")
-    elif found is None:
-        faults.add("MD271", f"there is no material '{name[:40]}'", place, "define it with *MATERIAL, or mend its name")
-    elif found.elastic is None:
-        faults.add("MD271", f"material {name} has no *ELASTIC", found.card.head.span, "give its Young's modulus")
-    elif found.density is None:
-        faults.add(
-            "MD271", f"material {name} has no *DENSITY", found.card.head.span, "give it, in the units of the file"
-        )
+    for name in materials_of(card):
+        found = model.materials.get(name)
+        if found is None:
+            help = "define it with *MATERIAL, or mend its name"
+            faults.add("MD271", f"there is no material '{name[:40]}'", card.head.span, help)
+        elif found.elastic is None:
+            faults.add("MD271", f"material {name} has no *ELASTIC", found.card.head.span, "give its Young's modulus")
+        elif found.density is None:
+            help = "give it, in the units of the file"
+            faults.add("MD271", f"material {name} has no *DENSITY", found.card.head.span, help)
 
 
 def _unowned(model: InputModel, owner: dict[int, Card], faults: Faults) -> None:
@@ -104,12 +102,14 @@ def _divided(model: InputModel, card: Card, own: list[int], sets: dict[int, list
     parts: dict[tuple[str, ...], list[int]] = {}
     for e in own:
         parts.setdefault(tuple(sorted(sets.get(e, []))), []).append(e)
-    material = model.materials.get(card.options.get("MATERIAL", "")) if card.keyword in SECTIONS else None
+    materials = [model.materials[name] for name in materials_of(card)] if card.keyword in SECTIONS else [None]
     for elements in parts.values():
         names = sets[elements[0]]
         whole = next((name for name in names if set(model.elsets[name]) == set(elements)), None)
         name = whole or " in ".join(names[:2])
-        taken = {group.name for group in model.groups}
-        if name in taken:
-            name = next(f"{name} ({i})" for i in range(2, len(taken) + 3) if f"{name} ({i})" not in taken)
-        model.groups.append(Group(name, elements, card, material))
+        for material in materials:
+            own = f"{material.name} in {name}" if material is not None and len(materials) > 1 else name
+            taken = {group.name for group in model.groups}
+            if own in taken:
+                own = next(f"{own} ({i})" for i in range(2, len(taken) + 3) if f"{own} ({i})" not in taken)
+            model.groups.append(Group(own, elements, card, material))

@@ -2,9 +2,9 @@
 
 from collections.abc import Iterable
 
-from mouse_cli.importing.cards import Card
+from mouse_cli.importing.cards import Card, Line
 from mouse_cli.importing.keywords import SECTIONS, TIES
-from mouse_cli.importing.model import Group, InputModel, Material
+from mouse_cli.importing.model import LAYER_MATERIAL, Group, InputModel, Material, word_at
 
 SCALE = 2.0  # of the moduli, densities, springs and masses of a group, in the job that tells its matrices
 _MATRICES = ["*STEP", "*FREQUENCY, SOLVER=MATRIXSTORAGE", "1", "*END STEP"]
@@ -21,9 +21,9 @@ def export(model: InputModel, scaled: Iterable[int] = (), thick: float = 1.0) ->
     for card in model.kept:
         if id(card) not in owners:
             lines += card.text()
-    for i, group in enumerate(model.groups):
-        factor = SCALE if i in scaled else 1.0
-        lines += section(group, f"MOUSE_{i}", factor, factor, thick if group.shell else 1.0)
+    factors = {id(group): (SCALE if i in scaled else 1.0,) * 2 for i, group in enumerate(model.groups)}
+    for i, alike in enumerate(of_same_elements(model.groups)):
+        lines += section(alike, f"MOUSE_{i}", factors, thick if alike[0].shell else 1.0)
     return "\n".join([*lines, *_MATRICES]) + "\n"
 
 
@@ -67,17 +67,36 @@ def _joined(model: InputModel) -> set[int]:
     return {int(word) for word in words if word.isdigit()} & set(model.nodes)
 
 
-def section(group: Group, name: str, stiffness: float, mass: float, thickness: float = 1.0) -> list[str]:
-    """The cards that give a group its properties, in a set and of a material called `name`, times these factors."""
+def of_same_elements(groups: Iterable[Group]) -> list[list[Group]]:
+    """Groups together that have the same elements: the materials of a laminate."""
+    found: dict[tuple[int, int], list[Group]] = {}
+    for group in groups:
+        found.setdefault((id(group.owner), group.elements[0]), []).append(group)
+    return list(found.values())
+
+
+def section(
+    alike: list[Group], name: str, factors: dict[int, tuple[float, float]], thickness: float = 1.0
+) -> list[str]:
+    """The cards that give groups of the same elements their properties, in a set and of materials called `name`.
+
+    factors: of stiffness and mass of a group (by id), (1, 1) where there are none.
+    """
+    group = alike[0]
+    stiffness, mass = factors.get(id(group), (1.0, 1.0))
     lines = [f"*ELSET, ELSET={name}", *listed(group.elements)]
-    options = {key: value for key, value in group.owner.options.items() if key not in ("ELSET", "MATERIAL")}
-    if group.owner.keyword in SECTIONS:
-        lines += [f"*MATERIAL, NAME={name}", *constants(group.material, stiffness, mass)]
-        options = {"ELSET": name, "MATERIAL": name} | options
-    else:
-        options = {"ELSET": name} | options
-    head = "".join(f", {key}={value}" if value else f", {key}" for key, value in options.items())
+    options = {"ELSET": name} | {k: v for k, v in group.owner.options.items() if k not in ("ELSET", "MATERIAL")}
     data = [line.text for line in group.owner.lines]
+    if group.laminate:
+        called = {each.material.name: f"{name}_{k}" for k, each in enumerate(alike)}
+        for each in alike:
+            own = constants(each.material, *factors.get(id(each), (1.0, 1.0)))
+            lines += [f"*MATERIAL, NAME={called[each.material.name]}", *own]
+        data = [_layer(line, called) for line in group.owner.lines]
+    elif group.owner.keyword in SECTIONS:
+        lines += [f"*MATERIAL, NAME={name}", *constants(group.material, stiffness, mass)]
+        options["MATERIAL"] = name
+    head = "".join(f", {key}={value}" if value else f", {key}" for key, value in options.items())
     if thickness != 1.0:
         data = [times(group.owner, 0, thickness, of=1), *data[1:]]
     elif group.owner.keyword == "MASS" and data:
@@ -86,6 +105,13 @@ def section(group: Group, name: str, stiffness: float, mass: float, thickness: f
         at = 0 if len(data) == 1 else 1
         data = [*data[:at], times(group.owner, at, stiffness, of=1)]
     return [*lines, f"*{group.owner.keyword}{head}", *data]
+
+
+def _layer(line: Line, called: dict[str, str]) -> str:
+    """A layer of a laminate with the new name of its material."""
+    words = list(line.words)
+    words[LAYER_MATERIAL] = called[word_at(line, LAYER_MATERIAL).upper()]
+    return ", ".join(words)
 
 
 def constants(material: Material, stiffness: float, mass: float) -> list[str]:

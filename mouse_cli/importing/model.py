@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mouse_cli._errors import Diagnostic
-from mouse_cli.importing.cards import Card
+from mouse_cli.importing.cards import Card, Line
 
 RIGIDITY, HEAVINESS = "stiffness", "mass"
 
@@ -35,6 +35,26 @@ class Material:
         return float(self.density.lines[0].words[0]) if self.density is not None else 0.0
 
 
+LAYER_MATERIAL, LAYER_ORIENTATION = 2, 3  # words of a line of a layer, behind its thickness and its integration points
+
+
+def layered(card: Card) -> bool:
+    """Whether a section has layers, a line for each."""
+    return card.keyword == "SHELL SECTION" and "COMPOSITE" in card.options
+
+
+def materials_of(card: Card) -> list[str]:
+    """The materials that a section names, each once."""
+    if not layered(card):
+        return [card.options.get("MATERIAL", "")]
+    return list(dict.fromkeys(word_at(line, LAYER_MATERIAL).upper() for line in card.lines))
+
+
+def word_at(line: Line, at: int) -> str:
+    """A word of a line of data (from 0); empty beyond the last."""
+    return line.words[at].strip('"') if at < len(line.words) else ""
+
+
 @dataclass
 class Support:
     """dofs: (node, direction 1 to 6) that a boundary condition holds, under the name of its node set."""
@@ -46,7 +66,10 @@ class Support:
 
 @dataclass
 class Group:
-    """Elements (numbers) that share section, material and sets; owner: the section, *MASS or *SPRING of their properties."""
+    """Elements (numbers) that share section, material and sets; owner: the section, *MASS or *SPRING of their properties.
+
+    Of a laminate, the layers of that material: groups of its other materials have the same elements.
+    """
 
     name: str
     elements: list[int]
@@ -55,8 +78,13 @@ class Group:
 
     @property
     def shell(self) -> bool:
-        """Whether its elements have a thickness."""
-        return self.owner.keyword == "SHELL SECTION"
+        """Whether its elements have one thickness."""
+        return self.owner.keyword == "SHELL SECTION" and not self.laminate
+
+    @property
+    def laminate(self) -> bool:
+        """Whether its elements have layers."""
+        return layered(self.owner)
 
 
 @dataclass

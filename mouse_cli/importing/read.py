@@ -9,7 +9,7 @@ from mouse_cli.importing.assembly import flat
 from mouse_cli.importing.cards import Card, Faults, Line, cards
 from mouse_cli.importing.groups import grouped
 from mouse_cli.importing.keywords import NODES, PASSED, READ, RELEVANT, REMEDIES, TIES, WITHOUT_EFFECT
-from mouse_cli.importing.model import InputModel, Material
+from mouse_cli.importing.model import LAYER_MATERIAL, LAYER_ORIENTATION, InputModel, Material, layered, word_at
 from mouse_cli.importing.supports import supports
 
 
@@ -211,6 +211,19 @@ def _material(model: InputModel, card: Card, faults: Faults) -> None:
     model.materials[name] = Material(name, card)
 
 
+def _layers(model: InputModel, card: Card, faults: Faults) -> None:
+    """Layers of a laminate: one at an angle of zero to the section has no orientation of its own."""
+    for k, line in enumerate(card.lines if layered(card) else ()):
+        turned = word_at(line, LAYER_ORIENTATION)
+        if turned.strip("+-.0123456789"):
+            continue
+        if turned.strip("+-.0"):
+            message = f"the layer is turned by an angle, {turned[:20]} degrees, which CalculiX does not read"
+            faults.add("MD268", message, line.span, "name an *ORIENTATION whose first axis is along the fibres")
+        words = [word_at(line, 0), "", word_at(line, LAYER_MATERIAL)]
+        card.lines[k] = replace(line, words=words, text=", ".join(words))
+
+
 def _of_material(attribute: str):
     """Reader of a card of the material above."""
 
@@ -247,6 +260,7 @@ _READERS = {
     "ELSET": _set("ELSET"),
     "TRANSFORM": _transform,
     "MATERIAL": _material,
+    "SHELL SECTION": _layers,
     "ELASTIC": _of_material("elastic"),
     "DENSITY": _of_material("density"),
 }

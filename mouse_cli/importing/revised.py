@@ -8,7 +8,7 @@ from mouse_cli._errors import DeckError
 from mouse_cli.formats.solver_cards import tag
 from mouse_cli.formats.solver_cards._keywords import keyword_lines
 from mouse_cli.importing.cards import Card
-from mouse_cli.importing.jobs import elastic, listed, real, section, times
+from mouse_cli.importing.jobs import elastic, listed, of_same_elements, real, section, times
 from mouse_cli.importing.keywords import NODES
 from mouse_cli.importing.model import Group, InputModel
 from mouse_cli.model.geometry import DIRECTIONS, rigid_motions
@@ -72,7 +72,7 @@ def _changes(model: InputModel, revision: Revision, released: set[int]) -> _Chan
             ratio = each.E / known.E if each.E is not None else 1.0
             materials[each.name] = (ratio, each.density / known.rho if each.density and known.rho else 1.0)
             notes[each.name] = list(each.notes)
-    groups, gone = {}, set()
+    groups, gone, kept = {}, set(), set()
     for group in model.groups:
         own = [part for part in revision.sets if part.name == group.name]
         left = float(np.prod([part.left for part in own]))
@@ -81,6 +81,7 @@ def _changes(model: InputModel, revision: Revision, released: set[int]) -> _Chan
             groups[id(group)] = left * e + sum(p.stiffness for p in own), left * r + sum(p.mass for p in own)
             notes.setdefault(group.name, []).extend(part.note for part in own)
             gone |= set(group.elements) if left < _GONE else set()
+        kept |= set(group.elements) if not own or left >= _GONE else set()  # other layers may be
     thickness = {}
     for one in revision.thicknesses:
         for group in model.groups:
@@ -88,7 +89,7 @@ def _changes(model: InputModel, revision: Revision, released: set[int]) -> _Chan
                 ratio = one.value / float(group.owner.lines[0].words[0])
                 thickness[id(group)] = thickness.get(id(group), 1.0) * ratio
         notes.setdefault(one.name, []).append(one.note)
-    return _Changes(materials, groups, gone, released, notes, thickness)
+    return _Changes(materials, groups, gone - kept, released, notes, thickness)
 
 
 def _card(card: Card, model: InputModel, changes: _Changes, material: str, used: set[str]) -> list[str]:
@@ -119,14 +120,15 @@ def _card(card: Card, model: InputModel, changes: _Changes, material: str, used:
 def _sections(own: list[Group], changes: _Changes, used: set[str]) -> list[str]:
     """A section for each group of one, with a material of its own; none for what is taken out."""
     lines = []
-    for group in own:
-        lines += [f"** {note}" for note in changes.notes.get(group.name, ())]
-        if changes.gone.issuperset(group.elements):
-            lines.append(f"** {group.name} is taken out")
+    for alike in of_same_elements(own):
+        lines += [f"** {note}" for group in alike for note in changes.notes.get(group.name, ())]
+        if changes.gone.issuperset(alike[0].elements):
+            lines.append(f"** {alike[0].name} is taken out")
             continue
-        of = changes.materials.get(group.material.name, (1.0, 1.0)) if group.material is not None else (1.0, 1.0)
-        thickness = changes.thickness.get(id(group), 1.0)
-        lines += section(group, tag(f"{group.name}_REVISED", used), *changes.groups.get(id(group), of), thickness)
+        of = {id(group): changes.materials[group.material.name] for group in alike
+              if group.material is not None and group.material.name in changes.materials}  # fmt: skip
+        thickness = changes.thickness.get(id(alike[0]), 1.0)
+        lines += section(alike, tag(f"{alike[0].name}_REVISED", used), of | changes.groups, thickness)
     return lines
 
 

@@ -16,7 +16,7 @@ from mouse_cli._span import Span
 from mouse_cli.importing.calculix import Exported, Solver
 from mouse_cli.importing.cards import Card
 from mouse_cli.importing.jobs import export
-from mouse_cli.importing.model import InputModel
+from mouse_cli.importing.model import InputModel, layered
 from mouse_cli.importing.separate import Parts, parts
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.held import Thickness
@@ -29,10 +29,11 @@ _INNER = 1e-6  # relative: to which the stiffness of an inner motion goes by 1 /
 
 def chosen(model: InputModel, names: tuple[str, ...]) -> list[Card]:
     """Shell sections of those element sets. Raises DeckError (MD272) where there is none."""
-    shells = {c.options.get("ELSET", ""): c for c in model.kept if c.keyword == "SHELL SECTION"}
+    sections = (c for c in model.kept if c.keyword == "SHELL SECTION" and not layered(c))
+    shells = {c.options.get("ELSET", ""): c for c in sections}
     absent = [name for name in names if name.upper() not in shells]
     if absent:
-        message = f"--thickness {absent[0]}: no *SHELL SECTION is for that element set"
+        message = f"--thickness {absent[0]}: no *SHELL SECTION of one thickness is for that element set"
         help = f"give one of {', '.join(shells)}" if shells else "only shells have a thickness"
         raise DeckError(Diagnostic("MD272", ERROR, message, Span(model.path, 1), help=help))
     return [shells[name.upper()] for name in dict.fromkeys(names)]
