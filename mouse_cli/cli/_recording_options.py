@@ -31,7 +31,7 @@ SEGMENT = (
 )
 SPECTRA = (
     click.option("--estimator", type=click.Choice(ESTIMATORS), default="h1", show_default=True, help="Where the noise is."),
-    click.option("--window", type=click.Choice(WINDOWS), default="hann", show_default=True, help="Window of each block."),
+    click.option("--window", type=click.Choice(WINDOWS), help="Window of each block. Default: hann; uniform with --impact."),
     click.option("--lines", type=click.IntRange(min=2), help="Spectral lines, half the samples of a block. Default: by length."),
     click.option("--overlap", type=click.FloatRange(0, 0.95), help="Of blocks. Default: 0.5; 0 for uniform and exponential."),
     click.option(

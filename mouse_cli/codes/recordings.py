@@ -152,4 +152,9 @@ CODES = {
         "was measured and its location is not stated.",
         "Name channels: `--force SENSOR=CHANNEL`, `--response SENSOR=CHANNEL`.",
     ),
+    "MD628": Code(
+        "window that weakens a stroke",
+        "A block begins with the stroke of the hammer, where windows for random forces are near 0; functions would be of noise.",
+        "Leave --window out: with --impact it is uniform; or take --window exponential where the response outlasts the block.",
+    ),
 }

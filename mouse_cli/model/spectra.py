@@ -8,6 +8,7 @@ from mouse_cli.model import block_window
 from mouse_cli.model.frf_test import FrfTest
 
 WINDOWS = (*block_window.WINDOWS, "exponential")
+STROKES = ("uniform", "exponential")  # windows that leave a stroke at the beginning of a block as it is
 ESTIMATORS = ("h1", "h2", "hv")
 FOUND = -1  # as force_window: its length is found in the strokes
 
@@ -16,16 +17,17 @@ FOUND = -1  # as force_window: its length is found in the strokes
 class SpectraOptions:
     """How recordings become frequency response functions; every field is an option of `mouse spectra`.
 
-    lines: spectral lines above 0 Hz, half the samples of a block; None: so many that there are 16 blocks or more. overlap: of
-    blocks, 0 to below 1; None: 0.5, and 0 for the windows uniform and exponential. final: value of the exponential window at the
-    end of the block. period: samples of a periodic excitation; with it there is neither window nor overlap, and the noise is that
-    between periods. skip: samples left out at the beginning. impact: blocks begin before each stroke of a hammer, pretrigger: so
-    many samples before. force_window: samples from the beginning of such a block after which the force is taken to be 0, FOUND or
-    None: no such window. kind: of the functions, None: that of the first response.
+    window: of each block, one of WINDOWS; None: uniform for strokes, which a taper would weaken at the beginning of their
+    block, else hann. lines: spectral lines above 0 Hz, half the samples of a block; None: so many that there are 16 blocks or
+    more. overlap: of blocks, 0 to below 1; None: 0.5, and 0 for the windows uniform and exponential. final: value of the
+    exponential window at the end of the block. period: samples of a periodic excitation; with it there is neither window nor
+    overlap, and the noise is that between periods. skip: samples left out at the beginning. impact: blocks begin before each
+    stroke of a hammer, pretrigger: so many samples before. force_window: samples from the beginning of such a block after which
+    the force is taken to be 0, FOUND or None: no such window. kind: of the functions, None: that of the first response.
     """
 
     estimator: str = "h1"
-    window: str = "hann"
+    window: str | None = None
     lines: int | None = None
     overlap: float | None = None
     final: float = 0.01
@@ -37,11 +39,16 @@ class SpectraOptions:
     kind: str | None = None
 
     @property
+    def taken(self) -> str:
+        """The window that is used."""
+        return self.window or ("uniform" if self.impact else "hann")
+
+    @property
     def shared(self) -> float:
         """The overlap that is used."""
         if self.overlap is not None:
             return self.overlap
-        return 0.0 if self.window in ("uniform", "exponential") else 0.5
+        return 0.0 if self.taken in STROKES else 0.5
 
 
 @dataclass(frozen=True)

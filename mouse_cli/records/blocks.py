@@ -69,7 +69,7 @@ def products(
     """
     from scipy.fft import rfft
 
-    w = window(options.window, block, options.final)
+    w = window(options.taken, block, options.final)
     sums: list[np.ndarray | float] = [0.0, 0.0, 0.0]
     count, effective = 0, 0.0
     for x, y, begin in pieces:

@@ -9,7 +9,7 @@ from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.block_window import BlockWindow
 from mouse_cli.model.frf_test import KINDS, FrfTest
 from mouse_cli.model.recording import MOTIONS, Channel, Recording
-from mouse_cli.model.spectra import FOUND, MeasuredFrf, Quality, SpectraOptions
+from mouse_cli.model.spectra import FOUND, STROKES, MeasuredFrf, Quality, SpectraOptions
 from mouse_cli.records.blocks import decay_rate, products, starts
 from mouse_cli.records.frf_estimators import estimator, multiple_coherence, variance
 from mouse_cli.records.periodic import periodic
@@ -50,7 +50,7 @@ def functions(
         spread, blocks, averages = variance(chosen, H, found, coherence), found.blocks, found.averages
         _averaged(first, averages, remarks)
     hz = fs / block * np.arange(1, H.shape[0] + 1)
-    added = decay_rate(options.final, block / fs) if options.window == "exponential" and not options.period else 0.0
+    added = decay_rate(options.final, block / fs) if options.taken == "exponential" and not options.period else 0.0
     kind, by = _kinds(first, options, added + 2j * np.pi * hz)
     inputs, outputs = ([first.channels[j] for j in columns] for columns in (first.inputs, first.outputs))
     _dependent(H, inputs, first, options)
@@ -66,10 +66,15 @@ def functions(
 
 
 def _window(options: SpectraOptions, seconds: float, by: np.ndarray) -> BlockWindow | None:
-    """The window that broadened resonances in a way that is known: H1 of a random force, of the kind that was recorded."""
-    random = not (options.period or options.impact) and options.window != "exponential"
-    known = random and options.estimator == "h1" and bool((by == 1).all())
-    return BlockWindow(options.window, seconds) if known else None
+    """The window that broadened resonances in a way that is known: H1 of the kind that was recorded, of a random force or strokes.
+
+    After a stroke an exponential window is a decay rate, and what is left of it where the block ends is cut off.
+    """
+    if options.period or options.estimator != "h1" or not (by == 1).all():
+        return None
+    if options.impact:
+        return BlockWindow("uniform", seconds, 0.0)
+    return BlockWindow(options.taken, seconds) if options.taken != "exponential" else None
 
 
 def _refuse(code: str, message: str, help: str) -> None:
@@ -95,6 +100,12 @@ def _check(recordings: Sequence[Recording], options: SpectraOptions) -> None:
         if bad[0].ground:
             help = "`mouse diagnose` and `mouse run` take the motion of the ground; for modes use `mouse identify --output-only`"
         _refuse("MD618", message, help)
+    if options.impact and options.taken not in STROKES:
+        _refuse(
+            "MD628",
+            f"the window '{options.taken}' weakens a stroke, which is at the beginning of its block",
+            "leave --window out (uniform), or take --window exponential where the response outlasts the block",
+        )
     for each in recordings[1:]:
         if abs(each.time_step_s / first.time_step_s - 1) > _SAME_RATE:
             message = f"'{first.title}' has {first.sample_rate_hz:.7g} samples a second, '{each.title}' {each.sample_rate_hz:.7g}"

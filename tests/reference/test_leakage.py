@@ -106,3 +106,36 @@ def test_averages_of_a_record_scatter_about_those_of_its_structure_by_what_coher
     scatter = lambda H: np.mean(np.abs(test.H[:, :, 0] - H)[used] ** 2 / test.variance[:, :, 0][used])
     assert 0.7 < scatter(leakage.expected(exact(leakage.nodes))) < 1.4
     assert scatter(exact(1j * omega)) > 5
+
+
+def blows(seed: int) -> Recording:
+    """Ten strokes of 4 ms, 20 s apart, as bands of the exact response; 0.1 % noise."""
+    random, count, zeta = np.random.default_rng(seed), 40_000, 0.005
+    t, hz = np.arange(count) / RATE, np.fft.rfftfreq(count, 1 / RATE)
+    force = sum((1 + random.random()) * np.exp(-(((t - 1 - 20 * k) / 0.004) ** 2) / 2) for k in range(10))
+    H = vibrating.accelerance(hz, *vibrating.modes(zeta), [2])[:, :, 0]
+    y = np.fft.irfft(H * np.fft.rfft(force)[:, None], count, axis=0)
+    y += 1e-3 * y.std(axis=0) * random.standard_normal(y.shape)
+    motions = (Channel(name, OUTPUT, "acceleration", "m/s2", name) for name in "123")
+    return Recording(
+        "hits", 1 / RATE, (Channel("f", INPUT, "force", "N", "3"), *motions), np.column_stack([force, y])
+    )
+
+
+@pytest.mark.parametrize("window", [None, "exponential"])
+def test_damping_is_that_of_a_structure_whose_response_outlasts_the_block(window):
+    """Blocks of 2.56 s: the first mode has fallen to a third where they end."""
+    test = measure([blows(3)], SpectraOptions(impact=True, window=window, lines=256, final=0.3)).measured[0].frf
+    assert test.window == BlockWindow("uniform", 2.56, 0.0)
+    modes = identify_frf([test], (4.0, 70.0)).modes
+    assert len(modes.frequency_hz) == 3
+    assert np.abs(modes.damping / 0.005 - 1).max() < 0.02
+    cut = identify_frf([replace(test, window=None)], (4.0, 70.0)).modes
+    assert len(cut.damping) < 3 or np.abs(cut.damping / 0.005 - 1).max() > 0.05
+
+
+def test_a_window_that_weakens_strokes_is_refused():
+    from mouse_cli._errors import RecordError
+
+    with pytest.raises(RecordError, match="weakens a stroke"):
+        measure([blows(3)], SpectraOptions(impact=True, window="hann", lines=256))

@@ -64,7 +64,7 @@ def heading(result: SpectraResult, options: Options) -> Iterator[Block]:
         ("title", result.title),
         ("source", result.source),
         ("estimator", f"{how.estimator}: {estimator(how.estimator).where}"),
-        ("window", how.window),
+        ("window", how.taken),
         ("overlap", f"{how.shared:g}"),
     ]
     if how.period:
