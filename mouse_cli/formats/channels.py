@@ -117,7 +117,7 @@ def _named(pick: Pick, found: Column, quantity: str, spelled: str) -> Channel:
     ground = pick.sensor.ground is not None
     return Channel(
         found.name, pick.role, quantity, spelled, pick.sensor.name, ground=ground, frame=pick.frame,
-        gain_sd=pick.gain_sd, delay_sd=pick.delay_sd,
+        gain_sd=pick.gain_sd, delay_sd=pick.delay_sd, noise_sd=pick.noise_sd,
     )  # fmt: skip
 
 

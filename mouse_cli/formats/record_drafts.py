@@ -16,8 +16,8 @@ from mouse_cli.model.recording import ABSOLUTE, Recording
 class Pick:
     """Which channel of a file a sensor is, and what its numbers are; empty texts where that is not said.
 
-    sensitivity: as `100 mV/g`. frame: of an output. where: its place, for messages; None where no deck says it. gain_sd, delay_sd:
-    as of a channel.
+    sensitivity: as `100 mV/g`. frame: of an output. where: its place, for messages; None where no deck says it. gain_sd, delay_sd,
+    noise_sd: as of a channel.
     """
 
     sensor: SensorDraft
@@ -30,6 +30,7 @@ class Pick:
     frame: str = ABSOLUTE
     gain_sd: float = 0.0
     delay_sd: float = 0.0
+    noise_sd: float = 0.0
 
 
 @dataclass

@@ -21,7 +21,8 @@ class Channel:
     has said so. weights: what it reads of the model's degrees of freedom, from 0; empty where there is no model. ground: whether
     an input is the motion of the ground that holds the model; its weights then say how the degrees of freedom move along. frame of
     an output: ABSOLUTE, or RELATIVE to that ground. gain_sd: prior sd of ln gain; delay_sd: of the delay of an output, s; 0: known.
-    held: what it reads besides where supports hold the model, 0 in it.
+    noise_sd: of its white noise, by its rms; 0: as its spectrum shows. held: what it reads besides where supports hold the
+    model, 0 in it.
     """
 
     name: str
@@ -34,6 +35,7 @@ class Channel:
     frame: str = ABSOLUTE
     gain_sd: float = 0.0
     delay_sd: float = 0.0
+    noise_sd: float = 0.0
     held: tuple[HeldReading, ...] = ()
 
 

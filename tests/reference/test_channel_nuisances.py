@@ -104,3 +104,10 @@ def test_an_error_that_no_record_shows_is_refused(tmp_path, old, new):
     deck.write_text(deck.read_text().replace(old, new))
     done = CliRunner().invoke(cli, ["check", str(deck)], standalone_mode=False)
     assert done.return_value == 4 and "MD646" in done.output
+
+
+def test_noise_of_more_than_all_of_a_channel_is_refused(tmp_path):
+    deck = Path(record(tmp_path, linear))
+    deck.write_text(deck.read_text().replace("quantity: force", "quantity: force, noise_sd: 150 %"))
+    done = CliRunner().invoke(cli, ["check", str(deck)], standalone_mode=False)
+    assert done.return_value == 4 and "MD215" in done.output and "between 0 and 1" in done.output

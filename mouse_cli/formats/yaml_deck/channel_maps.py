@@ -7,7 +7,7 @@ from mouse_cli.formats.record_drafts import Pick
 from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.formats.yaml_deck import sensors as yaml_sensors
 from mouse_cli.formats.yaml_deck import values as yaml_values
-from mouse_cli.formats.yaml_deck.frf_parts import gain_sd
+from mouse_cli.formats.yaml_deck.frf_parts import gain_sd, share
 from mouse_cli.formats.yaml_deck.kinds import KINDS
 from mouse_cli.formats.yaml_deck.nodes import Node
 from mouse_cli.formats.yaml_deck.sections import Section
@@ -70,13 +70,15 @@ def picks(section: Section, key: str, role: str, known: Known, usual: tuple[floa
     found, frame = [], section.value("frame", ABSOLUTE)
     for sensor, item in pairs(section, key, known, "channel"):
         own, errors = (frame, usual) if role == OUTPUT else (ABSOLUTE, (usual[0], 0.0))
+        noise = None
         if isinstance(item, Section):
             where = section.document.span(item.nodes.get("channel", item.node))
             texts = [item.value(name, "") for name in ("channel", "quantity", "unit", "sensitivity")]
             sensor, own, errors = _moving(item, sensor), item.value("frame", own), uncertain(item, errors)
+            noise = share(item, "noise_sd", "write the share of the rms of the channel that is noise, such as 1 %")
         else:
             where, texts = section.document.span(item), [item.value, "", "", ""]
-        found.append(Pick(sensor, role, *texts, where, own, *errors))
+        found.append(Pick(sensor, role, *texts, where, own, *errors, noise or 0.0))
     return found
 
 

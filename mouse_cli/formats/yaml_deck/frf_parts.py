@@ -75,11 +75,15 @@ def _possible(item: Section, coherence: np.ndarray) -> bool:
 
 def gain_sd(section: Section) -> float | None:
     """Standard deviation of gains near 1, as a share; None where they are known, or after an error."""
-    value = section.read("gain_sd", yaml_values.share)
+    return share(section, "gain_sd", "write the share by which calibrations differ, such as 2 %")
+
+
+def share(section: Section, key: str, help: str) -> float | None:
+    """A standard deviation that is a share; None where there is none, or after an error."""
+    value = section.read(key, yaml_values.share)
     if value is None or 0 < value < 1:
         return value
-    help = "write the share by which calibrations differ, such as 2 %"
-    return section.wrong("gain_sd", "MD215", f"is {value:g}; it must be between 0 and 1", help)
+    return section.wrong(key, "MD215", f"is {value:g}; it must be between 0 and 1", help)
 
 
 def listed(section: Section, node: Node, held: Contents, what: str, kind: type = float) -> np.ndarray | None:

@@ -117,12 +117,6 @@ class Spectrum:
     def _forces(self) -> np.ndarray:
         return self.line(self.series.force - self._mean)
 
-    @property
-    def passed_on(self) -> np.ndarray:
-        """sd (s,) of what the noise of the measured excitation, white as its floor, does to the outputs through the model."""
-        gain = np.abs(self.SH @ self.series.loads(self.linear.M))
-        return np.sqrt((gain[1:] ** 2).mean(axis=0) @ self.series.force_floor**2)
-
     @cached_property
     def _loads(self) -> np.ndarray:
         """Histories (t, ...) of the measured forces, or of all that act on the model where the ground carries it along."""

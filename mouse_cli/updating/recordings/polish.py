@@ -92,7 +92,8 @@ class Polish:
         self.h, self.series, self.data = hypothesis, data[0].series, data
         self.spread = hypothesis.padded_states(spread)
         self.force = np.concatenate([part.force for part in data], axis=2)
-        self.measured = self._cleared(np.concatenate([part.measured for part in data], axis=2))
+        self.read = self._cleared(np.concatenate([part.measured for part in data], axis=2))
+        self.measured = self.series.repeated.whitened(self.read)
 
     def _cleared(self, x: np.ndarray) -> np.ndarray:
         """Outputs (..., s, t, G) without hum and drift."""
@@ -206,8 +207,8 @@ class Polish:
         for at in np.unique(read.delay, axis=0):
             if at.any():
                 prompt = np.concatenate([part.earlier(at).measured for part in self.data], axis=2)
-                found[(read.delay == at).all(axis=1)] += self.measured - self._cleared(prompt)
-        return found
+                found[(read.delay == at).all(axis=1)] += self.read - self._cleared(prompt)
+        return self.series.repeated.whitened(found)
 
     @np.errstate(over="ignore", invalid="ignore")
     def _cost(self, at: _Point, x: np.ndarray, states: np.ndarray) -> float:
@@ -270,12 +271,11 @@ class Polish:
         H, _, _, logs = self._normal(at, x, states, 0.0)
         width = self.h.width
         own = np.isfinite(width)
-        shape = np.linalg.slogdet(H)[1]
-        evidence = -cost / 2 - np.log(width[own] / np.sqrt(2 * np.pi)).sum() - shape / 2 - logs / 2
+        evidence = -cost / 2 - np.log(width[own] / np.sqrt(2 * np.pi)).sum() - (np.linalg.slogdet(H)[1] + logs) / 2
         misfit = float((at.residual**2).sum())
         dof = passed() * at.residual.size - len(x) - states.size - self._lost(*at.residual.shape)
-        covariance = np.linalg.inv(H)
-        return Fit(self.h, x, states, covariance, misfit, dof, cost, float(evidence), at.residual)
+        covariance, as_read = np.linalg.inv(H), self.series.repeated.whitened(at.residual, 0.5)
+        return Fit(self.h, x, states, covariance, misfit, dof, cost, float(evidence), as_read)
 
 
 def followed(

@@ -13,6 +13,7 @@ from mouse_cli.updating.recordings.series import Series
 from mouse_cli.updating.recordings.uncertain import Uncertain
 
 FLOOR = 0.01  # of the rms of a channel: no transducer and no theory is more accurate
+_SEEN = 0.05  # floor of the spectrum of an excitation, by its rms, up to which it is noise and no excitation
 HELD = 0.3  # share at the end of each record that is held out where the deck holds nothing out
 _LINES = 32  # spectral lines averaged for the noise floor
 _LOWEST = 1.41  # white noise over the lowest tenth of means of so many
@@ -54,8 +55,10 @@ def records(problem: Problem) -> Records:
     sd = np.max([floors[id(one)] for one in alike], axis=0)
     clear = lambda one: _disturbance(one).cleared_by(one.samples[:, outputs], one.time_step_s, BLOCK)
     sd = np.max([sd, *(FLOOR * clear(one).std(axis=0) for one in alike)], axis=0)
-    quiet = np.max([_floor(ground.accelerations(one, inputs)) for one in alike], axis=0)
-    make = lambda one: replace(_series(problem, one, inputs, outputs, sd), floor=floors[id(one)], force_floor=quiet)
+    stated = lambda columns: np.array([first.channels[j].noise_sd for j in columns])
+    sd = np.max([sd, *(stated(outputs) * clear(one).std(axis=0) for one in alike)], axis=0)
+    quiet = np.max([_excitation_noise(ground.accelerations(one, inputs), stated(inputs)) for one in alike], axis=0)
+    make = lambda one: replace(_series(problem, one, inputs, outputs, sd), floor=floors[id(one)], force_noise=quiet)
     said += [_left_out(one, outputs) for one in alike[:1] if _disturbance(one)]
     if any(first.channels[j].ground for j in inputs):
         said.append(_MOVING)
@@ -134,7 +137,9 @@ def cannot_judge(problem: Problem) -> tuple[Diagnostic, ...]:
 
 
 def _alike(one: Recording, other: Recording) -> bool:
-    same = lambda r: [(c.role, c.quantity, c.weights, c.ground, c.frame, c.gain_sd, c.delay_sd) for c in r.channels]
+    same = lambda r: [
+        (c.role, c.quantity, c.weights, c.ground, c.frame, c.gain_sd, c.delay_sd, c.noise_sd) for c in r.channels
+    ]
     return abs(one.time_step_s / other.time_step_s - 1) < 1e-6 and one.free == other.free and same(one) == same(other)
 
 
@@ -182,6 +187,14 @@ def _weights(channel: Channel, n: int) -> np.ndarray:
     for dof, share in channel.weights.items():
         found[dof] = share
     return found
+
+
+def _excitation_noise(force: np.ndarray, stated: np.ndarray) -> np.ndarray:
+    """sd (i,) of the noise of excitations (t, i): a stated share of their rms, or the floor of their spectra where that is low
+    beside them. An excitation as wide as the samples allow shows none: the floor of its spectrum is its own.
+    """
+    rms, floor = force.std(axis=0), _floor(force)
+    return np.where(stated > 0, stated * rms, np.where(floor < _SEEN * rms, floor, 0.0))
 
 
 def _floor(samples: np.ndarray) -> np.ndarray:

@@ -6,6 +6,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from mouse_cli.updating.recordings.disturbance import NONE, Disturbance
+from mouse_cli.updating.recordings.excitation_noise import SILENT, Repeated
 
 REACH = 12  # samples on either side that the band-limiting filter takes in
 _EDGE, _WINDOW = 0.42, 6.0  # its edge by the sample rate; parameter of its Kaiser window
@@ -17,7 +18,8 @@ class Series:
 
     inputs (n, i), sensing (s, n): how they meet the model; order (s,): 0 displacement, 1 velocity, 2 acceleration. base (n, i): how
     the ground carries it along, where `force` is its acceleration; motions are then relative to it, and `inputs` 0. floor (s,): of
-    the noise, as the spectrum shows it, where sd is more; force_floor (i,): that of the columns of `force`.
+    the noise, as the spectrum shows it, where sd is more; force_noise (i,): sd of that of the columns of `force`, and what
+    simulations make of it, `repeated`.
     free: whether the initial state alone moves it. disturbance: of the outputs, which no fit sees.
     slow: samples over which motions are free in a fit that no force makes, of a structure that nothing holds; 0 where all die away.
     """
@@ -34,7 +36,8 @@ class Series:
     factor: int = 4
     first: int = 0
     floor: np.ndarray | None = None
-    force_floor: np.ndarray | None = None
+    force_noise: np.ndarray | None = None
+    repeated: Repeated = SILENT
     slow: int = 0
     free: bool = False
     disturbance: Disturbance = NONE

@@ -14,7 +14,8 @@ from mouse_cli.updating.recordings.acting import Acting, Place
 from mouse_cli.updating.recordings.calibration import calibration
 from mouse_cli.updating.recordings.channels import SCALE, channel_sites
 from mouse_cli.updating.recordings.disturbance import BLOCK
-from mouse_cli.updating.recordings.free_force import Spectrum
+from mouse_cli.updating.recordings.excitation_noise import Repeated
+from mouse_cli.updating.recordings.free_force import Spectrum, free
 from mouse_cli.updating.recordings.hypothesis import Hypothesis
 from mouse_cli.updating.recordings.places import places
 from mouse_cli.updating.recordings.polish import Fit, followed
@@ -99,7 +100,7 @@ def study(problem: Problem, found: Records, of: Modelled = uncertain) -> Study:
     length = int(np.clip(_PERIODS / slowest / first.dt, _SHORTEST, _LONGEST))
     length = max(64, min(length, min(len(one) for one in found.fitted) // 3))
     slow = length if float(hz.min()) * length * first.dt < 1 else 0
-    found = _accurate(accurate(found, length, slow), model)
+    found = _excited(accurate(found, length, slow), model, length)
     fitted = [steps(reduced(one, model), min(highest, high)) for one in found.fitted]
     share = max(2, _SEGMENTS // len(fitted))
     data = [segments(one, length, share) for one in fitted]
@@ -112,14 +113,23 @@ def study(problem: Problem, found: Records, of: Modelled = uncertain) -> Study:
     return Study(problem, found, model, base, look, data, (low, high), length)
 
 
-def _accurate(found: Records, model: Uncertain) -> Records:
-    """The records with the noise of the motion of the ground in the accuracy of the channels: simulations repeat it, amplified."""
-    first = found.fitted[0]
-    if not first.base.any():
+def _excited(found: Records, model: Uncertain, length: int) -> Records:
+    """The records with what simulations make of the noise of their excitation over stretches of `length` samples.
+
+    What it adds to an acceleration at its own sample is in the sd of that channel, the rest in `repeated`.
+    """
+    first, linear = reduced(found.fitted[0], model), model.linear
+    if not first.force_noise.any():
         return found
-    more = Spectrum(reduced(first, model), model.linear).passed_on
-    wider = lambda series: tuple(replace(one, sd=np.hypot(one.sd, more)) for one in series)
-    return replace(found, fitted=wider(found.fitted), held=wider(found.held))
+    begun = np.linalg.solve(linear.M, first.loads(linear.M)) * first.force_noise
+    sensing = [first.sensing * (first.order == k)[:, None] for k in range(3)]
+    sd = np.sqrt(first.sd**2 + ((sensing[2] @ begun) ** 2).sum(axis=1))
+    pulses = np.zeros((length, len(sd), begun.shape[1]))
+    for order in np.unique(first.order):
+        moved = free(linear, length, first.dt, order)[len(linear.M) :]
+        pulses += sensing[order] @ np.tensordot(moved, begun * first.dt, (0, 0))
+    own = lambda series: tuple(replace(one, sd=sd, repeated=Repeated(pulses / sd[:, None])) for one in series)
+    return replace(found, fitted=own(found.fitted), held=own(found.held))
 
 
 def alike(own: Study, of: Modelled) -> Study:

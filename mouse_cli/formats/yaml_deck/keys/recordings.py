@@ -11,6 +11,10 @@ _SENSOR = (
 )
 _FRF_UNIT = "unit of the values, as (m/s2)/N or g/lbf"
 _GAIN = "standard deviation of the gain of a channel, which is then estimated: `2 %`, or 0.02"
+_NOISE = (
+    "standard deviation of the white noise of a channel, by its rms: `1 %`, or 0.01; that of an input is passed on to what a "
+    "simulation predicts"
+)
 _DELAY = "standard deviation of the delay of an output behind the inputs, which is then estimated"
 SECTIONS = {
     "recording": Section(
@@ -48,6 +52,7 @@ SECTIONS = {
             "frame": Key("choice", "of an output: in space, or relative to the ground", "`frame` of the recording", choices=FRAMES),
             "gain_sd": Key("sd", _GAIN, "`gain_sd` of the recording"),
             "delay_sd": Key("number", _DELAY, "`delay_sd` of the recording", "s"),
+            "noise_sd": Key("sd", _NOISE, "the floor of its spectrum"),
             "moves": Key(
                 "sensor weights",
                 "of the ground: degrees of freedom that it carries along as a rigid body, and by how much",
