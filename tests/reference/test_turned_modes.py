@@ -5,18 +5,24 @@ variance is half of that which `theory.frequency` gives the springs (random symm
 Fitted: the same, with the evidence by Monte Carlo; rings and a tetrahedron, whose double and triple modes have closed forms.
 """
 
+from itertools import combinations
+
 import numpy as np
 import pytest
 from scipy.linalg import eigh
 
 from mouse_cli.diagnosis.diagnose import diagnose
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.likelihoods.modal.data import Data
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.likelihoods.modal.turning import measured, turned
 from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.diagnosis.validate.held_out import held_out
 from mouse_cli.dynamics.solver import EigenSolver
 from mouse_cli.formats import read_deck
 from mouse_cli.model.diagnosis import NAMED, NOTHING
+from mouse_cli.model.modal_test import ModalTest
+from mouse_cli.model.theory import Theory
 from mouse_cli.updating.chi_square import upper_tail
 from mouse_cli.updating.loop import run
 
@@ -61,6 +67,33 @@ def test_close_modes_are_predicted_but_for_how_they_turn(second, tmp_path):
     rng = np.random.default_rng(11)
     p = np.array([predicted(second, rng, tmp_path).p for _ in range(40)])
     assert (p < 0.01).sum() <= 3
+
+
+def test_what_close_modes_leave_has_the_covariance_of_their_angles(tmp_path):
+    """Cayley's R solved as a whole, J by differences, and (I + J P^-1 J')^-1, where three of six close modes are measured."""
+    rng, s, m, u = np.random.default_rng(5), 8, 3, 6
+    seen, hz = rng.standard_normal((s, u)), 10 * (1 + 1e-3 * np.arange(u))
+    shapes = seen[:, :m] + 0.1 * rng.standard_normal((s, m))
+    shapes[2, 1] = np.nan
+    test = ModalTest(np.arange(1, m + 1), hz[:m], 1e-3 * hz[:m], np.arange(s), shapes, np.full((s, m), 0.05))
+    data, eigenvalues, modes = Data(test, Theory()), (2 * np.pi * hz) ** 2, np.arange(m)
+    turn = turned(data, eigenvalues, seen, modes)
+    one, other = zip(*(pair for pair in combinations(range(u), 2) if pair[0] < m), strict=True)
+    assert len(turn.angles) == len(one)
+
+    def shown(t: np.ndarray) -> np.ndarray:
+        T = np.zeros((u, u))
+        T[other, one], T[one, other] = t, -t
+        return seen[:, turn.which] @ np.linalg.solve(np.eye(u) - T / 2, np.eye(u) + T / 2)[:, :m]
+
+    t, h = turn.angles, 1e-6
+    r, a = data.residual(eigenvalues[modes], shown(t))
+    moved = np.stack([shown(t + h * e) - shown(t - h * e) for e in np.eye(len(t))], axis=-1) / (2 * h)
+    J = data.jacobian(eigenvalues[modes], shown(t), a, np.zeros(moved.shape[1:]), moved)
+    assert turn.slopes == pytest.approx(J, abs=1e-6 * np.abs(J).max())
+    covariance = np.eye(len(r)) + J / turn.weights @ J.T
+    left = turn.left(data.residual(eigenvalues[modes], measured(seen, modes, turn))[0])
+    assert left @ left == pytest.approx((r + J @ t) @ np.linalg.solve(covariance, r + J @ t), rel=1e-4)
 
 
 def test_modes_apart_are_predicted_as_before(tmp_path):

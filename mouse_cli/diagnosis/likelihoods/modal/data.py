@@ -72,6 +72,12 @@ class Data:
         least = self.allowed.frequency
         return np.where(self.has_frequency, np.sqrt(np.maximum(self.sd_log**2 - stated**2, least**2)), least)
 
+    @cached_property
+    def modes(self) -> np.ndarray:
+        """Mode (q,), by its place in the test, that each of the data is of."""
+        own = np.broadcast_to(np.arange(self.m), (self.s, self.m))
+        return self._stacked(np.arange(self.m), own)
+
     @property
     def dof(self) -> int:
         """Data less the scales that are fitted to them."""

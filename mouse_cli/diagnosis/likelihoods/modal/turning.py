@@ -8,11 +8,13 @@ element beside the diagonal has half the variance of one on it (Mehta, Random Ma
 
 and is even over the circle where both are one: of a double mode only the plane is known. Each pair has one angle, for shapes stay
 orthogonal. The angles t of all close pairs, shapes turned by R = (I - T/2)^-1 (I + T/2), T skew with t (Cayley), are fitted at each
-prediction, |r|^2 + t'P t -> min with P = 1 / sd^2, and integrated. With J = dr/dt there, |(I + J P^-1 J')^-1/2 (r + J t)|^2 is
-left, and the density is lower by 1/2 ln |I + J (P + c)^-1 J'|: sqrt(c / 2 pi) = 1 / pi is that of an angle that may be any.
+prediction, |r|^2 + t'P t -> min with P = 1 / sd^2, and integrated. With J = dr/dt there, |L^-1 (r + J t)|^2 is left,
+L L' = I + J P^-1 J', and the density is lower by 1/2 ln |I + J (P + c)^-1 J'|: sqrt(c / 2 pi) = 1 / pi is that of an angle that may
+be any.
 """
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -21,7 +23,7 @@ from mouse_cli.diagnosis.likelihoods.modal.data import Data
 _COVERED = 0.02  # angle up to which `theory.shape` allows for it, and what a test states
 _SLIGHT = 0.1  # sd of an angle up to which shapes follow it in proportion: to half a percent
 _EVEN = 2 / np.pi  # c, see above
-_LEAST = 1e-9  # 1 / sd^2 of an angle that is free
+_LEAST = 1e-4  # 1 / sd^2 of an angle that is free: less leaves digits of L to rounding, and makes it no freer
 _MOST, _FAR, _HALVED = 8, 0.5, 6  # steps to the best angles, the longest of them, and how often one is halved
 _POOR, _FIRST = 30.0, 3  # misfit per datum above which no angles make a prediction good, and steps that it gets
 _SMALL = 1e-6  # share of a misfit that is noise which the last of them promises; more of one that is larger than noise
@@ -31,23 +33,40 @@ _SMALL = 1e-6  # share of a misfit that is noise which the last of them promises
 class Turn:
     """Angles by which close modes are turned. which (m + u,): the measured modes, then others that are close to one.
 
-    mixed (m + u, m): the measured shapes of these. axes (q, c), sizes (c,): the whitened data's uncertainty by the angles.
-    nats: by what the density is lower for it; free: number of angles of which nothing was known.
+    mixed (m + u, m): the measured shapes of these. angles, weights (c,): t and P; slopes (q, c): J.
     """
 
     which: np.ndarray
     mixed: np.ndarray
     angles: np.ndarray
+    weights: np.ndarray
     slopes: np.ndarray = field(repr=False)
-    axes: np.ndarray = field(repr=False)
-    sizes: np.ndarray = field(repr=False)
-    nats: float
-    free: float
+
+    @cached_property
+    def root(self) -> np.ndarray:
+        """L (q, q), of the whitened data's uncertainty by the angles."""
+        wide = self.slopes / np.sqrt(self.weights)
+        S = wide @ wide.T
+        S[np.diag_indices(len(S))] += 1.0
+        return np.linalg.cholesky(S)
+
+    @cached_property
+    def nats(self) -> float:
+        """By what the density is lower for the angles."""
+        known = self.slopes / np.sqrt(self.weights + _EVEN)
+        small = min(known.T, known, key=len)
+        return 0.5 * float(np.linalg.slogdet(np.eye(len(small)) + small @ small.T)[1])
+
+    @property
+    def free(self) -> float:
+        """Number of angles of which nothing was known."""
+        return float((_EVEN / (self.weights + _EVEN))[self.slopes.any(axis=0)].sum())
 
     def whitened(self, values: np.ndarray) -> np.ndarray:
-        """(I + J P^-1 J')^-1/2 times values (q, ...)."""
-        less = 1 - 1 / np.sqrt(1 + self.sizes**2)
-        return values - (self.axes * less) @ (self.axes.T @ values)
+        """L^-1 times values (q, ...)."""
+        from scipy.linalg import solve_triangular
+
+        return solve_triangular(self.root, values, lower=True, check_finite=False)
 
     def left(self, residual: np.ndarray) -> np.ndarray:
         """What is left of the residual (q,) of the shapes as they are turned, for the angles with their prior."""
@@ -68,11 +87,7 @@ def turned(data: Data, eigenvalues: np.ndarray, seen: np.ndarray, modes: np.ndar
         return None
     P = np.maximum(1 / (sd**2 - _COVERED**2), _LEAST)
     t, mixed, J = _angles(data, eigenvalues[modes], seen[:, which], pairs, P)
-    axes, sizes, _ = np.linalg.svd(J / np.sqrt(P), full_matrices=False)
-    known = J / np.sqrt(P + _EVEN)
-    nats = 0.5 * np.linalg.slogdet(np.eye(len(P)) + known.T @ known)[1]
-    free = float((_EVEN / (P + _EVEN))[J.any(axis=0)].sum())
-    return Turn(which, mixed, t, J, axes, sizes, float(nats), free)
+    return Turn(which, mixed, t, P, J)
 
 
 def _apart(data: Data, eigenvalues: np.ndarray, modes: np.ndarray) -> bool:
@@ -113,20 +128,32 @@ class _Pairs:
 
     def at(self, t: np.ndarray, P: np.ndarray) -> tuple:
         """|r|^2 + t'P t at angles t (c,), and r, the scales, R (m + u, m) and (I - T/2)^-1."""
-        one = np.eye(self.seen.shape[1])
-        T = np.zeros(one.shape)
-        T[self.j, self.i], T[self.i, self.j] = t, -t
-        inverse = np.linalg.inv(one - T / 2)
-        R = (inverse @ (one + T / 2))[:, : self.data.m]
+        T = np.zeros((self.seen.shape[1], self.data.m))
+        T[self.j, self.i] = t
+        inverse = _inverse(T)
+        R = 2 * inverse[:, : self.data.m] - np.eye(*T.shape)
         residual, a = self.data.residual(self.own, self.seen @ R)
         return residual @ residual + t @ (P * t), residual, a, R, inverse
 
     def slopes(self, of: np.ndarray, a: np.ndarray, R: np.ndarray, inverse: np.ndarray) -> np.ndarray:
         """J (q, .) of the angles `of`: dR/dt = (I - T/2)^-1 dT/2 (I + R)."""
-        i, j, m = self.i[of], self.j[of], self.data.m
+        i, j, data = self.i[of], self.j[of], self.data
         before, after = self.seen @ inverse / 2, np.eye(*R.shape) + R
-        moved = before[:, None, j] * after[i].T - before[:, None, i] * after[j].T
-        return self.data.jacobian(self.own, self.seen @ R, a, np.zeros((m, len(of))), moved)
+        one = np.broadcast_to(before[:, None], (data.s, data.m, before.shape[1]))
+        by = data.jacobian(self.own, self.seen @ R, a, np.zeros(one.shape[1:]), one).T
+        own = after[:, data.modes]
+        return (by[j] * own[i] - by[i] * own[j]).T
+
+
+def _inverse(T: np.ndarray) -> np.ndarray:
+    """(I - T/2)^-1 (u, u) for T skew, its first columns (u, m) below the diagonal given, and nothing behind these; in blocks."""
+    m = T.shape[1]
+    one, below = T[:m] - T[:m].T, T[m:] / 2
+    schur = np.linalg.inv(np.eye(m) - one / 2 + below.T @ below)
+    first = np.concatenate([schur, below @ schur])
+    found = np.concatenate([first, -first @ below.T], axis=1)
+    found[range(m, len(T)), range(m, len(T))] += 1.0
+    return found
 
 
 def _angles(
