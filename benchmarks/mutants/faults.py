@@ -91,8 +91,8 @@ MUTANTS = (
         "validate/informed.py",
         _GATES,
         held_out_counts_for_nothing=(
-            "-np.where(behind > ODDS, behind, 0.0)",
-            "-np.where(behind > ODDS, 0.0, 0.0)",
+            "np.exp(densities - densities.max())",
+            "np.exp(0 * densities)",
             "test_held_out_data_settle_what_the_fitted_data_leave_open test_held_out_data_turn_the_odds_of_a_field",
         ),
     ),
@@ -176,7 +176,7 @@ MUTANTS = (
         ),
     ),
     *_of(
-        "search/several.py",
+        "search/found.py",
         _SEVERAL,
         needless_kept=("max(parts) > MATERIAL", "max(parts) > 0.0", "test_what_is_not_needed_is_material_to_nothing"),
         second_of_a_kind_free=(
@@ -184,12 +184,21 @@ MUTANTS = (
             "set(key(each)) <= set(own)",
             "test_what_is_not_needed_is_material_to_nothing",
         ),
+    ),
+    *_of(
+        "search/several.py",
+        _SEVERAL,
         two_of_a_kind_at_most=(
             "while len(one.recipes) < most and",
             "while len(one.recipes) < 2 and",
             "test_several_of_one_kind_and_as_many_as_are_needed",
         ),
         adequate_anyway=("_ADEQUATE = 0.05", "_ADEQUATE = 0.01", "test_adequate_is_a_p_value_of_a_twentieth"),
+        held_out_says_nothing_of_enough=(
+            "while count <= most and not any(map(enough, growing))",
+            "while count <= most and not any(map(adequate, growing))",
+            "test_a_pair_that_does_not_predict_what_is_held_out_is_not_enough",
+        ),
     ),
     *_of(
         "nameless/_correlated.py",

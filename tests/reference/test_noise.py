@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 from mouse_cli.diagnosis.noise import log_density, scale
+from mouse_cli.diagnosis.validate.held_out import Foretold
 
 RATE = 6.0  # of ln s, before the test: s is 2 or more in 1 of 64
 
@@ -61,3 +62,13 @@ def test_the_scale_is_where_the_integrand_is_largest(misfit, dof):
 
 def test_more_than_all_degrees_of_freedom_is_none():
     assert scale(12.0, -4) == scale(12.0, 0) == 2.0
+
+
+@pytest.mark.parametrize(("misfit", "off"), [(9.0, 0.0), (36.4, 0.0), (36.4, 58.1)])
+def test_a_prediction_pays_for_the_noise_that_it_needs(misfit, off):
+    """ln of the density of nine data, less what a scale of one takes: by numerical integration; two that both err by more than
+    their uncertainty differ by less than their chi-squares do.
+    """
+    loud = lambda m: Foretold(-0.5 * m - 20.0, m, 9).loud
+    assert loud(misfit) == pytest.approx(integrated(misfit, 9) - 20.0, rel=1e-9)
+    assert not off or 0 < loud(misfit) - loud(off) < 0.5 * (off - misfit) - 5.0

@@ -232,6 +232,49 @@ def test_adequate_is_a_p_value_of_a_twentieth():
     assert adequate(SimpleNamespace(misfit=31.40, dof=20)) and not adequate(SimpleNamespace(misfit=31.42, dof=20))
 
 
+@pytest.mark.parametrize(("p", "sought"), [(0.04, True), (0.06, False), (None, False)])
+def test_a_pair_that_does_not_predict_what_is_held_out_is_not_enough(monkeypatch, p, sought):
+    """It leaves no more than noise of what it was fitted to, and yet something else acts: a third is sought beside it."""
+    pair = SimpleNamespace(misfit=20.0, dof=20, **vars(of(-40.0, "mass", "support")))
+    single, asked = SimpleNamespace(misfit=90.0, dof=20, elsewhere=(), **vars(of(-90.0, "mass"))), []
+    monkeypatch.setattr(search, "foretold", lambda one: None if p is None else SimpleNamespace(p=p))
+    monkeypatch.setattr(search, "pairs", lambda study, singles: [pair])
+    monkeypatch.setattr(search, "same_kind", lambda *given: [])
+    monkeypatch.setattr(search, "_as_good", lambda *given: [])
+    monkeypatch.setattr(search, "_beside", lambda study, first, partners, found: asked.append(first))
+    assert search.several(SimpleNamespace(known=()), [single], 3) == [pair]
+    assert asked == [pair] * sought
+
+
+@pytest.mark.parametrize(("trusted", "misfit", "sought"), [(False, 20.0, 1), (False, 40.0, 0), (True, 40.0, 1)])
+def test_a_pair_that_leaves_noise_shows_that_the_test_is_as_accurate_as_stated(monkeypatch, trusted, misfit, sought):
+    """What one alone leaves looks like errors of the test, and the pair leaves 20 on 20, or 40 (p = 0.005)."""
+    pair = SimpleNamespace(misfit=misfit, dof=20, **vars(of(-40.0, "mass", "support")))
+    single, asked = SimpleNamespace(misfit=90.0, dof=20, elsewhere=(), **vars(of(-90.0, "mass"))), []
+    monkeypatch.setattr(search, "foretold", lambda one: SimpleNamespace(p=1e-5))
+    monkeypatch.setattr(search, "pairs", lambda study, singles: [pair])
+    monkeypatch.setattr(search, "same_kind", lambda *given: [])
+    monkeypatch.setattr(search, "_as_good", lambda *given: [])
+    monkeypatch.setattr(search, "_beside", lambda study, first, partners, found: asked.append(first))
+    search.several(SimpleNamespace(known=()), [single], 3, trusted)
+    assert len(asked) == sought
+
+
+def test_sets_that_are_as_good_as_the_best_are_known(monkeypatch):
+    """Each of its mechanisms is exchanged; what is better than the best is exchanged too, what is far behind is left."""
+    pair, single = of(-40.0, "mass", "support"), of(-90.0, "support")
+    beside = {"support": {("crack", "support"): -39.0, ("support", "taper"): -46.1}, "crack": {("crack", "joint"): -44.0}}
+
+    def tried(study, first, partners, found):
+        found.update({both: of(nats, *both) for both, nats in beside.get(key(first)[0], {}).items()})
+
+    monkeypatch.setattr(search, "_beside", tried)
+    monkeypatch.setattr(search, "_without", lambda one, i: of(-90.0, *(key(one)[:i] + key(one)[i + 1 :])))
+    monkeypatch.setattr(search, "_finished", lambda study, found: list(found.values()))
+    found = search._as_good(SimpleNamespace(known=()), [pair], [single])
+    assert {key(one) for one in found} == {("crack", "support"), ("crack", "joint")}
+
+
 FEET = ((5, 600.0), (16, 1500.0), (27, 4000.0))  # nodes of a beam of 30 elements, and springs below them in EI / L^3
 
 

@@ -1,7 +1,10 @@
 """Sets of mechanisms that a search has found, the best fit of each, and what it has tried."""
 
+from collections import Counter
+
 import numpy as np
 
+from mouse_cli.diagnosis.gates import MATERIAL
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.superposed import text
 
@@ -40,6 +43,19 @@ def keep(found: Found, one: Fit | None) -> None:
     other = found.get(key(one))
     if other is None or one.log_evidence > other.log_evidence:
         found[key(one)] = one
+
+
+def material(one: Fit, smaller: list[Fit]) -> bool:
+    """Whether every mechanism of a set is needed: what it gains over the best of its parts."""
+    own, size = Counter(key(one)), lambda each: (len(key(each)), len(each.recipes))
+    parts = [each.log_evidence for each in smaller if size(each) < size(one) and Counter(key(each)) <= own]
+    return not parts or one.log_evidence - max(parts) > MATERIAL
+
+
+def replaced(found: list[Fit], better: list[Fit]) -> list[Fit]:
+    """All of both, but for what one of the same kind in `better` is better than."""
+    known = {key(one) for one in better}
+    return [one for one in found if key(one) not in known] + better
 
 
 def _alike(one: Fit, other: Fit) -> bool:

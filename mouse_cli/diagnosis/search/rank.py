@@ -175,7 +175,7 @@ def _ranked(study: Study, causes: int, hear: Callable[[Ranking], Ranking], last:
     alone = plain(one for one in found.fits if one.recipes)
     if causes > 1 and len(found.fits) > 1 and not any(adequate(one, _FURTHER) for one in alone):
         trusted = found.stated[0] > _TRUSTED or found.noise_scale > _LOUD
-        fits += several(study, singles, causes if trusted else min(causes, 2))
+        fits += several(study, singles, causes, trusted)
     kept = fits if model.problem.frf or model.problem.recordings else plainest(fits)  # these may feel what modes do not
     if len(fits) > 1 + len(singles) or len(kept) < len(fits):
         found = hear(ranking(baseline, kept))

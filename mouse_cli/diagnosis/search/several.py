@@ -4,7 +4,6 @@ Pairs begin from every leading single one. Larger sets grow from the best smalle
 at three places look like anything but one of them.
 """
 
-from collections import Counter
 from collections.abc import Iterable
 
 import numpy as np
@@ -13,11 +12,12 @@ from mouse_cli.diagnosis.gates import GATE, MATERIAL
 from mouse_cli.diagnosis.search.descents import settled, summed
 from mouse_cli.diagnosis.search.escape import shifted, tied, walked
 from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
-from mouse_cli.diagnosis.search.found import Found, best_of, keep, key
+from mouse_cli.diagnosis.search.found import Found, best_of, keep, key, material, replaced
 from mouse_cli.diagnosis.search.optima import NEAR, within
 from mouse_cli.diagnosis.search.pared import pared
 from mouse_cli.diagnosis.search.parts import Beside, in_turn, look_beside, partner
 from mouse_cli.diagnosis.search.study import Study
+from mouse_cli.diagnosis.validate.held_out import foretold
 from mouse_cli.updating.chi_square import upper_tail
 
 _SECOND, _QUICK = 2, 8  # fits of a further mechanism beside others, and their steps, in a first try
@@ -32,6 +32,8 @@ _LIMITS = (  # groups of which one is the other at an end of its range: a crack 
     {"mass", "oscillator"},
     {"ground-spring", "oscillator"},
 )
+_EXCHANGED = 2  # sets whose mechanisms are exchanged to see what is as good
+_REACH = 6.0  # log evidence below that of the best from which on a set that is fitted in few steps is no rival of it
 _ADEQUATE = 0.05  # p-value of the misfit below which a further mechanism is sought
 
 
@@ -46,10 +48,16 @@ def adequate(one: Fit, least: float = _ADEQUATE) -> bool:
     return upper_tail(one.misfit, max(one.dof, 1)) > least
 
 
-def several(study: Study, singles: list[Fit], most: int) -> list[Fit]:
-    """Sets of two mechanisms, and of more up to `most` as long as the best set leaves more than noise and gains.
+def enough(one: Fit) -> bool:
+    """Whether what a set leaves may be noise, of what it was fitted to and of what the deck holds out."""
+    return adequate(one) and ((rest := foretold(one)) is None or rest.p > _ADEQUATE)
+
+
+def several(study: Study, singles: list[Fit], most: int, trusted: bool = True) -> list[Fit]:
+    """Sets of two mechanisms, and of more up to `most` as long as every set leaves more than noise, and the best gains.
 
     Where one alone is not refuted (GATE), sets are sought only beside those that come near it, and further if one of them gains.
+    trusted: whether what one alone leaves says that the test is as accurate as stated; else a pair that leaves no more has to.
     """
     alone = plain(singles)
     if any(adequate(one, GATE) for one in alone) and not _gains(
@@ -59,9 +67,11 @@ def several(study: Study, singles: list[Fit], most: int) -> list[Fit]:
     singles = singles + [one for one in alone if not any(one is other for other in singles)]
     found = pairs(study, singles)
     smaller, growing = singles + found, found
-    alike = same_kind(study, singles, most, within(smaller)) if most > 2 or not any(map(adequate, found)) else []
+    most = most if trusted or any(map(adequate, found)) else min(most, 2)
+    of_kind = (trusted and most > 2) or not any(map(enough, found))
+    alike = same_kind(study, singles, most, within(smaller)) if of_kind else []
     count = 3
-    while count <= most and not any(adequate(one) for one in growing):
+    while count <= most and not any(map(enough, growing)):
         begun = sorted(growing, key=lambda one: -one.log_evidence)[:_GROWN]
         larger = Found()
         for one in begun:
@@ -72,13 +82,37 @@ def several(study: Study, singles: list[Fit], most: int) -> list[Fit]:
             _swap(study, best, larger)
         finished = _finished(study, larger)
         fewer = _fewer(study, finished, smaller)
-        found, smaller = _replaced(found, fewer), _replaced(smaller, fewer)
+        found, smaller = replaced(found, fewer), replaced(smaller, fewer)
         growing = [one for one in finished if material(one, smaller)]
         if not growing:
             break
         found, smaller, count = found + growing, smaller + growing, count + 1
     known = {key(one) for one in found}
-    return found + [one for one in alike if key(one) not in known and material(one, smaller + alike)]
+    found += [one for one in alike if key(one) not in known and material(one, smaller + alike)]
+    return replaced(found, _as_good(study, found, smaller))
+
+
+def _as_good(study: Study, found: list[Fit], smaller: list[Fit]) -> list[Fit]:
+    """Sets that the data hardly tell from the best of `found`: each of its mechanisms replaced by whatever fits beside the others.
+
+    Probabilities are shares among all that explain the data, so that those have to be known; one that is better is exchanged too.
+    """
+    known, more, done = Found(), Found(), None
+    for one in found:
+        keep(known, one)
+    for best in (each for _ in range(_EXCHANGED) for each in best_of(known, 1)):
+        if best is done:
+            break
+        done, tried = best, Found()
+        for rest in (_without(best, i) for i in range(len(best.recipes))):
+            if rest is not None:
+                _beside(study, rest, study.known, tried)
+        least = best.log_evidence - _REACH
+        better = lambda name, one: name not in known or one.log_evidence > known[name].log_evidence + 1.0
+        near = {name: one for name, one in tried.items() if one.log_evidence > least and better(name, one)}
+        for one in _finished(study, near):
+            keep(known, one), keep(more, one)
+    return [one for one in more.values() if material(one, smaller)]
 
 
 def _gains(study: Study, singles: list[Fit]) -> bool:
@@ -160,19 +194,6 @@ def _elsewhere(study: Study, one: Fit) -> list[Fit]:
         if number != recipe.number and number not in fits and len(fits) < _SECOND:
             fits[number] = fit(study.with_cause((), name, number), x[study.k :], x[: study.k], _QUICK)
     return [each for each in fits.values() if each is not None]
-
-
-def material(one: Fit, smaller: list[Fit]) -> bool:
-    """Whether every mechanism of a set is needed: what it gains over the best of its parts."""
-    own, size = Counter(key(one)), lambda each: (len(key(each)), len(each.recipes))
-    parts = [each.log_evidence for each in smaller if size(each) < size(one) and Counter(key(each)) <= own]
-    return not parts or one.log_evidence - max(parts) > MATERIAL
-
-
-def _replaced(found: list[Fit], better: list[Fit]) -> list[Fit]:
-    """All of both, but for what one of the same kind in `better` is better than."""
-    known = {key(one) for one in better}
-    return [one for one in found if key(one) not in known] + better
 
 
 def _fewer(study: Study, sets: list[Fit], smaller: list[Fit]) -> list[Fit]:

@@ -13,6 +13,7 @@ from mouse_cli.diagnosis.effects.change import Change, Recipe
 from mouse_cli.diagnosis.evidence import marginal
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.noise import log_density as loud_density
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.validate.joint import beyond_linear
 from mouse_cli.dynamics.correlation import mac
@@ -160,11 +161,32 @@ def by_deck(model: Reduced) -> bool:
     return held is not None and bool(held.altered or len(held.modes) or len(held.sensors))
 
 
-def log_density(one: Fit) -> float | None:
-    """ln of how probable a fit makes all that its deck holds out; None where that is nothing, or a part is unphysical."""
+@dataclass(frozen=True)
+class Foretold:
+    """All that a deck holds out, as a fit predicts it: ln of its density, and its chi-square on dof."""
+
+    density: float
+    misfit: float
+    dof: int
+
+    @property
+    def p(self) -> float:
+        """How probable as much misfit is when the model is right."""
+        return upper_tail(self.misfit, self.dof)
+
+    @property
+    def loud(self) -> float:
+        """ln of the density, noise larger than stated integrated out: what errs by more than its uncertainty has theory that errs."""
+        return self.density + 0.5 * self.misfit + float(loud_density(np.array(self.misfit), self.dof))
+
+
+def foretold(one: Fit) -> Foretold | None:
+    """None where the deck holds nothing out, or a part is unphysical."""
     held = one.model.base.problem.hold_out
     parts = [] if held is None else [part for _, part in of_cases(held, one)]
-    return sum(part.density for part in parts) if parts and None not in parts else None
+    if not parts or None in parts:
+        return None
+    return Foretold(*(sum(getattr(part, name) for part in parts) for name in ("density", "misfit", "dof")))
 
 
 def of_cases(held: HoldOut, one: Fit, noise: float = 1.0) -> list[tuple[str, Prediction | None]]:

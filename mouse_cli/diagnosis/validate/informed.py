@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.gates import LIKELY, ODDS
+from mouse_cli.diagnosis.gates import LIKELY
 from mouse_cli.diagnosis.search.rank import Ranking
-from mouse_cli.diagnosis.validate.held_out import log_density
+from mouse_cli.diagnosis.validate.held_out import foretold
 
 _ASKED = 1e-3  # probability from which on, but for the leading one without a name, an explanation must predict as well as the best
 
@@ -17,7 +17,7 @@ _ASKED = 1e-3  # probability from which on, but for the leading one without a na
 def informed(ranking: Ranking) -> Ranking:
     """The ranking with the probabilities of its mechanisms, all together as before, by all data.
 
-    What predicts no worse than the best by ODDS predicts as well: the theory of both errs by as much.
+    Noise larger than stated is integrated out of each prediction: where all of them err, how much each does says less.
     """
     rivals = np.array([one is not ranking.baseline for one in ranking.fits])
     wanted = rivals & (ranking.probabilities > _ASKED)
@@ -25,12 +25,12 @@ def informed(ranking: Ranking) -> Ranking:
     asked = np.flatnonzero(wanted).tolist()
     if len(asked) < 2 or dict(ranking.groups).get("none", 0.0) > LIKELY:
         return ranking
-    densities = [log_density(ranking.fits[i]) for i in asked]
-    if None in densities:
+    predicted = [foretold(ranking.fits[i]) for i in asked]
+    if None in predicted:
         return ranking
-    behind = np.max(densities) - np.array(densities)
+    densities = np.array([one.loud for one in predicted])
     p = ranking.probabilities.copy()
-    p[asked] *= np.exp(-np.where(behind > ODDS, behind, 0.0) / ranking.noise_scale)
+    p[asked] *= np.exp(densities - densities.max())
     p[rivals] *= ranking.probabilities[rivals].sum() / p[rivals].sum()
     order = np.argsort(-p, kind="stable")
     return replace(
