@@ -163,7 +163,7 @@ def test_a_pair_is_exchanged_that_leads_by_a_mechanism_which_is_none_of_it(monke
     for name, stub in (("_beside", beside), ("_without", alone), ("_swap", lambda *given: None)):
         monkeypatch.setattr(search, name, stub)
     monkeypatch.setattr(search, "_finished", lambda study, found: list(found.values()))
-    study = SimpleNamespace(known=(*names, "c"))
+    study = SimpleNamespace(known=(*names, "c"), coarse=SimpleNamespace(together=lambda *given: []))
     assert max(search.pairs(study, singles), key=lambda one: one.log_evidence).log_evidence == -50.0
 
 
@@ -263,7 +263,10 @@ def test_a_pair_that_leaves_noise_shows_that_the_test_is_as_accurate_as_stated(m
 def test_sets_that_are_as_good_as_the_best_are_known(monkeypatch):
     """Each of its mechanisms is exchanged; what is better than the best is exchanged too, what is far behind is left."""
     pair, single = of(-40.0, "mass", "support"), of(-90.0, "support")
-    beside = {"support": {("crack", "support"): -39.0, ("support", "taper"): -46.1}, "crack": {("crack", "joint"): -44.0}}
+    beside = {
+        "support": {("crack", "support"): -39.0, ("support", "taper"): -46.1},
+        "crack": {("crack", "joint"): -44.0},
+    }
 
     def tried(study, first, partners, found):
         found.update({both: of(nats, *both) for both, nats in beside.get(key(first)[0], {}).items()})

@@ -10,7 +10,7 @@ from mouse_cli.diagnosis.search import superposed
 from mouse_cli.diagnosis.search.descents import tried
 from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.diagnosis.search.study import Study
-from mouse_cli.diagnosis.search.superposed import KEPT, Alone, chosen
+from mouse_cli.diagnosis.search.superposed import KEPT, Alone, best_pairs, chosen
 from mouse_cli.dynamics.eigen import dense_solution
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
@@ -47,6 +47,39 @@ def test_effects_add():
     assert len(found) <= KEPT
     assert {text for text, _ in found} >= {"1"}
     assert sum(text == "1" for text, _ in found) == KEPT // 3
+
+
+def test_of_all_pairs_those_that_add_up_are_begun():
+    """Beside every pair the parameters of the deck adapt, here by least squares for each of them in turn."""
+    rng = np.random.default_rng(5)
+    none, T = 3 * rng.standard_normal(12), rng.standard_normal((12, 2))
+    alone = {
+        name: Alone([(f"{name}{i // 2}", i % 2) for i in range(10)], none + rng.standard_normal((10, 12)), none)
+        for name in "ab"
+    }
+    stacked = np.vstack([T, np.eye(2)])
+
+    def left(i, j):
+        r = alone["a"].residuals[i] + alone["b"].residuals[j] - none
+        return np.linalg.lstsq(stacked, np.concatenate([r, np.zeros(2)]), rcond=None)[1][0]
+
+    order = sorted((left(i, j), i, j) for i in range(10) for j in range(10))
+    adapted = np.linalg.solve(T.T @ T + np.eye(2), np.hstack([T.T, -np.eye(2)]))
+    found = best_pairs({name: alone[name] for name in "ab"}, ["a"], T, adapted, 10)
+    mixed = [(a[1], b[1]) for a, b in found if (a[0], b[0]) == ("a", "b")]
+    _, i, j = order[0]
+    assert mixed[0] == (alone["a"].at[i], alone["b"].at[j])
+    same = [(a[1][0], b[1][0]) for a, b in found if a[0] == b[0]]
+    assert same and all(a != b for a, b in same)  # two of one kind at one place are one
+
+
+def test_two_that_hide_one_another_are_begun_together():
+    study = Study(chain_with({5: 0.4}, {16: 4e3}))
+    for name in ("mass", "ground-spring", "oscillator"):
+        study.coarse.looks(name, np.zeros(study.k), ())
+    begun = study.coarse.together(["mass"], 4)
+    assert ["6", "17"] in [[*(one.site(one.grid[0]).ids[0] for one in recipes)] for recipes, _ in begun]
+    assert all(len(c) == sum(len(one.unknowns) for one in recipes) for recipes, c in begun)
 
 
 @pytest.mark.parametrize("name", ["ground-spring", "oscillator", "mass"])

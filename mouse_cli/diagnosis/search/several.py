@@ -23,6 +23,7 @@ from mouse_cli.updating.chi_square import upper_tail
 _SECOND, _QUICK = 2, 8  # fits of a further mechanism beside others, and their steps, in a first try
 _SWAPPED, _FINISHED = 4, 6  # pairs whose aliases are tried; sets that are fitted to the end
 _PAIRED, _WIDE = 8, 5  # candidates that are tried in pairs; groups of which the best is tried with every candidate
+_TOGETHER = 16  # pairs that are begun where effects add up best
 _PARTNERS = 6  # candidates that a first look finds best beside others, which alone are fitted
 _GROWN, _ALIKE = 2, 5  # sets that grow further; kinds of which several are tried
 _ROUNDS = 3  # of exchanges
@@ -137,11 +138,13 @@ def pairs(study: Study, singles: list[Fit]) -> list[Fit]:
         (one.recipes[0].candidate.group, len(key(one)) > 1): one for one in reversed(leading)
     }  # the best of each group
     wide = sorted(firsts.values(), key=lambda one: -one.log_evidence)[:_WIDE]
-    found = Found()
+    found, names = Found(), [one.recipes[0].candidate.key for one in leading]
     for first in leading:
-        own = [one.recipes[0].candidate.key for one in leading]
         any_of = any(first is one for one in wide)
-        _beside(study, first, study.known if any_of else own, found)
+        _beside(study, first, study.known if any_of else names, found)
+    for recipes, c in study.coarse.together(names, _TOGETHER):  # either alone may be nowhere near its place
+        model = study.kind(study.model, study.own(recipes))
+        keep(found, fit(model, c, np.zeros(study.k), _QUICK, within([*singles, *found.values()], _FAR)))
     done: list[Fit] = []
     for _ in range(_ROUNDS):  # both may be there by an alias, or at a wrong site
         for two in best_of(found, _SWAPPED):

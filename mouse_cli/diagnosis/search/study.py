@@ -17,7 +17,7 @@ from mouse_cli.diagnosis.mechanisms import Candidate, registry
 from mouse_cli.diagnosis.search.fit import End, Fit, descended
 from mouse_cli.diagnosis.search.optima import BEYOND
 from mouse_cli.diagnosis.search.starts import cost, leading, spread
-from mouse_cli.diagnosis.search.superposed import KEPT, Alone, by_itself, chosen, text
+from mouse_cli.diagnosis.search.superposed import KEPT, Alone, best_pairs, by_itself, chosen, text
 from mouse_cli.dynamics.eigen import IndefiniteError
 
 _LOOKS, _MOST, BRIEF = 12, 40, 4  # brief descents at least, at most, and their steps
@@ -86,9 +86,22 @@ class Study:
                 found.append((self.predicted(at, before, others), recipe.number, at.x))
                 seen.append((text(recipe), i, at.residual))
             self._looked[key] = sorted(found, key=lambda item: item[0])
-            if not others and len(seen) > KEPT:
-                self.alone[name] = by_itself(seen, self.kind(self.model).point(np.zeros(self.k)))
+            none = self.kind(self.model).point(before) if seen and not others and not before.any() else None
+            if none is not None:
+                self.alone[name] = by_itself(seen, none)
         return self._looked[key]
+
+    def together(self, leading: list[str], most: int) -> list[tuple[tuple[Recipe, ...], np.ndarray]]:
+        """The `most` pairs that promise most where effects add up, each one of `leading` and any other, and their coordinates."""
+        known = {name: {text(each): each for each in self.recipes(name) if len(each.parts) < 2} for name in self.alone}
+        alone = {name: one.of(known[name]) for name, one in self.alone.items() if known[name]}
+        own = [name for name in leading if name in alone]
+        pairs = best_pairs(alone, own, *self._adapted(np.zeros(self.k), ()), most)
+        made = [[(known[name][place], i) for name, (place, i) in two] for two in pairs]
+        return [
+            (tuple(recipe for recipe, _ in two), np.concatenate([each.coordinates(each.grid[i]) for each, i in two]))
+            for two in made
+        ]
 
     def keep(self, name: str, looks: list[tuple[float, int, np.ndarray]], alone: Alone | None) -> None:
         """Looks at a candidate by itself, and what it does there, found by another process."""

@@ -1,9 +1,12 @@
-"""Which places and sizes of a cause deserve a look beside causes that are there: those whose effects add up best with theirs.
+"""Places and sizes of a cause that deserve a look beside causes that are there, and pairs of them: those whose effects add up best.
 
 To first order effects add: r(a and b) = r(a) + r(b) - r(none), r the residuals (q,). What each place and size does by itself was
-looked at once, at the parameters where the search began, so that beside whatever else only a sum is needed to choose by.
+looked at once, at the parameters where the search began, so that beside whatever else only a sum is needed to choose by. Of two
+that is |A_a + A_b|^2, A = W (r - r(none) / 2) and W'W = I - T (T'T + P)^-1 T', as the parameters of the deck follow both: a product
+of two matrices says it of all places and sizes of both.
 """
 
+from collections.abc import Container, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +16,10 @@ from mouse_cli.diagnosis.likelihoods.modal.point import Point
 
 KEPT = 256  # places and sizes of one candidate that are looked at beside others; of no more each is
 _EACH = 4  # of one recipe at least, if it has so many among the best
+_OF_TWO, _TRIED = (
+    3,
+    512,
+)  # pairs of places of two candidates that are kept, and pairs of sizes among which they are sought
 
 
 def text(recipe: Recipe) -> str:
@@ -27,6 +34,11 @@ class Alone:
     at: list[tuple[str, int]]
     residuals: np.ndarray
     none: np.ndarray
+
+    def of(self, places: Container[str]) -> "Alone":
+        """The same of these sites alone."""
+        own = [i for i, (place, _) in enumerate(self.at) if place in places]
+        return Alone([self.at[i] for i in own], self.residuals[own], self.none)
 
 
 def by_itself(looks: list[tuple[str, int, np.ndarray]], none: Point) -> Alone:
@@ -56,3 +68,42 @@ def chosen(
         if len(found) == KEPT:
             break
     return found
+
+
+At = tuple[str, int]  # site of a recipe, and number of the size
+
+
+def best_pairs(
+    alone: dict[str, Alone], leading: list[str], T: np.ndarray, adapted: np.ndarray, most: int
+) -> list[tuple[tuple[str, At], tuple[str, At]]]:
+    """The `most` most promising pairs, each a candidate of `leading` and any of `alone` with their places and sizes.
+
+    T (q, k), adapted (k, q + k): how far the parameters of the deck follow to first order; see `Study`.
+    """
+    q = len(T)
+    values, vectors = np.linalg.eigh(np.eye(q) - T @ adapted[:, :q])
+    W = vectors * np.sqrt(np.maximum(values, 0.0))
+    added = {name: (one.residuals - one.none / 2) @ W for name, one in alone.items()}
+    found = []
+    for i, name in enumerate(leading):
+        for other in (each for each in alone if each not in leading[:i]):
+            each = _of_two(alone[name], alone[other], added[name], added[other], name == other)
+            found += [(cost, (name, a), (other, b)) for cost, a, b in each]
+    return [each[1:] for each in sorted(found, key=lambda item: item[0])[:most]]
+
+
+def _of_two(one: Alone, other: Alone, A: np.ndarray, B: np.ndarray, same: bool) -> Iterator[tuple[float, At, At]]:
+    """Misfit, place and size of the best of both at different places."""
+    left = (A**2).sum(axis=1)[:, None] + (B**2).sum(axis=1) + 2 * A @ B.T
+    least = np.argpartition(left, min(_TRIED, left.size - 1), axis=None)[:_TRIED]
+    taken: set[tuple[str, ...]] = set()
+    for at in least[np.argsort(left.ravel()[least], kind="stable")]:
+        i, j = divmod(int(at), len(B))
+        places = one.at[i][0], other.at[j][0]
+        places = tuple(sorted(places)) if same else places
+        if places in taken or (same and places[0] == places[1]):
+            continue
+        taken.add(places)
+        yield float(left[i, j]), one.at[i], other.at[j]
+        if len(taken) == _OF_TWO:
+            return

@@ -176,7 +176,7 @@ class Foretold:
 
     @property
     def loud(self) -> float:
-        """ln of the density, noise larger than stated integrated out: what errs by more than its uncertainty has theory that errs."""
+        """ln of the density, noise larger than stated integrated out: a theory that errs adds to what it leaves open."""
         return self.density + 0.5 * self.misfit + float(loud_density(np.array(self.misfit), self.dof))
 
 
