@@ -37,11 +37,12 @@ class Shared:
 
 
 def shared(ranking: Ranking, first: Fit) -> Shared | None:
-    """The most mechanisms of `first` whose summed probability is SURE; None where none has it."""
+    """The most mechanisms of `first` whose summed probability is SURE, of those whose place is, if any's is; None: none has it."""
     own, every = _mechanisms(first), list(_explanations(ranking))
     reach = SAME_SITE * span(first.model.base)
-    for count in range(len(own), 0, -1):
-        found = [_summed(which, own, every, reach) for which in combinations(range(len(own)), count)]
+    kept = steady(first) or tuple(range(len(own)))
+    for count in range(len(kept), 0, -1):
+        found = [_summed(which, own, every, reach) for which in combinations(kept, count)]
         best = max(found, key=lambda one: one.probability)
         if best.probability >= SURE:
             return best
@@ -96,13 +97,24 @@ def loose(one: Fit, which: tuple[int, ...] | None = None) -> tuple[tuple[str, fl
     """Title, and posterior sd (m) of the place along its line, of each mechanism (of those numbered `which`) whose place is less
     sure than a name is: that it is as near as two that are one (SAME_SITE).
     """
+    return tuple((one.recipes[i].candidate.title, sd) for i, sd in _loose(one) if which is None or i in which)
+
+
+def steady(one: Fit) -> tuple[int, ...]:
+    """Numbers of the mechanisms of a set that are not loose; of one alone, which is named with the sd of its place, that one."""
+    moving = {i for i, _ in _loose(one)} if len(one.recipes) > 1 else ()
+    return tuple(i for i in range(len(one.recipes)) if i not in moving)
+
+
+def _loose(one: Fit) -> list[tuple[int, float]]:
+    """Number of each loose mechanism, and the sd of its place."""
     sd, reach = np.sqrt(np.diag(one.covariance))[one.model.k :], SAME_SITE * span(one.model.base)
-    found = []
-    for i, (recipe, own) in enumerate(zip(one.recipes, one.model.own, strict=True)):
-        for unknown, s in zip(recipe.unknowns, sd[own], strict=True):
-            if unknown.name == PLACE and erf(reach / (s * sqrt(2))) < SURE and (which is None or i in which):
-                found.append((recipe.candidate.title, float(s)))
-    return tuple(found)
+    return [
+        (i, float(s))
+        for i, (recipe, own) in enumerate(zip(one.recipes, one.model.own, strict=True))
+        for unknown, s in zip(recipe.unknowns, sd[own], strict=True)
+        if unknown.name == PLACE and erf(reach / (s * sqrt(2))) < SURE
+    ]
 
 
 def _summed(which: tuple[int, ...], own: list[Mechanism], every, reach: float) -> Shared:

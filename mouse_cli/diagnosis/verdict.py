@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.companions import Shared, panelled, placed, shared
+from mouse_cli.diagnosis.companions import Shared, panelled, placed, shared, steady
 from mouse_cli.diagnosis.gates import DEMANDED, FAR, GATE, LIKELY, ODDS, SEVERAL, STAYS, SURE
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unmeasured_hz
@@ -95,8 +95,10 @@ def _judged(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
         return _unknown(ranking, model, best, proof, (), reasons)
     if gain < -ODDS:
         return _unknown(ranking, model, best, proof, (group(best),), reasons)
-    moved = kind == NAMED and ranking.groups[0][1] >= SURE and placed(best) < SURE
-    part = shared(ranking, best) if moved or (kind == NAMED and ranking.groups[0][1] < SURE) else None
+    certain_ = kind == NAMED and ranking.groups[0][1] >= SURE
+    moved = certain_ and placed(best) < SURE
+    spread = certain_ and 0 < len(steady(best)) < len(best.recipes)
+    part = shared(ranking, best) if moved or spread or (kind == NAMED and not certain_) else None
     if moved and (part is None or len(part.which) == len(best.recipes)):
         return Verdict(NAMED if panelled(best) else ONE_OF, best, proof, reasons=reasons, placed=False)
     return Verdict(kind, best, proof, reasons=reasons, certain=part)

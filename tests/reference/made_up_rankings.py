@@ -30,6 +30,7 @@ def made_up(*groups: str, misfit: float = 20.0, dof: int = 20, z=(0.3, -0.4), na
         "bearable": 1.5,
         "elsewhere": (),
         "c": np.zeros(len(groups)),
+        "covariance": 1e-6 * np.eye(2 + len(groups)),
         "data": data,
         "groups": [recipe.group(0.0) for recipe in recipes],
     } | more
@@ -48,7 +49,7 @@ def _recipe(name: str, own: int):
     return SimpleNamespace(
         candidate=candidate,
         own=own,
-        unknowns=(group,),
+        unknowns=(SimpleNamespace(name=group),),
         parts=tuple(parts),
         values=lambda c: c,
         group=lambda c: group,

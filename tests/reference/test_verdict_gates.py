@@ -9,6 +9,7 @@ from hermite_beams import Truth, deck
 from made_up_rankings import made_up, ranked
 
 from mouse_cli.diagnosis import verdict as decided
+from mouse_cli.diagnosis.effects.change import PLACE
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.diagnosis.validate import informed as asked
@@ -111,6 +112,16 @@ def test_a_part_is_sure_where_others_may_act_with_it(proofs, others, kind):
     other = made_up(f"support@0.9{others}")
     found = judged(made_up("support@0.1/left", elsewhere=((other, 0.4),)), BARE, p=(0.99, 0.01))
     assert (found.kind, found.placed) == (kind, kind == NAMED)
+
+
+@pytest.mark.parametrize(("sd", "certain"), [((0.0255, 0.0255), None), ((0.001, 0.0256), (0,)), ((0.0256, 0.0256), None)])
+def test_of_a_set_those_are_named_whose_places_are_sure(proofs, sd, certain):
+    """0.95 of a Gaussian is within 1.96 sd, and 0.05 m is one place; where no place is, all are named with their sd."""
+    pair = made_up("mass@0.2", "ground-spring@0.7", covariance=np.diag([1.0, 1.0, *np.square(sd)]))
+    for recipe in pair.recipes:
+        recipe.unknowns = (SimpleNamespace(name=PLACE),)
+    found = judged(pair, BARE, p=(0.999, 0.001))
+    assert (found.kind, found.certain and found.certain.which) == (NAMED, certain)
 
 
 def test_one_of_several_sites_is_told_as_such():
