@@ -203,3 +203,16 @@ def test_sizes_are_in_the_units_of_the_deck(tmp_path):
     assert size["unit"] == "N/mm^3" and size["value"] == pytest.approx(0.2, rel=0.05)
     told = CliRunner().invoke(cli, ["run", revised, "-q"]).stdout
     assert "N/mm^3" in told and "N/m^3" not in told
+
+
+def test_a_stop_much_softer_than_the_structure_is_no_smooth_spring(tmp_path):
+    """A contact of 1.5 % of the structure's stiffness, over the rms stretch of its spring."""
+
+    def stop(u, v) -> np.ndarray:
+        force = 500.0 * max(u[1] - u[0] - 1e-3, 0.0)
+        return np.array([-force, force])
+
+    laws = ["--candidates", "one-sided-gap,cubic,quadratic"]
+    found = json.loads(CliRunner().invoke(cli, ["diagnose", record(tmp_path, stop), "--json", "-q", *laws]).stdout)
+    assert found["verdict"]["physics"] == "one-sided-gap" and found["candidates"][0]["probability"] > 0.95
+    assert found["candidates"][0]["parameters"][0]["value"] == pytest.approx(500, rel=0.2)

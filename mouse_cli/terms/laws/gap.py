@@ -13,7 +13,7 @@ def force(x, v, z, p):
 def unknowns(scale: Scale) -> tuple[Unknown, ...]:
     """Stiffness of the stop beside that of the structure; clearance beside the rms motion."""
     k, x = scale.stiffness, scale.x
-    return Unknown("contact stiffness", "N/m", 0.03 * k, 100 * k), Unknown("clearance", "m", 0.05 * x, 4 * x)
+    return Unknown("contact stiffness", "N/m", 0.002 * k, 100 * k), Unknown("clearance", "m", 0.05 * x, 4 * x)
 
 
 LAW = Law(

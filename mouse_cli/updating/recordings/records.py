@@ -14,6 +14,7 @@ from mouse_cli.updating.recordings.uncertain import Uncertain
 
 FLOOR = 0.01  # of the rms of a channel: no transducer and no theory is more accurate
 _SEEN = 0.05  # floor of the spectrum of an excitation, by its rms, up to which it is noise and no excitation
+_FLAT = 1.2  # level by the floor, that three tenths of its spectrum stay below where the floor is white noise
 HELD = 0.3  # share at the end of each record that is held out where the deck holds nothing out
 _LINES = 32  # spectral lines averaged for the noise floor
 _LOWEST = 1.41  # white noise over the lowest tenth of means of so many
@@ -190,27 +191,31 @@ def _weights(channel: Channel, n: int) -> np.ndarray:
 
 
 def _excitation_noise(force: np.ndarray, stated: np.ndarray) -> np.ndarray:
-    """sd (i,) of the noise of excitations (t, i): a stated share of their rms, or the floor of their spectra where that is low
-    beside them. An excitation as wide as the samples allow shows none: the floor of its spectrum is its own.
+    """sd (i,) of the noise of excitations (t, i): a stated share of their rms, or the floor of their spectra where that is flat,
+    and low beside them. Excitations as wide as the samples allow, or that fall off slowly, show no noise: the floor is their own.
     """
-    rms, floor = force.std(axis=0), _floor(force)
-    return np.where(stated > 0, stated * rms, np.where(floor < _SEEN * rms, floor, 0.0))
+    rms, groups = force.std(axis=0), _levels(force)
+    floor, more = _floor(force), np.sqrt(np.quantile(groups, 0.3, axis=0))
+    seen = (floor < _SEEN * rms) & (more < _FLAT * floor)
+    return np.where(stated > 0, stated * rms, np.where(seen, floor, 0.0))
 
 
 def _floor(samples: np.ndarray) -> np.ndarray:
     """Noise of channels (t, s): the floor of their spectra, where the structure is quiet.
 
-    The lowest tenth of means of _LINES neighbouring lines, times what it falls short of the level of white noise on average.
+    The lowest tenth of means of neighbouring lines, times what it falls short of the level of white noise on average.
     """
+    return np.sqrt(np.quantile(_levels(samples), 0.1, axis=0) * _LOWEST)
+
+
+def _levels(samples: np.ndarray) -> np.ndarray:
+    """Variance (g, s) that white noise of the level of each _LINES neighbouring lines of channels (t, s) would have."""
     t = len(samples)
-    if not samples.shape[1]:
-        return np.zeros(0)
     window = np.hanning(t + 2)[1:-1, None]
     power = np.abs(np.fft.rfft((samples - samples.mean(axis=0)) * window, axis=0)) ** 2 / (window**2).sum()
     power = power[1:] if len(power) > 1 else power
     lines = min(_LINES, len(power))  # a few samples have fewer
-    groups = power[: len(power) // lines * lines].reshape(-1, lines, power.shape[1]).mean(axis=1)
-    return np.sqrt(np.quantile(groups, 0.1, axis=0) * _LOWEST)
+    return power[: len(power) // lines * lines].reshape(-1, lines, power.shape[1]).mean(axis=1)
 
 
 def steps(series: Series, highest_hz: float) -> Series:

@@ -17,6 +17,7 @@ from mouse_cli.updating.recordings.disturbance import BLOCK
 from mouse_cli.updating.recordings.excitation_noise import Repeated
 from mouse_cli.updating.recordings.free_force import Spectrum, free
 from mouse_cli.updating.recordings.hypothesis import Hypothesis
+from mouse_cli.updating.recordings.linear import Linear, rigid
 from mouse_cli.updating.recordings.places import places
 from mouse_cli.updating.recordings.polish import Fit, followed
 from mouse_cli.updating.recordings.records import Records, reduced, steps
@@ -101,7 +102,8 @@ def study(problem: Problem, found: Records, of: Modelled = uncertain) -> Study:
     length = max(64, min(length, min(len(one) for one in found.fitted) // 3))
     slow = length if float(hz.min()) * length * first.dt < 1 else 0
     found = _excited(accurate(found, length, slow), model, length)
-    fitted = [steps(reduced(one, model), min(highest, high)) for one in found.fitted]
+    # what stops and starts, as nothing holds it, shakes modes far above the band of the force
+    fitted = [steps(reduced(one, model), highest if slow else min(highest, high)) for one in found.fitted]
     share = max(2, _SEGMENTS // len(fitted))
     data = [segments(one, length, share) for one in fitted]
     rms = np.sqrt(np.mean([(one.force**2).mean(axis=0) for one in fitted], axis=0))
@@ -193,11 +195,24 @@ def begin(hypothesis: Hypothesis, x: np.ndarray, data: list[Segments], looks: li
     at = [part.starts - REACH for part in data]
     pairs = list(zip(looks, at, strict=True))
     states = np.concatenate([look.states(own) for look, own in pairs], axis=1)
+    place = _unseen_place(hypothesis.linear, data[0].series, states)
+    states[: len(place)] -= place
     internal = []
     for one in hypothesis.acting(x):
         parts = [look.internal(one, own) for look, own in pairs]
-        internal.append(None if parts[0] is None else np.concatenate(parts, axis=2))
+        internal.append(None if parts[0] is None else np.concatenate(parts, axis=2) - one.B @ place)
     return states, internal or None
+
+
+def _unseen_place(linear: Linear, series: Series, states: np.ndarray) -> np.ndarray:
+    """Displacements (n, G) in states (2n, G) along what nothing holds, where no channel shows them: twice summed noise, that no
+    fit has a reason to keep and its prior would count. Sliders of laws move along.
+    """
+    x = states[: len(linear.M)]
+    if not series.slow or (series.order == 0).any():
+        return np.zeros_like(x)
+    R = rigid(linear.K, linear.M, series.slow * series.dt)
+    return R @ (R.T @ linear.M @ x)
 
 
 def _own(study: Study, data: Segments) -> Series | None:
