@@ -41,4 +41,12 @@ CODES = {
         "sensors look in one direction.",
         "Give the mode once, or measure what the two modes differ in.",
     ),
+    "MD456": Code(
+        "functions that fit in another reading",
+        "At their resonances the measured frequency response functions are one common factor away from those of the model, in "
+        "every mode alike, which another unit of response or force, another kind (receptance, mobility, accelerance), a reversed "
+        "sign or a force at another degree of freedom explains; or their phases turn as those of negative damping do; or a "
+        "channel of phases or magnitudes holds what no such channel can. `diagnose` looks for the former.",
+        "Follow the message: mend `unit`, `kind`, `input` or the channel that is named.",
+    ),
 }

@@ -144,6 +144,9 @@ def _rayleigh(K, M, x: np.ndarray) -> np.ndarray:
 def _readings(problem: Problem) -> Iterator[Reading]:
     """All that a deck is likely to be meant as: the test first, then matrices or the structure."""
     yield from _of_test(problem.test.frequency_hz)
+    for factor, said in ((0.5, "half as far apart"), (2.0, "twice as far apart")) if problem.frf else ():
+        help = "mend the frequencies of the functions: lines are 1 / T apart, T the length of a block"
+        yield Reading(f"with spectral lines {said}", help, problem.test.frequency_hz * factor)
     plain = problem.mesh is None or not problem.terms or len(problem.elements) or abs(problem.structure.K).max() > 0
     if plain:
         yield from _of_matrices()

@@ -12,7 +12,7 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.observables.modal import UnrelatedShapes, observe
 from mouse_cli.terms.assembly import assembly as assemble
 from mouse_cli.terms.modal_damping import with_modal_damping
-from mouse_cli.updating import mistakes, refusals, shape_mistakes
+from mouse_cli.updating import frf_mistakes, mistakes, refusals, shape_mistakes
 from mouse_cli.updating.coordinates import coordinates
 from mouse_cli.updating.frf_gains import with_gains
 from mouse_cli.updating.frf_setting import begin as begin_frf
@@ -71,6 +71,7 @@ def related(problem: Problem, solver: EigenSolver | None = None) -> np.ndarray:
         raise refusals.unphysical(problem, str(reason)) from None
     mistakes.check(problem, solution)
     shape_mistakes.check(problem, solution)
+    frf_mistakes.check(problem, solution)
     modes, kept = paired(problem, solution), np.ones(problem.test.m, bool)
     while kept.any():
         try:

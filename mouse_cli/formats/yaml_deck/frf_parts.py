@@ -10,6 +10,7 @@ from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.kinds import KINDS
 from mouse_cli.formats.yaml_deck.nodes import Node
 from mouse_cli.formats.yaml_deck.sections import Section
+from mouse_cli.model.frf_test import FORMS
 
 _FORMS = (
     {"value"},
@@ -19,6 +20,11 @@ _FORMS = (
     {"magnitude_db", "phase"},
     {"magnitude_db", "phase_rad"},
 )
+
+
+_HALF_TURN = 3.15  # rad, as rounded
+_PEAK = 3.0  # of a resonance over what is on either side of it
+_FLAT = 0.1  # median over maximum, below which a function has peaks on a linear scale
 
 
 @dataclass
@@ -33,7 +39,9 @@ def parts(section: Section, item: Node | Section, held: Contents) -> Parts | Non
     """The function that a plain name or a section describes; None after an error."""
     if not isinstance(item, Section):
         found = column(held, item.value, section.document, section.document.span(item))
-        return None if found is None else Parts(np.asarray(found.values, complex))
+        if found is None or not _phased(section, item, found.values):
+            return None
+        return Parts(np.asarray(found.values, complex))
     given = {key: item.nodes[key] for key in set().union(*_FORMS) if key in item}
     if set(given) not in _FORMS:
         message = f"{item.called} gives {', '.join(given) or 'no values'}; expected one of their forms"
@@ -51,7 +59,56 @@ def parts(section: Section, item: Node | Section, held: Contents) -> Parts | Non
     if len(lengths) > 1:
         message = f"the parts of {item.called} have {' and '.join(map(str, sorted(lengths)))} values"
         return item.document.error("MD608", item.node, message, "give equally many of each")
-    return None if coherence is not None and not _possible(item, coherence) else Parts(_complex(found), coherence)
+    if not _meant(item, given, found) or (coherence is not None and not _possible(item, coherence)):
+        return None
+    return Parts(_complex(found), coherence)
+
+
+def _phased(section: Section, item: Node, values: np.ndarray) -> bool:
+    """Whether a channel that is named alone may be complex: one of magnitudes is none, unless magnitudes alone are fitted."""
+    real = np.real(values)
+    alone = not np.iscomplexobj(values) or not np.imag(values).any()
+    if not alone or section.value("form", FORMS[0]) == "log" or (real < 0).any() or not _resonates(real):
+        return True
+    message = f"channel '{item.value}' has resonances and is nowhere negative or imaginary: magnitudes without phases"
+    help = "give magnitude and phase, or real and imag, of each response; or form: log, which fits magnitudes alone"
+    return bool(section.document.error("MD456", item, message, help))
+
+
+def _meant(item: Section, given: dict[str, Node], found: dict[str, np.ndarray]) -> bool:
+    """Whether magnitudes and phases can be what they are said to be: no decibels, no radians for degrees."""
+    size = next((found[key] for key in ("magnitude", "magnitude_db") if key in found), None)
+    if size is None:
+        return True
+    known, wrong = np.isfinite(size), None
+    if "magnitude" in found and (size[known] < 0).any():
+        wrong = "magnitude", "is negative, as decibels are", "name it magnitude_db"
+    elif (
+        "magnitude_db" in found
+        and known.any()
+        and size[known].min() >= 0
+        and np.median(size[known]) < _FLAT * size[known].max()
+    ):
+        wrong = (
+            "magnitude_db",
+            "has peaks above a level near 0 and is nowhere negative, as magnitudes are",
+            "name it magnitude",
+        )
+    elif "phase" in found and np.nanmax(np.abs(found["phase"]), initial=0) <= _HALF_TURN and _resonates(size):
+        wrong = "phase", "stays within 3.15 degrees at a resonance, as radians do", "name it phase_rad"
+    elif "phase_rad" in found and np.nanmax(np.abs(np.diff(found["phase_rad"])), initial=0) > 2 * _HALF_TURN:
+        wrong = "phase_rad", "jumps by more than a turn from line to line, as degrees do", "name it phase"
+    if wrong is not None:
+        key, said, help = wrong
+        item.document.error("MD456", given[key], f"{item.what(key)} {said}", help)
+    return wrong is None
+
+
+def _resonates(size: np.ndarray) -> bool:
+    """Whether a largest value stands between values that are several times smaller: there phases turn by half a turn."""
+    size = size[np.isfinite(size)]
+    k = int(np.argmax(size)) if len(size) else 0
+    return 0 < k < len(size) - 1 and size[k] > _PEAK * max(size[:k].min(), size[k + 1 :].min())
 
 
 def _complex(found: dict[str, np.ndarray]) -> np.ndarray:

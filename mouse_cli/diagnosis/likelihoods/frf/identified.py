@@ -1,15 +1,23 @@
 """Modes of a deck that gives frequency response functions alone: causes are first sought by them."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli._errors import ERROR, Diagnostic, NumericalError
+from mouse_cli._errors import ERROR, DeckError, Diagnostic, NumericalError
+from mouse_cli.model.frf_test import KINDS, FrfTest
 from mouse_cli.model.identification import Modes, measured_test
-from mouse_cli.model.modal_test import restricted
+from mouse_cli.model.modal_test import ModalTest, restricted
 from mouse_cli.model.problem import Problem
 from mouse_cli.records.identify import identify_frf
 from mouse_cli.records.identify_combine import combined
+from mouse_cli.updating.frf_mistakes import other_sign
+from mouse_cli.updating.prior_model import related
+
+_OPEN = 0.1  # of the functions near a mode: what its fit may leave
+_DECIBELS = 400.0  # above which no magnitude is in decibels
+_FEWEST = 4  # modes that functions must fit in another reading, where as read they fit hardly any
 
 
 def with_modes(problem: Problem) -> tuple[Problem, tuple[str, ...]]:
@@ -20,6 +28,7 @@ def with_modes(problem: Problem) -> tuple[Problem, tuple[str, ...]]:
     if problem.test is not None or not problem.frf:
         return problem, ()
     found = identify_frf(problem.frf)
+    _read_rightly(problem, found.modes)
     if not found.modes.m:
         said = "; ".join(each.message for each in found.doubts) or "no pole is stable"
         raise NumericalError(
@@ -32,8 +41,7 @@ def with_modes(problem: Problem) -> tuple[Problem, tuple[str, ...]]:
             )
         )
     doubts = tuple(f"modes of the functions: {each.message}" for each in found.doubts)
-    functions = combined(problem.frf)[0]
-    test = replace(measured_test(found.modes, functions.outputs, functions.output_names), held=functions.held)
+    test = _test(problem, found.modes)
     kept = _strongest(found.modes, problem.structure.n)
     if not kept.all():
         hz = ", ".join(f"{value:.6g} Hz" for value in test.frequency_hz[~kept])
@@ -43,6 +51,37 @@ def with_modes(problem: Problem) -> tuple[Problem, tuple[str, ...]]:
         test = restricted(test, kept)
         test = replace(test, number=np.arange(1, test.m + 1))
     return replace(problem, test=test), doubts
+
+
+def _read_rightly(problem: Problem, modes: Modes) -> None:
+    """Raise DeckError (MD456) where functions that fit hardly any modes fit many in another reading."""
+    if modes.m and not np.nanmedian(modes.error) > _OPEN:
+        return
+    enough = max(_FEWEST, 3 * modes.m)
+    fits = lambda other: int((other.error < _OPEN).sum()) >= enough
+    if fits(_modes(problem, H=lambda test: test.H.conj())):
+        raise DeckError(other_sign(problem))
+    for kind in (each for each in KINDS if each != problem.frf[0].kind):
+        if fits(found := _modes(problem, kind=lambda test, kind=kind: kind)):
+            related(replace(problem, test=_test(problem, found)))
+    largest = max(float(np.nanmax(np.abs(test.H), initial=0.0)) for test in problem.frf)
+    raised = lambda test: 10 ** (np.abs(test.H) / 20) * np.exp(1j * np.angle(test.H))
+    if largest < _DECIBELS and fits(_modes(problem, H=raised)):
+        message = f"the functions show {modes.m} modes, and {enough} or more with their magnitudes read as decibels"
+        help = "name the channels of magnitudes magnitude_db"
+        raise DeckError(Diagnostic("MD456", ERROR, message, problem.place("frf"), help=help))
+
+
+def _modes(problem: Problem, **other: Callable[[FrfTest], object]) -> Modes:
+    """The modes that the functions show in another reading."""
+    read = [replace(test, **{key: of(test) for key, of in other.items()}) for test in problem.frf]
+    return identify_frf(read).modes
+
+
+def _test(problem: Problem, modes: Modes) -> ModalTest:
+    """The modes as a test."""
+    functions = combined(problem.frf)[0]
+    return replace(measured_test(modes, functions.outputs, functions.output_names), held=functions.held)
 
 
 def _strongest(modes: Modes, most: int) -> np.ndarray:
