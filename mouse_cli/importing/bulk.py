@@ -10,6 +10,8 @@ from mouse_cli.formats import nastran_fields
 from mouse_cli.formats.data_files import existing, text_lines
 from mouse_cli.importing.bulk_deck import BulkDeck, text
 from mouse_cli.importing.bulk_supports import supports
+from mouse_cli.importing.bulk_systems import Systems
+from mouse_cli.importing.bulk_weighted import weighted
 from mouse_cli.importing.cards import Card, Faults, Line
 
 _IS_BULK = re.compile(
@@ -56,13 +58,13 @@ def cards(path: str, faults: Faults) -> list[Card]:
     for card in deck.bulk.cards():
         deck.by.setdefault(card.name, []).append(card)
     _named(deck)
-    read = {"GRID", "CONM2", "CELAS1", "CELAS2", "RBE2", *_ELEMENTS, *_PASSED}
+    read = {"GRID", "CONM2", "CELAS1", "CELAS2", "RBE2", "RBE3", *_ELEMENTS, *_PASSED}
     for name in deck.by.keys() - read:
         deck.refuse(deck.by[name][0], f"{name[:12]} has no counterpart that is read, and may change K or M")
     for card in deck.of("PARAM"):
         if card.fields[0].upper() == "WTMASS":
             deck.mass = deck.real(card, 1)
-    for step in (_nodes, _elements, _materials, _sections, _masses, _springs, _rigid, supports, _step):
+    for step in (_nodes, _elements, _materials, _sections, _masses, _springs, _rigid, weighted, supports, _step):
         step(deck)
     return deck.found
 
@@ -78,13 +80,13 @@ def _named(deck: BulkDeck) -> None:
 
 
 def _nodes(deck: BulkDeck) -> None:
-    lines = []
+    lines, systems = [], Systems(deck)
     for card in deck.of("GRID"):
-        if deck.whole(card, 1) or deck.whole(card, 5):
-            deck.refuse(
-                card, "this GRID is in a local system of coordinates", "write the grid points in the basic system"
-            )
-        lines.append(deck.line(card, deck.whole(card, 0), *(deck.real(card, k) for k in (2, 3, 4))))
+        number = deck.whole(card, 0)
+        deck.at[number] = systems.grid(number, card)
+        if systems.turned(card):
+            deck.turned.add(number)
+        lines.append(deck.line(card, number, *deck.at[number].tolist()))
     if lines:
         deck.card(deck.of("GRID")[0], "NODE", lines)
 
@@ -180,6 +182,8 @@ def _springs(deck: BulkDeck) -> None:
         if not ends or any(not 1 <= d <= 3 for _, d in ends):
             deck.refuse(card, f"this {card.name} acts on a rotation or on a scalar point")
             continue
+        for node, d in ends:
+            deck.global_directions(card, [node], str(d))
         data = [deck.line(card, *(str(d) for _, d in ends)), deck.line(card, k)]
         _single(deck, card, "SPRING", [node for node, _ in ends], data)
 

@@ -4,6 +4,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
 
+import numpy as np
+
 from mouse_cli.formats import nastran_fields
 from mouse_cli.importing.cards import Card, Faults, Line
 
@@ -17,7 +19,10 @@ def text(card: nastran_fields.Card, at: int) -> str:
 
 @dataclass
 class BulkDeck:
-    """Bulk data being translated; by: its cards by their names; found: what they became."""
+    """Bulk data being translated; by: its cards by their names; found: what they became.
+
+    at: where grid points are, in the basic system; turned: those that move in directions of their own.
+    """
 
     bulk: nastran_fields.Bulk
     faults: Faults
@@ -25,11 +30,18 @@ class BulkDeck:
     found: list[Card] = field(default_factory=list)
     names: dict[tuple[str, int], str] = field(default_factory=dict)
     mass: float = 1.0  # PARAM,WTMASS
+    at: dict[int, np.ndarray] = field(default_factory=dict)
+    turned: set[int] = field(default_factory=set)
 
     @cached_property
     def grids(self) -> list[int]:
         """Numbers of all grid points."""
         return sorted(self.whole(card, 0) for card in self.of("GRID"))
+
+    @cached_property
+    def grid_cards(self) -> dict[int, nastran_fields.Card]:
+        """The cards of grid points by their numbers."""
+        return {self.whole(card, 0): card for card in self.of("GRID")}
 
     def of(self, *names: str) -> list[nastran_fields.Card]:
         """The cards of these names."""
@@ -51,6 +63,14 @@ class BulkDeck:
     def refuse(self, card: nastran_fields.Card, message: str, help: str = _HELP, code: str = "MD268") -> None:
         """Notes what cannot be read."""
         self.faults.add(code, message, self.bulk.where(card), help)
+
+    def global_directions(self, card: nastran_fields.Card, nodes: Iterable[int], components: str) -> None:
+        """Notes a node that a card holds or joins in some directions of a system of its own, not in all of them."""
+        whole = all(not part & set(components) or part <= set(components) for part in ({*"123"}, {*"456"}))
+        of = [] if whole else [node for node in nodes if node in self.turned]
+        if of:
+            message = f"this {card.name} acts at grid point {of[0]} in directions of the point's own system"
+            self.refuse(card, message, "let the point move in the basic system, or act in all three directions")
 
     def whole(self, card: nastran_fields.Card, at: int) -> int:
         return self.bulk.whole(card, at)

@@ -30,6 +30,8 @@ def supports(deck: BulkDeck) -> None:
         if set(components) - set("0123456"):
             deck.refuse(each[0][0], f"'{components[:8]}' are no directions", "give some of 123456", "MD265")
             continue
+        for card, nodes in each:
+            deck.global_directions(card, nodes, components)
         lines = [deck.line(each[0][0], name, run[0], run[-1]) for run in _runs(components)]
         deck.card(each[0][0], "BOUNDARY", lines)
 

@@ -119,7 +119,7 @@ MORE = BRICKS.replace("ENDDATA\n", "")
 REFUSED = {
     "a beam": (MORE + "CBAR,9,9,1,2,0.,0.,1.\n", "MD268", "CBAR has no counterpart"),
     "a layered shell": (MORE + "PCOMP,9\n", "MD268", "PCOMP"),
-    "a local system": (MORE.replace("GRID,12,,", "GRID,12,5,"), "MD268", "local system"),
+    "a local system that is not there": (MORE.replace("GRID,12,,", "GRID,12,5,"), "MD272", "5 is not defined"),
     "an offset": (MORE + "CQUAD4,9,9,9,10,11,12,,.1\nPSHELL,9,1,.1,1\n", "MD268", "offset"),
     "nonstructural mass": (MORE + "CQUAD4,9,9,9,10,11,12\nPSHELL,9,1,.1,1,,,,3.\n", "MD268", "nonstructural"),
     "a membrane": (MORE + "CQUAD4,9,9,9,10,11,12\nPSHELL,9,1,.1\n", "MD268", "bends otherwise"),
