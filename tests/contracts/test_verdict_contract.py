@@ -130,7 +130,7 @@ def test_a_probability_is_that_of_the_group_or_of_its_member():
     verdict = report.document(found)["verdict"]
     assert verdict["members"] == {"crack": pytest.approx(0.69), "stiffness-loss": pytest.approx(0.31)}
     assert (verdict["group"], verdict["probability"]) == ("local-stiffness", 1.0)
-    within = "an open crack 0.69, a softer stretch or element 0.31"
+    within = "an open crack 0.69, a softer part 0.31"
     begin = f"The model lacks a local loss of stiffness (probability > 0.999): {within}"
     assert verdict["sentences"][0].startswith(begin)
     assert "an open crack (probability > 0.999)" not in words(found)

@@ -30,19 +30,22 @@ test:
 """
 
 
-def model(supports: str = CLAMPED, Iz: float = 1.0, plane: str = "plane: XY", **more: float):
-    """A bar of length 1 whose E A = mass per length = 1."""
+def model(supports: str = CLAMPED, Iz: float = 1.0, plane: str = "plane: XY", first: int = 1, **more: float):
+    """A bar of length 1 whose E A = mass per length = 1; first: number of the lowest mode that is measured."""
     values = {"G": 1.0, "Iy": 1.0, "J": 1.0} | more
-    problem = assemble(yaml_deck.read(DECK % {"supports": supports, "Iz": Iz, "plane": plane, **values}, "bar.yaml"))
+    deck = DECK % {"supports": supports, "Iz": Iz, "plane": plane, **values}
+    deck = deck.replace("number: [1, 2, 3, 4]", f"number: {[first + i for i in range(4)]}")
+    problem = assemble(yaml_deck.read(deck, "bar.yaml"))
     return reduced(problem, problem.prior.mean)
 
 
-def eigenvalues(found, key: str, values, says: str = "") -> np.ndarray:
-    """All eigenvalues with candidate `key` at `values`, in the first of its recipes whose place `says` so."""
+def eigenvalues(found, key: str, values, says: str = "") -> np.ndarray | None:
+    """All eigenvalues with candidate `key` at `values`, in the first of its recipes whose place `says` so; None: not physical."""
     recipes = registry()[key].recipes(found, registry()[key])
     fitting = (each for each in recipes if len(each.unknowns) == len(values))
     recipe = next(each for each in fitting if says in each.site(np.array(values, float)).text)
-    return Model(found, (recipe,)).point(np.append(found.z, recipe.coordinates(np.array(values, float)))).eigenvalues
+    point = Model(found, (recipe,)).point(np.append(found.z, recipe.coordinates(np.array(values, float))))
+    return point and point.eigenvalues
 
 
 def bending_of(found, key: str, values, says: str = "", count: int = 3) -> np.ndarray:
@@ -177,6 +180,17 @@ def test_a_bed_from_an_end_on_against_polynomials(says, ends):
 def test_axial_force_in_a_bar_on_two_bearings(key, sign):
     T, q = 5.0 * EI, np.pi * np.arange(1, 4)
     assert bending_of(model(PINNED, EI), key, [T]) == pytest.approx(EI * q**4 + sign * T * q**2, rel=1e-4)
+
+
+@pytest.mark.parametrize(("supports", "first", "critical"), [(PINNED, 2, np.pi**2 * EI), ("{1-41: [TX]}", 3, 0.0)])
+def test_a_push_that_buckles_is_no_model(supports, first, critical):
+    """Though none of the measured modes buckles: on two bearings the first does so at pi^2 EI / L^2; a free bar turns at once."""
+    found = model(supports, EI, first=first)
+    assert eigenvalues(found, "compression", [critical + 0.1 * EI]) is None
+    if critical:
+        expected = EI * np.pi**4 - 0.99 * critical * np.pi**2
+        assert bending_of(found, "compression", [0.99 * critical])[0] == pytest.approx(expected, rel=0.01)
+    assert eigenvalues(found, "tension", [EI]) is not None
 
 
 @pytest.mark.parametrize("k", [3.0, 100.0])

@@ -22,7 +22,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
 
 CANDIDATE = Candidate(
     "stiffness-loss",
-    "a softer stretch or element",
+    "a softer part",
     "local-stiffness",
     "a stretch of a bar, another element or a spring that is softer than modelled, an element in all of its directions or in "
     "one: damage, a weaker section, another material, a bearing that has come loose",

@@ -21,8 +21,6 @@ from mouse_cli.model.diagnosis import Field, FieldValue, HeldOut
 from mouse_cli.model.problem import Problem
 
 _STEPS, _TRIED = 25, 3  # of a fit; starts of a change of rank one
-_BUCKLED = 1e-6  # of the lowest eigenvalue of the model as it is, below which a negative one is no rounding
-_RIGID = 1e-12  # of the highest, below which one is that of a rigid body
 
 
 def rivals(base: Reduced, start: Fit, kind: type[Model] = Model, reach: float = np.inf) -> list[Fit]:
@@ -46,12 +44,11 @@ def field_of(ranking, one: Fit, held: HeldOut | None = None) -> Field:
 
 
 def extended(problem: Problem, one: Fit) -> Problem | None:
-    """The deck with the field of a fit in it, a parameter for each of its cells; None where none that stands can hold it."""
-    base, field = one.model.base, one.nameless
-    own = base.first.eigenvalues
-    if field.cells.extend is None or one.point.eigenvalues[0] < -_BUCKLED * own[own > _RIGID * own[-1]][0]:
+    """The deck with the field of a fit in it, a parameter for each of its cells; None where none can hold it."""
+    field = one.nameless
+    if field.cells.extend is None:
         return None
-    values = field.values(one.point.x[base.first.deck :][: field.P.shape[1]])
+    values = field.values(one.point.x[one.model.base.first.deck :][: field.P.shape[1]])
     return field.cells.extend(problem, values, field.spread, *((field.sign,) if field.sign else ()))
 
 

@@ -139,9 +139,9 @@ def within(explanations: Sequence[Explanation], one: Explanation) -> str:
     """Members of the group of `one` and the probability of each within it; empty where one holds it all.
 
     >>> of = lambda key, title, p: Explanation((Cause(key, "local-stiffness", title, Site("node"), ()),), 1, 1, 1, 0, None, p)
-    >>> both = of("crack", "an open crack", 0.6), of("stiffness-loss", "a softer stretch or element", 0.3)
+    >>> both = of("crack", "an open crack", 0.6), of("stiffness-loss", "a softer part", 0.3)
     >>> grouped(both, both[0]), within(both, both[0]), within(both[:1], both[0])
-    ('a local loss of stiffness', 'an open crack 0.67, a softer stretch or element 0.33', '')
+    ('a local loss of stiffness', 'an open crack 0.67, a softer part 0.33', '')
     """
     return _members(explanations, members(explanations, one.group))
 

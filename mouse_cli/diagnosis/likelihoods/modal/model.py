@@ -14,6 +14,8 @@ from mouse_cli.diagnosis.likelihoods.modal.turning import measured, turned
 
 _STEP = 1e-5  # of a range, for derivatives of matrices
 _KEPT = 4  # points
+_BUCKLED = 1e-6  # share of the lowest elastic eigenvalue of the model as it is that a negative one has beyond rounding
+_ROUNDED = 1e-13  # share of the largest that is no more than rounding
 
 Pushed = tuple[np.ndarray, np.ndarray, np.ndarray]  # (p, size, m) (dK - lambda dM) x, (p, m) x'dM x, (p, s, m) dS x
 Parts = list[tuple[Change, float]]  # changes and their weights, whose sum is a derivative
@@ -92,8 +94,12 @@ class Model(Carrying):
         K[:r, :r] += K0
         M[:r, :r] += M0
         eigenvalues, X = modes_of(K, M)
-        physical = np.isfinite(eigenvalues).all() and eigenvalues[0] >= -1e-5 * abs(eigenvalues[-1])
-        return (eigenvalues, X, S) if physical else None
+        return (eigenvalues, X, S) if self._stands(eigenvalues) else None
+
+    def _stands(self, eigenvalues: np.ndarray) -> bool:
+        """Whether it has masses, and has not buckled: an update goes on from no negative eigenvalue either."""
+        least = _BUCKLED * self.base.least_elastic + _ROUNDED * abs(eigenvalues[-1])
+        return bool(np.isfinite(eigenvalues).all() and eigenvalues[0] >= -least)
 
     def paired(self, x: np.ndarray, eigenvalues: np.ndarray, X: np.ndarray, S: np.ndarray) -> Point | None:
         """Those modes beside the test; None where it has modes that are none of theirs."""

@@ -27,6 +27,7 @@ from mouse_cli.terms.constraints import Motion
 from mouse_cli.updating.coordinates import Coordinates
 
 WHOLE = 200  # degrees of freedom up to which a model is not reduced
+_RIGID = 1e-12  # share of the highest eigenvalue up to which one is that of a rigid body
 _BEYOND = 6  # modes that are corrected for their mesh, beyond twice those of the test
 
 
@@ -62,6 +63,11 @@ class Reduced:
     def r(self) -> int:
         """Number of coordinates."""
         return len(self.eigenvalues)
+
+    @cached_property
+    def least_elastic(self) -> float:
+        """The lowest eigenvalue that is none of a rigid body."""
+        return float(self.eigenvalues[self.eigenvalues > _RIGID * self.eigenvalues[-1]][0])
 
     def low_modes(self, beyond: int = 1) -> int:
         """Number of its modes up to the highest one of the test, and so many beyond."""
