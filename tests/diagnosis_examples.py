@@ -50,9 +50,7 @@ CRACK = Cause(
     Site("element", (12,), (0.43, 0.0, 0.0), "element 12, 0.43 m from node 1"),
     (Size("depth over height", "1", 0.7, 0.02, 0.05, 0.7), Size("place", "m", 0.43, 0.004, 0.0, 1.0)),
 )
-SOFT = Cause(
-    "stiffness-loss", "local-stiffness", "a softer part", Site("element", (12,), text="element 12"), ()
-)
+SOFT = Cause("stiffness-loss", "local-stiffness", "a softer part", Site("element", (12,), text="element 12"), ())
 MASS = Cause(
     "mass", "mass", "a lumped mass", Site("node", (7,), (0.7, 0.0, 0.0)), (Size("mass", "kg", 0.2, 0.01, 0, 9),)
 )

@@ -5,11 +5,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mouse_cli.diagnosis.companions import Shared, panelled, placed, shared, steady
-from mouse_cli.diagnosis.gates import DEMANDED, FAR, GATE, LIKELY, ODDS, SEVERAL, STAYS, SURE
+from mouse_cli.diagnosis.gates import DEMANDED, FAR, GATE, LIKELY, ODDS, STAYS, SURE
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unmeasured_hz
 from mouse_cli.diagnosis.search.fit import Fit
-from mouse_cli.diagnosis.search.rank import Ranking, group, unnamed
+from mouse_cli.diagnosis.search.rank import Ranking, explains, group, unnamed
 from mouse_cli.diagnosis.validate.averaged import averaged
 from mouse_cli.diagnosis.validate.held_out import held_out
 from mouse_cli.model.diagnosis import (
@@ -196,13 +196,6 @@ _OWN_MODE = (
     "This mechanism has a mode of its own at {}, within the measured band, which the test does not have: look for it there; "
     "unless it is measured, the mechanism is not proved."
 )
-
-
-def explains(one: Fit) -> bool:
-    """Whether what an explanation leaves may be noise, or is next to it; several mechanisms are held to more."""
-    dof = max(one.dof, 1)
-    p = upper_tail(one.misfit, dof)
-    return p >= SEVERAL if len(one.recipes) > 1 else p >= GATE or one.misfit <= one.bearable * dof
 
 
 def rest(ranking: Ranking) -> Rest | None:

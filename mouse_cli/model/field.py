@@ -27,7 +27,7 @@ class Field:
     no sign of their own. Those of a LAW are of one place, a value for each mode, in units of the static stiffness there.
     spread: sd of its values; length: over which they are correlated, in m or in steps from site to site (`unit`).
     log_evidence_over_named: by which it leads everything that has a name; held_out: how the model with it predicts what no fit
-    has seen.
+    has seen. beside: a further one that acts with it; None: it acts alone.
     """
 
     property: str
@@ -37,3 +37,4 @@ class Field:
     unit: str
     log_evidence_over_named: float
     held_out: HeldOut | None = None
+    beside: "Field | None" = None

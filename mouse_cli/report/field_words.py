@@ -30,14 +30,20 @@ _SHOWN = 2.0  # sd from which on a value is listed by itself
 
 def field_sentences(field: Field) -> tuple[str, ...]:
     """What is missing, and that it has no name."""
-    acts = _law(field) if field.property == LAW else f"It {ACTS[field.property]}{_most(field)}"
-    acts = _spring(field) if one_spring(field) else acts
-    lead = f"What is missing has no name in the library. {acts}."
+    besides = "" if field.beside is None else f" A second change is there with it. {_acts(field.beside)}."
+    lead = f"What is missing has no name in the library. {_acts(field)}.{besides}"
     return (
         lead,
         " ".join(filter(None, (_over(field.log_evidence_over_named), held_words(field.held_out)))),
         "Do not trust the revised parameters, and do not name a mechanism.",
     )
+
+
+def _acts(field: Field) -> str:
+    """On what it acts, and where."""
+    if field.property == LAW:
+        return _law(field)
+    return _spring(field) if one_spring(field) else f"It {ACTS[field.property]}{_most(field)}"
 
 
 def _over(log_evidence: float) -> str:

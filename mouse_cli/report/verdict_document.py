@@ -95,6 +95,7 @@ def field(found: Field | None) -> dict[str, Any] | None:
         "unit": found.unit,
         "log_evidence_over_named": found.log_evidence_over_named,
         "held_out": None if found.held_out is None else held_out(found.held_out),
+        "beside": field(found.beside),
     }
 
 

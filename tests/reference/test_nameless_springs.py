@@ -5,9 +5,15 @@ import pytest
 from hermite_beams import LENGTH, Truth, deck
 
 from mouse_cli.diagnosis import diagnose
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.nameless import registry
+from mouse_cli.diagnosis.nameless._both import both
+from mouse_cli.diagnosis.nameless._field import fielded, smooth
+from mouse_cli.diagnosis.nameless._tied import tied
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
-from mouse_cli.model.diagnosis import AXIAL, FORCE, UNKNOWN, Choices
+from mouse_cli.model.diagnosis import AXIAL, FORCE, STIFFNESS, UNKNOWN, Choices
+from mouse_cli.report.verdict_sentences import sentences
 
 NAMES = ("tension", "compression", "ground-spring", "mass", "stiffness-loss", "crack")
 
@@ -40,6 +46,45 @@ def test_a_spring_against_a_turn():
     assert (found.kind, found.field.property, len(found.field.values)) == (UNKNOWN, FORCE, 1)
     assert found.field.values[0].site.position[0] / LENGTH == pytest.approx(0.6, abs=0.02)
     assert halved(found.field.held_out) and not found.extended_result.rejected
+
+
+def test_an_outrigger_on_a_beam_of_uneven_stiffness():
+    """Neither of the two explains the data; both at once do, each at its place, and predict modes that no fit has seen."""
+    wave = lambda x: 1 + 0.2 * np.sin(2 * np.pi * 1.6 * x + 0.4)
+    found = found_in(Truth(stiffness=wave, turns=((0.6, 4.0),)), False)
+    assert (found.kind, found.groups[0][0]) == (UNKNOWN, "spring and field-stiffness")
+    assert (found.field.property, found.field.beside.property) == (STIFFNESS, FORCE)
+    (end,) = found.field.beside.values
+    assert end.site.position[0] / LENGTH == pytest.approx(0.6, abs=0.02) and abs(end.value) > 5 * end.sd
+    x, value, sd = np.array([(v.site.position[0] / LENGTH, v.value, v.sd) for v in found.field.values]).T
+    assert np.corrcoef(value, wave(x))[0, 1] > 0.9
+    assert (np.abs(value - wave(x) + 1) < 3 * sd).mean() > 0.8
+    assert halved(found.field.held_out) and not found.extended_result.rejected
+    assert "A second change is there with it. It acts as one spring against the turn of" in sentences(found)[0]
+
+
+def test_two_rivals_at_once_and_their_derivatives():
+    """K and M are those of both, and so are what they add to first order, by central differences."""
+    problem = assemble(yaml_deck.read(deck(Truth(), False), "beam.yaml"))
+    model, known = reduced(problem, problem.prior.mean), registry()
+    cells = {key: known[key].cells(model) for key in ("force", "compliance", "field-section", "field-bed")}
+    rng = np.random.default_rng(3)
+    for key, put in (("force", tied), ("compliance", tied), ("field-bed", fielded)):
+        sign = (known[key].signs or (0,))[0]
+        other = put(model, smooth(known[key], cells[key], 0.3, 0.5, sign), cells[key])
+        two = both(other, smooth(known["field-section"], cells["field-section"], 0.1, 0.5), cells["field-section"])
+        z, u = 0.3 * rng.standard_normal(two.L.shape[1]), rng.standard_normal((two.r, 2))
+        alone = fielded(model, two.nameless, cells["field-section"])
+        own = len(alone.of_field)
+        parts = (alone.matrices(z[: two.deck + own]), other.matrices(np.delete(z, np.arange(two.deck, two.deck + own))))
+        for whole, one, more, bare in zip(two.matrices(z), *parts, model.matrices(z[: two.deck]), strict=True):
+            assert whole == pytest.approx(one + more - bare, rel=1e-9, abs=1e-9 * np.abs(whole).max())
+        for i, step in enumerate(1e-5 * np.eye(len(z))):
+            ends = zip(two.matrices(z + step), two.matrices(z - step), two.moved(z, u), two.slopes(z), strict=True)
+            for up, down, moved, slope in ends:
+                size = 1e-5 * np.abs(up @ u).max()
+                assert moved[i] == pytest.approx((up - down) @ u / 2e-5, rel=1e-4, abs=size)
+                assert slope[i] @ u == pytest.approx(moved[i], rel=1e-9, abs=size)
 
 
 def test_an_axial_force_that_varies():

@@ -19,6 +19,7 @@ class Nameless:
     signs: of a change of rank one along the field (`_tied`), 1 a spring, -1 a compliance; empty: K or M change in proportion to
     it. even: group of the mechanism that it is where it is the same everywhere, moves the whole as one rigid body, or acts between
     its places; empty: none has a name. gradient: likewise where it is a constant and a slope along one straight row.
+    parts: how many of the registry it is together.
     """
 
     key: str
@@ -30,6 +31,7 @@ class Nameless:
     signs: tuple[int, ...] = ()
     even: str = ""
     gradient: str = ""
+    parts: int = 1
 
 
 def registry() -> dict[str, Nameless]:

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from mouse_cli.diagnosis.nameless._field import Smooth
 from mouse_cli.diagnosis.noise import scale
 from mouse_cli.diagnosis.search.descents import idealised
 from mouse_cli.diagnosis.search.fit import Fit
@@ -62,8 +63,15 @@ def _own(one: Fit) -> slice:
     return slice(deck, deck + one.nameless.P.shape[1])
 
 
-def _values(one: Fit) -> tuple[np.ndarray, np.ndarray]:
-    """Values (c,) of one fit and their variances."""
-    field, own = one.nameless, _own(one)
+def values_beside(one: Fit) -> tuple[np.ndarray, np.ndarray]:
+    """Values (c,) of the other rival beside the field of a fit, and their sd."""
+    other, begin = one.model.base.other.nameless, _own(one).stop
+    values, variance = _values(one, other, slice(begin, begin + other.P.shape[1]))
+    return values, np.sqrt(variance)
+
+
+def _values(one: Fit, field: Smooth | None = None, own: slice | None = None) -> tuple[np.ndarray, np.ndarray]:
+    """Values (c,) of one fit and their variances, of its own field unless another with its unknowns is given."""
+    field, own = field or one.nameless, own or _own(one)
     noise = scale(one.misfit, one.dof)
     return field.values(one.point.x[own]), noise * np.einsum("cw,wv,cv->c", field.P, one.covariance[own, own], field.P)

@@ -1,7 +1,7 @@
 """Every rival without a name fitted to the data, its spread and its correlation length integrated out."""
 
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 
 import numpy as np
@@ -10,9 +10,9 @@ from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.nameless import Nameless, registry
 from mouse_cli.diagnosis.nameless._cells import FEWEST, Cells
-from mouse_cli.diagnosis.nameless._field import LENGTHS, MOTIONS, fielded, smooth
+from mouse_cli.diagnosis.nameless._field import LENGTHS, MOTIONS, Smooth, fielded, smooth
 from mouse_cli.diagnosis.nameless._tied import tied
-from mouse_cli.diagnosis.nameless._weighed import mean_values, signed, weighed
+from mouse_cli.diagnosis.nameless._weighed import mean_values, signed, values_beside, weighed
 from mouse_cli.diagnosis.nameless.local import best_law
 from mouse_cli.diagnosis.nameless.spring import best_spring
 from mouse_cli.diagnosis.search.fit import Fit, fit
@@ -37,18 +37,31 @@ def field_of(ranking, one: Fit, held: HeldOut | None = None) -> Field:
     """The field of a fit of a ranking in words and numbers, beside all that has a name there."""
     odds = {id(each): float(value) for each, value in zip(ranking.fits, ranking.log_odds, strict=True)}
     named = max(odds[id(ranking.fits[i])] for i in ranking.named)
-    field, (values, sd) = one.nameless, mean_values(one)
+    over, other = odds[id(one)] - named, getattr(one.model.base, "other", None)
+    beside = other and _in_words(other.nameless, *values_beside(one), over)
+    return replace(_in_words(one.nameless, *mean_values(one), over), held_out=held, beside=beside)
+
+
+def _in_words(field: Smooth, values: np.ndarray, sd: np.ndarray, over: float) -> Field:
+    """A field by its values (c,), their sd and its log evidence over all that has a name."""
     sites = tuple(FieldValue(*each) for each in zip(field.cells.sites, values.tolist(), sd.tolist(), strict=True))
-    about = (field.spread, field.length, field.cells.unit)
-    return Field(field.rival.property, sites, *about, odds[id(one)] - named, held)
+    return Field(field.rival.property, sites, field.spread, field.length, field.cells.unit, over)
 
 
 def extended(problem: Problem, one: Fit) -> Problem | None:
     """The deck with the field of a fit in it, a parameter for each of its cells; None where none can hold it."""
-    field = one.nameless
+    base, x = one.model.base.first, one.point.x
+    other = getattr(base, "other", None)
+    count = one.nameless.P.shape[1]
+    deck = _with(problem, one.nameless, x[base.deck :][:count])
+    return deck if deck is None or other is None else _with(deck, other.nameless, x[base.deck + count :])
+
+
+def _with(problem: Problem, field: Smooth, w: np.ndarray) -> Problem | None:
+    """The deck with one field, its unknowns first in `w`."""
     if field.cells.extend is None:
         return None
-    values = field.values(one.point.x[one.model.base.first.deck :][: field.P.shape[1]])
+    values = field.values(w[: field.P.shape[1]])
     return field.cells.extend(problem, values, field.spread, *((field.sign,) if field.sign else ()))
 
 

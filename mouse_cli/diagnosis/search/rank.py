@@ -17,6 +17,7 @@ from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.nameless.fit import rivals
+from mouse_cli.diagnosis.nameless.joint import joint_rivals
 from mouse_cli.diagnosis.noise import scale
 from mouse_cli.diagnosis.search.descents import settled
 from mouse_cli.diagnosis.search.disguised import disguised
@@ -32,6 +33,7 @@ from mouse_cli.model.diagnosis import Untried
 from mouse_cli.model.groups import joined, shares
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.shared_place import panels, together
+from mouse_cli.updating.chi_square import upper_tail
 
 NOISY = 1.5  # noise scale above which the accuracies of the test themselves are in doubt
 _UNPHYSICAL = "no size of it makes a model whose modes can be paired with the test"
@@ -43,6 +45,7 @@ _IDLE = 0.5
 _SIZES = ("support", "taper")  # groups that have more than one size and yet no place that these could move
 # P-value of the best single mechanism below which several may gain what their prior takes, some ten nats
 _FURTHER = 0.2
+_PLAIN = 2  # mechanisms up to which a set that explains the data needs no two rivals without a name beside it
 
 
 @dataclass(frozen=True)
@@ -176,10 +179,25 @@ def _ranked(study: Study, causes: int, hear: Callable[[Ranking], Ranking], last:
     if causes > 1 and len(found.fits) > 1 and not any(adequate(one, _FURTHER) for one in alone):
         trusted = found.stated[0] > _TRUSTED or found.noise_scale > _LOUD
         fits += several(study, singles, causes, trusted)
-    kept = fits if model.problem.frf or model.problem.recordings else plainest(fits)  # these may feel what modes do not
+    others = model.problem.frf or model.problem.recordings  # which may feel what modes do not
+    if kind is Model and not others and any(one.nameless for one in fits) and not any(map(_simple, fits)):
+        fits += joint_rivals(model, fits)
+    kept = fits if others else plainest(fits)
     if len(fits) > 1 + len(singles) or len(kept) < len(fits):
         found = hear(ranking(baseline, kept))
     return replace(found, untried=_untried(study, singles))
+
+
+def explains(one: Fit) -> bool:
+    """Whether what an explanation leaves may be noise, or is next to it; several mechanisms are held to more."""
+    dof = max(one.dof, 1)
+    p = upper_tail(one.misfit, dof)
+    return p >= gates.SEVERAL if len(one.recipes) > 1 else p >= gates.GATE or one.misfit <= one.bearable * dof
+
+
+def _simple(one: Fit) -> bool:
+    """Whether a fit of at most two mechanisms, or of one rival without a name, explains the data."""
+    return len(one.recipes) <= _PLAIN and explains(one)
 
 
 def _untried(study: Study, singles: list[Fit]) -> tuple[Untried, ...]:
@@ -215,7 +233,9 @@ def _log_prior(one: Fit, fits: list[Fit]) -> float:
     Sites of several of one kind are a set, which the product of their own priors counts in every order.
     """
     if one.nameless:
-        return float(np.log(gates.NAMELESS / sum(each.nameless is not None for each in fits)))
+        parts = one.nameless.rival.parts
+        alike = sum(each.nameless is not None and each.nameless.rival.parts == parts for each in fits)
+        return float(np.log(gates.NAMELESS * gates.MORE ** (parts - 1) / alike))
     alike = sum(
         not each.nameless and len(each.recipes) == len(one.recipes) and _joined(each) == _joined(one) for each in fits
     )

@@ -39,6 +39,7 @@ def field_blocks(field: Field | None, units: Units) -> Iterator[Block]:
     if not one_spring(field):
         sentences.append(f"The values scatter {along} with sd {spread}{over}{straight}.")
     yield Text(" ".join(sentences))
+    yield from field_blocks(field.beside, units)
 
 
 def field_table(field: Field) -> Table:
