@@ -99,11 +99,6 @@ MUTANTS = (
     *_of(
         "verdict.py",
         _GATES,
-        several_as_one=(
-            "p >= SEVERAL if len(one.recipes) > 1",
-            "p >= SEVERAL if len(one.recipes) > 9",
-            "test_one_mechanism_may_leave_more_than_several",
-        ),
         sure_or_odds=(
             "> ODDS or (probability < SURE",
             "> ODDS and (probability < SURE",
@@ -165,14 +160,28 @@ MUTANTS = (
         "search/rank.py",
         _NAMELESS,
         nameless_each_in_full=(
-            "gates.NAMELESS / sum(each.nameless is not None for each in fits)",
-            "gates.NAMELESS",
+            "gates.MORE ** (parts - 1) / alike",
+            "gates.MORE ** (parts - 1)",
             "test_rivals_without_a_name_share_their_prior",
+        ),
+        two_as_likely_as_one=(
+            "gates.MORE ** (parts - 1)",
+            "gates.MORE ** 0",
+            "test_two_rivals_without_a_name_have_the_prior_of_a_second",
         ),
         nameless_never_asked=(
             "if last and (none",
             "if not last and (none",
             "test_a_field_over_the_masses_of_a_chain",
+        ),
+    ),
+    *_of(
+        "search/rank.py",
+        _GATES,
+        several_as_one=(
+            "p >= gates.SEVERAL if len(one.recipes) > 1",
+            "p >= gates.SEVERAL if len(one.recipes) > 9",
+            "test_one_mechanism_may_leave_more_than_several",
         ),
     ),
     *_of(

@@ -285,6 +285,15 @@ def test_rivals_without_a_name_share_their_prior():
     assert np.exp(_log_prior(fits[-1], fits)) == pytest.approx(0.3)
 
 
+def test_two_rivals_without_a_name_have_the_prior_of_a_second():
+    """A seventh of that of one, all pairs together, and none of the prior of those alone."""
+    of = lambda one, parts: SimpleNamespace(recipes=(), nameless=SimpleNamespace(rival=replace(one, parts=parts)))
+    every = list(nameless().values())
+    alone, pairs = [of(one, 1) for one in every], [of(one, 2) for one in every[:4]]
+    total = lambda own: sum(np.exp(_log_prior(one, [*alone, *pairs])) for one in own)
+    assert (total(alone), total(pairs)) == pytest.approx((0.1, 0.1 / 7))
+
+
 def test_its_evidence_is_the_mean_over_spreads_and_lengths():
     """Not the best of the grid, which would be chosen by the data: at least what the best leaves when all weigh alike."""
     problem = assemble(yaml_deck.read(deck(Truth(stiffness=WAVY[STIFFNESS])), "beam.yaml"))
