@@ -16,7 +16,9 @@ from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.data import Data
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.turning import measured, turned
+from mouse_cli.diagnosis.search import study, superposed
 from mouse_cli.diagnosis.search.fit import fit
+from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.diagnosis.validate.held_out import held_out
 from mouse_cli.dynamics.solver import EigenSolver
 from mouse_cli.formats import read_deck
@@ -206,6 +208,22 @@ def test_a_ring_is_sound_but_for_a_mass_that_splits_its_modes(mass, tmp_path):
     assert found.kind == (NAMED if mass else NOTHING)
     if mass:
         assert found.groups[0][0] == "mass" and found.explanations[0].causes[0].site.text == "degree of freedom 4"
+
+
+@pytest.mark.parametrize("name", ["mass", "ground-spring", "oscillator"])
+def test_a_look_at_each_close_mode_by_itself_keeps_what_is_best(name, monkeypatch, tmp_path):
+    """Of all places and sizes few are left, for whose modes angles are found together; the best of these are the best of all."""
+    K, M = ring(8)[0], np.eye(8) + np.diag([0, 0, 0, 0.1, 0, 0, 0, 0])
+    rates, X = eigh(K, M)
+    problem = deck(K, rates, X + SHAPE_SD * np.random.default_rng(2).standard_normal((8, 8)), tmp_path)
+    model = reduced(problem, problem.prior.mean, EigenSolver(lambda text: None))
+    every = Study(model).looks(name, np.zeros(model.L.shape[1]), ())
+    kept = len(every) // 3
+    for module in (study, superposed):
+        monkeypatch.setattr(module, "KEPT", kept)
+    few = Study(model).looks(name, np.zeros(model.L.shape[1]), ())
+    assert len(few) <= kept
+    assert [(i, *x) for _, i, x in few[:6]] == [(i, *x) for _, i, x in every[:6]]
 
 
 def test_an_update_turns_double_modes_wherever_the_sensors_are(tmp_path):

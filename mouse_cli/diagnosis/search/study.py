@@ -87,8 +87,8 @@ class Study:
                 seen.append((text(recipe), i, at.residual))
             self._looked[key] = sorted(found, key=lambda item: item[0])
             none = self.kind(self.model).point(before) if seen and not others and not before.any() else None
-            if none is not None:
-                self.alone[name] = by_itself(seen, none)
+            if none is not None and name not in self.alone:
+                self.alone[name] = by_itself(seen, none.residual)
         return self._looked[key]
 
     def together(self, leading: list[str], most: int) -> list[tuple[tuple[Recipe, ...], np.ndarray]]:
@@ -129,13 +129,37 @@ class Study:
 
     def _worth(self, name: str, before: np.ndarray, others: tuple[Recipe, ...]) -> set[tuple[str, int]] | None:
         """Sites, and numbers of sizes, that are worth a look beside `others`; None: all."""
-        if not others or sum(len(recipe.grid) for recipe in self.recipes(name)) <= KEPT:
+        few = sum(len(recipe.grid) for recipe in self.recipes(name)) <= KEPT
+        if not others:
+            glimpsed = None if before.any() else self._glimpsed(name)
+            return None if few or glimpsed is None else chosen(glimpsed, glimpsed.none, np.zeros(self.k), *self._adapted(before, ()))
+        if few:
             return None
         self.begun.looks(name, np.zeros(self.k), ())
-        at, alone = self.kind(self.model, others).point(before), self.begun.alone.get(name)
+        trial, alone = self.kind(self.model, others), self.begun.alone.get(name)
+        at = trial.point(before)
         if at is None or alone is None:
             return None
-        return chosen(alone, at.residual, before[: self.k], *self._adapted(before, others))
+        left = trial.glimpsed(before) if alone.glimpsed else at.residual
+        return chosen(alone, left, before[: self.k], *self._adapted(before, others))
+
+    def _glimpsed(self, name: str) -> Alone | None:
+        """What a candidate does by itself where modes are close, whose angles cost more to find than the modes; None: none are."""
+        bare, none = self.kind(self.model), np.zeros(self.k)
+        at = bare.point(none)
+        if at is None or not at.turns or not isinstance(bare, Model):
+            return None
+        seen = []
+        for recipe in self.recipes(name):
+            trial, place = self.kind(self.model, (recipe,)), text(recipe)
+            for i, values in enumerate(recipe.grid):
+                left = trial.glimpsed(np.concatenate([none, recipe.coordinates(values)]))
+                seen += [] if left is None else [(place, i, left)]
+            recipe.forget()
+        if not seen:
+            return None
+        self.alone[name] = by_itself(seen, bare.glimpsed(none), glimpsed=True)
+        return self.alone[name]
 
     def approached(
         self, name: str, before: np.ndarray, beside: tuple[Recipe, ...], reach: float = np.inf

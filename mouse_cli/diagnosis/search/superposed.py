@@ -12,7 +12,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Recipe
-from mouse_cli.diagnosis.likelihoods.modal.point import Point
 
 KEPT = 256  # places and sizes of one candidate that are looked at beside others; of no more each is
 _EACH = 4  # of one recipe at least, if it has so many among the best
@@ -29,21 +28,25 @@ def text(recipe: Recipe) -> str:
 
 @dataclass(frozen=True)
 class Alone:
-    """What places and sizes do by themselves: site and number of the size (n,), residuals (n, q), and that of none (q,)."""
+    """What places and sizes do by themselves: site and number of the size (n,), residuals (n, q), and that of none (q,).
+
+    glimpsed: they are those of `Model.glimpsed`, not of its points.
+    """
 
     at: list[tuple[str, int]]
     residuals: np.ndarray
     none: np.ndarray
+    glimpsed: bool = False
 
     def of(self, places: Container[str]) -> "Alone":
         """The same of these sites alone."""
         own = [i for i, (place, _) in enumerate(self.at) if place in places]
-        return Alone([self.at[i] for i in own], self.residuals[own], self.none)
+        return Alone([self.at[i] for i in own], self.residuals[own], self.none, self.glimpsed)
 
 
-def by_itself(looks: list[tuple[str, int, np.ndarray]], none: Point) -> Alone:
-    """Of looks (site, number of the size, residual) at the prior mean, and the point there without a cause."""
-    return Alone([each[:2] for each in looks], np.array([residual for *_, residual in looks]), none.residual)
+def by_itself(looks: list[tuple[str, int, np.ndarray]], none: np.ndarray, glimpsed: bool = False) -> Alone:
+    """Of looks (site, number of the size, residual) at the prior mean, and the residual (q,) there without a cause."""
+    return Alone([each[:2] for each in looks], np.array([residual for *_, residual in looks]), none, glimpsed)
 
 
 def chosen(

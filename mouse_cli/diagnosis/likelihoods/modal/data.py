@@ -10,6 +10,8 @@ from mouse_cli.dynamics.frequency import eigenvalue
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.theory import Theory
 
+_ROUNDING = 4.0  # times eps and the size of a matrix: what its factors may err by
+
 
 class Data:
     """m modes at s sensors, q data: ln f of each mode, then its shape, over their standard deviations.
@@ -101,13 +103,29 @@ class Data:
 
     def residual(self, eigenvalues: np.ndarray, seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Whitened residual (q,), measured minus model, for eigenvalues (m,) and shapes `seen` (s, m); scales a (m,)."""
+        return self._left(eigenvalues, seen * self._w, self._y)
+
+    def residual_beside(
+        self, eigenvalues: np.ndarray, seen: np.ndarray, modes: np.ndarray, sd: np.ndarray
+    ) -> np.ndarray:
+        """Whitened residual (q,) likewise, for shapes `seen` (s, k) of all modes, if each of `modes` (m,) has sd (m, k) of others in it.
+
+        L^-1 (y - a f), L L' = I + |y|^2 / |f|^2 F sd^2 F', for each measured shape y, its mode f and all modes F, over the data's sd.
+        """
+        f, y = (seen[:, modes] * self._w).T, self._y.T
+        length = np.linalg.norm(y, axis=1) / np.maximum(np.linalg.norm(f, axis=1), 1e-300)
+        F = self._w.T[:, :, None] * seen * (length[:, None] * sd)[:, None]
+        f, y = np.moveaxis(np.linalg.solve(root(F), np.stack([f, y], axis=2)), 2, 0)
+        return self._left(eigenvalues[modes], f.T, y.T)[0]
+
+    def _left(self, eigenvalues: np.ndarray, f: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """As `residual`, for shapes f of the model and y of the test (s, m), whitened."""
         off = (self._log - 0.5 * np.log(np.maximum(eigenvalues, 1e-300))) / self.sd_log
-        f = seen * self._w
         size = np.einsum("sm,sm->m", f, f)
-        along = np.einsum("sm,sm->m", f, self._y)
+        along = np.einsum("sm,sm->m", f, y)
         fitted = np.divide(along, size, out=np.zeros(self.m), where=size > 0)
         a = fitted if self.scaled else np.where(along < 0, -1.0, 1.0)
-        return self._stacked(off, self._y - a * f), a
+        return self._stacked(off, y - a * f), a
 
     def scale_sd(self, seen: np.ndarray) -> np.ndarray:
         """Standard deviation (m,) of the scale a that is fitted to shapes `seen` (s, m); 0 where the test states it."""
@@ -127,3 +145,12 @@ class Data:
         if self._whole:
             return np.concatenate([of_frequencies, of_shapes.reshape(self.s * self.m, *of_shapes.shape[2:])])
         return np.concatenate([of_frequencies[self.has_frequency], of_shapes[self.has_shape]])
+
+
+def root(wide: np.ndarray) -> np.ndarray:
+    """L (..., q, q) with L L' = I + A A', for A (..., q, c) = `wide`; where rounding of A A' is more than 1, that is as large."""
+    S = wide @ np.swapaxes(wide, -1, -2)
+    q = S.shape[-1]
+    S[..., range(q), range(q)] *= 1 + _ROUNDING * q * np.finfo(float).eps
+    S[..., range(q), range(q)] += 1.0
+    return np.linalg.cholesky(S)

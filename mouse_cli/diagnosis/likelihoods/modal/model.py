@@ -10,7 +10,7 @@ from mouse_cli.diagnosis.likelihoods.modal.carrying import Carrying
 from mouse_cli.diagnosis.likelihoods.modal.growing import growing, grown
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.likelihoods.modal.turning import measured, turned
+from mouse_cli.diagnosis.likelihoods.modal.turning import measured, one_by_one, turned
 
 _STEP = 1e-5  # of a range, for derivatives of matrices
 _KEPT = 4  # points
@@ -103,15 +103,33 @@ class Model(Carrying):
 
     def paired(self, x: np.ndarray, eigenvalues: np.ndarray, X: np.ndarray, S: np.ndarray) -> Point | None:
         """Those modes beside the test; None where it has modes that are none of theirs."""
+        found = self._seen(eigenvalues, X, S)
+        if found is None:
+            return None
+        eigenvalues, X, seen, modes = found
+        turn = turned(self.base.data, eigenvalues, seen, modes)
+        residual, a = self.base.data.residual(eigenvalues[modes], measured(seen, modes, turn))
+        return Point(x, eigenvalues, X, seen, modes, residual if turn is None else turn.left(residual), a, turn)
+
+    def _seen(
+        self, eigenvalues: np.ndarray, X: np.ndarray, S: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray] | None:
+        """Eigenvalues and shapes corrected for the mesh, what sensors see of them (s, size), and the measured modes; None likewise."""
         eigenvalues, X = self.base.refined(eigenvalues, X)
         seen = S @ X
         seen += self.base.sensing @ X[: self.base.r]
         modes = self.base.data.pair(eigenvalues, seen)
-        if modes.max() >= len(eigenvalues) or eigenvalues[modes].min() <= 0:
+        physical = modes.max() < len(eigenvalues) and eigenvalues[modes].min() > 0
+        return (eigenvalues, X, seen, modes) if physical else None
+
+    def glimpsed(self, x: np.ndarray) -> np.ndarray | None:
+        """The residual (q,) at x if close modes turned each by itself, at a fraction of the cost of `point`; None likewise."""
+        found = self.solved(x)
+        found = found and self._seen(*found)
+        if found is None:
             return None
-        turn = turned(self.base.data, eigenvalues, seen, modes)
-        residual, a = self.base.data.residual(eigenvalues[modes], measured(seen, modes, turn))
-        return Point(x, eigenvalues, X, seen, modes, residual if turn is None else turn.left(residual), a, turn)
+        eigenvalues, _, seen, modes = found
+        return one_by_one(self.base.data, eigenvalues, seen, modes)
 
     def jacobian(self, at: Point) -> np.ndarray:
         """d(prediction)/dx (q, k + t), whitened; that of the last point is kept."""

@@ -18,7 +18,7 @@ from functools import cached_property
 
 import numpy as np
 
-from mouse_cli.diagnosis.likelihoods.modal.data import Data
+from mouse_cli.diagnosis.likelihoods.modal.data import Data, root
 
 _COVERED = 0.02  # angle up to which `theory.shape` allows for it, and what a test states
 _SLIGHT = 0.1  # sd of an angle up to which shapes follow it in proportion: to half a percent
@@ -45,10 +45,7 @@ class Turn:
     @cached_property
     def root(self) -> np.ndarray:
         """L (q, q), of the whitened data's uncertainty by the angles."""
-        wide = self.slopes / np.sqrt(self.weights)
-        S = wide @ wide.T
-        S[np.diag_indices(len(S))] += 1.0
-        return np.linalg.cholesky(S)
+        return root(self.slopes / np.sqrt(self.weights))
 
     @cached_property
     def nats(self) -> float:
@@ -90,6 +87,15 @@ def turned(data: Data, eigenvalues: np.ndarray, seen: np.ndarray, modes: np.ndar
     return Turn(which, mixed, t, P, J)
 
 
+def one_by_one(data: Data, eigenvalues: np.ndarray, seen: np.ndarray, modes: np.ndarray) -> np.ndarray:
+    """The residual (q,) if every measured mode turned by itself, in proportion to its angles with those that are close.
+
+    Shapes need not stay orthogonal so, and nothing is sought step by step: it costs little.
+    """
+    variance = _sd(data, eigenvalues, modes) ** 2 - _COVERED**2
+    return data.residual_beside(eigenvalues, seen, modes, np.sqrt(np.maximum(variance, 0.0)))
+
+
 def _apart(data: Data, eigenvalues: np.ndarray, modes: np.ndarray) -> bool:
     """Whether every measured mode is so far from its neighbours that no two can be close: most are, and pairs need no look."""
     own = eigenvalues[modes]
@@ -98,16 +104,21 @@ def _apart(data: Data, eigenvalues: np.ndarray, modes: np.ndarray) -> bool:
     return bool((_COVERED * gap > np.sqrt(2) * data.theory * own).all())
 
 
+def _sd(data: Data, eigenvalues: np.ndarray, modes: np.ndarray) -> np.ndarray:
+    """sd (m, k) of the angle between each measured mode and each mode; 0 with itself."""
+    own = eigenvalues[modes]
+    apart = np.abs(own[:, None] - eigenvalues)
+    apart[np.arange(len(modes)), modes] = np.inf
+    error = np.full(apart.shape, data.theory[:, None] * own[:, None])
+    error[:, modes] = np.sqrt(0.5 * (error[:, modes] ** 2 + error[:, modes].T ** 2))
+    return np.sqrt(2) * error / np.maximum(apart, np.sqrt(_LEAST) * error)
+
+
 def _close(
     data: Data, eigenvalues: np.ndarray, modes: np.ndarray
 ) -> tuple[np.ndarray, list[tuple[int, int]], np.ndarray]:
     """See `Turn`: `which`, pairs (i, j) of numbers in it, i of a measured mode, and the sd of the angle of each."""
-    m, own = len(modes), eigenvalues[modes]
-    apart = np.abs(own[:, None] - eigenvalues)
-    apart[np.arange(m), modes] = np.inf
-    error = np.full((m, len(eigenvalues)), data.theory[:, None] * own[:, None])
-    error[:, modes] = np.sqrt(0.5 * (error[:, modes] ** 2 + error[:, modes].T ** 2))
-    sd = np.sqrt(2) * error / np.maximum(apart, np.sqrt(_LEAST) * error)
+    m, sd = len(modes), _sd(data, eigenvalues, modes)
     near = np.argwhere(sd > _COVERED)
     place = {int(mode): i for i, mode in enumerate(modes)}
     near = [(i, j) for i, j in near.tolist() if place.get(j, m) > i]
