@@ -37,7 +37,7 @@ def settled(one: Fit, study: Study) -> Fit:
         before = one.model.base.theta
         if not one.recipes or np.all(np.abs(theta - before) <= trifle * np.abs(before)):
             break
-        there = study.at(one)
+        there = study.about(one) if trifle == MOVED else study.at(one)
         base = there.model.judged_by(one.model.base.data)
         again = fit(study.kind(base, there.own(one.recipes)), one.c, one.point.x[: one.model.k])
         if again is None:

@@ -131,8 +131,8 @@ class Study:
         """Sites, and numbers of sizes, that are worth a look beside `others`; None: all."""
         few = sum(len(recipe.grid) for recipe in self.recipes(name)) <= KEPT
         if not others:
-            glimpsed = None if before.any() else self._glimpsed(name)
-            return None if few or glimpsed is None else chosen(glimpsed, glimpsed.none, np.zeros(self.k), *self._adapted(before, ()))
+            alone = None if before.any() else self._glimpsed(name)
+            return None if few or alone is None else chosen(alone, alone.none, before, *self._adapted(before, ()))
         if few:
             return None
         self.begun.looks(name, np.zeros(self.k), ())
@@ -228,19 +228,23 @@ class Study:
         theta = one.model.base.parameters(one.point.x[: self.k])
         try:
             there = Study(self.model.at(theta), self.known, self.kind, self.begun)
-            known = all(text(recipe) in map(text, there.recipes(recipe.candidate.key)) for recipe in one.recipes)
-            return there if known else self
+            return there if there._knows(one) else self
         except (
             IndefiniteError,
             np.linalg.LinAlgError,
         ):  # parameters far from their prior, of a fit that explains nothing
             return self
 
+    def _knows(self, one: Fit) -> bool:
+        """Whether the causes of a fit can act where they do."""
+        return all(text(recipe) in map(text, self.recipes(recipe.candidate.key)) for recipe in one.recipes)
+
     def about(self, one: Fit) -> "Study":
         """The same, or one of the last there were, at parameters from which those of a fit differ by no more than a trifle."""
         theta = one.model.base.parameters(one.point.x[: self.k])
         for study in self._about:
-            if np.all(np.abs(theta - study.model.theta) <= MOVED * np.abs(study.model.theta)):
+            near = np.all(np.abs(theta - study.model.theta) <= MOVED * np.abs(study.model.theta))
+            if near and study._knows(one):
                 return study
         self._about = [self, self.at(one), *self._about[1:_ABOUT]]
         return self._about[1]

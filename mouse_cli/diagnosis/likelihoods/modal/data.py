@@ -108,9 +108,10 @@ class Data:
     def residual_beside(
         self, eigenvalues: np.ndarray, seen: np.ndarray, modes: np.ndarray, sd: np.ndarray
     ) -> np.ndarray:
-        """Whitened residual (q,) likewise, for shapes `seen` (s, k) of all modes, if each of `modes` (m,) has sd (m, k) of others in it.
+        """Whitened residual (q,) for shapes `seen` (s, k) of all modes, if each of `modes` (m,) has sd (m, k) of them in it.
 
-        L^-1 (y - a f), L L' = I + |y|^2 / |f|^2 F sd^2 F', for each measured shape y, its mode f and all modes F, over the data's sd.
+        L^-1 (y - a f), L L' = I + |y|^2 / |f|^2 F sd^2 F', for each measured shape y, its mode f and all modes F, over the sd of
+        the data.
         """
         f, y = (seen[:, modes] * self._w).T, self._y.T
         length = np.linalg.norm(y, axis=1) / np.maximum(np.linalg.norm(f, axis=1), 1e-300)

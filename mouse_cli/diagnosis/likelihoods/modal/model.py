@@ -114,7 +114,7 @@ class Model(Carrying):
     def _seen(
         self, eigenvalues: np.ndarray, X: np.ndarray, S: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray] | None:
-        """Eigenvalues and shapes corrected for the mesh, what sensors see of them (s, size), and the measured modes; None likewise."""
+        """Eigenvalues, shapes, what sensors see of them (s, size), for a finer mesh, and the measured modes; None likewise."""
         eigenvalues, X = self.base.refined(eigenvalues, X)
         seen = S @ X
         seen += self.base.sensing @ X[: self.base.r]
