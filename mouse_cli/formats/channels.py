@@ -16,30 +16,35 @@ _SAME = 0.01  # relative difference of two units that are one
 
 
 def column(contents: Contents, name: str, say: Findings, where) -> Column | None:
-    """The channel called `name`, whatever its case, or the one of that number, from 1; None after an error."""
-    for same in (lambda a: a == name, lambda a: a.lower() == name.lower()):
+    """The channel called `name`, whatever its case, with or without the group or struct before its last dot, or the one of that
+    number, from 1; None after an error.
+    """
+    number = name.isdecimal() and 1 <= int(name) <= len(contents.columns)
+    last = lambda a: not number and a.rpartition(".")[2].lower() == name.lower()
+    for same in (lambda a: a == name, lambda a: a.lower() == name.lower(), last):
         found = [each for each in contents.columns if same(each.name)]
         if len(found) == 1:
             return found[0]
         if found:
             message = f"{len(found)} channels of the file are called '{name[:40]}'"
             return say.error("MD600", where, message, "name it by its number, from 1")
-    if name.isdecimal() and 1 <= int(name) <= len(contents.columns):
+    if number:
         return contents.columns[int(name) - 1]
     return say.error(
         "MD600",
         where,
         f"the file has no channel '{name[:40]}'",
         "name one of them, or give its number, from 1",
-        _known(contents, name),
+        listed(contents, name),
     )
 
 
-def _known(contents: Contents, name: str) -> str:
+def listed(contents: Contents, name: str = "") -> str:
+    """What channels a file has, in words: those whose names are near to `name`, or its first."""
     names = [each.name for each in contents.columns]
     near = get_close_matches(name, names, 3)
-    listed = ", ".join(near or names[:12]) + (", ..." if not near and len(names) > 12 else "")
-    return f"its {len(names)} channels include {listed}" if names else "it holds no channels of samples"
+    some = ", ".join(near or names[:12]) + (", ..." if not near and len(names) > 12 else "")
+    return f"its {len(names)} channels include {some}" if names else "it holds no channels of samples"
 
 
 def channel(pick: Pick, found: Column, units: Units, say: Findings) -> tuple[Channel, float] | None:

@@ -6,6 +6,7 @@ import numpy as np
 
 from mouse_cli._errors import ERROR, Diagnostic, RecordError
 from mouse_cli._span import Span
+from mouse_cli.formats.channels import listed
 from mouse_cli.formats.own_names import own_picks, own_sensor
 from mouse_cli.formats.record_drafts import Findings, Pick
 from mouse_cli.formats.recording import recording
@@ -41,6 +42,7 @@ def read_recording(path: str, choice: Choice) -> tuple[Recording, tuple[Diagnost
             where,
             "no channel is chosen",
             "name forces and responses: --force NAME --response NAME; `mouse identify --output-only` takes all as responses",
+            listed(contents),
         )
     found = None
     if picks:
@@ -61,9 +63,14 @@ def _picks(contents: Contents, choice: Choice, where: Span) -> list[Pick]:
     if not choice.responses:
         used = {pick.channel.lower() for pick in picks} | {(choice.time or "").lower()}
         length = max((len(each.values) for each in contents.columns), default=0)
-        others = [(i, each) for i, each in enumerate(contents.columns, 1) if not ({each.name.lower(), str(i)} & used)]
+        others = [(i, each) for i, each in enumerate(contents.columns, 1) if not (_spellings(each, i) & used)]
         picks += [_pick(OUTPUT, each.name, choice, where) for _, each in others if _response(each, length)]
     return picks
+
+
+def _spellings(each: Column, number: int) -> set[str]:
+    """How a channel may be called."""
+    return {each.name.lower(), each.name.rpartition(".")[2].lower(), str(number)}
 
 
 def _response(each: Column, length: int) -> bool:

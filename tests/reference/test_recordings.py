@@ -13,6 +13,7 @@ import samples
 from mouse_cli._errors import DeckError, RecordError
 from mouse_cli.formats import read_deck, write_deck
 from mouse_cli.formats.recording_files import read_contents
+from mouse_cli.formats.recording_source import Choice, read_recording
 from mouse_cli.model.channel_units import ratio, unit
 from mouse_cli.records.faults import clock, faults
 
@@ -95,6 +96,21 @@ def test_mat_and_structs(tmp_path):
     ).recordings[0]
     assert recording.sample_rate_hz == FS
     assert (recording.samples == np.column_stack([FORCE, MOTION])).all()
+
+
+def test_a_channel_is_found_by_its_name_within_a_struct(tmp_path):
+    from scipy.io import savemat
+
+    path = str(tmp_path / "run.mat")
+    savemat(path, {"run": {"force": FORCE, "acc": MOTION, "fs": FS}})
+    found, _ = read_recording(path, Choice(forces=("1=Force",)))
+    assert [one.name for one in found.channels] == ["run.force", "run.acc"]
+    with pytest.raises(RecordError) as refused:
+        read_recording(path, Choice())
+    assert "run.force, run.acc" in refused.value.diagnostics[0].note
+    savemat(path, {"run": {"force": FORCE}, "more": {"force": FORCE}, "fs": FS})
+    with pytest.raises(RecordError, match="2 channels of the file"):
+        read_recording(path, Choice(forces=("1=force",)))
 
 
 def test_hdf5_and_mat_7_3(tmp_path):
