@@ -17,7 +17,7 @@ def unknowns(scale: Scale) -> tuple[Unknown, ...]:
     k, (low, high) = scale.stiffness, scale.forces
     stiff = float(np.clip(scale.stiffest, 100 * k, 1e4 * k))  # Coulomb's law, as far as a simulation can follow it
     return (
-        Unknown("stiffness before slip", "N/m", 0.002 * k, stiff),
+        Unknown("stiffness before slip", "N/m", 0.02 * k, stiff),
         Unknown("slip force", "N", 0.003 * low, 3 * high),
     )
 
