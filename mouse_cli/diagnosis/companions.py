@@ -84,13 +84,18 @@ def panelled(one: Fit) -> bool:
     shares = [(1 - sum(share for _, share in one.elsewhere), one), *((share, other) for other, share in one.elsewhere)]
     total, sites = 0.0, []
     for share, each in sorted(shares, key=lambda item: -item[0]):
-        total, sites = total + share, [*sites, tuple(site for _, _, site in _mechanisms(each))]
+        total, sites = total + share, [*sites, tuple((group, site) for _, group, site in _mechanisms(each))]
         if total >= SURE:
             break
     moved = [own for own in zip(*sites, strict=True) if len(set(own)) > 1]
-    if len(moved) != 1 or any(site.kind != "node" or len(site.ids) != 2 for site in moved[0]):
+    if len(moved) != 1 or not all(_diagonal(*each) for each in moved[0]):
         return False
-    return panels(one.model.base.problem.mesh, moved[0])
+    return panels(one.model.base.problem.mesh, [site for _, site in moved[0]])
+
+
+def _diagonal(group: str, site: Site) -> bool:
+    """Whether a mechanism joins two nodes, or two pairs of them that cross."""
+    return site.kind == "node" and len(site.ids) in ((2, 4) if group == "brace" else (2,))
 
 
 def loose(one: Fit, which: tuple[int, ...] | None = None) -> tuple[tuple[str, float], ...]:

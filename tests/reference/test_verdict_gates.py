@@ -439,6 +439,8 @@ _MESH = SimpleNamespace(coordinates=_GRID, node_ids=np.arange(1, 19), elements=(
         ((1, 8), [((2, 7), 0.4)], NAMED),  # the other diagonal of a panel
         ((1, 8), [((2, 7), 0.3), ((2, 9), 0.3)], NAMED),  # the next bay
         ((1, 8), [((7, 14), 0.4)], NAMED),  # the next storey
+        ((1, 8, 2, 7), [((1, 8), 0.3), ((2, 7), 0.2)], NAMED),  # both diagonals, or one of them
+        ((1, 8, 2, 7), [((1, 10), 0.4)], ONE_OF),  # both, or one of another wall
         ((1, 8), [((4, 11), 0.4)], ONE_OF),  # the wall behind
         ((1, 8), [((2, 9), 0.3), ((7, 14), 0.3)], ONE_OF),  # neither bay nor storey
         ((1, 8), [((1, 10), 0.4)], ONE_OF),  # another wall, across
