@@ -166,7 +166,7 @@ def sure(ranking: Ranking) -> bool:
 def decide(ranking: Ranking) -> tuple[str, tuple[str, ...]]:
     """The kind of answer when something is missing, by the gates of adequacy, probability and odds; and why no name is given."""
     first, (name, probability) = ranking.fits[0], ranking.groups[0]
-    if unnamed(first):
+    if unnamed(first) and name not in {group(ranking.fits[i]) for i in ranking.named}:
         best = leader(ranking)
         rival = best is not None and dict(ranking.groups)[group(best)] > STAYS and explains(best)
         return ONE_OF if rival else UNKNOWN, ()
@@ -179,7 +179,7 @@ def decide(ranking: Ranking) -> tuple[str, tuple[str, ...]]:
         return UNKNOWN, ()  # the test is not as accurate as it is stated, and what is missing besides cannot be told
     if far := far_parameters(first):
         return UNKNOWN, (_FAR.format(far),)
-    if not ranking.log_odds[0] > ODDS or (probability < SURE and shared(ranking, first) is None):
+    if not _odds(ranking, first) > ODDS or (probability < SURE and shared(ranking, first) is None):
         return ONE_OF, ()
     if not first.model.base.data.by_shape and any(recipe.own for recipe in first.recipes):
         return ONE_OF, ()  # paired by number, a list of frequencies cannot prove that it holds one mode more
@@ -200,7 +200,8 @@ _OWN_MODE = (
 
 def rest(ranking: Ranking) -> Rest | None:
     """What the leading explanation leaves, where that is more than chance."""
-    first, dof = ranking.fits[0], max(ranking.fits[0].dof, 1)
+    first = leader(ranking) or ranking.fits[0]
+    dof = max(first.dof, 1)
     p = upper_tail(first.misfit, dof)
     return None if p >= GATE else Rest(float((first.misfit - dof) / max(ranking.baseline.misfit - dof, 1.0)), p)
 

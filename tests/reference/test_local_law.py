@@ -100,7 +100,7 @@ def test_a_constant_mount_keeps_its_name():
     """A spring says with one value what a law says with six."""
     found = diagnosed(*truth(lambda hz: K0, 0.6), NAMES)
     assert (found.kind, found.best.physics) == (NAMED, "ground-spring")
-    assert dict(found.groups)["law"] < 0.05
+    assert dict(found.groups).get("law", 0.0) < 0.05
 
 
 def test_a_mass_keeps_its_name():

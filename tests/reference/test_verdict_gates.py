@@ -376,6 +376,26 @@ def test_a_gradient_of_a_section_is_a_taper_of_its_own_member(along, counted):
     assert groups["taper"] == pytest.approx(counted)
 
 
+@pytest.mark.parametrize(
+    ("at", "p", "counted", "kind"),
+    [
+        (0.53, (0.89, 0.09), 0.98, NAMED),
+        (0.53, (0.3, 0.68), 0.98, NAMED),  # the law is more probable, by less than ODDS
+        (0.53, (0.04, 0.94), 0.04, UNKNOWN),  # it varies from mode to mode
+        (0.60, (0.89, 0.09), 0.89, ONE_OF),  # another place
+    ],
+)
+def test_a_law_at_the_site_of_a_spring_is_that_spring_unless_it_is_shown_to_vary(proofs, at, p, counted, kind):
+    spring, law = made_up("ground-spring@0.5"), made_up(nameless="law", even="ground-spring")
+    spring.recipes[0].unknowns, spring.sites = ("place", "stiffness"), [Site("element", (5,), (0.5, 0.0, 0.0))]
+    spring.model.base.problem.mesh = None
+    law.nameless.cells = SimpleNamespace(sites=(Site("element", (6,), (at, 0.0, 0.0)),))
+    one, other = zip(*sorted([(p[0], spring), (p[1], law)], key=lambda each: -each[0]), strict=True)
+    found = ranked(*other, BARE, p=(*one, 0.02), odds=(9.0, 9.0, 0.0))
+    assert dict(found.groups)["ground-spring"] == pytest.approx(counted)
+    assert decide(found)[0] == kind
+
+
 def test_an_oscillator_above_the_band_is_a_mass():
     """An item on a mount so stiff that it follows the structure, or so soft that it stands still."""
     problem = assemble(yaml_deck.read(deck(Truth(), modes=6, held=1), "beam.yaml"))

@@ -15,6 +15,7 @@ from mouse_cli.diagnosis import gates
 from mouse_cli.diagnosis.likelihoods.modal.accuracy import Doubt, doubts, ways
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.likelihoods.modal.scales import span
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.nameless.fit import rivals
 from mouse_cli.diagnosis.nameless.joint import joint_rivals
@@ -29,10 +30,11 @@ from mouse_cli.diagnosis.search.parts import in_turn, promising, single
 from mouse_cli.diagnosis.search.pool import Pool
 from mouse_cli.diagnosis.search.several import adequate, plain, several
 from mouse_cli.diagnosis.search.study import Study
-from mouse_cli.model.diagnosis import Untried
+from mouse_cli.model.diagnosis import LAW, Untried
 from mouse_cli.model.groups import joined, shares
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.shared_place import panels, together
+from mouse_cli.model.site import gap
 from mouse_cli.updating.chi_square import upper_tail
 
 NOISY = 1.5  # noise scale above which the accuracies of the test themselves are in doubt
@@ -74,7 +76,7 @@ class Ranking:
 
         A field counts as the mechanism that it is where it does not vary, if that is the more probable of the two: soil on which
         a building moves as one rigid body as a flexible support, a spring in the panels of a brace as a brace, a section that
-        changes linearly along one member as a taper.
+        changes linearly along one member as a taper. A law counts as the spring at its site unless it is ODDS more probable.
         """
         return shares(*zip(*_counted(self.fits, self.probabilities), strict=True))
 
@@ -99,6 +101,7 @@ def _counted(fits: tuple[Fit, ...], probabilities: np.ndarray) -> Iterator[tuple
     tie to the ground with a more probable fit to that.
     """
     even: dict[str, Fit] = {}  # of what acts alike everywhere, or moves the whole, the first of each group
+    local = _springs(fits, probabilities)
     ties: set[str] = set()  # groups that others have been counted to
     for i, (one, p) in enumerate(zip(fits, probabilities.tolist(), strict=True)):
         name, variants = group(one), one.variants if one.nameless else ()
@@ -110,9 +113,29 @@ def _counted(fits: tuple[Fit, ...], probabilities: np.ndarray) -> Iterator[tuple
             p *= 1 - there
         for part, share in ((one, 1 - sum(share for _, share in variants)), *variants):
             limit = part.nameless.rival.even if part.nameless else ""
-            yield (limit if limit in even and _contains(even[limit], part) else name), p * share
+            if name == LAW:
+                contained = limit in local and _constant(*local[limit], part, p)
+            else:
+                contained = limit in even and _contains(even[limit], part)
+            yield (limit if contained else name), p * share
         if len(one.recipes) == 1 and (len(one.recipes[0].unknowns) == 1 or name in _SIZES):
             even.setdefault(name, one)
+
+
+def _springs(fits: tuple[Fit, ...], probabilities: np.ndarray) -> dict[str, tuple[Fit, float]]:
+    """The most probable single mechanism of each group that leaves no more than chance, and its probability."""
+    found: dict[str, tuple[Fit, float]] = {}
+    for one, p in zip(fits, probabilities.tolist(), strict=True):
+        if len(one.recipes) == 1 and adequate(one, gates.GATE):
+            found.setdefault(group(one), (one, p))
+    return found
+
+
+def _constant(known: Fit, p: float, law: Fit, of_law: float) -> bool:
+    """Whether a law is the spring, hinge or brace at its site: that its stiffness varies from mode to mode is not shown (ODDS)."""
+    base, sites = known.model.base, (known.sites[0], law.nameless.cells.sites[0])
+    near = gap(*sites) <= gates.SAME_SITE * span(base) or panels(base.problem.mesh, sites)
+    return near and p >= np.exp(-gates.ODDS) * of_law
 
 
 def _contains(known: Fit, field: Fit) -> bool:
