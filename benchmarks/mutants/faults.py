@@ -106,8 +106,8 @@ MUTANTS = (
         ),
         refuted_and_yet_named=("if gain < -ODDS:", "if False:", "test_held_out_data_strike_a_name"),
         nameless_named=(
-            "    if unnamed(first):\n        best",
-            "    if False:\n        best",
+            "    if unnamed(first) and name not in",
+            "    if False and name not in",
             "test_what_leads_without_a_name_is_unknown_with_a_field",
         ),
         nameless_beats_an_equal=(
