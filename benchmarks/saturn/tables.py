@@ -75,7 +75,7 @@ def evidence(rows: Sequence[dict[str, Rival]], early: Sequence[dict[str, Rival]]
         gain = np.median([row[key].gain for row in rows if key in row])
         rms = 100 * np.median([row[key].rms for row in rows if key in row])
         study = STUDY.get(key, (None, None, None))
-        ahead = 100 * np.median(foretold(early, key)) if key in early[0] else None
+        ahead = 100 * np.median(error_ahead(early, key)) if key in early[0] else None
         lines.append(
             f"  {key:15} {np.median(Z):7.0f} [{Z.min():.0f}, {Z.max():.0f}] {_study(study[0])} {gain:10.0f}"
             f" {rms:6.2f} {_study(study[1])} {'' if ahead is None else f'{ahead:6.1f}'} {_study(study[2])}"
@@ -83,7 +83,7 @@ def evidence(rows: Sequence[dict[str, Rival]], early: Sequence[dict[str, Rival]]
     return "\n".join([*lines, *counts(rows), *sizes(rows)])
 
 
-def foretold(early: Sequence[dict[str, Rival]], key: str) -> np.ndarray:
+def error_ahead(early: Sequence[dict[str, Rival]], key: str) -> np.ndarray:
     """|errors| of modes 4 and 5 (v, 2) by candidates that were fitted to modes 1 to 3."""
     return np.array([np.abs(row[key].hz[3:5] / MEASURED[3:5] - 1) for row in early if key in row])
 

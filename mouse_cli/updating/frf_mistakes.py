@@ -22,14 +22,10 @@ _FEWEST = 2  # modes: one alone is any factor away
 _LIKE = 0.7  # squared correlation of residues of test and model over the responses, of a mode that tells
 _AT_NODE = 0.1  # of the largest component at the force, below which a mode is hardly excited
 _FAR = 0.3  # median over the modes of |ln| of the factor, above which a reading is thought of
-_NEAR, _MOST = (
-    0.15,
-    0.7,
-)  # |ln| that a reading must leave at most in this share of the modes: what a model lacks moves some
-_LARGE, _ROUGH = (
-    1.2,
-    0.4,
-)  # or as median, where that of the factors as read was so large: no lack in a model moves as many so far
+_NEAR = 0.15  # |ln| that a reading must leave at most
+_MOST = 0.7  # in this share of the modes: what a model lacks moves some
+_LARGE = 1.2  # median |ln| of the factors as read, which no lack in a model reaches: then
+_ROUGH = 0.4  # as median is enough
 _MANY = 4  # modes of which so many must tell before a small factor, or another place of the force, is thought of
 _SAME = 0.1  # median |ln| of measured over predicted frequency: else frequencies tell of other mistakes
 _ADMITTED = 3.0  # prior standard deviations of modal masses and gains that explain a factor themselves

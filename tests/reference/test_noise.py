@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 from mouse_cli.diagnosis.noise import log_density, scale
-from mouse_cli.diagnosis.validate.held_out import Foretold
+from mouse_cli.diagnosis.validate.held_out import HeldOutDensity
 
 RATE = 6.0  # of ln s, before the test: s is 2 or more in 1 of 64
 
@@ -69,6 +69,6 @@ def test_a_prediction_pays_for_the_noise_that_it_needs(misfit, off):
     """ln of the density of nine data, less what a scale of one takes: by numerical integration; two that both err by more than
     their uncertainty differ by less than their chi-squares do.
     """
-    loud = lambda m: Foretold(-0.5 * m - 20.0, m, 9).loud
-    assert loud(misfit) == pytest.approx(integrated(misfit, 9) - 20.0, rel=1e-9)
-    assert not off or 0 < loud(misfit) - loud(off) < 0.5 * (off - misfit) - 5.0
+    over_noise = lambda m: HeldOutDensity(-0.5 * m - 20.0, m, 9).over_noise
+    assert over_noise(misfit) == pytest.approx(integrated(misfit, 9) - 20.0, rel=1e-9)
+    assert not off or 0 < over_noise(misfit) - over_noise(off) < 0.5 * (off - misfit) - 5.0

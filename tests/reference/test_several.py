@@ -237,7 +237,7 @@ def test_a_pair_that_does_not_predict_what_is_held_out_is_not_enough(monkeypatch
     """It leaves no more than noise of what it was fitted to, and yet something else acts: a third is sought beside it."""
     pair = SimpleNamespace(misfit=20.0, dof=20, **vars(of(-40.0, "mass", "support")))
     single, asked = SimpleNamespace(misfit=90.0, dof=20, elsewhere=(), **vars(of(-90.0, "mass"))), []
-    monkeypatch.setattr(search, "foretold", lambda one: None if p is None else SimpleNamespace(p=p))
+    monkeypatch.setattr(search, "held_out_density", lambda one: None if p is None else SimpleNamespace(p=p))
     monkeypatch.setattr(search, "pairs", lambda study, singles: [pair])
     monkeypatch.setattr(search, "same_kind", lambda *given: [])
     monkeypatch.setattr(search, "_as_good", lambda *given: [])
@@ -251,7 +251,7 @@ def test_a_pair_that_leaves_noise_shows_that_the_test_is_as_accurate_as_stated(m
     """What one alone leaves looks like errors of the test, and the pair leaves 20 on 20, or 40 (p = 0.005)."""
     pair = SimpleNamespace(misfit=misfit, dof=20, **vars(of(-40.0, "mass", "support")))
     single, asked = SimpleNamespace(misfit=90.0, dof=20, elsewhere=(), **vars(of(-90.0, "mass"))), []
-    monkeypatch.setattr(search, "foretold", lambda one: SimpleNamespace(p=1e-5))
+    monkeypatch.setattr(search, "held_out_density", lambda one: SimpleNamespace(p=1e-5))
     monkeypatch.setattr(search, "pairs", lambda study, singles: [pair])
     monkeypatch.setattr(search, "same_kind", lambda *given: [])
     monkeypatch.setattr(search, "_as_good", lambda *given: [])

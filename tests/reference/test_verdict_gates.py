@@ -52,8 +52,8 @@ def proofs(monkeypatch):
 
     monkeypatch.setattr(decided, "held_out", proof)
     monkeypatch.setattr(decided, "averaged", lambda model, ranking: None)
-    told = lambda one: SimpleNamespace(loud=gains.get(decided.group(one), 0.0)) if gains else None
-    monkeypatch.setattr(asked, "foretold", told)
+    told = lambda one: SimpleNamespace(over_noise=gains.get(decided.group(one), 0.0)) if gains else None
+    monkeypatch.setattr(asked, "held_out_density", told)
     monkeypatch.setattr(decided, "unmeasured_hz", lambda one: ())
     return gains
 

@@ -17,7 +17,7 @@ from mouse_cli.diagnosis.search.optima import NEAR, within
 from mouse_cli.diagnosis.search.pared import pared
 from mouse_cli.diagnosis.search.parts import Beside, in_turn, look_beside, partner
 from mouse_cli.diagnosis.search.study import Study
-from mouse_cli.diagnosis.validate.held_out import foretold
+from mouse_cli.diagnosis.validate.held_out import held_out_density
 from mouse_cli.updating.chi_square import upper_tail
 
 _SECOND, _QUICK = 2, 8  # fits of a further mechanism beside others, and their steps, in a first try
@@ -51,7 +51,7 @@ def adequate(one: Fit, least: float = _ADEQUATE) -> bool:
 
 def enough(one: Fit) -> bool:
     """Whether what a set leaves may be noise, of what it was fitted to and of what the deck holds out."""
-    return adequate(one) and ((rest := foretold(one)) is None or rest.p > _ADEQUATE)
+    return adequate(one) and ((rest := held_out_density(one)) is None or rest.p > _ADEQUATE)
 
 
 def several(study: Study, singles: list[Fit], most: int, trusted: bool = True) -> list[Fit]:

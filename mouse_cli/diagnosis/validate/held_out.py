@@ -13,7 +13,7 @@ from mouse_cli.diagnosis.effects.change import Change, Recipe
 from mouse_cli.diagnosis.evidence import marginal
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.noise import log_density as loud_density
+from mouse_cli.diagnosis.noise import log_density as noisy_density
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.validate.joint import beyond_linear
 from mouse_cli.dynamics.correlation import mac
@@ -162,7 +162,7 @@ def by_deck(model: Reduced) -> bool:
 
 
 @dataclass(frozen=True)
-class Foretold:
+class HeldOutDensity:
     """All that a deck holds out, as a fit predicts it: ln of its density, and its chi-square on dof."""
 
     density: float
@@ -175,18 +175,18 @@ class Foretold:
         return upper_tail(self.misfit, self.dof)
 
     @property
-    def loud(self) -> float:
+    def over_noise(self) -> float:
         """ln of the density, noise larger than stated integrated out: a theory that errs adds to what it leaves open."""
-        return self.density + 0.5 * self.misfit + float(loud_density(np.array(self.misfit), self.dof))
+        return self.density + 0.5 * self.misfit + float(noisy_density(np.array(self.misfit), self.dof))
 
 
-def foretold(one: Fit) -> Foretold | None:
-    """None where the deck holds nothing out, or a part is unphysical."""
+def held_out_density(one: Fit) -> HeldOutDensity | None:
+    """Of all that the deck of a fit holds out; None where that is nothing, or a part is unphysical."""
     held = one.model.base.problem.hold_out
     parts = [] if held is None else [part for _, part in of_cases(held, one)]
     if not parts or None in parts:
         return None
-    return Foretold(*(sum(getattr(part, name) for part in parts) for name in ("density", "misfit", "dof")))
+    return HeldOutDensity(*(sum(getattr(part, name) for part in parts) for name in ("density", "misfit", "dof")))
 
 
 def of_cases(held: HoldOut, one: Fit, noise: float = 1.0) -> list[tuple[str, Prediction | None]]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.gates import LIKELY
 from mouse_cli.diagnosis.search.rank import Ranking
-from mouse_cli.diagnosis.validate.held_out import foretold
+from mouse_cli.diagnosis.validate.held_out import held_out_density
 
 _ASKED = 1e-3  # probability from which on, but for the leading one without a name, an explanation must predict as well as the best
 
@@ -25,10 +25,10 @@ def informed(ranking: Ranking) -> Ranking:
     asked = np.flatnonzero(wanted).tolist()
     if len(asked) < 2 or dict(ranking.groups).get("none", 0.0) > LIKELY:
         return ranking
-    predicted = [foretold(ranking.fits[i]) for i in asked]
+    predicted = [held_out_density(ranking.fits[i]) for i in asked]
     if None in predicted:
         return ranking
-    densities = np.array([one.loud for one in predicted])
+    densities = np.array([one.over_noise for one in predicted])
     p = ranking.probabilities.copy()
     p[asked] *= np.exp(densities - densities.max())
     p[rivals] *= ranking.probabilities[rivals].sum() / p[rivals].sum()
