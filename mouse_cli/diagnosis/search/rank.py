@@ -101,7 +101,10 @@ def _counted(fits: tuple[Fit, ...], probabilities: np.ndarray) -> Iterator[tuple
     tie to the ground with a more probable fit to that.
     """
     even: dict[str, Fit] = {}  # of what acts alike everywhere, or moves the whole, the first of each group
-    local = _springs(fits, probabilities)
+    local: dict[str, tuple[Fit, float]] = {}  # the first single mechanism of each group, and its probability
+    for one, p in zip(fits, probabilities.tolist(), strict=True):
+        if len(one.recipes) == 1:
+            local.setdefault(group(one), (one, p))
     ties: set[str] = set()  # groups that others have been counted to
     for i, (one, p) in enumerate(zip(fits, probabilities.tolist(), strict=True)):
         name, variants = group(one), one.variants if one.nameless else ()
@@ -122,20 +125,13 @@ def _counted(fits: tuple[Fit, ...], probabilities: np.ndarray) -> Iterator[tuple
             even.setdefault(name, one)
 
 
-def _springs(fits: tuple[Fit, ...], probabilities: np.ndarray) -> dict[str, tuple[Fit, float]]:
-    """The most probable single mechanism of each group that leaves no more than chance, and its probability."""
-    found: dict[str, tuple[Fit, float]] = {}
-    for one, p in zip(fits, probabilities.tolist(), strict=True):
-        if len(one.recipes) == 1 and adequate(one, gates.GATE):
-            found.setdefault(group(one), (one, p))
-    return found
-
-
 def _constant(known: Fit, p: float, law: Fit, of_law: float) -> bool:
-    """Whether a law is the spring, hinge or brace at its site: that its stiffness varies from mode to mode is not shown (ODDS)."""
+    """Whether a law is the spring, hinge or brace at its site: one value explains the data, and that its stiffness varies from mode
+    to mode is not shown (ODDS).
+    """
     base, sites = known.model.base, (known.sites[0], law.nameless.cells.sites[0])
     near = gap(*sites) <= gates.SAME_SITE * span(base) or panels(base.problem.mesh, sites)
-    return near and p >= np.exp(-gates.ODDS) * of_law
+    return near and adequate(known, gates.GATE) and p >= np.exp(-gates.ODDS) * of_law
 
 
 def _contains(known: Fit, field: Fit) -> bool:
