@@ -10,10 +10,8 @@ from functools import lru_cache
 
 import numpy as np
 
-_LEAST, _MOST = (
-    0.05,
-    192,
-)  # variance by that of the outputs from which on a direction counts; how many directions, at most
+_LEAST = 0.05  # variance by that of the outputs from which on a direction counts
+_MOST = 192  # directions
 _PRECISE = 1e-3  # of those variances
 
 

@@ -215,7 +215,8 @@ def _levels(samples: np.ndarray) -> np.ndarray:
     power = np.abs(np.fft.rfft((samples - samples.mean(axis=0)) * window, axis=0)) ** 2 / (window**2).sum()
     power = power[1:] if len(power) > 1 else power
     lines = min(_LINES, len(power))  # a few samples have fewer
-    return power[: len(power) // lines * lines].reshape(-1, lines, power.shape[1]).mean(axis=1)
+    groups = len(power) // lines
+    return power[: groups * lines].reshape(groups, lines, power.shape[1]).mean(axis=1)
 
 
 def steps(series: Series, highest_hz: float) -> Series:
