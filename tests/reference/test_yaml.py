@@ -225,6 +225,12 @@ def place(text: str, fault: str) -> tuple[int, int]:
     return before.count("\n") + 1, len(before) - before.rfind("\n")
 
 
+def test_a_misspelt_key_is_one_error():
+    with pytest.raises(DeckError) as caught:
+        yaml_deck.read(SMALL.replace("mass: {identity", "mas: {identity"), "deck.yaml")
+    assert [one.code for one in caught.value.diagnostics] == ["MD210"]
+
+
 # code, text of SMALL, what stands in its place, what the caret is under, its width, a word of message or help
 FAULTS = [
     ("MD210", "mass: {identity", "mas: {identity", "mas:", 3, "write 'mass'"),

@@ -27,6 +27,7 @@ class Section:
         self.document, self.node, self.called = document, node, called
         self.definition = yaml_schema.SECTIONS[name]
         self.nodes: dict[str, Node] = {}
+        self._misspelt: set[str] = set()  # keys that unknown ones are close to: these are not missing besides
         if not yaml_values.is_mapping(node) or ":" in node.tag:
             yaml_values.mistyped(document, node, called or "the deck", f"a mapping of {_listed(self.definition.keys)}")
             return
@@ -129,6 +130,7 @@ class Section:
     def _unknown(self, key: Node, name: str) -> None:
         known, place = self.definition.keys, self.called or "a deck"
         near = get_close_matches(name, known, 1)
+        self._misspelt.update(near)
         help = f"write '{near[0]}'" if near else f"the keys of {place} are {_listed(known)}"
         self.document.error("MD210", key, f"'{name[:40]}' is not a key of {place}", help)
 
@@ -144,6 +146,8 @@ class Section:
                     self._missing(key)
 
     def _missing(self, key: str) -> None:
+        if key in self._misspelt:
+            return
         place = next((k for k, _ in self.node.value if k.value == key), self.node)
         definition = self.definition.keys[key]
         self.document.error("MD211", place, f"{self.what(key)} is missing", f"give {key}: {definition.meaning}")
