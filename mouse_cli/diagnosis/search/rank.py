@@ -130,7 +130,8 @@ def _constant(known: Fit, p: float, law: Fit, of_law: float) -> bool:
     to mode is not shown (ODDS).
     """
     base, sites = known.model.base, (known.sites[0], law.nameless.cells.sites[0])
-    near = gap(*sites) <= gates.SAME_SITE * span(base) or panels(base.problem.mesh, sites)
+    near = gap(*sites) <= gates.SAME_SITE * span(base)
+    near = near or (group(known) == "brace" and panels(base.problem.mesh, sites))
     return near and adequate(known, gates.GATE) and p >= np.exp(-gates.ODDS) * of_law
 
 
