@@ -127,6 +127,18 @@ def test_a_part_that_moves_freely_is_told(capsys, tmp_path):
     assert status == 4 and "error[MD330]" in err
 
 
+@pytest.mark.parametrize("command", ["run", "diagnose"])
+def test_a_model_without_any_stiffness_has_rigid_modes_alone(capsys, tmp_path, command):
+    path = tmp_path / "free.yaml"
+    path.write_text(
+        "mouse: 1\ntitle: free\nmodel: {stiffness: {order: 2, entries: [[1,1,0.0]]}, mass: {diagonal: [1.0, 2.0]}}\n"
+        "parameters: []\ntest: {modes: {frequency: [5, 7], frequency_sd: 1 %, dofs: [1, 2], shapes: [[1, 0], [0, 1]], "
+        "shape_sd: 2 %}}\n"
+    )
+    status, _, err = told(capsys, command, str(path))
+    assert status == 4 and "error[MD330]" in err
+
+
 PNG = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1\x08\6\0\0\0"
 STI = b"1 1 2.0\n2 2 2.0\n3 3 2.0\n4 4 1.0\n1 2 -1.0\n2 3 -1.0\n3 4 -1.0\n"
 IMPOSTORS = [

@@ -80,20 +80,12 @@ def _meant(item: Section, given: dict[str, Node], found: dict[str, np.ndarray]) 
     size = next((found[key] for key in ("magnitude", "magnitude_db") if key in found), None)
     if size is None:
         return True
-    known, wrong = np.isfinite(size), None
-    if "magnitude" in found and (size[known] < 0).any():
+    known, wrong = size[np.isfinite(size)], None
+    if "magnitude" in found and (known < 0).any():
         wrong = "magnitude", "is negative, as decibels are", "name it magnitude_db"
-    elif (
-        "magnitude_db" in found
-        and known.any()
-        and size[known].min() >= 0
-        and np.median(size[known]) < _FLAT * size[known].max()
-    ):
-        wrong = (
-            "magnitude_db",
-            "has peaks above a level near 0 and is nowhere negative, as magnitudes are",
-            "name it magnitude",
-        )
+    elif "magnitude_db" in found and len(known) and known.min() >= 0 and np.median(known) < _FLAT * known.max():
+        said = "has peaks above a level near 0 and is nowhere negative, as magnitudes are"
+        wrong = "magnitude_db", said, "name it magnitude"
     elif "phase" in found and np.nanmax(np.abs(found["phase"]), initial=0) <= _HALF_TURN and _resonates(size):
         wrong = "phase", "stays within 3.15 degrees at a resonance, as radians do", "name it phase_rad"
     elif "phase_rad" in found and np.nanmax(np.abs(np.diff(found["phase_rad"])), initial=0) > 2 * _HALF_TURN:

@@ -66,8 +66,8 @@ class Reduced:
 
     @cached_property
     def least_elastic(self) -> float:
-        """The lowest eigenvalue that is none of a rigid body."""
-        return float(self.eigenvalues[self.eigenvalues > _RIGID * self.eigenvalues[-1]][0])
+        """The lowest eigenvalue that is none of a rigid body; 0 where all are."""
+        return float(next(iter(self.eigenvalues[self.eigenvalues > _RIGID * self.eigenvalues[-1]]), 0.0))
 
     def low_modes(self, beyond: int = 1) -> int:
         """Number of its modes up to the highest one of the test, and so many beyond."""
