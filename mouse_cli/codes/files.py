@@ -40,13 +40,14 @@ CODES = {
     ),
     "MD266": Code(
         "missing include",
-        "*INCLUDE names a file that stands neither beside the file that names it nor beside the job.",
-        "Put the file there, or mend INPUT=.",
+        "*INCLUDE of keywords, or INCLUDE of bulk data, names a file that stands neither beside the file that names it nor beside "
+        "the job.",
+        "Put the file there, or mend the name.",
     ),
     "MD267": Code(
         "cyclic include",
         "A file includes itself, directly or by way of others.",
-        "Take one of the *INCLUDE lines of the chain in the message out.",
+        "Take one of the lines of the chain in the message out.",
     ),
     "MD268": Code(
         "keyword that changes K or M",
@@ -78,8 +79,9 @@ CODES = {
     ),
     "MD273": Code(
         "support that cannot be imported",
-        "A boundary condition holds rotations of shells or beams, which CalculiX makes solids of and stiffens at such nodes; or a "
-        "node that a constraint determines; or a direction that is none. As a warning: two supports hold the same node.",
+        "A boundary condition holds rotations of beams, or of shells where they meet or are oblique, which CalculiX makes solids "
+        "of and stiffens at such nodes; or a node that a constraint determines; or a direction that is none. As a warning: two "
+        "supports hold the same node.",
         "Hold translations, of two rows of nodes for a clamp; hold the reference node of a constraint.",
     ),
     "MD274": Code(

@@ -21,11 +21,15 @@ class Card:
 
 
 class Bulk:
-    """The cards of a file; `path` and its lines, for diagnostics."""
+    """The cards of a file; `path` and its lines, for diagnostics.
 
-    def __init__(self, path: str):
+    source: lines from elsewhere than the file as it is, such as from files that it includes, each with the place it stands at.
+    """
+
+    def __init__(self, path: str, source: list[tuple[str, str, int]] | None = None):
         self.path = path
-        self.lines = text_lines(path)
+        self.lines = text_lines(path) if source is None else [text for text, _, _ in source]
+        self._source = source
         begun = (i for i, line in enumerate(self.lines, 1) if _BEGUN.match(line))
         self.begun = next(begun, 0)  # lines of executive and case control, which are no cards
 
@@ -52,12 +56,16 @@ class Bulk:
     def _fields(self, line: str, number: int) -> list[str]:
         if line.count(",") > 9:
             message = "a line in free format has at most eight fields and a continuation mark"
-            reject("MD252", self.path, message, "continue on the next line", line_span(self.path, number, line))
+            reject("MD252", self.path, message, "continue on the next line", line_span(*self.place(number), line))
         return _fields(line)
+
+    def place(self, number: int) -> tuple[str, int]:
+        """File and line (from 1) of line `number` of all."""
+        return (self.path, number) if self._source is None else self._source[number - 1][1:]
 
     def where(self, card: Card) -> Span:
         """Place of the first line of a card."""
-        return line_span(self.path, card.line, self.lines[card.line - 1])
+        return line_span(*self.place(card.line), self.lines[card.line - 1])
 
     def whole(self, card: Card, field: int, low: int = 0) -> int:
         """A field (from 0) as a whole number of at least `low`; 0 when it is empty."""

@@ -4,18 +4,20 @@ Sets are the properties, under the names that comments of preprocessors give the
 """
 
 import re
+from collections.abc import Iterator
 from dataclasses import replace
 
 from mouse_cli.formats import nastran_fields
-from mouse_cli.formats.data_files import existing, text_lines
+from mouse_cli.formats.data_files import existing, line_span, text_lines
 from mouse_cli.importing.bulk_deck import BulkDeck, text
+from mouse_cli.importing.bulk_springs import springs
 from mouse_cli.importing.bulk_supports import supports
 from mouse_cli.importing.bulk_systems import Systems
 from mouse_cli.importing.bulk_weighted import weighted
-from mouse_cli.importing.cards import Card, Faults, Line
+from mouse_cli.importing.cards import Card, Faults, included
 
 _IS_BULK = re.compile(
-    r"\s*(SOL\b|CEND|BEGIN\s+BULK|GRID[ *,]|ASSIGN\b|NASTRAN\b|INIT\b|ID\s+\w+\s*,|\$)", re.IGNORECASE
+    r"\s*(SOL\b|CEND|BEGIN\s+BULK|GRID[ *,]|ASSIGN\b|NASTRAN\b|INIT\b|INCLUDE\b|ID\s+\w+\s*,|\$)", re.IGNORECASE
 )
 _HEXA = (
     *range(12),
@@ -38,8 +40,9 @@ _PASSED = {
     "LOAD", "GRAV", "TEMP", "TEMPD", "DLOAD", "RLOAD1", "RLOAD2", "TLOAD1", "TLOAD2", "DAREA", "DELAY", "DPHASE", "FREQ",
     "FREQ1", "FREQ2", "FREQ3", "FREQ4", "TSTEP", "TABLED1", "TABLED2", "TABLED3", "TABDMP1", "CORD2R", "CORD2C", "CORD2S",
     "CORD1R", "CORD1C", "CORD1S", "SET1", "SUPORT", "SUPORT1", "ASET", "ASET1", "SPCADD", "SPC", "SPC1", "MAT1", "PSHELL",
-    "PSOLID", "PROD", "PELAS", "PLOTEL", "SPOINT",
+    "PSOLID", "PROD", "PELAS", "PBUSH", "PLOTEL", "SPOINT",
 }  # fmt: skip
+_INCLUDE = re.compile(r"\s*INCLUDE\b\s*=?([^$]*)", re.IGNORECASE)
 _NAMES = re.compile(
     r"\$\s*(?:Femap (Property|Material) ([0-9]+)\s*:\s*(.+)|HMNAME (PROP|MAT)\s+([0-9]+)\s*\"([^\"]+)\")", re.IGNORECASE
 )
@@ -52,21 +55,43 @@ def is_bulk(path: str) -> bool:
     return bool(_IS_BULK.match(first))
 
 
-def cards(path: str, faults: Faults) -> list[Card]:
-    """The bulk data of a file as cards of CalculiX. Raises DeckError (MD252) where a field is no number."""
-    deck = BulkDeck(nastran_fields.Bulk(path), faults)
+def cards(path: str, faults: Faults, outside: bool = False) -> list[Card]:
+    """The bulk data of a file, and of those that it includes, as cards of CalculiX.
+
+    Raises DeckError (MD252) where a field is no number, (MD231, MD250, MD266, MD267) where a file cannot be included.
+    """
+    deck = BulkDeck(nastran_fields.Bulk(path, list(_lines((path,), outside))), faults)
     for card in deck.bulk.cards():
         deck.by.setdefault(card.name, []).append(card)
     _named(deck)
-    read = {"GRID", "CONM2", "CELAS1", "CELAS2", "RBE2", "RBE3", *_ELEMENTS, *_PASSED}
+    read = {"GRID", "CONM2", "CELAS1", "CELAS2", "CBUSH", "RBE2", "RBE3", *_ELEMENTS, *_PASSED}
     for name in deck.by.keys() - read:
         deck.refuse(deck.by[name][0], f"{name[:12]} has no counterpart that is read, and may change K or M")
     for card in deck.of("PARAM"):
         if card.fields[0].upper() == "WTMASS":
             deck.mass = deck.real(card, 1)
-    for step in (_nodes, _elements, _materials, _sections, _masses, _springs, _rigid, weighted, supports, _step):
+    for step in (_nodes, _elements, _materials, _sections, _masses, springs, _rigid, weighted, supports, _step):
         step(deck)
     return deck.found
+
+
+def _lines(chain: tuple[str, ...], outside: bool) -> Iterator[tuple[str, str, int]]:
+    """Lines of the last file of `chain`, those of included files in their place, each with its file and number (from 1).
+
+    A name between quotes may go on on the lines that follow.
+    """
+    lines = enumerate(text_lines(chain[-1]), 1)
+    for number, line in lines:
+        begun = _INCLUDE.match(line)
+        if begun is None:
+            yield line, chain[-1], number
+            continue
+        name = begun[1].strip()
+        while name[:1] in ("'", '"') and name.count(name[0]) == 1 and (more := next(lines, None)) is not None:
+            name += more[1].strip()
+        name = name[1:].partition(name[0])[0] if name[:1] in ("'", '"') else name
+        place = line_span(chain[-1], number, line)
+        yield from _lines((*chain, included(place, name, chain, outside)), outside)
 
 
 def _named(deck: BulkDeck) -> None:
@@ -167,33 +192,8 @@ def _masses(deck: BulkDeck) -> None:
                 "this CONM2 has a rotary inertia, which a MASS of CalculiX has not",
                 "spread it over several CONM2",
             )
-        _single(deck, card, "MASS", [deck.whole(card, 1)], [deck.line(card, deck.real(card, 3) * deck.mass)])
-
-
-def _springs(deck: BulkDeck) -> None:
-    stiffness = {
-        deck.whole(card, k): deck.real(card, k + 1) for card in deck.of("PELAS") for k in (0, 4) if text(card, k)
-    }
-    for card in deck.of("CELAS1", "CELAS2"):
-        own = card.name == "CELAS2"
-        k = deck.real(card, 1) if own else stiffness.get(deck.whole(card, 1), 0.0)
-        ends = [(deck.whole(card, at), deck.whole(card, at + 1)) for at in (2, 4)]
-        ends = [(node, d) for node, d in ends if node]
-        if not ends or any(not 1 <= d <= 3 for _, d in ends):
-            deck.refuse(card, f"this {card.name} acts on a rotation or on a scalar point")
-            continue
-        for node, d in ends:
-            deck.global_directions(card, [node], str(d))
-        data = [deck.line(card, *(str(d) for _, d in ends)), deck.line(card, k)]
-        _single(deck, card, "SPRING", [node for node, _ in ends], data)
-
-
-def _single(deck: BulkDeck, card: nastran_fields.Card, keyword: str, nodes: list[int], data: list[Line]) -> None:
-    """An element of a set of its own, such as CONM2_7, with its section."""
-    number = deck.whole(card, 0)
-    kind = "MASS" if keyword == "MASS" else f"SPRING{len(nodes)}"
-    deck.card(card, "ELEMENT", [deck.line(card, number, *nodes)], TYPE=kind, ELSET=f"{card.name}_{number}")
-    deck.card(card, keyword, data, ELSET=f"{card.name}_{number}")
+        own, data = deck.whole(card, 0), [deck.line(card, deck.real(card, 3) * deck.mass)]
+        deck.single(card, f"CONM2_{own}", own, "MASS", [deck.whole(card, 1)], data)
 
 
 def _rigid(deck: BulkDeck) -> None:

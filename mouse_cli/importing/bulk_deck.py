@@ -51,14 +51,29 @@ class BulkDeck:
         """A line of data with the place of the card that it comes from."""
         texts = [word if isinstance(word, str) else repr(word) for word in words]
         text = ", ".join(texts) + ("," if len(texts) == 1 else "")
-        return Line(texts, text, self.bulk.path, card.line, self.bulk.lines[card.line - 1])
+        return Line(texts, text, *self.bulk.place(card.line), self.bulk.lines[card.line - 1])
 
     def card(self, of: nastran_fields.Card, keyword: str, lines: Iterable[Line] = (), **options: str) -> None:
         """Adds a card."""
         named = {key.replace("_", " "): value for key, value in options.items()}
         text = f"*{keyword}" + "".join(f", {key}={value}" for key, value in named.items())
-        head = Line([], text, self.bulk.path, of.line, self.bulk.lines[of.line - 1])
+        head = Line([], text, *self.bulk.place(of.line), self.bulk.lines[of.line - 1])
         self.found.append(Card(keyword, named, head, list(lines)))
+
+    def single(
+        self,
+        card: nastran_fields.Card,
+        name: str,
+        number: int,
+        keyword: str,
+        nodes: list[int],
+        data: list[Line],
+        **options: str,
+    ) -> None:
+        """An element of a set of its own called `name`, a mass or a spring, with its section."""
+        kind = "MASS" if keyword == "MASS" else f"SPRING{len(nodes)}"
+        self.card(card, "ELEMENT", [self.line(card, number, *nodes)], TYPE=kind, ELSET=name)
+        self.card(card, keyword, data, ELSET=name, **options)
 
     def refuse(self, card: nastran_fields.Card, message: str, help: str = _HELP, code: str = "MD268") -> None:
         """Notes what cannot be read."""

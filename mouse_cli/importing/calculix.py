@@ -16,6 +16,7 @@ import numpy as np
 from mouse_cli._errors import DeckError
 from mouse_cli._span import Span
 from mouse_cli.importing.dofs import Rows, rows
+from mouse_cli.importing.model import Clamp
 from mouse_cli.model.arrays import Matrix
 
 _EDITION = "2"  # raised when what is kept of a run changes
@@ -69,8 +70,8 @@ class Solver:
                 self.say(title)
                 self.ahead[text] = self.beside.submit(self._run, text, title)
 
-    def matrices(self, text: str, title: str, own: set[int]) -> Exported:
-        """K and M of a job; own: nodes of the input file."""
+    def matrices(self, text: str, title: str, own: dict[int, Clamp | None]) -> Exported:
+        """K and M of a job; own: nodes of the input file, and how shells stand at those whose rotations are held."""
         held = self._kept(text, title, _matrix_arrays)
         from scipy.sparse import csr_array
 

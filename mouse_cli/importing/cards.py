@@ -108,34 +108,41 @@ def _lines(path: str, above: tuple[str, ...], outside: bool) -> Iterator[Line]:
 
 
 def _included(line: Line, path: str, above: tuple[str, ...], outside: bool) -> Iterator[Line]:
-    """Lines of the file that *INCLUDE names: relative to the file that names it, or to the job."""
     name = _options(line.text).get("INPUT", "").strip("\"'")
-    target = _named(line, name, path, above[0] if above else path, outside) if name and "\0" not in name else None
+    yield from _lines(included(line.span, name, (*above, path), outside), (*above, path), outside)
+
+
+def included(place: Span, name: str, chain: tuple[str, ...], outside: bool) -> str:
+    """The file that the last of `chain` includes as `name`: relative to itself, or to the job, the first of them.
+
+    Raises DeckError (MD231, MD250, MD266, MD267) at `place`.
+    """
+    path = chain[-1]
+    target = _named(place, name, path, chain[0], outside) if name and "\0" not in name else None
     if target is None:
-        message = f"the included file '{name[:80]}' does not exist" if name else "*INCLUDE names no file"
-        reject("MD266", path, message, "put the file beside the job, or mend INPUT=", line.span)
-    chain = (*above, path)
+        message = f"the included file '{name[:80]}' does not exist" if name else "no file to include is named"
+        reject("MD266", path, message, "put the file beside the job, or mend the name", place)
     if any(os.path.samefile(target, each) for each in chain):
         message = f"'{name[:80]}' includes itself, by way of {' > '.join(map(os.path.basename, chain))}"
-        reject("MD267", path, message, "take one of the *INCLUDE lines out", line.span)
-    yield from _lines(target, chain, outside)
+        reject("MD267", path, message, "take one of the lines that include it out", place)
+    return target
 
 
-def _named(line: Line, name: str, path: str, job: str, outside: bool) -> str | None:
+def _named(place: Span, name: str, path: str, job: str, outside: bool) -> str | None:
     """The file called `name` beside the file `path` or the `job`; None where there is none. Raises DeckError (MD231, MD250)."""
     refused = None
     for each in dict.fromkeys((path, job)):
-        place = os.path.join(os.path.dirname(each), name)
+        there = os.path.join(os.path.dirname(each), name)
         allowed = below.named if os.path.isabs(name) else below.found
         try:
-            allowed(os.path.dirname(job), place, outside, "the folder of the job")
+            allowed(os.path.dirname(job), there, outside, "the folder of the job")
         except below.Refused as error:
             refused = refused or error
             continue
-        if os.path.isfile(place):
-            return place
+        if os.path.isfile(there):
+            return there
     if refused is not None:
-        reject(refused.code, path, f"*INCLUDE names '{name[:200]}', {refused}", refused.help, line.span)
+        reject(refused.code, path, f"the line includes '{name[:200]}', {refused}", refused.help, place)
     return None
 
 

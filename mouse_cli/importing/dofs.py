@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mouse_cli.importing.model import Clamp
 from mouse_cli.model.arrays import Matrix
 
 _OUTER = {3: (0, 2), 8: (0, 1, 2, 3)}  # of so many rows of one node and direction, those whose mean is its motion
@@ -35,8 +36,11 @@ class Rows:
         return matrix if self.T is None else (self.T.T @ matrix @ self.T).tocsr()
 
 
-def rows(dofs: np.ndarray, own: set[int]) -> Rows:
-    """dofs (n, 2): node and direction as the solver names its rows; own: nodes of the input."""
+def rows(dofs: np.ndarray, own: dict[int, Clamp | None]) -> Rows:
+    """dofs (n, 2): node and direction as the solver names its rows; own: nodes of the input.
+
+    Where rotations of shells are held, what their faces move along them, beside the mean, is said by rotations.
+    """
     places: dict[tuple[int, int], list[int]] = {}
     for i, (node, direction) in enumerate(dofs.tolist()):
         places.setdefault((node, direction), []).append(i)
@@ -56,7 +60,28 @@ def rows(dofs: np.ndarray, own: set[int]) -> Rows:
         for i in outer[1:] + rest:
             names[i], beside[i] = (top + 1 + i, _SCALAR), node if node in own else 0
     T = _basis(len(dofs), blocks) if blocks else None
+    for node, clamp in own.items():
+        if clamp is not None and T is not None:
+            T = T @ _rotations(node, clamp, places, names, held)
     return Rows(T, names, {k: v for k, v in held.items() if k[0] in own}, beside, middle)
+
+
+def _rotations(node: int, clamp: Clamp, places: dict, names: np.ndarray, held: dict):
+    """Scales, as a diagonal (n, n), that make rotations theta of what faces at half of the thickness h move: e = h theta x normal.
+
+    A rotation about the normal is none; the stretch of the thickness stays as it is, and free.
+    """
+    from scipy.sparse import diags_array
+
+    scale = np.ones(len(names))
+    for a in range(3):
+        along = np.cross(np.eye(3)[a], np.eye(3)[clamp.axis]) * clamp.half
+        held[node, 4 + a] = ()
+        at = places.get((node, 1 + int(np.argmax(np.abs(along)))), ())
+        if a != clamp.axis and len(at) in (2, 3):
+            own = at[_OUTER.get(len(at), (0, 1))[1]]
+            scale[own], names[own], held[node, 4 + a] = along.sum(), (node, 4 + a), (own,)
+    return diags_array(scale)
 
 
 def _basis(n: int, blocks: list[tuple[list[int], list[int]]]):

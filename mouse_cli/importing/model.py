@@ -87,6 +87,14 @@ class Group:
         return layered(self.owner)
 
 
+@dataclass(frozen=True)
+class Clamp:
+    """A node of shells whose rotations are held: axis (0 to 2) of their normal, half of the thickness along it, with its sign."""
+
+    axis: int
+    half: float
+
+
 @dataclass
 class InputModel:
     """nodes: coordinates by number; elements: type and nodes by number; kept: the cards of the model, without steps and supports.
@@ -108,6 +116,12 @@ class InputModel:
     ignored: dict[str, int] = field(default_factory=dict)
     remarks: list[Diagnostic] = field(default_factory=list)
     turned: set[int] = field(default_factory=set)
+    clamps: dict[int, Clamp] = field(default_factory=dict)
+
+    @property
+    def own(self) -> dict[int, Clamp | None]:
+        """The nodes, and how shells stand at those whose rotations are held."""
+        return dict.fromkeys(self.nodes) | self.clamps
 
     @property
     def expanded(self) -> bool:

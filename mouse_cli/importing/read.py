@@ -7,6 +7,7 @@ import numpy as np
 from mouse_cli.importing import bulk
 from mouse_cli.importing.assembly import flat
 from mouse_cli.importing.cards import Card, Faults, Line, cards
+from mouse_cli.importing.clamps import clamped
 from mouse_cli.importing.groups import grouped
 from mouse_cli.importing.keywords import NODES, PASSED, READ, RELEVANT, REMEDIES, TIES, WITHOUT_EFFECT
 from mouse_cli.importing.model import LAYER_MATERIAL, LAYER_ORIENTATION, InputModel, Material, layered, word_at
@@ -19,7 +20,7 @@ def read(path: str, outside: bool = False) -> InputModel:
     Raises DeckError (MD231 to MD273) with all that is wrong, by file and line.
     """
     model, faults = InputModel(path), Faults()
-    model.every = bulk.cards(path, faults) if bulk.is_bulk(path) else flat(cards(path, outside), faults)
+    model.every = bulk.cards(path, faults, outside) if bulk.is_bulk(path) else flat(cards(path, outside), faults)
     faults.stop()
     known = [card for card in model.every if _understood(card, model, faults)]
     faults.stop()
@@ -35,10 +36,12 @@ def read(path: str, outside: bool = False) -> InputModel:
             "give the job's input file",
         )
     faults.stop()
-    supports(model, [card for card in known if card.keyword == "BOUNDARY"], faults)
+    clamps = supports(model, [card for card in known if card.keyword == "BOUNDARY"], faults)
     faults.stop()
     _materials(model, faults)
     grouped(model, faults)
+    faults.stop()
+    model.clamps = clamped(model, clamps, faults)
     faults.stop()
     model.kept = [card for card in model.kept if not _damps(card) and card.keyword != "TRANSFORM"]
     return model

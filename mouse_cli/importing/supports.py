@@ -4,16 +4,22 @@ from collections.abc import Callable, Iterable
 
 from mouse_cli._errors import WARNING, Diagnostic
 from mouse_cli.importing.cards import Card, Faults, Line
+from mouse_cli.importing.clamps import HELP
 from mouse_cli.importing.keywords import WORDS, expanded
 from mouse_cli.importing.model import InputModel, Support
 
 _LAST = 6
 
 
-def supports(model: InputModel, boundary: list[Card], faults: Faults) -> None:
-    """Puts what *BOUNDARY holds into the model; lines that name one set are one support."""
+def supports(model: InputModel, boundary: list[Card], faults: Faults) -> dict[int, Line]:
+    """Puts what *BOUNDARY holds into the model; lines that name one set are one support.
+
+    Returns the nodes of shells whose rotations are held, each with a line that holds some.
+    """
     by_name: dict[str, Support] = {}
     taken: dict[tuple[int, int], str] = {}
+    clamped: dict[int, Line] = {}
+    beams = _nodes_of(model, lambda kind: expanded(kind) and not kind.startswith("S"))
     soft, solid = _nodes_of(model, expanded), _nodes_of(model, lambda kind: kind.startswith("C3D"))
     for card in boundary:
         for line in card.lines:
@@ -24,13 +30,17 @@ def supports(model: InputModel, boundary: list[Card], faults: Faults) -> None:
                 last = 3  # solids have no rotations that could be held
             for node in nodes:
                 if last > 3 and node in soft:
-                    message = f"rotations of node {node} are held, which belongs to shells or beams that CalculiX makes solids of"
-                    help = "hold translations of two rows of nodes, or model the clamp by solids"
-                    faults.add("MD273", message, line.span, help)
-                    break
+                    if node in beams:
+                        message = (
+                            f"rotations of node {node} are held, which belongs to beams that CalculiX makes solids of"
+                        )
+                        faults.add("MD273", message, line.span, HELP)
+                        break
+                    clamped.setdefault(node, line)
                 _hold(model, own, [(node, d) for d in range(first, last + 1)], taken, line)
     _turned(model, by_name.values(), set(taken), faults)
     model.supports += [support for support in by_name.values() if support.dofs]
+    return clamped
 
 
 def _turned(model: InputModel, found: Iterable[Support], held: set[tuple[int, int]], faults: Faults) -> None:
