@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import click
 
+from mouse_cli.cli._options import value_of
 from mouse_cli.model.arrangements import ArrangementsDiagnosis
 from mouse_cli.model.diagnosis import Choices
 from mouse_cli.model.problem import Problem
@@ -52,14 +53,14 @@ class Named:
         return tuple(not self.changed or deck in self.changed for deck in decks)
 
 
-def several(named: Named, output: str | None, plot: str | None) -> bool:
+def several(named: Named, output: str | None) -> bool:
     """Whether decks are arrangements. Raises click.UsageError for what has no meaning, or where names would collide."""
     decks = named.fitted
     if len(decks) == 1 and not named.unseen and not named.changed:
         return False
     if not any(named.having(decks)):
         raise click.UsageError("every deck of --changed is held out: leave some to the fit")
-    if plot:
+    if value_of("plot"):
         raise click.UsageError("--plot draws one deck, not several configurations")
     names = [os.path.basename(deck) for deck in decks]
     if output and len(set(names)) < len(names):

@@ -8,13 +8,13 @@ from mouse_cli.cli._options import run_changes
 TABLE = (click.option("--csv", "csv_file", metavar="FILE", help="Write a long table, one line a run and quantity."),)
 
 
-def deck_of(deck: str, given: dict[str, object], quiet: bool, recordings: bool = False) -> tuple:
+def deck_of(deck: str, given: dict[str, object], recordings: bool = False) -> tuple:
     """The problem of the deck, and the options of all jobs on it. recordings: they are a test too.
 
     Raises DeckError, click.UsageError.
     """
     from mouse_cli.cli._decks import read_problem
-    from mouse_cli.cli._terminal import show_diagnostics
+    from mouse_cli.cli._terminal import warn
     from mouse_cli.updating import refusals
 
     if deck == "-":
@@ -23,16 +23,15 @@ def deck_of(deck: str, given: dict[str, object], quiet: bool, recordings: bool =
     problem = read_problem(deck, dict(base))
     if not recordings if problem.by_recordings else problem.test is None and not problem.frf:
         raise refusals.no_test(problem)
-    if not quiet:
-        show_diagnostics(problem.warnings)
+    warn(problem.warnings)
     return problem, base
 
 
-def deliver_campaign(found: object, form: str | None, numbers: str | None, csv_file: str | None) -> None:
+def deliver_campaign(found: object, csv_file: str | None) -> None:
     """Print the report or the document of a campaign, and write its table."""
     from mouse_cli.campaigns import tables
     from mouse_cli.cli._terminal import deliver
 
     if csv_file:
         deliver(tables.text(found), csv_file, "")
-    deliver(answer_text(found, form, numbers), None, "")
+    deliver(answer_text(found), None, "")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from mouse_cli._errors import WARNING, Diagnostic
-from mouse_cli.cli._options import outside
+from mouse_cli.cli._options import outside, reading
 from mouse_cli.formats import bounded, file_bytes, holds, is_yaml, read_draft
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.formats.draft import Draft
@@ -36,16 +36,15 @@ def read_problem(
     changes: dict[str, object] | None = None,
     prior: str | None = None,
     loosened: dict[str, float] | None = None,
-    **reading: object,
 ) -> Problem:
     """The problem of one deck; `changes` are options of the command line that replace those of the deck.
 
     prior: file with the result of an earlier run, which replaces its prior; loosened: sd by which properties may have changed.
     """
-    data = deck_bytes(path)
-    if is_yaml(data, path) and (reading.get("overrides") or reading.get("strip_73_80")):
+    data, how = deck_bytes(path), reading()
+    if is_yaml(data, path) and (how["overrides"] or how["strip_73_80"]):
         raise click.UsageError("--set and --strip-73-80 are for card decks; a YAML deck has keys and options for that")
-    draft = read_draft(data, shown(path), outside=outside(), **reading)
+    draft = read_draft(data, shown(path), outside=outside(), **how)
     problem = assemble(changed(draft, changes or {}))
     if changes is not None:
         problem = replace(problem, warnings=problem.warnings + _idle_options(problem, changes))
@@ -83,9 +82,9 @@ def without_laws(problem: Problem, modes: bool = False) -> tuple[Diagnostic, ...
     return (Diagnostic("MD642", WARNING, message, problem.place("laws"), help=help),)
 
 
-def read_cases(path: str, changes: dict[str, object], **reading: object) -> Iterator[Problem]:
+def read_cases(path: str, changes: dict[str, object]) -> Iterator[Problem]:
     """The problems of a file of stacked card decks, one after another."""
-    for draft in read_drafts(path, stacked=True, **reading):
+    for draft in read_drafts(path, stacked=True):
         yield assemble(changed(draft, changes))
 
 
@@ -109,15 +108,15 @@ def after_result(problem: Problem, prior: str | None, loosened: dict[str, float]
     return replace(after(replace(problem, test=None), prior, loosened), test=problem.test)
 
 
-def read_drafts(path: str, stacked: bool, **reading: object) -> Iterator[Draft]:
+def read_drafts(path: str, stacked: bool) -> Iterator[Draft]:
     """The deck of a file, or all of them where card decks are stacked."""
     data = deck_bytes(path)
     if not stacked or is_yaml(data, path):
-        yield read_draft(data, shown(path), outside=outside(), **reading)
+        yield read_draft(data, shown(path), outside=outside(), **reading())
         return
     from mouse_cli.formats import cards
 
-    yield from cards.read_all(data, shown(path), stacked=True, **reading)
+    yield from cards.read_all(data, shown(path), stacked=True, **reading())
 
 
 def changed(draft: Draft, changes: dict[str, object]) -> Draft:

@@ -4,6 +4,8 @@ from collections.abc import Iterable
 
 import click
 
+from mouse_cli.cli._options import value_of
+
 METHOD = (
     click.option(
         "--method", metavar="METHOD", help="Update by this method instead of the loop; see `mouse list methods`."
@@ -27,27 +29,26 @@ def checked(keys: tuple[str, ...], how: str | None) -> str:
     return how or EXPANSION
 
 
-def chosen(key: str | None, how: str | None, plot: str | None) -> tuple[str | None, str]:
+def chosen(key: str | None, how: str | None) -> tuple[str | None, str]:
     """The method, and the expansion of shapes for it. Raises click.UsageError for what does not go with it."""
     if key is None:
         if how:
             raise click.UsageError("--expand belongs to --method")
         return None, ""
-    if plot:
+    if value_of("plot"):
         raise click.UsageError("--plot draws what the loop fits; a --method has no figures")
     return key, checked((key,), how)
 
 
-def by_method(problems: Iterable, key: str, how: str, quiet: bool) -> list:
+def by_method(problems: Iterable, key: str, how: str) -> list:
     """The answers of one method to each problem."""
     from mouse_cli.cli._decks import without_laws
-    from mouse_cli.cli._terminal import progress, show_diagnostics
+    from mouse_cli.cli._terminal import progress, warn
     from mouse_cli.methods.update import update
 
     answers = []
     for problem in problems:
-        if not quiet:
-            show_diagnostics((*problem.warnings, *without_laws(problem, modes=True)))
+        warn((*problem.warnings, *without_laws(problem, modes=True)))
         with progress() as (_, say):
             answers.append(update(problem, key, how, say))
     return answers

@@ -2,10 +2,10 @@
 
 from collections.abc import Callable
 from math import isfinite
+from typing import Any
 
 import click
 
-from mouse_cli.cli._answers import keep_full
 from mouse_cli.model.modal_test import SCALES
 from mouse_cli.model.problem import CONFIDENCES, CONVERGENCE_RULES, PAIRINGS, RECURSIONS, STEPS
 
@@ -67,16 +67,28 @@ RUN = (
     ),
 )
 
-_OUTSIDE = "mouse_cli.outside"  # among the `meta` of click's context
+
+def _keep(context: click.Context, option: click.Parameter, value: object) -> None:
+    if value not in (None, False, ()):
+        context.meta[f"mouse_cli.{option.name}"] = value
 
 
-def _allow(context: click.Context, _: click.Parameter, value: bool) -> None:
-    context.meta[_OUTSIDE] = value
+def shared(*names: str, **more: object) -> Callable:
+    """An option that means the same in every command: kept in click's context for `value_of`, and passed to none."""
+    return click.option(*names, expose_value=False, callback=_keep, **more)
+
+
+def value_of(name: str) -> Any:
+    """What a shared option was given; None without it."""
+    context = click.get_current_context(silent=True)
+    return None if context is None else context.meta.get(f"mouse_cli.{name}")
 
 
 OUTSIDE = (
-    click.option(
-        "--allow-outside", is_flag=True, expose_value=False, callback=_allow,
+    shared(
+        "--allow-outside",
+        "outside",
+        is_flag=True,
         help="Read files outside of the folders of the decks that name them.",
     ),
 )  # fmt: skip
@@ -84,15 +96,14 @@ OUTSIDE = (
 
 def outside() -> bool:
     """Whether this command was allowed to read files outside of the folders of the decks that name them."""
-    context = click.get_current_context(silent=True)
-    return context is not None and bool(context.meta.get(_OUTSIDE))
+    return bool(value_of("outside"))
 
 
 READING = (
     *OUTSIDE,
-    click.option("--legacy", is_flag=True, help="Enforce the limits of 1972 (140 DOF, 10 modes, ...)."),
-    click.option("--strip-73-80", is_flag=True, help="Blank columns 73-80, where a deck has sequence numbers."),
-    click.option(
+    shared("--legacy", is_flag=True, help="Enforce the limits of 1972 (140 DOF, 10 modes, ...)."),
+    shared("--strip-73-80", is_flag=True, help="Blank columns 73-80, where a deck has sequence numbers."),
+    shared(
         "--set",
         "overrides",
         multiple=True,
@@ -102,12 +113,12 @@ READING = (
 )
 
 PRIOR = (
-    click.option(
+    shared(
         "--prior",
         metavar="RESULT",
         help="Begin from what `mouse run --json` found by another test: values and covariance of equal names.",
     ),
-    click.option(
+    shared(
         "--loosen",
         multiple=True,
         metavar="NAME=SD",
@@ -115,12 +126,12 @@ PRIOR = (
     ),
 )
 
-QUIET = (click.option("-q", "--quiet", is_flag=True, help="No warnings on standard error."),)
+QUIET = (shared("-q", "--quiet", is_flag=True, help="No warnings on standard error."),)
 
 
 def answer(schema: str) -> tuple[Callable, ...]:
     """Where the answer goes and in what form; `schema` is that of its JSON document."""
-    where = click.option("-o", "--output", metavar="FILE", help="Write the answer to FILE instead of standard output.")
+    where = shared("-o", "--output", metavar="FILE", help="Write the answer to FILE instead of standard output.")
     return (where, *answer_form(schema))
 
 
@@ -129,18 +140,14 @@ def answer_form(schema: str) -> tuple[Callable, ...]:
     from mouse_cli.report.numbers import STYLES
 
     return (
-        click.option(
-            "--json", "form", flag_value="json", help=f"One JSON document ({schema}) instead of the printout."
-        ),
-        click.option("--markdown", "form", flag_value="markdown", help="Markdown instead of the printout."),
-        click.option(
+        shared("--json", "form", flag_value="json", help=f"One JSON document ({schema}) instead of the printout."),
+        shared("--markdown", "form", flag_value="markdown", help="Markdown instead of the printout."),
+        shared(
             "--full",
             is_flag=True,
-            expose_value=False,
-            callback=keep_full,
             help="The whole report instead of one screen: evidence, cycles, matrices, covariances.",
         ),
-        click.option("--numbers", type=click.Choice(STYLES), help="1.28872+04 as in 1972, or 12887.2."),
+        shared("--numbers", type=click.Choice(STYLES), help="1.28872+04 as in 1972, or 12887.2."),
     )
 
 
@@ -155,20 +162,34 @@ def options(*groups: tuple[Callable, ...]) -> Callable:
     return decorate
 
 
-def reading(legacy: bool, strip_73_80: bool, overrides: tuple[str, ...]) -> dict[str, object]:
+def plotting(help: str = "Write figures: to a folder, or to one file (.pdf, .png, .svg).") -> tuple[Callable, ...]:
+    """Where figures go; refused where they cannot be drawn."""
+    return (click.option("--plot", metavar="PATH", expose_value=False, callback=_keep_plot, help=help),)
+
+
+def _keep_plot(context: click.Context, option: click.Parameter, path: str | None) -> None:
+    if path and not context.resilient_parsing:
+        from mouse_cli.plots import require
+
+        require(path)
+        _keep(context, option, path)
+
+
+def reading() -> dict[str, object]:
     """Arguments of the readers from the options READING. Raises click.BadParameter."""
     values: dict[str, float] = {}
-    for item in overrides:
+    for item in value_of("overrides") or ():
         name, _, value = item.partition("=")
         try:
             values[name.strip()] = float(value) if "." in value else int(value)
         except ValueError:
             raise click.BadParameter(f"'{item}' is not NAME=NUMBER", param_hint="--set") from None
-    return {"legacy": legacy, "strip_73_80": strip_73_80, "overrides": values}
+    return {"legacy": bool(value_of("legacy")), "strip_73_80": bool(value_of("strip_73_80")), "overrides": values}
 
 
-def earlier(prior: str | None, loosen: tuple[str, ...]) -> dict[str, object]:
+def earlier() -> dict[str, object]:
     """Arguments of `read_problem` from the options PRIOR. Raises click.BadParameter."""
+    prior, loosen = value_of("prior"), value_of("loosen") or ()
     if loosen and not prior:
         raise click.BadParameter("it states what may have changed since the result of --prior", param_hint="--loosen")
     loosened: dict[str, float] = {}

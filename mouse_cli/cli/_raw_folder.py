@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import click
 
-from mouse_cli.cli._options import outside
+from mouse_cli.cli._options import outside, reading
 from mouse_cli.cli._recording_options import CHANNELS
 from mouse_cli.model.problem import Problem
 
@@ -29,18 +29,7 @@ _OF_RAW = {
 }
 
 
-Given = dict[str, object]
-
-
-def asked_of_folder(decks: tuple[str, ...], arranged: bool, output: str | None, given: Given) -> tuple[Given, Given]:
-    """The options RAW, and all others. Raises click.UsageError for those that mean nothing."""
-    own = ("folder", *_OF_RAW)
-    raw = {key: given[key] for key in own}
-    _refuse_idle(decks, arranged, output, raw)
-    return raw, {key: value for key, value in given.items() if key not in own}
-
-
-def _refuse_idle(decks: tuple[str, ...], arranged: bool, output: str | None, given: dict[str, object]) -> None:
+def refuse_idle(decks: tuple[str, ...], arranged: bool, output: str | None, given: dict[str, object]) -> None:
     """Refuse options that mean nothing without a folder, and a folder where it means nothing. Raises click.UsageError."""
     folder = given["folder"]
     idle = [option for key, option in _OF_RAW.items() if given[key]]
@@ -64,9 +53,7 @@ def _below(path: str, folder: str) -> bool:
     return os.path.commonpath([root, os.path.realpath(path)]) == root
 
 
-def read_raw(
-    deck: str, given: dict[str, object], how: dict[str, object], notice: Callable[[str], None], say: Callable
-) -> Problem:
+def read_raw(deck: str, given: dict[str, object], notice: Callable[[str], None], say: Callable) -> Problem:
     """The problem of the deck with the recordings of the folder as its test; say(lines, diagnostics): what was made of them.
 
     Raises DeckError, RecordError, and click.UsageError for sensors, channels and decks that the options do not fit.
@@ -78,10 +65,10 @@ def read_raw(
     from mouse_cli.formats.recording_folder import Sensors, read_folder
     from mouse_cli.formats.yaml_deck.add_recordings import sensor_names, with_recordings
 
-    data, path = deck_bytes(deck), shown(deck)
+    data, path, how = deck_bytes(deck), shown(deck), reading()
     if not is_yaml(data, path):
         raise click.UsageError("--recordings needs a deck in YAML: mouse convert DECK -o deck.yaml")
-    if how.get("overrides") or how.get("strip_73_80"):
+    if how["overrides"] or how["strip_73_80"]:
         raise click.UsageError("--set and --strip-73-80 are for card decks; --recordings needs one in YAML")
     bare = assemble(read_draft(data, path, outside=outside(), **how))
     named, own = sensor_names(data, path)

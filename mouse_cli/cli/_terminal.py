@@ -11,6 +11,7 @@ import click
 from mouse_cli._errors import ERROR, WARNING, Diagnostic, frame
 from mouse_cli._texts import line as on_line
 from mouse_cli._texts import shown
+from mouse_cli.cli._options import value_of
 from mouse_cli.model.result import Cycle
 
 _COLOURS = {ERROR: "red", "warning": "yellow"}
@@ -36,6 +37,12 @@ def show_diagnostics(diagnostics: Iterable[Diagnostic], brief: bool = False) -> 
     for code, count in counts.items():
         if count > _MOST:
             click.echo(f"... and {count - _MOST} more of {code}: `mouse explain {code}`", err=True)
+
+
+def warn(diagnostics: Iterable[Diagnostic]) -> None:
+    """The same, but nothing with --quiet."""
+    if not value_of("quiet"):
+        show_diagnostics(diagnostics)
 
 
 def _coloured(stream) -> bool:
@@ -73,8 +80,11 @@ def deliver(text: str, output: str | None, deck: str) -> None:
     write_text_atomically(output, text)
 
 
-def drawn(found: object, path: str, only: tuple[str, ...] = ()) -> None:
-    """Write the figures of an answer, or say (MD532) that there is nothing to draw. Raises WrittenError."""
+def drawn(found: object, path: str | None = None, only: tuple[str, ...] = ()) -> None:
+    """Write the figures of an answer to `path`, or where --plot says, or say (MD532) that there are none. Raises WrittenError."""
+    path = path or value_of("plot")
+    if not path:
+        return
     from mouse_cli.plots import draw
 
     if not draw(found, path, only):

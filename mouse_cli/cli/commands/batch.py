@@ -3,7 +3,7 @@
 import click
 
 from mouse_cli.cli._engine import CLUSTER, JOBS, done, folder
-from mouse_cli.cli._options import OUTSIDE, QUIET, RUN, options, outside, run_changes
+from mouse_cli.cli._options import OUTSIDE, QUIET, RUN, options, outside, run_changes, value_of
 
 _REPORTS = (
     click.option("--csv", "csv_file", metavar="FILE", help="Write the table for spreadsheets."),
@@ -39,7 +39,6 @@ def command(
     markdown_file: str | None,
     html_file: str | None,
     github: bool,
-    quiet: bool,
     **given: object,
 ) -> int:
     """Run, check or diagnose many DECKS.
@@ -63,7 +62,7 @@ def command(
         _pages(found, html_file)
     if github:
         say(annotations(found), end="", commands=True)
-    say(table(found, quiet), end="")
+    say(table(found, bool(value_of("quiet"))), end="")
     return exit_code(found)
 
 

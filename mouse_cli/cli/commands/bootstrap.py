@@ -29,10 +29,7 @@ def command(
     limit_s: float | None,
     scheduler: str | None,
     cluster: int | None,
-    form: str | None,
-    numbers: str | None,
     csv_file: str | None,
-    quiet: bool,
     **given: object,
 ) -> int:
     """Resample the test of DECK: how far its answer spreads.
@@ -47,9 +44,9 @@ def command(
     from mouse_cli.cli._engine import done
     from mouse_cli.cli._options import outside
 
-    problem, base = deck_of(deck, given, quiet, recordings=True)
+    problem, base = deck_of(deck, given, recordings=True)
     plan = bootstrap.plan(problem, over or bootstrap.natural(problem), 0 if jackknife else replicates, seed)
     outcomes = done(bootstrap.jobs(deck, plan, base, outside()), output, jobs, scheduler, cluster, limit_s)
     found = resampled.summed(problem, plan, outcomes, seed)
-    deliver_campaign(found, form, numbers, csv_file)
+    deliver_campaign(found, csv_file)
     return found.exit_code

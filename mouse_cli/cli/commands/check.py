@@ -2,7 +2,7 @@
 
 import click
 
-from mouse_cli.cli._options import READING, options, outside, reading
+from mouse_cli.cli._options import READING, options, outside
 
 
 @click.command()
@@ -12,16 +12,7 @@ from mouse_cli.cli._options import READING, options, outside, reading
 @click.option("--stacked", is_flag=True, help="Files of cards may hold several decks, one after another.")
 @click.option("-q", "--quiet", is_flag=True, help="Errors only, no warnings.")
 @options(READING)
-def command(
-    decks: tuple[str, ...],
-    brief: bool,
-    strict: bool,
-    stacked: bool,
-    quiet: bool,
-    legacy: bool,
-    strip_73_80: bool,
-    overrides: tuple[str, ...],
-) -> int:
+def command(decks: tuple[str, ...], brief: bool, strict: bool, stacked: bool, quiet: bool) -> int:
     """Report errors in DECKS without running them.
 
     DECKS are files, folders, or '-' for standard input. Findings go to standard error, a count line to standard output.
@@ -31,10 +22,9 @@ def command(
     from mouse_cli.cli._decks import expanded
     from mouse_cli.cli._terminal import show_diagnostics
 
-    how = reading(legacy, strip_73_80, overrides)
     checked = rejected = warned = 0
     for path, folder in expanded(decks):
-        findings = _unread(path, folder) or _findings(path, how, stacked)
+        findings = _unread(path, folder) or _findings(path, stacked)
         errors = any(d.severity == "error" for d in findings) or (strict and bool(findings))
         checked, rejected, warned = checked + 1, rejected + errors, warned + (bool(findings) and not errors)
         show_diagnostics((d for d in findings if d.severity == "error" or not quiet), brief)
@@ -60,7 +50,7 @@ def _records(problem) -> tuple:
     return cannot_judge(problem) if by_records(problem) else ()
 
 
-def _findings(path: str, how: dict[str, object], stacked: bool) -> tuple:
+def _findings(path: str, stacked: bool) -> tuple:
     """Everything found in one file."""
     from mouse_cli._errors import MouseError
     from mouse_cli.batch.decks import is_manifest
@@ -78,7 +68,7 @@ def _findings(path: str, how: dict[str, object], stacked: bool) -> tuple:
         other = read_other(path)
         if other is not None:
             return other.warnings
-        for draft in read_drafts(path, stacked, **how):
+        for draft in read_drafts(path, stacked):
             problem = assemble(draft)
             found += problem.warnings
             examine(problem)

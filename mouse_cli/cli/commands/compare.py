@@ -2,8 +2,8 @@
 
 import click
 
-from mouse_cli.cli._answers import answer_text
-from mouse_cli.cli._options import QUIET, READING, answer, options, reading
+from mouse_cli.cli._answers import deliver_answer
+from mouse_cli.cli._options import QUIET, READING, answer, options
 
 
 @click.command()
@@ -18,21 +18,8 @@ from mouse_cli.cli._options import QUIET, READING, answer, options, reading
 @click.option(
     "--expand", "how", metavar="EXPANSION", help="How measured shapes are expanded; see `mouse list expansions`."
 )
-@options(answer("mouse.comparison/1"))
-@options(QUIET)
-@options(READING)
-def command(
-    deck: str,
-    keys: tuple[str, ...],
-    how: str | None,
-    output: str | None,
-    form: str | None,
-    numbers: str | None,
-    quiet: bool,
-    legacy: bool,
-    strip_73_80: bool,
-    overrides: tuple[str, ...],
-) -> int:
+@options(answer("mouse.comparison/1"), QUIET, READING)
+def command(deck: str, keys: tuple[str, ...], how: str | None) -> int:
     """Compare methods of updating on DECK.
 
     Predictive error of each on held-out data. Fits the modes of the test, predicts those of `hold_out`, then the changed
@@ -40,14 +27,13 @@ def command(
     """
     from mouse_cli.cli._decks import read_problem
     from mouse_cli.cli._methods import checked
-    from mouse_cli.cli._terminal import deliver, progress, show_diagnostics
+    from mouse_cli.cli._terminal import progress, warn
     from mouse_cli.methods.update import compare
 
     how = checked(keys, how)
-    problem = read_problem(deck, **reading(legacy, strip_73_80, overrides))
-    if not quiet:
-        show_diagnostics(problem.warnings)
+    problem = read_problem(deck)
+    warn(problem.warnings)
     with progress() as (_, say):
         found = compare(problem, keys, how, say)
-    deliver(answer_text(found, form, numbers or "modern"), output, deck)
+    deliver_answer(found, deck)
     return 0

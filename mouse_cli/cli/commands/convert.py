@@ -2,7 +2,7 @@
 
 import click
 
-from mouse_cli.cli._options import PRIOR, READING, earlier, options, reading
+from mouse_cli.cli._options import PRIOR, READING, earlier, options
 
 
 @click.command()
@@ -13,17 +13,7 @@ from mouse_cli.cli._options import PRIOR, READING, earlier, options, reading
 @click.option("--to", type=click.Choice(["cards", "yaml"]), help="The format to write; by default the other one.")
 @click.option("--lossy", is_flag=True, help="Write cards even when they cannot hold everything; losses are reported.")
 @options(PRIOR, READING)
-def command(
-    deck: str,
-    output: str | None,
-    to: str | None,
-    lossy: bool,
-    prior: str | None,
-    loosen: tuple[str, ...],
-    legacy: bool,
-    strip_73_80: bool,
-    overrides: tuple[str, ...],
-) -> int:
+def command(deck: str, output: str | None, to: str | None, lossy: bool) -> int:
     """Convert DECK to the other format, cards to YAML or back.
 
     With --prior the YAML deck has the posterior of an earlier test as its prior. Exit 4 when cards cannot hold the deck.
@@ -31,7 +21,7 @@ def command(
     from mouse_cli.cli._decks import read_problem
     from mouse_cli.cli._terminal import deliver, show_diagnostics
 
-    problem = read_problem(deck, **earlier(prior, loosen), **reading(legacy, strip_73_80, overrides))
+    problem = read_problem(deck, **earlier())
     show_diagnostics(problem.warnings)
     if (to or _format(output, problem.source.format)) == "cards":
         from mouse_cli.formats.cards import writer as card_writer

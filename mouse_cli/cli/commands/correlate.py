@@ -2,44 +2,30 @@
 
 import click
 
-from mouse_cli.cli._answers import answer_text
-from mouse_cli.cli._options import QUIET, READING, answer, options, reading
+from mouse_cli.cli._answers import deliver_answer
+from mouse_cli.cli._options import QUIET, READING, answer, options
 
 
 @click.command()
 @click.argument("deck")
 @click.option("--expand", "method", metavar="METHOD", help="Expand the measured shapes; see `mouse list expansions`.")
 @click.option("--exact", is_flag=True, help="Keep measured components as they are where METHOD would smooth them.")
-@options(answer("mouse.correlation/1"))
-@options(QUIET)
-@options(READING)
-def command(
-    deck: str,
-    method: str | None,
-    exact: bool,
-    output: str | None,
-    form: str | None,
-    numbers: str | None,
-    quiet: bool,
-    legacy: bool,
-    strip_73_80: bool,
-    overrides: tuple[str, ...],
-) -> int:
+@options(answer("mouse.correlation/1"), QUIET, READING)
+def command(deck: str, method: str | None, exact: bool) -> int:
     """Test-analysis correlation of DECK before any update.
 
     Mode pairs, MAC, COMAC, orthogonality, sensors that look faulty, modes without partner. Judges nothing: exit 0.
     """
     from mouse_cli.cli._decks import read_problem
-    from mouse_cli.cli._terminal import deliver, progress, show_diagnostics
+    from mouse_cli.cli._terminal import progress, warn
     from mouse_cli.updating.correlate import correlate
 
     _check_method(method, exact)
-    problem = read_problem(deck, **reading(legacy, strip_73_80, overrides))
+    problem = read_problem(deck)
     with progress() as (_, say):
         found = correlate(problem, method, exact, say)
-    if not quiet:
-        show_diagnostics((*problem.warnings, *found.warnings))
-    deliver(answer_text(found, form, numbers or "modern"), output, deck)
+    warn((*problem.warnings, *found.warnings))
+    deliver_answer(found, deck)
     return 0
 
 

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import click
 
-from mouse_cli.cli._answers import answer_text
-from mouse_cli.cli._options import OUTSIDE, QUIET, answer, options, outside
+from mouse_cli.cli._answers import deliver_answer
+from mouse_cli.cli._options import OUTSIDE, QUIET, answer, options, outside, plotting
 from mouse_cli.model.coupling import Coupling
 
 
@@ -26,13 +26,8 @@ from mouse_cli.model.coupling import Coupling
     metavar="PART=RESULT",
     help="What `mouse run --json` found of the model of a part.",
 )
-@click.option("--plot", metavar="PATH", help="Write figures: to a folder, or to one file (.pdf, .png, .svg).")
-@options(answer("mouse.coupling/1"))
-@options(OUTSIDE, QUIET)
-def command(
-    deck: str, written_to: str | None, truncate: float | None, priors: tuple[str, ...], plot: str | None, quiet: bool,
-    **how: str | None,
-) -> int:  # fmt: skip
+@options(plotting(), answer("mouse.coupling/1"), OUTSIDE, QUIET)
+def command(deck: str, written_to: str | None, truncate: float | None, priors: tuple[str, ...]) -> int:
     """Couple or decouple the substructures of DECK.
 
     DECK is a YAML deck that holds `couple:`. FRFs of the assembly from models and measured FRFs, rigid or elastic
@@ -41,12 +36,11 @@ def command(
     Exit 1: noise decides the interface at more than a few lines.
     """
     from mouse_cli.cli._decks import deck_bytes, shown
-    from mouse_cli.cli._terminal import deliver, progress, show_diagnostics
+    from mouse_cli.cli._terminal import progress, warn
     from mouse_cli.coupling import couple
     from mouse_cli.formats.frf_files import write_frf
     from mouse_cli.formats.yaml_deck import coupled
 
-    _require_plots(plot)
     coupling = _with_results(coupled.read(deck_bytes(deck), shown(deck), outside()), priors)
     if truncate is not None:
         coupling = replace(coupling, truncate=truncate)
@@ -54,12 +48,10 @@ def command(
         raise click.UsageError("--functions: the deck asks for none; give it responses and forces")
     with progress() as (_, say):
         found = couple(coupling, say)
-    if not quiet:
-        show_diagnostics((*found.warnings, *_laws(coupling)))
+    warn((*found.warnings, *_laws(coupling)))
     if written_to:
         write_frf(found.functions, written_to, coupling.units)
-    _draw(found, plot)
-    deliver(answer_text(found, how["form"], how["numbers"] or "modern"), how["output"], deck)
+    deliver_answer(found, deck)
     return int(any(d.code == "MD713" for d in found.warnings))
 
 
@@ -87,17 +79,3 @@ def _laws(coupling: Coupling) -> tuple:
 
     models = [part.problem for part in coupling.substructures if not part.measured]
     return tuple(remark for problem in models for remark in without_laws(problem, modes=True))
-
-
-def _require_plots(plot: str | None) -> None:
-    if plot:
-        from mouse_cli.plots import require
-
-        require(plot)
-
-
-def _draw(found: object, plot: str | None) -> None:
-    if plot:
-        from mouse_cli.plots import draw
-
-        draw(found, plot)

@@ -9,8 +9,8 @@ import click
 from mouse_cli._texts import shown
 from mouse_cli.cli._answers import answer_text
 from mouse_cli.cli._arrangements import ARRANGEMENTS, Named, diagnosed, outcome, several, written
-from mouse_cli.cli._options import QUIET, READING, answer_form, options, reading
-from mouse_cli.cli._raw_folder import RAW, asked_of_folder
+from mouse_cli.cli._options import QUIET, READING, answer_form, options, plotting, value_of
+from mouse_cli.cli._raw_folder import RAW, refuse_idle
 
 _WIDTH = 120  # columns of what is to be copied
 _FORMS = {".json": "json", ".md": "markdown", ".html": "html"}
@@ -53,18 +53,12 @@ _CONSIDERED = (
     multiple=True,
     help="Write the answer to FILE too: .json, .md, .html (a page), else the printout.",
 )
-@click.option(
-    "--plot", metavar="PATH", help="Write figures: to a folder, or to one file (.pdf, .png, .svg). Needs matplotlib."
-)
-@options(_CONSIDERED, RAW, ARRANGEMENTS, QUIET)
-@options(READING)
+@options(plotting("Write figures: to a folder, or to one file (.pdf, .png, .svg). Needs matplotlib."))
+@options(_CONSIDERED, RAW, ARRANGEMENTS, QUIET, READING)
 def command(
     decks: tuple[str, ...],
     output: str | None,
-    form: str | None,
-    numbers: str | None,
     reports: tuple[str, ...],
-    plot: str | None,
     candidates: str | None,
     without: str | None,
     causes: int,
@@ -72,8 +66,7 @@ def command(
     held_out: tuple[str, ...],
     changed: tuple[str, ...],
     common_sd: float | None,
-    quiet: bool,
-    **given: object,
+    **raw: object,
 ) -> int:
     """Identify the physics missing from the model of DECKS.
 
@@ -81,22 +74,19 @@ def command(
 
     Site, mechanism, size, validation. Exit 0: nothing is missing. 1: something is. 2: no site. 4: rejected. 5: no answer.
     """
-    from mouse_cli.cli._terminal import deliver
+    from mouse_cli.cli._terminal import deliver, drawn
 
-    arranged = several(named := Named.of(decks, held_out, changed), output, plot)
+    arranged = several(named := Named.of(decks, held_out, changed), output)
     for deck in (*named.fitted, *held_out):
-        _check_places(deck, output, plot, reports)
-    raw, how = asked_of_folder(decks, arranged, output, given)
-    asked = _Asked(_names(candidates, without), without is not None, causes, jobs)
-    problems, found = _answer(named, arranged, common_sd, asked, quiet, reading(**how), raw)
+        _check_places(deck, output, value_of("plot"), *reports)
+    refuse_idle(decks, arranged, output, raw)
+    choice = _Asked(_names(candidates, without), without is not None, causes, jobs)
+    problems, found = _answer(named, arranged, common_sd, choice, raw)
     files = _revised(found, output, problems[0] if raw["folder"] else None)
     for path in reports:
-        deliver(_text(found, _form(path), numbers, output, files), path, decks[0])
-    deliver(_text(found, form, numbers, output, files), None, decks[0])
-    if plot:
-        from mouse_cli.plots import draw
-
-        draw(found, plot)
+        deliver(_text(found, _form(path), output, files), path, decks[0])
+    deliver(_text(found, value_of("form"), output, files), None, decks[0])
+    drawn(found)
     return found.exit_code
 
 
@@ -122,24 +112,19 @@ class _Asked:
             raise click.UsageError(str(reason)) from reason
 
 
-def _answer(
-    named: Named, arranged: bool, common_sd: float | None, asked: _Asked, quiet: bool, how: dict[str, object],
-    raw: dict[str, object],
-):  # fmt: skip
+def _answer(named: Named, arranged: bool, common_sd: float | None, choice: _Asked, raw: dict[str, object]):
     """The problems of the decks fitted, and the diagnosis of one deck, or of configurations."""
     from mouse_cli.cli._decks import read_problem
-    from mouse_cli.cli._terminal import progress, show_diagnostics
+    from mouse_cli.cli._terminal import progress, warn
     from mouse_cli.diagnosis.diagnose import diagnose
     from mouse_cli.diagnosis.names import NoSite
 
-    if raw["folder"]:
-        problems = (_measured(named.fitted[0], raw, how, quiet),)
-    else:
-        problems = tuple(read_problem(deck, **how) for deck in named.fitted)
-    unseen = tuple(read_problem(deck, **how) for deck in named.unseen)
-    if not quiet:
-        show_diagnostics(tuple(each for problem in (*problems, *unseen) for each in problem.warnings))
-    choices = asked.of(problems[0])
+    problems = (
+        (_measured(named.fitted[0], raw),) if raw["folder"] else tuple(read_problem(deck) for deck in named.fitted)
+    )
+    unseen = tuple(read_problem(deck) for deck in named.unseen)
+    warn(each for problem in (*problems, *unseen) for each in problem.warnings)
+    choices = choice.of(problems[0])
     with progress() as (_, say):
         if arranged:
             return problems, diagnosed(named, problems, unseen, common_sd, say, choices)
@@ -149,15 +134,15 @@ def _answer(
             raise click.UsageError(str(reason)) from reason
 
 
-def _measured(deck: str, raw: dict[str, object], how: dict[str, object], quiet: bool):
+def _measured(deck: str, raw: dict[str, object]):
     """The problem of the deck with the recordings of a folder; says on standard error what was read."""
     from mouse_cli.cli._raw_folder import read_raw
     from mouse_cli.cli._terminal import progress, show_diagnostics
 
     said = []
     with progress() as (_, notice):
-        problem = read_raw(deck, raw, how, notice, lambda *message: said.append(message))
-    for lines, passed in said if not quiet else ():
+        problem = read_raw(deck, raw, notice, lambda *message: said.append(message))
+    for lines, passed in said if not value_of("quiet") else ():
         click.echo(shown("\n".join(lines)), err=True)
         show_diagnostics(passed)
     return problem
@@ -178,15 +163,11 @@ def _names(candidates: str | None, without: str | None) -> tuple[str, ...] | Non
     return given
 
 
-def _check_places(deck: str, output: str | None, plot: str | None, reports: tuple[str, ...]) -> None:
-    """Refuse, before anything is computed, to write over the deck, and figures that cannot be drawn."""
-    for path in (output, plot, *reports):
+def _check_places(deck: str, *paths: str | None) -> None:
+    """Refuse, before anything is computed, to write over the deck."""
+    for path in paths:
         if path and os.path.exists(path) and os.path.exists(deck) and os.path.samefile(path, deck):
             raise click.UsageError(f"{path} is the deck itself")
-    if plot:
-        from mouse_cli.plots import require
-
-        require(plot)
 
 
 def _form(path: str) -> str | None:
@@ -211,7 +192,7 @@ def _arranged(found) -> bool:
     return isinstance(found, ArrangementsDiagnosis)
 
 
-def _text(found, form: str | None, numbers: str | None, output: str | None, files: list[str]) -> str:
+def _text(found, form: str | None, output: str | None, files: list[str]) -> str:
     """The answer in the form asked for, and what became of `-o`."""
     from mouse_cli.cli._terminal import json_text
     from mouse_cli.report import document
@@ -223,7 +204,7 @@ def _text(found, form: str | None, numbers: str | None, output: str | None, file
         from mouse_cli.page import page, read
 
         return page(read(json_text(document(found)).encode(), "the answer"))
-    text = answer_text(found, form, numbers or "modern")
+    text = answer_text(found, "modern", form=form)
     if output is None:
         return text
     sentence = outcome(files, output) if _arranged(found) else _written(found, output, files)

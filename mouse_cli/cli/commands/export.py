@@ -25,8 +25,7 @@ _WHOLE = ("abaqus", "calculix")  # programs whose jobs are read
 @click.option("--shapes", metavar="FILE", help="Write mode shapes to FILE, .unv (data sets 15, 82, 55) or .vtk.")
 @click.option("--modes", default=12, show_default=True, type=click.IntRange(1), help="With --shapes: how many modes.")
 @click.option("-o", "--output", metavar="FILE", help="Write the cards to FILE instead of standard output.")
-@options(QUIET)
-@options(OUTSIDE)
+@options(QUIET, OUTSIDE)
 def command(
     deck: str,
     program: str | None,
@@ -37,7 +36,6 @@ def command(
     shapes: str | None,
     modes: int,
     output: str | None,
-    quiet: bool,
 ) -> int:
     """Write DECK as cards of a finite-element program.
 
@@ -46,7 +44,7 @@ def command(
     they are now.
     """
     from mouse_cli.cli._decks import after_result, read_problem
-    from mouse_cli.cli._terminal import deliver, show_diagnostics
+    from mouse_cli.cli._terminal import deliver, warn
 
     if not program and not shapes:
         raise click.UsageError("give --for PROGRAM, or --shapes FILE")
@@ -54,8 +52,7 @@ def command(
         raise click.UsageError(f"--complete needs --job FILE and --for {' or '.join(_WHOLE)}")
     before = read_problem(deck)
     problem = after_result(before, result, {})
-    if not quiet:
-        show_diagnostics(before.warnings)
+    warn(before.warnings)
     if shapes:
         _shapes(problem, shapes, modes)
     if program:

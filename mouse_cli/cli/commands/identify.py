@@ -5,7 +5,7 @@ import os
 import click
 
 from mouse_cli.cli._answers import answer_text
-from mouse_cli.cli._options import OUTSIDE, answer_form, options
+from mouse_cli.cli._options import OUTSIDE, QUIET, answer_form, options, plotting, value_of
 from mouse_cli.cli._recording_options import CHANNELS, SEGMENT, SPECTRA
 
 
@@ -20,14 +20,12 @@ from mouse_cli.cli._recording_options import CHANNELS, SEGMENT, SPECTRA
 @click.option(
     "--free-decay", is_flag=True, help="Recordings begin where the force has ended: ring-down, or release from rest."
 )
-@click.option(
-    "--plot", metavar="PATH", help="Write figures: to a folder, or to one file (.pdf, .png, .svg). Needs matplotlib."
-)
+@options(plotting("Write figures: to a folder, or to one file (.pdf, .png, .svg). Needs matplotlib."))
 @click.option(
     "--recording", "titles", multiple=True, metavar="TITLE", help="Of a deck: this recording; may be repeated."
 )
 @options(SPECTRA, CHANNELS, SEGMENT, OUTSIDE, answer_form("mouse.identification/1"))
-@click.option("-q", "--quiet", is_flag=True, help="No warnings on standard error.")
+@options(QUIET)
 def command(
     sources: tuple[str, ...],
     output: str | None,
@@ -35,10 +33,6 @@ def command(
     orders: int | None,
     output_only: bool,
     free_decay: bool,
-    plot: str | None,
-    form: str | None,
-    numbers: str | None,
-    quiet: bool,
     **given: object,
 ) -> int:
     """Identify modes from recordings or FRFs.
@@ -48,36 +42,30 @@ def command(
     1: none, or none to be trusted. 4: rejected.
     """
     from mouse_cli.cli._identify import Excited, identified, write
-    from mouse_cli.cli._terminal import drawn, progress, show_diagnostics
+    from mouse_cli.cli._terminal import drawn, progress, warn
 
     if band and not band[0] < band[1]:
         raise click.BadParameter(f"{band[0]:g} is not below {band[1]:g}", param_hint="--band")
     if output and any(os.path.exists(s) and os.path.exists(output) and os.path.samefile(s, output) for s in sources):
         raise click.UsageError(f"-o {output} would overwrite {output}")
-    if plot:
-        from mouse_cli.plots import require
-
-        require(plot)
     with progress() as (_, say):
         found, warnings = identified(sources, band, orders, Excited(output_only, free_decay), given, say)
-    if not quiet:
-        show_diagnostics((*warnings, *found.doubts, *found.remarks))
-    if plot:
-        drawn(found, plot)
+    warn((*warnings, *found.doubts, *found.remarks))
+    drawn(found)
     files = write(found, output)
-    _answer(found, form, numbers, output, files)
+    _answer(found, output, files)
     return found.exit_code
 
 
-def _answer(found, form: str | None, numbers: str | None, output: str | None, files: list[str]) -> None:
+def _answer(found, output: str | None, files: list[str]) -> None:
     """Print the answer, and what became of `-o`."""
     from mouse_cli.cli._terminal import json_text, say
     from mouse_cli.report import document
 
-    if form == "json":
+    if value_of("form") == "json":
         say(json_text(document(found) | {"deck": files[-1] if files else None}))
         return
-    text = answer_text(found, form, numbers or "modern")
+    text = answer_text(found, "modern")
     if output:
         text += (
             f"\nThe modes are in {files[-1]}.\n"

@@ -19,11 +19,8 @@ from mouse_cli.cli._options import OUTSIDE, QUIET, options, outside
     help="Element set of shells whose thickness is to be a parameter; may be repeated.",
 )  # fmt: skip
 @click.option("--no-cache", is_flag=True, help="Run the solver even where an earlier import left its matrices.")
-@options(QUIET)
-@options(OUTSIDE)
-def command(
-    job: str, output: str | None, units: str | None, thickness: tuple[str, ...], no_cache: bool, quiet: bool
-) -> int:
+@options(QUIET, OUTSIDE)
+def command(job: str, output: str | None, units: str | None, thickness: tuple[str, ...], no_cache: bool) -> int:
     """Make a deck of an Abaqus or CalculiX JOB (.inp), or of bulk data of Nastran (.bdf).
 
     CalculiX (ccx) writes K and M without supports, once for the whole and once for each set of groups that do not touch; the
@@ -31,13 +28,12 @@ def command(
     """
     from pathlib import Path
 
-    from mouse_cli.cli._terminal import progress, say, show_diagnostics
+    from mouse_cli.cli._terminal import progress, say, warn
     from mouse_cli.importing.run import imported
 
     target = Path(output) if output else Path(Path(job).stem + ".yaml")
     with progress() as (_, tell):
         found = imported(job, target, units, not no_cache, tell, outside(), thickness)
-    if not quiet:
-        show_diagnostics(found.remarks)
+    warn(found.remarks)
     say(found.text())
     return 0

@@ -4,23 +4,17 @@ from dataclasses import replace
 
 import click
 
-from mouse_cli.cli._answers import answer_text
+from mouse_cli.cli._answers import deliver_answer
 from mouse_cli.cli._changes import CHANGES, changes_text
-from mouse_cli.cli._options import PRIOR, QUIET, READING, answer, earlier, options, outside, reading
+from mouse_cli.cli._options import PRIOR, QUIET, READING, answer, earlier, options, outside, plotting
 
 
 @click.command()
 @click.argument("deck")
 @options(CHANGES)
 @click.option("-n", "--count", type=click.IntRange(min=1), help="How many modes, from the lowest.")
-@click.option("--plot", metavar="PATH", help="Write figures: to a folder, or to one file (.pdf, .png, .svg).")
-@options(answer("mouse.modification/1"))
-@options(PRIOR, QUIET)
-@options(READING)
-def command(
-    deck: str, count: int | None, plot: str | None, prior: str | None, loosen: tuple[str, ...], quiet: bool, legacy: bool,
-    strip_73_80: bool, overrides: tuple[str, ...], output: str | None, form: str | None, numbers: str | None, **given: object,
-) -> int:  # fmt: skip
+@options(plotting(), answer("mouse.modification/1"), PRIOR, QUIET, READING)
+def command(deck: str, count: int | None, **given: object) -> int:
     """Predict the effect of structural modifications of DECK.
 
     With the uncertainty of its properties. DECK is a model with changes as options, or a YAML deck that holds `modify:`.
@@ -28,35 +22,26 @@ def command(
     Exit 1: a target cannot be met.
     """
     from mouse_cli.cli._decks import without_laws
-    from mouse_cli.cli._terminal import deliver, progress, show_diagnostics
+    from mouse_cli.cli._terminal import progress, warn
     from mouse_cli.coupling import modify
 
-    if plot:
-        from mouse_cli.plots import require
-
-        require(plot)
-    modification = _read(deck, given, count, earlier(prior, loosen), reading(legacy, strip_73_80, overrides))
+    modification = _read(deck, given, count)
     with progress() as (_, say):
         found = modify(modification, say)
-    if not quiet:
-        show_diagnostics((*found.warnings, *without_laws(modification.problem, modes=True)))
-    if plot:
-        from mouse_cli.plots import draw
-
-        draw(found, plot)
-    deliver(answer_text(found, form, numbers or "modern"), output, deck)
+    warn((*found.warnings, *without_laws(modification.problem, modes=True)))
+    deliver_answer(found, deck)
     return int(_missed(found))
 
 
-def _read(deck: str, given: dict[str, object], count: int | None, begun: dict, how: dict):
+def _read(deck: str, given: dict[str, object], count: int | None):
     """The changes of a deck that holds `modify:`, or those of the options."""
     from mouse_cli.cli._decks import after_result, deck_bytes, read_problem, shown
     from mouse_cli.formats import holds
     from mouse_cli.formats.yaml_deck import modified
 
-    data = b"" if deck == "-" else deck_bytes(deck)
+    begun, data = earlier(), b"" if deck == "-" else deck_bytes(deck)
     if holds(data, deck) == "model":
-        problem = after_result(read_problem(deck, **how), **begun)
+        problem = after_result(read_problem(deck), **begun)
         return replace(modified.read(changes_text(given, count), "<options>", problem), path=shown(deck))
     if any(value for value in given.values()):
         raise click.UsageError(

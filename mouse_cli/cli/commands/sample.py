@@ -2,8 +2,8 @@
 
 import click
 
-from mouse_cli.cli._answers import answer_text
-from mouse_cli.cli._options import PRIOR, QUIET, READING, answer, earlier, options, reading
+from mouse_cli.cli._answers import deliver_answer
+from mouse_cli.cli._options import PRIOR, QUIET, READING, answer, earlier, options
 
 
 @click.command()
@@ -27,26 +27,8 @@ from mouse_cli.cli._options import PRIOR, QUIET, READING, answer, earlier, optio
     metavar="FILE",
     help="Write the samples to FILE.npz. An interrupted chain resumes from FILE.npz.part.",
 )
-@options(answer("mouse.sample/1"))
-@options(PRIOR, QUIET)
-@options(READING)
-def command(
-    deck: str,
-    steps: int,
-    walkers: int | None,
-    seed: int,
-    jobs: int,
-    chain: str | None,
-    output: str | None,
-    form: str | None,
-    numbers: str | None,
-    prior: str | None,
-    loosen: tuple[str, ...],
-    quiet: bool,
-    legacy: bool,
-    strip_73_80: bool,
-    overrides: tuple[str, ...],
-) -> int:
+@options(answer("mouse.sample/1"), PRIOR, QUIET, READING)
+def command(deck: str, steps: int, walkers: int | None, seed: int, jobs: int, chain: str | None) -> int:
     """Sample the posterior of DECK (MCMC).
 
     Of its prior and the likelihood of its test, as `mouse run` has them. Checks the standard deviations of `mouse run`
@@ -56,17 +38,16 @@ def command(
     """
     from mouse_cli.campaigns.sampling.sample import sample
     from mouse_cli.cli._decks import read_problem, without_laws
-    from mouse_cli.cli._terminal import deliver, progress, show_diagnostics
+    from mouse_cli.cli._terminal import progress, warn
     from mouse_cli.model.sampled import Sampling
 
-    problem = read_problem(deck, **earlier(prior, loosen), **reading(legacy, strip_73_80, overrides))
-    if not quiet:
-        show_diagnostics((*problem.warnings, *without_laws(problem)))
+    problem = read_problem(deck, **earlier())
+    warn((*problem.warnings, *without_laws(problem)))
     with progress() as (_, say):
         found = sample(problem, Sampling(steps, walkers or 0, seed, jobs), say, chain)
     if chain:
         from mouse_cli.campaigns.sampling.chain_file import write
 
         write(chain, found)
-    deliver(answer_text(found, form, numbers), output, deck)
+    deliver_answer(found, deck, None)
     return found.exit_code

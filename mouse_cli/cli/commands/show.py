@@ -8,7 +8,7 @@ from mouse_cli.cli._options import READING, options, outside, reading
 @click.command()
 @click.argument("deck")
 @options(READING)
-def command(deck: str, legacy: bool, strip_73_80: bool, overrides: tuple[str, ...]) -> int:
+def command(deck: str) -> int:
     """Show DECK as read.
 
     Cards with their fields named, YAML in canonical form. A card deck is shown even when it has errors, as far as it was read.
@@ -19,7 +19,7 @@ def command(deck: str, legacy: bool, strip_73_80: bool, overrides: tuple[str, ..
     from mouse_cli.formats import is_yaml, read_draft
     from mouse_cli.formats.assemble import assemble
 
-    data, how = deck_bytes(deck), reading(legacy, strip_73_80, overrides)
+    data, how = deck_bytes(deck), reading()
     if not is_yaml(data, deck):
         from mouse_cli.formats.cards import show as card_show
 

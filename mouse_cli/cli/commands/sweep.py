@@ -33,10 +33,7 @@ def command(
     limit_s: float | None,
     scheduler: str | None,
     cluster: int | None,
-    form: str | None,
-    numbers: str | None,
     csv_file: str | None,
-    quiet: bool,
     **given: object,
 ) -> int:
     """Run DECK over ranges of its assumptions.
@@ -51,12 +48,12 @@ def command(
     from mouse_cli.cli._engine import done
     from mouse_cli.cli._options import outside
 
-    problem, base = deck_of(deck, given, quiet)
+    problem, base = deck_of(deck, given)
     wanted, at = _points(deck, varied, problem, points, design, seed)
     every = [Job(deck, options=base, outside=outside()), *sweep.jobs(deck, wanted, at, base, outside())]
     first, *outcomes = done(every, output, jobs, scheduler, cluster, limit_s)
     found = sweep.summed(problem, wanted, at, outcomes, first)
-    deliver_campaign(found, form, numbers, csv_file)
+    deliver_campaign(found, csv_file)
     return found.exit_code
 
 
