@@ -1,5 +1,6 @@
 """What a report is made of, whatever it will look like: headings, texts, tables, matrices and verbatim lines."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from itertools import chain
 from typing import Any
@@ -62,17 +63,20 @@ def _head(text: str) -> Column:
 class Table:
     """Rows of cells under columns. A table too wide for its page is printed in parts that repeat the first `keys` columns.
 
+    Rows may be given as any iterables, and numbers as those of numpy; they are held as tuples of Python's.
     kept: so many rows count, the others are folded in a short report, 0: all count; rest: what the others are.
     """
 
     columns: tuple[Column, ...]
-    rows: tuple[tuple[Cell, ...], ...]
+    rows: Iterable[Iterable[Cell]]
     keys: int = 1
     kept: int = 0
     rest: str = ""
 
     def __post_init__(self) -> None:
-        for row in self.rows:
+        rows = tuple(tuple(cell.item() if isinstance(cell, np.generic) else cell for cell in row) for row in self.rows)
+        object.__setattr__(self, "rows", rows)
+        for row in rows:
             if len(row) != len(self.columns):
                 raise ValueError(f"a row has {len(row)} cells for {len(self.columns)} columns")
 

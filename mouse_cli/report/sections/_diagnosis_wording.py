@@ -70,7 +70,7 @@ def per_cent(value: float) -> str:
     return "" if value != value else f"{value:.2f}" if abs(value) >= 0.1 else f"{value:.2g}"
 
 
-def likeness(mac: float) -> str:
+def mac_text(mac: float) -> str:
     """A MAC; blank where no shape was measured.
 
     >>> likeness(0.98931), likeness(0.99996), likeness(float("nan"))
@@ -218,7 +218,7 @@ def _size(size: Size) -> str:
     return f"{size.name} {size.value:.4g}{unit} (sd {size.sd:.2g}{edge})"
 
 
-def nats_over_none(found: Diagnosis, one: Explanation) -> float:
+def log_evidence_over_none(found: Diagnosis, one: Explanation) -> float:
     """ln of the evidence for an explanation over that for no cause."""
     baseline = found.baseline
     return float("nan") if baseline is None else float(one.log_evidence - baseline.log_evidence)

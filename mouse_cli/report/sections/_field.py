@@ -47,7 +47,7 @@ def field_table(field: Field) -> Table:
     unit, by = UNITS[field.property], factor(field)
     columns = heads("<site", Column(_NAMES[field.property], unit), f"sd [{unit}]")
     rows = [(place(each.site), f"{by * each.value:.3g}", f"{by * each.sd:.2g}") for each in _shown(field)]
-    return Table(columns, tuple(rows))
+    return Table(columns, rows)
 
 
 def _shown(field: Field) -> list:

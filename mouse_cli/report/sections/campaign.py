@@ -54,15 +54,7 @@ def spread(found: Bootstrap, options: Options) -> Iterator[Block]:
 
 def _spread_row(each: Spread) -> tuple[float, ...]:
     ends = (*each.percentile, *each.bca)
-    return (
-        each.value,
-        each.posterior_sd,
-        each.predicted,
-        each.sd,
-        each.jackknife,
-        each.bias,
-        *(float(end) for end in ends),
-    )
+    return (each.value, each.posterior_sd, each.predicted, each.sd, each.jackknife, each.bias, *ends)
 
 
 def influence(found: Bootstrap, options: Options) -> Iterator[Block]:
@@ -124,14 +116,7 @@ def points(found: Sweep, options: Options) -> Iterator[Block]:
         *(Column(each.name, each.unit, literal=True) for each in shown),
     )
     rows = [
-        (
-            i,
-            *(_cell(value) for value in point),
-            answer.ended,
-            answer.chi2,
-            answer.p,
-            *(float(v) for v in answer.theta[: len(shown)]),
-        )
+        (i, *(_cell(value) for value in point), answer.ended, answer.chi2, answer.p, *answer.theta[: len(shown)])
         for i, (point, answer) in enumerate(zip(found.points, found.answers, strict=True), 1)
     ]
     yield Table(columns, tuple(rows[: options.elements]), 1 + len(found.varied))

@@ -44,14 +44,12 @@ def frequencies(found: Compared, options: Options) -> Iterator[Block]:
             2,
         )
         rows = [
-            (int(number), *(float(v[k]) for v in (first.test_hz, first.prior_hz, *(one.revised_hz for one in each))))
+            (number, *(v[k] for v in (first.test_hz, first.prior_hz, *(one.revised_hz for one in each))))
             for k, number in enumerate(first.number)
         ]
         before = float(100 * np.sqrt(np.mean((first.prior_hz / first.test_hz - 1) ** 2)))
-        rows.append(
-            ("off, %", None, *(float(f"{cleared(off):.3g}") for off in (before, *(one.rms_percent for one in each))))
-        )
-        yield Table(columns, tuple(rows), keys=3)
+        rows.append(("off, %", None, *(f"{cleared(off):.3g}" for off in (before, *(one.rms_percent for one in each)))))
+        yield Table(columns, rows, keys=3)
     yield Text(
         "Off: root mean square difference from the test. A blank is a mode that the model does not have. Modes are paired by shape "
         "where shapes were measured, else by number."
@@ -78,7 +76,7 @@ def heading(found: Compared, options: Options) -> Iterator[Block]:
         )
     columns = heads("<method | <name | iterations | <settled")
     rows = [(u.about.key, u.about.title, u.iterations, "yes" if u.converged else "no") for u in found.updates]
-    yield Table(columns, tuple(rows))
+    yield Table(columns, rows)
     for key, why in found.refused.items():
         yield Text(f"{key} has no answer: {why[0].code}: {why[0].message}.")
 
@@ -94,7 +92,7 @@ def guarantees(found: Compared, options: Options) -> Iterator[Block]:
         (u.about.key, u.checked.negative, u.checked.rigid, u.checked.rigid_before, u.checked.filled, u.checked.misfit)
         for u in found.updates
     ]
-    yield Table(counted, tuple(rows))
+    yield Table(counted, rows)
     yield Text(
         "Force left: the largest |(K - lambda M) x| of a fitted mode x over |lambda M x|, by the energy of such forces."
     )

@@ -45,10 +45,10 @@ def frequencies(found: Correlation, options: Options) -> Iterator[Block]:
     """One line a measured mode, then one for each model mode in the band that none of them is."""
     rows = [_measured(found, i) for i in range(found.problem.test.m)]
     rows += [
-        (None, int(j) + 1, None, float(found.frequencies_hz[j]), None, None, None, None, float(found.visible[j]))
+        (None, int(j) + 1, None, found.frequencies_hz[j], None, None, None, None, found.visible[j])
         for j in found.unclaimed
     ]
-    yield Table(_COLUMNS, tuple(rows)).without_empty_columns()
+    yield Table(_COLUMNS, rows).without_empty_columns()
     yield Text(
         "Differences are model minus test. The modal scale factor brings the measured shape nearest to that of unit modal "
         "mass; seen by the sensors is the length of the model shape at the sensors, over that of the largest."
@@ -56,15 +56,15 @@ def frequencies(found: Correlation, options: Options) -> Iterator[Block]:
 
 
 def _measured(found: Correlation, i: int) -> tuple[Cell, ...]:
-    test, j = found.problem.test, int(found.modes[i])
-    test_hz, sd = float(test.frequency_hz[i]), float(test.frequency_sd_hz[i])
+    test, j = found.problem.test, found.modes[i]
+    test_hz, sd = test.frequency_hz[i], test.frequency_sd_hz[i]
     if j == ALONE:
-        return int(test.number[i]), None, test_hz, None, None, None, None, None, None
+        return test.number[i], None, test_hz, None, None, None, None, None, None
     hz = float(found.frequencies_hz[j])
     with np.errstate(invalid="ignore"):
         away = 100 * (hz / test_hz - 1), (hz - test_hz) / sd
-    likeness, factor = float(found.mac[i, j]), float(found.scale_factor[i])
-    return int(test.number[i]), j + 1, test_hz, hz, *away, likeness, factor, float(found.visible[j])
+    likeness, factor = found.mac[i, j], found.scale_factor[i]
+    return test.number[i], j + 1, test_hz, hz, *away, likeness, factor, found.visible[j]
 
 
 def remarks(found: Correlation, options: Options) -> Iterator[Block]:
@@ -112,7 +112,7 @@ def _close(found: Correlation) -> Table:
         ours = ", ".join(str(found.problem.test.number[i]) for i in close.test)
         theirs = ", ".join(str(j + 1) for j in close.model)
         rows.append((ours, theirs, ", ".join(f"{c:.3f}" for c in close.cosines if np.isfinite(c))))
-    return Table(columns, tuple(rows))
+    return Table(columns, rows)
 
 
 def _rounded(matrix: np.ndarray) -> np.ndarray:
@@ -126,7 +126,7 @@ def sensors(found: Correlation, options: Options) -> Iterator[Block]:
         return
     columns = heads(Column("sensor", align=LEFT, literal=True), "COMAC | ECOMAC")
     rows = zip(found.sensors, np.round(found.comac, 4), np.round(found.ecomac, 4), strict=True)
-    yield Table(columns, tuple((name, float(one), float(other)) for name, one, other in rows))
+    yield Table(columns, rows)
     yield Text(
         "COMAC is 1, ECOMAC 0 where a sensor agrees with the model in all paired modes. COMAC is blind to signs, ECOMAC sees "
         "them. An error of the model is spread over many sensors; the fault of one stands alone and is named under the remarks."
@@ -177,7 +177,7 @@ def expansion(found: Correlation, options: Options) -> Iterator[Block]:
     rows = zip(
         test.number[expanded.modes], test.frequency_hz[expanded.modes], expanded.hz, expanded.misfit, strict=True
     )
-    yield Table(columns, tuple((int(n), float(f), float(hz), float(misfit)) for n, f, hz, misfit in rows))
+    yield Table(columns, rows)
     names = tuple(str(n) for n in test.number[expanded.modes])
     yield Matrix("X' M X", np.round(expanded.mass, 4), names, names, corner=("test", "test"))
     yield Matrix(

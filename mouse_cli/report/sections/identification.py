@@ -40,19 +40,19 @@ def modes(found: Identification, options: Options) -> Iterator[Block]:
     rows = [
         (
             r + 1,
-            float(each.frequency_hz[r]),
-            float(each.frequency_sd_hz[r]),
+            each.frequency_hz[r],
+            each.frequency_sd_hz[r],
             100 * float(each.damping[r]),
             100 * float(each.damping_sd[r]),
-            float(each.mpc[r]),
-            int(each.stable_orders[r]),
-            float(each.lines[r]) if measured[r] else None,
+            each.mpc[r],
+            each.stable_orders[r],
+            each.lines[r] if measured[r] else None,
             100 * float(each.error[r]),
             each.scale[r],
         )
         for r in range(each.m)
     ]
-    yield Table(_COLUMNS, tuple(rows)).without_empty_columns()
+    yield Table(_COLUMNS, rows).without_empty_columns()
     yield Text(
         "Frequency is |lambda| / 2 pi, damping -Re lambda / |lambda|. MPC, modal phase collinearity, is 1 for a real shape. "
         "The error of fit is that near the resonance, by what was measured there."
@@ -75,7 +75,7 @@ def heading(found: Identification, options: Options) -> Iterator[Block]:
         ("noise", found.noise),
         *[(name, value if isinstance(value, str) else f"{value:.6g}") for name, value in found.details.items()],
     ]
-    yield Table(heads("< | <"), tuple(rows))
+    yield Table(heads("< | <"), rows)
 
 
 def shapes(found: Identification, options: Options) -> Iterator[Block]:

@@ -36,7 +36,7 @@ def properties(found: Sampled, options: Options) -> Iterator[Block]:
         low, left, median, right, high = (float(value) for value in each.quantiles)
         means = each.normal_mean, each.normal_sd, each.mean, each.sd
         rows.append((each.name, each.unit, *means, median, left, right, low, high))
-    yield Table(_QUANTITIES_COLUMNS, tuple(rows)).without_empty_columns()
+    yield Table(_QUANTITIES_COLUMNS, rows).without_empty_columns()
     yield Table(_CHAIN, tuple((e.name, round(e.tau, 1), round(e.size), round(e.r_hat, 3)) for e in found.parameters))
     yield Text("Intervals are between quantiles of the samples, with equal shares on either side.")
 
@@ -51,13 +51,11 @@ def frequencies(found: Sampled, options: Options) -> Iterator[Block]:
     """Natural frequencies of the revised model by samples, and what a new measurement would give."""
     rows = []
     for each in found.frequencies:
-        low, high = float(each.quantiles[0]), float(each.quantiles[-1])
+        low, high = each.quantiles[0], each.quantiles[-1]
         new = (None, None) if each.predicted is None else tuple(float(value) for value in each.predicted)
-        rows.append(
-            (int(each.name), each.measured, each.normal_mean, each.normal_sd, each.mean, each.sd, low, high, *new)
-        )
+        rows.append((each.name, each.measured, each.normal_mean, each.normal_sd, each.mean, each.sd, low, high, *new))
     if rows:
-        yield Table(_FREQUENCIES_COLUMNS, tuple(rows)).without_empty_columns()
+        yield Table(_FREQUENCIES_COLUMNS, rows).without_empty_columns()
         yield Text(
             "The 95 % interval is of the model's own frequency; a new measurement of the same accuracy lies within the last two "
             "columns with probability 0.95."
@@ -70,10 +68,7 @@ def modes(found: Sampled, options: Options) -> Iterator[Block]:
         return
     own = tuple(Column(p.name, p.unit, literal=True) for p in found.result.problem.parameters)
     columns = heads("mode", *own, "J | share")
-    rows = tuple(
-        (i, *(float(value) for value in each.theta[: len(own)]), each.cost, each.share)
-        for i, each in enumerate(found.modes, 1)
-    )
+    rows = tuple((i, *each.theta[: len(own)], each.cost, each.share) for i, each in enumerate(found.modes, 1))
     yield Table(columns, rows)
     yield Text(
         "J is chi-square of the data with that of the prior; the share is that of the samples nearest to the mode."

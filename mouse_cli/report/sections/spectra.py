@@ -50,7 +50,7 @@ def functions(result: SpectraResult, options: Options) -> Iterator[Block]:
         for each in result.measured
         for q in each.quality
     ]
-    yield Table(columns, tuple(rows), keys=2).without_empty_columns()
+    yield Table(columns, rows, keys=2).without_empty_columns()
     yield Text(
         "Noise is the standard deviation of the magnitude, which is that of the phase in radians too, by the magnitude."
     )
@@ -73,7 +73,7 @@ def heading(result: SpectraResult, options: Options) -> Iterator[Block]:
         rows[-1] = ("blocks", f"one for each stroke, {how.pretrigger} samples before it")
     if how.skip:
         rows.append(("skipped", f"{how.skip} samples at the beginning"))
-    yield Table(heads("< | <"), tuple(rows))
+    yield Table(heads("< | <"), rows)
     for each in result.measured:
         if each.frf.decay_rate:
             yield Text(

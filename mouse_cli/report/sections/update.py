@@ -48,7 +48,7 @@ def frequencies(found: Updated, options: Options) -> Iterator[Block]:
 def _row(one: Predicted, i: int) -> tuple:
     test, prior, revised = (float(values[i]) for values in (one.test_hz, one.prior_hz, one.revised_hz))
     off = [cleared(100 * (hz / test - 1)) for hz in (prior, revised)]
-    return int(one.number[i]), test, prior, off[0], revised, off[1], float(one.mac[i])
+    return one.number[i], test, prior, off[0], revised, off[1], one.mac[i]
 
 
 def cleared(percent: float) -> float:

@@ -24,9 +24,7 @@ def verdict(found: Coupled, options: Options) -> Iterator[Block]:
     whole = found.modes
     if whole is not None and len(whole.frequencies_hz) > whole.rigid:
         elastic = whole.frequencies_hz[whole.rigid :]
-        yield Text(
-            f"{counted(len(elastic), 'elastic mode')} from {{}} to {{}} Hz.", (float(elastic[0]), float(elastic[-1]))
-        )
+        yield Text(f"{counted(len(elastic), 'elastic mode')} from {{}} to {{}} Hz.", (elastic[0], elastic[-1]))
 
 
 def _trusted(interface: InterfaceState | None) -> str:
@@ -51,7 +49,7 @@ def functions(found: Coupled, options: Options) -> Iterator[Block]:
         return
     yield Text(
         f"{frf.kind.capitalize()} at {len(frf.frequency_hz)} lines from {{}} to {{}} Hz; `--json` and `--functions` give them all.",
-        (float(frf.frequency_hz[0]), float(frf.frequency_hz[-1])),
+        (frf.frequency_hz[0], frf.frequency_hz[-1]),
     )
     units = found.coupling.units
     yield peak_table(found.peaks, response_unit(frf.kind, units) if units.declared else "")
@@ -84,10 +82,7 @@ def modes(found: Coupled, options: Options) -> Iterator[Block]:
     size = counted(whole.size, "degree of freedom", "degrees of freedom")
     rigid = counted(whole.rigid, "rigid-body mode") if whole.rigid else "no rigid-body mode"
     yield Text(f"The whole, assembled, has {size} and {rigid}.")
-    yield Table(
-        heads("mode | frequency [Hz]"),
-        tuple((i, float(hz)) for i, hz in enumerate(whole.frequencies_hz, 1)),
-    )
+    yield Table(heads("mode | frequency [Hz]"), tuple((i, hz) for i, hz in enumerate(whole.frequencies_hz, 1)))
     if whole.reduced:
         yield Text(
             "What truncation makes of them: error of each frequency, in per cent, with the stated number of modes kept of "
@@ -193,12 +188,12 @@ def interface(found: Coupled, options: Options) -> Iterator[Block]:
     state = found.interface
     if state is None or not state.conditions:
         return
-    hz, worst = found.functions.frequency_hz, int(np.argmax(state.condition))
+    hz, worst = found.functions.frequency_hz, np.argmax(state.condition)
     yield Text(
         f"{counted(state.conditions, 'condition')} at {counted(len(hz), 'line')}. The condition number of their flexibility, "
         f"scaled so "
         "that units do not count, has the median {} and is largest at {} Hz: {}.",
-        (float(np.median(state.condition)), float(hz[worst]), float(state.condition[worst])),
+        (np.median(state.condition), hz[worst], state.condition[worst]),
     )
     yield _lines(found, state, worst)
     if (state.noise > 0).any():
@@ -229,8 +224,8 @@ def _lines(found: Coupled, state: InterfaceState, worst: int) -> Table:
     for k in shown:
         noise = float(state.noise[k]) if state.noise[k] > 0 else np.nan
         kept = int(state.kept[k]) if truncated else None
-        rows.append((float(hz[k]), float(state.condition[k]), 100 * noise, float(state.condition[k]) * noise, kept))
-    return Table(columns, tuple(rows)).without_empty_columns()
+        rows.append((hz[k], state.condition[k], 100 * noise, float(state.condition[k]) * noise, kept))
+    return Table(columns, rows).without_empty_columns()
 
 
 SECTIONS = (

@@ -32,7 +32,7 @@ def verdict(found: Modified, options: Options) -> Iterator[Block]:
         i = int(np.nanargmax(np.abs(shift)))
         yield Text(
             f"The changes move mode {i + 1} most, by {{}} Hz (sd {{}}) to {{}} Hz.",
-            (float(shift[i]), float(found.shifts.sd_hz[i]), float(found.after.frequencies_hz[i])),
+            (shift[i], found.shifts.sd_hz[i], found.after.frequencies_hz[i]),
         )
     for each in found.swept:
         if each.places:
@@ -56,23 +56,13 @@ def frequencies(found: Modified, options: Options) -> Iterator[Block]:
     rows = []
     for i, hz in enumerate(after.frequencies_hz):
         j = int(shifts.partner[i])
-        own = (i + 1, float(hz) if i >= after.rigid_modes else 0.0, float(after.sd_hz[i]))
+        own = (i + 1, hz if i >= after.rigid_modes else 0.0, after.sd_hz[i])
         if j < 0:
             rows.append((*own, None, None, None, None, None, None))
             continue
         was = float(before.frequencies_hz[j]) if j >= before.rigid_modes else 0.0
-        rows.append(
-            (
-                *own,
-                j + 1,
-                was,
-                float(before.sd_hz[j]),
-                float(shifts.shift_hz[i]),
-                float(shifts.sd_hz[i]),
-                float(shifts.mac[i]),
-            )
-        )
-    yield Table(columns, tuple(rows))
+        rows.append((*own, j + 1, was, before.sd_hz[j], shifts.shift_hz[i], shifts.sd_hz[i], shifts.mac[i]))
+    yield Table(columns, rows)
     if (shifts.partner < 0).any():
         yield Text(
             "A mode without a number before is new, such as that of an absorber, or unlike all that were looked at."
@@ -173,7 +163,7 @@ def heading(found: Modified, options: Options) -> Iterator[Block]:
     rows = [("program", f"mouse {__version__}"), ("title", asked.title.strip()), ("source", asked.path)]
     if asked.path != problem.source.path:
         rows.append(("model", problem.source.path))
-    yield Table(heads("< | <"), tuple(rows))
+    yield Table(heads("< | <"), rows)
     properties = counted(len(problem.parameters), "uncertain property", "uncertain properties")
     yield Text(
         f"The model has {counted(problem.structure.n, 'degree', 'degrees')} of freedom and {properties}, whose uncertainty "

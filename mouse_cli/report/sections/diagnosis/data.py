@@ -11,7 +11,7 @@ from mouse_cli.model.result import Result
 from mouse_cli.model.units import system
 from mouse_cli.report.blocks import Block, Cell, Column, Table, Text, heads
 from mouse_cli.report.section import RESULT, Options, Section
-from mouse_cli.report.sections._diagnosis_wording import likeness, per_cent, predicting, with_cause
+from mouse_cli.report.sections._diagnosis_wording import mac_text, per_cent, predicting, with_cause
 from mouse_cli.report.sections._functions import covered, functions
 from mouse_cli.report.sections._wording import counted, deck_table
 from mouse_cli.report.sections._wording import remarks as worded
@@ -33,7 +33,7 @@ def fitted(found: Diagnosis, options: Options) -> Iterator[Block]:
     hz_after, off_after, alike_after = _against(after, test) if after else np.full((3, test.m), np.nan)
     rows = zip(test.number, test.frequency_hz, hz, off, hz_after, off_after, alike, alike_after, strict=True)
     columns = _fitted_columns(with_cause(found))
-    yield Table(columns, tuple((int(n), *_fitted_row(row)) for n, *row in rows)).without_empty_columns()
+    yield Table(columns, tuple((n, *_fitted_row(row)) for n, *row in rows)).without_empty_columns()
     which = "Both models with their" if after else "The model with its"
     yield Text(f"{which} parameters revised by these data; differences are model minus test.")
     if after and after.model_form == "rejected":
@@ -46,7 +46,7 @@ def fitted(found: Diagnosis, options: Options) -> Iterator[Block]:
 
 def _fitted_row(row: list[float]) -> tuple[Cell, ...]:
     test, hz, off, hz_after, off_after, alike, alike_after = map(float, row)
-    return test, hz, per_cent(off), hz_after, per_cent(off_after), likeness(alike), likeness(alike_after)
+    return test, hz, per_cent(off), hz_after, per_cent(off_after), mac_text(alike), mac_text(alike_after)
 
 
 def _against(result: Result, test: ModalTest) -> np.ndarray:
@@ -112,7 +112,7 @@ def fitted_functions(found: Diagnosis, options: Options) -> Iterator[Block]:
             )
             for d in found.damping
         )
-        yield Table(_COLUMNS, tuple(rows))
+        yield Table(_COLUMNS, rows)
         which = found.frf[0].models[-1].name
         yield Text(
             f"Damping of the structure is that of the {which if len(found.frf[0].models) == 1 else f'model {which}'}."
@@ -160,7 +160,7 @@ def _predicted(score: Score, measured: np.ndarray) -> tuple[list[np.ndarray], np
 def _held_out_row(row: list[float]) -> tuple[Cell, ...]:
     measured, hz, sd, off, hz_after, sd_after, off_after, alike, alike_after = map(float, row)
     before, after = (hz, _fine(sd), per_cent(off)), (hz_after, _fine(sd_after), per_cent(off_after))
-    return measured, *before, *after, likeness(alike), likeness(alike_after)
+    return measured, *before, *after, mac_text(alike), mac_text(alike_after)
 
 
 def _fine(sd: float) -> str:

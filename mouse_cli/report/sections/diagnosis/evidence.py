@@ -6,8 +6,8 @@ from mouse_cli.model.diagnosis import NOTHING, UNKNOWN, Diagnosis, Effort, Expla
 from mouse_cli.report.blocks import Block, Cell, Heading, Table, Text, heads
 from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._diagnosis_wording import (
+    log_evidence_over_none,
     nats,
-    nats_over_none,
     p_value,
     place,
     probable,
@@ -72,7 +72,7 @@ def _probability(found: Diagnosis) -> str:
 def _judged(found: Diagnosis, one: Explanation) -> tuple[Cell, ...]:
     misfit = probable(float(one.p)) if one.dof > 0 else None
     probability = None if found.kind == UNKNOWN else probable(one.probability)
-    return one.physics, one.group, where(one), nats(nats_over_none(found, one)), probability, misfit
+    return one.physics, one.group, where(one), nats(log_evidence_over_none(found, one)), probability, misfit
 
 
 def _sized(one: Explanation) -> Iterator[tuple[Cell, ...]]:
@@ -101,7 +101,7 @@ def proposals(found: Diagnosis, options: Options) -> Iterator[Block]:
         (p.text, EFFORTS[p.effort], " and ".join(p.between), separation(p.separation), p.outlook)
         for p in found.proposals
     )
-    yield Table(_COLUMNS, tuple(rows))
+    yield Table(_COLUMNS, rows)
     yield Text(
         "First what separates the two most probable: decisive measurements of least effort first. Separation is "
         "half the squared distance of what the two predict, over what is uncertain in both and in the measurement: above 4 it will "

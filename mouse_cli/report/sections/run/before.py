@@ -77,7 +77,7 @@ def _measured(result: Result) -> Iterator[str]:
 def _moved(problem: Problem) -> str:
     """What the properties move."""
     verb, parts = "move" if len(problem.parameters) != 1 else "moves", []
-    bound = {(binding.set, int(i)) for binding in problem.bindings for i in binding.members}
+    bound = {(binding.set, i) for binding in problem.bindings for i in binding.members}
     if bound:
         whole = sum(map(len, problem.mesh.elements))
         parts.append(
@@ -185,8 +185,8 @@ def _properties(problem: Problem) -> Table:
         (
             p.name,
             p.unit,
-            float(mean),
-            float(sd),
+            mean,
+            sd,
             finite(p.lower),
             finite(p.upper),
             p.transform if p.transform != "identity" else None,
@@ -217,13 +217,13 @@ def _frequencies(result: Result) -> Table:
     )
     rows = tuple(
         (
-            int(test.number[i]),
-            float(test.frequency_hz[i]),
-            float(test.frequency_sd_hz[i]),
-            float(result.y[k]) if k != NOT_MEASURED else None,
-            float(result.sd[k]) if k != NOT_MEASURED else None,
-            int(np.isfinite(test.shapes[:, i]).sum()),
-            float(result.shape_factor[i]) if np.isfinite(test.shapes[:, i]).any() else None,
+            test.number[i],
+            test.frequency_hz[i],
+            test.frequency_sd_hz[i],
+            result.y[k] if k != NOT_MEASURED else None,
+            result.sd[k] if k != NOT_MEASURED else None,
+            np.isfinite(test.shapes[:, i]).sum(),
+            result.shape_factor[i] if np.isfinite(test.shapes[:, i]).any() else None,
         )
         for i, k in enumerate(index.tolist())
     )
@@ -241,7 +241,7 @@ def _shapes(result: Result) -> Iterator[Block]:
     yield Matrix("measured mode shapes, as given", test.shapes, positions(result), modes, corner=corner)
     sd = test.shape_sd[measured]
     if np.ptp(sd) == 0:
-        yield Text("The standard deviation of every measured component is {}.", (float(sd[0]),))
+        yield Text("The standard deviation of every measured component is {}.", (sd[0],))
     else:
         shown = np.where(measured, test.shape_sd, np.nan)
         yield Matrix("their standard deviations", shown, positions(result), modes, corner=corner)

@@ -29,7 +29,7 @@ def cycles(result: Result, options: Options) -> Iterator[Block]:
         rows.append(
             (
                 cycle.index,
-                *(float(v) for v in cycle.theta[: len(shown)]),
+                *cycle.theta[: len(shown)],
                 *(_largest_change(result, before, cycle) if short else ()),
                 cycle.chi2,
                 cycle.exceedances,
@@ -38,7 +38,7 @@ def cycles(result: Result, options: Options) -> Iterator[Block]:
                 cycle.damping if searched else None,
             )
         )
-    yield Table(columns, tuple(rows)).without_empty_columns()
+    yield Table(columns, rows).without_empty_columns()
     yield Text(_explained(len(result.y), searched, short, len(shown)))
 
 
@@ -61,7 +61,7 @@ def _largest_change(result: Result, before: Cycle | None, cycle: Cycle) -> tuple
     sd = result.problem.prior.sd
     moved = np.divide(cycle.theta - before.theta, sd, out=np.zeros_like(sd), where=sd > 0)
     largest = int(np.argmax(np.abs(moved)))
-    return float(moved[largest]), result.problem.parameters[largest].name
+    return moved[largest], result.problem.parameters[largest].name
 
 
 def modes(result: Result, options: Options) -> Iterator[Block]:
@@ -168,19 +168,19 @@ def _compared_eigenvalues(result: Result) -> Table:
 
 def _mode(result: Result, i: int, k: int, renumbered: bool) -> tuple[Cell, ...]:
     """Line of measured mode i, whose eigenvalue is datum k."""
-    test, mode, measured = result.problem.test, int(result.revised.modes[i]), k != NOT_MEASURED
+    test, mode, measured = result.problem.test, result.revised.modes[i], k != NOT_MEASURED
     revised = float(result.revised.eigenvalues[mode])
     hz, test_hz, sd = frequency_hz(revised), test.frequency_hz[i], test.frequency_sd_hz[i]
     frequency = (test_hz, sd, result.z * sd, test_hz - hz) if measured else (np.nan,) * 4
     return (
-        int(test.number[i]),
+        test.number[i],
         mode + 1 if renumbered else None,
         revised,
-        float(result.y[k]) if measured else None,
-        float(hz),
+        result.y[k] if measured else None,
+        hz,
         *map(float, frequency),
-        float(result.prior.mac[i]),
-        float(result.revised.mac[i]),
+        result.prior.mac[i],
+        result.revised.mac[i],
         "*" if measured and result.exceeding[k] else None,
     )
 
@@ -193,11 +193,11 @@ def _eigenvectors(result: Result) -> Table:
     rows = tuple(
         (
             places[s],
-            int(numbers[i]),
-            float(model[s, i]),
-            float(test[s, i]),
-            float(interval[s, i]),
-            float(test[s, i] - model[s, i]),
+            numbers[i],
+            model[s, i],
+            test[s, i],
+            interval[s, i],
+            test[s, i] - model[s, i],
             "*" if result.exceeding[k] else None,
         )
         for i, column in enumerate(shape_index(result).T)

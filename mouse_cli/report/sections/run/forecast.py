@@ -20,8 +20,8 @@ def frequencies(forecast: Forecast, options: Options) -> Iterator[Block]:
     for i, (hz, sd) in enumerate(zip(forecast.frequencies_hz, forecast.sd_hz, strict=True), 1):
         elastic = i > forecast.rigid_modes and hz > 0
         hz = float(hz) if elastic else 0.0
-        rows.append((i, float(eigenvalue(hz)), hz, float(sd), float(100 * sd / hz) if elastic else None))
-    yield Table(columns, tuple(rows))
+        rows.append((i, eigenvalue(hz), hz, sd, 100 * sd / hz if elastic else None))
+    yield Table(columns, rows)
     rigid = counted(forecast.rigid_modes, "rigid-body mode") if forecast.rigid_modes else "no rigid-body mode"
     yield Text(f"The model has {rigid}.")
 
@@ -37,7 +37,7 @@ def damping(forecast: Forecast, options: Options) -> Iterator[Block]:
     yield Table(
         columns,
         tuple(
-            (rigid + i, float(hz), float(100 * ratio), float(100 * sd), float(complexity))
+            (rigid + i, hz, 100 * ratio, 100 * sd, complexity)
             for i, (hz, ratio, sd, complexity) in enumerate(values, 1)
         ),
     )

@@ -79,8 +79,7 @@ def _entries(result: Result, name: str, before, after, most: int) -> Iterator[Bl
     labels = result.problem.structure.labels
     before, after = (m.tocsr() if is_sparse(m) else m for m in (before, after))
     rows = tuple(
-        (labels[row[k]], labels[col[k]], float(before[row[k], col[k]]), float(after[row[k], col[k]]), float(change[k]))
-        for k in largest
+        (labels[row[k]], labels[col[k]], before[row[k], col[k]], after[row[k], col[k]], change[k]) for k in largest
     )
     yield Heading(f"elements of the {name} that were revised", 2)
     yield Table(columns, rows, keys=2)
@@ -104,7 +103,7 @@ def _elements(result: Result, name: str, moved: np.ndarray, before, after, most:
     columns = heads("<element | prior | revised | change")
     before, after = (m.tocsr() if is_sparse(m) else m for m in (before, after))
     rows = tuple(
-        (labels[k], float(before[i, j]), float(after[i, j]), float(change[k]))
+        (labels[k], before[i, j], after[i, j], change[k])
         for k, i, j in zip(shown, listed.row[shown], listed.col[shown], strict=True)
     )
     yield Table(columns, rows)

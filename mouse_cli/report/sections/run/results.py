@@ -59,12 +59,12 @@ def _row(result: Result, i: int, short: bool) -> tuple[Cell, ...]:
     return (
         parameter.name,
         parameter.unit,
-        float(before),
-        float(after),
-        *(() if short else (float(after - before),)),
-        float(100 * (after - before) / abs(before)) if before else None,
-        float(result.problem.prior.sd[i]),
-        float(result.sd_theta[i]) if free else None,
+        before,
+        after,
+        *(() if short else (after - before,)),
+        100 * (after - before) / abs(before) if before else None,
+        result.problem.prior.sd[i],
+        result.sd_theta[i] if free else None,
         low,
         high,
         None if free else "at limit",
@@ -86,12 +86,12 @@ def alternatives(result: Result, options: Options) -> Iterator[Block]:
     columns += [Column(each, part) for each in titles for part in ("value", "sd")]
     values = [(result.revised.theta, result.sd_theta), *((each.theta, each.sd) for each in found.others)]
     rows: list[tuple[Cell, ...]] = [
-        (parameter.name, parameter.unit, *(float(part[i]) for pair in values for part in pair))
+        (parameter.name, parameter.unit, *(part[i] for pair in values for part in pair))
         for i, parameter in enumerate(result.problem.parameters)
     ]
     own = [found.share, *(each.share for each in found.others)]
     rows.append(("share of the posterior", "", *(cell for share in own for cell in (share, None))))
-    yield Table(tuple(columns), tuple(rows))
+    yield Table(tuple(columns), rows)
     yield Text(_deciding(result))
 
 
@@ -129,9 +129,7 @@ def before_after(result: Result, options: Options) -> Iterator[Block]:
     before, after = _hz(result.prior), _hz(result.revised)
     off_before, off_after = 100 * (before / test - 1), 100 * (after / test - 1)
     columns = (test, before, off_before, after, off_after, result.prior.mac, result.revised.mac)
-    rows = tuple(
-        (int(number), *(float(column[i]) for column in columns)) for i, number in enumerate(result.problem.test.number)
-    )
+    rows = tuple((number, *(column[i] for column in columns)) for i, number in enumerate(result.problem.test.number))
     yield Table(_SHORT if options.short else _BEFORE_AFTER_COLUMNS, rows).without_empty_columns()
     if np.isfinite(test).any() and options.short:
         rms = [f"{_root_mean_square(off):.3g} %" for off in (off_before, off_after)]
@@ -201,7 +199,7 @@ def _predicted(result: Result, test: ModalTest) -> tuple[tuple[int | float, ...]
         if j < len(hz):
             alike = float(mac(test.shapes[:, [i]], seen[:, [j]])[0, 0]) if test.s else float("nan")
             off = 100 * (hz[j] / test.frequency_hz[i] - 1)
-            rows.append((int(test.number[i]), float(test.frequency_hz[i]), float(hz[j]), float(off), alike))
+            rows.append((test.number[i], test.frequency_hz[i], hz[j], off, alike))
     return tuple(rows)
 
 

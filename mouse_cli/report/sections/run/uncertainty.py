@@ -69,7 +69,7 @@ def covariance(result: Result, options: Options) -> Iterator[Block]:
     flat = np.argpartition(-strength, most - 1, axis=None)[:most]
     pairs = sorted(zip(*np.unravel_index(flat, strength.shape), strict=True), key=lambda p: (-strength[p], p))
     columns = heads("<property | <property | correlation")
-    rows = tuple((labels[i], labels[j], float(correlation[i, j])) for i, j in pairs if strength[i, j] > 0)
+    rows = tuple((labels[i], labels[j], correlation[i, j]) for i, j in pairs if strength[i, j] > 0)
     if not rows:
         yield Text("The revised properties are not correlated.")
         return
