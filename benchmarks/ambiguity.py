@@ -163,14 +163,14 @@ def held(result: Result, truth: np.ndarray) -> np.ndarray:
 
 def timed(path: Path, search: bool) -> tuple[Result, float]:
     """The answer and its CPU seconds, with the search for other modes or without."""
-    sought = alternatives.sought
+    sought = alternatives.posterior_modes
     if not search:
-        alternatives.sought = lambda *given: []
+        alternatives.posterior_modes = lambda *given: []
     try:
         start = time.process_time()
         return run(read_deck(path)), time.process_time() - start
     finally:
-        alternatives.sought = sought
+        alternatives.posterior_modes = sought
 
 
 def of_command(path: Path) -> float:

@@ -219,7 +219,7 @@ MUTANTS = (
         ),
     ),
     *_of(
-        "nameless/_weighed.py",
+        "nameless/_averaged.py",
         _NAMELESS,
         field_sd_of_nothing=(
             "field.P, one.covariance[own, own], field.P",

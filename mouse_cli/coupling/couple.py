@@ -105,10 +105,7 @@ def synthesised(
 
     K, M, S = (block_diag(*(getattr(each, name) for each in reduced)) for name in ("K", "M", "boundary"))
     first = np.cumsum([0, *(len(at) for at in places)])
-
-    def motion(point) -> np.ndarray:
-        return S[first[point.substructure] + np.searchsorted(places[point.substructure], point.place)]
-
+    motion = lambda point: S[first[point.substructure] + np.searchsorted(places[point.substructure], point.place)]
     q = K.shape[0]
     B = np.array([motion(a) - motion(b) for a, b in coupling.interfaces]).reshape(len(coupling.interfaces), q)
     own = np.array([motion(one.at) - (motion(one.to) if one.to else 0.0) for one in coupling.connections])

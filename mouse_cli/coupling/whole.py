@@ -29,10 +29,7 @@ def rows(coupling: Coupling) -> Rows:
     parts = coupling.substructures
     weights = csr_array(block_diag([part.weights for part in parts], format="csr"))
     first = np.cumsum([0, *(len(part.places) for part in parts)])
-
-    def motion(point):
-        return weights[[first[point.substructure] + point.place]]
-
+    motion = lambda point: weights[[first[point.substructure] + point.place]]
     empty = csr_array((0, weights.shape[1]))
     between = [motion(a) - motion(b) for a, b in coupling.interfaces]
     own = [motion(one.at) - motion(one.to) if one.to else motion(one.at) for one in coupling.connections]
@@ -50,10 +47,7 @@ def added(connections: tuple[Connection, ...], b: Matrix, n: int) -> tuple[Matri
     stretch = [wide[[k]] - own[k] if k in own else wide[[k]] for k in range(len(connections))]
     moving = [own[k] if k in own else wide[[k]] for k in range(len(connections))]
     stretch, moving = (csr_array(vstack(each)) if each else csr_array((0, size)) for each in (stretch, moving))
-
-    def summed(motion, values):
-        return csr_array(motion.T @ (motion * np.asarray(values, float)[:, None]))
-
+    summed = lambda motion, values: csr_array(motion.T @ (motion * np.asarray(values, float)[:, None]))
     return (
         summed(stretch, [one.stiffness for one in connections]),
         summed(moving, [one.mass for one in connections]),

@@ -28,7 +28,7 @@ def manual() -> str:
         groups.setdefault(candidate.group, []).append(key)
     rows = [f"| {name} | {', '.join(f'[{key}](#{key})' for key in keys)} |" for name, keys in sorted(groups.items())]
     table = "\n".join(["| group | candidates |", "|---|---|", *rows])
-    named = [f"## {key}\n\n{_told(candidate)}" for key, candidate in members.items()]
+    named = [f"## {key}\n\n{_summary(candidate)}" for key, candidate in members.items()]
     return "\n\n".join([_HEAD, table, *named, _nameless()])
 
 
@@ -42,7 +42,7 @@ def _nameless() -> str:
 
 def about(candidate: Candidate | Law) -> str:
     """One candidate, or law of recordings, in plain text."""
-    return f"candidate {candidate.key}, group {candidate.group}\n\n{_told(candidate)}"
+    return f"candidate {candidate.key}, group {candidate.group}\n\n{_summary(candidate)}"
 
 
 def about_nameless(rival: Nameless) -> str:
@@ -55,7 +55,7 @@ def _meant(rival: Nameless) -> str:
     return f"{_sentence(rival)} Spreads (sd of the field): {spreads}. Property: {rival.property}."
 
 
-def _told(candidate: Candidate | Law) -> str:
+def _summary(candidate: Candidate | Law) -> str:
     return f"{_sentence(candidate)} Group: {candidate.group}."
 
 

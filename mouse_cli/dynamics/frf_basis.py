@@ -38,7 +38,7 @@ def frf_model(
     alive; a dense one needs none. Raises numpy.linalg.LinAlgError.
     """
     loads = Loads(sensings)
-    if dynamics.n <= WHOLE or (not is_sparse(dynamics.K) and solution is None) or _bare(solution):
+    if dynamics.n <= WHOLE or (not is_sparse(dynamics.K) and solution is None) or _without_space(solution):
         return FrfModel(dynamics.dense(), loads.full(dynamics.n), loads.columns)
     basis, levels = _Basis(dynamics, loads, solution, float(np.abs(checked).max())), _FIRST
     while True:
@@ -57,7 +57,7 @@ def galerkin(
 
     That is the relative error (k,) of poles s, of second order in what the basis lacks: r'A^-1 r / 2|s|^2 with r = Z psi.
     """
-    if dynamics.n <= WHOLE or _bare(solution) or (solution.space is None and not solution.complete):
+    if dynamics.n <= WHOLE or _without_space(solution) or (solution.space is None and not solution.complete):
         return None, dynamics.dense(), lambda s, shapes: np.zeros(len(s))
     top = float(np.sqrt(np.abs(solution.eigenvalues[-1])))
     basis = _Basis(dynamics, Loads((np.zeros(0, int),)), solution, top)
@@ -75,9 +75,9 @@ def galerkin(
     return basis.krylov.V, basis.model().matrices, residual
 
 
-def _bare(solution: EigenSolution | None) -> bool:
+def _without_space(solution: EigenSolution | None) -> bool:
     """Whether a sparse model came without the space that its basis grows from."""
-    return solution is not None and not solution.complete and (solution.space is None or not solution.space.alive)
+    return solution is not None and not solution.complete and (solution.space is None or not solution.space.current)
 
 
 @dataclass(frozen=True)
@@ -169,11 +169,11 @@ class _Basis:
         """One level more: A^-1 M of the newest vectors."""
         self.levels += 1
         if not self.complete:
-            self._weigh()
+            self._project_mass()
             newest, self._MV = self._MV[self._newest.start - self.krylov.d :], self._MV[:0]
             self._append(newest)
 
-    def _weigh(self) -> None:
+    def _project_mass(self) -> None:
         """V M V' of the vectors that are new, each multiplied by M once; the products with the newest are kept for a level more."""
         V, known = self.krylov.V, len(self._VMV)
         if known < len(V):
@@ -183,7 +183,7 @@ class _Basis:
 
     def model(self) -> FrfModel:
         """Galerkin's matrices."""
-        self._weigh()
+        self._project_mass()
         V, M = self.krylov.V, self._VMV
         K = np.eye(len(V)) + self.sigma * M
         C, D = (self._projected(name, K, M) for name in ("C", "D"))

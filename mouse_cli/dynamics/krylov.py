@@ -101,7 +101,7 @@ class Krylov:
         return self._T[self.reached : self.d, : self.reached]
 
     @property
-    def alive(self) -> bool:
+    def current(self) -> bool:
         """Whether its vectors are still those of the solution they belong to."""
         return self.operator is not None
 

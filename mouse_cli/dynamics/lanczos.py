@@ -16,7 +16,7 @@ class NotConverged(np.linalg.LinAlgError):
     """Lanczos did not find the modes wanted."""
 
 
-def room(n: int, count: int) -> int:
+def initial_vectors(n: int, count: int) -> int:
     """Vectors that memory is taken for at first: as many as `count` modes usually need."""
     return min(n, 5 * count + 6 * BLOCK)
 
@@ -45,7 +45,7 @@ def krylov_space(
 
     operator: A = K - sigma M positive definite. Raises NotConverged.
     """
-    space = Krylov(operator, room(operator.M.shape[0], count), workspace)
+    space = Krylov(operator, initial_vectors(operator.M.shape[0], count), workspace)
     space.start(start_block(space.n, known, 0))
     return refined(space, count, tolerance, notice)
 

@@ -65,7 +65,7 @@ def modal_partials(
     accuracy: relative error to be reached by a sparse model; None: about 1e-3, enough to iterate with, and not estimated.
     """
     space = solution.space
-    if space is not None and space.alive and 0 < sensing.shape[0] <= _FEW * len(solution.shapes):
+    if space is not None and space.current and 0 < sensing.shape[0] <= _FEW * len(solution.shapes):
         partials = ModalPartials(np.empty((len(modes) * (1 + sensing.shape[0]), pattern.properties)), len(modes))
         adjoint = Adjoint(solution, modes, sensing, pattern.stack)
         return replace(partials, error=adjoint.partials(partials.d_lambda, partials.d_shape, accuracy))

@@ -63,7 +63,7 @@ def _clearest(test: np.ndarray, sd: np.ndarray, model: np.ndarray) -> _Change | 
     now = _macs(test, model)
     noise = float(np.nansum(sd**2 / np.nansum(test**2, axis=0)))
     changes = sorted(_changes(test, model, now), key=lambda c: c.misfit + 0.1 * c.free * noise / max(N, 1))
-    changes = [c for c in changes if _speaks(c, now)]
+    changes = [c for c in changes if _supported(c, now)]
     if not changes:
         return None
     best, J = changes[0], float(np.sum(1 - now))
@@ -84,7 +84,7 @@ def _turned(best: _Change, changes: list[_Change]) -> _Change:
     return next((c for c in changes if c.kind == REVERSED and c.sensors == best.sensors), best)
 
 
-def _speaks(change: _Change, now: np.ndarray) -> bool:
+def _supported(change: _Change, now: np.ndarray) -> bool:
     """Whether at least two modes gain by the change and none loses."""
     gained = change.macs - now
     return bool(np.sum(gained > 0.1 * gained.max(initial=0.0)) >= 2 and gained.max() > 0 and gained.min() > -_WORSE)

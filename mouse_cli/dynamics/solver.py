@@ -10,7 +10,7 @@ from mouse_cli.dynamics.eigen import EigenSolution, IndefiniteError, dense_solut
 from mouse_cli.dynamics.factors import Analysis, Backend, Factor
 from mouse_cli.dynamics.known import improved, known
 from mouse_cli.dynamics.krylov import BLOCK, Krylov, Operator
-from mouse_cli.dynamics.lanczos import INFINITE, NotConverged, krylov_space, refined, room, start_block
+from mouse_cli.dynamics.lanczos import INFINITE, NotConverged, initial_vectors, krylov_space, refined, start_block
 from mouse_cli.dynamics.pencil import Pencil, without_zeros
 from mouse_cli.dynamics.shared_space import COLUMNS
 from mouse_cli.dynamics.workspace import Workspace
@@ -73,7 +73,7 @@ class EigenSolver:
 
     def _same(self, K: Matrix, M: Matrix, count: int, shift: float | None, tolerance: float) -> bool:
         """Whether the last solution, whose space lives still, is what is asked for."""
-        if self._asked is None or self._last.space is None or not self._last.space.alive:
+        if self._asked is None or self._last.space is None or not self._last.space.current:
             return False
         stiff, mass, *how = self._asked
         if count > how[0] or [shift, tolerance] != how[1:] or not self._pencil.fits(K, M):
@@ -126,7 +126,7 @@ class EigenSolver:
         if self._analysis is None:
             self._notice(f"ordering {A.shape[0]:,} degrees of freedom")
             self._analysis = Analysis(A, self._backend)
-            self._weigh(A, count)
+            self._report_memory(A, count)
         factor = self._factor(A)
         if factor.negative() != 0:  # Lanczos near the shift would not see what lies far below it
             raise IndefiniteError(f"the stiffness matrix has eigenvalues below {sigma:.6g} (rad/s)^2")
@@ -136,10 +136,10 @@ class EigenSolver:
         extended = self._pencil.shifted(K, M, sigma, np.longdouble) if refined else None
         return Operator(factor, without_zeros(M), noise, extended)
 
-    def _weigh(self, A: Matrix, count: int) -> None:
+    def _report_memory(self, A: Matrix, count: int) -> None:
         """Say how much memory it will take. Raises NumericalError when that is not there."""
         n, symbolic = A.shape[0], self._analysis.symbolic
-        vectors = 2 * room(n, count) + 3 * (self._sensors + BLOCK) + 4 * COLUMNS
+        vectors = 2 * initial_vectors(n, count) + 3 * (self._sensors + BLOCK) + 4 * COLUMNS
         self._memory = memory.needed(n, A.nnz, symbolic.memory_bytes, vectors)
         memory.check(self._memory, n)
 

@@ -35,7 +35,7 @@ def reject(code: str, path: str, message: str, help: str = "", span: Span | None
     raise DeckError.of(code, message, span or Span(path, 1), help=help)
 
 
-def room(
+def check_memory(
     path: str, needed: int, what: str = "the file", help: str = "divide the file, or take a machine with more"
 ) -> None:
     """Refuse (MD258) what would take more than half of the memory that there is, before any of it is taken.
@@ -122,7 +122,7 @@ def rows_of(package: str, path: str, what: str, nothing: str, help: str) -> Any:
 
 def text_lines(path: str, encoding: str = "latin-1", errors: str = "strict") -> list[str]:
     """Lines of a text file, without their ends; bytes beyond ASCII stand for themselves, for the reader to refuse."""
-    room(path, _LINES * os.path.getsize(path))
+    check_memory(path, _LINES * os.path.getsize(path))
     with open(path, encoding=encoding, errors=errors, newline=None) as stream:
         return stream.read().split("\n")
 
@@ -133,7 +133,7 @@ def existing(path: str) -> None:
         reject("MD250", path, "there is no such file", "check the name; paths are relative to the deck")
     if not os.path.isfile(path):
         reject("MD250", path, "this is not a file", "give the name of a file")
-    room(path, os.path.getsize(path))
+    check_memory(path, os.path.getsize(path))
 
 
 def _head(path: str) -> bytes:

@@ -119,7 +119,7 @@ def _selected(fit: Decays, kept: list[Track]) -> tuple[Decays, list[Track], list
             break
         r = int(doubtful[0])
         simpler = fitted(fit.records, fit.rate_hz, np.delete(fit.poles, r), fit)
-        rise, loud = simpler.chi2 - fit.chi2, _loud(fit, r)
+        rise, loud = simpler.chi2 - fit.chi2, _noise_factor(fit, r)
         if rise > least * loud and not (fault := _fault(fit, r)):
             settled.add(kept[r])
             continue
@@ -140,7 +140,7 @@ def _sizes(fit: Decays) -> np.ndarray:
     return found / -fit.poles.real
 
 
-def _loud(fit: Decays, r: int) -> float:
+def _noise_factor(fit: Decays, r: int) -> float:
     """Spectrum of what the fit leaves at the frequency of a pole, over that of white noise, at least 1."""
     worst = 1.0
     for left, spectrum in zip(fit.left, level(fit), strict=True):

@@ -183,10 +183,9 @@ def _elements(problem: Problem) -> list[list[int]]:
 def _shape(one: Moved, u: np.ndarray, readings: list[int | None]) -> dict[str, Any]:
     """The mode with its largest displacement 1; model and test as read by the sensors, at that scale."""
     size = float(np.linalg.norm(u, axis=1).max()) or 1.0
-
-    def of(values: np.ndarray) -> list[float | None]:
-        return [None if i is None or i >= len(values) else round(float(values[i]) / size, _DIGITS) for i in readings]
-
+    of = lambda values: [
+        None if i is None or i >= len(values) else round(float(values[i]) / size, _DIGITS) for i in readings
+    ]
     return {
         "mode": one.mode,
         "hz": one.hz,

@@ -34,7 +34,7 @@ _NEGLIGIBLE = 20.0  # J beyond that of the best by this: a share below 1e-4 of t
 _EVEN = 0.5  # standard deviations to all sides of a place at which the density must be lower, if it is a mode
 
 
-def sought(setting: Setting, state: State, estimator: Estimator) -> list[Laplace]:
+def posterior_modes(setting: Setting, state: State, estimator: Estimator) -> list[Laplace]:
     """All modes of the posterior that are found from `state`, the highest first; none where that is no mode of this posterior."""
     run, coordinates = setting.problem.run, setting.coordinates
     posed = run.recursion == "anchored" and estimator.uses_prior and estimator.weighted and setting.frf is None

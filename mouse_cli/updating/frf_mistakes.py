@@ -88,7 +88,7 @@ def _finding(problem: Problem, test: FrfTest, hz: np.ndarray, phi: np.ndarray) -
             if (large and rough < _ROUGH) or (near < _NEAR and (large or np.isfinite(left).sum() >= _MANY)):
                 found.append((rough, each))
         if found:
-            return _told(test, str(force), z, found, place)
+            return _reported(test, str(force), z, found, place)
     return None
 
 
@@ -99,7 +99,7 @@ def other_sign(problem: Problem) -> Diagnostic:
     return Diagnostic("MD456", ERROR, message, problem.place("frf"), help=help)
 
 
-def _told(test: FrfTest, force: str, z: np.ndarray, found: list[tuple[float, Reading]], place) -> Diagnostic:
+def _reported(test: FrfTest, force: str, z: np.ndarray, found: list[tuple[float, Reading]], place) -> Diagnostic:
     (_, first), *rest = sorted(found, key=lambda pair: pair[0])
     ratio = np.exp(np.nanmedian(z.real))
     message = (

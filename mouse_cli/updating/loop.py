@@ -82,7 +82,7 @@ def _run(trace: Trace, estimator: Estimator, search: bool) -> Result:
     if setting.frf is not None and setting.frf.observables and setting.problem.run.recursion == "anchored":
         trace.guess = frf_start(setting, trace.guess)
     status = RECURSIONS[setting.problem.run.recursion].recur(trace, estimator)
-    found = alternatives.sought(setting, trace.state, estimator) if search and not status.exit_code else []
+    found = alternatives.posterior_modes(setting, trace.state, estimator) if search and not status.exit_code else []
     if found and found[0].cost < laplace(setting, trace.state).cost - _HIGHER:  # it ended on a saddle, or a lower mode
         trace = Trace(setting, trace.test, trace.progress, start, guess=found[0].state.theta, enough=trace.enough)
         status = RECURSIONS[setting.problem.run.recursion].recur(trace, estimator)

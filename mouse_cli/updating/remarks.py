@@ -23,7 +23,7 @@ def remarks(result: Result) -> Iterator[Diagnostic]:
         return
     yield from _too_good(result)
     yield from _idle_mass(result)
-    yield from _silent(result)
+    yield from _insensitive(result)
     yield from _tied(result)
     yield from _limits(result)
     yield from _signs(result)
@@ -50,7 +50,7 @@ def _idle_mass(result: Result) -> Iterator[Diagnostic]:
         yield _remark("MD508", "the total mass is held, but no property moves a mass", help="leave fix_total_mass out")
 
 
-def _silent(result: Result) -> Iterator[Diagnostic]:
+def _insensitive(result: Result) -> Iterator[Diagnostic]:
     prior = result.problem.prior
     for i, parameter in enumerate(result.problem.parameters):
         before, after = prior.sd[i], result.sd_theta[i]

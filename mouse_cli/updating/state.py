@@ -152,7 +152,7 @@ class State:
         if not len(self.modes):
             return np.zeros((0, pattern.properties))
         at = observable.test.measured_at
-        if self.solution.space is not None and not self.solution.space.alive:
+        if self.solution.space is not None and not self.solution.space.current:
             self._solve_again()
         partials = modal_partials(self.solution, self.K, self.M, self.modes, at, pattern, accuracy)
         self.error = partials.error

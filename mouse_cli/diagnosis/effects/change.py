@@ -51,7 +51,7 @@ def residual(parts: list[Softening], bars: np.ndarray) -> np.ndarray | None:
     return found if found.any() else None
 
 
-def felt(lost: np.ndarray, residual: np.ndarray) -> np.ndarray:
+def effective_loss(lost: np.ndarray, residual: np.ndarray) -> np.ndarray:
     """What coordinates feel (..., 3, 3) of stiffness that bars lose, see `sites/residual.py`."""
     return lost @ np.linalg.inv(np.eye(3) + residual @ lost)
 
@@ -122,10 +122,7 @@ class Carried:
         """What a part of the degrees of freedom carries along, of a model of r coordinates."""
         own = [getattr(self, name)[:, which] for name in ("model", "whole", "K", "M")]
         at = np.concatenate([np.arange(r), r + np.array(which)])
-
-        def across(other: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-            return tuple(each[..., which] for each in self.across(other))
-
+        across = lambda other: tuple(each[..., which] for each in self.across(other))
         rows = at if self.own is None else self.own[at]
         return Carried(*own, self.deck, self.every, across, self.strain[..., which], rows, self.place)
 
@@ -262,10 +259,7 @@ def proportional(
     M: np.ndarray | None = None,
 ) -> Recipe:
     """A recipe in one unknown that adds K and M (r, r) in proportion to it; begun from `starts` values in its range."""
-
-    def change(values: np.ndarray) -> Change:
-        return Change(*(None if each is None else values[0] * each for each in (K, M)))
-
+    change = lambda values: Change(*(None if each is None else values[0] * each for each in (K, M)))
     where = (lambda values: site) if isinstance(site, Site) else site
     grid = steps(unknown, starts)[:, None]
     return Recipe(candidate, (unknown,), change, grid, where, log_prior=log_prior, extend=extend, linear=0)

@@ -50,7 +50,7 @@ def listed(model: Reduced) -> list[tuple[str, Entries, np.ndarray]]:
 
 def missing(model: Reduced, candidate) -> list[Recipe]:
     """K - d K_s and M - d M_s of each set that has both: a part that is missing, in part or as a whole, or thinner."""
-    found = [each for each in _sets(model) if None not in each[1:] and bears(model, each[1].own)]
+    found = [each for each in _sets(model) if None not in each[1:] and has_energy(model, each[1].own)]
     return [_missing(candidate, *each, len(found)) for each in found]
 
 
@@ -103,7 +103,7 @@ def _sets(model: Reduced) -> list[_Set]:
     return list(zip(model.problem.groups, *of_each, strict=True))
 
 
-def bears(model: Reduced, K: np.ndarray) -> bool:
+def has_energy(model: Reduced, K: np.ndarray) -> bool:
     """Whether a set holds a share of the energy of a measured mode."""
     count = model.low_modes()
     scale = np.maximum(model.eigenvalues[:count], 1e-9 * model.eigenvalues[-1])

@@ -68,9 +68,7 @@ def _under(model: Reduced, candidate: Candidate, name: str, Kg: np.ndarray, coun
         tall = f", as if storeys were {1 / values[0]:.3g} times as high as in the deck" if stacked else ""
         return Site("structure", text=f"the whole structure, downward {name}{tall}")
 
-    def extend(problem: Problem, values: np.ndarray) -> Problem:
-        return _with_gravity(problem, down, values[0])
-
+    extend = lambda problem, values: _with_gravity(problem, down, values[0])
     return proportional(candidate, factor, 3, site, -float(np.log(count)), extend, K=Kg)
 
 
@@ -90,9 +88,7 @@ def _chain(model: Reduced, candidate: Candidate) -> list[Recipe]:
         h = G / values[0]  # rigid storeys are h high, those whose columns bend between floors that do not turn 6/5 h
         return Site("structure", text=f"the whole structure, as if its storeys were {h:.3g} to {1.2 * h:.3g} m high")
 
-    def extend(problem: Problem, values: np.ndarray) -> Problem:
-        return with_entries(problem, found("gravity g / h", values[0], "1/s2"), K=entries)
-
+    extend = lambda problem, values: with_entries(problem, found("gravity g / h", values[0], "1/s2"), K=entries)
     return [proportional(candidate, a, 6, site, 0.0, extend, K=model.project(Kg))]
 
 

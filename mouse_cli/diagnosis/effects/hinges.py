@@ -60,16 +60,9 @@ def places(
     for line in chosen:
         where = Unknown(PLACE, "m", 0.0, line.length, log=False)
         at = line.starts(_STARTS, line.length / total)
-
-        def change(values: np.ndarray, line=line) -> Change:
-            return does(*line.at(values[-1]), values[:-1])
-
-        def site(values: np.ndarray, line=line):
-            return line.site(values[-1])
-
-        def extended(problem: Problem, values: np.ndarray, line=line) -> Problem:
-            return extend(problem, *line.at(values[-1]), values[:-1])
-
+        change = lambda values, line=line: does(*line.at(values[-1]), values[:-1])
+        site = lambda values, line=line: line.site(values[-1])
+        extended = lambda problem, values, line=line: extend(problem, *line.at(values[-1]), values[:-1])
         prior = float(np.log(line.length / total))
         grid = product(*starts.T, at) if starts.ndim > 1 else product(starts, at)
         recipe = Recipe(candidate, (*sizes, where), change, grid, site, log_prior=prior, extend=extended)

@@ -35,7 +35,7 @@ def uniform(bars: Bars, bar: int, share: float = 1.0, seen: Seen = motions) -> n
     return u.reshape(-1, u.shape[2]).T @ weighed.reshape(-1, u.shape[2])
 
 
-class Wet:
+class LineIntegral:
     """One unit per length, of mass or of what else feels the motion `seen`, on a row of bars, from its beginning to any place s."""
 
     def __init__(self, run: Line, seen: Seen = motions):

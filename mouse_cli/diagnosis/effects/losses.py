@@ -44,10 +44,10 @@ def loosened(model: Reduced) -> np.ndarray:
         return np.zeros((0, model.r))
     at = [int(np.argmax(K.diagonal())) for K in parts]
     b = np.array([K[i] / np.sqrt(max(K[i, i], 1e-300)) for i, K in zip(at, parts, strict=True)])
-    return telling(model, b)[:_FEW]
+    return by_effect(model, b)[:_FEW]
 
 
-def telling(model: Reduced, b: np.ndarray, least: float = 0.0) -> np.ndarray:
+def by_effect(model: Reduced, b: np.ndarray, least: float = 0.0) -> np.ndarray:
     """Those b (c, r) first, of stiffnesses b b', whose loss tells most; only such as change an eigenvalue by that share."""
     count = model.low_modes()
     share = b**2 / np.maximum(model.eigenvalues, 1e-9 * model.eigenvalues[-1])

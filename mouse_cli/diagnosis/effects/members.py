@@ -9,7 +9,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.effects.element_sets import missing
-from mouse_cli.diagnosis.effects.losses import LOST, matrices_of, telling
+from mouse_cli.diagnosis.effects.losses import LOST, by_effect, matrices_of
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
@@ -66,7 +66,7 @@ def _beyond(model: Reduced, member: Member, parts: dict[int, Part], sign: int) -
         return None
     left = given.left(u, model.eigenvalues, model.static.shift)
     scale = float(np.einsum("eii->", K) / np.einsum("eii->", given.K))
-    return lambda share: scale * left.felt(sign * share)
+    return lambda share: scale * left.correction(sign * share)
 
 
 def stretching(model: Reduced) -> np.ndarray:
@@ -75,9 +75,9 @@ def stretching(model: Reduced) -> np.ndarray:
         return np.zeros((0, model.r))
     parts: dict[int, Part] = {}
     alone = [member for member in members(model.problem.mesh) if member.kind == ONE]
-    return telling(model, np.array([_stretch(model, member, parts) for member in alone]).reshape(-1, model.r), _TELLS)[
-        :_FEW
-    ]
+    return by_effect(
+        model, np.array([_stretch(model, member, parts) for member in alone]).reshape(-1, model.r), _TELLS
+    )[:_FEW]
 
 
 def _stretch(model: Reduced, member: Member, parts: dict[int, Part]) -> np.ndarray:

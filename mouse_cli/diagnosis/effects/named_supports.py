@@ -20,7 +20,6 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.geometry import DIRECTIONS, rigid_motions
 from mouse_cli.model.held import Support
-from mouse_cli.model.problem import Problem
 
 _MOST = 24  # supports
 _FLEXIBLE = 48  # degrees of freedom up to which a support follows the structure as it deforms
@@ -132,9 +131,9 @@ def _recipe(
         with_springs[r:, r:] += values[0] * own.bed
         return Change(with_springs, M[own_rows], sensing)
 
-    def extend(problem: Problem, values: np.ndarray) -> Problem:
-        return with_motions(problem, own.support.name, own.pattern, own.labels, own.bed, values[0], unit)
-
+    extend = lambda problem, values: with_motions(
+        problem, own.support.name, own.pattern, own.labels, own.bed, values[0], unit
+    )
     return Recipe(
         candidate,
         (k,),

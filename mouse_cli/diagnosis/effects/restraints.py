@@ -15,7 +15,6 @@ from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.attached import flexibility
 from mouse_cli.model.mesh import Mesh
-from mouse_cli.model.problem import Problem
 
 _TURNED = 0.02  # share of the largest turn of a support in a measured mode below which one takes no part
 _MOST = 48  # supports that are looked at: those that turn most
@@ -84,13 +83,8 @@ def _recipe(model: Reduced, candidate: Candidate, found: Turns, sets: list[list[
     rows, R = found.rows[which], found.residual[np.ix_(which, which)]
     number = np.repeat(np.arange(len(sets)), [len(own) for own in sets])
     site = support_site(model.problem, [found.free[i] for i in which])
-
-    def change(values: np.ndarray) -> Change:
-        return Change(K=rows.T @ np.linalg.solve(np.diag(1 / values[number]) + R, rows))
-
-    def extend(problem: Problem, values: np.ndarray) -> Problem:
-        return sprung(problem, model.problem, turned, values, "N m/rad", released=False)
-
+    change = lambda values: Change(K=rows.T @ np.linalg.solve(np.diag(1 / values[number]) + R, rows))
+    extend = lambda problem, values: sprung(problem, model.problem, turned, values, "N m/rad", released=False)
     grid = product(*(steps(each, 6 if len(sets) == 1 else 4) for each in k))
     return Recipe(candidate, tuple(k), change, grid, lambda values: site, log_prior=share, extend=extend)
 

@@ -19,7 +19,6 @@ from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bases import Axis, Base, axes, base, loaded
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.geometry import DIRECTIONS
-from mouse_cli.model.problem import Problem
 
 _SOFT, _SOFTER, _STIFF = 0.8, 0.03, 200.0  # times what gives the rigid structure on it the lowest measured frequency
 _STARTS = (
@@ -73,10 +72,7 @@ def _turned(model: Reduced, candidate: Candidate, axis: Axis) -> Recipe:
     site = Site("node", (number,), position, f"the base at node {number}, {direction}")
     one = np.zeros(K.shape)
     one[r, r] = 1.0
-
-    def extend(problem: Problem, values: np.ndarray) -> Problem:
-        return on_joints(problem, axis, number, values)
-
+    extend = lambda problem, values: on_joints(problem, axis, number, values)
     return Recipe(
         candidate,
         (k, J),
@@ -128,12 +124,7 @@ def _block(model: Reduced, candidate: Candidate, found: Base, directions: list[i
     site = Site(
         "node", found.numbers, found.centre, f"the foundation of all supports as one body, {' and '.join(names)}"
     )
-
-    def change(values: np.ndarray) -> Change:
-        return moved.on_springs(values)
-
-    def extend(problem: Problem, values: np.ndarray) -> Problem:
-        return joined(problem, found, directions, values)
-
+    change = lambda values: moved.on_springs(values)
+    extend = lambda problem, values: joined(problem, found, directions, values)
     grid = product(*(steps(each, 6 if len(k) == 1 else 4) for each in k))
     return Recipe(candidate, tuple(k), change, grid, lambda values: site, len(k), extend=extend, carried=moved.carried)

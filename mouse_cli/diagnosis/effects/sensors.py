@@ -21,7 +21,7 @@ _SHIFT = 1e-3  # of a row of bars, for derivatives along it
 _MOST = 24  # sensors that are suspected: those that fit worst
 
 
-def suspects(model: Reduced, most: int = _MOST) -> list[int]:
+def worst_sensors(model: Reduced, most: int = _MOST) -> list[int]:
     """Sensors (from 0) whose shapes the model misses most, the worst first; those of fewer than two modes tell nothing."""
     data = model.data
     at = Model(model).point(model.z)
@@ -130,7 +130,7 @@ def row(problem: Problem, k: int) -> np.ndarray:
     return weights.toarray()[0] if is_sparse(weights) else weights[0]
 
 
-def standing(model: Reduced, k: int) -> tuple[Line, float, np.ndarray] | None:
+def row_of_sensor(model: Reduced, k: int) -> tuple[Line, float, np.ndarray] | None:
     """The row of bars, the distance along it and the direction (3,) of what a sensor reads."""
     at, bars, weights = model.problem.structure.geometry, model.bars, row(model.problem, k)
     node = int(at.node[model.problem.test.dofs[k]])
@@ -153,7 +153,7 @@ def sliding(model: Reduced) -> np.ndarray:
     """What sensors would read (s, r) of the motion along their rows of bars, for a shift by a whole row; else 0."""
     found = np.zeros(model.sensing.shape)
     for k in range(len(found)) if model.bars is not None else ():
-        on = standing(model, k)
+        on = row_of_sensor(model, k)
         if on is not None:
             run, s, direction = on
             first, last = np.clip([s - _SHIFT * run.length, s + _SHIFT * run.length], 0.0, run.length)

@@ -69,13 +69,8 @@ def sheared(model: Reduced, candidate: Any, turning: bool) -> list[Recipe]:
     if not slender(model):
         return []
     ratio = Unknown("E / (kappa G)", "1", *shear_range(model.bars))
-
-    def change(values: np.ndarray) -> Change:
-        return shear(model, values[0], turning)
-
-    def extend(problem: Problem, values: np.ndarray) -> Problem:
-        return with_shear(problem, values[0], turning)
-
+    change = lambda values: shear(model, values[0], turning)
+    extend = lambda problem, values: with_shear(problem, values[0], turning)
     return [Recipe(candidate, (ratio,), change, steps(ratio, 8)[:, None], extend=extend)]
 
 

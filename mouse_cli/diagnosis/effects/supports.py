@@ -5,7 +5,7 @@ from itertools import combinations
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product, steps
+from mouse_cli.diagnosis.effects.change import Recipe, Unknown, product, steps
 from mouse_cli.diagnosis.effects.named_supports import named
 from mouse_cli.diagnosis.effects.released import (
     SOFTEST,
@@ -21,7 +21,6 @@ from mouse_cli.diagnosis.effects.support_sets import by_direction, sprung, stiff
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.model.geometry import DIRECTIONS
-from mouse_cli.model.problem import Problem
 
 _LOADED = 0.02  # share of the largest reaction of its kind below which a support is not loaded
 _MOST = 48  # supports that are looked at: those that bear most
@@ -120,13 +119,8 @@ def _recipe(
     moved = found.moved.part(which, model.r)
     number = np.repeat(np.arange(len(sets)), [len(own) for own in sets])
     site = support_site(model.problem, [found.held[i] for i in which], len(which) > len(sets))
-
-    def change(values: np.ndarray) -> Change:
-        return moved.on_springs(values[number])
-
-    def extend(problem: Problem, values: np.ndarray) -> Problem:
-        return sprung(problem, model.problem, held, values, unit, released=True)
-
+    change = lambda values: moved.on_springs(values[number])
+    extend = lambda problem, values: sprung(problem, model.problem, held, values, unit, released=True)
     return Recipe(
         candidate,
         tuple(k),

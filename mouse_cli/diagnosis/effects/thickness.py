@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
-from mouse_cli.diagnosis.effects.element_sets import bears, text
+from mouse_cli.diagnosis.effects.element_sets import has_energy, text
 from mouse_cli.diagnosis.extend.matrices import Entries, with_powers
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.sets import sets_in, within
@@ -47,7 +47,7 @@ def of_shells(model: Reduced, candidate, sign: int = -1) -> list[Recipe]:
     if not known:
         return []
     of = [_projected(model, name) for name in "KM"]
-    found = [i for i in known if of[0][i].own and bears(model, -of[0][i].moved(0.0))]
+    found = [i for i in known if of[0][i].own and has_energy(model, -of[0][i].moved(0.0))]
     return [_recipe(candidate, model.problem.groups[i], of[0][i], of[1][i], len(found), sign) for i in found]
 
 

@@ -69,7 +69,7 @@ def _recipe(model: Reduced, candidate: Candidate, member: Member, parts: dict[in
     given = loaded(model.static, ("turned", member.elements), nodes, K)
     added = summed(member, parts, 1)
     if given is not None:
-        added = added + given.left(u, model.eigenvalues, model.static.shift).felt(1.0)
+        added = added + given.left(u, model.eigenvalues, model.static.shift).correction(1.0)
     change = Change(added, summed(member, parts, 2))
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:

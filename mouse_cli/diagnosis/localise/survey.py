@@ -46,12 +46,14 @@ def survey(model: Reduced, K: Matrix, count: int) -> np.ndarray:
             starts.append(tried.z[order[0]])
         if not starts:
             break
-    weak = _felt(model, update, count // 4)
+    weak = _most_sensitive(model, update, count // 4)
     joined = np.concatenate([found[: count - len(weak)], weak, found[count - len(weak) :]])
     joined = joined[np.sort(np.unique(joined, return_index=True)[1])]
     if not solid:
         return joined[:count]
-    joined = np.concatenate([joined, np.setdiff1d(_felt(model, update, 2 * count), joined, assume_unique=True)])
+    joined = np.concatenate(
+        [joined, np.setdiff1d(_most_sensitive(model, update, 2 * count), joined, assume_unique=True)]
+    )
     effect = _effects(update, model.V[joined] @ update.point.X)[0]
     effect /= np.maximum(np.linalg.norm(effect, axis=0), 1e-300)
     return joined[_first(effect.T @ effect > _ONE)][:count]
@@ -66,7 +68,7 @@ def _first(alike: np.ndarray) -> np.ndarray:
     return np.flatnonzero(free)
 
 
-def _felt(model: Reduced, update: Fit, count: int) -> np.ndarray:
+def _most_sensitive(model: Reduced, update: Fit, count: int) -> np.ndarray:
     """The `count` degrees of freedom where a little spring or mass lowers the misfit most, no two that do the same to the data.
 
     To first order, the deck's parameters following: (g'r)^2 / (g'g - g'T (T'T + I)^-1 T'g) for derivatives g of the data. Shapes
@@ -129,10 +131,7 @@ def _look(model, measured, update: Fit, z: np.ndarray, scale: float, pairs, coun
     own = [_whitening(update, mode, measured.weight[:, i], scale) for i, mode in enumerate(measured.modes)]
     matcher = Matcher(model, measured, z, own)
     one, other = pairs
-
-    def left(rows: np.ndarray) -> np.ndarray:
-        return sum(matcher.nearest(i, rows)[1] for i in modes)
-
+    left = lambda rows: sum(matcher.nearest(i, rows)[1] for i in modes)
     misfit = np.concatenate([left(model.V[i : i + _EACH] @ matcher.X) for i in range(0, len(model.V), _EACH)])
     near = np.minimum(misfit[one], misfit[other])
     kept = np.argsort(near, kind="stable")[

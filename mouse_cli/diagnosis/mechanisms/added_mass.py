@@ -4,7 +4,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product, steps
 from mouse_cli.diagnosis.effects.element_sets import heavier
-from mouse_cli.diagnosis.effects.line_mass import Wet
+from mouse_cli.diagnosis.effects.line_mass import LineIntegral
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.places import beams_within, every_beam, split
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
@@ -30,7 +30,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     bars = model.bars
     mean = float(np.average(bars.line_mass, weights=bars.length)) or 1.0
     m = Unknown("mass per length", "kg/m", 1e-3 * mean, _HEAVIEST * mean)
-    wet = {i: Wet(run) for i, run in enumerate(found)}
+    wet = {i: LineIntegral(run) for i, run in enumerate(found)}
     total = sum(part.sums[-1] for part in wet.values())
     ids = tuple(sorted({int(bars.ids[i]) for run in found for i in run.members}))
     known = len(set(bars.ids.tolist())) - len(ids)
@@ -55,7 +55,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     return [everywhere, *partly, *(_between(candidate, found[i], part, m, both) for i, part in ended)]
 
 
-def _partly(candidate: Candidate, run: Line, wet: Wet, m: Unknown, back: bool, share: float) -> Recipe:
+def _partly(candidate: Candidate, run: Line, wet: LineIntegral, m: Unknown, back: bool, share: float) -> Recipe:
     """Over a part of a row, from its beginning or (`back`) from its end."""
     covered = Unknown("covered share of the length", "1", _SHORTEST, 0.95, log=False)
     L = run.length
@@ -64,8 +64,7 @@ def _partly(candidate: Candidate, run: Line, wet: Wet, m: Unknown, back: bool, s
         s = L * (1 - values[1] if back else values[1])
         return Change(M=values[0] * wet.part(s, back))
 
-    def site(values: np.ndarray) -> Site:
-        return from_end(run, values[1], back)
+    site = lambda values: from_end(run, values[1], back)
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         s = L * (1 - values[1] if back else values[1])
@@ -79,7 +78,7 @@ def _partly(candidate: Candidate, run: Line, wet: Wet, m: Unknown, back: bool, s
     return Recipe(candidate, (m, covered), change, grid, site, 0, prior, extend, limit=limit, linear=0)
 
 
-def _between(candidate: Candidate, run: Line, wet: Wet, m: Unknown, share: float) -> Recipe:
+def _between(candidate: Candidate, run: Line, wet: LineIntegral, m: Unknown, share: float) -> Recipe:
     """Over a row between any two places."""
     interval = Interval(run)
 

@@ -63,13 +63,8 @@ def _recipe(
 ) -> Recipe:
     """keys (s, 3): springs of one stiffness. along: b (s, r), and R (s, s), see `Pairs.left`."""
     b, R = along
-
-    def change(values: np.ndarray) -> Change:
-        return Change(K=b.T @ np.linalg.solve(np.eye(len(b)) / values[0] + R, b))
-
-    def extend(problem: Problem, values: np.ndarray) -> Problem:
-        return _with_springs(problem, keys, site, values[0])
-
+    change = lambda values: Change(K=b.T @ np.linalg.solve(np.eye(len(b)) / values[0] + R, b))
+    extend = lambda problem, values: _with_springs(problem, keys, site, values[0])
     return Recipe(
         candidate, (k,), change, steps(k, _SIZES)[:, None], lambda values: site, log_prior=log_prior, extend=extend
     )

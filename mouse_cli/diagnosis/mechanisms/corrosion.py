@@ -3,7 +3,7 @@
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Softening, Unknown, product, steps
-from mouse_cli.diagnosis.effects.line_mass import Wet, motions
+from mouse_cli.diagnosis.effects.line_mass import LineIntegral, motions
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
@@ -34,7 +34,7 @@ def _weight(run: Line) -> np.ndarray:
 
 def _recipe(candidate: Candidate, run: Line, share: float) -> Recipe:
     interval, root = Interval(run), dict(zip(run.members.tolist(), np.sqrt(_weight(run)).tolist(), strict=True))
-    mass = Wet(run, lambda bars, bar: root[bar] * motions(bars, bar))
+    mass = LineIntegral(run, lambda bars, bar: root[bar] * motions(bars, bar))
 
     def change(values: np.ndarray) -> Change:
         ends = interval.ends(*values[1:])

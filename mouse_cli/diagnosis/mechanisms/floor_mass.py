@@ -3,7 +3,7 @@
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Recipe, Unknown, proportional
-from mouse_cli.diagnosis.effects.line_mass import Wet
+from mouse_cli.diagnosis.effects.line_mass import LineIntegral
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.places import beams_within
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
@@ -23,7 +23,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     if len(found) < 2 or any(b.property == "nonstructural_mass" for b in model.problem.bindings):
         return []
     parts = _parts(model, found)
-    sums = {i: Wet(found[i]).sums[-1] for i in sorted({i for own in parts.values() for i in own})}
+    sums = {i: LineIntegral(found[i]).sums[-1] for i in sorted({i for own in parts.values() for i in own})}
     return [_recipe(model, candidate, name, [found[i] for i in own], sum(sums[i] for i in own), len(parts))
             for name, own in list(parts.items())[:_MOST]]  # fmt: skip
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product, proportional, steps
 from mouse_cli.diagnosis.effects.hinges import lines
-from mouse_cli.diagnosis.effects.line_mass import Wet, across, deflections
+from mouse_cli.diagnosis.effects.line_mass import LineIntegral, across, deflections
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.places import beams_within, split
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
@@ -53,10 +53,9 @@ def _recipe(model: Reduced, candidate: Candidate, some: list, planes: tuple[int,
     k = _stiffness(bars, max(line.length for line in some))
     ids = tuple(np.unique(bars.ids[members]).tolist())
     site = Site("element", ids, None, f"{elements(ids)}, local {' and '.join('yz'[p] for p in planes)}")
-
-    def extend(problem: Problem, values: np.ndarray) -> Problem:
-        return _with_bed(Edit(problem), [line.ends for line in some], planes, values[0], elements(ids))
-
+    extend = lambda problem, values: _with_bed(
+        Edit(problem), [line.ends for line in some], planes, values[0], elements(ids)
+    )
     return proportional(candidate, k, 6, site, log_prior, extend, K=K)
 
 
@@ -65,13 +64,9 @@ def _partly(candidate: Candidate, line: Line, planes: tuple[int, ...], back: boo
     k = _stiffness(line.bars, line.length)
     covered = Unknown("covered share of the length", "1", 0.05, 0.95, log=False)
     L = line.length
-    bed = Wet(line, across if len(planes) > 1 else deflections)
-
-    def edge(values: np.ndarray) -> float:
-        return L * (1 - values[1] if back else values[1])
-
-    def site(values: np.ndarray) -> Site:
-        return from_end(line, values[1], back, f", local {' and '.join('yz'[p] for p in planes)}")
+    bed = LineIntegral(line, across if len(planes) > 1 else deflections)
+    edge = lambda values: L * (1 - values[1] if back else values[1])
+    site = lambda values: from_end(line, values[1], back, f", local {' and '.join('yz'[p] for p in planes)}")
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         edit, middle = Edit(problem), np.array(line.bars.point(*line.at(edge(values))))
@@ -94,10 +89,8 @@ def _partly(candidate: Candidate, line: Line, planes: tuple[int, ...], back: boo
 def _between(candidate: Candidate, line: Line, planes: tuple[int, ...], log_prior: float) -> Recipe:
     """Between any two places of a line."""
     k, interval = _stiffness(line.bars, line.length), Interval(line)
-    bed = Wet(line, across if len(planes) > 1 else deflections)
-
-    def site(values: np.ndarray) -> Site:
-        return interval.site(*values[1:], f", local {' and '.join('yz'[p] for p in planes)}")
+    bed = LineIntegral(line, across if len(planes) > 1 else deflections)
+    site = lambda values: interval.site(*values[1:], f", local {' and '.join('yz'[p] for p in planes)}")
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         edit, ends = Edit(problem), interval.points(*values[1:])

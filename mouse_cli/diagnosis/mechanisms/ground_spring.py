@@ -25,10 +25,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """K + k B'B, B the motion of a place in one direction, or in all that the deck keeps."""
     scale = lowest(model) * total_mass(model)
     k = Unknown("stiffness", "N/m", 1e-3 * scale, 1e3 * scale)
-
-    def change(sizes: np.ndarray, B: np.ndarray) -> Change:
-        return Change(K=sizes[0] * B.T @ B)
-
+    change = lambda sizes, B: Change(K=sizes[0] * B.T @ B)
     one, alike = directions(model), list(_alike(model))
     share = np.log([1 - _ALIKE, _ALIKE] if alike else [1.0, 1.0])
     found = zip(share.tolist(), (one, alike), (with_spring, _with_springs), strict=True)

@@ -45,9 +45,7 @@ def _recipe(model: Reduced, candidate: Candidate, chosen: list[tuple[int, int, i
     extended = bool(turning.any())  # else nothing in the model turns
     ids = tuple(int(model.problem.mesh.elements[s].ids[i]) for s, i, _ in chosen)
     named = f"item{'s' if len(ids) > 1 else ''} {', '.join(map(str, ids))}"
-
-    def change(values: np.ndarray) -> Change:
-        return Change(M=values[0] * (straight + values[1] ** 2 * turning if extended else straight))
+    change = lambda values: Change(M=values[0] * (straight + values[1] ** 2 * turning if extended else straight))
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         edit = Edit(problem)

@@ -101,10 +101,7 @@ def _root(model: Reduced, line: Line) -> Callable[[np.ndarray], str]:
     held = {node for node, direction in model.problem.mesh.supports.tolist() if direction >= 3}
     nodes = model.bars.nodes[line.members[[0, -1]], [0, 1]].tolist()
     ends = [s for s, node in zip((0.0, line.length), nodes, strict=True) if node in held]
-
-    def limit(values: np.ndarray) -> str:
-        return "support" if any(abs(values[-1] - s) < _ROOT * line.length for s in ends) else ""
-
+    limit = lambda values: "support" if any(abs(values[-1] - s) < _ROOT * line.length for s in ends) else ""
     return limit
 
 

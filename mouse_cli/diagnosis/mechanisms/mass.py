@@ -1,7 +1,5 @@
 """A mass at one place of the structure."""
 
-import numpy as np
-
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown
 from mouse_cli.diagnosis.extend.points import with_mass
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
@@ -16,10 +14,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """M + m B'B, B the translations of a place."""
     total = total_mass(model)
     m = Unknown("mass", "kg", *(BODY * total))
-
-    def change(sizes: np.ndarray, B: np.ndarray) -> Change:
-        return Change(M=sizes[0] * B.T @ B)
-
+    change = lambda sizes, B: Change(M=sizes[0] * B.T @ B)
     return sized(candidate, all_motions(model), m, _STARTS, change, with_mass)
 
 

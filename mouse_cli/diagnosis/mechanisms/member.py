@@ -1,16 +1,11 @@
-"""A member that is softer as a whole: a beam, a row of them, or all of one section."""
+"""A member that is softer as a whole: a beam, a row of them, or all of one section.
 
-from mouse_cli.diagnosis.effects.change import Recipe
+K - d K_e of all elements of a member, with M - d M_e of its section or without.
+"""
+
 from mouse_cli.diagnosis.effects.members import of_members
-from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.reasons import members
-
-
-def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """K - d K_e of all elements of a member, with M - d M_e of its section or without."""
-    return of_members(model, candidate)
-
 
 CANDIDATE = Candidate(
     "member",
@@ -18,6 +13,6 @@ CANDIDATE = Candidate(
     "local-stiffness",
     "a beam, a straight row of beams or rods, or all members of one section that are softer as a whole than modelled, all "
     "of A, Iy, Iz and J by one factor, alone or with the mass of the section: a wrong section, corrosion, a member that is missing",
-    recipes,
+    of_members,
     members,
 )

@@ -49,13 +49,8 @@ def _recipe(model: Reduced, candidate: Candidate, run: Line, axis: int, count: i
     across = bars.across[twins[:, axis]]
     before, where = _mass(bars, twins, axis, 0.0), site_of(model, run)
     site = Site(where.kind, where.ids, None, f"{where.text}, along local {'yz'[axis]}")
-
-    def change(values: np.ndarray) -> Change:
-        return Change(M=_mass(bars, twins, axis, values[0]) - before)
-
-    def extend(problem: Problem, values: np.ndarray) -> Problem:
-        return _beside(problem, run, values[0] * across[0])
-
+    change = lambda values: Change(M=_mass(bars, twins, axis, values[0]) - before)
+    extend = lambda problem, values: _beside(problem, run, values[0] * across[0])
     grid = _WIDE * radius * np.array([[-0.5], [-0.15], [0.15], [0.5]])
     return Recipe(candidate, (e,), change, grid, lambda values: site, 0, -float(np.log(count)), extend)
 

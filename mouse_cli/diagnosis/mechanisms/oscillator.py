@@ -9,8 +9,7 @@ from mouse_cli.diagnosis.extend.points import with_oscillator
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import BODY, highest, lowest, total_mass
 from mouse_cli.diagnosis.mechanisms import Candidate
-from mouse_cli.diagnosis.sites.points import Points, directions, placed
-from mouse_cli.model.problem import Problem
+from mouse_cli.diagnosis.sites.points import directions, placed
 
 _PLACES = 6  # about so many of those on a line to begin from: there are many sizes for each
 
@@ -30,8 +29,9 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
         M[-1, -1] = sizes[0]
         return Change(sizes[0] * (2 * np.pi * sizes[1]) ** 2 * np.outer(arm, arm), M)
 
-    def extend(problem: Problem, point: Points, place: np.ndarray, mass: float, hz: float) -> Problem:
-        return with_oscillator(problem, point, place, mass, mass * (2 * np.pi * hz) ** 2)
+    extend = lambda problem, point, place, mass, hz: with_oscillator(
+        problem, point, place, mass, mass * (2 * np.pi * hz) ** 2
+    )
 
     def limit(values: np.ndarray) -> str:
         """So stiff a mount that it follows the structure makes it a mass; so soft a one that it stands still, a ground spring."""

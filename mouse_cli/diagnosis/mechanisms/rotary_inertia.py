@@ -1,14 +1,11 @@
 """The inertia of sections that turn, after Rayleigh."""
 
-import numpy as np
-
 from mouse_cli.diagnosis.effects.change import Recipe, Unknown, proportional
 from mouse_cli.diagnosis.effects.shearing import rotary, slender, with_rotary
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.reasons import bars
 from mouse_cli.model.diagnosis import EVERYWHERE
-from mouse_cli.model.problem import Problem
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
@@ -16,10 +13,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     if not slender(model):
         return []
     factor = Unknown("times density I of the section", "1", 0.5, 30.0)
-
-    def extend(problem: Problem, values: np.ndarray) -> Problem:
-        return with_rotary(problem, values[0])
-
+    extend = lambda problem, values: with_rotary(problem, values[0])
     return [proportional(candidate, factor, 4, EVERYWHERE, 0.0, extend, M=rotary(model))]
 
 

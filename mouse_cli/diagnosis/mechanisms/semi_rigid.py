@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, steps
+from mouse_cli.diagnosis.effects.change import Recipe, steps
 from mouse_cli.diagnosis.effects.connections import turned, with_joints
 from mouse_cli.diagnosis.effects.hinges import joint_stiffness
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
@@ -10,7 +10,6 @@ from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites import reasons
 from mouse_cli.diagnosis.sites.connections import Connections, connections
 from mouse_cli.model.diagnosis import Site
-from mouse_cli.model.problem import Problem
 
 _STARTS = 6  # stiffnesses to begin from
 _ALL = 0.5  # prior probability that it is all joints, where there are kinds of them
@@ -31,13 +30,8 @@ def _recipe(model: Reduced, candidate: Candidate, found: Connections, log_prior:
     site = Site(
         "node", nodes, None, f"{found.text}, {len(own)} ends of bars at nodes {', '.join(map(str, nodes))}, all alike"
     )
-
-    def change(values: np.ndarray) -> Change:
-        return turned(every, own, values[0])
-
-    def extend(problem: Problem, values: np.ndarray) -> Problem:
-        return with_joints(problem, every, own, f"stiffness of {found.text}", values[0])
-
+    change = lambda values: turned(every, own, values[0])
+    extend = lambda problem, values: with_joints(problem, every, own, f"stiffness of {found.text}", values[0])
     grid = steps(k, _STARTS)[:, None]
     return Recipe(candidate, (k,), change, grid, lambda values: site, log_prior=log_prior, extend=extend)
 

@@ -3,27 +3,21 @@
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown
-from mouse_cli.diagnosis.effects.sensors import changed, regressed, row, share, site, suspects, with_readings
+from mouse_cli.diagnosis.effects.sensors import changed, regressed, row, share, site, with_readings, worst_sensors
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
-from mouse_cli.model.problem import Problem
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """y_s -> g y_s for each sensor s, in all modes."""
-    return [_recipe(model, candidate, k) for k in suspects(model)]
+    return [_recipe(model, candidate, k) for k in worst_sensors(model)]
 
 
 def _recipe(model: Reduced, candidate: Candidate, k: int) -> Recipe:
     gain = Unknown("gain", "1", 0.05, 20.0)  # as of units that are confused, 9.81
     where, start = site(model.problem, k), np.array([[regressed(model, k, (gain.lower, gain.upper))]])
-
-    def change(values: np.ndarray) -> Change:
-        return Change(sensing=changed(model, {k: values[0] * model.sensing[k]}))
-
-    def extend(problem: Problem, values: np.ndarray) -> Problem:
-        return with_readings(problem, {k: values[0] * row(problem, k)})
-
+    change = lambda values: Change(sensing=changed(model, {k: values[0] * model.sensing[k]}))
+    extend = lambda problem, values: with_readings(problem, {k: values[0] * row(problem, k)})
     return Recipe(candidate, (gain,), change, start, lambda values: where, 0, share(model), extend)
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown
-from mouse_cli.diagnosis.effects.sensors import changed, row, share, site, standing, suspects, with_readings
+from mouse_cli.diagnosis.effects.sensors import changed, row, row_of_sensor, share, site, with_readings, worst_sensors
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.places import element_at
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
@@ -20,8 +20,8 @@ _REACH = 0.02  # of the length of the line
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """y(s) -> y(s + dx) along the row of bars that the sensor stands on."""
     found = []
-    for k in suspects(model) if model.bars is not None else ():
-        on = standing(model, k)
+    for k in worst_sensors(model) if model.bars is not None else ():
+        on = row_of_sensor(model, k)
         if on is not None:
             found.append(_recipe(model, candidate, k, *on))
     return found

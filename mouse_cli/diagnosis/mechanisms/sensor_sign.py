@@ -1,7 +1,7 @@
 """A sensor that is mounted backwards."""
 
 from mouse_cli.diagnosis.effects.change import Recipe
-from mouse_cli.diagnosis.effects.sensors import misread, row, share, suspects, with_readings
+from mouse_cli.diagnosis.effects.sensors import misread, row, share, with_readings, worst_sensors
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 
@@ -9,7 +9,7 @@ from mouse_cli.diagnosis.mechanisms import Candidate
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """y_s -> -y_s for each sensor s, in all modes."""
     corrected = lambda k: lambda problem: with_readings(problem, {k: -row(problem, k)})
-    return [misread(model, candidate, {k: -model.sensing[k]}, share(model), corrected(k)) for k in suspects(model)]
+    return [misread(model, candidate, {k: -model.sensing[k]}, share(model), corrected(k)) for k in worst_sensors(model)]
 
 
 CANDIDATE = Candidate(

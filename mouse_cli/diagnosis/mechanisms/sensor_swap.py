@@ -5,7 +5,7 @@ from itertools import combinations
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Recipe
-from mouse_cli.diagnosis.effects.sensors import exchanged, misread, suspects
+from mouse_cli.diagnosis.effects.sensors import exchanged, misread, worst_sensors
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 
@@ -17,7 +17,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     s, y = model.data.test.s, model.sensing
     prior = -float(np.log(max(s * (s - 1) / 2, 1)))
     corrected = lambda i, j: lambda problem: exchanged(problem, i, j)
-    pairs = combinations(suspects(model, _WORST), 2)
+    pairs = combinations(worst_sensors(model, _WORST), 2)
     return [misread(model, candidate, {i: y[j], j: y[i]}, prior, corrected(i, j)) for i, j in pairs]
 
 

@@ -1,16 +1,10 @@
-"""A translationally flexible support."""
+"""A translationally flexible support: The support moves: psi = [-K_ff^-1 K_fs; 1] beside the model, with a spring against it."""
 
-from mouse_cli.diagnosis.effects.change import Recipe
+from functools import partial
+
 from mouse_cli.diagnosis.effects.supports import yielding
-from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.reasons import supports
-
-
-def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """The support moves: psi = [-K_ff^-1 K_fs; 1] beside the model, with a spring against it."""
-    return yielding(model, candidate, turning=False)
-
 
 CANDIDATE = Candidate(
     "support-translation",
@@ -18,6 +12,6 @@ CANDIDATE = Candidate(
     "support",
     "what the model holds rigidly moves along the direction of a reaction (soil, bearing, test stand), at one support, at all "
     "alike, or at any of few, each with a stiffness of its own",
-    recipes,
+    partial(yielding, turning=False),
     supports,
 )

@@ -46,9 +46,7 @@ def _recipe(model: Reduced, candidate: Candidate, run: Line, count: int) -> Reci
             M=values[0] * values[1] * M, softening=Softening(members, F * (1 / (1 + values[0] * xi) - 1)[:, None, None])
         )
 
-    def extend(problem: Problem, values: np.ndarray) -> Problem:
-        return _tapered(problem, run, values[0], values[0] * values[1])
-
+    extend = lambda problem, values: _tapered(problem, run, values[0], values[0] * values[1])
     grid = product(steps(a, 4), steps(b, 2))
     return Recipe(candidate, (a, b), change, grid, lambda values: site, 0, -float(np.log(count)), extend)
 

@@ -1,22 +1,16 @@
-"""Tension of a straight row of bars."""
+"""Tension of a straight row of bars: K + T times the integral of w' w'."""
 
-from mouse_cli.diagnosis.effects.change import Recipe
-from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from functools import partial
+
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.preload import preloads
 from mouse_cli.diagnosis.sites.reasons import bars
-
-
-def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """K + T times the integral of w' w'."""
-    return preloads(model, candidate, 1)
-
 
 CANDIDATE = Candidate(
     "tension",
     "axial tension",
     "axial",
     "a pull along bars (thermal, cable, prestress) that stiffens their bending: low modes rise most, high ones hardly",
-    recipes,
+    partial(preloads, sign=1),
     bars,
 )

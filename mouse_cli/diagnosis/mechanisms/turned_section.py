@@ -1,16 +1,11 @@
-"""A section that stands where the model has it lying: both of its second moments of area exchanged."""
+"""A section that stands where the model has it lying: both of its second moments of area exchanged.
 
-from mouse_cli.diagnosis.effects.change import Recipe
+K + K_e(Iz, Iy) - K_e(Iy, Iz) of a member, a row, a section or all beams.
+"""
+
 from mouse_cli.diagnosis.effects.turned import of_turned
-from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.reasons import oblong
-
-
-def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """K + K_e(Iz, Iy) - K_e(Iy, Iz) of a member, a row, a section or all beams."""
-    return of_turned(model, candidate)
-
 
 CANDIDATE = Candidate(
     "turned-section",
@@ -18,6 +13,6 @@ CANDIDATE = Candidate(
     "turned-section",
     "a beam, a straight row of beams, all of one section or all beams whose second moments of area are exchanged: a mistake of the "
     "model's orientation, or a profile mounted on its side; it has no size, K + K_e(Iz, Iy) - K_e(Iy, Iz)",
-    recipes,
+    of_turned,
     oblong,
 )

@@ -102,7 +102,7 @@ def of_elements(model: Reduced, into: str, properties: tuple[str, ...]) -> Cells
         edit.parameters = [_known_to(parameter, spread) for parameter in edit.parameters]
         return edit.done()
 
-    cells = felt(model, Cells(tuple(sites), np.array(at).reshape(-1, 3), "m", tuple(blocks), into, extend))
+    cells = with_energy(model, Cells(tuple(sites), np.array(at).reshape(-1, 3), "m", tuple(blocks), into, extend))
     return cells
 
 
@@ -116,7 +116,7 @@ def _known_to(parameter: Parameter, spread: float) -> Parameter:
     return replace(parameter, sd=spread * abs(parameter.nominal))
 
 
-def felt(model: Reduced, cells: Cells) -> Cells | None:
+def with_energy(model: Reduced, cells: Cells) -> Cells | None:
     """Those with a part in the lowest modes; None where there are too few."""
     kept = _moving(model, cells.blocks)
     return None if len(kept) < FEWEST else cells.some(kept)

@@ -4,7 +4,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.extend.matrices import Entries, with_shares
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.nameless._cells import Cells, felt
+from mouse_cli.diagnosis.nameless._cells import Cells, with_energy
 from mouse_cli.model.arrays import dense
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
@@ -33,7 +33,7 @@ def of_groups(model: Reduced, into: str) -> Cells | None:
         where = {site.text: entries for site, entries in zip(sites, listed, strict=True)}
         return with_shares(problem, what, [(site.text, float(v), where[site.text]) for site, v in pairs], spread)
 
-    cells = felt(model, Cells(tuple(sites), middles.reshape(-1, at.shape[1]), unit, tuple(blocks), into, extend))
+    cells = with_energy(model, Cells(tuple(sites), middles.reshape(-1, at.shape[1]), unit, tuple(blocks), into, extend))
     return cells
 
 

@@ -9,10 +9,10 @@ import numpy as np
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.nameless import Nameless, registry
+from mouse_cli.diagnosis.nameless._averaged import averaged, mean_values, signed, values_of_other
 from mouse_cli.diagnosis.nameless._cells import FEWEST, Cells
 from mouse_cli.diagnosis.nameless._field import LENGTHS, MOTIONS, Smooth, fielded, smooth
 from mouse_cli.diagnosis.nameless._tied import tied
-from mouse_cli.diagnosis.nameless._weighed import mean_values, signed, values_beside, weighed
 from mouse_cli.diagnosis.nameless.local import best_law
 from mouse_cli.diagnosis.nameless.spring import best_spring
 from mouse_cli.diagnosis.search.fit import Fit, fit
@@ -38,7 +38,7 @@ def field_of(ranking, one: Fit, held: HeldOut | None = None) -> Field:
     odds = {id(each): float(value) for each, value in zip(ranking.fits, ranking.log_odds, strict=True)}
     named = max(odds[id(ranking.fits[i])] for i in ranking.named)
     over, other = odds[id(one)] - named, getattr(one.model.base, "other", None)
-    beside = other and _in_words(other.nameless, *values_beside(one), over)
+    beside = other and _in_words(other.nameless, *values_of_other(one), over)
     return replace(_in_words(one.nameless, *mean_values(one), over), held_out=held, beside=beside)
 
 
@@ -140,7 +140,7 @@ def _integrated(base, start: Fit, field: Spread, kind: type[Model], reach: float
         return None
     total = np.logaddexp.reduce([one.log_evidence for one in fits]) - np.log(len(field.grid))
     twice = np.log(2) if field.rival.signs else 0.0  # b and -b are the same
-    return weighed(fits, [one.log_evidence for one in fits], total + twice)
+    return averaged(fits, [one.log_evidence for one in fits], total + twice)
 
 
 def _values(one: Fit) -> np.ndarray:

@@ -9,7 +9,6 @@ from mouse_cli.diagnosis.nameless import Nameless
 from mouse_cli.diagnosis.nameless._cells import Cells
 from mouse_cli.diagnosis.nameless._motions import motions
 from mouse_cli.model.diagnosis import FORCE
-from mouse_cli.model.problem import Problem
 
 
 def cells(model: Reduced) -> Cells | None:
@@ -18,10 +17,7 @@ def cells(model: Reduced) -> Cells | None:
     if own is None:
         return None
     weights = np.sqrt(lowest(model) * total_mass(model)) * own.shares
-
-    def extend(problem: Problem, kept: np.ndarray, values: np.ndarray, spread: float, sign: int) -> Problem:
-        return with_tie(problem, own.dofs[kept], values * weights[kept], sign)
-
+    extend = lambda problem, kept, values, spread, sign: with_tie(problem, own.dofs[kept], values * weights[kept], sign)
     return own.cells(model, weights, extend)
 
 

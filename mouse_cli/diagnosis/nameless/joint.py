@@ -9,10 +9,10 @@ import numpy as np
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.nameless import registry
+from mouse_cli.diagnosis.nameless._averaged import averaged, signed
 from mouse_cli.diagnosis.nameless._both import both
 from mouse_cli.diagnosis.nameless._cells import Cells
 from mouse_cli.diagnosis.nameless._field import LENGTHS, Fielded, smooth
-from mouse_cli.diagnosis.nameless._weighed import signed, weighed
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.optima import NEAR, within
 
@@ -54,7 +54,7 @@ def _beside(model: Reduced, other: Fit, key: str, cells: Cells, reach: float) ->
         return None
     total = np.logaddexp.reduce([one.log_evidence for one in found]) - np.log(len(grid))
     here = fit(other.model, np.zeros(0), other.point.x)
-    return weighed(found, [one.log_evidence for one in found], float(total + other.log_evidence - here.log_evidence))
+    return averaged(found, [one.log_evidence for one in found], float(total + other.log_evidence - here.log_evidence))
 
 
 def _start(x: np.ndarray, base: Fielded) -> np.ndarray:

@@ -8,11 +8,11 @@ import numpy as np
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.localise.force import Scores, log_prior, scores
 from mouse_cli.diagnosis.nameless import Nameless
+from mouse_cli.diagnosis.nameless._averaged import averaged
 from mouse_cli.diagnosis.nameless._by_mode import Lawful, OneLaw
 from mouse_cli.diagnosis.nameless._cells import Cells
 from mouse_cli.diagnosis.nameless._correlated import leading
 from mouse_cli.diagnosis.nameless._field import Smooth
-from mouse_cli.diagnosis.nameless._weighed import weighed
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.sites.channels import FORCE, HINGE, PAIR, SLIDE, STRETCH, TIE
 from mouse_cli.dynamics.frequency import eigenvalue
@@ -51,7 +51,7 @@ def best_law(model: Reduced, reach: float = np.inf) -> Fit | None:
     if not fits:
         return None
     total = np.logaddexp.reduce([one.log_evidence for one in fits]) - np.log(len(grid))
-    return weighed(fits, [one.log_evidence for one in fits], total + places)
+    return averaged(fits, [one.log_evidence for one in fits], total + places)
 
 
 def _at(model: Reduced, found: Scores, place: int, spread: float, octaves: float, reach: float) -> Fit | None:

@@ -14,12 +14,12 @@ from mouse_cli.diagnosis.likelihoods.modal.scales import lowest, total_mass
 from mouse_cli.diagnosis.localise.force import matched
 from mouse_cli.diagnosis.localise.matching import shapes
 from mouse_cli.diagnosis.nameless import Nameless
+from mouse_cli.diagnosis.nameless._averaged import averaged
 from mouse_cli.diagnosis.nameless._cells import Cells
 from mouse_cli.diagnosis.nameless._correlated import extent
 from mouse_cli.diagnosis.nameless._ends import Ends, Spring, around, springs
 from mouse_cli.diagnosis.nameless._field import Smooth
 from mouse_cli.diagnosis.nameless._tied import tied
-from mouse_cli.diagnosis.nameless._weighed import weighed
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.optima import NEAR, within
 from mouse_cli.model.diagnosis import FORCE
@@ -64,7 +64,7 @@ def best_spring(model: Reduced, reach: float = np.inf) -> Fit | None:
     total = np.logaddexp.reduce([each.weight for each in found]) + spreads - first.fit.log_evidence
     here = max(fits, key=lambda one: one.log_evidence)
     fits = [here if each is first else each.fit for each in found]
-    return weighed(fits, [each.weight for each in found], float(total + np.log(2)))  # b and -b are the same
+    return averaged(fits, [each.weight for each in found], float(total + np.log(2)))  # b and -b are the same
 
 
 def _at_nodes(model: Reduced) -> list[_Tried]:

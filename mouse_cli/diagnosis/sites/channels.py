@@ -47,7 +47,7 @@ class Channel:
 
 def channels(model: Reduced) -> list[Channel]:
     """All that one force may act through, those that the coordinates do not move left out."""
-    found = _structure(model) if model.motion is not None else _bare(model)
+    found = _structure(model) if model.motion is not None else _of_matrices(model)
     found += _ties(model)
     return [moving for one in found if (moving := _moving(one)) is not None]
 
@@ -81,13 +81,8 @@ def _along_bars(bars: Bars) -> list[Channel]:
     once = np.flatnonzero(
         [bars.twins[int(s), int(e)][0] == i for i, (s, e) in enumerate(zip(bars.set, bars.member, strict=True))]
     )
-
-    def site(i: int) -> Site:
-        return bars.site(int(bar[i]), float(at[i]))
-
-    def middle(i: int) -> Site:
-        return bars.site(i, 0.5)
-
+    site = lambda i: bars.site(int(bar[i]), float(at[i]))
+    middle = lambda i: bars.site(i, 0.5)
     force, moment = (np.einsum("cj,jcr->jr", np.array(shape), bars.ends[bar]) for shape in (N, slope))
     stretch = bars.axial[once, 1] - bars.axial[once, 0]
     return [
@@ -154,7 +149,7 @@ def _ties(model: Reduced) -> list[Channel]:
     return [Channel(TIE, found.rows, np.ones(len(found)), lambda i: site_of(model, found.keys[i]))]
 
 
-def _bare(model: Reduced) -> list[Channel]:
+def _of_matrices(model: Reduced) -> list[Channel]:
     """Degrees of freedom, and pairs of them that K couples."""
     structure = model.problem.structure
     at, labels = structure.geometry, structure.labels

@@ -28,7 +28,7 @@ class Left:
     g: np.ndarray
     s: np.ndarray
 
-    def felt(self, share: float) -> np.ndarray:
+    def correction(self, share: float) -> np.ndarray:
         """What a share of K_e that is added, or lost if it is negative, does beyond share V'K_e V (r, r)."""
         return -(self.g * (share**2 / (1 + share * self.s))) @ self.g.T
 

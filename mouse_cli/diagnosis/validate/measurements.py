@@ -172,10 +172,9 @@ def _largest(fitted: Fit) -> np.ndarray:
 
 def _true_reading(k: int) -> Read:
     """What a sound sensor reads where sensor k (from 0) is."""
-
-    def read(at: Point, fitted: Fit, modes: np.ndarray) -> np.ndarray:
-        return at.a * (fitted.model.base.sensing[k] @ fitted.model.moved(at.X[:, modes])) / _largest(fitted)
-
+    read = lambda at, fitted, modes: (
+        at.a * (fitted.model.base.sensing[k] @ fitted.model.moved(at.X[:, modes])) / _largest(fitted)
+    )
     return read
 
 

@@ -21,7 +21,7 @@ def dissected(pattern: Matrix) -> np.ndarray:
     return np.argsort(place[node], kind="stable")
 
 
-def crowded(pattern: Matrix) -> bool:
+def densely_connected(pattern: Matrix) -> bool:
     """Whether nodes have so many neighbours, as in solids and shells, that dissection is worth its while."""
     graph = _compressed(pattern)[1]
     return graph.shape[0] > 10 * _LEAF and graph.nnz > 7 * graph.shape[0]

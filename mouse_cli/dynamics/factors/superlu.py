@@ -3,7 +3,7 @@
 import numpy as np
 
 from mouse_cli.dynamics.factors import Backend
-from mouse_cli.dynamics.factors._dissection import crowded, dissected
+from mouse_cli.dynamics.factors._dissection import densely_connected, dissected
 from mouse_cli.dynamics.memory import nonzeros
 from mouse_cli.model.arrays import Matrix
 
@@ -14,7 +14,7 @@ class _Symbolic:
     def __init__(self, pattern: Matrix):
         self.nonzeros = nonzeros(pattern)
         self.memory_bytes = 2 * 12 * self.nonzeros
-        self._order = dissected(pattern) if crowded(pattern) else None
+        self._order = dissected(pattern) if densely_connected(pattern) else None
 
     def factor(self, matrix: Matrix) -> "_Factor":
         """L U by diagonal pivots."""

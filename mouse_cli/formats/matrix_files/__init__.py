@@ -8,7 +8,7 @@ import numpy as np
 
 from mouse_cli._span import Span
 from mouse_cli.formats import data_files
-from mouse_cli.formats.data_files import kept, reject, room
+from mouse_cli.formats.data_files import check_memory, kept, reject
 from mouse_cli.model.arrays import Matrix, dense, is_sparse, upper_triangle
 from mouse_cli.model.dof_map import DofMap
 
@@ -16,12 +16,12 @@ __all__ = [
     "MAX_ORDER",
     "Contents",
     "MatrixFormat",
+    "check_memory",
     "kept",
     "read_contents",
     "read_matrix",
     "read_table",
     "reject",
-    "room",
 ]
 MAX_ORDER = 1_000_000  # fits a workstation only when sparse; beyond it an order is a slip
 LARGEST_DENSE = 500  # smaller matrices are kept dense: sparse bookkeeping would cost more than the zeros
@@ -89,7 +89,7 @@ def read_contents(path: str, order: int | None = None, variable: str | None = No
 def read_table(path: str, variable: str | None = None) -> np.ndarray:
     """A dense table of any shape, NaN where a value is missing, e.g. mode shapes."""
     table = _read(path, variable).matrix
-    room(path, 8 * prod(table.shape), f"the table of shape {tuple(table.shape)}", "give a smaller table")
+    check_memory(path, 8 * prod(table.shape), f"the table of shape {tuple(table.shape)}", "give a smaller table")
     table = np.asarray(dense(table), dtype=float)
     if table.ndim != 2:
         message = f"the array has shape {table.shape}; a table has rows and columns"

@@ -6,7 +6,7 @@ import os
 import numpy as np
 
 from mouse_cli._span import Span
-from mouse_cli.formats.matrix_files import MAX_ORDER, MatrixFormat, reject, room
+from mouse_cli.formats.matrix_files import MAX_ORDER, MatrixFormat, check_memory, reject
 from mouse_cli.model.arrays import Matrix, sparse_symmetric
 
 _HEADERS = (("i", "j"), ("row", "col"), ("row", "column"))  # and a third word for the value
@@ -16,7 +16,7 @@ _LARGEST = 20_000_000  # values of a table: 160 MB
 
 
 def _read(path: str, _: str | None) -> Matrix:
-    room(path, _CELLS * os.path.getsize(path))
+    check_memory(path, _CELLS * os.path.getsize(path))
     lines = _lines(path)
     rows = [(number, line, _cells(line)) for number, line in lines]
     if not rows:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from mouse_cli._errors import DeckError
-from mouse_cli.formats.matrix_files import MAX_ORDER, MatrixFormat, choose, real, reject, room, whole
+from mouse_cli.formats.matrix_files import MAX_ORDER, MatrixFormat, check_memory, choose, real, reject, whole
 from mouse_cli.model.arrays import Matrix
 
 _SIGNATURE = b"\x89HDF\r\n\x1a\n"
@@ -104,7 +104,7 @@ def array(path: str, dataset: Any) -> np.ndarray:
         reject("MD252", path, f"'{dataset.name}' lies in another file", "copy it into this one")
     kind = real(path, dataset, dataset.name).dtype if dataset.dtype.kind != "V" else dataset.dtype
     chunk = np.prod(dataset.chunks, dtype=float) if dataset.chunks else 0
-    room(path, int(kind.itemsize * max(dataset.size, chunk)), f"'{dataset.name}' of shape {dataset.shape}")
+    check_memory(path, int(kind.itemsize * max(dataset.size, chunk)), f"'{dataset.name}' of shape {dataset.shape}")
     plan = dataset.id.get_create_plist()
     strange = [code for code in (plan.get_filter(i)[0] for i in range(plan.get_nfilters())) if code not in _FILTERS]
     if strange:

@@ -6,7 +6,7 @@ from io import BytesIO
 import numpy as np
 
 from mouse_cli._span import Span
-from mouse_cli.formats.matrix_files import MAX_ORDER, MatrixFormat, reject, room
+from mouse_cli.formats.matrix_files import MAX_ORDER, MatrixFormat, check_memory, reject
 from mouse_cli.model.arrays import Matrix, upper_triangle
 
 _HELP = "begin with '%%MatrixMarket matrix coordinate real symmetric' and a line of rows, columns, entries"
@@ -57,7 +57,7 @@ def _check_header(path: str) -> None:
         message = f"the matrix is {sizes[0]} x {sizes[1]}; at most {MAX_ORDER} is read"
         reject("MD258", path, message, "condense it", span)
     least = _least_bytes(words, sizes)
-    room(path, 16 * min(least // _SHORTEST_VALUE, rest))
+    check_memory(path, 16 * min(least // _SHORTEST_VALUE, rest))
     if least > rest + 1:
         message = f"the size line '{line[:60]}' promises at least {least} bytes, but {rest} follow"
         reject("MD252", path, message, "the file is truncated, or its size line wrong: write it again", span)

@@ -4,7 +4,16 @@ from math import prod
 
 import numpy as np
 
-from mouse_cli.formats.matrix_files import MatrixFormat, choose, hdf5, matlab_elements, real, reject, room, whole
+from mouse_cli.formats.matrix_files import (
+    MatrixFormat,
+    check_memory,
+    choose,
+    hdf5,
+    matlab_elements,
+    real,
+    reject,
+    whole,
+)
 from mouse_cli.model.arrays import Matrix, is_sparse
 
 _NUMBERS = ("double", "single", "sparse", "logical", *(f"{u}int{bits}" for u in ("", "u") for bits in (8, 16, 32, 64)))
@@ -41,7 +50,7 @@ def _version_5(path: str, variable: str | None) -> Matrix:
         )
     shape, kind = found[name]
     if kind != "sparse":
-        room(path, 8 * prod(shape), f"'{name}' of shape {shape}", "save it as sparse")
+        check_memory(path, 8 * prod(shape), f"'{name}' of shape {shape}", "save it as sparse")
     value = loadmat(source, variable_names=[name], spmatrix=False)[name]
     for field in rest.split(".") if rest else []:
         value = value[choose(path, field, list(value.dtype.names or []))].item(0)

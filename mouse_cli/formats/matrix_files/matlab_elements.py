@@ -6,7 +6,7 @@ from io import BytesIO
 from math import prod
 from typing import BinaryIO
 
-from mouse_cli.formats.data_files import room
+from mouse_cli.formats.data_files import check_memory
 
 _MATRIX, _COMPRESSED = 14, 15
 _TYPES = frozenset((1, 2, 3, 4, 5, 6, 7, 9, 12, 13, _MATRIX, _COMPRESSED, 16, 17, 18))  # MAT-File Format, Table 1-1
@@ -67,7 +67,7 @@ def _unpacked(path: str, stream: BinaryIO, end: int, order: str) -> BytesIO | No
             found.write(stream.read(at - _HEADER))
             stream.seek(at + 8)
             packed = True
-        room(path, 3 * found.tell(), "the unpacked file")
+        check_memory(path, 3 * found.tell(), "the unpacked file")
         found.write(
             _inflated(path, stream.read(size), order) if type == _COMPRESSED else tag + stream.read(size + -size % 8)
         )
@@ -80,7 +80,9 @@ def _inflated(path: str, data: bytes, order: str) -> bytes:
     machine = zlib.decompressobj()
     tag = machine.decompress(data, 8)
     stated = int.from_bytes(tag[4:], order)
-    room(path, 3 * min(stated, 1032 * len(data)), "an unpacked element")  # deflate packs no better than 1 in 1032
+    check_memory(
+        path, 3 * min(stated, 1032 * len(data)), "an unpacked element"
+    )  # deflate packs no better than 1 in 1032
     rest = machine.decompress(machine.unconsumed_tail, stated + 8)
     if len(tag) < 8 or not machine.eof:
         raise ValueError("a compressed element is cut short, or longer than it states")

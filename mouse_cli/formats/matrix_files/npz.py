@@ -7,7 +7,7 @@ from typing import BinaryIO
 
 import numpy as np
 
-from mouse_cli.formats.matrix_files import MatrixFormat, choose, kept, real, reject, room, whole
+from mouse_cli.formats.matrix_files import MatrixFormat, check_memory, choose, kept, real, reject, whole
 from mouse_cli.model.arrays import Matrix
 
 _HELP = "write it with scipy.sparse.save_npz, or with numpy.savez"
@@ -43,7 +43,7 @@ def check(path: str) -> None:
     NumPy makes room for the shape that an array states before it reads its values. Raises ValueError for damage.
     """
     with zipfile.ZipFile(path) as archive:
-        room(path, sum(item.file_size for item in archive.infolist()), "the unpacked archive")
+        check_memory(path, sum(item.file_size for item in archive.infolist()), "the unpacked archive")
         for item in archive.infolist():
             with archive.open(item) as stream:
                 promised = stated(stream)

@@ -7,7 +7,7 @@ from typing import NoReturn
 
 import numpy as np
 
-from mouse_cli.formats.data_files import line_span, reject, room
+from mouse_cli.formats.data_files import check_memory, line_span, reject
 
 _MISSING = {"", "-", "--", "---", "nan", "na", "n/a", "n.a.", "#n/a", "#nv", "n/m", "n.m.", "null", "none", "?", "*"}  # fmt: skip
 _SPACES = str.maketrans({"\u00a0": " ", "\u2009": " ", "\u202f": " ", "\u2212": "-", "\u2013": "-", "\u2019": "'"})
@@ -115,7 +115,7 @@ def _text(path: str) -> str:
     """The text of a file: UTF-8 or UTF-16, else Windows-1252; blanks, minus signs and ends of lines of all kinds made plain."""
     with open(path, "rb") as stream:
         data = stream.read()
-    room(path, 12 * len(data))
+    check_memory(path, 12 * len(data))
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         text = data.decode("utf-16", errors="replace")
     else:

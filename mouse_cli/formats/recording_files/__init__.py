@@ -7,10 +7,20 @@ import numpy as np
 
 from mouse_cli._errors import DeckError, RecordError
 from mouse_cli.formats import data_files
-from mouse_cli.formats.data_files import kept, reject, room
+from mouse_cli.formats.data_files import check_memory, kept, reject
 from mouse_cli.model.block_window import BlockWindow
 
-__all__ = ["Column", "Contents", "Function", "RecordingFormat", "kept", "read_contents", "reject", "room", "spread"]
+__all__ = [
+    "Column",
+    "Contents",
+    "Function",
+    "RecordingFormat",
+    "check_memory",
+    "kept",
+    "read_contents",
+    "reject",
+    "spread",
+]
 MOST_COLUMNS = 20_000  # of one file
 LARGEST = 1e75  # of a measured value: fourth powers of larger ones are beyond all floating-point numbers
 RATE_NAMES = ("fs", "sample_rate", "samplerate", "sampling_rate", "samplingrate", "sampling_frequency", "rate")

@@ -16,9 +16,9 @@ from mouse_cli.formats.recording_files import (
     STEP_NAMES,
     Contents,
     RecordingFormat,
+    check_memory,
     npz,
     reject,
-    room,
     spread,
 )
 
@@ -55,11 +55,11 @@ def _take(path: str, h5py: Any, name: str, item: Any, arrays: dict[str, np.ndarr
         return
     held = sum(a.nbytes for a in arrays.values())
     if item.dtype.kind == "V" and item.dtype.names == ("real", "imag"):  # complex numbers of MATLAB
-        room(path, held + item.size * item.dtype.itemsize, "the unpacked file")
+        check_memory(path, held + item.size * item.dtype.itemsize, "the unpacked file")
         values = hdf5_matrices.array(path, item)
         arrays[name] = values["real"] + 1j * values["imag"]
     elif item.dtype.kind in "biufc" and "#refs#" not in name and not _is_text(item):
-        room(path, held + 8 * item.size, "the unpacked file")
+        check_memory(path, held + 8 * item.size, "the unpacked file")
         arrays[name] = hdf5_matrices.array(path, item)
         _stated(item, arrays, f"{name}.")
     elif item.dtype.kind in "OS" and item.size < 10_000 and not (item.external or item.is_virtual):
@@ -87,7 +87,7 @@ def _members(
 
 def _texts(path: str, name: str, item: Any) -> list[str]:
     """The texts of a data set, of which many may stand for one long text."""
-    room(path, item.size * item.dtype.itemsize, f"'{name}'")
+    check_memory(path, item.size * item.dtype.itemsize, f"'{name}'")
     found, total = [], 0
     for index in np.ndindex(item.shape):
         found.append(_text(item[index]))

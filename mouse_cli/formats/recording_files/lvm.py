@@ -11,7 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from mouse_cli.formats.data_files import line_span, text_lines
-from mouse_cli.formats.recording_files import MOST_COLUMNS, Column, Contents, RecordingFormat, reject, room
+from mouse_cli.formats.recording_files import MOST_COLUMNS, Column, Contents, RecordingFormat, check_memory, reject
 
 _MARK, _END, _X, _COMMENT = "LabVIEW Measurement", "***End_of_Header***", "X_Value", "Comment"
 _HEADLESS = "no head of a segment and no row of its channels, X_Value"
@@ -146,7 +146,7 @@ def _table(path: str, style: _Style, lines: list[str], head: int, last: int, wid
             "the file is cut short",
             line_span(path, head + 1, lines[head]),
         )
-    room(path, 16 * len(rows) * wide, "the table of numbers")
+    check_memory(path, 16 * len(rows) * wide, "the table of numbers")
     table = np.full((len(rows), wide), np.nan)
     first = 0 if style.cells(lines[rows[0]])[0] else 1
     try:

@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.formats.matrix_files import hdf5 as hdf5_matrices
 from mouse_cli.formats.matrix_files import matlab_elements
-from mouse_cli.formats.recording_files import Contents, RecordingFormat, hdf5, room, spread
+from mouse_cli.formats.recording_files import Contents, RecordingFormat, check_memory, hdf5, spread
 
 _DEEPEST = 6  # structs in structs
 
@@ -17,7 +17,7 @@ def _read(path: str) -> Contents:
     from scipy.io import loadmat, whosmat
 
     source = matlab_elements.checked(path)
-    room(path, sum(8 * prod(shape) for _, shape, _ in whosmat(source)), "the unpacked file")
+    check_memory(path, sum(8 * prod(shape) for _, shape, _ in whosmat(source)), "the unpacked file")
     found = loadmat(source)
     arrays: dict[str, np.ndarray] = {}
     for name, value in found.items():

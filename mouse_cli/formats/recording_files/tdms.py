@@ -5,7 +5,15 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from mouse_cli.formats.recording_files import MOST_COLUMNS, Column, Contents, RecordingFormat, kept, reject, room
+from mouse_cli.formats.recording_files import (
+    MOST_COLUMNS,
+    Column,
+    Contents,
+    RecordingFormat,
+    check_memory,
+    kept,
+    reject,
+)
 
 _UNITS = ("unit_string", "NI_UnitDescription", "Unit", "unit")
 _SCALES, _MOST_SCALES = "NI_Number_Of_Scales", 100
@@ -37,7 +45,7 @@ def _contents(path: str, opened: Any) -> Contents:
                 "MD258", path, f"the file has {len(channels)} channels; at most {MOST_COLUMNS} are read", "divide it"
             )
         kept(path, sum(len(channel) * _bytes(channel) for channel in channels), "what its channels promise")
-        room(path, sum(8 * len(channel) for channel in channels), "the file as numbers")
+        check_memory(path, sum(8 * len(channel) for channel in channels), "the file as numbers")
         columns = [_column(channel) for channel in channels]
     return Contents(tuple(column for column in columns if column is not None))
 

@@ -102,7 +102,7 @@ def _reading(
     dofs, weights = motion.along(sensor.direction)
     held = () if sensor.node is None else _held(draft, sensor, sensor.node, sensor.direction)
     if not len(dofs) and not held:
-        _silent(draft, sensor, geometry, motion.node, sensor.direction)
+        _unresponsive(draft, sensor, geometry, motion.node, sensor.direction)
         return None
     return Reading(dofs, weights, held)
 
@@ -195,7 +195,7 @@ def _node(draft: Draft, sensor: SensorDraft, geometry: Geometry, number: int) ->
     )
 
 
-def _silent(draft: Draft, sensor: SensorDraft, geometry: Geometry, node: int, direction: np.ndarray) -> None:
+def _unresponsive(draft: Draft, sensor: SensorDraft, geometry: Geometry, node: int, direction: np.ndarray) -> None:
     """Note a sensor that reads 0 whatever the model does, with the nearest place where its direction is free."""
     alike = np.flatnonzero(np.isin(geometry.direction, np.flatnonzero(direction)) & (geometry.node >= 0))
     note = "no node is free to move in its direction"
@@ -253,7 +253,7 @@ def _dof(
     if geometry is not None and direction in DIRECTIONS and name[:-2].isdecimal():
         node = _node(draft, sensor, geometry, int(name[:-2]))
         if node is not None:
-            _silent(draft, sensor, geometry, node, np.eye(6)[DIRECTIONS.index(direction)])
+            _unresponsive(draft, sensor, geometry, node, np.eye(6)[DIRECTIONS.index(direction)])
         return None
     near = get_close_matches(name, place, 3) or list(place)[:12]
     known = f"labels of the model: {', '.join(near)}" if place else "the model has no labels"

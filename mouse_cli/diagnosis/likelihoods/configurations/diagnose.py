@@ -102,10 +102,10 @@ def diagnose_arrangements(
         notice(f"{len(turns)}: {turn.best.title}")
         at = _state(at.fitted.extended(best), at.unseen.extended(best), known, choices.causes)
     held = _held_out(unseen.problems, first.before, at.before if turns else None)
-    return _told(fitted, at, tuple(turns), held, refuted, choices)
+    return _answer(fitted, at, tuple(turns), held, refuted, choices)
 
 
-def _told(
+def _answer(
     fitted: Decks, at: State, turns: tuple[Turn, ...], held: HeldOut | None, refuted: str, choices: Choices
 ) -> ArrangementsDiagnosis:
     """The answer, from the decks `fitted` as they were and the state `at` in which the search ended."""

@@ -16,10 +16,7 @@ def dashpots(model: Reduced) -> list[Recipe]:
     """A dashpot to the ground at each place: C + c B'B, B the motion of the place in one direction."""
     scale = total_mass(model) * np.sqrt(lowest(model))
     c = Unknown("damping", "N s/m", 1e-4 * scale, 10 * scale)
-
-    def change(sizes: np.ndarray, B: np.ndarray) -> Change:
-        return Change(C=sizes[0] * B.T @ B)
-
+    change = lambda sizes, B: Change(C=sizes[0] * B.T @ B)
     return sized(DASHPOT, directions(model), c, (_SIZES, _SIZES), change, with_dashpot)
 
 

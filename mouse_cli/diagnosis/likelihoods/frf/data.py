@@ -108,7 +108,7 @@ class FrfData:
         """Whether no accuracy was stated for some of them."""
         return any(block.assumed for block in self.blocks)
 
-    def weighed(self, alike: float, scale: float) -> "FrfData":
+    def reweighted(self, alike: float, scale: float) -> "FrfData":
         """The same where `alike` data say the same, and variances are `scale` times what they were held to be."""
         more = np.sqrt(alike * scale)
         blocks = tuple(replace(block, sd=block.sd * more) for block in self.blocks)

@@ -5,7 +5,7 @@ They are of low rank, G' W(s) G with rows G (c, size) and cores W (f, c, c), bes
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, felt, residual
+from mouse_cli.diagnosis.effects.change import Change, effective_loss, residual
 from mouse_cli.diagnosis.likelihoods.frf.damping import Damping, of_low_rank
 from mouse_cli.diagnosis.likelihoods.frf.lossy import SAME, VISCOUS
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
@@ -79,7 +79,7 @@ class Losses:
             start += len(part.bars)
         scale, left = g[:, None, None, None], residual([part for _, part in parts], bars)
         core = scale * self.model.base.bars.lost(bars, scale * total)
-        core = core if left is None else felt(core, left / scale)
+        core = core if left is None else effective_loss(core, left / scale)
         W = (core - scale * self.model.softer(changes)[1]) * self.model.follow(bars, z)
         return self.model.strain[bars].reshape(-1, self.model.size), _diagonal(list(np.swapaxes(W, 0, 1)))
 

@@ -59,9 +59,9 @@ def _both(recipe: Recipe, stiffness: Callable, extend: Callable[..., Problem], m
             matrix = values[0] / unit * stiffness(values)
             return Change(D=matrix) if law == STRUCTURAL else Change(C=matrix)
 
-        def extended(problem: Problem, values: np.ndarray, name=name, unit=unit) -> Problem:
-            return extend(problem, np.append(values[0] / unit, values[1:]), name)
-
+        extended = lambda problem, values, name=name, unit=unit: extend(
+            problem, np.append(values[0] / unit, values[1:]), name
+        )
         rest = np.unique(recipe.grid[:, 1:], axis=0)
         at = product(steps(eta, _SIZES), np.arange(len(rest)))
         grid = np.hstack([at[:, :1], rest[at[:, 1].astype(int)]])

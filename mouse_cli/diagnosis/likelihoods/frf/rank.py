@@ -36,7 +36,7 @@ _FAR, _LEAST = 200.0, 4
 
 
 @dataclass(frozen=True)
-class Heard(Fit):
+class FitWithModes(Fit):
     """A fit of FRFs, with the model of modes at the same parameters beside it, which all that follows a ranking needs."""
 
     frf: Fit | None = None
@@ -77,7 +77,7 @@ def ranked_by_frf(modal: Ranking, measured: bool) -> Ranking:
         if adequate(nearest) or not (alike is None or judge.data.assumed):
             break
         alike = correlated(nearest) if alike is None else 1.0
-        judge = replace(judge, data=judge.data.weighed(alike, _scatter(nearest)))
+        judge = replace(judge, data=judge.data.reweighted(alike, _scatter(nearest)))
         fits = judge.all_of(fits)
     fits = _shared(_together(fits))
     fits[0] = replace(fits[0], log_evidence=fits[0].log_evidence + of_mesh(fits[0], base) / 2)
@@ -206,4 +206,4 @@ def _beside_modes(one: Fit, data) -> Fit:
         return one
     known = np.linalg.inv(one.covariance[np.ix_(elastic, elastic)])  # the damping of the structure integrated out
     elsewhere = tuple((_beside_modes(other, data), share) for other, share in one.elsewhere)
-    return Heard(model, at, one.misfit, known, one.log_evidence, elsewhere, frf=one)
+    return FitWithModes(model, at, one.misfit, known, one.log_evidence, elsewhere, frf=one)

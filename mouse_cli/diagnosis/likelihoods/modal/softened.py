@@ -4,7 +4,7 @@ from functools import cached_property
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, felt, residual
+from mouse_cli.diagnosis.effects.change import Change, Recipe, effective_loss, residual
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 
 _FARTHEST = 50.0  # ln of how much stiffer than at the parameters of the base a bar is taken to be at most
@@ -26,7 +26,7 @@ class Softened:
         if len(parts) == 1:
             (part,) = parts
             lost = self.base.bars.lost(part.bars, part.added) if part.lost is None else part.lost
-            return part.bars, lost if part.residual is None else felt(lost, part.residual)
+            return part.bars, lost if part.residual is None else effective_loss(lost, part.residual)
         touched = np.zeros(len(self.base.bars), bool)
         for part in parts:
             touched[part.bars] = True
@@ -35,7 +35,7 @@ class Softened:
         for part in parts:  # in which none is there twice
             total[place[part.bars]] += part.added
         lost, left = self.base.bars.lost(bars, total), residual(parts, bars)
-        return bars, lost if left is None else felt(lost, left)
+        return bars, lost if left is None else effective_loss(lost, left)
 
     @cached_property
     def strain(self) -> np.ndarray:

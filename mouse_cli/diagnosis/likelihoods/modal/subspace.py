@@ -55,7 +55,7 @@ class Basis:
         self.responses(np.zeros((K.shape[0], 0)))
 
     @property
-    def room(self) -> int:
+    def free_vectors(self) -> int:
         """Vectors that may still be added."""
         return _MOST - self.space.d
 
@@ -113,10 +113,10 @@ def large(
     if basis.full:
         return built(problem, total, theta, *basis.ritz(), by, stack)
     basis.responses(_moved(basis, stack, by.prior, int(problem.test.number.max())))
-    if problem.test.s and basis.room >= _PLACES + problem.test.s:
+    if problem.test.s and basis.free_vectors >= _PLACES + problem.test.s:
         basis.responses(basis.inertia(_placed(total.n, at, values)))
     model = built(problem, total, theta, *basis.ritz(), by, stack)
-    room = min(_PLACES, basis.room)
+    room = min(_PLACES, basis.free_vectors)
     places = survey(model, K, room - room // _CLOSER)
     basis.responses(_placed(total.n, places, np.eye(len(places))))
     if len(places):

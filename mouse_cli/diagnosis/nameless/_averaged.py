@@ -13,7 +13,7 @@ from mouse_cli.diagnosis.search.fit import Fit
 _LEAST = 1e-4  # share in the evidence below which a fit is no matter
 
 
-def weighed(fits: Sequence[Fit], weights: Sequence[float], total: float) -> Fit:
+def averaged(fits: Sequence[Fit], weights: Sequence[float], total: float) -> Fit:
     """The most probable of `fits` with `total` as log evidence, and the others with their shares; weights (f,): ln of these.
 
     Its theory is no better than that of what has a name.
@@ -63,7 +63,7 @@ def _own(one: Fit) -> slice:
     return slice(deck, deck + one.nameless.P.shape[1])
 
 
-def values_beside(one: Fit) -> tuple[np.ndarray, np.ndarray]:
+def values_of_other(one: Fit) -> tuple[np.ndarray, np.ndarray]:
     """Values (c,) of the other rival beside the field of a fit, and their sd."""
     other, begin = one.model.base.other.nameless, _own(one).stop
     values, variance = _values(one, other, slice(begin, begin + other.P.shape[1]))
