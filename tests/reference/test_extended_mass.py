@@ -7,6 +7,7 @@ from scipy.linalg import eigh
 from mouse_cli.diagnosis.diagnose import diagnose
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.model.diagnosis import NAMED
@@ -92,3 +93,30 @@ def test_masses_begin_where_the_deck_has_some():
     model, key = reduced(problem, problem.prior.mean), registry()["mass"]
     places = np.concatenate([recipe.grid[:, -1] for recipe in key.recipes(model, key) if len(recipe.unknowns) > 1])
     assert np.abs(places - (COARSE - 4) * LENGTH / COARSE).min() < 1e-9
+
+
+def test_a_first_look_has_the_bodies_of_the_search():
+    """A floor of beams held at its edges, where nodes turn about one axis as it sways: in all coordinates about the other too."""
+    across, along = range(1, 10), range(7)
+    number = lambda i, j: i + 9 * j
+    nodes = ", ".join(f"{{{number(i, j)}: [{i}, {j}, 0]}}" for j in along for i in across)
+    bars = [[number(i, j), number(i + 1, j)] for j in along for i in across if i < 9]
+    bars += [[number(i, j), number(i, j + 1)] for j in along for i in across if j < 6]
+    held = "; ".join(f"{number(i, j)}: [TZ]" for j in along for i in across if i in (1, 9) or j in (0, 6))
+    text = f"""mouse: 1
+title: a floor
+model:
+  structure:
+    nodes: [{nodes}]
+    sections: {{bar: {{A: 4e-3, Iy: 2e-5, Iz: 2e-6, J: 1e-6}}}}
+    elements: [{{id: 1-{len(bars)}, type: beam, nodes: {bars}, E: 2.1e11, nu: 0.3, density: 7850, section: bar}}]
+    supports: {{{held.replace(";", ",")}}}
+    directions: [TZ, RX, RY]
+parameters: [{{name: E, elements: 1-{len(bars)}, property: E, sd: 3 %}}]
+test: {{modes: {{frequency: [13.9, 27.9, 48.1], frequency_sd: 1 %}}}}
+"""
+    problem = assemble(yaml_deck.read(text, "floor.yaml"))
+    study = Study(reduced(problem, problem.prior.mean))
+    assert study.coarse.model.r < study.model.r
+    unknowns = lambda of: [[u.name for u in recipe.unknowns] for recipe in of.recipes("extended-mass")]
+    assert unknowns(study.coarse) == unknowns(study)

@@ -13,16 +13,16 @@ from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
 
-_STILL = 1e-3  # share of the largest turn below which a node does not turn about an axis
+_STILL = 1e-3  # share of the largest turn in the measured modes, below which a node does not turn about an axis
 _INERTIA = ("Jx", "Jy", "Jz")
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """M + m T'T + R'J R for the translations T and rotations R of a node: J alike about all axes, each its own, and about one."""
     nodes, count = turning(model)
-    found = []
+    found, used = [], model.low_modes(2)  # which are the same in whatever coordinates a first look is taken
     for node, at in nodes:
-        turned = np.abs(model.node(node)[3:]).max(axis=1)
+        turned = np.abs(model.node(node)[3:, :used]).max(axis=1)
         axes = [d for d in range(3) if turned[d] > _STILL * turned.max()]
         each = tuple((d,) for d in axes)
         bodies = [(tuple(axes),), each] if len(axes) > 1 else [each]
