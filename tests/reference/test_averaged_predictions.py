@@ -8,7 +8,7 @@ from scipy.stats import norm
 
 from mouse_cli.diagnosis.likelihoods.modal.data import Data
 from mouse_cli.diagnosis.search.rank import Ranking
-from mouse_cli.diagnosis.validate.averaged import _mixed, _widened, members
+from mouse_cli.diagnosis.validate.averaged import _mixed, _weighed, _widened, members
 from mouse_cli.diagnosis.validate.held_out import Prediction
 from mouse_cli.model.modal_test import ModalTest, restricted
 from mouse_cli.model.theory import Theory
@@ -80,3 +80,13 @@ def test_a_prediction_is_as_uncertain_as_its_errors_elsewhere():
     assert found.sd_hz[0] == pytest.approx(0.2)
     assert found.density == pytest.approx(norm.logpdf(10.3, 10.0, 0.2))
     assert _widened(one, 1e-12) == one
+
+
+def test_of_refuted_hypotheses_one_that_knows_little_of_a_mode_weighs_little():
+    """Errors of 1 % elsewhere beside 95 % of its own in this mode, and of 3 % beside 3 %: by errors elsewhere the first leads."""
+    sharp, vague = [0.03, -0.03, 0.03, 0.03], [0.01, -0.01, 0.01, 0.01]
+    found = _mixed(
+        [_weighed(0.0, prediction(23.0, 9.5, 10.0), vague), _weighed(0.0, prediction(10.1, 0.3, 10.0), sharp)]
+    )
+    assert found.hz[0] == pytest.approx(10.1, abs=0.01)
+    assert _weighed(0.0, prediction(10.0, 0.1, 10.0), [0.01, np.inf])[0] == -np.inf

@@ -84,7 +84,8 @@ def test_feet_that_turn_about_two_axes_beside_opensees(frame):
         assert said / sound == pytest.approx(true / sound, abs=0.05 * np.abs(true / sound - 1).max() + 2e-4)
 
 
-def test_storeys_on_a_foundation_that_rocks_beside_opensees():
+@pytest.mark.parametrize("kind", ["storey", "spring"])
+def test_storeys_on_a_foundation_that_rocks_beside_opensees(kind):
     pytest.importorskip("openseespy")
     building = storeys.drawn(generator("test", "storeys", 1))
     above, m = np.cumsum(building.heights), building.m
@@ -92,7 +93,8 @@ def test_storeys_on_a_foundation_that_rocks_beside_opensees():
     sound = rocked.modes(inputs | {"turning": 0.0})[0]
     turning = 2.0 * (2 * np.pi * sound[0]) ** 2 * float(m @ above**2)
     true = rocked.modes(inputs | {"turning": turning})[0]
-    model = of("mouse: 1\n" + storeys._deck(building, above) + TEST.format(*sound[:3]))
+    deck = storeys._deck(building, above).replace("type: storey", f"type: {kind}")
+    model = of("mouse: 1\n" + deck + TEST.format(*sound[:3]))
     said = frequencies(model, "rocking", "the base at node 0, RY", [turning, m.sum() * building.width**2 / 12])
     assert said[: len(true)] == pytest.approx(true[:8], rel=1e-6)
     assert true[0] < 0.85 * sound[0]

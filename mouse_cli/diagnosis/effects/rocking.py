@@ -21,22 +21,16 @@ from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.geometry import DIRECTIONS
 
 _SOFT, _SOFTER, _STIFF = 0.8, 0.03, 200.0  # times what gives the rigid structure on it the lowest measured frequency
-_STARTS = (
-    10,
-    12,
-)  # sizes to begin from: between which two modes its own one lies depends on both, and no descent passes one
+_STARTS = 10, 12  # sizes to begin from: no descent passes a mode, and between which two its own lies depends on both
 _SMALL, _LARGE = 1e-2, 0.5  # rotary inertia of floors and base, of that of all masses about the base
 
 
 def rocking(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """What the base of a model can do: turn below storeys, or move in each direction where all of its supports are one body."""
-    problem = model.problem
     if model.motion is None:
         return []
-    turning = axes(problem)
-    found = (
-        [_turned(model, candidate, axis) for axis in turning] if turning else _blocks(model, candidate, base(problem))
-    )
+    found = [_turned(model, candidate, axis) for axis in axes(model.problem)]
+    found = found or _blocks(model, candidate, base(model.problem))
     return [replace(one, log_prior=-float(np.log(len(found)))) for one in found]
 
 

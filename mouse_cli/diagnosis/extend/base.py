@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli.diagnosis.extend.edit import Edit
-from mouse_cli.diagnosis.sites.bases import Axis, Base
+from mouse_cli.diagnosis.sites.bases import SWAYING, Axis, Base
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.mesh import RigidLink
 from mouse_cli.model.problem import Problem
@@ -40,7 +40,7 @@ def on_joints(problem: Problem, axis: Axis, number: int, values: np.ndarray) -> 
     edit = Edit(problem)
     node, floors = edit.index(number), set()
     for s, own in enumerate(edit.sets):
-        if own.type == "storey":
+        if own.type in SWAYING:
             properties = {name: value for name, value in own.properties.items() if name in DIRECTIONS}
             edit.sets[s] = replace(own, type="joint", properties=properties)
             floors |= set(own.nodes.ravel().tolist()) - {node}

@@ -9,7 +9,8 @@ CANDIDATE = Candidate(
     "a foundation that moves as one body",
     "support",
     "all supports together (a raft, a footing, a flange, a test bed) move as one rigid body against springs, along or about an "
-    "axis; storeys over one base, in a model without rotations, turn with it, by heights from the coordinates",
+    "axis; storeys over one base, or springs between floors, in a model without rotations, turn with it, by heights from the "
+    "coordinates",
     rocking,
     bases,
 )

@@ -11,6 +11,7 @@ from mouse_cli.model.problem import Problem
 _LOADED = 0.02  # share of the largest load of its kind below which a direction is not loaded
 _UPRIGHT = 0.999  # cosine of the angle between storeys of one building
 _MOST = 60  # nodes of a base
+SWAYING = ("storey", "spring")  # types of elements that resist the drift between floors; springs by the global axes
 
 
 @dataclass(frozen=True)
@@ -66,12 +67,15 @@ def loaded(load: np.ndarray) -> list[int]:
 
 
 def axes(problem: Problem) -> list[Axis]:
-    """Where a model of storeys and masses alone may turn about its base: nothing in it turns so, and nothing else holds it."""
+    """Where storeys, or springs between floors, with masses may turn about their base: nothing else is there or holds them."""
     mesh = problem.mesh
     kinds = {each.type for each in mesh.elements}
     structure = problem.structure
     fixed = [m for m in (structure.K, structure.M) if m is not None and (m.nnz if hasattr(m, "nnz") else m.any())]
-    if not {"storey"} <= kinds <= {"storey", "mass"} or fixed or mesh.links or mesh.gravity is not None:
+    own = [each for each in mesh.elements if each.type in SWAYING]
+    if not own or not kinds <= {*SWAYING, "mass"} or fixed or mesh.links or mesh.gravity is not None:
+        return []
+    if any(each.nodes.shape[1] < 2 or each.options.get("axes") for each in own):
         return []
     if any(each.properties.get("preload", np.zeros(1)).any() for each in mesh.elements):
         return []
@@ -83,8 +87,8 @@ def axes(problem: Problem) -> list[Axis]:
 
 
 def _upright(mesh: Mesh) -> int | None:
-    """The global axis that all storeys are along."""
-    ends = np.concatenate([mesh.coordinates[each.nodes] for each in mesh.elements if each.type == "storey"])
+    """The global axis that all storeys are along; None where two floors of one are at one place."""
+    ends = np.concatenate([mesh.coordinates[each.nodes] for each in mesh.elements if each.type in SWAYING])
     along = np.abs(ends[:, 1] - ends[:, 0])
     along = along / np.maximum(np.linalg.norm(along, axis=1), 1e-300)[:, None]
     up = int(along[0].argmax())

@@ -11,6 +11,8 @@ without each of the other modes in turn; its errors e_k of those n frequencies (
     w_i ~ integral of s^-n exp(-sum_k e_ki^2 / 2 s^2) ds / s ~ (sum_k e_ki^2)^(-n/2),     variance = sum_k e_ki^2 / (n - 2)
 
 (cross-validated weights: Yao, Vehtari, Simpson and Gelman, Bayesian Analysis 13, 2018; the variance is that of Student's t).
+Errors elsewhere say nothing of a mode that the others leave open: the variance v_i by which a hypothesis itself knows the mode
+counts as theirs do, w_i ~ (sum_k e_ki^2 + n v_i)^(-n/2).
 """
 
 from collections.abc import Sequence
@@ -35,7 +37,6 @@ from mouse_cli.diagnosis.validate.held_out import (
     score,
 )
 from mouse_cli.model.diagnosis import BY_DECK, BY_MODE, HeldOut
-from mouse_cli.model.hold_out import HoldOut
 
 _MOST, _LEAST = 8, 1e-3  # hypotheses that are averaged, and the probability of the last of them
 _TAIL, _FAR = 0.05, 4.0  # beyond either end of a 90 % interval, and how many sd from all predictions no quantile is
@@ -78,20 +79,17 @@ def averaged(model: Reduced, ranking: Ranking) -> HeldOut | None:
 def _refuted(ranking: Ranking) -> list[Fit]:
     """The most probable with a name, those without, and the model as it is."""
     others = [one for one in ranking.fits if one is not ranking.baseline]
-    chosen = [[one for one in others if bool(one.nameless) is nameless][:_REFUTED] for nameless in (False, True)]
-    return [*chosen[0], *chosen[1], ranking.baseline]
+    of = lambda nameless: [one for one in others if bool(one.nameless) is nameless][:_REFUTED]
+    return [*of(False), *of(True), ranking.baseline]
 
 
 def _by_deck(model: Reduced, baseline: Fit, own: list[Member], refuted: bool) -> HeldOut | None:
     held = model.problem.hold_out
     before = of_cases(held, baseline)
-    each = []
-    for one in own:
-        tried = _tried(one.fit) if refuted else (one.weight, 0.0)
-        each.append((tried[0], _cases(held, one.fit, tried[1])))
+    each = [(one, _tried(one.fit) if refuted else None, of_cases(held, one.fit, _noise(one.fit))) for one in own]
     labels, old, new = [], [], []
     for i, (title, part) in enumerate(before):
-        predicted = [(weight, cases[i]) for weight, cases in each if cases[i] is not None]
+        predicted = [_weighed(one.weight, cases[i][1], off) for one, off, cases in each if cases[i][1] is not None]
         if part is not None and predicted:
             labels += [title.format(number) for number in part.test.number]
             old.append(part), new.append(_mixed(predicted))
@@ -99,12 +97,6 @@ def _by_deck(model: Reduced, baseline: Fit, own: list[Member], refuted: bool) ->
         return None
     measured = np.concatenate([part.test.frequency_hz for part in old])
     return HeldOut(BY_DECK, tuple(labels), measured, score(old), score(new))
-
-
-def _cases(held: HoldOut, one: Fit, error: float) -> list[Prediction | None]:
-    """What a fit says of each case that is held out; error: variance of ln f that its errors elsewhere ask for at least."""
-    predicted = [part for _, part in of_cases(held, one, _noise(one))]
-    return [part and _widened(part, error) for part in predicted]
 
 
 def _by_mode(model: Reduced, baseline: Fit, own: list[Member], refuted: bool) -> HeldOut | None:
@@ -118,11 +110,9 @@ def _by_mode(model: Reduced, baseline: Fit, own: list[Member], refuted: bool) ->
     for i in range(test.m):
         before, predicted = left_out(baseline, i), []
         for one in own:
-            again = refitted(one.fit, i)
-            part = None if again is None else _prediction(again, one.fit.model.base.left_out(i))
+            again, part = _without(one.fit, i)
             if part is not None:
-                weight, error = _tried(again) if refuted else (one.weight + _evidence(again), 0.0)
-                predicted.append((weight, _widened(part, error)))
+                predicted.append(_weighed(one.weight + _evidence(again), part, _tried(again) if refuted else None))
         if before is None or not predicted:
             return None
         old.append(before), new.append(_mixed(predicted))
@@ -130,21 +120,32 @@ def _by_mode(model: Reduced, baseline: Fit, own: list[Member], refuted: bool) ->
     return HeldOut(BY_MODE, labels, test.frequency_hz, score(old), score(new))
 
 
-def _prediction(one: Fit, base: Reduced) -> Prediction | None:
-    return predict(one, base, noise=_noise(one))
+def _without(one: Fit, i: int) -> tuple[Fit | None, Prediction | None]:
+    """A hypothesis fitted without measured mode i, and what it then says of it."""
+    again = refitted(one, i)
+    return again, again and predict(again, one.model.base.left_out(i), noise=_noise(again))
 
 
-def _tried(one: Fit) -> tuple[float, float]:
-    """ln w and the variance of ln f of a refuted hypothesis, see above; no weight where it cannot predict some mode."""
+def _tried(one: Fit) -> list[float]:
+    """Errors (n,) of ln f of a refuted hypothesis, see above; an infinite one where it cannot predict some mode."""
     off = []
     for k in np.flatnonzero(one.data.has_frequency).tolist():
-        again = refitted(one, k)
-        part = None if again is None else _prediction(again, one.model.base.left_out(k))
-        if part is None or not part.hz[0] > 0:
-            return -np.inf, 0.0
-        off.append(float(np.log(part.hz[0] / part.test.frequency_hz[0])))
-    total, n = float(np.sum(np.square(off))) + np.finfo(float).tiny, len(off)
-    return -0.5 * n * float(np.log(total)), total / max(n - 2, 1)
+        part = _without(one, k)[1]
+        ratio = 0.0 if part is None else float(part.hz[0] / part.test.frequency_hz[0])
+        off.append(float(np.log(ratio)) if ratio > 0 else np.inf)
+    return off
+
+
+def _weighed(weight: float, part: Prediction, off: list[float] | None) -> tuple[float, Prediction]:
+    """ln w of a prediction, and itself with what its errors `off` elsewhere ask for; None: it is not refuted, `weight` holds."""
+    if off is None:
+        return weight, part
+    total, n = float(np.sum(np.square(off))), len(off)
+    if not np.isfinite(total):
+        return -np.inf, part
+    known = np.isfinite(part.sd_hz)
+    own = float(np.mean((part.sd_hz / part.hz)[known] ** 2)) if known.any() else 0.0
+    return -0.5 * n * float(np.log(total + n * own + np.finfo(float).tiny)), _widened(part, total / max(n - 2, 1))
 
 
 def _widened(part: Prediction, error: float) -> Prediction:
