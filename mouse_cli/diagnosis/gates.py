@@ -8,6 +8,9 @@ NONE = 0.3
 ONE, MORE = 0.6, 1 / 7
 """Prior probability of one mechanism, and by what each further one is less probable: together 0.7."""
 
+ALIKE = 0.5
+"""Share of the sets of several mechanisms that have one group by intent; the others have it by chance."""
+
 NAMELESS = 0.1
 """Prior weight of a change without a name, about that of a pair."""
 
@@ -48,6 +51,15 @@ def prior(count: int) -> float:
     return NONE if count == 0 else ONE * MORE ** (count - 1)
 
 
-def log_prior(count: int, groups: int) -> float:
-    """ln of the prior probability of one set of groups of `count` mechanisms, of a library of so many groups; all sets alike."""
-    return log(prior(count) / comb(max(groups, 1) + count - 1, count))
+def log_prior(count: int, groups: int, alike: bool) -> float:
+    """ln of the prior probability of one set of groups of `count` mechanisms, of a library of so many; alike: all of one group.
+
+    Half of all sets (ALIKE) are drawn from those of one group: structures degrade in one way at several places, and like items are
+    removed. The other half is drawn from all multisets, those of one group among them.
+
+    >>> [round(log_prior(2, 12, alike) - log_prior(2, 12, False), 2) for alike in (False, True)]
+    [0.0, 2.01]
+    """
+    groups, repeated = max(groups, 1), ALIKE if count > 1 else 0.0
+    share = (1 - repeated) / comb(groups + count - 1, count) + repeated * alike / groups
+    return log(prior(count) * share)

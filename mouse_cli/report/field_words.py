@@ -28,10 +28,10 @@ _TOGETHER = "By all hypotheses together, each with its probability,"
 _SHOWN = 2.0  # sd from which on a value is listed by itself
 
 
-def field_sentences(field: Field) -> tuple[str, ...]:
-    """What is missing, and that it has no name."""
+def field_sentences(field: Field, what: str = "What is missing") -> tuple[str, ...]:
+    """What is missing, and that it has no name; what: the subject of the first sentence."""
     besides = "" if field.beside is None else f" A second change is there with it. {_acts(field.beside)}."
-    lead = f"What is missing has no name in the library. {_acts(field)}.{besides}"
+    lead = f"{what} has no name in the library. {_acts(field)}.{besides}"
     return (
         lead,
         " ".join(filter(None, (_over(field.log_evidence_over_named), held_words(field.held_out)))),

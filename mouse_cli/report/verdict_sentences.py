@@ -154,9 +154,9 @@ def _separating(found: Diagnosis) -> str:
 def _unknown(found: Diagnosis) -> tuple[str, ...]:
     """No probability is given: none is of a hypothesis that explains the data."""
     if found.misstated:
-        return (
-            "Model and test disagree, and the test itself looks at fault. No mechanism can be named before that is settled.",
-        )
+        first = "Model and test disagree, and the test itself looks at fault. No mechanism can be named before that is settled."
+        beside = "What explains the data best beside such an error"
+        return (first, *(() if found.field is None else field_sentences(found.field, beside)))
     if found.field is not None:
         return field_sentences(found.field)
     first = "Something is missing that no candidate explains. Do not trust the revised parameters, and do not name a mechanism."

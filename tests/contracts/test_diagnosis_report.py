@@ -222,6 +222,17 @@ def test_a_faulty_sensor_is_no_fault_of_the_model():
     assert "The test is at fault, not the model: two sensors exchanged: sensors 3 and 4 (probability 0.98)." in told
 
 
+def test_a_doubtful_test_hides_no_field():
+    """What leads beside an error of the test is told too, and what no test says is not."""
+    found = DIAGNOSES["nameless"]()
+    told = _told(replace(found, misstated="frequency"))
+    assert (
+        "the test itself looks at fault" in told and "best beside such an error has no name in the library. It" in told
+    )
+    assert "What is missing has no name" not in told
+    assert "has no name" not in _told(replace(found, misstated="frequency", field=None))
+
+
 def test_no_name_without_a_verdict():
     """Neither `unknown` nor `one-of` says that the model lacks a certain thing."""
     for name in ("one-of", "unknown", "nothing", "bare"):

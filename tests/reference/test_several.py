@@ -1,5 +1,6 @@
 """Several mechanisms at once, truths by finite elements written here: all of them named, with their sites, and none too many."""
 
+from itertools import combinations_with_replacement
 from types import SimpleNamespace
 
 import numpy as np
@@ -199,10 +200,9 @@ def test_a_set_of_sites_is_counted_once():
     mass, spring = single("mass", "mass"), single("ground-spring", "ground-spring")
     same, mixed, apart = joint(mass, mass, mass), joint(mass, spring, spring), joint(mass, spring)
     fits = [mass, spring, same, mixed, apart]
-    of_three = log_prior(3, 2)
-    assert _log_prior(same, fits) == pytest.approx(of_three + np.log(6))
-    assert _log_prior(mixed, fits) == pytest.approx(of_three + np.log(2))
-    assert _log_prior(apart, fits) == pytest.approx(log_prior(2, 2))
+    assert _log_prior(same, fits) == pytest.approx(log_prior(3, 2, True) + np.log(6))
+    assert _log_prior(mixed, fits) == pytest.approx(log_prior(3, 2, False) + np.log(2))
+    assert _log_prior(apart, fits) == pytest.approx(log_prior(2, 2, False))
 
 
 def test_members_of_a_group_share_its_prior():
@@ -220,11 +220,14 @@ def test_priors_of_numbers_of_mechanisms():
     assert prior(2) / prior(3) == pytest.approx(7.0)
 
 
-@pytest.mark.parametrize("count", [1, 2, 3])
+@pytest.mark.parametrize("count", [0, 1, 2, 3])
 def test_all_sets_of_groups_share_it(count):
-    """Multisets of 1, 2 and 3 of five groups: 5, 15, 35."""
-    sets = {1: 5, 2: 15, 3: 35}[count]
-    assert np.exp(log_prior(count, 5)) * sets == pytest.approx(prior(count))
+    """Multisets of 0, 1, 2 and 3 of five groups: 1, 5, 15, 35; half of those of several are drawn from the five of one group."""
+    sets = list(combinations_with_replacement(range(5), count))
+    p = [np.exp(log_prior(count, 5, len(set(one)) == 1)) for one in sets]
+    assert sum(p) == pytest.approx(prior(count))
+    alike = sum(each for each, one in zip(p, sets, strict=True) if len(set(one)) == 1)
+    assert count < 2 or alike / prior(count) == pytest.approx(0.5 + 0.5 * 5 / len(sets))
 
 
 def test_adequate_is_a_p_value_of_a_twentieth():
@@ -296,10 +299,17 @@ def test_feet_that_give_way_are_named_each_with_a_stiffness_of_its_own(flexible)
 
 
 @pytest.mark.parametrize(
-    ("misfit", "gain", "sought"), [(130.0, -1.0, 0), (130.0, 2.9, 0), (130.0, 3.1, 1), (200.0, -1.0, 1)]
+    ("misfit", "gain", "held", "sought"),
+    [
+        *((130.0, -1.0, None, 0), (130.0, 2.9, None, 0), (130.0, 3.1, None, 1), (200.0, -1.0, None, 1)),
+        *((130.0, -1.0, 2e-3, 0), (130.0, -1.0, 9e-4, 1)),
+    ],
 )
-def test_beside_one_that_is_not_refuted_no_sets_are_sought_that_promise_nothing(monkeypatch, misfit, gain, sought):
-    """130 on 100 has p = 0.024, 200 has 1e-8: the second is sought beside anything at all."""
+def test_beside_one_that_is_not_refuted_no_sets_are_sought_that_promise_nothing(
+    monkeypatch, misfit, gain, held, sought
+):
+    """130 on 100 has p = 0.024, 200 has 1e-8: the second is sought beside anything at all, as is what is held out at p = 9e-4."""
+    monkeypatch.setattr(search, "held_out_density", lambda one: None if held is None else SimpleNamespace(p=held))
     cause = lambda name: SimpleNamespace(candidate=SimpleNamespace(key=name), parts=())
     single = SimpleNamespace(misfit=misfit, dof=100, log_evidence=-80.0, recipes=[cause("a")], elsewhere=())
     asked = []

@@ -28,7 +28,7 @@ from mouse_cli.diagnosis.search.optima import within
 from mouse_cli.diagnosis.search.pared import plainest
 from mouse_cli.diagnosis.search.parts import in_turn, promising, single
 from mouse_cli.diagnosis.search.pool import Pool
-from mouse_cli.diagnosis.search.several import adequate, plain, several
+from mouse_cli.diagnosis.search.several import adequate, enough, plain, several
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.model.diagnosis import LAW, Untried
 from mouse_cli.model.groups import joined, shares
@@ -196,7 +196,7 @@ def _ranked(study: Study, causes: int, hear: Callable[[Ranking], Ranking], last:
     if last and (none < _IDLE or not adequate(found.baseline, gates.GATE)):
         fits += rivals(model, baseline, kind, within(fits))
     alone = plain(one for one in found.fits if one.recipes)
-    if causes > 1 and len(found.fits) > 1 and not any(adequate(one, _FURTHER) for one in alone):
+    if causes > 1 and len(found.fits) > 1 and not any(enough(one, _FURTHER, gates.GATE) for one in alone):
         trusted = found.stated[0] > _TRUSTED or found.noise_scale > _LOUD
         fits += several(study, singles, causes, trusted)
     others = model.problem.frf or model.problem.recordings  # which may feel what modes do not
@@ -261,4 +261,5 @@ def _log_prior(one: Fit, fits: list[Fit]) -> float:
     )
     groups = {_joined(each) for each in fits if len(each.recipes) == 1}
     orders = sum(lgamma(count + 1) for count in Counter(recipe.candidate.key for recipe in one.recipes).values())
-    return gates.log_prior(len(one.recipes), len(groups)) - float(np.log(alike)) + orders
+    of_one = len({recipe.candidate.group for recipe in one.recipes}) == 1
+    return gates.log_prior(len(one.recipes), len(groups), of_one) - float(np.log(alike)) + orders

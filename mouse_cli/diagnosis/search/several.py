@@ -49,19 +49,20 @@ def adequate(one: Fit, least: float = _ADEQUATE) -> bool:
     return upper_tail(one.misfit, max(one.dof, 1)) > least
 
 
-def enough(one: Fit) -> bool:
-    """Whether what a set leaves may be noise, of what it was fitted to and of what the deck holds out."""
-    return adequate(one) and ((rest := held_out_density(one)) is None or rest.p > _ADEQUATE)
+def enough(one: Fit, least: float = _ADEQUATE, held: float = _ADEQUATE) -> bool:
+    """Whether what a fit leaves may be noise: p above `least` of what was fitted, and above `held` of what the deck holds out."""
+    return adequate(one, least) and ((rest := held_out_density(one)) is None or rest.p > held)
 
 
 def several(study: Study, singles: list[Fit], most: int, trusted: bool = True) -> list[Fit]:
     """Sets of two mechanisms, and of more up to `most` as long as every set leaves more than noise, and the best gains.
 
-    Where one alone is not refuted (GATE), sets are sought only beside those that come near it, and further if one of them gains.
+    Where one alone is not refuted (GATE), by what the deck holds out neither, sets are sought only beside those that come near it,
+    and further if one of them gains.
     trusted: whether what one alone leaves says that the test is as accurate as stated; else a pair that leaves no more has to.
     """
     alone = plain(singles)
-    if any(adequate(one, GATE) for one in alone) and not _gains(
+    if any(enough(one, GATE, GATE) for one in alone) and not _gains(
         study, [one for one in alone if one.misfit <= within(alone)]
     ):
         return []
