@@ -145,10 +145,7 @@ def _explanations(ranking: Ranking) -> Iterator[tuple[float, list[Mechanism]]]:
 
 
 def _mechanisms(one: Fit) -> list[Mechanism]:
-    return [
-        (recipe.candidate.key, recipe.group(one.c[own]), recipe.site(recipe.values(one.c[own])))
-        for recipe, own in zip(one.recipes, one.model.own, strict=True)
-    ]
+    return [(recipe.candidate.key, *at) for recipe, *at in zip(one.recipes, one.groups, one.sites, strict=True)]
 
 
 def _matched(wanted: Sequence[Mechanism], among: Sequence[Mechanism], reach: float) -> tuple[int, ...] | None:

@@ -28,6 +28,7 @@ from mouse_cli.diagnosis.nameless.fit import field_of
 from mouse_cli.diagnosis.names import by_records, housed
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.rank import Ranking, group, rank
+from mouse_cli.diagnosis.search.spread import with_forms
 from mouse_cli.diagnosis.validate.informed import informed
 from mouse_cli.diagnosis.validate.next_measurement import proposals
 from mouse_cli.diagnosis.verdict import Verdict, acting, certain, explanations, judge, member, rest
@@ -81,7 +82,7 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices, recordings
     measured, enough = given.test is not None, 0.0 if model.places is None else ENOUGH
     result, remarks = _update(problem, kept, notice, _guess(model), enough, solver)
     hear = lambda found: recordings(ranked_by_frf(found, measured))
-    ranking = informed(rank(model, _known(choices), choices.causes, hear, jobs=choices.jobs, again=again))
+    ranking = with_forms(informed(rank(model, _known(choices), choices.causes, hear, jobs=choices.jobs, again=again)))
     verdict, as_it_is = judge(ranking, result.rejected and measured, model), ranking.baseline
     kind, best, missing = verdict.kind, verdict.best, verdict.kind != NOTHING
     location = locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None

@@ -250,9 +250,8 @@ def certain(one: Fit, found: Shared) -> Certain:
 def _causes(one: Fit) -> tuple[Cause, ...]:
     """The mechanisms of a fit, in its order."""
     sd, units = np.sqrt(np.abs(np.diag(one.covariance)))[one.model.k :], one.model.base.problem.units
-    return tuple(
-        _cause(recipe, one.c[own], sd[own], units) for recipe, own in zip(one.recipes, one.model.own, strict=True)
-    )
+    parts = zip(one.recipes, one.groups, one.model.own, strict=True)
+    return tuple(_cause(recipe, group, one.c[own], sd[own], units) for recipe, group, own in parts)
 
 
 def acting(one: Fit) -> str:
@@ -260,11 +259,11 @@ def acting(one: Fit) -> str:
     return " + ".join(site.text or f"{site.kind} {', '.join(map(str, site.ids))}" for site in one.sites)
 
 
-def _cause(recipe, c: np.ndarray, sd: np.ndarray, units: Units) -> Cause:
+def _cause(recipe, group: str, c: np.ndarray, sd: np.ndarray, units: Units) -> Cause:
     values = recipe.values(c)
     sizes = tuple(
         Size(u.name, units.of(u.unit), float(v), float(s * v if u.log else s), u.lower, u.upper)
         for u, v, s in zip(recipe.unknowns, values, sd, strict=True)
     )
     candidate = recipe.candidate
-    return Cause(candidate.key, recipe.group(c), candidate.title, recipe.site(values), sizes, recipe.law)
+    return Cause(candidate.key, group, candidate.title, recipe.site(values), sizes, recipe.law)

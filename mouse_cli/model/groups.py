@@ -7,6 +7,7 @@ TITLES = {  # of groups with more than one member; others are called as their me
     "clearance": "a clearance",
     "friction": "friction",
     "ground-spring": "a spring to the ground",
+    "mass": "an added mass",
     "local-stiffness": "a local loss of stiffness",
     "sensor": "a faulty sensor",
     "shear": "shear or rotary inertia",

@@ -186,7 +186,7 @@ def test_what_is_certain_is_named_while_its_companion_is_open():
     assert list(beside) == ["shear", "none", "mass"] and sum(beside.values()) == pytest.approx(1.0)
     assert verdict["sentences"] == [
         "The model lacks an open crack: element 12, 0.43 m from node 1 (probability 0.95).",
-        "What acts beside it is open: shear or rotary inertia 0.53, nothing 0.32, a lumped mass 0.16.",
+        "What acts beside it is open: shear or rotary inertia 0.53, nothing 0.32, an added mass 0.16.",
     ]
     told = words(found)
     assert "An open crack, group local-stiffness, probability 0.95 of the group." in told

@@ -33,6 +33,7 @@ def made_up(*groups: str, misfit: float = 20.0, dof: int = 20, z=(0.3, -0.4), na
         "covariance": 1e-6 * np.eye(2 + len(groups)),
         "data": data,
         "groups": [recipe.group(0.0) for recipe in recipes],
+        "sites": tuple(recipe.site(0.0) for recipe in recipes),
     } | more
     model = SimpleNamespace(base=base, k=2, own=[slice(i, i + 1) for i in range(len(groups))])
     point = SimpleNamespace(x=np.asarray(z, float))

@@ -432,7 +432,7 @@ def _among_sites(first: Site, others: list[tuple[Site, float]], key: str, mesh=N
     def at(site):
         recipe = SimpleNamespace(**vars(made_up(key).recipes[0]) | {"site": lambda values: site, "unknowns": ()})
         one = made_up(key)
-        one.recipes = (recipe,)
+        one.recipes, one.sites = (recipe,), (site,)
         one.model.base.problem.mesh = mesh
         return one
 

@@ -60,15 +60,21 @@ class Fit(End):
     """The end of a search, weighed. hessian (k + t, k + t) of half the misfit by x; log_evidence.
 
     elsewhere: the same causes at other places, and their share in the evidence; variants: likewise a rival without a name with
-    other spreads, lengths or places.
+    other spreads, lengths or places. taken: groups of its causes, where a more probable fit has one of them in another form.
     """
 
     hessian: np.ndarray = field(repr=False)
     log_evidence: float
     elsewhere: tuple[tuple["Fit", float], ...] = ()
     variants: tuple[tuple["Fit", float], ...] = ()
+    taken: tuple[str, ...] = ()
     bearable: ClassVar[float] = 1.5  # misfit over degrees of freedom above which no explanation is one
     telling: ClassVar[bool] = False  # so many data that evidence alone says whether something is missing
+
+    @property
+    def groups(self) -> list[str]:
+        """Groups of the causes."""
+        return list(self.taken) or super().groups
 
     @property
     def strained(self) -> bool:
