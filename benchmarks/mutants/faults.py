@@ -74,8 +74,8 @@ MUTANTS = (
         _SEVERAL,
         prior_of_more=("0.6, 1 / 7", "0.6, 1 / 6", "test_priors_of_numbers_of_mechanisms"),
         prior_without_repetition=(
-            "comb(max(groups, 1) + count - 1, count)",
-            "comb(max(groups, 1), count)",
+            "comb(groups + count - 1, count)",
+            "comb(groups, count)",
             "test_all_sets_of_groups_share_it",
         ),
     ),

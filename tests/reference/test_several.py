@@ -265,20 +265,39 @@ def test_a_pair_that_leaves_noise_shows_that_the_test_is_as_accurate_as_stated(m
 
 def test_sets_that_are_as_good_as_the_best_are_known(monkeypatch):
     """Each of its mechanisms is exchanged; what is better than the best is exchanged too, what is far behind is left."""
-    pair, single = of(-40.0, "mass", "support"), of(-90.0, "support")
+    pair, single = fitted(-40.0, 20.0, "mass", "support"), of(-90.0, "support")
     beside = {
         "support": {("crack", "support"): -39.0, ("support", "taper"): -46.1},
         "crack": {("crack", "joint"): -44.0},
     }
+    exchanging(monkeypatch, beside)
+    found = search._as_good(SimpleNamespace(known=()), [pair], [single])
+    assert {key(one) for one in found} == {("crack", "support"), ("crack", "joint")}
+
+
+@pytest.mark.parametrize(("misfit", "better"), [(31.4, False), (31.5, True)])
+def test_two_mechanisms_that_stand_for_others_are_both_exchanged(monkeypatch, misfit, better):
+    """A softer stretch and an oscillator for a joint and a mass: either alone is the worse, and only the second best leads on."""
+    beside = {"oscillator": {("joint", "oscillator"): -42.0}, "joint": {("joint", "mass"): -30.0}}
+    exchanging(monkeypatch, beside)
+    found = search._as_good(SimpleNamespace(known=()), [fitted(-40.0, misfit, "oscillator", "stretch")], [])
+    assert (("joint", "mass") in map(key, found)) is better
+
+
+def fitted(nats: float, misfit: float, *names: str):
+    """A set of those mechanisms that leaves so much on 20 degrees of freedom."""
+    return SimpleNamespace(misfit=misfit, dof=20, **vars(of(nats, *names)))
+
+
+def exchanging(monkeypatch, beside: dict):
+    """What makes a set with the mechanism that is left, by its name, and its log evidence; all fit as well."""
 
     def tried(study, first, partners, found):
-        found.update({both: of(nats, *both) for both, nats in beside.get(key(first)[0], {}).items()})
+        found.update({both: fitted(nats, 20.0, *both) for both, nats in beside.get(key(first)[0], {}).items()})
 
     monkeypatch.setattr(search, "_beside", tried)
     monkeypatch.setattr(search, "_without", lambda one, i: of(-90.0, *(key(one)[:i] + key(one)[i + 1 :])))
     monkeypatch.setattr(search, "_finished", lambda study, found: list(found.values()))
-    found = search._as_good(SimpleNamespace(known=()), [pair], [single])
-    assert {key(one) for one in found} == {("crack", "support"), ("crack", "joint")}
 
 
 FEET = ((5, 600.0), (16, 1500.0), (27, 4000.0))  # nodes of a beam of 30 elements, and springs below them in EI / L^3

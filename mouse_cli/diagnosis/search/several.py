@@ -33,7 +33,7 @@ _LIMITS = (  # groups of which one is the other at an end of its range: a crack 
     {"mass", "oscillator"},
     {"ground-spring", "oscillator"},
 )
-_EXCHANGED = 2  # sets whose mechanisms are exchanged to see what is as good
+_EXCHANGED = 3  # sets whose mechanisms are exchanged to see what is as good
 _REACH = 6.0  # log evidence below that of the best from which on a set that is fitted in few steps is no rival of it
 _ADEQUATE = 0.05  # p-value of the misfit below which a further mechanism is sought
 
@@ -98,15 +98,19 @@ def _as_good(study: Study, found: list[Fit], smaller: list[Fit]) -> list[Fit]:
     """Sets that the data hardly tell from the best of `found`: each of its mechanisms replaced by whatever fits beside the others.
 
     Probabilities are shares among all that explain the data, so that those have to be known; one that is better is exchanged too.
+    As long as the best leaves too much the next one is, for two of its mechanisms may stand for others that need one another.
     """
-    known, more, done = Found(), Found(), None
+    known, more, done = Found(), Found(), []
     for one in found:
         keep(known, one)
-    for best in (each for _ in range(_EXCHANGED) for each in best_of(known, 1)):
-        if best is done:
+    for _ in range(_EXCHANGED):
+        order = best_of(known, len(known))
+        left = [one for one in order if not any(one is each for each in done)]
+        if not left or (left[0] is not order[0] and adequate(order[0])):
             break
-        done, tried = best, Found()
-        for rest in (_without(best, i) for i in range(len(best.recipes))):
+        best, tried = order[0], Found()
+        done.append(left[0])
+        for rest in (_without(left[0], i) for i in range(len(left[0].recipes))):
             if rest is not None:
                 _beside(study, rest, study.known, tried)
         least = best.log_evidence - _REACH

@@ -7,7 +7,7 @@ from mouse_cli.page.html import Markup, tag
 from mouse_cli.page.numbers import probable
 from mouse_cli.page.section import PageSection
 from mouse_cli.page.sections._unjudged import UNJUDGED
-from mouse_cli.page.sections._words import listed, paragraphs, place, places
+from mouse_cli.page.sections._words import listed, paragraphs
 from mouse_cli.page.sections.causes import size
 from mouse_cli.page.tables import Cell, table
 from mouse_cli.report.reading import Part
@@ -17,12 +17,6 @@ _FORM = {
     "rejected": "The form of the model is rejected: the data show what the model lacks, lie farther from the prior than it "
     "allows, or are less accurate than stated. Do not trust the revised values.",
     "untested": "The form of the model is not tested: the data leave no degrees of freedom, or there is no answer.",
-}
-_UNKNOWN = "Something is missing that no candidate explains. Do not name a mechanism."
-_SEVERAL = {
-    "named": "The model lacks this:",
-    "one-of": "Something is missing, and the test does not settle all of it:",
-    "unknown": "More is missing than these, and no candidate explains the rest. Do not trust them:",
 }
 _GOOD, _BAD = ("good", "✓ Answer found and trusted"), ("bad", "✗ No answer")
 _DOUBTED = {
@@ -73,7 +67,7 @@ def sentence(document: Part) -> str:
     found, schema = document.part("verdict"), document.text("schema")
     if schema in UNJUDGED:
         return UNJUDGED[schema].sentence(document)
-    return _first_sentence(document, found) if found else _run(document)
+    return next(iter(found.texts("sentences")), "") if found else _run(document)
 
 
 def form(document: Part) -> str:
@@ -82,10 +76,8 @@ def form(document: Part) -> str:
 
 
 def further(document: Part) -> list[str]:
-    """The other sentences of the verdict; of several configurations, in documents without sentences, one a mechanism."""
-    found = document.part("verdict")
-    sentences = found.texts("sentences")
-    return sentences[1:] if sentences else [*map(_cause, found.parts("causes"), document.parts("turns"))]
+    """The other sentences of the verdict."""
+    return document.part("verdict").texts("sentences")[1:]
 
 
 def _run(document: Part) -> str:
@@ -103,44 +95,6 @@ def _refuted(document: Part) -> str:
 def _misstated(document: Part) -> str:
     what = document.text("misstated")
     return f"The deck seems to be wrong about its test: {what}." if what else ""
-
-
-def _cause(cause: Part, turn: Part) -> str:
-    """One of several mechanisms of configurations: what, where, how probable, and what else it may be."""
-    physics, p = cause.text("physics"), probable(cause.number("probability"))
-    title = next((o.text("title") for o in turn.parts("candidates") if o.text("physics") == physics), physics)
-    rivals = f"; or {', or '.join(cause.labels('rivals'))}" if cause.labels("rivals") else ""
-    return f"{title}: {place(cause.part('site'))} (probability {p}){rivals}"
-
-
-def _first_sentence(document: Part, found: Part) -> str:
-    """The first sentence of the document; documents of earlier versions have none."""
-    if found.texts("sentences"):
-        return found.texts("sentences")[0]
-    kind, titles = found.text("kind"), _titles(document, found)
-    if kind == "nothing-missing":
-        return "Nothing is missing that this test could show."
-    if found.parts("causes"):
-        return _SEVERAL.get(kind, _UNKNOWN)
-    if kind == "named":
-        sensor = all(site.text("kind") == "sensor" for site in found.parts("sites"))
-        begin = "The test is at fault, not the model:" if sensor else "The model lacks"
-        p = f" (probability {probable(found.number('probability'))})"
-        return f"{begin} {titles[0]}: {places(found)}{p}."
-    if kind == "one-of":
-        return f"Something is missing, and the test does not settle what: {'; or '.join(titles)}."
-    return _UNKNOWN
-
-
-def _titles(document: Part, found: Part) -> list[str]:
-    """The named cause, or the leading one of each rival group, in words."""
-    candidates = document.parts("candidates")
-    if found.text("kind") == "named":
-        wanted = [one for one in candidates if one.text("physics") == found.text("physics")][:1]
-        return [one.text("title") for one in wanted] or [found.text("physics")]
-    rivals = found.labels("rivals")
-    leading = {group: next((o for o in candidates if o.text("group") == group), None) for group in rivals}
-    return [group if one is None else one.text("title") for group, one in leading.items()]
 
 
 def _tests(document: Part) -> Iterator[tuple[object, ...]]:
