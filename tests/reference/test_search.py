@@ -1,6 +1,7 @@
 """What misleads a search for causes: modes that nobody measured, places that are counted otherwise at other parameters."""
 
 from dataclasses import replace
+from itertools import pairwise
 from types import SimpleNamespace
 
 import numpy as np
@@ -239,3 +240,26 @@ def test_what_promises_nothing_grows_no_further():
     of = lambda misfit, count: SimpleNamespace(misfit=misfit, recipes=(None,) * count)
     assert _promised(of(1000.0, 1), of(900.0, 2), 4) == pytest.approx(900 * 0.9**6)
     assert _promised(of(1000.0, 1), of(1100.0, 2), 4) == 1100.0
+
+
+def test_a_refused_step_is_followed_by_one_of_half_its_length_at_most():
+    """Down the bent valley of Rosenbrock (1960) to its minimum at (1, 1), in the metric of the slopes where the steps begin."""
+    r = lambda x: np.array([10 * (x[1] - x[0] ** 2), 1 - x[0]])
+    tried: list[list[float]] = []
+    begun: dict[str, np.ndarray] = {}
+
+    def slopes(at: SimpleNamespace) -> np.ndarray:
+        tried.append([])
+        begun.update(x=at.x, T=(T := np.array([[20 * at.x[0], -10.0], [1.0, 0.0]])))
+        return T
+
+    def point(x: np.ndarray) -> SimpleNamespace:
+        if tried:
+            tried[-1].append(float(np.linalg.norm((x - begun["x"]) * np.linalg.norm(begun["T"], axis=0))))
+        return SimpleNamespace(x=x, residual=r(x), chi2=float(r(x) @ r(x)))
+
+    box = {"bounds": np.array([[-50.0, 50.0]] * 2), "width": np.full(2, 100.0)}
+    valley = SimpleNamespace(k=0, base=SimpleNamespace(z=np.zeros(0)), point=point, jacobian=slopes, **box)
+    end = descended(valley, np.array([-3.0, -4.0]))
+    assert end.point.x == pytest.approx([1, 1], abs=1e-2) and any(len(each) > 1 for each in tried)
+    assert all(after <= before / 2 + 1e-12 for each in tried for before, after in pairwise(each))

@@ -7,7 +7,7 @@ import numpy as np
 from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unseen
 from mouse_cli.diagnosis.search.escape import shifted, uncrossed
-from mouse_cli.diagnosis.search.fit import MOST, Fit, descended, fit
+from mouse_cli.diagnosis.search.fit import MOST, Fit, cost_at, descended, fit
 from mouse_cli.diagnosis.search.optima import BEYOND, NEAR, TIED, distinct, within
 from mouse_cli.diagnosis.search.pared import pared
 from mouse_cli.diagnosis.search.starts import cost
@@ -133,7 +133,7 @@ def _ended(
     points = [at for at in map(whole.point, [*starts, *plain]) if at is not None]
     if not points:
         return None
-    x = min(points, key=lambda at: at.chi2 + at.x[:k] @ at.x[:k]).x
+    x = min(points, key=lambda at: cost_at(at, k)).x
     one = fit(whole, x[k:], x[:k], most, reach)
     lost = one is None or one.misfit > (reach if others else BEYOND * reach)
     return one if lost else uncrossed(one, most, reach)

@@ -11,7 +11,7 @@ from mouse_cli.diagnosis.evidence import capped
 from mouse_cli.diagnosis.gates import GATE
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
-from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
+from mouse_cli.diagnosis.search.fit import MOST, Fit, cost_at, fit, normal
 from mouse_cli.diagnosis.search.optima import TIED
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.updating.chi_square import upper_tail
@@ -35,7 +35,7 @@ def shifted(one: Fit) -> Fit:
             if at is None:
                 continue
             pull = T.T @ at.residual - np.where(np.arange(T.shape[1]) < model.k, np.delete(at.x, model.k + j), 0.0)
-            left = _cost(at, model.k) - pull @ np.linalg.lstsq(H, pull, rcond=None)[0]
+            left = cost_at(at, model.k) - pull @ np.linalg.lstsq(H, pull, rcond=None)[0]
             if left < best:
                 best, start = left, c
         again = None if start is None else fit(model, start, one.point.x[: model.k])
@@ -110,15 +110,8 @@ def _fixed(recipe: Recipe) -> tuple[float, ...] | None:
 
 def _after_a_step(model: Model, at: Point) -> float:
     """The misfit that a full step from a point promises."""
-    k, T = model.k, model.jacobian(at)
-    own = np.arange(len(at.x)) < k
-    H = capped(T.T @ T + np.diag(own.astype(float)), model.width)
-    pull = T.T @ at.residual - np.where(own, at.x, 0.0)
-    return _cost(at, k) - float(pull @ np.linalg.solve(H, pull))
-
-
-def _cost(at: Point, k: int) -> float:
-    return at.chi2 + float(at.x[:k] @ at.x[:k])
+    H, pull = normal(model, at)
+    return cost_at(at, model.k) - float(pull @ np.linalg.solve(capped(H, model.width), pull))
 
 
 def uncrossed(one: Fit, most: int = MOST, reach: float = np.inf) -> Fit:

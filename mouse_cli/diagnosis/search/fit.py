@@ -17,9 +17,15 @@ from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.model.site import Site
 
 _SMALL = 1e-4  # change of J, relative to 1 + its share of rounding, that ends the search
-_TRIFLE = 1e-5 * _SMALL  # what a step promises likewise, below which no shorter one is tried: rounding undoes it
+_TRIFLE = 1e-5  # of that: what a step promises, below which no shorter one is tried: rounding undoes it
+_NOTHING = 0.1  # of that: where a full step promises no more, the search is at its end
 MOST = 40
 _GIVE_UP = 1e8
+_SHORTER = 0.25  # squared length of a step over that of one that was refused, at most
+_GOOD, _BAD = (
+    0.75,
+    0.25,
+)  # share of the promised gain above which a step may be longer, and below which it has to be shorter
 _HOPE = 4.0  # times the gain that a full step promises: what a search may gain at most, unless it gains more
 # Steps before a search may be given up (of a brief one a third), and that may gain as the last one did
 _LEAST, _AHEAD = 3, 8
@@ -121,8 +127,7 @@ def fit(
     end = descended(model, c, z, most, reach)
     if end is None:
         return None
-    T = model.jacobian(end.point)
-    H = T.T @ T + np.diag(_prior(model))
+    H, _ = normal(model, end.point)
     return Fit(model, end.point, end.misfit, H, _evidence(end.misfit, H, model) - end.point.nats)
 
 
@@ -139,39 +144,58 @@ def descended(
     at = model.point(np.clip(np.concatenate([model.base.z if z is None else z, c]), lower, upper))
     if at is None:
         return None
-    J, damping, prior = _cost(at, k), 1e-3, _prior(model)
-    scale, gained = np.concatenate([np.ones(k), 1 / model.width**2]), np.inf
+    damping, scale, gained = 1e-3, np.concatenate([np.ones(k), 1 / model.width**2]), np.inf
     for step_number in range(most):
-        T = model.jacobian(at)
-        H, slope = T.T @ T + np.diag(prior), T.T @ at.residual - prior * at.x
+        J, (H, slope) = cost_at(at, k), normal(model, at)
+        step = lambda damped, H=H, slope=slope, x=at.x: _step(H, slope, damped, scale, x, lower, upper)
         hope = min(_AHEAD, most - step_number) * gained if step_number >= min(_LEAST, most // 3) else np.inf
-        if J - hope > reach and J - _HOPE * float(slope @ _step(H, slope, 1e-6, scale, at.x, lower, upper)) > reach:
+        full = float(slope @ step(1e-6))
+        if full < _NOTHING * _small(J) or (J - hope > reach and J - _HOPE * full > reach):
             break
-        moved, promised = False, np.inf
-        while damping < _GIVE_UP and promised > _TRIFLE * (1 + 1e-3 * J):
-            step = _step(H, slope, damping, scale, at.x, lower, upper)
-            promised = float(slope @ step)
-            there = model.point(np.clip(at.x + step, lower, upper))
-            cost = np.inf if there is None else _cost(there, k)
-            if cost <= J:
-                moved = True
-                break
-            damping *= 6
-        if not moved:
+        there, damping = _lower(model, at, H, slope, step, damping, (lower, upper))
+        if there is None:
             break
-        gained, at, J = J - cost, there, cost
-        damping = max(damping / 8, 1e-9)
-        if gained < _SMALL * (1 + 1e-3 * J):
+        gained, at = J - cost_at(there, k), there
+        if gained < _small(J - gained):
             break
-    return End(model, at, J)
+    return End(model, at, cost_at(at, k))
 
 
-def _prior(model: Model) -> np.ndarray:
-    """What the prior adds to the diagonal of H (k + t,)."""
-    return np.concatenate([np.ones(model.k), np.zeros(model.t)])
+def _lower(model: Model, at: Point, H, slope, step, damping: float, limits: tuple) -> tuple[Point | None, float]:
+    """The point after a damped step that misfits no more, None where there is none, and the damping of the next.
+
+    That follows the share of the promised gain that a step had; one that is refused is followed by a much shorter one
+    (Nocedal and Wright, Numerical Optimization, 2006, algorithm 4.1), for less damping than slopes have changes nothing.
+    """
+    k, J = model.k, cost_at(at, model.k)
+    promised, longest = np.inf, np.inf
+    while damping < _GIVE_UP and promised > _TRIFLE * _small(J):
+        p = step(damping)
+        length = float(H.diagonal() @ p**2)
+        if length <= longest:
+            promised, longest = float(slope @ p), _SHORTER * length
+            there = model.point(np.clip(at.x + p, *limits))
+            gained = -np.inf if there is None else J - cost_at(there, k)
+            if gained >= 0:
+                share = gained / max(2 * promised - float(p @ H @ p), 1e-300)
+                return there, max(damping * (1 / 8 if share > _GOOD else 1 if share > _BAD else 3), 1e-9)
+        damping *= 6
+    return None, damping
 
 
-def _cost(at: Point, k: int) -> float:
+def _small(J: float) -> float:
+    """Change of J that ends the search."""
+    return _SMALL * (1 + 1e-3 * J)
+
+
+def normal(model: Model, at: Point) -> tuple[np.ndarray, np.ndarray]:
+    """H (k + t, k + t) of C / 2 at a point, T'T and the prior of z; and its slope (k + t,) downwards."""
+    T, own = model.jacobian(at), (np.arange(len(at.x)) < model.k).astype(float)
+    return T.T @ T + np.diag(own), T.T @ at.residual - own * at.x
+
+
+def cost_at(at: Point, k: int) -> float:
+    """C at a point."""
     return at.chi2 + float(at.x[:k] @ at.x[:k])
 
 

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from mouse_cli.diagnosis.evidence import capped
-from mouse_cli.diagnosis.search.fit import Fit
+from mouse_cli.diagnosis.search.fit import Fit, cost_at, normal
 
 _RISE, _BETWEEN = 1.0, (0.25, 0.5, 0.75)  # of the misfit between two fits, and where it is looked for, that parts them
 FAR = 200.0  # misfit above the best one, by its degrees of freedom, from which on a fit is no rival
@@ -58,11 +58,9 @@ def _passed(one: Fit, apart: np.ndarray, share: float) -> float:
     at = model.point(one.point.x + share * apart)
     if at is None:
         return np.inf
-    T = model.jacobian(at)
-    H = capped(T.T @ T + np.diag((np.arange(len(apart)) < k).astype(float)), model.width)
-    pull = T.T @ at.residual - np.where(np.arange(len(apart)) < k, at.x, 0.0)
+    H, pull = normal(model, at)
+    H = capped(H, model.width)
     step = np.linalg.solve(H, pull) - apart * (apart @ pull) / (apart @ H @ apart)
     beside = at.x + step
     beside[k:] = np.clip(beside[k:], *model.bounds.T)
-    costs = [each.chi2 + float(each.x[:k] @ each.x[:k]) for each in (at, model.point(beside)) if each is not None]
-    return min(costs)
+    return min(cost_at(each, k) for each in (at, model.point(beside)) if each is not None)

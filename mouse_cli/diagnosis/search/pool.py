@@ -25,9 +25,8 @@ _AHEAD = 3  # parts for each process, in hand or waiting
 _THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
 _own: Study | None = None  # the study of this process, where it is one of a pool
 
-Task = Callable[
-    ..., Any
-]  # of a study, what is given and the misfit above which nothing matters; a function of a module
+# Of a study, what is given and the misfit above which nothing matters; a function of a module
+Task = Callable[..., Any]
 
 
 class Pool:
@@ -43,9 +42,8 @@ class Pool:
         if jobs < 2 or again is None:
             return
         self.shared = known_to_all(study)
-        fresh = multiprocessing.get_context(
-            "spawn"
-        )  # the same on every system; a copy of this process might wait for its threads
+        # the same on every system; a copy of this process might wait for its threads
+        fresh = multiprocessing.get_context("spawn")
         given = (study.model.problem, again, study.model.V.tobytes(), tuple(study.known))
         begin = partial(ProcessPoolExecutor, 1, mp_context=fresh, initializer=_begin, initargs=given)
         self._workers = [begin() for _ in range(jobs)]

@@ -198,7 +198,7 @@ def _elsewhere(study: Study, one: Fit) -> list[Fit]:
     """The same kind in the recipes that are next best by themselves, in few steps."""
     (recipe,) = one.recipes
     name, fits = recipe.candidate.key, {}
-    for number, x in study.starts(name, np.zeros(study.k), ()):
+    for _, number, x in study.looks(name, np.zeros(study.k), ()):
         if number != recipe.number and number not in fits and len(fits) < _SECOND:
             fits[number] = fit(study.with_cause((), name, number), x[study.k :], x[: study.k], _QUICK)
     return [each for each in fits.values() if each is not None]

@@ -72,12 +72,8 @@ class Study:
             return self
         return Study(model, self.known, self.kind, None if self.begun is self else self.begun.coarse)
 
-    def starts(self, name: str, before: np.ndarray, beside: tuple[Recipe, ...]) -> list[tuple[int, np.ndarray]]:
-        """Numbers of recipes of candidate `name`, and x to begin from, the most promising first."""
-        return [(number, x) for _, number, x in self.looks(name, before, beside)]
-
     def looks(self, name: str, before: np.ndarray, beside: tuple[Recipe, ...]) -> list[tuple[float, int, np.ndarray]]:
-        """The same, with the misfits that are to be expected; kept, for what looks best is where descents begin."""
+        """Misfits to be expected, numbers of recipes of candidate `name`, and x to begin from, the most promising first; kept."""
         others = self.own(beside)
         key = _key(name, before, others)
         if key not in self._looked:
@@ -229,10 +225,7 @@ class Study:
         try:
             there = Study(self.model.at(theta), self.known, self.kind, self.begun)
             return there if there._knows(one) else self
-        except (
-            IndefiniteError,
-            np.linalg.LinAlgError,
-        ):  # parameters far from their prior, of a fit that explains nothing
+        except (IndefiniteError, np.linalg.LinAlgError):  # parameters far from their prior: a fit that explains nothing
             return self
 
     def _knows(self, one: Fit) -> bool:

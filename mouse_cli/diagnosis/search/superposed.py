@@ -13,12 +13,10 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Recipe
 
-KEPT = 256  # places and sizes of one candidate that are looked at beside others; of no more each is
+KEPT = 64  # places and sizes of one candidate that are looked at beside others; of no more each is
 _EACH = 4  # of one recipe at least, if it has so many among the best
-_OF_TWO, _TRIED = (
-    3,
-    512,
-)  # pairs of places of two candidates that are kept, and pairs of sizes among which they are sought
+# Pairs of places of two candidates that are kept, and pairs of sizes among which they are sought
+_OF_TWO, _TRIED = 3, 512
 
 
 def text(recipe: Recipe) -> str:

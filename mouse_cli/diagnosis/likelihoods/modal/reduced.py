@@ -145,11 +145,9 @@ class Reduced:
     def z(self) -> np.ndarray:
         """z (k,) of theta."""
         u = np.where(self.coordinates.logarithmic, np.log(np.maximum(self.theta, 1e-300)), self.theta)
-        return (
-            np.linalg.lstsq(self.L, u - self.coordinates.mean, rcond=None)[0]
-            if self.L.size
-            else np.zeros(self.L.shape[1])
-        )
+        if not self.L.size:
+            return np.zeros(self.L.shape[1])
+        return np.linalg.lstsq(self.L, u - self.coordinates.mean, rcond=None)[0]
 
     @cached_property
     def motion(self) -> Motion | None:

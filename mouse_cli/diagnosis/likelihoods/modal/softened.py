@@ -55,6 +55,4 @@ class Softened:
     def follow(self, bars: np.ndarray, z: np.ndarray) -> np.ndarray:
         """EI of `bars` at z over what it is at the parameters of the base (c, 1, 1)."""
         stiffer = self.base.stiffening[bars] @ (z - self.base.z)
-        return np.exp(np.clip(stiffer, -_FARTHEST, _FARTHEST))[
-            :, None, None
-        ]  # a trial step may be far beyond any prior
+        return np.exp(np.clip(stiffer, -_FARTHEST, _FARTHEST))[:, None, None]  # a trial step may be beyond any prior
