@@ -256,6 +256,15 @@ def test_import_loads_nothing_heavy():
     assert not loaded("import mouse_cli") & {"numpy", "scipy", "click", "yaml", "matplotlib"}
 
 
+def test_a_deck_of_matrices_is_updated_without_what_numpy_loads_when_first_asked():
+    """Masked arrays, which sets of numbers ask for, and polynomials take a tenth of the start-up of a small deck."""
+    deck = str(PACKAGE.parent / "decks" / "table_5_2.dat")
+    run = f"from mouse_cli.cli.main import cli; cli.main(['run', {deck!r}], standalone_mode=False)"
+    code = f"import sys; {run}; print(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert not set(done.stdout.splitlines()[-1].split()) & {"numpy.ma", "numpy.polynomial"}
+
+
 def test_version_needs_no_numpy():
     run = "from mouse_cli.cli.main import cli; cli.main(['--version'], standalone_mode=False)"
     assert not loaded(run) & {"numpy", "scipy", "yaml", "matplotlib"}

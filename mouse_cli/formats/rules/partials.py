@@ -21,7 +21,7 @@ def elements(draft: Draft) -> ListedElements | None:
         draft.warn("MD305", message, listed.where(i), help="list the upper triangle: row before column")
     place = (listed.values * draft.order + low - 1) * draft.order + high - 1
     _, first = np.unique(place, return_index=True)
-    for i in np.setdiff1d(np.arange(len(listed)), first)[:MOST].tolist():
+    for i in np.delete(np.arange(len(listed)), first)[:MOST].tolist():
         message = f"element {_called(listed, i)} is listed twice"
         draft.error("MD306", message, listed.where(i), help="list each element once")
     return ListedElements(listed.values > 0, low - 1, high - 1)
@@ -57,13 +57,13 @@ def partials(draft: Draft) -> Matrix | None:
 def _idle(draft: Draft) -> None:
     """Warn of elements that no property moves and of properties that move no element."""
     moving = draft.A.values != 0
-    bound = [binding.parameter + 1 for binding in draft.mesh.bindings] if draft.mesh else []
-    moved = np.setdiff1d(np.arange(1, len(draft.elements) + 1), draft.A.rows[moving])
-    for i in moved[:MOST].tolist():
+    bound = [binding.parameter for binding in draft.mesh.bindings] if draft.mesh else []
+    still = np.delete(np.arange(len(draft.elements)), draft.A.rows[moving] - 1) + 1
+    for i in still[:MOST].tolist():
         message = f"no property moves listed element {i}, ({draft.elements.rows[i - 1]},{draft.elements.cols[i - 1]})"
         help = "leave the element out of the list, or give its row of A"
         draft.warn("MD308", message, draft.elements.where(i - 1), help=help)
-    idle = np.setdiff1d(np.arange(1, len(draft.parameters) + 1), [*draft.A.cols[moving].tolist(), *bound])
+    idle = np.delete(np.arange(len(draft.parameters)), [*(draft.A.cols[moving] - 1).tolist(), *bound]) + 1
     for j in idle[:MOST].tolist():
         parameter = draft.parameters[j - 1]
         message = f"property {j} ({parameter.name}) moves no element of K or M; the test cannot revise it"

@@ -26,10 +26,11 @@ PLANES = (  # of bending: local degrees of freedom w1, slope1, w2, slope2, and t
     (np.array([1, 5, 7, 11]), np.array([1.0, 1.0, 1.0, 1.0])),
     (np.array([2, 4, 8, 10]), np.array([1.0, -1.0, 1.0, -1.0])),
 )
-_POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(4)  # exact to degree 7; products of shapes have degree 6
 _SINGULAR = 1e-10  # of eigenvalues of a matrix with unit diagonal
 _SHEARED = np.sqrt(2) - 1  # see `inertial`
-POINTS, WEIGHTS = (_POINTS + 1) / 2, _WEIGHTS / 2
+# Gauss and Legendre's four points (Abramowitz and Stegun 25.4.29), exact to degree 7; products of shapes have degree 6
+POINTS = (1 + np.sqrt(3 / 7 + 2 / 7 * np.sqrt(1.2) * np.array([1, -1, -1, 1])) * np.array([-1, -1, 1, 1])) / 2
+WEIGHTS = (18 - np.sqrt(30) * np.array([1, -1, -1, 1])) / 72
 _POWERS = np.array([2, 3, 2, 3])  # of the length in integrals of shapes that have their derivatives at the ends
 CUBIC = np.array(
     [[1.0, 0, -3, 2], [0, 1, -2, 1], [0, 0, 3, -2], [0, 0, -1, 1]]

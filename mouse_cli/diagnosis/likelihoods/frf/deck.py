@@ -32,9 +32,7 @@ def with_damping(deck: Problem, before: Problem, one: Fit) -> Problem:
         return deck
     deck = replace(deck, run=replace(deck.run, partials=max(deck.run.partials, _CYCLES)))
     *found, ratio = found_damping(fit)
-    alike = (
-        2 * ratio.value if ratio.determined else 0.0
-    )  # as a loss factor, which damps each mode at its resonance as much
+    alike = 2 * ratio.value if ratio.determined else 0.0  # as a loss factor, which damps each mode at its resonance as much
     found = [replace(found[0], value=found[0].value + alike, determined=found[0].determined or alike > 0), *found[1:]]
     stated = fit.model.damping.stated
     if of_matrices(deck):

@@ -142,9 +142,7 @@ def _followed(one: Fit) -> tuple[np.ndarray, np.ndarray]:
     T, A = T[:, free], np.linalg.inv(one.covariance)[np.ix_(free, free)]
     values, vectors = np.linalg.eigh(A - T.T @ T)
     size = np.sqrt(np.maximum(values, 0.0))
-    own = np.divide(
-        vectors.T @ pull[free], size, out=np.zeros(len(size)), where=size > _FOLLOWED * size.max(initial=0.0)
-    )
+    own = np.divide(vectors.T @ pull[free], size, out=np.zeros(len(size)), where=size > _FOLLOWED * size.max(initial=0.0))
     return np.linalg.qr(np.vstack([T, size[:, None] * vectors.T]))[0], np.concatenate([r, own])
 
 
