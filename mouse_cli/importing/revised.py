@@ -7,6 +7,7 @@ import numpy as np
 from mouse_cli._errors import DeckError
 from mouse_cli.formats.solver_cards import tag
 from mouse_cli.formats.solver_cards._keywords import keyword_lines
+from mouse_cli.importing.bricks import brick_lines
 from mouse_cli.importing.cards import Card
 from mouse_cli.importing.jobs import elastic, listed, of_same_elements, real, section, times
 from mouse_cli.importing.keywords import NODES
@@ -171,7 +172,9 @@ def _added(model: InputModel, problem: Problem, revision: Revision, inertia: boo
     held = [dof for each in model.supports for dof in each.dofs if dof[0] in nodes and dof not in released]
     rest = replace(revision, materials=(), sections=(), sets=(), supports=(), springs=tuple(springs))
     boundary = ["*BOUNDARY", *(f"{n}, {d}, {d}" for n, d in held)] if held else []
-    return [*lines, *keyword_lines(rest, inertia), *boundary], nodes
+    solids = not inertia and any(group.laminate for group in model.groups)
+    points = brick_lines(model, rest, first) if solids else keyword_lines(rest, inertia)
+    return [*lines, *points, *boundary], nodes
 
 
 def _rigid(model: InputModel, dofs: list[tuple[int, int]], support: RevisedSupport, first: int):

@@ -8,7 +8,7 @@ from test_thickness import hz, solved, square
 from mouse_cli import DeckError, read_deck
 from mouse_cli.importing.read import read
 from mouse_cli.importing.revised import revised_job
-from mouse_cli.model.revision import RevisedSet, Revision
+from mouse_cli.model.revision import RevisedMass, RevisedSet, RevisedSpring, Revision
 from mouse_cli.terms.assembly import assembly
 
 FACE = "*ELASTIC, TYPE=ENGINEERING CONSTANTS\n{E}, 9.0e9, 9.0e9, 0.3, 0.3, 0.4, {G}, 4.5e9,\n3.2e9\n*DENSITY\n1600.\n"
@@ -64,6 +64,29 @@ def test_a_material_of_the_layers_of_a_set_is_a_set_of_its_own(tmp_path):
         (tmp_path / "left").mkdir(exist_ok=True)
         text = revised_job(model, problem, Revision("", "", "SI", sets=tuple(sets)), False)
         assert len(read(written(tmp_path / "left", text)).elements) == count
+
+
+@solver
+def test_springs_and_masses_beside_laminates_are_bricks_that_the_solver_runs(tmp_path):
+    """Against K and M with the same added by hand; of a spring or mass element CalculiX says that it does not know it."""
+    (tmp_path / "job").mkdir()
+    problem = read_deck(imported(tmp_path / "job", panel())[0])
+    K, M = (
+        np.array(each.todense() if hasattr(each, "todense") else each)
+        for each in assembly(problem).matrices(problem.prior.mean)
+    )
+    a, b, c = (problem.structure.labels.index(f"{node}TZ") for node in (14, 8, 6))
+    for i, j, sign in ((a, a, 1), (b, b, 1), (a, b, -1), (b, a, -1), (c, c, 1)):
+        K[i, j] += 3e5 * sign
+    for d in "XYZ":
+        i = problem.structure.labels.index(f"14T{d}")
+        M[i, i] += 0.7
+    springs = RevisedSpring("between", ((14, 3), (8, 3)), 3e5), RevisedSpring("to ground", ((6, 3),), 3e5)
+    revised = Revision("", "", "SI", springs=springs, masses=(RevisedMass("tank", 14, 0.7),))
+    model = read(str(tmp_path / "job" / "job.inp"))
+    text = revised_job(model, problem, revised, False)
+    assert "SPRING" not in text and "*MASS" not in text and "*MASS" in revised_job(model, problem, revised, True)
+    assert np.allclose(solved(tmp_path / "back", text), hz(K, M), rtol=1e-6)
 
 
 def test_a_layer_turned_by_an_angle_is_refused_by_its_line(tmp_path):

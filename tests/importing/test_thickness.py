@@ -90,6 +90,23 @@ def test_a_thickness_of_what_is_no_shell_is_refused(tmp_path, name):
     assert "MD272" in refused.value.stderr and "give one of SKIN, WEB" in refused.value.stderr
 
 
+@solver
+def test_a_support_on_springs_leaves_the_thickness_of_sets_in_its_deck(tmp_path):
+    """What sets give by powers of their thickness sums to the set in the degrees of freedom of the extended deck too."""
+    deck, _ = imported(tmp_path, folded(0.01))
+    deck.write_text(deck.read_text() + "test:\n  modes:\n    frequency: [20, 30]\n    frequency_sd: 0.1 %\n")
+    problem = read_deck(deck)
+    recipes = reduced(problem, problem.prior.mean).recipes(registry()["support-translation"])
+    for words in ("the support ENDS, TZ", "the support ENDS, all directions"):
+        recipe = next(each for each in recipes if each.site(np.ones(1)).text == words)
+        extended = recipe.extend(problem, np.array([1e6]))
+        write_deck(extended, tmp_path / "extended.yaml")
+        again = read_deck(tmp_path / "extended.yaml")
+        assert all(each.thickness is not None for each in again.groups)
+        there = [hz(*assembly(each).matrices(each.prior.mean)) for each in (extended, again)]
+        assert np.allclose(*there, rtol=1e-8)
+
+
 def hz(K, M, count: int = 8) -> np.ndarray:
     return np.sqrt(eigensolution(K, M, count).eigenvalues[:count]) / (2 * np.pi)
 

@@ -142,6 +142,16 @@ def test_decibels_above_zero_are_told_as_magnitudes(tmp_path):
         diagnose(read_deck(path))
 
 
+@pytest.mark.parametrize("extra", [0.0, 2e4])
+def test_decibels_by_10_log10_are_told(tmp_path, extra):
+    """Half of the decibels of a function are those of its root, which has no modes."""
+    halved = lambda h: (10 * np.log10(np.abs(h)), np.angle(h, deg=True))
+    path = deck(tmp_path, functions(2, extra), forms=("magnitude_db", "phase"), columns=halved)
+    with pytest.raises(DeckError, match="10 log10") as told:
+        looked_at(path)
+    assert told.value.diagnostics[0].code == "MD456" and "20 log10" in told.value.diagnostics[0].help
+
+
 def test_a_gain_that_the_prior_allows_is_no_mistake(tmp_path):
     """Half of the functions, with gains known to 30 % alone."""
     path = deck(tmp_path, functions(2, 0.0) / 2)

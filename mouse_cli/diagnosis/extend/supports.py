@@ -134,5 +134,8 @@ def _some(elements: ListedElements, which: np.ndarray, place: np.ndarray | None 
 
 
 def _group(group: ElementGroup, T: Matrix, n: int) -> ElementGroup:
-    whole = {name: getattr(group, name) for name in ("K", "M")}
-    return replace(group, **{k: m if m is None or m.shape[0] != n else _brought(m, T) for k, m in whole.items()})
+    own = lambda m: m if m is None or m.shape[0] != n else _brought(m, T)
+    by_power = lambda parts: {power: own(each) for power, each in parts.items()}
+    thick = group.thickness
+    thick = thick if thick is None else replace(thick, K=by_power(thick.K), M=by_power(thick.M))
+    return replace(group, K=own(group.K), M=own(group.M), thickness=thick)

@@ -57,8 +57,9 @@ def _read_rightly(problem: Problem, modes: Modes) -> None:
     """Raise DeckError (MD456) where functions that fit hardly any modes fit many in another reading."""
     if modes.m and not np.nanmedian(modes.error) > _OPEN:
         return
-    enough = max(_FEWEST, 3 * modes.m)
-    fits = lambda other: int((other.error < _OPEN).sum()) >= enough
+    fitted = lambda found: int((found.error < _OPEN).sum())
+    enough = max(_FEWEST, 3 * fitted(modes))
+    fits = lambda other: fitted(other) >= enough
     if fits(_modes(problem, H=lambda test: test.H.conj())):
         raise DeckError(other_sign(problem))
     for kind in (each for each in KINDS if each != problem.frf[0].kind):
@@ -67,9 +68,17 @@ def _read_rightly(problem: Problem, modes: Modes) -> None:
     largest = max(float(np.nanmax(np.abs(test.H), initial=0.0)) for test in problem.frf)
     raised = lambda test: 10 ** (np.abs(test.H) / 20) * np.exp(1j * np.angle(test.H))
     if largest < _DECIBELS and fits(_modes(problem, H=raised)):
-        message = f"the functions show {modes.m} modes, and {enough} or more with their magnitudes read as decibels"
-        help = "name the channels of magnitudes magnitude_db"
-        raise DeckError(Diagnostic("MD456", ERROR, message, problem.place("frf"), help=help))
+        raise DeckError(
+            _of_magnitudes(problem, fitted(modes), "read as decibels", "name the channels of magnitudes magnitude_db")
+        )
+    if fits(_modes(problem, H=lambda test: np.abs(test.H) * test.H)):
+        help = "decibels of a function are 20 log10 of its magnitude: give twice those values, or magnitudes"
+        raise DeckError(_of_magnitudes(problem, fitted(modes), "squared, as of decibels by 10 log10", help))
+
+
+def _of_magnitudes(problem: Problem, count: int, said: str, help: str) -> Diagnostic:
+    message = f"the functions fit {count} modes, and at least {max(_FEWEST, 3 * count)} with their magnitudes {said}"
+    return Diagnostic("MD456", ERROR, message, problem.place("frf"), help=help)
 
 
 def _modes(problem: Problem, **other: Callable[[FrfTest], object]) -> Modes:
