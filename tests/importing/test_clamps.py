@@ -6,12 +6,16 @@ from test_import import imported, solver, written
 from test_thickness import folded, hz, solved
 
 from mouse_cli import DeckError, read_deck
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.importing.read import read
 from mouse_cli.terms.assembly import assembly
 
 
-def strip(kind: str = "S4", upright: bool = False, held: str = "CLAMP, 1, 6\n", thickness: float = 0.004) -> str:
-    """A plate of 4 by 2 shells, 0.2 by 0.1; CLAMP: its nodes at x = 0."""
+def strip(
+    kind: str = "S4", upright: bool = False, held: str = "CLAMP, 1, 6\n", thickness: float = 0.004, wide: int = 0
+) -> str:
+    """A plate of 4 by 2 shells, 0.2 by 0.1; CLAMP: its nodes at x = 0, and beyond by so many shells."""
     number: dict[tuple[int, int], int] = {}
     node = lambda x, y: number.setdefault((x, y), len(number) + 1)
     shells = []
@@ -23,7 +27,7 @@ def strip(kind: str = "S4", upright: bool = False, held: str = "CLAMP, 1, 6\n", 
     text += f"*ELEMENT, TYPE={kind}, ELSET=SKIN\n" + "".join(
         f"{e}, {', '.join(map(str, nodes))}\n" for e, nodes in enumerate(shells, 1)
     )
-    clamp = ", ".join(str(n) for (x, _), n in number.items() if x == 0)
+    clamp = ", ".join(str(n) for (x, _), n in number.items() if x <= 2 * wide)
     text += f"*NSET, NSET=CLAMP\n{clamp}\n*MATERIAL, NAME=M\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850.\n"
     return text + f"*SHELL SECTION, ELSET=SKIN, MATERIAL=M\n{thickness}\n*BOUNDARY\n{held}"
 
@@ -78,6 +82,32 @@ def test_a_thickness_beside_a_clamp_is_that_of_the_solver(tmp_path):
     theta[i : i + 3] = 0.0113 ** np.array([1.0, 3.0, 5.0])
     expected = solved(tmp_path / "other", strip(thickness=0.0113))
     assert np.allclose(hz(*assembly(problem).matrices(theta)), expected, rtol=1e-6)
+
+
+@solver
+def test_a_clamp_on_springs_lets_the_rotations_of_its_nodes_go(tmp_path):
+    """Against CalculiX with springs at the nodes of the clamp alone, in the deck of the cause and in few coordinates."""
+    deck, _ = imported(tmp_path, strip(wide=1))
+    deck.write_text(deck.read_text() + "test:\n  modes:\n    frequency: [80, 300]\n    frequency_sd: 0.1 %\n")
+    problem, words = read_deck(deck), "the support CLAMP, all directions"
+    model = reduced(problem, problem.prior.mean)
+    recipes = model.recipes(registry()["support-translation"])
+    recipe = next(each for each in recipes if each.site(np.ones(1)).text == words)
+    extended = recipe.extend(problem, np.array([6e5]))
+    springs = "".join(
+        f"*ELEMENT, TYPE=SPRING1, ELSET=K{d}\n"
+        + "".join(f"{100 * d + n}, {n}\n" for n in read(written(tmp_path, strip(wide=1))).nsets["CLAMP"])
+        + f"*SPRING, ELSET=K{d}\n{d}\n1.0e5\n"
+        for d in (1, 2, 3)
+    )
+    expected = solved(tmp_path / "springs", strip(wide=1).split("*BOUNDARY")[0] + springs)
+    assert np.allclose(hz(*assembly(extended).matrices(extended.prior.mean)), expected, rtol=1e-6)
+    change, a = recipe.change(np.array([6e5])), recipe.own
+    K, M = (
+        np.diag(np.append(model.eigenvalues, np.zeros(a))) + change.K,
+        np.diag(np.append(np.ones(model.r), np.zeros(a))),
+    )
+    assert np.allclose(hz(K, M + change.M, 2), expected[:2], rtol=1e-4)
 
 
 REFUSED = {

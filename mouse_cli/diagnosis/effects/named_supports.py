@@ -86,19 +86,21 @@ def _single(support: Support, pattern: np.ndarray, directions: range) -> list[Mo
 def _whole(support: Support, pattern: np.ndarray) -> list[Motions]:
     """All directions, on springs of equal stiffness at every node; one stiffness, that of all of them together, in translation.
 
-    Every degree of freedom for itself where they are few, else as a rigid body.
+    Every degree of freedom for itself where they are few, else as a rigid body. Where such springs hold every rotation of the
+    support, rotations of its nodes are free.
     """
     kept = [d for d in range(6) if pattern[:, d].any()]
     translations = [d for d in kept if d < 3]
     if len(translations) < 2:
         return []
+    shifted = pattern[:, :3].any(axis=1)
+    count = np.count_nonzero(pattern[:, translations[0]])
     if len(support.dofs) <= _FLEXIBLE:
-        own = np.flatnonzero(pattern[:, :3].any(axis=1))
-        each = np.eye(len(support.dofs))[:, own]
-        count = np.count_nonzero(pattern[:, translations[0]])
-        return [Motions(support, each, tuple(f"motion {i + 1}" for i in range(len(own))), np.eye(len(own)) / count)]
-    bed = pattern[:, kept].T @ pattern[:, kept]
-    count = bed[0, 0]
+        spread = np.linalg.matrix_rank(pattern[shifted, 3:]) == 3  # its springs hold its rotations too
+        own = np.flatnonzero(pattern.any(axis=1) if spread else shifted)
+        each, bed = np.eye(len(support.dofs))[:, own], np.diag(shifted[own] / count)
+        return [Motions(support, each, tuple(f"motion {i + 1}" for i in range(len(own))), bed)]
+    bed = pattern[shifted][:, kept].T @ pattern[shifted][:, kept]
     return [Motions(support, pattern[:, kept], tuple(DIRECTIONS[d] for d in kept), bed / count)]
 
 
