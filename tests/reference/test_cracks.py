@@ -8,12 +8,17 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 from benchmarks.blind import cracks
+from benchmarks.blind.decks import as_text
+from benchmarks.blind.test_data import CONFIGS, measured
+from mouse_cli.diagnosis.diagnose import again
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unmeasured_hz, unseen
 from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.diagnosis.search.descents import best
 from mouse_cli.diagnosis.search.fit import fit
+from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
 
@@ -191,3 +196,16 @@ def test_an_axial_mode_that_a_crack_makes_visible_is_none_of_its_own():
     recipe = registry()["crack"].recipes(seen, registry()["crack"])[0]
     one = fit(Model(seen, (recipe,)), recipe.coordinates(np.array([DEPTH, 0.35 * L])), most=0)
     assert unseen(one) > 1.0 and unmeasured_hz(one) == ()
+
+
+def test_a_crack_is_found_where_few_coordinates_mistake_its_depth():
+    """Off the axis it moves the bar along itself, which the lowest coordinates lack: they end at the largest depth there is, where
+    all coordinates misfit more than without a crack.
+    """
+    *_, case = cracks.cases("development", 98211, 12)
+    test = measured(case, case.make(case.inputs), CONFIGS["A"], ("A", "", 98211, 0))
+    problem = assemble(yaml_deck.read(as_text("crack", case, test, CONFIGS["A"]), "crack.yaml"))
+    one = best(Study(again(problem)), "crack", reach=270)  # what a splice at the same place leaves, and what matters beside it
+    depth, place = one.recipes[0].values(one.c)
+    assert one.misfit < 2 * one.dof
+    assert abs(depth - case.inputs["depth"]) < 0.01 and abs(place - case.inputs["place"]) < 0.005 * case.span

@@ -22,10 +22,7 @@ _NOTHING = 0.1  # of that: where a full step promises no more, the search is at 
 MOST = 40
 _GIVE_UP = 1e8
 _SHORTER = 0.25  # squared length of a step over that of one that was refused, at most
-_GOOD, _BAD = (
-    0.75,
-    0.25,
-)  # share of the promised gain above which a step may be longer, and below which it has to be shorter
+_GOOD, _BAD = 0.75, 0.25  # share of the promised gain above which a step may be longer, below which it has to be shorter
 _HOPE = 4.0  # times the gain that a full step promises: what a search may gain at most, unless it gains more
 # Steps before a search may be given up (of a brief one a third), and that may gain as the last one did
 _LEAST, _AHEAD = 3, 8
@@ -192,6 +189,12 @@ def normal(model: Model, at: Point) -> tuple[np.ndarray, np.ndarray]:
     """H (k + t, k + t) of C / 2 at a point, T'T and the prior of z; and its slope (k + t,) downwards."""
     T, own = model.jacobian(at), (np.arange(len(at.x)) < model.k).astype(float)
     return T.T @ T + np.diag(own), T.T @ at.residual - own * at.x
+
+
+def after_a_step(model: Model, at: Point) -> float:
+    """C that a full step from a point promises."""
+    H, slope = normal(model, at)
+    return cost_at(at, model.k) - float(slope @ np.linalg.solve(capped(H, model.width), slope))
 
 
 def cost_at(at: Point, k: int) -> float:
