@@ -121,3 +121,47 @@ def test_a_joint_may_be_a_hinge():
 
 def test_a_frame_that_stands_on_nothing_has_no_columns():
     assert recipes(model(BAYS.replace("    supports: {1: all, 3: all, 5: all}\n", "")), "semi-rigid") == []
+
+
+LEGS = np.array([[0, 0, 0], [4.0, 0, 0], [4.0, 3.0, 0], [4.0, 3.0, 2.0]])  # m
+TUBE = {"E": 2.1e11, "G": 8e10, "A": 4e-3, "Iy": 6e-6, "Iz": 6e-6, "J": 1.2e-5}
+RUN = f"""\
+mouse: 1
+model:
+  structure:
+    nodes: {{{", ".join(f"{n}: {at.tolist()}" for n, at in enumerate(LEGS, 1))}}}
+    elements:
+      - {{id: 1-3, type: beam, nodes: 1-4, density: 10, {", ".join(f"{name}: {v}" for name, v in TUBE.items())}}}
+      - {{id: 11, type: mass, nodes: 4, mass: {KG}}}
+    supports: {{1: all}}
+test:
+  modes: {{number: [1], frequency: [1], frequency_sd: 1 %}}
+"""
+
+
+@pytest.mark.parametrize("k", [1e5, 1e6, 1e8])
+def test_elbows_of_a_pipe_in_space_by_unit_loads(k):
+    """Moments M of forces at the tip turn each bar about the axes across it, by M / k at either side of a corner."""
+    crossed = lambda r: np.array([[0, r[2], -r[1]], [-r[2], 0, r[0]], [r[1], -r[0], 0]]).T  # r x P
+    flexibility = np.zeros((3, 3))
+    points, weights = np.polynomial.legendre.leggauss(3)
+    for start, end in zip(LEGS, LEGS[1:], strict=False):
+        length = np.linalg.norm(end - start)
+        along = np.outer(end - start, end - start) / length**2
+        flexibility += length * along / (TUBE["E"] * TUBE["A"])
+        bent = (np.eye(3) - along) / (TUBE["E"] * TUBE["Iz"]) + along / (TUBE["G"] * TUBE["J"])
+        for x, w in zip(points, weights, strict=True):
+            r = crossed(LEGS[-1] - start - (1 + x) / 2 * (end - start))
+            flexibility += w / 2 * length * r.T @ bent @ r
+        for corner in (start, end):
+            if 0 < np.abs(LEGS - corner).sum(axis=1).argmin() < 3:
+                r = crossed(LEGS[-1] - corner)
+                flexibility += r.T @ (np.eye(3) - along) @ r / k
+    found = model(RUN)
+    (recipe,) = recipes(found, "semi-rigid", "corners of two bars")
+    assert "8 ends of bars at nodes 2, 3" in recipe.site(np.array([k])).text
+    expected = 1 / (KG * np.sort(np.linalg.eigvalsh(flexibility))[::-1])
+    assert eigenvalues(found, recipe, [k])[:3] == pytest.approx(expected, rel=2e-4)
+    deck = recipe.extend(found.problem, np.array([k]))
+    assert reduced(deck, deck.prior.mean).eigenvalues[:3] == pytest.approx(expected, rel=2e-4)
+    assert len(deck.parameters) == len(found.problem.parameters) + 1

@@ -39,15 +39,18 @@ def turned(bars: Bars, ends: np.ndarray, k: float) -> Change:
 
 
 def with_joints(problem: Problem, bars: Bars, ends: np.ndarray, name: str, k: float) -> Problem:
-    """The deck with a spring (N m/rad) at each of `ends` (c, 2), all by one parameter."""
+    """The deck with a spring (N m/rad) at each of `ends` (c, 2), all by one parameter; of bars that turn in both planes there about both axes."""
     edit = Edit(problem)
-    by_key: dict[str, list[tuple[int, int]]] = {}
+    planes: dict[tuple[int, int, int], list[int]] = {}
     for bar, end in ends.tolist():
-        spring, soft = hinge(edit, *end_of(edit, bars, bar, float(end)), k)
-        by_key.setdefault(next(iter(soft)), []).append(spring)
-    for i, (key, springs) in enumerate(by_key.items()):
+        planes.setdefault((int(bars.set[bar]), int(bars.member[bar]), end), []).append(bar)
+    by_keys: dict[tuple[str, ...], list[tuple[int, int]]] = {}
+    for (*_, end), own in planes.items():
+        spring, soft = hinge(edit, *end_of(edit, bars, own[0], float(end)), k, other=k if len(own) > 1 else 0.0)
+        by_keys.setdefault(tuple(soft), []).append(spring)
+    for i, (keys, springs) in enumerate(by_keys.items()):
         if i:
-            edit.follow(springs, (key,))
+            edit.follow(springs, keys)
         else:
-            edit.bind(name, springs, (key,), unit="N m/rad")
+            edit.bind(name, springs, keys, unit="N m/rad")
     return edit.done()

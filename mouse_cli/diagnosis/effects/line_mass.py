@@ -1,6 +1,7 @@
 """Mass along rows of bars, in all directions in which they move, and beds under them, which feel what is across."""
 
 from collections.abc import Callable
+from functools import cached_property
 
 import numpy as np
 
@@ -40,14 +41,18 @@ class LineIntegral:
 
     def __init__(self, run: Line, seen: Seen = motions):
         self.run, self.seen = run, seen
-        one = [uniform(run.bars, bar, seen=seen) for bar in run.members.tolist()]
-        self.sums = np.cumsum(one, axis=0)
-        self._before = dict(zip(run.members.tolist(), self.sums - one, strict=True))
+        self._number = {bar: i for i, bar in enumerate(run.members.tolist())}
+
+    @cached_property
+    def sums(self) -> np.ndarray:
+        """Matrices (b, r, r) of the bars up to each of them."""
+        return np.cumsum([uniform(self.run.bars, bar, seen=self.seen) for bar in self.run.members.tolist()], axis=0)
 
     def upto(self, s: float) -> np.ndarray:
         """M (r, r) of the part before s."""
         bar, share = self.run.at(s)
-        return self._before[bar] + uniform(self.run.bars, bar, share, self.seen)
+        begun, i = uniform(self.run.bars, bar, share, self.seen), self._number[bar]
+        return begun + self.sums[i - 1] if i else begun
 
     def part(self, s: float, back: bool) -> np.ndarray:
         """Matrix (r, r) of the part before s, or (`back`) behind it."""

@@ -48,15 +48,15 @@ def _recipe(
     names = [f"rotary inertia, R{'XYZ'[own[0]]}" if len(axes) > 1 else "rotary inertia" for own in axes]
     J = [Unknown(name, "kg m2", least, most) for name in names]
     m = Unknown("mass", "kg", *(BODY * total))
-    straight = at.rows[:3].T @ at.rows[:3]
-    turned = [at.rows[[3 + d for d in own]].T @ at.rows[[3 + d for d in own]] for own in axes]
     about = " and ".join(DIRECTIONS[3 + d] for own in axes for d in own) + (", each its own" if len(axes) > 1 else "")
     one = (", each axis its own" if len(axes) > 1 else "") if heavy else f", rotary inertia alone, {about}"
     site = Site("node", (number,), tuple(model.problem.mesh.coordinates[node].tolist()), f"node {number}{one}")
 
     def change(values: np.ndarray) -> Change:
-        M = sum(value * own for value, own in zip(values, turned, strict=False))
-        return Change(K=at.K, M=at.with_mass(M + values[-1] * straight if heavy else M), sensing=at.sensing)
+        inertia = np.repeat([values[-1] if heavy else 0.0, 0.0], 3)
+        for value, own in zip(values, axes, strict=False):
+            inertia[[3 + d for d in own]] = value
+        return Change(K=at.K, M=at.with_mass((at.rows.T * inertia) @ at.rows), sensing=at.sensing)
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         edit = Edit(problem)

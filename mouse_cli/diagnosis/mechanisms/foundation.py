@@ -38,10 +38,10 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     ]
     ended = [(line, (int(bars.plane[line.members[0]]),)) for line in found]
     ended += [(line, (0, 1)) for line in found if not bars.plane[line.members[0]] and _bends_both_ways(line)]
-    ended = ended[:_MOST]
-    one, both = (float(np.log(part / len(ended))) for part in (_PART * (1 - _PART) / 2, _PART**2))
-    partly = [_partly(candidate, *each, back, one) for each in ended for back in (False, True)]
-    return along + partly + [_between(candidate, *each, both) for each in ended]
+    beds = [(LineIntegral(line, across if len(planes) > 1 else deflections), planes) for line, planes in ended[:_MOST]]
+    one, both = (float(np.log(part / len(beds))) for part in (_PART * (1 - _PART) / 2, _PART**2))
+    partly = [_partly(candidate, *bed, back, one) for bed in beds for back in (False, True)]
+    return along + partly + [_between(candidate, *bed, both) for bed in beds]
 
 
 def _recipe(model: Reduced, candidate: Candidate, some: list, planes: tuple[int, ...], log_prior: float) -> Recipe:
@@ -59,12 +59,12 @@ def _recipe(model: Reduced, candidate: Candidate, some: list, planes: tuple[int,
     return proportional(candidate, k, 6, site, log_prior, extend, K=K)
 
 
-def _partly(candidate: Candidate, line: Line, planes: tuple[int, ...], back: bool, log_prior: float) -> Recipe:
+def _partly(candidate: Candidate, bed: LineIntegral, planes: tuple[int, ...], back: bool, log_prior: float) -> Recipe:
     """Under a part of a line, from its beginning or (`back`) from its end."""
+    line = bed.run
     k = _stiffness(line.bars, line.length)
     covered = Unknown("covered share of the length", "1", 0.05, 0.95, log=False)
     L = line.length
-    bed = LineIntegral(line, across if len(planes) > 1 else deflections)
     edge = lambda values: L * (1 - values[1] if back else values[1])
     site = lambda values: from_end(line, values[1], back, f", local {' and '.join('yz'[p] for p in planes)}")
 
@@ -86,10 +86,10 @@ def _partly(candidate: Candidate, line: Line, planes: tuple[int, ...], back: boo
     )
 
 
-def _between(candidate: Candidate, line: Line, planes: tuple[int, ...], log_prior: float) -> Recipe:
+def _between(candidate: Candidate, bed: LineIntegral, planes: tuple[int, ...], log_prior: float) -> Recipe:
     """Between any two places of a line."""
+    line = bed.run
     k, interval = _stiffness(line.bars, line.length), Interval(line)
-    bed = LineIntegral(line, across if len(planes) > 1 else deflections)
     site = lambda values: interval.site(*values[1:], f", local {' and '.join('yz'[p] for p in planes)}")
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:

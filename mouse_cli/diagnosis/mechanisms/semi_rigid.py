@@ -1,4 +1,4 @@
-"""Semi-rigid connections: all joints of a frame at which its beams meet its columns, or one kind of them, with one stiffness."""
+"""Semi-rigid connections of one stiffness: all joints of beams and columns, or one kind of them; all corners of a run of pipes."""
 
 import numpy as np
 
@@ -41,7 +41,8 @@ CANDIDATE = Candidate(
     "semi-rigid joints",
     "semi-rigid",
     "connections between beams and columns (end plates, cleats, dowels) that the model takes as rigid, and that all turn in "
-    "proportion to the moment with one stiffness: all of a frame, or those of one direction or section",
+    "proportion to the moment with one stiffness: all of a frame, or those of one direction or section; or corners in space where "
+    "two bars alone meet, such as elbows of a pipe that ovalise",
     recipes,
     reasons.connections,
 )

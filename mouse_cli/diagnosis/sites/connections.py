@@ -1,4 +1,4 @@
-"""Connections of a frame by kind: ends of beams at the columns that they meet."""
+"""Connections by kind: ends of beams at the columns that they meet; corners of a run of pipes or bars in space."""
 
 from dataclasses import dataclass
 
@@ -18,24 +18,46 @@ class Connections:
 
 
 def connections(model: Reduced) -> list[Connections]:
-    """All joints of beams and columns, then those of each direction and of each section of beams, where there are several.
+    """All joints of beams and columns, then those of each direction and of each section of beams, where there are several; and all
+    corners in space where two bars alone meet, as elbows are, which turn about both axes at the end of either bar.
 
     Columns are what stands on supports, and all that is parallel to them. A beam turns in the plane of the column.
     """
     bars = model.bars
     if bars is None or model.motion is None:
         return []
-    found = _ends(model, bars)
-    if len(found) < 2:
-        return []
-    kinds = [Connections(found, "joints of beams and columns")]
-    for text, label in (("along", _directions(bars, found[:, 0])), ("like", np.round(np.log(bars.EI[found[:, 0]]), 6))):
+    found, kinds = _ends(model, bars), []
+    if len(found) > 1:
+        kinds = [Connections(found, "joints of beams and columns")]
+        alike = ("along", _directions(bars, found[:, 0])), ("like", np.round(np.log(bars.EI[found[:, 0]]), 6))
+    for text, label in alike if kinds else ():
         values = np.unique(label)
         for value in values if len(values) > 1 else ():
             own = found[label == value]
             if len(own) > 1:
                 kinds.append(Connections(own, f"joints of beams {text} {_named(bars, int(own[0, 0]), text)}"))
-    return kinds
+    corners = _corners(model, bars)
+    return kinds + ([Connections(corners, "corners of two bars")] if len(corners) else [])
+
+
+def _corners(model: Reduced, bars: Bars) -> np.ndarray:
+    """Ends (c, 2) of bars in space at corners, of which there are several, where two alone meet, neither held nor released."""
+    mesh = model.problem.mesh
+    joined = np.concatenate([each.nodes.ravel() for each in mesh.elements if each.nodes.shape[1] == 2])
+    degree = np.bincount(joined, minlength=len(mesh.coordinates))
+    degree[mesh.supports[:, 0]] = 0
+    at: dict[int, list[tuple[int, int]]] = {}
+    for bar in range(len(bars)):
+        for end in (0, 1):
+            if degree[bars.nodes[bar, end]] == 2 and not bars.released[bar]:
+                at.setdefault(int(bars.nodes[bar, end]), []).append((bar, end))
+    turning = [own for own in at.values() if len(own) == 4 and _angled(bars, [bar for bar, _ in own])]
+    return np.array(sorted(sum(turning, [])), int).reshape(-1, 2) if len(turning) > 1 else np.zeros((0, 2), int)
+
+
+def _angled(bars: Bars, own: list[int]) -> bool:
+    """Whether not all bars `own` are along one line."""
+    return bool((np.abs(bars.axis[own] @ bars.axis[own[0]]) <= STRAIGHT).any())
 
 
 def _named(bars: Bars, bar: int, text: str) -> str:

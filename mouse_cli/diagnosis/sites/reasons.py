@@ -62,8 +62,9 @@ def oblong(model: Any) -> str:
 
 
 def connections(model: Any) -> str:
-    """Without joints of beams and columns."""
-    return bars(model) if model.bars is None else "no two beams meet columns, members that stand on supports"
+    """Without joints of beams and columns, or corners."""
+    text = "no two beams meet columns, members that stand on supports, and in space not two corners join two bars alone"
+    return bars(model) if model.bars is None else text
 
 
 def members(model: Any) -> str:

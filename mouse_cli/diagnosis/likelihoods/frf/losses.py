@@ -10,6 +10,8 @@ from mouse_cli.diagnosis.likelihoods.frf.damping import Damping, of_low_rank
 from mouse_cli.diagnosis.likelihoods.frf.lossy import SAME, VISCOUS
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 
+_KEPT = 16  # factors of matrices of causes
+
 
 class Losses:
     """What the losses of a model with causes add to those of the structure.
@@ -19,11 +21,22 @@ class Losses:
 
     def __init__(self, model: Model, damping: Damping, middle: float):
         self.model, self.damping, self.middle = model, damping, middle
+        self._factors: dict[tuple, tuple[np.ndarray, np.ndarray]] = {}
 
     def of_structure(self, s: np.ndarray, own: np.ndarray) -> np.ndarray:
         """g (f,) of the structure, its stiffness over that without damping, for unknowns `own` of its damping."""
         eta, _, beta, *_ = self.damping.values(own)
         return 1 + 1j * eta + s * beta
+
+    def followed(self, of_deck: int, c: np.ndarray) -> list[int]:
+        """Unknowns that `local` follows beside causes c: some of the `of_deck` first ones, and of those of the damping behind them.
+
+        Springs with a law of their own know the structure's by g alone; in bars they follow the stiffness of these.
+        """
+        pairs = zip(self.model.changes(c), self.model.recipes, strict=True)
+        lawful = [change for change, recipe in pairs if recipe.law != SAME]
+        soft = any(change.softening is not None for change in lawful)
+        return [*range(of_deck if soft else 0), *((of_deck, of_deck + 2) if lawful else ())]
 
     def local(self, s: np.ndarray, z: np.ndarray, own: np.ndarray, c: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Rows G (c, size) and cores W (f, c, c), for parameters z of the deck, `own` of the damping and c of the causes."""
@@ -34,22 +47,31 @@ class Losses:
             cores.append((1j * self.damping.own + s[:, None] * self.damping.viscous)[:, :, None] * np.eye(len(stated)))
         springs = self._springs(s, g, c)
         for i, change in enumerate(changes):
-            for matrix, unit in ((change.C, s), (change.D, np.full_like(s, 1j))):
-                if matrix is not None:
-                    size, U = of_low_rank(matrix)
-                    (
-                        rows.append(self._wide(U.T, self.model.places[i])),
-                        cores.append(unit[:, None, None] * np.diag(size)),
-                    )
-            spring = change.K if change.spring is None else change.spring
-            if self.model.recipes[i].law != SAME and spring is not None:
-                size, U = of_low_rank(self.model.summed([(i, Change(K=spring))])[0])
-                rows.append(U.T), cores.append((springs[i] - g)[:, None, None] * np.diag(size))
+            for name, unit in (("C", s), ("D", np.full_like(s, 1j))):
+                if getattr(change, name) is not None:
+                    size, rank = self._factored(i, c, name, change)
+                    rows.append(rank)
+                    cores.append(unit[:, None, None] * np.diag(size))
+            name = "K" if change.spring is None else "spring"
+            if self.model.recipes[i].law != SAME and getattr(change, name) is not None:
+                size, rank = self._factored(i, c, name, change)
+                rows.append(rank)
+                cores.append((springs[i] - g)[:, None, None] * np.diag(size))
         softer = [(i, change.softening) for i, change in enumerate(changes) if change.softening is not None]
         if any(self.model.recipes[i].law != SAME for i, _ in softer):
             G, W = self._softer(softer, changes, springs, g, z)
             rows.append(G), cores.append(W)
         return np.concatenate(rows), _diagonal(cores)
+
+    def _factored(self, i: int, c: np.ndarray, name: str, change: Change) -> tuple[np.ndarray, np.ndarray]:
+        """Sizes (a,) and rows (a, size) of one matrix of cause number i, kept where nothing but the damping moves."""
+        key = i, name, c[self.model.own[i]].tobytes()
+        if key not in self._factors:
+            if len(self._factors) > _KEPT:
+                self._factors.clear()
+            (size, U), G = of_low_rank(getattr(change, name)), self.model.within[i]
+            self._factors[key] = size, self._wide(U.T, self.model.places[i]) if G is None else U.T @ G
+        return self._factors[key]
 
     def _wide(self, rows: np.ndarray, places: np.ndarray) -> np.ndarray:
         """Rows (c, own) of some coordinates as rows (c, size) of all."""

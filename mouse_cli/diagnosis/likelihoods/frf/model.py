@@ -220,11 +220,11 @@ class FrfModel:
         return K, M, S
 
     def _of_losses(self, i: int, x: np.ndarray, left: np.ndarray, right: np.ndarray):
-        """j and S Z^-1 d(G' W G)/dx_j Z^-1 B' (f, o, i), by differences, of every x_j that the losses may follow."""
+        """j and S Z^-1 d(G' W G)/dx_j Z^-1 B' (f, o, i), by differences, of every x_j that the losses follow."""
         s, (z, own, _, _, c) = self.base.data.blocks[i].nodes, self.split(x)
         if not len(self.losses.local(s[:1], z, own, c)[0]):
             return
-        for j in chain(range(self.lossy), range(self.k, self.k + self.t)):
+        for j in chain(self.losses.followed(self.of_deck, c), range(self.k, self.k + self.t)):
             slope = 0.0
             for place, weight in self._stencil(x, j):
                 there = x.copy()
