@@ -205,7 +205,8 @@ def test_a_crack_is_found_where_few_coordinates_mistake_its_depth():
     *_, case = cracks.cases("development", 98211, 12)
     test = measured(case, case.make(case.inputs), CONFIGS["A"], ("A", "", 98211, 0))
     problem = assemble(yaml_deck.read(as_text("crack", case, test, CONFIGS["A"]), "crack.yaml"))
-    one = best(Study(again(problem)), "crack", reach=270)  # what a splice at the same place leaves, and what matters beside it
+    reach = 270  # what a splice at the same place leaves, and what matters beside it
+    one = best(Study(again(problem)), "crack", reach=reach)
     depth, place = one.recipes[0].values(one.c)
     assert one.misfit < 2 * one.dof
     assert abs(depth - case.inputs["depth"]) < 0.01 and abs(place - case.inputs["place"]) < 0.005 * case.span

@@ -1,5 +1,7 @@
 """Crossed diagonals in a panel and semi-rigid connections of a frame, against closed forms; and where a joint of a deck is."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from scipy.linalg import eigh
@@ -145,7 +147,7 @@ def test_elbows_of_a_pipe_in_space_by_unit_loads(k):
     crossed = lambda r: np.array([[0, r[2], -r[1]], [-r[2], 0, r[0]], [r[1], -r[0], 0]]).T  # r x P
     flexibility = np.zeros((3, 3))
     points, weights = np.polynomial.legendre.leggauss(3)
-    for start, end in zip(LEGS, LEGS[1:], strict=False):
+    for start, end in pairwise(LEGS):
         length = np.linalg.norm(end - start)
         along = np.outer(end - start, end - start) / length**2
         flexibility += length * along / (TUBE["E"] * TUBE["A"])

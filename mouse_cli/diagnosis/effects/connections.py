@@ -39,7 +39,7 @@ def turned(bars: Bars, ends: np.ndarray, k: float) -> Change:
 
 
 def with_joints(problem: Problem, bars: Bars, ends: np.ndarray, name: str, k: float) -> Problem:
-    """The deck with a spring (N m/rad) at each of `ends` (c, 2), all by one parameter; of bars that turn in both planes there about both axes."""
+    """The deck with a spring (N m/rad) at each of `ends` (c, 2), all by one parameter; about both axes where both planes turn."""
     edit = Edit(problem)
     planes: dict[tuple[int, int, int], list[int]] = {}
     for bar, end in ends.tolist():

@@ -52,7 +52,8 @@ def _corners(model: Reduced, bars: Bars) -> np.ndarray:
             if degree[bars.nodes[bar, end]] == 2 and not bars.released[bar]:
                 at.setdefault(int(bars.nodes[bar, end]), []).append((bar, end))
     turning = [own for own in at.values() if len(own) == 4 and _angled(bars, [bar for bar, _ in own])]
-    return np.array(sorted(sum(turning, [])), int).reshape(-1, 2) if len(turning) > 1 else np.zeros((0, 2), int)
+    several = turning if len(turning) > 1 else []
+    return np.array(sorted(end for own in several for end in own), int).reshape(-1, 2)
 
 
 def _angled(bars: Bars, own: list[int]) -> bool:
