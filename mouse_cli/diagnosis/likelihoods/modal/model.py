@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from itertools import pairwise
+from weakref import WeakValueDictionary
 
 import numpy as np
 
@@ -13,7 +14,6 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.turning import measured, one_by_one, turned
 
 _STEP = 1e-5  # of a range, for derivatives of matrices
-_KEPT = 4  # points
 _BUCKLED = 1e-6  # share of the lowest elastic eigenvalue of the model as it is that a negative one has beyond rounding
 _ROUNDED = 1e-13  # share of the largest that is no more than rounding
 
@@ -35,7 +35,7 @@ class Model(Carrying):
         self.bounds = np.concatenate([np.zeros((0, 2)), *(recipe.bounds for recipe in recipes)])
         self.width = self.bounds[:, 1] - self.bounds[:, 0]
         self._slopes: tuple[Point, np.ndarray] | None = None
-        self._points: dict[bytes, Point | None] = {}
+        self._points: WeakValueDictionary[bytes, Point] = WeakValueDictionary()
         last, self.places = base.r, []
         for recipe in recipes:
             self.places.append(np.concatenate([np.arange(base.r), last + np.arange(recipe.own)]).astype(int))
@@ -77,14 +77,13 @@ class Model(Carrying):
         return K, M, S
 
     def point(self, x: np.ndarray) -> Point | None:
-        """The model at x (k + t,); None where it is not physical. Kept for a while: searches begin where points were compared."""
-        key = x.tobytes()
-        if key not in self._points:
-            if len(self._points) == _KEPT:
-                del self._points[next(iter(self._points))]
-            found = self.solved(x)
-            self._points[key] = None if found is None else self.paired(x, *found)
-        return self._points[key]
+        """The model at x (k + t,); None where it is not physical. Known while somebody has it: searches begin where points were
+        compared.
+        """
+        at = self._points.get(x.tobytes())
+        if at is None and (found := self.solved(x)) is not None and (at := self.paired(x, *found)) is not None:
+            self._points[x.tobytes()] = at
+        return at
 
     def solved(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
         """Eigenvalues (size,) and shapes X (size, size) at x (k + t,), and sensing (s, size) that the causes add; None likewise."""
