@@ -49,4 +49,11 @@ CODES = {
         "channel of phases or magnitudes holds what no such channel can. `diagnose` looks for the former.",
         "Follow the message: mend `unit`, `kind`, `input` or the channel that is named.",
     ),
+    "MD457": Code(
+        "recordings that fit in another reading",
+        "The linear model, its parameters free within their prior, leaves most of a recording unexplained and little of it in "
+        "another reading: all channels of one quantity in another unit, motions of another kind (displacement, velocity, "
+        "acceleration), two channels exchanged, the force elsewhere, or another sample rate.",
+        "Follow the message: mend `unit`, `quantity`, `sample_rate`, or the sensor that a channel is given to.",
+    ),
 }

@@ -77,4 +77,5 @@ def _places(draft: Draft) -> dict[str, Span]:
     found = {"order": draft.where_order, "estimator": draft.where_estimator, "theory": draft.where_theory}
     if draft.test is not None:
         found |= {f"mode {number}": draft.test.where_number(i) for i, number in enumerate(draft.test.number.tolist())}
+    found |= {f"recording '{each.recording.title}'": each.where for each in draft.recordings}
     return {key: span for key, span in found.items() if span is not None}

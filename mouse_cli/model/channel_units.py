@@ -44,8 +44,15 @@ _TABLE: dict[str, tuple[str, float]] = {
     **{unit: ("sound", factor) for unit, factor in {"Pa": 1.0, "mPa": 1e-3, "kPa": 1e3}.items()},
     **{unit: ("voltage", factor) for unit, factor in {"V": 1.0, "mV": 1e-3, "uV": 1e-6}.items()},
 }
+COMMON = {  # units in which channels of a quantity come mostly
+    "acceleration": ("m/s2", "g", "mm/s2"),
+    "velocity": ("m/s", "mm/s", "in/s"),
+    "displacement": ("m", "mm", "um", "in"),
+    "force": ("N", "kN", "lbf", "kgf"),
+}
 _SPELLINGS = (("²", "2"), ("**", ""), ("^", ""), ("µ", "u"), ("μ", "u"), ("·", " "))
 _SAME = {"meter": "m", "metre": "m", "newton": "N", "volt": "V", "inch": "in"}
+_SAME_UNIT = 0.02  # relative, of a gain that was estimated
 _INVERSE = re.compile(r"\(1/([^()]+)\)\s*[*·]?\s*\(?([^()]+)\)?")  # as Testlab writes it
 _SECONDS = re.compile(r"/\s*(sec|s)(?=[2\s/)]|$)", re.IGNORECASE)
 
@@ -82,6 +89,17 @@ def _plain(text: str) -> str:
         .replace("m s-1", "m/s")
     )
     return _SAME.get(name.lower(), name)
+
+
+def read_as(quantity: str, name: str, gain: float) -> str:
+    """The common unit of a quantity of which numbers are, where reading them in the unit `name` makes them `gain` times as large.
+
+    >>> read_as("acceleration", "m/s2", 1 / 9.80665), read_as("acceleration", "m/s2", 1.3)
+    ('g', '')
+    """
+    stated = unit(name)
+    others = [each for each in COMMON.get(quantity, ()) if stated is not None and unit(each) != stated]
+    return next((each for each in others if abs(gain * unit(each).factor / stated.factor - 1) < _SAME_UNIT), "")
 
 
 def ratio(text: str) -> tuple[Unit, Unit] | None:

@@ -14,10 +14,7 @@ from mouse_cli.model.recording import Channel
 from mouse_cli.terms.laws import SIGNS, Law, Scale, Unknown
 from mouse_cli.updating.recordings.series import Series
 
-GAINS = (
-    0.01,
-    100.0,
-)  # of the least and the most that a channel may read of what it measures: g for m/s2, mm for m are within
+GAINS = 1e-4, 1e4  # the least and the most that a channel may read of what it measures: g for m/s2, mm for m are within
 DELAYS = 1e-3, 64.0  # samples that a channel may be late, or early
 
 

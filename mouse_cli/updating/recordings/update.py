@@ -15,6 +15,7 @@ from mouse_cli.updating.chi_square import upper_tail
 from mouse_cli.updating.recordings.acting import Part, Place
 from mouse_cli.updating.recordings.adequacy import close, strained, unlikely, with_noise
 from mouse_cli.updating.recordings.hypothesis import Hypothesis
+from mouse_cli.updating.recordings.mistakes import check
 from mouse_cli.updating.recordings.noise import noise
 from mouse_cli.updating.recordings.polish import Fit, Polish, followed
 from mouse_cli.updating.recordings.records import named, records
@@ -33,7 +34,8 @@ _STEP = 1e-4  # of finite differences, in prior sd
 def update_records(problem: Problem, notice: Notice) -> RecordUpdate:
     """The model of `problem` revised by its recordings.
 
-    Raises DeckError (MD640) for records that cannot judge, NumericalError (MD540) where the model as it is cannot be simulated.
+    Raises DeckError for records that cannot judge (MD640) or are misread (MD457), NumericalError (MD540) where the model as it is
+    cannot be simulated.
     """
     own = study(problem, records(problem))
     found = own.records
@@ -44,6 +46,9 @@ def update_records(problem: Problem, notice: Notice) -> RecordUpdate:
     notice("records that no fit has seen")
     left = noise(own.spectrum, fit.hypothesis, own.places, fit.x) if unlikely(fit) else None
     scale = with_noise(fit, left)
+    explained = not strained(fit, scale) and (not unlikely(fit) or left is not None)
+    if not explained:
+        check(own)
     dof = max(int(fit.dof), 1)
     return RecordUpdate(
         problem=problem,
@@ -52,7 +57,7 @@ def update_records(problem: Problem, notice: Notice) -> RecordUpdate:
         laws=tuple(one.spelled(problem.units) for one in replace(fit, covariance=scale * fit.covariance).causes),
         residual=ChiSquareTest("residual", fit.misfit, dof, upper_tail(fit.misfit, dof)),
         noise_scale=scale,
-        explained=not strained(fit, scale) and (not unlikely(fit) or left is not None),
+        explained=explained,
         noise=left,
         scores=scores(own, prior, fit),
         trace=trace(own, prior, fit),

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from mouse_cli.diagnosis.extend.laws import extended
 from mouse_cli.diagnosis.likelihoods.history.search import weighed
-from mouse_cli.diagnosis.likelihoods.history.verdict import decided, explanations, ranked, untried
+from mouse_cli.diagnosis.likelihoods.history.verdict import decided, explanations, ranked, remedies, untried
 from mouse_cli.diagnosis.verdict import leader
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, Choices, Diagnosis
 from mouse_cli.model.problem import Problem
@@ -46,7 +46,7 @@ def diagnose_records(problem: Problem, notice: Notice, choices: Choices, own: St
         explanations=explanations(ranking, own),
         groups=ranking.groups,
         noise_scale=ranking.noise_scale,
-        **vars(decision),
+        **vars(decision) | {"cautions": decision.cautions + remedies(told, own)},
         untried=untried(searched, own, known),
         remarks=found.remarks + own.model.remarks + (best or baseline).calibrated,
         choices=choices,

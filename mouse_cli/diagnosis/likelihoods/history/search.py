@@ -12,6 +12,7 @@ from mouse_cli.updating.recordings.acting import Place
 from mouse_cli.updating.recordings.adequacy import adequate, innovation, missing, strained, unlikely, with_noise
 from mouse_cli.updating.recordings.channels import Misreading, misreadings
 from mouse_cli.updating.recordings.misread import misread
+from mouse_cli.updating.recordings.mistakes import check
 from mouse_cli.updating.recordings.noise import doubtful, noise
 from mouse_cli.updating.recordings.polish import Fit
 from mouse_cli.updating.recordings.regression import Regression, Start, starts
@@ -48,7 +49,7 @@ class Weighed:
 def weighed(study: Study, notice: Notice, known: list[Law] | None = None, causes: int = 2) -> Weighed:
     """The model as it is, then one law, then, where no single one is adequate and what it leaves is no noise, up to `causes`.
 
-    Raises NumericalError (MD540) where the model as it is cannot be simulated.
+    Raises NumericalError (MD540) where the model as it is cannot be simulated, DeckError (MD457) for records that are misread.
     """
     notice("the linear model as it is")
     baseline = fitted(study, None)
@@ -56,6 +57,7 @@ def weighed(study: Study, notice: Notice, known: list[Law] | None = None, causes
         raise not_simulated(study.problem)
     if not missing(baseline):
         return Weighed(baseline, [])
+    check(study)
     quiet = noise(study.spectrum, study.base, study.places) if unlikely(baseline) else None
     noisy = quiet is not None and not strained(baseline, with_noise(baseline, quiet))
     if noisy and not doubtful(study.spectrum, study.base, study.places, quiet):

@@ -8,6 +8,7 @@ from mouse_cli.diagnosis.gates import FAR, ODDS, SURE
 from mouse_cli.diagnosis.likelihoods.history.search import Weighed
 from mouse_cli.diagnosis.search.rank import Ranking, group, ranking
 from mouse_cli.diagnosis.verdict import leader
+from mouse_cli.model.channel_units import read_as
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Explanation, Rest, Untried
 from mouse_cli.terms.laws import Law, registry
 from mouse_cli.updating.chi_square import upper_tail
@@ -156,6 +157,23 @@ def _refuted(best: Fit, ratio: float) -> str:
         else "whose simulation with it diverges"
     )
     return f"Refuted by records that no fit has seen, {how}: {titles}."
+
+
+def remedies(one: Fit | None, own: Study) -> tuple[str, ...]:
+    """What to do about the errors of channels that a fit has."""
+    found, channels = [], (*own.records.outputs, *own.records.inputs)
+    for part, p in [] if one is None else one.hypothesis.sizes(one.x[None]):
+        if not isinstance(part.law, Misreading):
+            continue
+        channel, (gain, delay) = channels[part.place.channel], part.law.reads(p[:, 0], **part.words)
+        if part.law.key == "sensor-delay":
+            found.append(f"Channel {channel.name} is {1e3 * delay:.4g} ms late: shift it by so much in its file.")
+            continue
+        unit = read_as(channel.quantity, channel.unit, abs(gain))
+        cause = f"; where its numbers are in {unit}, not in {channel.unit}, write unit: {unit}" if unit else ""
+        sign = "; turn its sign" if gain < 0 else ""
+        found.append(f"Channel {channel.name} reads {gain:.4g} times what it should{cause}{sign}.")
+    return tuple(found)
 
 
 def _sites(one: Fit) -> set[tuple[str, str]]:

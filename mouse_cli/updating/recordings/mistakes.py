@@ -1,0 +1,177 @@
+"""Records that the model explains in another reading: other units, another kind of motion, exchanged channels, another time step.
+
+What the linear model leaves of a record in closed form, its parameters and nuisances free within their prior, tells readings from
+one another: no lack in a model is the same factor, or power of the frequency, in all modes alike.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+import numpy as np
+
+from mouse_cli._errors import ERROR, DeckError, Diagnostic
+from mouse_cli.model.channel_units import COMMON, target, unit
+from mouse_cli.model.problem import Problem
+from mouse_cli.model.recording import MOTIONS, Channel, Recording
+from mouse_cli.updating.recordings.free_force import Spectrum
+from mouse_cli.updating.recordings.records import records, reduced
+from mouse_cli.updating.recordings.regression import Regression
+from mouse_cli.updating.recordings.series import Series
+from mouse_cli.updating.recordings.study import Study
+
+_ASTRAY = 0.2  # share of a channel that the model leaves, from which on another reading is thought of
+_GAINED = 0.1  # of what is left of the record, or of the record, that a reading leaves at most
+_EQUAL = 1.5  # times what the best reading leaves, up to which another one fits as well
+_FAR = 5.0  # prior standard deviations that nuisances may move in the right reading
+_WORST = 3  # channels, by what is left of them, that may be wrong by themselves
+_RATES = (2.0, 10.0, 1e3, 2 * np.pi)  # that a sample rate may be wrong by
+_LIKELY = 2  # units of a kind that one channel alone is taken to be in
+
+
+@dataclass(frozen=True)
+class _Reading:
+    """What is taken to be so, what to do, and the record in that reading."""
+
+    said: str
+    remedy: str
+    of: Callable[[Recording], Recording]
+
+
+def check(own: Study) -> None:
+    """Raise DeckError (MD457) where the model leaves most of a record as it is read, and little of it in another reading."""
+    problem, title = own.problem, own.look.title.removesuffix(", its end")
+    record = next(one for one in problem.recordings if one.title == title)
+    outputs = [_column(record, one) for one in own.records.outputs]
+    before, by_channel = _left(_looked(own, own.look), record.samples[:, outputs])
+    if by_channel.max() < _ASTRAY:
+        return
+    worst = [outputs[i] for i in np.argsort(-by_channel)[:_WORST]]
+    found = []
+    for each in _readings(problem, record, outputs, [_column(record, one) for one in own.records.inputs], worst):
+        after = _read(own, each.of(record), outputs)
+        if after < _GAINED * min(before, 1.0):
+            found.append((after, each))
+    if found:
+        raise DeckError(_told(problem, record, before, found))
+
+
+def _told(problem: Problem, record: Recording, before: float, found: list[tuple[float, _Reading]]) -> Diagnostic:
+    """The first of the readings that fit alike, and the others beside it."""
+    least = min(left for left, _ in found)
+    alike = {each.said: each.remedy for left, each in found if left < _EQUAL * least}
+    (said, remedy), *rest = alike.items()
+    name = f"recording '{record.title}'"
+    message = (
+        f"the model leaves {100 * min(before, 1.0):.3g} % of {name}{f' ({record.path})' if record.path else ''} unexplained; "
+        f"{said}, it would leave {100 * least:.2g} %"
+    )
+    note = "; ".join(f"{other}: {mend}" for other, mend in rest[:3])
+    return Diagnostic("MD457", ERROR, message, problem.place(name), f"as well fits: {note}" if note else "", remedy)
+
+
+def _column(record: Recording, channel: Channel) -> int:
+    return record.channels.index(channel)
+
+
+def _read(own: Study, record: Recording, outputs: list[int]) -> float:
+    """Share of a record that is left; infinite where it cannot judge in that reading, or moves nuisances out of their prior."""
+    try:
+        (series,) = records(replace(own.problem, recordings=(record,), held_records=None)).fitted
+    except DeckError:
+        return np.inf
+    look = reduced(series, own.model).part(0, len(own.look))
+    at = _looked(own, replace(look, slow=own.look.slow, disturbance=own.look.disturbance))
+    z = at.begin(np.zeros_like(at.y), np.zeros(0))[0][: own.model.linear.k]
+    return np.inf if np.abs(z).max(initial=0.0) > _FAR else _left(at, record.samples[:, outputs])[0]
+
+
+def _looked(own: Study, look: Series) -> Regression:
+    return Regression(Spectrum(look, own.model.linear), own.base.placed(own.places[0]))
+
+
+def _left(at: Regression, samples: np.ndarray) -> tuple[float, np.ndarray]:
+    """Share of outputs as they were read, samples (t, s), that the linear model leaves, and that of each (s,).
+
+    Of motions relative to the ground a share would be small where outputs are read as nothing.
+    """
+    spectrum, own = at.spectrum, samples[: len(at.spectrum.series)]
+    size = (spectrum.whitened((own - own.mean(axis=0)) * spectrum.window[:, None])[at.kept] ** 2).sum(axis=0)
+    return at.nothing / float(size.sum()), (at.left[at.kept] ** 2).sum(axis=0) / size
+
+
+def _readings(
+    problem: Problem, record: Recording, outputs: list[int], inputs: list[int], worst: list[int]
+) -> Iterator[_Reading]:
+    every, channels = (*outputs, *inputs), record.channels
+    for quantity in dict.fromkeys(channels[j].quantity for j in every):
+        same = [j for j in every if channels[j].quantity == quantity and not channels[j].ground]
+        usual, factor = target(quantity, problem.units)
+        for each in (one for one in COMMON.get(quantity, ()) if unit(one).factor != factor):
+            yield _scaled(record, same, usual, each)
+            yield _scaled(record, same, each, usual)
+        yield from _of_kind(problem, record, same)
+    for j in worst:
+        yield from _of_kind(problem, record, [j], _LIKELY)
+    for i, j in combinations(sorted(worst), 2):
+        yield _exchanged(record, i, j)
+    for force in (j for j in inputs if not channels[j].ground):
+        yield from (_moved(record, force, j) for j in outputs if channels[j].weights != channels[force].weights)
+    for factor in (*_RATES, *(1 / each for each in _RATES)):
+        rate = record.sample_rate_hz * factor
+        said, remedy = f"sampled at {rate:.6g} Hz", f"write sample_rate: {rate:.6g}, or mend the time column"
+        yield _Reading(said, remedy, lambda one, by=factor: replace(one, time_step_s=one.time_step_s / by))
+
+
+def _named(record: Recording, columns: Sequence[int]) -> str:
+    return f"channel{'s' * (len(columns) > 1)} {', '.join(record.channels[j].name for j in columns)}"
+
+
+def _changed(columns: Sequence[int], factor: float, **stated) -> Callable[[Recording], Recording]:
+    """Channels times a factor, and whatever else is stated of them."""
+
+    def of(one: Recording) -> Recording:
+        size = np.ones(len(one.channels))
+        size[list(columns)] = factor
+        channels = tuple(replace(c, **stated) if j in columns else c for j, c in enumerate(one.channels))
+        return replace(one, channels=channels, samples=one.samples * size)
+
+    return of
+
+
+def _scaled(record: Recording, columns: list[int], stated: str, true: str) -> _Reading:
+    names = _named(record, columns)
+    factor = unit(true).factor / unit(stated).factor
+    return _Reading(
+        f"with {names} in {true}, not in {stated}", f"write unit: {true} for {names}", _changed(columns, factor)
+    )
+
+
+def _of_kind(problem: Problem, record: Recording, columns: list[int], most: int | None = None) -> Iterator[_Reading]:
+    """Motions that are of another kind, their numbers in one of its units, the first `most`."""
+    if not columns or (stated := record.channels[columns[0]].quantity) not in MOTIONS:
+        return
+    names = _named(record, columns)
+    for quantity in (one for one in MOTIONS if one != stated):
+        for each in COMMON[quantity][:most]:
+            factor = unit(each).factor / target(quantity, problem.units)[1]
+            said = f"with {names} as {quantity} in {each}"
+            yield _Reading(
+                said,
+                f"write quantity: {quantity}, unit: {each} for {names}",
+                _changed(columns, factor, quantity=quantity),
+            )
+
+
+def _exchanged(record: Recording, i: int, j: int) -> _Reading:
+    order = np.arange(len(record.channels))
+    order[[i, j]] = j, i
+    names = f"{record.channels[i].name} and {record.channels[j].name}"
+    of = lambda one: replace(one, samples=one.samples[:, order])
+    return _Reading(f"with channels {names} exchanged", f"exchange {names} in outputs, or on the structure", of)
+
+
+def _moved(record: Recording, force: int, output: int) -> _Reading:
+    there, name = record.channels[output], record.channels[force].name
+    remedy = f"write inputs: {{{there.sensor}: {name}}}, if the force acted there"
+    return _Reading(f"with force {name} at {there.sensor}", remedy, _changed([force], 1.0, weights=there.weights))

@@ -1,0 +1,78 @@
+"""Recordings whose units, kinds, channels or sample rate are misstated, against records that scipy integrated."""
+
+import numpy as np
+import pytest
+from two_masses import linear, record
+
+from mouse_cli._errors import DeckError
+from mouse_cli.formats import read_deck
+from mouse_cli.updating.recordings.mistakes import check
+from mouse_cli.updating.recordings.records import records
+from mouse_cli.updating.recordings.study import study
+from mouse_cli.updating.recordings.update import update_records
+
+G = 9.80665
+UNITS = "quantity: acceleration, unit: m/s2"
+MISREAD = {  # changes of channels, of the deck, and what the finding says and what it asks for
+    "all in g": ({"a1": 1 / G, "a2": 1 / G}, {}, "channels a1, a2 in g", "unit: g"),
+    "all in mm/s2": ({"a1": 1e3, "a2": 1e3}, {}, "channels a1, a2 in mm/s2", "unit: mm/s2"),
+    "force in lbf": ({"f": 1 / 4.4482216}, {}, "channel f in lbf", "unit: lbf"),
+    "exchanged": ({}, {"l: a1": "l: a0", "l: a2": "l: a1", "l: a0": "l: a2"}, "a2 and a1 exchanged", "exchange"),
+    "all as velocities": ({}, {UNITS: "quantity: velocity, unit: m/s"}, "a1, a2 as acceleration in m/s2", "quantity: acceleration"),
+    "one as velocity": ({}, {f"a2, {UNITS}": "a2, quantity: velocity, unit: m/s"}, "channel a2 as acc", "channel a2"),
+    "in ms": ({}, {"512.0": "0.512"}, "sampled at 512 Hz", "write sample_rate: 512"),
+    "half the rate": ({}, {"512.0": "256"}, "sampled at 512 Hz", "write sample_rate: 512"),
+    "force at the other mass": ({}, {"[{sensor: 2": "[{sensor: 1"}, "force f at 2", "inputs: {2: f}"),
+}  # fmt: skip
+
+
+def misread(folder, law, channels: dict[str, float], words: dict[str, str]):
+    """The problem of a record some of whose channels are multiplied, and some words of whose deck are others."""
+    deck = record(folder, law)
+    kept = dict(np.load(folder / "run.npz"))
+    np.savez(folder / "run.npz", **{name: channels.get(name, 1.0) * x for name, x in kept.items()})
+    text = (folder / "deck.yaml").read_text()
+    for before, after in words.items():
+        text = text.replace(before, after)
+    (folder / "deck.yaml").write_text(text)
+    return read_deck(deck)
+
+
+@pytest.mark.parametrize("name", MISREAD)
+def test_what_is_misread_is_told_with_what_to_mend(tmp_path, name):
+    channels, words, said, help = MISREAD[name]
+    problem = misread(tmp_path, linear, channels, words)
+    with pytest.raises(DeckError) as refused:
+        check(study(problem, records(problem)))
+    (found,) = refused.value.diagnostics
+    assert found.code == "MD457" and said in found.message and help in found.help and "run.npz" in found.message
+    assert found.span.line == 12  # that of the file
+
+
+def test_an_update_is_refused_likewise(tmp_path):
+    problem = misread(tmp_path, linear, {"a1": 1 / G, "a2": 1 / G}, {})
+    with pytest.raises(DeckError, match="in g, not in m/s2"):
+        update_records(problem, lambda text: None)
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        linear,
+        lambda u, v: 2e9 * (u[1] - u[0]) ** 3 * np.array([-1.0, 1.0]),
+        lambda u, v: np.array([6.0 * np.tanh(v[0] / 1e-3), 0.0]),
+        lambda u, v: np.array([2e4 * u[0], 0.0]),
+    ],
+)
+def test_a_law_is_no_misreading(tmp_path, law):
+    """A strong cubic spring, dry friction, and a spring that doubles the stiffness to the ground."""
+    problem = misread(tmp_path, law, {}, {})
+    check(study(problem, records(problem)))
+
+
+def test_the_remedy_of_one_channel_names_its_unit(tmp_path):
+    from mouse_cli.diagnosis.diagnose import diagnose
+
+    found = diagnose(misread(tmp_path, linear, {"a1": 1e3}, {}))
+    assert found.best.causes[0].physics == "sensor-gain"
+    assert any("Channel a1 reads" in one and "write unit: mm/s2" in one for one in found.cautions)
