@@ -8,6 +8,9 @@ from html.parser import HTMLParser
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+import numpy as np
+from scipy.signal import lfilter
+
 from mouse_cli.cli.main import _run
 from mouse_cli.page import DOCUMENTS, page, read
 
@@ -19,11 +22,17 @@ DIAGNOSES = {
     "one-of": "three_storey_building",
     "drawn": "chain_functions",
 }
-OTHERS = {
+OTHERS = {  # command, deck, options; FOLDER stands for a folder of its own
     "compared": ("compare", "tube_frame"),
     "predicted": ("modes", "three_storey_building"),
     "correlated": ("correlate", "cantilever"),
     "identified": ("identify", "chain_functions"),
+    "coupled": ("couple", "coupled/portal"),
+    "modified": ("modify", "coupled/portal_calmed"),
+    "swept": ("sweep", "table_5_3", "--vary", "k1.sd=5000,20000", "-j", "1", "-o", "FOLDER"),
+    "resampled": ("bootstrap", "table_5_3", "--replicates", "20", "-j", "1", "-o", "FOLDER"),
+    "sampled": ("sample", "twin_springs"),
+    "spectra": ("spectra", "FOLDER/run.csv", "--force", "1=f", "--response", "2=a", "--sample-rate", "256"),
 }
 NAMES = (*RUNS, *DIAGNOSES, "arrangements", *OTHERS)
 STRUCTURES = (
@@ -48,12 +57,26 @@ def answer(name: str) -> bytes:
             return path.read_bytes()
     layouts = [str(path) for path in sorted((DECKS / "arrangements").glob("layout*.yaml"))]
     decks = layouts if name == "arrangements" else [str(DECKS / f"{DIAGNOSES.get(name)}.yaml")]
-    with contextlib.redirect_stdout(io.StringIO()) as told:
+    with contextlib.redirect_stdout(io.StringIO()) as told, TemporaryDirectory() as folder:
         if name in OTHERS:
-            _run([OTHERS[name][0], str(DECKS / f"{OTHERS[name][1]}.yaml"), "--json", "-q"])
+            command, source, *options = OTHERS[name]
+            recorded(Path(folder) / "run.csv")
+            words = [source.replace("FOLDER", folder) if "." in source else str(DECKS / f"{source}.yaml"), *options]
+            _run([command, *(folder if word == "FOLDER" else word for word in words), "--json", "-q"])
         else:
             _run(["diagnose", *decks, "--json", "-q"])
     return told.getvalue().encode()
+
+
+def recorded(path: Path) -> None:
+    """A minute of white noise through one resonance at 20 Hz, with noise on the response."""
+    rng = np.random.default_rng(1)
+    force = rng.standard_normal(60 * 256)
+    pole = np.exp((-0.02 + 1j) * 2 * np.pi * 20 / 256)
+    response = lfilter([1.0, -2.0, 1.0], [1.0, -2 * pole.real, abs(pole) ** 2], force) + 0.1 * rng.standard_normal(
+        len(force)
+    )
+    np.savetxt(path, np.column_stack([force, response]), delimiter=",", header="f,a", comments="")
 
 
 def document(name: str) -> dict:

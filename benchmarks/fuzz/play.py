@@ -91,7 +91,8 @@ def _judged(
     if code not in (0, 1, 2, 3, 4, 5):
         return "silent", f"exit {code}"
     why = "[MD" if "--strict" in arguments else "error[MD"
-    if code in (4, 5) and why not in said and (folder / "stdout").stat().st_size < 100:
+    answers = [folder / "stdout", *filter(Path.is_file, (folder / "out").rglob("*"))]  # a report says why it ended
+    if code in (4, 5) and why not in said and max(each.stat().st_size for each in answers) < 100:
         return "silent", f"exit {code} without an error"
     if "Warning:" in said:
         return "warning", _place(said, "", "Warning:")

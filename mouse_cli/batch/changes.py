@@ -16,6 +16,7 @@ from mouse_cli.model.problem import Problem
 
 _LARGEST = 1e150  # standard deviation, the square of which is a number
 CHANGES = ("texts", "values", "drawn")
+_FACTORS = 1e-100, 1e100  # of accuracies: the squares of residuals over them are numbers
 SCALED = ("frequency_sd*", "shape_sd*")
 SD = ".sd"
 _ITEM = re.compile(r"([^\[\]]+)((?:\[[0-9]+\])*)")
@@ -129,10 +130,10 @@ def _with_values(problem: Problem, values: dict[str, float]) -> Problem:
 
 
 def _scaled(test: ModalTest, name: str, factor: float) -> ModalTest:
-    if not factor > 0:
-        raise _refused(
-            "MD933", f"{name} is {factor:g}; a factor of accuracies must be above zero", "give factors such as 0.5,1,2"
-        )
+    low, high = _FACTORS
+    if not low <= factor <= high:
+        message = f"{name} is {factor:g}; a factor of accuracies must be between {low:g} and {high:g}"
+        raise _refused("MD933", message, "give factors such as 0.5,1,2")
     if name == "shape_sd*":
         return replace(test, shape_sd=test.shape_sd * factor)
     return replace(test, frequency_sd_hz=test.frequency_sd_hz * factor)

@@ -104,7 +104,8 @@ def _remarks(found: Bootstrap, plan: Plan) -> Iterator[Diagnostic]:
     ratios = [(s.sd / s.predicted, s.name) for s in found.parameters if s.predicted > 0 and np.isfinite(s.sd)]
     if ratios and max(ratios)[0] > high:
         ratio, name = max(ratios)
-        message = f"{name} spreads {ratio:.2g} times as far as the accuracies of the test account for"
+        times = f"{ratio:.2g}" if ratio < 100 else f"{ratio:.0f}"
+        message = f"{name} spreads {times} times as far as the accuracies of the test account for"
         help = "the data disagree among themselves, or their standard deviations are stated too small"
         yield Diagnostic("MD936", WARNING, message, help=help)
     if ratios and max(ratios)[0] < low:

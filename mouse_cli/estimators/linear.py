@@ -174,10 +174,13 @@ def limited(problem: LinearProblem, z: np.ndarray, C: np.ndarray) -> tuple[np.nd
     L = np.diag(problem.L) if problem.L.ndim == 1 else problem.L
     G = np.concatenate([L, -L])
     h = np.concatenate([problem.lower, -problem.upper]) - G @ z
-    used = np.isfinite(h) & (np.linalg.norm(G, axis=1) > 0)
-    G, h = G[used] @ np.linalg.inv(C), h[used]
-    size = np.linalg.norm(G, axis=1)
-    G, h = G / size[:, None], h / size
+    moving = np.linalg.norm(G, axis=1) > 0
+    G = G @ np.linalg.inv(C)
+    size = np.where(moving, np.linalg.norm(G, axis=1), 1.0)
+    with np.errstate(over="ignore"):
+        h = h / size
+    used = moving & np.isfinite(h)  # a limit farther than any number is none
+    G, h = G[used] / size[used, None], h[used]
     active = np.zeros(len(L), int)
     if not (h > 0).any():
         return z, active

@@ -47,15 +47,17 @@ def bars(key: str, title: str, description: str, rows: Sequence[Bar], series: Se
     return _figure(key, title, description, height, [_legend(series) if len(series) > 1 else None, *drawn])
 
 
-def intervals(key: str, title: str, description: str, rows: Sequence[Interval]) -> Markup:
-    """Prior and posterior of each parameter on the axis of its prior standard deviation."""
+def intervals(
+    key: str, title: str, description: str, rows: Sequence[Interval], series: Sequence[str] = ("prior", "posterior")
+) -> Markup:
+    """Both `series` of each parameter on the axis of the standard deviation of the first."""
     ends = [row.centre + sign * (row.half or 0.0) for row in rows if row.centre is not None for sign in (-1, 1)]
     if not ends:
         return Markup("")
     scale = _scale(min(-1.2, *ends), max(1.2, *ends))
     drawn = [_interval(row, 22.0 + 40.0 * i, scale) for i, row in enumerate(rows)]
     height = 22.0 + 40.0 * len(rows) + 4
-    return _figure(key, title, description, height, [_legend(("prior", "posterior")), *drawn])
+    return _figure(key, title, description, height, [_legend(series), *drawn])
 
 
 def curve(key: str, title: str, description: str, values: Sequence[float | None]) -> Markup:

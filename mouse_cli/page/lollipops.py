@@ -53,6 +53,8 @@ def _whole(document: Part) -> list[Stems]:
 
 def _measured(document: Part) -> list[Stems]:
     """Measured components where there is no more; largest 1."""
+    if not document.parts("shapes"):
+        return []
     modes = {m.label("mode"): m for m in document.parts("modes")}
     found: dict[str, list[Part]] = {}
     for component in document.parts("shapes"):

@@ -8,8 +8,10 @@ from collections.abc import Iterator, Sequence
 
 from mouse_cli.page.numbers import apart, probable, shown, signed_per_cent
 from mouse_cli.page.sections import verdict
+from mouse_cli.page.sections._unjudged import UNJUDGED
 from mouse_cli.page.sections._words import places
 from mouse_cli.page.sections.field import significant, title, words_of
+from mouse_cli.page.tables import Cell
 from mouse_cli.report.reading import Part, updates
 from mouse_cli.report.renderers.markdown import verbatim
 
@@ -34,8 +36,7 @@ def summary(document: Part) -> str:
         *_frequencies(document),
         *_parameters(document),
     ]
-    blocks += [*_records(document), *_methods(document), *_predicted(document)]
-    blocks += [*_correlated(document), *_identified(document)]
+    blocks += [*_records(document), *_methods(document), *_unjudged(document)]
     remarks = [*document.texts("remarks"), *document.texts("warnings")]
     if remarks:
         blocks += _folds(_counted(remarks, "remark"), _listed(remarks[:_MOST]))
@@ -153,37 +154,16 @@ def _methods(document: Part) -> Iterator[str]:
     yield _table(("missed, % rms", *map(escaped, titles)), rows)
 
 
-def _predicted(document: Part) -> Iterator[str]:
-    """Natural frequencies of `mouse modes`."""
-    modes = document.parts("modes") if document.text("schema") == "mouse.modes/1" else []
-    rows = [(escaped(m.label("mode")), shown(m.number("hz")), shown(m.number("sd_hz"), 3)) for m in modes]
-    yield from _folded_table("Natural frequencies", ("mode", "Hz", "sd, Hz"), rows, "mode", _LONG)
+def _unjudged(document: Part) -> Iterator[str]:
+    """The tables of answers that judge no model."""
+    kind = UNJUDGED.get(document.text("schema"))
+    for found in kind.tables(document) if kind else ():
+        rows = [tuple(escaped(_words(cell)) for cell in row) for row in found.rows()]
+        yield from _folded_table(escaped(found.caption), tuple(map(escaped, found.heads)), rows, "line", _LONG)
 
 
-def _correlated(document: Part) -> Iterator[str]:
-    """Pairs of `mouse correlate`."""
-    modes = document.parts("modes") if document.text("schema") == "mouse.correlation/1" else []
-    rows = [
-        (
-            escaped(m.label("mode")),
-            shown(m.number("test_hz")),
-            shown(m.number("model_hz")),
-            signed_per_cent(m.number("difference_percent")),
-            shown(m.number("mac"), 3),
-        )
-        for m in modes
-    ]
-    yield from _folded_table("Mode pairs", ("mode", "test, Hz", "model, Hz", "off", "MAC"), rows, "mode", _LONG)
-
-
-def _identified(document: Part) -> Iterator[str]:
-    """Modes of `mouse identify`."""
-    modes = document.parts("modes") if document.text("schema") == "mouse.identification/1" else []
-    rows = [
-        (shown(m.number("frequency_hz")), shown(m.number("frequency_sd_hz"), 2), shown(m.number("damping"), 3))
-        for m in modes
-    ]
-    yield from _folded_table("Modes", ("Hz", "sd, Hz", "damping ratio"), rows, "mode", _LONG)
+def _words(cell: object) -> str:
+    return cell if isinstance(cell, str) else cell.words if isinstance(cell, Cell) else shown(cell)
 
 
 def _folded_table(title: str, heads: Sequence[str], rows: list[tuple[str, ...]], unit: str, longest: int) -> list[str]:

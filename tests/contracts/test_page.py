@@ -121,7 +121,7 @@ def test_hostile_names_are_text(name):
         (b'{"schema": ["mouse.result/1"]}', "MD920"),
         (b"[1, 2]", "MD920"),
         (b'{"schema": "mouse.result/2"}', "MD921"),
-        (b'{"schema": "mouse.spectra/1"}', "MD921"),
+        (b'{"schema": "mouse.update/1"}', "MD921"),
         (b'{"schema": "mouse.result/1", "title": 3}', "MD922"),
         (b'{"schema": "mouse.result/1", "modes": "many"}', "MD922"),
         (b'{"schema": "mouse.result/1", "modes": [3]}', "MD922"),

@@ -1,14 +1,19 @@
 """The documentation as a site of mkdocs: it builds without a warning, has the pages of the index, and fetches nothing."""
 
+import functools
 import os
 import re
 import subprocess
 import sys
+import threading
 from html.parser import HTMLParser
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import pytest
+from contracts.test_page_browser import browser  # noqa: F401
 from pages import DOCS, PAGES, TOP
+from test_glossary import terms
 
 ASIDE = DOCS / "example-repository" / "README.md"  # of the example, linked and no page of the manual
 
@@ -96,3 +101,44 @@ def test_styles_and_scripts_fetch_nothing_from_elsewhere(site):
 def test_files_beside_the_pages_are_there_and_tools_are_not(site):
     assert (site / "notebook.ipynb").read_bytes() == (DOCS / "notebook.ipynb").read_bytes()
     assert not list(site.rglob("*.py"))
+
+
+@pytest.fixture(scope="module")
+def search(site, browser):  # noqa: F811
+    """The search of the site in a browser: a term gives (location, heading) of each result, the best first."""
+
+    class Quiet(SimpleHTTPRequestHandler):
+        def log_message(self, *_):
+            pass
+
+    server = ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=str(site)))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    page = browser.new_page()
+    page.goto(f"http://127.0.0.1:{server.server_port}/search.html?q=MAC")
+    page.wait_for_selector("#mkdocs-search-results article")
+    yield lambda term: page.evaluate(
+        """term => new Promise(done => {
+            searchWorker.onmessage = told => done(told.data.results.map(each => [each.location, each.title]));
+            searchWorker.postMessage({query: term});
+        })""",
+        term,
+    )
+    page.close()
+    server.shutdown()
+    server.server_close()
+
+
+def test_search_finds_each_term_of_the_field_where_it_is_explained(search):
+    """One of the first three results is a page or section about the term, by its heading; keys and codes are no explanations."""
+
+    def explained(term: str) -> bool:
+        return any(
+            term.lower() in heading.lower() and re.match(r"(explanation|how-to|reference/glossary)/", location)
+            for location, heading in search(term)[:3]
+        )
+
+    assert not [term for term in terms() if not explained(term)]
+
+
+def test_search_takes_the_shortest_terms(site):
+    assert '"min_search_length":2' in (site / "search" / "search_index.json").read_text("utf-8")

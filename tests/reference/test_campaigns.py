@@ -122,7 +122,8 @@ def test_points_fill_their_ranges():
 @pytest.mark.parametrize(
     ("vary", "code"),
     [("k3=1,2", "MD932"), ("test.modes.shapes=1", "MD932"), ("test.modes.frequency[5]=1", "MD932"), ("k1.sd=0,1", "MD933"),
-     ("shape_sd*=-1", "MD933"), ("model.mass.diagonal[1]={a}", "MD933"), ("parameters.k3.sd=1", "MD932")],
+     ("shape_sd*=-1", "MD933"), ("frequency_sd*=1e-308", "MD933"), ("model.mass.diagonal[1]={a}", "MD933"),
+     ("parameters.k3.sd=1", "MD932")],
 )  # fmt: skip
 def test_what_cannot_be_varied_is_refused_before_anything_runs(vary, code, tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)

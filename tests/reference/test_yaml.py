@@ -313,7 +313,9 @@ FAULTS = [
     ("MD322", "frequency: [1, 2]", "frequency: [3, 2]", "2], freq", 1, "ascending"),
     ("MD323", "dofs: [1, 2]", "dofs: [1, 3]", "3], sh", 1, "outside 1 to 2"),
     ("MD324", "dofs: [1, 2]", "dofs: [1, 1]", "1], sh", 1, "measured twice"),
+    ("MD325", "frequency_sd: 1 %", "frequency_sd: 1e-310", "1e-310", 6, "above 1e-30"),
     ("MD326", "shape_sd: 2 %", "shape_sd: 0", "0}", 1, "must be positive"),
+    ("MD326", "shape_sd: 2 %", "shape_sd: 1e-310", "1e-310", 6, "above 1e-30"),
 ]
 
 

@@ -10,9 +10,9 @@ import click
 def command(result: str, markdown: bool, output: str | None) -> int:
     """Make an HTML page of RESULT.
 
-    RESULT is the JSON of `run`, `diagnose`, `compare`, `correlate`, `identify`, `modes`, or a job of `batch`. One file that
-    needs no network: verdict, mode shapes drawn on the structure, frequencies, parameters, FRFs, mechanisms, sites,
-    convergence. Exit 0 whatever the verdict is.
+    RESULT is the JSON of `run`, `diagnose`, `compare`, `correlate`, `identify`, `modes`, `spectra`, `couple`, `modify`, `sweep`,
+    `bootstrap`, `sample`, or a job of `batch`. One file that needs no network: verdict, mode shapes drawn on the structure,
+    frequencies, parameters, FRFs, mechanisms, sites, convergence. Exit 0 whatever the verdict is.
     """
     from mouse_cli.cli._decks import deck_bytes, shown
     from mouse_cli.cli._terminal import deliver

@@ -10,6 +10,7 @@ from mouse_cli.model.geometry import Geometry
 from mouse_cli.model.modal_test import ModalTest
 
 _SLOWEST, _FASTEST = 1e-9, 1e15  # Hz: from a period of 30 years to that of light
+_FINEST = 1e-30  # standard deviation by the size of its datum, the square of which is still computed with
 _CLOSE = 3.0  # standard deviations of a difference within which two frequencies may have changed places by noise
 
 
@@ -139,28 +140,24 @@ def _dofs(draft: Draft, test: TestDraft) -> None:
 
 def _accuracies(draft: Draft, test: TestDraft) -> None:
     """Every datum needs a positive standard deviation: a certain datum has no place in a covariance."""
-    for i, (frequency, sd) in enumerate(zip(test.frequency_hz, test.frequency_sd_hz, strict=True)):
-        if _SLOWEST <= frequency <= _FASTEST and not (np.isfinite(sd) and sd > 0):
-            draft.error(
-                "MD325",
-                f"standard deviation of test frequency {i + 1} is {sd:.8g} Hz; it must be positive",
-                test.where_frequency_sd(i),
-                help="give the standard deviation in Hz; 0 would make a certain datum",
-            )
-    bad = np.isfinite(test.shapes) & ~(np.isfinite(test.shape_sd) & (test.shape_sd > 0))
-    places: set = set()
-    for s, m in np.argwhere(bad)[:20]:
-        place = test.where_shape_sd(int(s), int(m))
-        if place is not None and place in places:
-            continue  # one number for all of them is one mistake
+    of_shapes = np.abs(np.where(np.isfinite(test.shapes), test.shapes, 0.0)).max(axis=0, initial=0.0)
+    places: set = set()  # one number for all of them is one mistake
+
+    def refused(code: str, what: str, sd: float, place: object, help: str) -> None:
+        if place is None or place not in places:
+            finer = f", and above {_FINEST:g} of what it is of" if 0 < sd < np.inf else ""
+            draft.error(code, f"standard deviation of {what}; it must be positive{finer}", place, help=help)
         places.add(place)
-        draft.error(
-            "MD326",
-            f"standard deviation of x({m + 1},{s + 1}), mode {m + 1} at measured point {s + 1}, is "
-            f"{test.shape_sd[s, m]:.8g}; it must be positive",
-            place,
-            help="give the standard deviation in the units of the shape",
-        )
+
+    for i, (frequency, sd) in enumerate(zip(test.frequency_hz, test.frequency_sd_hz, strict=True)):
+        if _SLOWEST <= frequency <= _FASTEST and not _FINEST * frequency < sd < np.inf:
+            help = "give the standard deviation in Hz; 0 would make a certain datum"
+            refused("MD325", f"test frequency {i + 1} is {sd:.8g} Hz", sd, test.where_frequency_sd(i), help)
+    bad = np.isfinite(test.shapes) & ~((test.shape_sd > _FINEST * of_shapes) & (test.shape_sd < np.inf))
+    for s, m in np.argwhere(bad)[:20]:
+        sd, help = test.shape_sd[s, m], "give the standard deviation in the units of the shape"
+        what = f"x({m + 1},{s + 1}), mode {m + 1} at measured point {s + 1}, is {sd:.8g}"
+        refused("MD326", what, sd, test.where_shape_sd(int(s), int(m)), help)
     for s, m in np.argwhere(np.isinf(test.shapes))[:20]:
         draft.error("MD302", f"x({m + 1},{s + 1}) is not finite", test.where_shape(int(s), int(m)))
     if not (np.isfinite(test.frequency_hz).any() or np.isfinite(test.shapes).any()):

@@ -1,18 +1,29 @@
-"""Answers that judge no model: their mark and their first sentence, by the schema of the document."""
+"""Answers that judge no model: mark, first sentence, figures and tables, by the schema of the document."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
+from mouse_cli.page.html import Markup
 from mouse_cli.page.numbers import shown
+from mouse_cli.page.sections import _campaigns, _coupled, _functions, _modified
+from mouse_cli.page.sections.measured import (
+    correlation_figures,
+    correlation_tables,
+    identification_figures,
+    identification_tables,
+)
+from mouse_cli.page.tables import Column, Listing, columns_of
 from mouse_cli.report.reading import Part
 
 
 @dataclass(frozen=True)
 class Unjudged:
-    """mark: class and words of what stands before all, of a document; sentence: what was found."""
+    """mark: class and words of what stands before all, of a document; sentence: what was found; then its figures and tables."""
 
     mark: Callable[[Part], tuple[str, str]]
     sentence: Callable[[Part], str]
+    tables: Callable[[Part], Iterable[Listing]] = lambda document: ()
+    figures: Callable[[Part], Iterable[Markup]] = lambda document: ()
 
 
 def _compared(document: Part) -> str:
@@ -34,6 +45,24 @@ def _predicted(document: Part) -> str:
     if not hz:
         return "No natural frequency."
     return f"{len(hz)} natural frequencies from {shown(min(hz), 4)} to {shown(max(hz), 4)} Hz, before any test."
+
+
+_MODES = columns_of(
+    "mode: mode name | frequency, Hz: hz | sd, Hz: sd_hz 3 | sd: ()",
+    lambda mode: Column("", "share", "share").cell(_relative(mode)),
+)
+_MOST = 1000  # modes of the table
+
+
+def _relative(mode: Part) -> Part:
+    hz, sd = mode.number("hz"), mode.number("sd_hz")
+    return Part({"share": sd / hz if sd is not None and hz else None}, mode.file, mode.place)
+
+
+def _predicted_tables(document: Part) -> Iterator[Listing]:
+    modes = document.parts("modes")
+    cut = f"The first {_MOST} of {len(modes)} natural" if len(modes) > _MOST else "Natural"
+    yield Listing("predicted", f"{cut} frequencies of the model", _MODES, modes[:_MOST])
 
 
 def _correlated(document: Part) -> str:
@@ -68,8 +97,17 @@ def _always(words: str) -> Callable[[Part], tuple[str, str]]:
 
 
 UNJUDGED = {
-    "mouse.modes/1": Unjudged(_always("The model as it is"), _predicted),
+    "mouse.modes/1": Unjudged(_always("The model as it is"), _predicted, _predicted_tables),
     "mouse.comparison/1": Unjudged(_always("Methods of updating compared"), _compared),
-    "mouse.correlation/1": Unjudged(_always("Test and model compared, before any update"), _correlated),
-    "mouse.identification/1": Unjudged(_trusted, _identified),
+    "mouse.correlation/1": Unjudged(
+        _always("Test and model compared, before any update"), _correlated, correlation_tables, correlation_figures
+    ),
+    "mouse.identification/1": Unjudged(_trusted, _identified, identification_tables, identification_figures),
+    "mouse.spectra/1": Unjudged(_functions.mark, _functions.sentence, _functions.tables, _functions.figures),
+    "mouse.coupling/1": Unjudged(_coupled.mark, _coupled.sentence, _coupled.tables, _coupled.figures),
+    "mouse.modification/1": Unjudged(_modified.mark, _modified.sentence, _modified.tables, _modified.figures),
+    "mouse.campaign/1": Unjudged(_campaigns.mark, _campaigns.sentence, _campaigns.tables, _campaigns.figures),
+    "mouse.sample/1": Unjudged(
+        _campaigns.mark, _campaigns.sampled, _campaigns.sample_tables, _campaigns.sample_figures
+    ),
 }

@@ -6,20 +6,8 @@ from mouse_cli.page.html import Markup, tag
 from mouse_cli.page.numbers import probable, shown
 from mouse_cli.page.section import PageSection
 from mouse_cli.page.sections._words import places, shares
-from mouse_cli.page.tables import Cell, table
+from mouse_cli.page.tables import Listing, columns_of, table
 from mouse_cli.report.reading import Part
-
-_HEADS = (
-    "candidate",
-    "group",
-    "site",
-    "size",
-    "probability",
-    "log evidence over none",
-    "chi-square",
-    "degrees of freedom",
-    "p-value",
-)
 
 
 def causes(document: Part) -> Iterator[Markup]:
@@ -27,7 +15,7 @@ def causes(document: Part) -> Iterator[Markup]:
     yield from _judged("", "", document)
     for number, turn in enumerate(document.parts("turns"), 1):  # of several configurations: sequential identification
         yield from _judged(f"-{number}", f" (step {number})", turn)
-    yield table("rest", "What else was tried, and is not demanded", _HEADS, map(_row, document.parts("rest")))
+    yield Listing("rest", "What else was tried, and is not demanded", _CANDIDATES, document.parts("rest")).html()
     yield _untried(document.part("verdict").parts("untried"))
 
 
@@ -44,23 +32,16 @@ def _judged(key: str, which: str, document: Part) -> Iterator[Markup]:
     title, description = f"Probability of each group{which}", "Given that what is missing is a candidate or nothing."
     yield shares(f"groups{key}", title, description, rows)
     caption = f"Candidates, the leading one first{which}"
-    yield table(f"candidates{key}", caption, _HEADS, map(_row, document.parts("candidates")))
+    yield Listing(f"candidates{key}", caption, _CANDIDATES, document.parts("candidates")).html()
 
 
-def _row(one: Part) -> tuple[object, ...]:
-    probability, p = one.number("probability"), one.number("p")
-    sizes = ", ".join(map(size, one.parts("parameters"))) or "–"
-    return (
-        one.text("title") or one.text("physics"),
-        one.text("group"),
-        places(one),
-        sizes,
-        Cell(probability, probable(probability)),
-        one.number("log_evidence_over_none"),
-        one.number("chi2"),
-        one.number("dof"),
-        Cell(p, probable(p)),
-    )
+_CANDIDATES = columns_of(
+    "candidate: () | group: group text | site: () | size: () | probability: probability p | "
+    "log evidence over none: log_evidence_over_none | chi-square: chi2 | degrees of freedom: dof | p-value: p p",
+    lambda one: one.text("title") or one.text("physics"),
+    places,
+    lambda one: ", ".join(map(size, one.parts("parameters"))) or "–",
+)
 
 
 def size(found: Part) -> str:

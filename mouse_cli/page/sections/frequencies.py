@@ -5,10 +5,10 @@ from collections.abc import Iterator
 from mouse_cli.dynamics.correlation import mac
 from mouse_cli.page.html import Markup, tag
 from mouse_cli.page.matrix import matrix, shade
-from mouse_cli.page.numbers import apart, shown, signed_per_cent
+from mouse_cli.page.numbers import shown
 from mouse_cli.page.section import PageSection
 from mouse_cli.page.sections._words import differences, listed, paragraphs, shares
-from mouse_cli.page.tables import Cell, table
+from mouse_cli.page.tables import Cell, Listing, columns_of, table
 from mouse_cli.report.reading import Part, columns, updates
 
 
@@ -29,8 +29,10 @@ def methods(document: Part) -> Iterator[Markup]:
         "methods", "Methods", ("method", "model of a structure", *_GUARANTEES.values()), map(_methods_row, found)
     )
     for number, title in enumerate(titles, 1):
-        rows = [row for one in found for part in _titled(one, title) for row in _modes(one.text("method"), part)]
-        yield table(f"methods-modes-{number}", f"Frequencies: {title}", _METHODS_HEADS, rows)
+        of = [(one.text("method"), part.parts("modes")) for one in found for part in _titled(one, title)]
+        rows = [(method, *row) for method, modes in of for row in Listing("", "", _METHODS_MODES, modes).rows()]
+        heads = ("method", *(column.head for column in _METHODS_MODES))
+        yield table(f"methods-modes-{number}", f"Frequencies: {title}", heads, rows)
     refused = document.part("refused")
     yield listed([f"{key} was not used: {'; '.join(refused.texts(key))}" for key in refused.values])
 
@@ -42,7 +44,10 @@ _GUARANTEES = {
     "sparsity": "keeps zeros",
     "physical_meaning": "keeps its meaning",
 }
-_METHODS_HEADS = ("method", "mode", "test, Hz", "before, Hz", "off", "after, Hz", "off", "MAC")
+_METHODS_MODES = columns_of(
+    "mode: mode name | test, Hz: test_hz | before, Hz: prior_hz | off: prior_hz percent test_hz | "
+    "after, Hz: revised_hz | off: revised_hz percent test_hz | MAC: mac 4"
+)
 
 
 def _titled(one: Part, title: str) -> list[Part]:
@@ -65,34 +70,15 @@ def _methods_row(one: Part) -> tuple[object, ...]:
     )
 
 
-def _modes(method: str, part: Part) -> Iterator[tuple[object, ...]]:
-    for mode in part.parts("modes"):
-        test, prior, revised = (mode.number(key) for key in ("test_hz", "prior_hz", "revised_hz"))
-        before, after = apart(prior, test), apart(revised, test)
-        yield (
-            method,
-            Cell(mode.number("mode"), mode.label("mode")),
-            test,
-            prior,
-            Cell(before, signed_per_cent(before)),
-            revised,
-            Cell(after, signed_per_cent(after)),
-            Cell(mode.number("mac"), shown(mode.number("mac"), 4)),
-        )
+def _within(mode: Part) -> str:
+    return "–" if mode.number("test_hz") is None else "no" if mode.flag("exceeds") else "yes"
 
 
-_FREQUENCIES_HEADS = (
-    "mode",
-    "test, Hz",
-    "sd of test",
-    "prior, Hz",
-    "prior off",
-    "revised, Hz",
-    "sd of revised",
-    "revised off",
-    "within its limits",
-    "prior MAC",
-    "revised MAC",
+_FREQUENCIES = columns_of(
+    "mode: mode name | test, Hz: test_hz | sd of test: test_sd_hz 3 | prior, Hz: prior_hz | prior off: prior_hz percent test_hz | "
+    "revised, Hz: revised_hz | sd of revised: sd_hz 3 | revised off: revised_hz percent test_hz | within its limits: () | "
+    "prior MAC: prior_mac 4 | revised MAC: mac 4",
+    _within,
 )
 
 
@@ -105,52 +91,7 @@ def frequencies(document: Part) -> Iterator[Markup]:
             for m in modes
         ]
         yield differences(f"off-{key}", f"Frequency error of {name}", rows)
-        yield table(
-            f"modes-{key}", f"Natural frequencies of test and {name}", _FREQUENCIES_HEADS, map(_frequencies_row, modes)
-        )
-
-
-def _frequencies_row(mode: Part) -> tuple[object, ...]:
-    test, prior, revised = (mode.number(key) for key in ("test_hz", "prior_hz", "revised_hz"))
-    before, after = apart(prior, test), apart(revised, test)
-    within = "–" if test is None else "no" if mode.flag("exceeds") else "yes"
-    return (
-        Cell(mode.number("mode"), mode.label("mode")),
-        test,
-        Cell(mode.number("test_sd_hz"), shown(mode.number("test_sd_hz"), 3)),
-        prior,
-        Cell(before, signed_per_cent(before)),
-        revised,
-        Cell(mode.number("sd_hz"), shown(mode.number("sd_hz"), 3)),
-        Cell(after, signed_per_cent(after)),
-        within,
-        Cell(mode.number("prior_mac"), shown(mode.number("prior_mac"), 4)),
-        Cell(mode.number("mac"), shown(mode.number("mac"), 4)),
-    )
-
-
-_PREDICTED_HEADS = ("mode", "frequency, Hz", "sd, Hz", "sd")
-_PREDICTED_MOST = 1000  # modes of the table
-
-
-def predicted(document: Part) -> Iterator[Markup]:
-    """Natural frequencies of a model before any test, with the uncertainty of its properties carried through."""
-    if document.text("schema") != "mouse.modes/1":
-        return
-    modes = document.parts("modes")
-    shown_of = (
-        f"The first {_PREDICTED_MOST} of {len(modes)} natural frequencies"
-        if len(modes) > _PREDICTED_MOST
-        else "Natural frequencies"
-    )
-    yield table("predicted", f"{shown_of} of the model", _PREDICTED_HEADS, map(_predicted_row, modes[:_PREDICTED_MOST]))
-
-
-def _predicted_row(mode: Part) -> tuple[object, ...]:
-    hz, sd = mode.number("hz"), mode.number("sd_hz")
-    share = 100 * sd / hz if sd is not None and hz else None
-    words = "–" if share is None else f"{shown(share, 2)} %"
-    return (Cell(mode.number("mode"), mode.label("mode")), hz, Cell(sd, shown(sd, 3)), Cell(share, words))
+        yield Listing(f"modes-{key}", f"Natural frequencies of test and {name}", _FREQUENCIES, modes).html()
 
 
 _SHAPES_MOST = 60  # modes of a matrix that is still read
@@ -193,6 +134,5 @@ def _shaded(value: float) -> Cell:
 SECTIONS = (
     PageSection("methods", 25, "Methods", methods),
     PageSection("frequencies", 40, "Frequencies", frequencies),
-    PageSection("predicted", 41, "Natural frequencies", predicted),
     PageSection("shapes", 60, "Mode shape correlation (MAC)", shapes),
 )

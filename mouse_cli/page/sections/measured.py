@@ -6,45 +6,37 @@ from math import nan
 from mouse_cli.page.html import Markup, tag
 from mouse_cli.page.lines import Line, lines
 from mouse_cli.page.matrix import matrix
-from mouse_cli.page.numbers import shown, signed_per_cent
+from mouse_cli.page.numbers import shown
 from mouse_cli.page.section import PageSection
 from mouse_cli.page.sections._words import listed, shares
 from mouse_cli.page.svg import svg, tenth
-from mouse_cli.page.tables import Cell, table
+from mouse_cli.page.tables import Cell, Listing, columns_of, table
 from mouse_cli.report.reading import Part
 
-_MODES = ("mode", "frequency, Hz", "sd", "damping, %", "sd", "MPC")
-_REJECTED = ("frequency, Hz", "damping, %", "why it is no mode")
 _WIDTH, _HEIGHT, _LEFT, _BOTTOM = 400.0, 220.0, 30.0, 196.0
 _MOST = 2000  # poles that are drawn
 
 
-def identified(document: Part) -> Iterator[Markup]:
-    """Modes that were identified: their table with standard deviations, and the stabilisation diagram."""
-    if document.text("schema") != "mouse.identification/1":
-        return
-    modes = document.parts("modes")
-    yield _diagram(document, [x for m in modes if (x := m.number("frequency_hz")) is not None])
-    yield table("identified", "Modes", _MODES, (_identified_row(i, m) for i, m in enumerate(modes, 1)))
+_IDENTIFIED = columns_of(
+    "mode: number name | frequency, Hz: frequency_hz | sd: frequency_sd_hz 2 | damping: damping share | "
+    "sd: damping_sd share | MPC: mpc 3"
+)
+_REJECTED = columns_of("frequency, Hz: frequency_hz | damping: damping share | why it is no mode: reason text")
+
+
+def identification_figures(document: Part) -> Iterator[Markup]:
+    """The stabilisation diagram, and what is doubtful."""
+    yield _diagram(document, [x for m in document.parts("modes") if (x := m.number("frequency_hz")) is not None])
     yield listed(document.texts("doubts"))
-    yield table("rejected", "Poles that are no modes", _REJECTED, map(_rejected, document.parts("rejected")))
 
 
-def _identified_row(number: int, mode: Part) -> tuple[object, ...]:
-    damping, sd = mode.number("damping"), mode.number("damping_sd")
-    return (
-        Cell(float(number), str(number)),
-        mode.number("frequency_hz"),
-        Cell(mode.number("frequency_sd_hz"), shown(mode.number("frequency_sd_hz"), 2)),
-        Cell(damping, "–" if damping is None else shown(100 * damping, 3)),
-        Cell(sd, "–" if sd is None else shown(100 * sd, 2)),
-        Cell(mode.number("mpc"), shown(mode.number("mpc"), 3)),
-    )
-
-
-def _rejected(pole: Part) -> tuple[object, ...]:
-    damping = pole.number("damping")
-    return pole.number("frequency_hz"), "–" if damping is None else shown(100 * damping, 3), pole.text("reason")
+def identification_tables(document: Part) -> Iterator[Listing]:
+    """Modes with their standard deviations, and poles that are no modes."""
+    modes = [
+        Part({**mode.values, "number": i}, mode.file, mode.place) for i, mode in enumerate(document.parts("modes"), 1)
+    ]
+    yield Listing("identified", "Modes", _IDENTIFIED, modes)
+    yield Listing("rejected", "Poles that are no modes", _REJECTED, document.parts("rejected"))
 
 
 def _diagram(document: Part, modes: list[float]) -> Markup:
@@ -80,8 +72,11 @@ def _diagram(document: Part, modes: list[float]) -> Markup:
     )
 
 
-_PAIRS = ("mode", "model mode", "test, Hz", "sd of test", "model, Hz", "off", "off, in sd", "MAC", "scale factor")
-_SENSORS = ("sensor", "COMAC", "eCOMAC")
+_PAIRS = columns_of(
+    "mode: mode name | model mode: model_mode name | test, Hz: test_hz | sd of test: test_sd_hz 3 | model, Hz: model_hz | "
+    "off: difference_percent percent | off, in sd: difference_sd 3 | MAC: mac 4 | scale factor: scale_factor 4"
+)
+_SENSORS = columns_of("sensor: name name | COMAC: comac | eCOMAC: ecomac")
 _WORST = 10  # sensors in the figure
 _FAULTS = {
     "reversed": "of reversed polarity",
@@ -91,19 +86,19 @@ _FAULTS = {
 }
 
 
-def correlated(document: Part) -> Iterator[Markup]:
-    """MAC of the pairs, their table, and the COMAC of sensors."""
-    if document.text("schema") != "mouse.correlation/1":
-        return
-    modes, sensors = document.parts("modes"), document.parts("sensors")
+def correlation_figures(document: Part) -> Iterator[Markup]:
+    """MAC of the pairs beside the worst COMAC, and faults of sensors."""
+    modes = document.parts("modes")
     compared = [m for m in modes if m.number("mac") is not None]
     if compared:
-        yield tag("div", _matrix(document, modes, compared), _worst(sensors), class_="beside")
+        yield tag("div", _matrix(document, modes, compared), _worst(document.parts("sensors")), class_="beside")
     yield listed([_fault(each) for each in document.parts("sensor_faults")])
-    yield table("pairs", "Mode pairs", _PAIRS, map(_correlated_row, modes))
-    if sensors:
-        rows = ((s.label("name"), s.number("comac"), s.number("ecomac")) for s in sensors)
-        yield tag("details", tag("summary", "All sensors"), table("sensors", "Sensors", _SENSORS, rows))
+
+
+def correlation_tables(document: Part) -> Iterator[Listing]:
+    """Mode pairs and sensors."""
+    yield Listing("pairs", "Mode pairs", _PAIRS, document.parts("modes"))
+    yield Listing("sensors", "Sensors", _SENSORS, document.parts("sensors"))
 
 
 def _worst(sensors: list[Part]) -> Markup:
@@ -121,21 +116,6 @@ def _matrix(document: Part, modes: list[Part], compared: list[Part]) -> Markup:
     values = [[nan if (x := rows[name][j]) is None else x for j in columns] for name in names]
     description = "Rows: measured modes; columns: their partners in the model, in the same order."
     return matrix("mac", "MAC of mode pairs", description, names, values)
-
-
-def _correlated_row(mode: Part) -> tuple[object, ...]:
-    off = mode.number("difference_percent")
-    return (
-        Cell(mode.number("mode"), mode.label("mode")),
-        Cell(mode.number("model_mode"), mode.label("model_mode") or "none"),
-        mode.number("test_hz"),
-        Cell(mode.number("test_sd_hz"), shown(mode.number("test_sd_hz"), 3)),
-        mode.number("model_hz"),
-        Cell(off, signed_per_cent(off)),
-        Cell(mode.number("difference_sd"), shown(mode.number("difference_sd"), 3)),
-        Cell(mode.number("mac"), shown(mode.number("mac"), 4)),
-        Cell(mode.number("scale_factor"), shown(mode.number("scale_factor"), 4)),
-    )
 
 
 def _fault(fault: Part) -> str:
@@ -187,8 +167,4 @@ def _functions_row(function: Part) -> tuple[object, ...]:
     return (f"{function.label('output')} by {function.label('input')}", function.number("lines"), *cells)
 
 
-SECTIONS = (
-    PageSection("identification", 35, "Modes", identified, folded=False),
-    PageSection("correlation", 35, "Test and model", correlated, folded=False),
-    PageSection("functions", 65, "Frequency response functions", functions),
-)
+SECTION = PageSection("functions", 65, "Frequency response functions", functions)

@@ -4,13 +4,12 @@ from collections.abc import Iterator
 
 from mouse_cli.page.charts import Interval, curve, intervals
 from mouse_cli.page.html import Markup
-from mouse_cli.page.numbers import apart, shown, signed_per_cent
+from mouse_cli.page.numbers import shown, signed_per_cent
 from mouse_cli.page.section import PageSection
 from mouse_cli.page.sections._words import cut, listed, place
-from mouse_cli.page.tables import Cell, table
+from mouse_cli.page.tables import Cell, Listing, columns_of, table
 from mouse_cli.report.reading import Part, updates
 
-_PARAMETERS_HEADS = ("parameter", "unit", "prior", "prior sd", "posterior", "posterior sd", "change", "note")
 _MOST = 40  # lines of the figure
 
 
@@ -22,7 +21,7 @@ def parameters(document: Part) -> Iterator[Markup]:
         listed = "; ".join(f"{row.label}: {row.words}" for row in rows)
         description = f"Shift from the prior value, and half widths of one sd, both in prior sd. {cut(all_of)}{listed}."
         yield intervals(f"intervals-{key}", f"Parameters of {name}, prior and posterior", description, rows)
-        yield table(f"parameters-{key}", f"Parameters of {name}", _PARAMETERS_HEADS, map(_row, all_of))
+        yield Listing(f"parameters-{key}", f"Parameters of {name}", _PARAMETERS, all_of).html()
 
 
 def _interval(parameter: Part) -> Interval:
@@ -43,19 +42,12 @@ def _sd(parameter: Part) -> float | None:
     return parameter.number("posterior_sd" if "posterior_sd" in parameter.values else "sd")
 
 
-def _row(parameter: Part) -> tuple[object, ...]:
-    prior, value = parameter.number("prior"), parameter.number("posterior")
-    change = apart(value, prior)
-    return (
-        parameter.text("name"),
-        parameter.text("unit"),
-        prior,
-        Cell(parameter.number("prior_sd"), shown(parameter.number("prior_sd"), 3)),
-        value,
-        Cell(_sd(parameter), shown(_sd(parameter), 3)),
-        Cell(change, signed_per_cent(change)),
-        "at its limit" if parameter.flag("at_limit") else "",
-    )
+_PARAMETERS = columns_of(
+    "parameter: name text | unit: unit text | prior: prior | prior sd: prior_sd 3 | posterior: posterior | posterior sd: () | "
+    "change: posterior percent prior | note: ()",
+    lambda parameter: Cell(_sd(parameter), shown(_sd(parameter), 3)),
+    lambda parameter: "at its limit" if parameter.flag("at_limit") else "",
+)
 
 
 _LAWS_HEADS = ("law", "place", "amount", "unit", "value", "sd")
@@ -86,7 +78,10 @@ def shared_errors(document: Part) -> Iterator[Markup]:
     yield table("shared", "Model error shared by all configurations, by mode", heads, rows)
 
 
-_CONVERGENCE_HEADS = ("cycle", "chi-square", "data outside their limits", "allowed", "cost", "damping of the step")
+_CYCLES = columns_of(
+    "cycle: cycle name | chi-square: chi2 | data outside their limits: exceedances | allowed: allowed | cost: cost | "
+    "damping of the step: damping"
+)
 
 
 def convergence(document: Part) -> Iterator[Markup]:
@@ -96,9 +91,7 @@ def convergence(document: Part) -> Iterator[Markup]:
     listed = "; ".join(f"cycle {i}: {shown(value, 4)}" for i, value in enumerate(chi2))
     description = f"Sum of squared differences over their variances, logarithmic; cycle 0 is the prior model. {listed}."
     yield curve("chi-square", "Chi-square after each cycle", description, chi2)
-    keys = ("chi2", "exceedances", "allowed", "cost", "damping")
-    rows = [(Cell(c.number("cycle"), c.label("cycle")), *(c.number(key) for key in keys)) for c in cycles]
-    yield table("cycles", "Cycles of the run", _CONVERGENCE_HEADS, rows)
+    yield Listing("cycles", "Cycles of the run", _CYCLES, cycles).html()
 
 
 _NAMES = {

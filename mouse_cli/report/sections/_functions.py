@@ -18,27 +18,20 @@ _MOST_ROWS = 60
 
 
 def functions(fits: tuple[FrfFit, ...]) -> Iterator[Block]:
-    """For each measurement: what was fitted, the table, all of it together, the likeness of deflections."""
+    """For each measurement: what was fitted, the table, all of it together with the FDAC."""
     for fit in fits:
         if len(fits) > 1:
             yield Heading(fit.test.title or "Frequency response functions", 2)
         yield Text(_measured(fit))
         yield _table(fit)
+        alike = [float(np.nanmean(each)) for model in fit.models if np.isfinite(each := fit.fdac(model.H)).any()]
+        noise = "noise that was assumed" if fit.assumed else "noise of the measurement"
+        deflections = f" The mean FDAC is {_each(fit, '{}')}." if alike else ""
         yield Text(
-            f"The median of |20 log10 of model / test| over all of them is {_each(fit, '{} dB')}.",
-            tuple(fit.median_db(model.H) for model in fit.models),
+            f"The median error of all of them is {_each(fit, '{} dB')}. The rms residual is {_each(fit, '{}')} times the "
+            f"{noise}.{deflections}",
+            (*(fit.median_db(model.H) for model in fit.models), *(fit.rms_sd(model.H) for model in fit.models), *alike),
         )
-        yield Text(
-            f"Over the noise {'that was assumed' if fit.assumed else 'of the measurement'} the root mean square of what "
-            f"they leave is {_each(fit, '{}')}: 1 is noise only.",
-            tuple(fit.rms_sd(model.H) for model in fit.models),
-        )
-        alike = [fit.fdac(model.H) for model in fit.models]
-        if np.isfinite(alike[0]).any():
-            yield Text(
-                f"Deflections at equal frequencies are alike (FDAC, mean over lines) by {_each(fit, '{}')}.",
-                tuple(float(np.nanmean(each)) for each in alike),
-            )
 
 
 def _each(fit: FrfFit, value: str) -> str:

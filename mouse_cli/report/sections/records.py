@@ -30,15 +30,16 @@ def answers(found: RecordDiagnosis, options: Options) -> Iterator[Block]:
         ("How much?", _how_much(found)),
         ("Validated?", _true(found)),
     ):
-        yield Heading(question, 2)
-        yield Text(answer)
+        if answer:
+            yield Heading(question, 2)
+            yield Text(answer)
 
 
 def _where(found: RecordDiagnosis) -> str:
     if found.kind == NOTHING and found.noise:
         return "Nowhere: no force that follows from the motion of any site explains the residual."
     if found.kind == NOTHING:
-        return "Nowhere: model and records are consistent within their accuracies."
+        return ""
     if found.kind in (NAMED, ONE_OF):
         at = lambda one: f"{where(one)}{rivals_of_site(elsewhere(found.explanations, one))}"
         return "; ".join(capital(at(one)) for one in leaders(found)) + "."
@@ -92,7 +93,7 @@ def _noise(found: RecordDiagnosis) -> str:
 
 def _how_much(found: RecordDiagnosis) -> str:
     if found.kind not in (NAMED, ONE_OF):
-        return "Nothing to be sized." if found.kind == NOTHING else "Without a mechanism there is no size."
+        return "" if found.kind == NOTHING else "Without a mechanism there is no size."
     return "; ".join(f"{capital(cause.title)}: {sized(cause)}" for one in leaders(found) for cause in one.causes) + "."
 
 

@@ -50,17 +50,17 @@ def answers(found: Diagnosis, options: Options) -> Iterator[Block]:
     """The verdict and what it stands or falls with, then the answers one by one."""
     yield Text(" ".join(sentences(found)))
     yield from (Text(text) for text in found.cautions)
+    missing = found.kind != NOTHING  # what is nowhere has no size either
     for question, answer in (("Where?", _where), ("What?", _what), ("How much?", _how_much), ("Validated?", _true)):
-        yield Heading(question, 2)
-        yield from answer(found)
+        if missing or answer in (_what, _true):
+            yield Heading(question, 2)
+            yield from answer(found)
 
 
 def _where(found: Diagnosis) -> Iterator[Block]:
     units = found.problem.units
     shapes = "" if found.kind == NAMED and faulty(found.best) else f"{_location(found.location)}{_energy(found)}"
-    if found.kind == NOTHING:
-        yield Text("Nowhere: model and test are consistent within their accuracies.")
-    elif found.kind == NAMED:
+    if found.kind == NAMED:
         yield Text(f"{capital(whereabouts(found.best, units, found.elsewhere))}.{shapes}")
     elif found.kind == ONE_OF:
         where = "That depends on what it is" if len(leaders(found)) > 1 else "If it is there, here"
@@ -100,7 +100,7 @@ def _energy(found: Diagnosis) -> str:
 
 
 def _what(found: Diagnosis) -> Iterator[Block]:
-    best, conditional = found.best, "Probabilities are conditional on the mechanism being one that mouse knows"
+    best, conditional = found.best, "Probabilities are among the mechanisms that mouse knows"
     if found.kind == NOTHING:
         total = found.result.residual
         p = found.baseline.p if found.frf and found.baseline else total.p  # functions alone decide where there are any
@@ -178,9 +178,7 @@ def _noise(found: Diagnosis) -> str:
 
 
 def _how_much(found: Diagnosis) -> Iterator[Block]:
-    if found.kind == NOTHING or found.best is None:
-        yield Text("Nothing to be sized.")
-    elif found.kind == NAMED:
+    if found.kind == NAMED:
         yield Text(f"{capital('; '.join(f'{cause.title}: {sized(cause)}' for cause in found.best.causes))}.")
     elif found.kind == ONE_OF:
         columns = heads("<if it is | <then of")
@@ -231,12 +229,12 @@ def _predicted_frf(found: Diagnosis) -> str:
 def _errors(base: Score, after: Score | None = None) -> Iterator[str]:
     """Root mean square errors, of the model as it is, or before and after; of frequencies, and at sensors held out."""
     frequencies = (
-        "the root mean square error of frequencies",
+        "the rms frequency error",
         base.rms_frequency_error,
         after and after.rms_frequency_error,
     )
     shapes = (
-        "the root mean square error of shapes at sensors held out",
+        "the rms shape error at sensors held out",
         base.rms_shape_error,
         after and after.rms_shape_error,
     )
@@ -272,8 +270,8 @@ def _proof(found: Diagnosis, held: HeldOut) -> str:
         return "A better prediction does not make a name of it."
     if held.kind == BY_MODE:
         return (
-            "The extended model passes, but its mechanism was chosen with all modes: measure the structure with a known change, "
-            "such as an added mass, hold that out in the deck, and diagnose again."
+            "The extended model passes, but its mechanism was chosen with all modes: measure with a known change, such as "
+            "an added mass, hold that out in the deck, and diagnose again."
         )
     return "The extended model passes. A better prediction is necessary for a name, not sufficient."
 

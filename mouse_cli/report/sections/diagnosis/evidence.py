@@ -72,7 +72,9 @@ def _probability(found: Diagnosis) -> str:
 def _judged(found: Diagnosis, one: Explanation) -> tuple[Cell, ...]:
     misfit = probable(float(one.p)) if one.dof > 0 else None
     probability = None if found.kind == UNKNOWN else probable(one.probability)
-    return one.physics, one.group, where(one), nats(log_evidence_over_none(found, one)), probability, misfit
+    laws = ", ".join(cause.law for cause in one.causes if cause.law)
+    name = f"{one.physics} ({laws})" if laws else one.physics
+    return name, one.group, where(one), nats(log_evidence_over_none(found, one)), probability, misfit
 
 
 def _sized(one: Explanation) -> Iterator[tuple[Cell, ...]]:
