@@ -46,6 +46,16 @@ def registry() -> dict[str, Plot]:
     return _registry.discover(__name__, "PLOT")
 
 
+def labelled(axes: Any, x: str, y: str | None = None, columns: int = 0) -> bool:
+    """Name the axes, with a legend of so many columns above them, 0: none. True: there was something to draw."""
+    axes.set_xlabel(x)
+    if y is not None:
+        axes.set_ylabel(y)
+    if columns:
+        axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns, borderaxespad=0.1)
+    return True
+
+
 def require(path: str = "") -> None:
     """Raise MouseError (MD530) where matplotlib is not installed, and WrittenError (MD531) where it cannot write such a file."""
     try:

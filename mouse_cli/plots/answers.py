@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.dynamics.correlation import mac
 from mouse_cli.model.diagnosis import Site
-from mouse_cli.plots import AFTER, BEFORE, Plot
+from mouse_cli.plots import AFTER, BEFORE, Plot, labelled
 from mouse_cli.plots._field import TITLE, band
 from mouse_cli.plots._line import along, lying
 from mouse_cli.plots._pairs import pairs
@@ -97,9 +97,7 @@ def answer_mac(document: Part, axes: Any) -> bool:
     axes.set_xticks(range(len(modes)), modes)
     axes.set_yticks(range(len(modes)), modes)
     axes.grid(visible=False)
-    axes.set_xlabel("mode of the revised model")
-    axes.set_ylabel("measured mode")
-    return True
+    return labelled(axes, "mode of the revised model", "measured mode")
 
 
 def answer_causes(document: Part, axes: Any) -> bool:
@@ -110,8 +108,7 @@ def answer_causes(document: Part, axes: Any) -> bool:
         return False
     lying(axes, [short(g.text("group")) for g in shown], [g.number("probability") or 0.0 for g in shown], AFTER)
     axes.set_xlim(0, 1)
-    axes.set_xlabel("probability")
-    return True
+    return labelled(axes, "probability")
 
 
 def answer_field(document: Part, axes: Any) -> bool:
@@ -134,8 +131,7 @@ def answer_places(document: Part, axes: Any) -> bool:
         return False
     names = [f"{words(p.part('site'))} {p.text('channel')}" for p in shown]
     lying(axes, names, [p.number("probability") or 0.0 for p in shown], AFTER)
-    axes.set_xlabel("probability")
-    return True
+    return labelled(axes, "probability")
 
 
 _MOST_SHAPES, _ROW = 8, 4  # shapes, and how many stand beside each other
@@ -197,9 +193,7 @@ def answer_convergence(document: Part, axes: Any) -> bool:
         return False
     axes.semilogy(range(len(chi2)), chi2, marker="o", markersize=3.5, color=AFTER)
     axes.xaxis.get_major_locator().set_params(integer=True)
-    axes.set_xlabel("cycle")
-    axes.set_ylabel("chi-square")
-    return True
+    return labelled(axes, "cycle", "chi-square")
 
 
 PLOTS = (

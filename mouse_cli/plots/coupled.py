@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.model.coupled import Coupled
 from mouse_cli.model.modified import Modified
-from mouse_cli.plots import AFTER, BEFORE, Plot
+from mouse_cli.plots import AFTER, BEFORE, Plot, labelled
 from mouse_cli.plots._functions import decibels, ribbon
 
 _MOST = 4  # functions in one figure
@@ -23,10 +23,7 @@ def coupled_functions(found: Coupled, axes: Any) -> bool:
         axes.plot(frf.frequency_hz, decibels(H), color=f"C{k}", lw=1.0, label=name)
         with np.errstate(divide="ignore", invalid="ignore"):
             ribbon(axes, frf.frequency_hz, decibels(H), np.sqrt(frf.variance[:, o, i] / 2) / np.abs(H), f"C{k}", 0.25)
-    axes.set_xlabel("frequency, Hz")
-    axes.set_ylabel(f"{frf.kind}, dB")
-    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, borderaxespad=0.1)
-    return True
+    return labelled(axes, "frequency, Hz", f"{frf.kind}, dB", 2)
 
 
 def modified_functions(found: Modified, axes: Any) -> bool:
@@ -37,10 +34,7 @@ def modified_functions(found: Modified, axes: Any) -> bool:
     axes.plot(before.frequency_hz, decibels(before.H[:, 0, 0]), color=BEFORE, lw=1.0, ls="--", label="before")
     ribbon(axes, after.frequency_hz, decibels(after.H[:, 0, 0]), found.functions.sd_log[:, 0, 0], AFTER, 0.25)
     axes.plot(after.frequency_hz, decibels(after.H[:, 0, 0]), color=AFTER, lw=1.0, label="after")
-    axes.set_xlabel("frequency, Hz")
-    axes.set_ylabel(f"{after.kind} {after.output_names[0]} / {after.input_names[0]}, dB")
-    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, borderaxespad=0.1)
-    return True
+    return labelled(axes, "frequency, Hz", f"{after.kind} {after.output_names[0]} / {after.input_names[0]}, dB", 2)
 
 
 _FLOOR = 1e-12  # what a logarithmic axis shows of an error that is rounding
@@ -54,10 +48,7 @@ def coupled_reductions(found: Coupled, axes: Any) -> bool:
         own = [each for each in found.modes.reduced if each.method == method]
         error = [100 * max(float(np.abs(each.error[found.modes.rigid :]).max(initial=0.0)), _FLOOR) for each in own]
         axes.semilogy([each.keep for each in own], error, marker="o", ms=3.5, lw=1.0, label=method)
-    axes.set_xlabel("modes kept of every part")
-    axes.set_ylabel("error of the worst frequency, per cent")
-    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4, borderaxespad=0.1)
-    return True
+    return labelled(axes, "modes kept of every part", "error of the worst frequency, per cent", 4)
 
 
 PLOTS = (

@@ -7,7 +7,7 @@ import numpy as np
 
 from mouse_cli.dynamics.frequency import frequency_hz
 from mouse_cli.model.diagnosis import UNKNOWN, Diagnosis, Place
-from mouse_cli.plots import AFTER, BEFORE, Plot
+from mouse_cli.plots import AFTER, BEFORE, Plot, labelled
 from mouse_cli.plots._field import TITLE, band
 from mouse_cli.plots._line import along, lying
 from mouse_cli.plots._pairs import names, pairs
@@ -33,8 +33,7 @@ def evidence(found: Diagnosis, axes: Any) -> bool:
     axes.invert_yaxis()
     axes.tick_params(axis="y", labelsize=7)
     axes.grid(axis="y", visible=False)
-    axes.set_xlabel("log evidence over none; at the bars: probability of the hypothesis")
-    return True
+    return labelled(axes, "log evidence over none; at the bars: probability of the hypothesis")
 
 
 def _name(one: Any) -> str:
@@ -68,12 +67,10 @@ def places(found: Diagnosis, axes: Any) -> bool:
     row = along([p.site for p in places])
     if row is not None:
         _along(places, row[0], axes)
-        axes.set_xlabel(f"{row[1]}, {found.problem.units.of('m')}")
-        return True
+        return labelled(axes, f"{row[1]}, {found.problem.units.of('m')}")
     shown = places[:_PLACES_MOST]
     lying(axes, [f"{place(p.site)}, {p.channel}" for p in shown], [p.probability for p in shown], AFTER)
-    axes.set_xlabel("probability")
-    return True
+    return labelled(axes, "probability")
 
 
 def _along(places: tuple[Place, ...], at: np.ndarray, axes: Any) -> None:
@@ -110,15 +107,12 @@ def energy(found: Diagnosis, axes: Any) -> bool:
     if row is None:
         shown = energy.order[:_ENERGY_MOST]
         lying(axes, [place(energy.sites[i]) for i in shown], share[shown].tolist(), BEFORE)
-        axes.set_xlabel(value)
-        return True
+        return labelled(axes, value)
     at, name = row
     order = np.argsort(at, kind="stable")
     axes.vlines(at[order], 0, share[order], color=BEFORE, linewidth=1.0)
     axes.plot(at[order], share[order], "o", markersize=3, color="black")
-    axes.set_xlabel(f"{name}, {found.problem.units.of('m')}")
-    axes.set_ylabel(value)
-    return True
+    return labelled(axes, f"{name}, {found.problem.units.of('m')}", value)
 
 
 def law(found: Diagnosis, axes: Any) -> bool:

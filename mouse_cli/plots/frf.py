@@ -8,7 +8,7 @@ import numpy as np
 from mouse_cli.model.diagnosis import Diagnosis
 from mouse_cli.model.frf_fit import FrfFit
 from mouse_cli.model.result import Result
-from mouse_cli.plots import Plot
+from mouse_cli.plots import Plot, labelled
 from mouse_cli.plots._functions import colours, fitted_height, overlay, unbroken, worst
 
 
@@ -74,10 +74,12 @@ def frf_misfit(found: Result | Diagnosis, axes: Any) -> bool:
             axes.semilogy(unbroken(hz), _spectrum(fit, model.H), color=colour, lw=0.9, label=None if k else model.name)
     axes.axhline(1.0, color="black", lw=0.8, ls=":", label="noise alone")
     axes.set_ylim(bottom=_FLOOR)
-    axes.set_xlabel("frequency, Hz")
-    axes.set_ylabel("rms |model - test| over its\nnoise" + (", as assumed" if found.frf[0].assumed else ""))
-    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, borderaxespad=0.1)
-    return True
+    return labelled(
+        axes,
+        "frequency, Hz",
+        "rms |model - test| over its\nnoise" + (", as assumed" if found.frf[0].assumed else ""),
+        3,
+    )
 
 
 def _spectrum(fit: FrfFit, model: np.ndarray) -> np.ndarray:

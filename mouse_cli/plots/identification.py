@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from mouse_cli.model.identification import Identification
-from mouse_cli.plots import AFTER, BEFORE, Plot
+from mouse_cli.plots import AFTER, BEFORE, Plot, labelled
 from mouse_cli.plots._functions import unbroken
 
 
@@ -50,10 +50,7 @@ def frf_fit(found: Identification, axes: Any) -> bool:
         axes.semilogy(hz, np.abs(fit.fitted[:, o, i]), color=AFTER, linewidth=0.8)
     axes.plot([], [], color=AFTER, linewidth=0.8, label="fitted")
     axes.set_xlim(*found.band_hz)
-    axes.set_xlabel("frequency, Hz")
-    axes.set_ylabel(fit.kind)
-    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4, borderaxespad=0.1)
-    return True
+    return labelled(axes, "frequency, Hz", fit.kind, 4)
 
 
 def _name(names: tuple[str, ...], k: int) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 from mouse_cli.model.record_diagnosis import WITH_CAUSE, RecordDiagnosis, Trace
 from mouse_cli.model.record_update import RecordUpdate
 from mouse_cli.model.units import Units
-from mouse_cli.plots import AFTER, BEFORE, Plot
+from mouse_cli.plots import AFTER, BEFORE, Plot, labelled
 
 
 def models(found: RecordDiagnosis | RecordUpdate) -> Iterator[tuple[str, str, np.ndarray]]:
@@ -21,11 +21,6 @@ def models(found: RecordDiagnosis | RecordUpdate) -> Iterator[tuple[str, str, np
 def quantity(shown: Trace) -> str:
     """The output and its unit."""
     return f"{shown.title}{f', {shown.unit}' if shown.unit else ''}"
-
-
-def legend(axes: Any) -> None:
-    """Above the axes."""
-    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4, borderaxespad=0.1)
 
 
 _POINTS = 4000
@@ -75,10 +70,7 @@ def record_held_out(found: RecordDiagnosis | RecordUpdate, axes: Any) -> bool:
     axes.plot(shown.time_s, shown.measured, color="black", linewidth=1.2, label="measured")
     for name, colour, values in models(found):
         axes.plot(shown.time_s, values, "--", color=colour, linewidth=1.0, label=f"simulated, {name}")
-    axes.set_xlabel("time, s")
-    axes.set_ylabel(quantity(shown))
-    legend(axes)
-    return True
+    return labelled(axes, "time, s", quantity(shown), 4)
 
 
 def record_residual(found: RecordDiagnosis | RecordUpdate, axes: Any) -> bool:
@@ -92,10 +84,7 @@ def record_residual(found: RecordDiagnosis | RecordUpdate, axes: Any) -> bool:
     for name, colour, values in models(found):
         axes.semilogy(hz, lines(shown.measured - values), color=colour, linewidth=1.0, label=f"residual, {name}")
     axes.axhline(shown.sd * np.sqrt(2 / t), color="black", linewidth=0.8, linestyle=":", label="noise")
-    axes.set_xlabel("frequency, Hz")
-    axes.set_ylabel(f"rms of a line of\n{quantity(shown)}")
-    legend(axes)
-    return True
+    return labelled(axes, "frequency, Hz", f"rms of a line of\n{quantity(shown)}", 4)
 
 
 def lines(x: np.ndarray) -> np.ndarray:
