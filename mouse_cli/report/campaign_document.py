@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from mouse_cli.model.campaign import Answered, Bootstrap, Moved, Spread, Sweep
-from mouse_cli.report.json_values import fields
+from mouse_cli.report.json_values import coded, fields
 
 SCHEMA = "mouse.campaign/1"
 
@@ -21,7 +21,7 @@ def document(found: Sweep | Bootstrap) -> dict[str, Any]:
         "source": problem.source.path,
         "exit_code": found.exit_code,
         **own,
-        "warnings": [f"{each.code}: {each.message}" for each in found.warnings],
+        "warnings": coded(found.warnings),
     }
 
 

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from mouse_cli.model.correlation import ALONE, Correlation, Expanded
-from mouse_cli.report.json_values import dof_name, fields
+from mouse_cli.report.json_values import coded, dof_name, fields, rows
 
 SCHEMA = "mouse.correlation/1"
 
@@ -38,13 +38,12 @@ def document(found: Correlation) -> dict[str, Any]:
             for close in found.subspaces
         ],
         "expansion": None if found.expanded is None else _expansion(found, found.expanded),
-        "warnings": [f"{d.code}: {d.message}" for d in (*problem.warnings, *found.warnings)],
+        "warnings": coded((*problem.warnings, *found.warnings)),
     }
 
 
 def _sensors(found: Correlation) -> list[dict[str, Any]]:
-    values = zip(found.sensors, found.comac, found.ecomac, strict=True)
-    return [{"name": dof_name(name), "comac": one, "ecomac": other} for name, one, other in values]
+    return rows(name=map(dof_name, found.sensors), comac=found.comac, ecomac=found.ecomac)
 
 
 def _faults(found: Correlation) -> list[dict[str, Any]]:

@@ -5,7 +5,7 @@ from typing import Any
 from mouse_cli.model.coupled import Coupled, CoupledModes, InterfaceState
 from mouse_cli.model.coupling import Connection, Coupling
 from mouse_cli.model.frf_test import FrfTest
-from mouse_cli.report.json_values import fields
+from mouse_cli.report.json_values import coded, fields
 
 SCHEMA = "mouse.coupling/1"
 
@@ -32,7 +32,7 @@ def document(found: Coupled) -> dict[str, Any]:
         "functions": None if found.functions is None else functions(found.functions),
         "peaks": [vars(peak) for peak in found.peaks],
         "modes": None if found.modes is None else _modes(found.modes),
-        "warnings": [f"{d.code}: {d.message}" for d in found.warnings],
+        "warnings": coded(found.warnings),
     }
 
 

@@ -16,7 +16,7 @@ from mouse_cli.model.result import Result
 from mouse_cli.model.units import system
 from mouse_cli.report import result_document as of_result
 from mouse_cli.report.frf_document import damping, frf, held_frf
-from mouse_cli.report.json_values import fields
+from mouse_cli.report.json_values import coded, fields
 from mouse_cli.report.theory import document as theory
 from mouse_cli.report.verdict_document import held_out, site, verdict
 
@@ -56,7 +56,7 @@ def document(found: Diagnosis) -> dict[str, Any]:
         "baseline": _update(result),
         "extended": None if found.extended_result is None else _update(found.extended_result),
         "remarks": list(found.remarks),
-        "warnings": [f"{d.code}: {d.message}" for d in (*problem.warnings, *result.warnings)],
+        "warnings": coded((*problem.warnings, *result.warnings)),
     }
 
 

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from mouse_cli.model.identification import Identification
-from mouse_cli.report.json_values import dof_name, fields
+from mouse_cli.report.json_values import coded, dof_name, fields, rows
 
 SCHEMA = "mouse.identification/1"
 
@@ -19,7 +19,7 @@ def document(found: Identification) -> dict[str, Any]:
         **fields(found, "title", "sources", "method", "noise", "band_hz"),
         "sensors": [dof_name(name) for name in found.sensors],
         "misfit": found.misfit,
-        "modes": [_mode(found, r) for r in range(modes.m)],
+        "modes": _modes(found),
         "covariance": modes.covariance,
         "shapes_real": modes.shapes.real,
         "shapes_imaginary": modes.shapes.imag,
@@ -29,21 +29,15 @@ def document(found: Identification) -> dict[str, Any]:
         "diagram": fields(found.diagram, "order", "frequency_hz", "damping", "stable"),
         "details": found.details,
         "trusted": found.exit_code == 0,
-        "doubts": [f"{d.code}: {d.message}" for d in found.doubts],
-        "warnings": [f"{d.code}: {d.message}" for d in found.remarks],
+        "doubts": coded(found.doubts),
+        "warnings": coded(found.remarks),
     }
 
 
-def _mode(found: Identification, r: int) -> dict[str, Any]:
-    modes = found.modes
-    return {
-        "frequency_hz": modes.frequency_hz[r],
-        "frequency_sd_hz": modes.frequency_sd_hz[r],
-        "damping": modes.damping[r],
-        "damping_sd": modes.damping_sd[r],
-        "mpc": modes.mpc[r],
-        "scale": modes.scale[r],
-        "stable_orders": int(modes.stable_orders[r]),
-        "lines_in_bandwidth": modes.lines[r] if np.isfinite(modes.error[r]) else None,
-        "fit_error": modes.error[r],
-    }
+def _modes(found: Identification) -> list[dict[str, Any]]:
+    modes, each = (
+        found.modes,
+        ("frequency_hz", "frequency_sd_hz", "damping", "damping_sd", "mpc", "scale", "stable_orders"),
+    )
+    lines = np.where(np.isfinite(modes.error), modes.lines, np.nan)
+    return rows(**fields(modes, *each), lines_in_bandwidth=lines, fit_error=modes.error)

@@ -1,9 +1,12 @@
 """Values as JSON holds them: plain Python, and nothing that is not finite."""
 
+from collections.abc import Iterable
 from math import isfinite
 from typing import Any
 
 import numpy as np
+
+from mouse_cli._errors import Diagnostic
 
 
 def plain(value: Any) -> Any:
@@ -29,6 +32,20 @@ def plain(value: Any) -> Any:
 def fields(of: Any, *names: str) -> dict[str, Any]:
     """Attributes under their own names."""
     return {name: getattr(of, name) for name in names}
+
+
+def rows(**columns: Iterable[Any]) -> list[dict[str, Any]]:
+    """One object for each entry of columns that are equally long.
+
+    >>> rows(mode=[1, 2], hz=[3.5, 7.0])
+    [{'mode': 1, 'hz': 3.5}, {'mode': 2, 'hz': 7.0}]
+    """
+    return [dict(zip(columns, values, strict=True)) for values in zip(*columns.values(), strict=True)]
+
+
+def coded(diagnostics: Iterable[Diagnostic]) -> list[str]:
+    """Diagnostics with their codes, one text each."""
+    return [f"{each.code}: {each.message}" for each in diagnostics]
 
 
 def dof_name(label: str) -> int | str:

@@ -7,7 +7,7 @@ import numpy as np
 from mouse_cli.dynamics.frequency import eigenvalue
 from mouse_cli.model.result import DampedModes, Forecast
 from mouse_cli.report.geometry_document import MOST_MODES, Moved, geometry
-from mouse_cli.report.json_values import dof_name
+from mouse_cli.report.json_values import coded, dof_name, fields, rows
 
 SCHEMA = "mouse.modes/1"
 
@@ -35,7 +35,7 @@ def document(forecast: Forecast) -> dict[str, Any]:
         ],
         "geometry": geometry(problem, _moved(forecast)),
         **({} if forecast.damped is None else {"damped": _damped(forecast.damped)}),
-        "warnings": [f"{d.code}: {d.message}" for d in problem.warnings],
+        "warnings": coded(problem.warnings),
     }
 
 
@@ -48,8 +48,10 @@ def _moved(forecast: Forecast) -> list[Moved]:
 
 def _damped(found: DampedModes) -> list[dict[str, Any]]:
     """One entry a complex mode; its shape as real and imaginary parts, in the order of dofs."""
-    values = zip(found.frequencies_hz, found.damping, found.damping_sd, found.complexity, found.shapes.T, strict=True)
-    return [
-        {"hz": hz, "damping": ratio, "damping_sd": sd, "complexity": c, "shape": [shape.real, shape.imag]}
-        for hz, ratio, sd, c, shape in values
-    ]
+    shapes = [[shape.real, shape.imag] for shape in found.shapes.T]
+    return rows(**damping(found), shape=shapes)
+
+
+def damping(found: DampedModes) -> dict[str, Any]:
+    """Columns of complex modes."""
+    return {"hz": found.frequencies_hz, **fields(found, "damping", "damping_sd", "complexity")}

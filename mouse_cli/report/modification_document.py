@@ -7,7 +7,8 @@ import numpy as np
 from mouse_cli.model.modified import Modified, ModifiedFunctions, Need, Place, Swept
 from mouse_cli.model.result import Forecast
 from mouse_cli.report.coupling_document import connection, functions
-from mouse_cli.report.json_values import dof_name, fields
+from mouse_cli.report.json_values import coded, dof_name, fields, rows
+from mouse_cli.report.modes_document import damping
 
 SCHEMA = "mouse.modification/1"
 
@@ -26,45 +27,37 @@ def document(found: Modified) -> dict[str, Any]:
         "modes": _modes(found),
         "covariance_hz2": after.root_hz @ after.root_hz.T,
         "dofs": [dof_name(label) for label in after.problem.structure.labels],
-        "damped": None if after.damped is None else _damped(found),
+        "damped": None if after.damped is None else rows(**damping(after.damped)),
         "targets": [_need(need) for need in found.needs],
         "sweeps": [_swept(each) for each in found.swept],
         "functions": None if found.functions is None else _functions(found.functions),
-        "warnings": [f"{d.code}: {d.message}" for d in found.warnings],
+        "warnings": coded(found.warnings),
     }
 
 
 def _before(before: Forecast) -> list[dict[str, Any]]:
-    values = zip(before.frequencies_hz, before.sd_hz, strict=True)
-    return [{"mode": i, "hz": _elastic(before, i, hz), "sd_hz": sd} for i, (hz, sd) in enumerate(values, 1)]
+    return rows(mode=range(1, len(before.frequencies_hz) + 1), hz=_elastic(before), sd_hz=before.sd_hz)
 
 
-def _elastic(forecast: Forecast, mode: int, hz: float) -> float:
-    return float(hz) if mode > forecast.rigid_modes else 0.0
+def _elastic(forecast: Forecast) -> np.ndarray:
+    """Frequencies, 0 of rigid-body modes."""
+    count = len(forecast.frequencies_hz)
+    return np.where(np.arange(count) < forecast.rigid_modes, 0.0, forecast.frequencies_hz)
 
 
 def _modes(found: Modified) -> list[dict[str, Any]]:
     after, shifts = found.after, found.shifts
-    return [
-        {
-            "mode": i + 1,
-            "hz": _elastic(after, i + 1, after.frequencies_hz[i]),
-            "sd_hz": after.sd_hz[i],
-            "from_mode": int(shifts.partner[i]) + 1 if shifts.partner[i] >= 0 else None,
-            "mac": shifts.mac[i],
-            "shift_hz": shifts.shift_hz[i],
-            "shift_sd_hz": shifts.sd_hz[i],
-            "shape": after.shapes[:, i],
-            "shape_sd": after.shape_sd[:, i],
-        }
-        for i in range(len(after.frequencies_hz))
-    ]
-
-
-def _damped(found: Modified) -> list[dict[str, Any]]:
-    damped = found.after.damped
-    values = zip(damped.frequencies_hz, damped.damping, damped.damping_sd, damped.complexity, strict=True)
-    return [{"hz": hz, "damping": ratio, "damping_sd": sd, "complexity": c} for hz, ratio, sd, c in values]
+    return rows(
+        mode=range(1, len(after.frequencies_hz) + 1),
+        hz=_elastic(after),
+        sd_hz=after.sd_hz,
+        from_mode=[j + 1 if j >= 0 else None for j in shifts.partner.tolist()],
+        mac=shifts.mac,
+        shift_hz=shifts.shift_hz,
+        shift_sd_hz=shifts.sd_hz,
+        shape=after.shapes.T,
+        shape_sd=after.shape_sd.T,
+    )
 
 
 def _need(need: Need) -> dict[str, Any]:

@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.units import system
-from mouse_cli.report.json_values import dof_name, fields, plain
+from mouse_cli.report.json_values import dof_name, fields, plain, rows
 
 _LARGEST_COVARIANCE = 200
 
@@ -45,8 +45,7 @@ def _parameters(problem: Problem) -> list[dict[str, Any]]:
 
 def _modes(problem: Problem) -> list[dict[str, Any]]:
     test = problem.test
-    columns = {"mode": test.number, "test_hz": test.frequency_hz, "test_sd_hz": test.frequency_sd_hz}
-    return [{key: values[i] for key, values in columns.items()} for i in range(test.m)]
+    return rows(mode=test.number, test_hz=test.frequency_hz, test_sd_hz=test.frequency_sd_hz)
 
 
 def _shapes(problem: Problem) -> list[dict[str, Any]]:

@@ -10,7 +10,7 @@ from mouse_cli.report import diagnosis_document as of_diagnosis
 from mouse_cli.report import result_document as of_result
 from mouse_cli.report.frf_document import thinned
 from mouse_cli.report.geometry_document import geometry
-from mouse_cli.report.json_values import fields
+from mouse_cli.report.json_values import coded, fields
 from mouse_cli.report.theory import document as theory
 from mouse_cli.report.verdict_document import verdict
 
@@ -46,7 +46,7 @@ def document(found: RecordDiagnosis) -> dict[str, Any]:
         "geometry": geometry(problem),
         "units": system(problem.units) or None,
         "remarks": list(found.remarks),
-        "warnings": [f"{d.code}: {d.message}" for d in problem.warnings],
+        "warnings": coded(problem.warnings),
     }
 
 

@@ -7,7 +7,7 @@ from mouse_cli.model.units import system
 from mouse_cli.report import record_document as of_records
 from mouse_cli.report import result_document as of_result
 from mouse_cli.report.geometry_document import geometry
-from mouse_cli.report.json_values import fields
+from mouse_cli.report.json_values import coded, fields, rows
 from mouse_cli.report.theory import document as theory
 from mouse_cli.report.verdict_document import site
 
@@ -46,22 +46,18 @@ def document(found: RecordUpdate) -> dict[str, Any]:
         "geometry": geometry(problem),
         "units": system(problem.units) or None,
         "remarks": list(found.remarks),
-        "warnings": [f"{d.code}: {d.message}" for d in problem.warnings],
+        "warnings": coded(problem.warnings),
     }
 
 
 def _parameters(found: RecordUpdate) -> list[dict[str, Any]]:
-    prior = found.problem.prior
-    rows = zip(found.problem.parameters, prior.mean, prior.sd, found.theta, found.sd_theta, strict=True)
-    return [
-        {
-            "name": one.name,
-            "unit": one.unit,
-            "prior": mean,
-            "prior_sd": sd,
-            "posterior": value,
-            "posterior_sd": left,
-            "at_limit": False,
-        }
-        for one, mean, sd, value, left in rows
-    ]
+    own, prior = found.problem.parameters, found.problem.prior
+    return rows(
+        name=[one.name for one in own],
+        unit=[one.unit for one in own],
+        prior=prior.mean,
+        prior_sd=prior.sd,
+        posterior=found.theta,
+        posterior_sd=found.sd_theta,
+        at_limit=[False] * len(own),
+    )

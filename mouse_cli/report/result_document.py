@@ -12,7 +12,7 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import ChiSquareTest, Result
 from mouse_cli.report.frf_document import conditioned, frf, held_frf
 from mouse_cli.report.geometry_document import geometry, moved, shapes_by_dof
-from mouse_cli.report.json_values import dof_name, fields
+from mouse_cli.report.json_values import coded, dof_name, fields, rows
 from mouse_cli.report.measured import NOT_MEASURED, eigenvalue_index, positions, shape_index
 
 SCHEMA = "mouse.result/1"
@@ -55,7 +55,7 @@ def document(result: Result) -> dict[str, Any]:
         **({"frf": frf(result.frf)} if result.frf else {}),
         **({"held_out_frf": held_frf(result.held_frf)} if result.held_frf else {}),
         "conditioning": conditioned(result),
-        "warnings": [f"{d.code}: {d.message}" for d in (*problem.warnings, *result.warnings)],
+        "warnings": coded((*problem.warnings, *result.warnings)),
         "versions": result.versions,
     }
 
@@ -154,10 +154,7 @@ def _alternatives(result: Result) -> dict[str, Any]:
         {
             "share": each.share,
             "cost": each.cost,
-            "parameters": [
-                {"name": name, "value": value, "sd": sd}
-                for name, value, sd in zip(names, each.theta, each.sd, strict=True)
-            ],
+            "parameters": rows(name=names, value=each.theta, sd=each.sd),
         }
         for each in found.others
     ]

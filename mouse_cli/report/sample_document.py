@@ -3,7 +3,7 @@
 from typing import Any
 
 from mouse_cli.model.sampled import Quantity, Sampled
-from mouse_cli.report.json_values import fields
+from mouse_cli.report.json_values import coded, fields
 from mouse_cli.report.result_document import tested
 
 SCHEMA = "mouse.sample/1"
@@ -34,7 +34,7 @@ def document(found: Sampled) -> dict[str, Any]:
             "kept": kept * walkers,
             **fields(found, "tau", "acceptance", "long_enough", "seed", "evaluations"),
         },
-        "warnings": [f"{each.code}: {each.message}" for each in (*problem.warnings, *found.warnings)],
+        "warnings": coded((*problem.warnings, *found.warnings)),
     }
 
 

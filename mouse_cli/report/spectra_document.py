@@ -8,7 +8,7 @@ import numpy as np
 from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.model.spectra import SpectraResult
 from mouse_cli.report.frf_document import MOST_CURVES, thinned
-from mouse_cli.report.json_values import fields
+from mouse_cli.report.json_values import coded, fields
 
 SCHEMA = "mouse.spectra/1"
 
@@ -32,7 +32,7 @@ def document(result: SpectraResult) -> dict[str, Any]:
             }
             for each in result.measured
         ],
-        "warnings": [f"{d.code}: {d.message}" for d in result.warnings],
+        "warnings": coded(result.warnings),
     }
 
 

@@ -6,7 +6,7 @@ from mouse_cli import __version__
 from mouse_cli.model.arrays import dense
 from mouse_cli.model.conditioning import Conditioning
 from mouse_cli.model.updated import Compared, Predicted, Updated
-from mouse_cli.report.json_values import dof_name, fields, plain
+from mouse_cli.report.json_values import coded, dof_name, fields, plain, rows
 
 SCHEMA, COMPARISON = "mouse.update/1", "mouse.comparison/1"
 LARGEST_MATRIX = 140  # degrees of freedom up to which K is written out
@@ -18,7 +18,7 @@ def document(found: Updated | Compared) -> dict[str, Any]:
     head = {"version": __version__, "title": problem.title.strip(), "source": problem.source.path}
     if isinstance(found, Updated):
         return plain({"schema": SCHEMA, **head, **_update(found), **_matrix(found)})
-    refused = {key: [f"{d.code}: {d.message}" for d in why] for key, why in found.refused.items()}
+    refused = {key: coded(why) for key, why in found.refused.items()}
     each = [_update(one) for one in found.updates]
     return plain({"schema": COMPARISON, **head, "methods": each, "refused": refused})
 
@@ -36,14 +36,12 @@ def _update(found: Updated) -> dict[str, Any]:
         "configurations": [_configuration(one) for one in found.configurations],
         "checked": vars(checked),
         "conditioning": None if found.conditioning is None else _bounds(found.conditioning),
-        "warnings": [f"{d.code}: {d.message}" for d in found.warnings],
+        "warnings": coded(found.warnings),
     }
 
 
 def _configuration(one: Predicted) -> dict[str, Any]:
-    rows = zip(one.number, one.test_hz, one.test_sd_hz, one.prior_hz, one.revised_hz, one.mac, strict=True)
-    keys = ("mode", "test_hz", "test_sd_hz", "prior_hz", "revised_hz", "mac")
-    modes = [dict(zip(keys, row, strict=True)) for row in rows]
+    modes = rows(mode=one.number, **fields(one, "test_hz", "test_sd_hz", "prior_hz", "revised_hz", "mac"))
     return {**fields(one, "title", "fitted", "rms_percent"), "modes": modes}
 
 
