@@ -17,9 +17,14 @@ def mac(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     [[1.0, 0.0]]
     """
     have_one, have_other = np.isfinite(one), np.isfinite(other)
-    x, y = np.where(have_one, one, 0.0), np.where(have_other, other, 0.0)
+    x, y = _scaled(np.where(have_one, one, 0.0)), _scaled(np.where(have_other, other, 0.0))
     size = ((x * x).T @ have_other) * (have_one.T @ (y * y))
     return np.divide((x.T @ y) ** 2, size, out=np.zeros_like(size), where=size > 0)
+
+
+def _scaled(shapes: np.ndarray) -> np.ndarray:
+    """Columns (s, m) by powers of two so that their largest is about 1: no square leaves the numbers, no digit is rounded."""
+    return np.ldexp(shapes, -np.frexp(np.abs(shapes).max(axis=0, initial=0.0))[1])
 
 
 def distance(likeness: np.ndarray, test_hz: np.ndarray, hz: np.ndarray, most: float = 1e3) -> np.ndarray:

@@ -123,10 +123,12 @@ def check(model: InputModel, parts: Parts, solver: Solver) -> Checked:
     theirs = np.sort(solver.eigenvalues(*_asked(model, kept, parts.whole)))
     try:
         solution = eigensolution(K, M, len(theirs))
+        if len(solution.eigenvalues) < len(theirs):
+            raise np.linalg.LinAlgError(f"only {len(solution.eigenvalues)} of {len(theirs)}")
     except (IndefiniteError, np.linalg.LinAlgError) as reason:
         help = "look for nodes and elements that are out of place, and for densities and moduli in other units"
         raise DeckError.of(
-            "MD275", f"the matrices have no frequencies: {reason}", Span(model.path, 1), help=help
+            "MD275", f"the matrices have no frequencies like the solver's: {reason}", Span(model.path, 1), help=help
         ) from reason
     own, X = solution.eigenvalues[: len(theirs)], solution.shapes[:, : len(theirs)]
     found = _compared(parts, K, theirs, own, X)

@@ -7,6 +7,7 @@ import numpy as np
 from mouse_cli.model.mesh import Binding, ElementSet
 from mouse_cli.terms.elements import ElementType, Layout, Properties, Property
 
+_SMALL = 1e-280  # a value whose step would be no number
 _STEP = 1e-20  # of the complex step, times the value: the truncation error, of order step^2, is far below rounding
 
 
@@ -43,7 +44,7 @@ class BoundProperties:
                 for b in self._own[name]:
                     value[b.members] = theta[b.parameter] * (value[b.members] if b.factor else 1.0)
             if name == stepped:
-                step = _STEP * np.where(value == 0, 1.0, value.real)
+                step = _STEP * np.where(np.abs(value.real) < _SMALL, 1.0, value.real)
                 value = value + 1j * step
             found[name] = value
         return found, step

@@ -33,7 +33,8 @@ def expanded(
     except LooseError as reason:
         raise _refused(problem, method, str(reason)) from None
     error = (test.read(found) - shapes) / sd
-    unit = found / np.sqrt(np.einsum("ij,ij->j", found, M @ found))
+    length = np.sqrt(np.einsum("ij,ij->j", found, M @ found))
+    unit = np.divide(found, length, out=np.full_like(found, np.nan), where=length > 0)  # a shape of zeros has no scale
     energy = unit.T @ (K @ unit)
     omega = np.sqrt(at[kept])
     return Expanded(

@@ -1,6 +1,7 @@
 """Bad input and doubtful answers as the command line tells them: each with its code, its place and a remedy, and no file."""
 
 import re
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -320,3 +321,24 @@ def test_a_structure_does_not_go_on_cards(capsys, tmp_path):
     status, _, err = told(capsys, "convert", str(DECKS / "cantilever.yaml"), "-o", str(tmp_path / "no.dat"))
     assert status == 4 and err.count("error[") == 1 and "error[MD152]: the model is made of elements" in err
     assert not list(tmp_path.iterdir())
+
+
+ONE_STILL = """\
+mouse: 1
+model: {stiffness: {dense: [[2, -1], [-1, 2]]}, mass: {identity: 2}}
+test: {modes: {frequency: [0.16, 0.28], frequency_sd: 1 %, dofs: [1, 2], shapes: [[1, 0], [0, ~]], shape_sd: 0.1}}
+"""
+ALMOST_NO_MASS = BAR.replace("mass: 0.5", "mass: 1.0e-308").replace(
+    "parameters:\n", "parameters:\n  - {name: tip, elements: 10, property: mass, sd: 3 %}\n"
+)
+
+
+@pytest.mark.parametrize(
+    ("command", "deck"), [(["correlate", "--expand", "guyan"], ONE_STILL), (["run"], ALMOST_NO_MASS)], ids=["zeros", "no mass"]
+)
+def test_extreme_values_divide_nothing_by_zero(command, deck, tmp_path, capsys):
+    path = tmp_path / "deck.yaml"
+    path.write_text(deck)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", RuntimeWarning)
+        assert _run([command[0], str(path), *command[1:]]) in (0, 1), capsys.readouterr().err

@@ -40,7 +40,6 @@ STEMS = {
     "mass normalisation": "mass-normalised",
     "driving-point FRF": "driving point",
     "transmissibility": "transmissibilit",
-    "mass loading": "the mass of the sensors",
     "window": "--window",
     "force window": "--force-window",
     "Laplace approximation": "laplace",

@@ -32,6 +32,7 @@ def test_mac_by_hand():
     np.testing.assert_allclose(mac(x, yz), [[0, 64 / 81]], atol=1e-15)
     np.testing.assert_allclose(mac(x, np.array([[np.nan], [2.0], [1.0]])), [[36 / 40]])  # over the two points both have
     np.testing.assert_allclose(scale_factors(x, yz[:, 1:]), [8 / 9])
+    np.testing.assert_array_equal(mac(2.0**700 * x, 2.0**-900 * yz), mac(x, yz))  # whatever the units
 
 
 def test_comac_and_ecomac_by_hand():

@@ -147,3 +147,13 @@ def test_every_method_on_a_large_sparse_model(key):
     found = expansion(key).expand(given)
     off = 0.25 if key == "guyan" else 1e-4
     np.testing.assert_allclose(found, X, atol=off * np.abs(X).max())
+
+
+@pytest.mark.parametrize("size", [1e30, 1e170])
+def test_a_reading_far_beyond_its_sd_is_kept(size):
+    """Of 1e30 and more standard deviations, whose squares overflow: the expanded shape has it at the sensor."""
+    K, M = beam(6)
+    t = np.array([[0.1], [0.5], [-size]])
+    given = measured(K, M, np.array([2, 6, 10]), t, np.array([1.0]), eigensolution(K, M), sd=0.01, exact=False)
+    found = expansion("residual-energy").expand(given)
+    assert found[10, 0] == pytest.approx(-size, rel=1e-9)

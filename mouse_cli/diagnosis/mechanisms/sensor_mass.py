@@ -77,8 +77,8 @@ CANDIDATE = Candidate(
     "sensor-mass",
     "the mass of the sensors",
     "sensor-mass",
-    "sensors and cables that are heavy for what they are mounted on, the same mass at each: at most a tenth of the structure, and "
-    "20 kg where the deck declares its units",
+    "mass loading by sensors and cables that are heavy for what they are mounted on, the same mass at each: at most a tenth of the "
+    "structure, and 20 kg where the deck declares its units",
     recipes,
     _why,
 )

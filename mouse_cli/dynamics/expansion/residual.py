@@ -42,15 +42,18 @@ def _least(
 
 def smoothed(Q: np.ndarray, t: np.ndarray, sd: np.ndarray) -> np.ndarray:
     """v (s,) that minimises v'Q v while the sum of ((v - t) / sd)^2 is s, or comes nearest to that; t where it is all noise."""
-    if np.sum((t / sd) ** 2) <= len(t):
-        return t
+    from scipy.linalg import norm  # scaled: squares of readings far beyond their sd overflow
     from scipy.optimize import brentq
+
+    noise = float(np.sqrt(len(t)))
+    if norm(t / sd) <= noise:
+        return t
 
     values, vectors = np.linalg.eigh(sd[:, None] * (Q + Q.T) / 2 * sd)
     values, part = np.maximum(values, 0.0), vectors.T @ (t / sd)
     largest = max(float(values[-1]), np.finfo(float).tiny)
-    left = lambda power: float(np.sum((values / (values + largest * 10.0**power) * part) ** 2)) - len(t)
-    low, high = -20.0, 20.0
+    left = lambda power: float(norm(values / (values + largest * 10.0**power) * part)) - noise
+    low, high = -20.0, max(0.0, float(np.log10(norm(part) / noise))) + 1.0  # left(power) <= 10^-power |part| - noise
     power = low if left(low) <= 0 else brentq(left, low, high)
     trust = largest * 10.0**power
     return sd * (vectors @ (trust / (values + trust) * part))
