@@ -163,16 +163,8 @@ def options(*groups: tuple[Callable, ...]) -> Callable:
 
 
 def plotting(help: str = "Write figures: to a folder, or to one file (.pdf, .png, .svg).") -> tuple[Callable, ...]:
-    """Where figures go; refused where they cannot be drawn."""
-    return (click.option("--plot", metavar="PATH", expose_value=False, callback=_keep_plot, help=help),)
-
-
-def _keep_plot(context: click.Context, option: click.Parameter, path: str | None) -> None:
-    if path and not context.resilient_parsing:
-        from mouse_cli.plots import require
-
-        require(path)
-        _keep(context, option, path)
+    """Where figures go; a command that has these calls `check_figures` before it computes anything."""
+    return (shared("--plot", metavar="PATH", help=help),)
 
 
 def reading() -> dict[str, object]:

@@ -80,6 +80,15 @@ def deliver(text: str, output: str | None, deck: str) -> None:
     write_text_atomically(output, text)
 
 
+def check_figures() -> None:
+    """Refuse figures that cannot be drawn where --plot says. Raises MouseError (MD530), WrittenError (MD531)."""
+    path = value_of("plot")
+    if path:
+        from mouse_cli.plots import require
+
+        require(path)
+
+
 def drawn(found: object, path: str | None = None, only: tuple[str, ...] = ()) -> None:
     """Write the figures of an answer to `path`, or where --plot says, or say (MD532) that there are none. Raises WrittenError."""
     path = path or value_of("plot")

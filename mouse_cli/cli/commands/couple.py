@@ -36,11 +36,12 @@ def command(deck: str, written_to: str | None, truncate: float | None, priors: t
     Exit 1: noise decides the interface at more than a few lines.
     """
     from mouse_cli.cli._decks import deck_bytes, shown
-    from mouse_cli.cli._terminal import progress, warn
+    from mouse_cli.cli._terminal import check_figures, progress, warn
     from mouse_cli.coupling import couple
     from mouse_cli.formats.frf_files import write_frf
     from mouse_cli.formats.yaml_deck import coupled
 
+    check_figures()
     coupling = _with_results(coupled.read(deck_bytes(deck), shown(deck), outside()), priors)
     if truncate is not None:
         coupling = replace(coupling, truncate=truncate)

@@ -74,11 +74,12 @@ def command(
 
     Site, mechanism, size, validation. Exit 0: nothing is missing. 1: something is. 2: no site. 4: rejected. 5: no answer.
     """
-    from mouse_cli.cli._terminal import deliver, drawn
+    from mouse_cli.cli._terminal import check_figures, deliver, drawn
 
     arranged = several(named := Named.of(decks, held_out, changed), output)
     for deck in (*named.fitted, *held_out):
         _check_places(deck, output, value_of("plot"), *reports)
+    check_figures()
     refuse_idle(decks, arranged, output, raw)
     choice = _Asked(_names(candidates, without), without is not None, causes, jobs)
     problems, found = _answer(named, arranged, common_sd, choice, raw)

@@ -42,8 +42,9 @@ def command(
     1: none, or none to be trusted. 4: rejected.
     """
     from mouse_cli.cli._identify import Excited, identified, write
-    from mouse_cli.cli._terminal import drawn, progress, warn
+    from mouse_cli.cli._terminal import check_figures, drawn, progress, warn
 
+    check_figures()
     if band and not band[0] < band[1]:
         raise click.BadParameter(f"{band[0]:g} is not below {band[1]:g}", param_hint="--band")
     if output and any(os.path.exists(s) and os.path.exists(output) and os.path.samefile(s, output) for s in sources):

@@ -22,9 +22,10 @@ def command(deck: str, count: int | None, **given: object) -> int:
     Exit 1: a target cannot be met.
     """
     from mouse_cli.cli._decks import without_laws
-    from mouse_cli.cli._terminal import progress, warn
+    from mouse_cli.cli._terminal import check_figures, progress, warn
     from mouse_cli.coupling import modify
 
+    check_figures()
     modification = _read(deck, given, count)
     with progress() as (_, say):
         found = modify(modification, say)

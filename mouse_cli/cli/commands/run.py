@@ -23,8 +23,9 @@ def command(deck: str, stacked: bool, **given: object) -> int:
 
     Exit 0: converged, and the model explains the data. 1: do not trust the answer. 4: deck rejected. 5: no answer.
     """
-    from mouse_cli.cli._terminal import deliver, drawn
+    from mouse_cli.cli._terminal import check_figures, deliver, drawn
 
+    check_figures()
     method, expansion = chosen(given.pop("method"), given.pop("expand"))
     problems = _problems(deck, stacked, run_changes(given))
     results = by_method(problems, method, expansion) if method else _run(problems)
