@@ -7,7 +7,7 @@ import numpy as np
 from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unseen
 from mouse_cli.diagnosis.search.escape import shifted, uncrossed
-from mouse_cli.diagnosis.search.fit import MOST, Fit, after_a_step, cost_at, descended, fit
+from mouse_cli.diagnosis.search.fit import MOST, Fit, cost_at, descended, fit
 from mouse_cli.diagnosis.search.optima import BEYOND, NEAR, TIED, distinct, within
 from mouse_cli.diagnosis.search.pared import pared
 from mouse_cli.diagnosis.search.starts import cost
@@ -122,8 +122,7 @@ def _ended(
 ) -> Fit | None:
     """The fit of recipe i, in the coordinates of `first`, then in all from where the whole misfits least.
 
-    That may be there, a start, or the same causes at the prior mean. Where it is out of reach at all of them, what a step promises
-    tells them: what few coordinates make of a size misfits more than no cause does, and is next to the end.
+    That may be there, a start, or the same causes at the prior mean.
     """
     k, whole = study.k, study.with_cause(others, name, i)
     if first is not study:
@@ -134,8 +133,7 @@ def _ended(
     points = [at for at in map(whole.point, [*starts, *plain]) if at is not None]
     if not points:
         return None
-    near = any(cost_at(at, k) < reach for at in points)
-    x = min(points, key=lambda at: cost_at(at, k) if near else after_a_step(whole, at)).x
+    x = min(points, key=lambda at: cost_at(at, k)).x
     one = fit(whole, x[k:], x[:k], most, reach)
     lost = one is None or one.misfit > (reach if others else BEYOND * reach)
     return one if lost else uncrossed(one, most, reach)

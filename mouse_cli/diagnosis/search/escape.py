@@ -11,7 +11,7 @@ from mouse_cli.diagnosis.evidence import capped
 from mouse_cli.diagnosis.gates import GATE
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
-from mouse_cli.diagnosis.search.fit import MOST, Fit, after_a_step, cost_at, fit
+from mouse_cli.diagnosis.search.fit import MOST, Fit, cost_at, fit, normal
 from mouse_cli.diagnosis.search.optima import TIED
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.updating.chi_square import upper_tail
@@ -85,7 +85,7 @@ def _steps(one: Fit, study: Study, i: int) -> Iterator[tuple[float, Model]]:
         model = there.kind(there.model, (*own[:i], recipe, *own[i + 1 :]))
         at = model.point(one.point.x)
         if at is not None:
-            yield after_a_step(model, at), model
+            yield _after_a_step(model, at), model
 
 
 def _around(recipe: Recipe, study: Study) -> list[Recipe]:
@@ -106,6 +106,12 @@ def _fixed(recipe: Recipe) -> tuple[float, ...] | None:
     if not all(u.log for u in recipe.unknowns) or not len(recipe.grid):
         return None
     return recipe.site(recipe.grid[0]).position
+
+
+def _after_a_step(model: Model, at: Point) -> float:
+    """The misfit that a full step from a point promises."""
+    H, pull = normal(model, at)
+    return cost_at(at, model.k) - float(pull @ np.linalg.solve(capped(H, model.width), pull))
 
 
 def uncrossed(one: Fit, most: int = MOST, reach: float = np.inf) -> Fit:

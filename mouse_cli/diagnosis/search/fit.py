@@ -191,12 +191,6 @@ def normal(model: Model, at: Point) -> tuple[np.ndarray, np.ndarray]:
     return T.T @ T + np.diag(own), T.T @ at.residual - own * at.x
 
 
-def after_a_step(model: Model, at: Point) -> float:
-    """C that a full step from a point promises."""
-    H, slope = normal(model, at)
-    return cost_at(at, model.k) - float(slope @ np.linalg.solve(capped(H, model.width), slope))
-
-
 def cost_at(at: Point, k: int) -> float:
     """C at a point."""
     return at.chi2 + float(at.x[:k] @ at.x[:k])
