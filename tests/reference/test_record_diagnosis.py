@@ -216,17 +216,3 @@ def test_a_stop_much_softer_than_the_structure_is_no_smooth_spring(tmp_path):
     found = json.loads(CliRunner().invoke(cli, ["diagnose", record(tmp_path, stop), "--json", "-q", *laws]).stdout)
     assert found["verdict"]["physics"] == "one-sided-gap" and found["candidates"][0]["probability"] > 0.95
     assert found["candidates"][0]["parameters"][0]["value"] == pytest.approx(500, rel=0.2)
-
-
-def test_soft_stops_are_no_smooth_spring(tmp_path):
-    """Two stops of 0.4 % of the link that they are beside."""
-
-    def stops(u, v):
-        x = u[1] - u[0]
-        force = 120.0 * (x - np.clip(x, -0.004, 0.004))
-        return np.array([-force, force])
-
-    found = answer(record(tmp_path, stops))
-    sizes = {one["name"]: one["value"] for one in found["candidates"][0]["parameters"]}
-    assert (found["verdict"]["kind"], found["verdict"]["physics"]) == ("named", "gap")
-    assert sizes["contact stiffness"] == pytest.approx(120.0, rel=0.1) and sizes["clearance"] == pytest.approx(4e-3, rel=0.1)

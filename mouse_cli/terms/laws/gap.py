@@ -13,10 +13,10 @@ def force(x, v, z, p):
 def unknowns(scale: Scale) -> tuple[Unknown, ...]:
     """Stiffness of the stop beside that of the structure; clearance beside the rms motion.
 
-    Records show stops as soft as 0.4 % of the structure; with those out of range a smooth hardening spring had their name.
+    Two stops softer than 2 % of the structure, which touch before its rms motion, are a hardening spring to any record.
     """
     k, x = scale.stiffness, scale.x
-    return Unknown("contact stiffness", "N/m", 0.002 * k, 100 * k), Unknown("clearance", "m", 0.05 * x, 4 * x)
+    return Unknown("contact stiffness", "N/m", 0.02 * k, 100 * k), Unknown("clearance", "m", 0.05 * x, 4 * x)
 
 
 LAW = Law(
