@@ -9,7 +9,7 @@ ONE, MORE = 0.6, 1 / 7
 """Prior probability of one mechanism, and by what each further one is less probable: together 0.7."""
 
 ALIKE = 0.5
-"""Share of the sets of several mechanisms that have one group by intent; the others have it by chance."""
+"""Share of the sets of several mechanisms that are of one group because it is one; others may be of one group too."""
 
 NAMELESS = 0.1
 """Prior weight of a change without a name, about that of a pair."""

@@ -29,6 +29,7 @@ from mouse_cli.model.theory import Theory
 
 finite = st.floats(-1e149, 1e149)  # of larger ones no products can be made
 positive = st.floats(min_value=1e-300, max_value=1e149)
+_FINEST = 2e-30  # standard deviation by the size of its datum: twice what decks may say, for it is rounded
 moderate = st.floats(min_value=1e-30, max_value=1e30)  # its square is neither 0 nor infinite
 text = st.text(st.characters(exclude_categories=["Cs"]), max_size=20)
 
@@ -77,7 +78,7 @@ def modal_tests(draw, n):
     m, s = draw(st.integers(1, min(3, n))), draw(st.integers(0, n))
     number = sorted(draw(st.lists(st.integers(1, n), min_size=m, max_size=m, unique=True)))
     frequency = np.array(sorted(draw(st.lists(st.floats(1e-9, 1e15), min_size=m, max_size=m))))
-    sd = np.array(draw(st.lists(positive, min_size=m, max_size=m)))
+    sd = np.maximum(draw(st.lists(positive, min_size=m, max_size=m)), _FINEST * frequency)
     if m > 1 and draw(st.booleans()):
         frequency[-1] = sd[-1] = np.nan
     dofs = draw(st.permutations(range(n)))[:s]
@@ -85,6 +86,7 @@ def modal_tests(draw, n):
     shape_sd = np.array(draw(st.lists(positive, min_size=s * m, max_size=s * m)), dtype=float)
     if draw(st.booleans()):
         shape_sd[:] = 0.05
+    shape_sd = np.fmax(shape_sd, _FINEST * np.nan_to_num(np.abs(shapes)).max(initial=0.0))
     grids = [np.where(np.isnan(shapes), np.nan, values).reshape(s, m) for values in (shapes, shape_sd)]
     return ModalTest(number, frequency, sd, dofs, *grids, draw(st.sampled_from(SCALES)))
 

@@ -73,7 +73,7 @@ def per_cent(value: float) -> str:
 def mac_text(mac: float) -> str:
     """A MAC; blank where no shape was measured.
 
-    >>> likeness(0.98931), likeness(0.99996), likeness(float("nan"))
+    >>> mac_text(0.98931), mac_text(0.99996), mac_text(float("nan"))
     ('0.9893', '1.0000', '')
     """
     return "" if mac != mac else f"{mac:.4f}"

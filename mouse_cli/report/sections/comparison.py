@@ -48,7 +48,9 @@ def frequencies(found: Compared, options: Options) -> Iterator[Block]:
             for k, number in enumerate(first.number)
         ]
         before = float(100 * np.sqrt(np.mean((first.prior_hz / first.test_hz - 1) ** 2)))
-        rows.append(("off, %", None, *(f"{cleared(off):.3g}" for off in (before, *(one.rms_percent for one in each)))))
+        rows.append(
+            ("off, %", None, *(float(f"{cleared(off):.3g}") for off in (before, *(one.rms_percent for one in each))))
+        )
         yield Table(columns, rows, keys=3)
     yield Text(
         "Off: root mean square difference from the test. A blank is a mode that the model does not have. Modes are paired by shape "

@@ -97,6 +97,8 @@ def _left(at: Regression, samples: np.ndarray) -> tuple[float, np.ndarray]:
     """
     spectrum, own = at.spectrum, samples[: len(at.spectrum.series)]
     size = (spectrum.whitened((own - own.mean(axis=0)) * spectrum.window[:, None])[at.kept] ** 2).sum(axis=0)
+    if not size.all():  # no line is left of the band, such as beside the mains at another sample rate
+        return np.inf, np.full(len(size), np.inf)
     return at.nothing / float(size.sum()), (at.left[at.kept] ** 2).sum(axis=0) / size
 
 
