@@ -8,13 +8,7 @@ import numpy as np
 from mouse_cli.diagnosis.cautions import cautions, misstated
 from mouse_cli.diagnosis.companions import loose
 from mouse_cli.diagnosis.extend.deck import extended
-from mouse_cli.diagnosis.likelihoods.frf.compared import compared
-from mouse_cli.diagnosis.likelihoods.frf.compared import remarks as of_windows
-from mouse_cli.diagnosis.likelihoods.frf.deck import with_damping
-from mouse_cli.diagnosis.likelihoods.frf.identified import with_modes
-from mouse_cli.diagnosis.likelihoods.frf.rank import ranked_by_frf
-from mouse_cli.diagnosis.likelihoods.history.diagnose import diagnose_records
-from mouse_cli.diagnosis.likelihoods.history.rank import Hearing
+from mouse_cli.diagnosis.likelihoods.measured import Measured
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.numerics import numerics
@@ -59,31 +53,29 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choi
     >>> found.kind, found.best.title, found.best.causes[0].site.text
     ('named', 'a spring to the ground', 'degree of freedom 2')
     """
+    measured = Measured(problem)
     if by_records(problem):
-        return diagnose_records(problem, notice, choices)
-    recordings = Hearing()
+        return measured.laws(notice, choices)
     try:
-        found = _by_its_modes(problem, notice, choices, recordings)
+        found = _by_its_modes(measured, notice, choices)
     except np.linalg.LinAlgError as reason:  # values that span too many powers of ten for any algebra
         raise refusals.unphysical(problem, str(reason)) from None
-    if found.kind != NOTHING or recordings.unexplained is None:
-        return found
-    by_laws = diagnose_records(problem, notice, choices, recordings.unexplained)
-    return replace(by_laws, remarks=found.remarks + by_laws.remarks)
+    by_laws = measured.laws(notice, choices) if found.kind == NOTHING else None
+    return found if by_laws is None else replace(by_laws, remarks=found.remarks + by_laws.remarks)
 
 
-def _by_its_modes(problem: Problem, notice: Notice, choices: Choices, recordings: Hearing) -> Diagnosis:
-    """The same by measured modes, or those that measured functions show, then by recordings beside them."""
-    problem, doubts = with_modes(given := replace(problem, run=_thorough(problem.run)))
+def _by_its_modes(measured: Measured, notice: Notice, choices: Choices) -> Diagnosis:
+    """The same by measured modes, or those that measured functions show, with all that was measured beside them."""
+    problem = replace(measured.problem, run=_thorough(measured.problem.run))
     solver = EigenSolver(notice, sensors=0 if problem.test is None else problem.test.s)
     kept = related(problem, solver)
     model, warnings = _model(problem, solver)
     housed(model, choices.candidates)
-    measured, enough = given.test is not None, 0.0 if model.places is None else ENOUGH
+    enough = 0.0 if model.places is None else ENOUGH
     result, remarks = _update(problem, kept, notice, _guess(model), enough, solver)
-    hear = lambda found: recordings(ranked_by_frf(found, measured))
-    ranking = with_forms(informed(rank(model, _known(choices), choices.causes, hear, jobs=choices.jobs, again=again)))
-    verdict, as_it_is = judge(ranking, result.rejected and measured, model), ranking.baseline
+    ranking = rank(model, _known(choices), choices.causes, measured.ranked, jobs=choices.jobs, again=again)
+    ranking = with_forms(informed(ranking))
+    verdict, as_it_is = judge(ranking, result.rejected and measured.modes, model), ranking.baseline
     kind, best, missing = verdict.kind, verdict.best, verdict.kind != NOTHING
     location = locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None
     put = best if kind in (NAMED, ONE_OF) else verdict.field
@@ -101,8 +93,8 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices, recordings
         cautions=cautions(ranking, verdict, location),
         misstated=misstated(ranking) if missing else None,
         proposals=_proposals(ranking, verdict),
-        remarks=(*doubts, *remarks, *of_windows(ranking), *warnings, *_of(ranking, deck)),
-        extended=deck and with_damping(replace(deck, test=given.test and deck.test), problem, put),
+        remarks=(*measured.doubts, *remarks, *measured.remarks(ranking), *warnings, *(_coarse(deck) if deck else ())),
+        extended=deck and measured.extended(deck, put),
         extended_result=deck
         and run(_by_modes(deck), notice=notice, guess=_values(deck, put), enough=enough, search=False),
         choices=choices,
@@ -110,13 +102,8 @@ def _by_its_modes(problem: Problem, notice: Notice, choices: Choices, recordings
         rest=rest(ranking) if kind == NAMED else None,
         **_open(verdict),
         **_tried(ranking),
-        **vars(compared(problem, ranking, best if missing else None)),
+        **measured.compared(ranking, best if missing else None),
     )
-
-
-def _of(ranking: Ranking, deck: Problem | None) -> tuple[str, ...]:
-    """Remarks on a ranking, and on the deck that was extended."""
-    return (*getattr(ranking, "remarks", ()), *(() if deck is None else _coarse(deck)))
 
 
 def _tried(ranking: Ranking) -> dict[str, object]:

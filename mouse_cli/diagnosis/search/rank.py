@@ -159,7 +159,7 @@ def rank(
     model: Reduced,
     known: dict[str, Candidate] | None = None,
     causes: int = 2,
-    hear: Callable[[Ranking], Ranking] = lambda found: found,
+    by_all: Callable[[Ranking], Ranking] = lambda found: found,
     kind: type[Model] = Model,
     last: bool = True,
     jobs: int = 1,
@@ -167,15 +167,15 @@ def rank(
 ) -> Ranking:
     """All that the candidates (`known`; None: all) make of the data, at most `causes` of them together.
 
-    hear: what further data make of a ranking, before several are sought and after. kind: see `Study`. last: False where further
+    by_all: what further data make of a ranking, before several are sought and after. kind: see `Study`. last: False where further
     mechanisms will be sought besides, so that what has no name is no rival yet. jobs, again: processes, see `Pool`.
     """
     study = Study(model, known, kind)
     with Pool(study, jobs, again) as study.pool:
-        return _ranked(study, causes, hear, last)
+        return _ranked(study, causes, by_all, last)
 
 
-def _ranked(study: Study, causes: int, hear: Callable[[Ranking], Ranking], last: bool) -> Ranking:
+def _ranked(study: Study, causes: int, by_all: Callable[[Ranking], Ranking], last: bool) -> Ranking:
     """The same, of a study."""
     model, kind = study.model, study.kind
     baseline = settled(fit(kind(model), np.zeros(0)), study)
@@ -188,7 +188,7 @@ def _ranked(study: Study, causes: int, hear: Callable[[Ranking], Ranking], last:
         lambda _: within([baseline, *singles]),
     )
     fits = [baseline, *singles]
-    found = hear(ranking(baseline, fits))
+    found = by_all(ranking(baseline, fits))
     none = dict(found.groups).get("none", 0.0)
     entry = sum(doubt.probability for doubt in found.doubts if doubt.modes)
     if none > _IDLE and entry > _ENTRY and found.noise_scale <= NOISY:
@@ -204,7 +204,7 @@ def _ranked(study: Study, causes: int, hear: Callable[[Ranking], Ranking], last:
         fits += joint_rivals(model, fits)
     kept = fits if others else plainest(fits)
     if len(fits) > 1 + len(singles) or len(kept) < len(fits):
-        found = hear(ranking(baseline, kept))
+        found = by_all(ranking(baseline, kept))
     return replace(found, untried=_untried(study, singles))
 
 

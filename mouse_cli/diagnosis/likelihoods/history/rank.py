@@ -65,7 +65,7 @@ class Seen:
         return self.one if at is None else replace(self.one, point=at, hessian=hessian)
 
 
-class Hearing:
+class ByRecordings:
     """What recordings make of rankings of one deck; a fit that was judged once is not simulated again.
 
     unexplained: what fits of the recordings share where these ask for more than any linear mechanism, what modes know their prior.
