@@ -120,7 +120,7 @@ def two_causes() -> Diagnosis:
     both = explanation(CRACK, SHEAR, ln_z=-30.0, probability=0.99)
     none = explanation(ln_z=-200.0, probability=0.0)
     along = tuple(Place(Site("element", (i,), (0.1 * i, 0.0, 0.0)), "kappa", 0.1, 0.5 * i) for i in range(10))
-    poor = held_out(error=0.09, covered=0.5)
+    poor = held_out(error=0.09, covered=0.0)
     return _diagnosis(
         NAMED,
         (both, none),

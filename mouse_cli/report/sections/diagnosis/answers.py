@@ -1,6 +1,7 @@
 """The four answers of a diagnosis, in plain sentences: what, where, how much, and is it true."""
 
 from collections.abc import Iterator
+from math import comb
 
 import numpy as np
 
@@ -43,7 +44,8 @@ _DEMANDED = 0.5  # probability of no cause below which others stay likely though
 _FEW = 0.25  # share of all places that may hold half of the energy, for it to point anywhere
 _INFLATED = 1.05  # noise scale from which on it is told
 _SURE = 0.9  # probability from which on a doubt is none between groups
-_GAIN, _RATIO, _COVERED = 3.0, 0.7, 0.7  # what a proof takes: nats, ratio of errors, share within 90 % intervals
+_GAIN, _RATIO = 3.0, 0.7  # what a proof takes: gain in log density, ratio of errors
+_INTERVAL, _RARE = 0.9, 0.01  # probability of each interval, and that of so few within theirs below which these are too narrow
 
 
 def answers(found: Diagnosis, options: Options) -> Iterator[Block]:
@@ -262,7 +264,7 @@ def _proof(found: Diagnosis, held: HeldOut) -> str:
     )
     if not faulty(found.best) and not ratio < _RATIO:
         fails.append("the error falls too little")
-    if of_frequencies and not after.covered >= _COVERED:
+    if of_frequencies and _too_narrow(int(np.isfinite(held.measured_hz).sum()), after.covered):
         fails.append("too few frequencies lie within the intervals")
     if fails:
         return f"Validation is incomplete: {', and '.join(fails)}."
@@ -274,6 +276,17 @@ def _proof(found: Diagnosis, held: HeldOut) -> str:
             "an added mass, hold that out in the deck, and diagnose again."
         )
     return "The extended model passes. A better prediction is necessary for a name, not sufficient."
+
+
+def _too_narrow(number: int, share: float) -> bool:
+    """Whether no more than this share of `number` frequencies would lie in right intervals by chance alone (binomial).
+
+    >>> _too_narrow(4, 0.5), _too_narrow(4, 0.25), _too_narrow(20, 0.65)
+    (False, True, True)
+    """
+    within = range(round(number * share) + 1)
+    p = sum(comb(number, i) * _INTERVAL**i * (1 - _INTERVAL) ** (number - i) for i in within)
+    return p < _RARE
 
 
 SECTION = Section("diagnosis-answers", 10, "Diagnosis", answers, (Diagnosis,), place=VERDICT)
