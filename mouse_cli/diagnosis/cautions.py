@@ -15,11 +15,13 @@ from mouse_cli.model.diagnosis import NAMED, NOTHING, RIVAL, Location
 from mouse_cli.model.groups import enumerated
 from mouse_cli.updating.chi_square import upper_tail
 
-_PROBABLE = 0.5  # of errors of the test from which on they are told
+_PROBABLE = 0.5  # of errors of the test from which on they are the finding
 _FAR = 0.1  # of the span, between the place of a cause and the nearest one that shapes point to
 _PLAIN = 0.05  # probability of a misfit as large as that of the best single place, from which on it may be the place
 _BEYOND = 0.01  # p-value of the shifts of all parameters below which those that are beyond their priors are named
 _SMALL = 0.2  # share of all places that the 90 % region may hold to point anywhere
+_CERTAIN = ("is less accurate than stated in the deck", "has an error")  # of all entries of a kind, and of one mode
+_POSSIBLE = ("may be less accurate than stated in the deck", "may have an error")
 _TOLD = {
     "gains": "every sensor looks off by about {size:.1f} % of what it reads, in all modes alike, which the deck does not state: "
     "calibrate the sensors, or add that much of each component to shape_sd",
@@ -49,13 +51,15 @@ def cautions(ranking: Ranking, verdict: Verdict, location: Location | None) -> t
 
 
 def _errors(ranking: Ranking) -> Iterator[str]:
-    for doubt in ranking.doubts if misstated(ranking) else ():
+    """Errors of the test that explain the data, alone or beside a mechanism; where they need not be, as what may be wrong."""
+    coarse, entry = _CERTAIN if misstated(ranking) else _POSSIBLE
+    for doubt in ranking.doubts if ranking.noise_scale <= NOISY else ():
         if doubt.probability > RIVAL:
-            p = f"P = {doubt.probability:.2f}" if doubt.probability < 0.995 else "P > 0.99"
+            p = f"probability {doubt.probability:.2f}" if doubt.probability < 0.995 else "probability > 0.99"
             number = ranking.baseline.data.test.number
             modes = enumerated([str(number[j]) for j in doubt.modes])
             said = _TOLD[doubt.key].format(size=100 * doubt.size, modes=modes)
-            yield f"The test {'has an error' if doubt.modes else 'is less accurate than stated in the deck'} ({p}): {said}."
+            yield f"The test {entry if doubt.modes else coarse} ({p}): {said}."
 
 
 def _noise(ranking: Ranking) -> Iterator[str]:

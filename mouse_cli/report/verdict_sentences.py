@@ -112,7 +112,7 @@ def _one_of(found: Diagnosis) -> str:
     if none is None:
         return f"Something is missing, and {test} not settle what: one of {{{named}}}."
     likely = "It is likely, not proved, that" if none <= _EVEN else "It is possible, not likely, that"
-    if len(first) != 1:
+    if len(first) != 1 or _nameless(found):
         nothing = f"probability that nothing is: {probable(none)}"
         return f"{likely} something is missing ({nothing}), and {test} not settle what: one of {{{named}}}."
     (one,) = first

@@ -58,3 +58,11 @@ def test_a_shape_of_noise_is_no_physics(tmp_path):
     found = mouse_cli.diagnose(mouse_cli.read_deck(deck(tmp_path, {}, {3: noise})))
     assert found.kind == UNKNOWN and found.misstated == "mode"
     assert any("mode 3 is none that the structure can have" in caution for caution in found.cautions)
+
+
+def test_a_frequency_that_physics_may_have_moved_alone_is_said_to_be_one_or_the_other(tmp_path):
+    """A spring in the middle lifts the first of these modes, and hardly any other: so does an entry that is wrong."""
+    found = mouse_cli.diagnose(mouse_cli.read_deck(deck(tmp_path, {1: 1.1}, {})))
+    assert found.kind != NOTHING and found.misstated is None and 0.02 < dict(found.groups)["none"] < 0.9
+    (said,) = [caution for caution in found.cautions if "the frequency of mode 1 does not agree" in caution]
+    assert said.startswith("The test may have an error (probability 0.")

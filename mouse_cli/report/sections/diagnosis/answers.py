@@ -45,7 +45,8 @@ _FEW = 0.25  # share of all places that may hold half of the energy, for it to p
 _INFLATED = 1.05  # noise scale from which on it is told
 _SURE = 0.9  # probability from which on a doubt is none between groups
 _GAIN, _RATIO = 3.0, 0.7  # what a proof takes: gain in log density, ratio of errors
-_INTERVAL, _RARE = 0.9, 0.01  # probability of each interval, and that of so few within theirs below which these are too narrow
+_INTERVAL = 0.9  # probability of each interval of a prediction
+_RARE = 0.01  # probability of so few frequencies within their intervals below which these are too narrow
 
 
 def answers(found: Diagnosis, options: Options) -> Iterator[Block]:
