@@ -1,12 +1,20 @@
 """How a point of a structure moves: the three translations and rotations there, from the degrees of freedom around it."""
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
 from mouse_cli.model.geometry import Geometry
 
 _NEIGHBOURS = 8  # nodes from which a point of a cloud without lines is interpolated
+
+
+class Following(Protocol):
+    """How nodes move that follow others over rigid links."""
+
+    def of(self, node: int, direction: int) -> tuple[np.ndarray, np.ndarray]:
+        """Degrees of freedom (from 0) and factors that make up the motion of a node (index); empty where it cannot move."""
 
 
 @dataclass(frozen=True)
@@ -29,12 +37,12 @@ class PointMotion:
         return self.dofs[kept], weights[kept]
 
 
-def at_node(geometry: Geometry, node: int) -> PointMotion:
-    """The motion of a node (index); what cannot move there has no weight."""
-    return _motion(geometry, [node], [np.eye(6)], 0.0, 0.0, node)
+def at_node(geometry: Geometry, node: int, follows: Following | None = None) -> PointMotion:
+    """The motion of a node (index); what cannot move there has no weight. follows: None where no node follows another."""
+    return _motion(_Free(geometry) if follows is None else follows, [node], [np.eye(6)], 0.0, 0.0, node)
 
 
-def at_point(geometry: Geometry, point: np.ndarray) -> PointMotion:
+def at_point(geometry: Geometry, point: np.ndarray, follows: Following | None = None) -> PointMotion:
     """The motion of `point` (3,): on the nearest line of the geometry where there are lines, else among the nearest nodes.
 
     On a line from a to b whose nodes rotate the deflection across it is the cubic of a beam, u' = theta x e (Przemieniecki 1968,
@@ -43,10 +51,24 @@ def at_point(geometry: Geometry, point: np.ndarray) -> PointMotion:
     near ones counting most: exact for rigid-body motion and uniform strain.
     """
     nearest = int(np.argmin(np.sum((geometry.coordinates - point) ** 2, axis=1)))
-    return _on_line(geometry, point, nearest) if len(geometry.lines) else _among_nodes(geometry, point, nearest)
+    follows = _Free(geometry) if follows is None else follows
+    on = _on_line if len(geometry.lines) else _among_nodes
+    return on(geometry, point, nearest, follows)
 
 
-def _on_line(geometry: Geometry, point: np.ndarray, nearest: int) -> PointMotion:
+@dataclass(frozen=True)
+class _Free:
+    """Nodes that follow no other: each direction is a degree of freedom, or held."""
+
+    geometry: Geometry
+
+    def of(self, node: int, direction: int) -> tuple[np.ndarray, np.ndarray]:
+        """The degree of freedom of a direction."""
+        dofs = np.flatnonzero((self.geometry.node == node) & (self.geometry.direction == direction))
+        return dofs, np.ones(len(dofs))
+
+
+def _on_line(geometry: Geometry, point: np.ndarray, nearest: int, follows: Following) -> PointMotion:
     a, b = (geometry.coordinates[geometry.lines[:, end]] for end in (0, 1))
     span = b - a
     length2 = np.maximum(np.einsum("ij,ij->i", span, span), np.finfo(float).tiny)
@@ -54,10 +76,9 @@ def _on_line(geometry: Geometry, point: np.ndarray, nearest: int) -> PointMotion
     offset = point - (a + xi[:, None] * span)
     line = int(np.argmin(np.einsum("ij,ij->i", offset, offset)))
     ends, length = geometry.lines[line], float(np.sqrt(length2[line]))
-    here = np.isin(geometry.node, ends)
-    rotates = bool((here & (geometry.direction >= 3)).any())
+    rotates = any(len(follows.of(end, d)[0]) for end in ends for d in (3, 4, 5))
     parts = _beam(xi[line], span[line] / length, length, offset[line]) if rotates else _bar(xi[line])
-    return _motion(geometry, ends, parts, float(np.linalg.norm(offset[line])), length, nearest)
+    return _motion(follows, ends, parts, float(np.linalg.norm(offset[line])), length, nearest)
 
 
 def _bar(xi: float) -> list[np.ndarray]:
@@ -89,27 +110,28 @@ def _cross(v: np.ndarray) -> np.ndarray:
     return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
 
 
-def _among_nodes(geometry: Geometry, point: np.ndarray, nearest: int) -> PointMotion:
+def _among_nodes(geometry: Geometry, point: np.ndarray, nearest: int, follows: Following) -> PointMotion:
     """Least-norm weights, near nodes cheap, that reproduce every linear field."""
     distance = np.linalg.norm(geometry.coordinates - point, axis=1)
     nodes = np.argsort(distance, kind="stable")[:_NEIGHBOURS]
     near = distance[nodes]
     if near[0] <= 1e-9 * max(near[-1], np.finfo(float).tiny):
-        return at_node(geometry, int(nodes[0]))
+        return at_node(geometry, int(nodes[0]), follows)
     arms = (geometry.coordinates[nodes] - point) / near[-1]
     condition = np.vstack([np.ones(len(nodes)), arms.T]) / near  # of weights x distance
     share = np.linalg.lstsq(condition, np.array([1.0, 0, 0, 0]), rcond=1e-9)[0] / near
     size = float(np.linalg.norm(geometry.coordinates[nodes] - geometry.coordinates[nearest], axis=1).max())
-    return _motion(geometry, nodes, [np.eye(6) * part for part in share], float(near[0]), size, nearest)
+    return _motion(follows, nodes, [np.eye(6) * part for part in share], float(near[0]), size, nearest)
 
 
 def _motion(
-    geometry: Geometry, nodes: object, parts: list[np.ndarray], distance: float, reach: float, nearest: int
+    follows: Following, nodes: object, parts: list[np.ndarray], distance: float, reach: float, nearest: int
 ) -> PointMotion:
-    """The motion given by `parts` (6, 6) of each of `nodes`, on the degrees of freedom that are free there."""
-    dofs, columns = [], []
+    """The motion given by `parts` (6, 6) of each of `nodes`, on the degrees of freedom that move them."""
+    columns: dict[int, np.ndarray] = {}
     for node, part in zip(nodes, parts, strict=True):
-        free = np.flatnonzero(geometry.node == node)
-        dofs.append(free)
-        columns.append(part[:, geometry.direction[free]])
-    return PointMotion(np.concatenate(dofs), np.hstack(columns), distance, reach, nearest)
+        for d in range(6):
+            for dof, factor in zip(*follows.of(node, d), strict=True):
+                columns[int(dof)] = columns.get(int(dof), 0.0) + factor * part[:, d]
+    weights = np.column_stack(list(columns.values())) if columns else np.zeros((6, 0))
+    return PointMotion(np.array(list(columns), dtype=int), weights, distance, reach, nearest)

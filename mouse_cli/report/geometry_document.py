@@ -15,7 +15,7 @@ from mouse_cli.observables.frf import names
 from mouse_cli.report.bending import bent
 from mouse_cli.report.coarsened import coarsened
 from mouse_cli.report.json_values import dof_name
-from mouse_cli.terms.constraints import links
+from mouse_cli.terms.constraints import following
 
 # That a page still draws; degrees of freedom of a shape without positions
 MOST_NODES, MOST_MODES, LARGEST = 1500, 20, 140
@@ -121,10 +121,7 @@ def _nodes_of(problem: Problem, of: Geometry, q: np.ndarray) -> np.ndarray:
         here = of.node >= 0
         u[of.node[here], of.direction[here]] = q[here]
         return u
-    place, alone = 6 * of.node + of.direction, of.node < 0
-    place[alone] = 6 * k + np.arange(int(alone.sum()))
-    motion = links(problem.mesh, int(alone.sum())).motion(place)
-    return motion.apply(q)[: 6 * k].reshape(k, 6)
+    return following(problem.mesh, of).apply(q)[: 6 * k].reshape(k, 6)
 
 
 def _sensors(problem: Problem, of: Geometry) -> list[dict[str, Any]]:

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mouse_cli.model.geometry import Geometry
 from mouse_cli.model.mesh import Mesh
 from mouse_cli.terms.faults import LinkLoop, Overconstrained
 
@@ -129,6 +130,13 @@ def links(mesh: Mesh, extra: int = 0) -> Links:
     free[list(direct)] = False
     rows = {r: _resolved(r, direct, free, mesh, ()) for r in direct}
     return Links(free, rows)
+
+
+def following(mesh: Mesh, geometry: Geometry) -> Motion:
+    """T of a structure that is built: degrees of freedom in the order of `geometry`, those without a node after the nodes."""
+    place, alone = 6 * geometry.node + geometry.direction, geometry.node < 0
+    place[alone] = 6 * len(mesh.node_ids) + np.arange(int(alone.sum()))
+    return links(mesh, int(alone.sum())).motion(place)
 
 
 def _follows(arm: np.ndarray, d: int) -> list[tuple[int, float]]:

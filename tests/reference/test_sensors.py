@@ -182,3 +182,44 @@ test:
     assert test.sensing.toarray().tolist() == [[1, 0], [0, -1]] and test.sensors == ("base", "back")
     with pytest.raises(DeckError, match="MD329"):
         read_deck(deck(tmp_path, text.replace("dofs: [base, back]", "dofs: [base, a1]")))
+
+
+BODY = """\
+mouse: 1
+title: A machine on four springs, sensors on its corners
+model:
+  structure:
+    nodes: {1: [0, 0, 0.6], 2: [-0.9, -0.5, 0], 3: [0.9, -0.5, 0], 4: [0.9, 0.5, 0], 5: [-0.9, 0.5, 0], 6: [0.9, 0.5, 1.1]}
+    elements:
+      - {type: mass, nodes: [1], mass: 1850, Jx: 420, Jy: 780, Jz: 810}
+      - {type: spring, nodes: [[2], [3], [4], [5]], TX: 4.2e5, TY: 4.2e5, TZ: 9.5e5}
+    rigid_links: [{independent: 1, dependent: [2, 3, 4, 5, 6]}]
+test:
+  sensors:
+    - {name: skew, node: 6, direction: [1, 0, 1]}
+    - {name: inside, at: [0.45, 0.25, 0.85], direction: TX}
+    - {name: twist, weights: {6TX: 1, 4TX: -1}}
+  modes:
+    dofs: [4TX, 4-TZ, 6TZ, skew, inside, twist]
+    frequency: [3.5]
+    frequency_sd: 0.3 %
+    shapes: [[0.1], [-0.2], [0.2], [0.5], [0.3], [0.4]]
+    shape_sd: 0.02
+"""
+
+
+def test_sensors_on_a_rigid_body_read_its_motion(tmp_path):
+    """u + theta x r at nodes that follow a rigid link; two on one vertical line read the same TZ and are two data."""
+    problem = read_deck(deck(tmp_path, BODY))
+    rng = np.random.default_rng(4)
+    u, theta = rng.standard_normal(3), rng.standard_normal(3)
+    four, six, inside = (u + np.cross(theta, r) for r in ([0.9, 0.5, -0.6], [0.9, 0.5, 0.5], [0.45, 0.25, 0.25]))
+    expected = [four[0], -four[2], six[2], (six[0] + six[2]) / np.sqrt(2), inside[0], six[0] - four[0]]
+    assert problem.test.sensing @ np.concatenate([u, theta]) == pytest.approx(expected, abs=1e-12)
+    write_deck(problem, tmp_path / "again.yaml")
+    again = read_deck(tmp_path / "again.yaml").test
+    assert again.sensing.toarray() == pytest.approx(problem.test.sensing.toarray(), abs=1e-9)
+    with pytest.raises(DeckError, match="MD324"):
+        read_deck(
+            deck(tmp_path, BODY.replace("6TZ, skew", "6-TZ, 6TZ, skew").replace("[0.2], [0.5]", "[0.2], [0.2], [0.5]"))
+        )

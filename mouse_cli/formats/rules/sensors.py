@@ -12,6 +12,7 @@ from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.geometry import DIRECTIONS, Geometry
 from mouse_cli.model.held_reading import HeldReading
+from mouse_cli.terms.constraints import Motion, following
 
 _FEWEST = 3  # sensors whose spread is looked at
 _LENGTHS = (1e3, 1e-3, 100, 0.01, 25.4, 1 / 25.4, 39.37007874, 0.0254, 12, 1 / 12)  # units of length to one another
@@ -147,11 +148,11 @@ def _motion(draft: Draft, sensor: SensorDraft, geometry: Geometry) -> PointMotio
     """How the place of the sensor moves."""
     if sensor.node is not None:
         node = _node(draft, sensor, geometry, sensor.node)
-        return None if node is None else at_node(geometry, node)
+        return None if node is None else at_node(geometry, node, _follows(draft, geometry))
     if sensor.at is None:
         message = f"{sensor.words} names no degree of freedom of the model"
         return draft.error("MD329", message, sensor.where, help="call it 12TY or the like, or take its column out")
-    motion = at_point(geometry, sensor.at)
+    motion = at_point(geometry, sensor.at, _follows(draft, geometry))
     if motion.distance > motion.reach:
         kind = "element" if len(geometry.lines) else "node"
         draft.warn(
@@ -162,6 +163,11 @@ def _motion(draft: Draft, sensor: SensorDraft, geometry: Geometry) -> PointMotio
             "check the coordinates and their unit, m",
         )
     return motion
+
+
+def _follows(draft: Draft, geometry: Geometry) -> Motion | None:
+    """How nodes move that follow others over the rigid links of a deck; None without any."""
+    return following(draft.mesh.mesh, geometry) if draft.mesh is not None and draft.mesh.mesh.links else None
 
 
 def _of_another_size(draft: Draft, sensors: tuple[SensorDraft, ...], geometry: Geometry) -> bool:
@@ -216,18 +222,20 @@ def _sum(draft: Draft, sensor: SensorDraft, geometry: Geometry | None, place: di
     """The reading of a sensor that names degrees of freedom."""
     held = tuple(each for name, share in sensor.weights.items() for each in _named(draft, sensor, place, name, share))
     free = {name: share for name, share in sensor.weights.items() if name not in {each.label for each in held}}
-    dofs = [_dof(draft, sensor, geometry, place, name, n) for name in free]
-    if None in dofs:
+    moved = [_moved(draft, sensor, geometry, place, name, n) for name in free]
+    if any(each is None for each in moved):
         return None
-    weights = np.array(list(free.values()), dtype=float)
-    if held and np.isfinite(weights).all() and np.isfinite([each.weight for each in held]).all():
-        order = np.argsort(dofs, kind="stable")
-        return Reading(np.array(dofs, dtype=int)[order], weights[order], held)
-    if not np.isfinite(weights).all() or not weights.any():
-        message = f"{sensor.words} reads nothing: its weights are {', '.join(f'{w:g}' for w in weights)}"
+    given = np.array(list(free.values()), dtype=float)
+    numbers = [*given.tolist(), *(each.weight for each in held)]
+    if not np.isfinite(numbers).all() or not np.any(numbers):
+        message = f"{sensor.words} reads nothing: its weights are {', '.join(f'{w:g}' for w in numbers)}"
         return draft.error("MD328", message, sensor.where, help="give finite weights, at least one of them not 0")
-    order = np.argsort(dofs, kind="stable")
-    return Reading(np.array(dofs, dtype=int)[order], weights[order])
+    shares: dict[int, float] = {}
+    for (dofs, factors), share in zip(moved, given.tolist(), strict=True):
+        for dof, factor in zip(dofs.tolist(), factors.tolist(), strict=True):
+            shares[dof] = shares.get(dof, 0.0) + share * factor
+    order = sorted(shares)
+    return Reading(np.array(order, dtype=int), np.array([shares[dof] for dof in order]), held)
 
 
 def _named(
@@ -238,23 +246,25 @@ def _named(
     return _held(draft, sensor, int(name[:-2]), share * np.eye(6)[DIRECTIONS.index(name[-2:])]) if known else ()
 
 
-def _dof(
+def _moved(
     draft: Draft, sensor: SensorDraft, geometry: Geometry | None, place: dict[str, int], name: int | str, n: int
-) -> int | None:
-    """The degree of freedom, from 0, that a number or a label names."""
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """The degrees of freedom, from 0, and factors that move what a number or a label names: one, or those of a rigid link."""
     if isinstance(name, int):
         if 1 <= name <= n:
-            return name - 1
+            return np.array([name - 1]), np.ones(1)
         message = f"measured degree of freedom {name} is outside 1 to {n}"
         return draft.error("MD323", message, sensor.where, help=f"give numbers from 1 to {n}")
     if name in place:
-        return place[name]
+        return np.array([place[name]]), np.ones(1)
     direction = name[-2:]
     if geometry is not None and direction in DIRECTIONS and name[:-2].isdecimal():
         node = _node(draft, sensor, geometry, int(name[:-2]))
-        if node is not None:
-            _unresponsive(draft, sensor, geometry, node, np.eye(6)[DIRECTIONS.index(direction)])
-        return None
+        along = np.eye(6)[DIRECTIONS.index(direction)]
+        if node is None:
+            return None
+        dofs, factors = at_node(geometry, node, _follows(draft, geometry)).along(along)
+        return (dofs, factors) if len(dofs) else _unresponsive(draft, sensor, geometry, node, along)
     near = get_close_matches(name, place, 3) or list(place)[:12]
     known = f"labels of the model: {', '.join(near)}" if place else "the model has no labels"
     message = f"{sensor.words} names '{name[:40]}', which is no label of the model and no sensor"
@@ -266,13 +276,21 @@ def _dof(
 
 
 def _twice(draft: Draft, sensors: tuple[SensorDraft, ...], readings: list[Reading]) -> None:
-    """Two sensors that read the same, whatever their sign, are one datum counted twice."""
+    """Two sensors that read the same, whatever their sign, are one datum counted twice.
+
+    Two that read one sum of several degrees of freedom, under two names or on two nodes, are two: corners of a rigid body.
+    """
     seen: dict[tuple, str] = {}
+    mesh = None if draft.mesh is None else draft.mesh.mesh
+    followers = set() if mesh is None else {str(mesh.node_ids[link.dependent]) for link in mesh.links}
     for sensor, (dofs, weights, held) in zip(sensors, readings, strict=True):
         shares = np.concatenate([weights, [each.weight for each in held]])
         signed = shares * np.sign(shares[0])
         places = (*dofs.tolist(), *(each.label for each in held))
-        key = (*places, *np.round(signed / np.abs(signed).max(), 9).tolist())
+        mounts = {str(sensor.node), *(str(name)[:-2] for name in sensor.weights)} & followers
+        if len(dofs) > 1 and not mounts:
+            mounts = {sensor.name}
+        key = (*places, *np.round(signed / np.abs(signed).max(), 9).tolist(), *sorted(mounts))
         if key in seen:
             what = "degree of freedom" if len(dofs) == 1 else "motion"
             message = f"{what} {sensor.words} is measured twice, by {seen[key]} and {sensor.words}"
