@@ -77,6 +77,30 @@ def test_a_brace_adds_the_square_of_its_slope_to_the_stiffness_against_sway(says
     assert lowest(model(PORTAL), "brace", [k], says) == pytest.approx(expected, rel=1e-4)
 
 
+TOWERS = f"""\
+mouse: 1
+model:
+  structure:
+    nodes: {{1: [0, 0], 2: [0, {H}], 3: [0, {2 * H}], 4: [0, {3 * H}], 11: [{W}, 0], 12: [{W}, {H}], 13: [{W}, {2 * H}]}}
+    elements:
+      - {{type: beam, nodes: 1-4, E: 1, G: 1, density: 1.0e-9, A: 1.0e+4, Iz: {EI}, Iy: 1, J: 1}}
+      - {{type: beam, nodes: 11-13, E: 1, G: 1, density: 1.0e-9, A: 1.0e+4, Iz: {EI}, Iy: 1, J: 1}}
+      - {{type: mass, nodes: [3, 12], mass: {KG}}}
+    supports: {{1: all, 11: all}}
+    plane: XY
+test:
+  modes: {{number: [1, 2], frequency: [1, 2], frequency_sd: 1 %}}
+"""
+
+
+def test_a_link_joins_two_towers_at_floors_between_their_ends():
+    """Two masses on cantilevers, 3 EI / h^3 each, and a link: no member ends at either floor."""
+    k, one, other = 0.7, 3 * EI / (2 * H) ** 3, 3 * EI / H**3
+    K = np.diag([one, other]) + k * W**2 / (W**2 + H**2) * np.array([[1, -1], [-1, 1]])
+    expected = eigh(K, KG * np.eye(2), eigvals_only=True)[0]
+    assert lowest(model(TOWERS), "brace", [k], "nodes 3 and 12") == pytest.approx(expected, rel=1e-3)
+
+
 def test_mass_of_a_floor_sways_with_it():
     m = 0.3
     expected = 24 * EI / H**3 / (KG + m * W)

@@ -10,7 +10,7 @@ from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import span
 from mouse_cli.diagnosis.sites.attached import Attached, attached
-from mouse_cli.diagnosis.sites.pairs import ends
+from mouse_cli.diagnosis.sites.pairs import ends, laden
 from mouse_cli.diagnosis.sites.points import wanted
 from mouse_cli.model.mesh import RigidLink
 
@@ -41,8 +41,7 @@ def turning(model: Reduced) -> tuple[list[tuple[int, Attached]], int]:
     if model.motion is None:
         return [], 0
     mesh, keep = model.problem.mesh, wanted(model)
-    heavy = [elements.nodes[:, 0] for elements in mesh.elements if elements.type == "mass"]
-    first = set(np.concatenate([ends(mesh), *heavy]).tolist())
+    first = {*ends(mesh).tolist(), *laden(mesh).tolist()}
     every = np.unique(np.concatenate([np.array(sorted(first), int)] + [each.nodes.ravel() for each in mesh.elements]))
     found = [node for node in every.tolist() if (keep is None or keep[node]) and arms(model, node)[0]]
     count = model.low_modes(2)

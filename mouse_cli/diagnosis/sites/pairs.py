@@ -67,7 +67,7 @@ def strained(model: Reduced, found: Pairs) -> np.ndarray:
 
 
 def pairs(model: Reduced) -> Pairs:
-    """Ends of members in sight of one another; in a row of springs all that are not neighbours.
+    """Ends of members and point masses in sight of one another; in a row of springs all that are not neighbours.
 
     Along a straight line of bars nothing is in sight but the neighbour: a beam has none.
     """
@@ -183,9 +183,9 @@ def _none(model: Reduced) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _between_ends(model: Reduced) -> tuple[np.ndarray, np.ndarray]:
-    """Along the line between ends of members; in each direction where all nodes are in one row."""
+    """Along the line between ends of members or point masses; in each direction where all nodes are in one row."""
     mesh = model.problem.mesh
-    found, together = ends(mesh), joined(mesh)
+    found, together = np.union1d(ends(mesh), laden(mesh)), joined(mesh)
     if not 2 < len(found) <= _ENDS:
         return _none(model)
     u = np.array([model.node(int(i))[:3] for i in found])
@@ -225,6 +225,11 @@ def ends(mesh: Mesh) -> np.ndarray:
                 arms.setdefault(a, []).append(vector), arms.setdefault(b, []).append(-vector)
     held = set(mesh.supports[:, 0].tolist())
     return np.array(sorted(node for node, own in arms.items() if node in held or not _passes(own)), int)
+
+
+def laden(mesh: Mesh) -> np.ndarray:
+    """Nodes (indices) of point masses: floors of a tower, machines on a beam."""
+    return np.unique([node for each in mesh.elements if each.type == "mass" for node in each.nodes[:, 0]]).astype(int)
 
 
 def _passes(arms: list[np.ndarray]) -> bool:
