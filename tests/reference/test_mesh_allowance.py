@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
-from mouse_cli.diagnosis.likelihoods.modal.numerics import numerics
+from mouse_cli.diagnosis.likelihoods.modal.numerics import numerics, refinable
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
 
@@ -42,3 +42,52 @@ test:
     model = replace(reduced(problem, problem.prior.mean), finer=corrected)
     rates, _ = model.refined(model.eigenvalues, np.eye(model.r))
     assert 0.5 * np.log(rates[0]) - np.log(2 * np.pi * exact) == pytest.approx(0.0, abs=0.1 * abs(HALVED))
+
+
+@pytest.mark.parametrize("mass", ["consistent", "lumped"])
+def test_a_string_of_ten_rods(mass):
+    """f = n / 2 l sqrt(T / m); linear elements are off by (n pi / 10)^2 / 24, the quarters by a 16th of that."""
+    length, tension, m, modes = 60.0, 4.0e4, 12.0, 4
+    exact = np.arange(1, modes + 1) / (2 * length) * np.sqrt(tension / m)
+    rods = f"type: rod, nodes: 1-11, E: 1.6e+11, A: 1.5e-5, nonstructural_mass: {m}, preload: {tension}, mass: {mass}"
+    text = f"""\
+mouse: 1
+model:
+  structure:
+    nodes: {{line: {{from: 1, to: 11, start: [0, 0, 0], end: [{length}, 0, 0]}}}}
+    elements:
+      - {{id: 1-10, {rods}}}
+    supports: {{1: all, 11: all}}
+    directions: [TZ]
+parameters:
+  - {{name: tension, elements: 1-10, property: preload, factor: true, sd: 2 %}}
+test:
+  modes: {{frequency: {exact.tolist()}, frequency_sd: 0.1 %}}
+"""
+    problem = assemble(yaml_deck.read(text, "string.yaml"))
+    numbers, sd = np.arange(modes), np.full(modes, 1e-3)
+    found = numerics(problem, problem.prior.mean, numbers, sd, corrects=True)
+    own = reduced(problem, problem.prior.mean)
+    off = np.log(2 * np.pi * exact) - 0.5 * np.log(own.eigenvalues[:modes])
+    assert found.moved == pytest.approx(off, rel=0.1)
+    rates, _ = replace(own, finer=found.finer).refined(own.eigenvalues, np.eye(own.r))
+    left = np.log(2 * np.pi * exact) - 0.5 * np.log(rates[:modes])
+    assert (np.abs(left) < 0.3 * np.abs(off)).all()
+
+
+def test_a_truss_is_no_cable():
+    """Rods that a joint alone holds across themselves cannot be cut; nor one that is all of a guy."""
+    text = """\
+mouse: 1
+model:
+  structure:
+    nodes: {1: [0, 0], 2: [1, 0], 3: [0.5, 1], 4: [3, 0]}
+    elements:
+      - {type: rod, nodes: [[1, 2], [2, 3], [3, 1], [3, 4]], E: 1, A: 1, density: 1, preload: [0, 0, 0, 1]}
+    supports: {1: [TX, TY], 4: [TX, TY]}
+    directions: [TX, TY]
+test:
+  modes: {frequency: [1], frequency_sd: 0.1 %}
+"""
+    problem = assemble(yaml_deck.read(text, "truss.yaml"))
+    assert not refinable(problem)

@@ -68,6 +68,23 @@ def every_beam(edit: Edit) -> list[tuple[int, int]]:
     return [(s, i) for s, members in enumerate(edit.sets) if members.type == "beam" for i in range(len(members))]
 
 
+def every_cable(edit: Edit) -> list[tuple[int, int]]:
+    """All rods under tension that another one continues: strings and cables in pieces, which move across themselves."""
+    taut = {
+        (s, i)
+        for s, members in enumerate(edit.sets)
+        if members.type == "rod"
+        for i in np.flatnonzero(np.broadcast_to(members.properties.get("preload", 0.0), len(members)) > 0).tolist()
+    }
+    meeting: dict[int, list[tuple[int, int]]] = {}
+    for s, members in enumerate(edit.sets if taut else []):
+        for i, nodes in enumerate(members.nodes.tolist()):
+            for node in nodes if members.type != "mass" else ():
+                meeting.setdefault(node, []).append((s, i))
+    pairs = [own for own in meeting.values() if len(own) == 2 and taut.issuperset(own)]
+    return sorted({each for own in pairs for each in own})
+
+
 def split(edit: Edit, ends: tuple[np.ndarray, np.ndarray]) -> None:
     """Splits the beams in which a segment begins and ends."""
     for end in ends:

@@ -1,7 +1,8 @@
 """What of a misfit is numerics, which is never named as physics: the mesh of bars, and masses lumped at nodes.
 
-Every bar halved, and lumped masses spread along the bars: what that moves measured frequencies by is an error of the model, which
-is corrected to first order where it matters. What that leaves, and what half as long elements leave, the data must be allowed.
+Every bar halved, cables in quarters, and lumped masses spread along them: what that moves measured frequencies by is an error of
+the model, which is corrected to first order where it matters. What that leaves, and what half as long elements leave, the data
+must be allowed.
 """
 
 from dataclasses import dataclass, replace
@@ -9,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mouse_cli.diagnosis.extend.edit import Edit
-from mouse_cli.diagnosis.extend.places import every_beam
+from mouse_cli.diagnosis.extend.places import every_beam, every_cable
 from mouse_cli.diagnosis.likelihoods.modal.finer import Finer, inertia
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
@@ -19,7 +20,8 @@ from mouse_cli.terms.assembly import assembly
 
 _SMALL, _LARGEST = 600, 20_000  # degrees of freedom of the finer model, about, up to which it is small; is solved
 _TELLING = 0.3  # of a standard deviation
-# Of what halving moves a frequency by, that half as long elements leave: the error of consistent ones goes with h^4
+# Of what halving moves a frequency by, that half as long elements leave: the error of consistent ones goes with h^4;
+# that of cables, whose shapes are linear, with h^2, so that quarters leave as much
 _LEFT = 1 / 15
 
 
@@ -73,17 +75,22 @@ def numerics(
 
 
 def refinable(problem: Problem, most: int = _SMALL) -> bool:
-    """Whether the deck has beams, and at most so many degrees of freedom, to be looked at on half as long elements."""
-    beams = problem.mesh is not None and any(each.type == "beam" for each in problem.mesh.elements)
-    return beams and 2 * problem.structure.n <= most
+    """Whether the deck has beams or cables, and at most so many degrees of freedom, to be looked at on shorter elements."""
+    if problem.mesh is None or 2 * problem.structure.n > most:
+        return False
+    edit = Edit(problem)
+    return bool(every_beam(edit) or every_cable(edit))
 
 
 def halved(problem: Problem) -> Problem:
-    """The deck with every beam in two halves, and their masses spread along them."""
+    """The deck with every beam in two halves, cables in four quarters, and their masses spread along them."""
     edit = Edit(problem)
-    for s, i in sorted(every_beam(edit), reverse=True):
+    cables = set(every_cable(edit))
+    for s, i in sorted({*every_beam(edit), *cables}, reverse=True):
         edit.split((s, i), 0.5)
-    for s in {s for s, _ in every_beam(edit)}:
+        for half in (i + 1, i) if (s, i) in cables else ():
+            edit.split((s, half), 0.5)
+    for s in {s for s, _ in (*every_beam(edit), *cables)}:
         if edit.sets[s].options.get("mass") == "lumped":
             edit.option(s, mass="consistent")
     return edit.done()
