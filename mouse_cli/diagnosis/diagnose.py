@@ -8,6 +8,7 @@ import numpy as np
 from mouse_cli.diagnosis.cautions import cautions, misstated
 from mouse_cli.diagnosis.companions import loose
 from mouse_cli.diagnosis.extend.deck import extended
+from mouse_cli.diagnosis.gates import GATE
 from mouse_cli.diagnosis.likelihoods.measured import Measured
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
@@ -32,6 +33,7 @@ from mouse_cli.model.modal_test import restricted
 from mouse_cli.model.problem import Problem, RunOptions
 from mouse_cli.model.result import Result
 from mouse_cli.updating import refusals
+from mouse_cli.updating.chi_square import upper_tail
 from mouse_cli.updating.loop import run
 from mouse_cli.updating.prior_model import related
 
@@ -75,7 +77,7 @@ def _by_its_modes(measured: Measured, notice: Notice, choices: Choices) -> Diagn
     result, remarks = _update(problem, kept, notice, _guess(model), enough, solver)
     ranking = rank(model, _known(choices), choices.causes, measured.ranked, jobs=choices.jobs, again=again)
     ranking = with_forms(informed(ranking))
-    verdict, as_it_is = judge(ranking, result.rejected and measured.modes, model), ranking.baseline
+    verdict, as_it_is = judge(ranking, measured.modes and _rejected(result, model, ranking), model), ranking.baseline
     kind, best, missing = verdict.kind, verdict.best, verdict.kind != NOTHING
     location = locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None
     put = best if kind in (NAMED, ONE_OF) else verdict.field
@@ -104,6 +106,16 @@ def _by_its_modes(measured: Measured, notice: Notice, choices: Choices) -> Diagn
         **_tried(ranking),
         **measured.compared(ranking, best if missing else None),
     )
+
+
+def _rejected(result: Result, model: Reduced, ranking: Ranking) -> bool:
+    """Whether the update of the model as it is rejects it. Of a mesh too coarse for the test that says nothing of physics: the fit
+    that is corrected for it judges, by its misfit, innovation and all, and here by the shift of its parameters.
+    """
+    if model.finer is None:
+        return result.rejected
+    z = ranking.baseline.point.x[: ranking.baseline.model.k]
+    return len(z) > 0 and upper_tail(float(z @ z), len(z)) < GATE
 
 
 def _tried(ranking: Ranking) -> dict[str, object]:
