@@ -3,6 +3,8 @@
 import errno
 import os
 import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any, NoReturn
 
 import numpy as np
@@ -12,6 +14,7 @@ from mouse_cli._errors import DeckError
 from mouse_cli._span import Span
 from mouse_cli.dynamics import memory
 
+_LARGEST = 2**31 - 1  # number of a node or a row
 _SHARE = 2  # one file may take one in so many parts of the memory
 _LINES = 12  # times the size of a text file that its lines and numbers take at most while they are read
 _LONGEST = 600  # characters of a message
@@ -27,6 +30,21 @@ _DISGUISES = (  # how files begin that are not what their name says
     (b"\x1f\x8b", "compressed by gzip", "unpack it"),
     (b"version https://git-lfs", "a pointer of Git LFS, not the file", "fetch the file: git lfs pull"),
 )
+
+
+@dataclass(frozen=True, slots=True)
+class FileFormat:
+    """A format of files of one kind: read(path) gives what the folder of that kind says.
+
+    suffixes: of its files, without the point; default: `key`. claims(head): whether a file that begins with these bytes is of this
+    format, where several share a suffix. named: whether a file may hold several things, and read(path, variable) is told which.
+    """
+
+    key: str
+    read: Callable[..., Any]
+    suffixes: tuple[str, ...] = ()
+    claims: Callable[[bytes], bool] | None = None
+    named: bool = False
 
 
 def reject(code: str, path: str, message: str, help: str = "", span: Span | None = None) -> NoReturn:
@@ -63,7 +81,7 @@ def line_span(path: str, number: int, line: str, part: str = "") -> Span:
     return Span(path, number, max(1, column), max(1, len(part) if column else len(shown)), shown)
 
 
-def reader(package: str, path: str, what: str) -> Any:
+def reader(package: str, path: str, what: str) -> FileFormat:
     """The format of `package` that reads the file `path`: by its suffix, and by its first bytes where formats share one.
 
     Raises DeckError (MD250, MD251, MD252, MD258) when there is no such file, or none of the formats is its.
@@ -81,7 +99,7 @@ def reader(package: str, path: str, what: str) -> Any:
     return (claiming or [each for each in own if each.claims is None] or own)[0]
 
 
-def opened(form: Any, path: str, *arguments: object) -> Any:
+def opened(form: FileFormat, path: str, *arguments: object) -> Any:
     """What `form.read(path, *arguments)` gives.
 
     Raises DeckError: MD250 where the system refuses the file, MD252 where it is damaged, MD258 where memory does not suffice.
@@ -107,7 +125,7 @@ def opened(form: Any, path: str, *arguments: object) -> Any:
         _damaged(form, path, error)
 
 
-def _damaged(form: Any, path: str, error: Exception) -> NoReturn:
+def _damaged(form: FileFormat, path: str, error: Exception) -> NoReturn:
     what = str(error).split("\n")[0][:200] or type(error).__name__
     reject("MD252", path, f"damaged, or not of the format '{form.key}': {what}", "write the file again")
 
@@ -125,6 +143,12 @@ def text_lines(path: str, encoding: str = "latin-1", errors: str = "strict") -> 
     check_memory(path, _LINES * os.path.getsize(path))
     with open(path, encoding=encoding, errors=errors, newline=None) as stream:
         return stream.read().split("\n")
+
+
+def natural(word: str) -> int:
+    """The number of a node or of a row that a word spells, from 1; 0 where it spells none."""
+    number = int(word) if word.isascii() and word.isdigit() and len(word) < 13 else 0
+    return number if number <= _LARGEST else 0
 
 
 def existing(path: str) -> None:

@@ -1,10 +1,7 @@
-"""Files that say which node and direction each row of a matrix is: one module = one format."""
-
-from collections.abc import Callable
-from dataclasses import dataclass
+"""Files that say which node and direction each row of a matrix is: one module = one format, whose read(path) gives Rows."""
 
 from mouse_cli.formats import data_files
-from mouse_cli.formats.data_files import reject
+from mouse_cli.formats.data_files import natural, reject
 from mouse_cli.model.dof_map import SCALAR, DofMap
 from mouse_cli.model.geometry import DIRECTIONS
 
@@ -15,17 +12,9 @@ _NAMES = {
     "0": SCALAR,
     "S": SCALAR,
 }
-_LARGEST = 2**31 - 1  # node number
-
-
-@dataclass(frozen=True, slots=True)
-class DofFormat:
-    """A format of DOF maps: read(path) gives [(line number, line, node, direction)] as words, in the order of the rows."""
-
-    key: str
-    read: Callable[[str], list[tuple[int, str, str, str]]]
-    suffixes: tuple[str, ...] = ()
-    claims: Callable[[bytes], bool] | None = None
+Rows = list[
+    tuple[int, str, str, str]
+]  # of each row of the matrix, in their order: line number, line, node and direction as words
 
 
 def read_dofs(path: str) -> DofMap:
@@ -38,10 +27,7 @@ def read_dofs(path: str) -> DofMap:
     seen: dict[tuple[int, int], int] = {}
     for number, line, node, direction in rows:
         span = data_files.line_span(path, number, line)
-        if (
-            not (node.isascii() and node.isdigit() and len(node) < 13 and 0 < int(node) <= _LARGEST)
-            or direction.upper() not in _NAMES
-        ):
+        if not natural(node) or direction.upper() not in _NAMES:
             message = f"node '{node[:16]}', direction '{direction[:16]}': expected a node number and one of TX ... RZ or 1 to 6"
             reject("MD252", path, message, "write one degree of freedom on each line", span)
         key = int(node), _NAMES[direction.upper()]

@@ -1,10 +1,10 @@
 """A table (.csv) of node and direction, one row for each degree of freedom, with or without a header."""
 
-from mouse_cli.formats.data_files import text_lines
-from mouse_cli.formats.dof_files import DofFormat
+from mouse_cli.formats.data_files import FileFormat, text_lines
+from mouse_cli.formats.dof_files import Rows
 
 
-def _read(path: str) -> list[tuple[int, str, str, str]]:
+def _read(path: str) -> Rows:
     found = []
     for number, line in enumerate(text_lines(path), 1):
         if not line.strip() or line.lstrip().startswith("#"):
@@ -16,4 +16,4 @@ def _read(path: str) -> list[tuple[int, str, str, str]]:
     return found
 
 
-FORMAT = DofFormat("csv", _read)
+FORMAT = FileFormat("csv", _read)

@@ -1,6 +1,8 @@
-"""Matrices kept in files: one module = one format; here, what every matrix of a model must be."""
+"""Matrices kept in files: one module = one format; here, what every matrix of a model must be.
 
-from collections.abc import Callable
+read(path, variable) of a format gives a real array, dense or sparse, or Contents; `variable` names one of several where `named`.
+"""
+
 from dataclasses import dataclass, replace
 from math import prod
 
@@ -8,21 +10,10 @@ import numpy as np
 
 from mouse_cli._span import Span
 from mouse_cli.formats import data_files
-from mouse_cli.formats.data_files import check_memory, kept, reject
+from mouse_cli.formats.data_files import check_memory, reject
 from mouse_cli.model.arrays import Matrix, dense, is_sparse, upper_triangle
 from mouse_cli.model.dof_map import DofMap
 
-__all__ = [
-    "MAX_ORDER",
-    "Contents",
-    "MatrixFormat",
-    "check_memory",
-    "kept",
-    "read_contents",
-    "read_matrix",
-    "read_table",
-    "reject",
-]
 MAX_ORDER = 1_000_000  # fits a workstation only when sparse; beyond it an order is a slip
 LARGEST_DENSE = 500  # smaller matrices are kept dense: sparse bookkeeping would cost more than the zeros
 # Mirror images may differ by so much of the geometric mean of their diagonals: printed digits, no slip.
@@ -43,22 +34,6 @@ class Contents:
     matrix: Matrix
     dofs: DofMap | None = None
     removed: frozenset[str] = frozenset()
-
-
-@dataclass(frozen=True, slots=True)
-class MatrixFormat:
-    """A format of matrix files.
-
-    read(path, variable) gives a real array, dense or sparse, or Contents. named: whether a file may hold several matrices, of
-    which `variable` names one. suffixes: of its files, without the point; default: `key`. claims(head): whether a file that
-    begins with these bytes is of this format, where several share a suffix.
-    """
-
-    key: str
-    read: Callable[[str, str | None], Matrix | Contents]
-    suffixes: tuple[str, ...] = ()
-    named: bool = False
-    claims: Callable[[bytes], bool] | None = None
 
 
 def read_matrix(path: str, order: int | None = None, variable: str | None = None) -> Matrix:

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from mouse_cli.formats.matrix_files import Contents, MatrixFormat, reject
+from mouse_cli.formats.data_files import FileFormat, reject
+from mouse_cli.formats.matrix_files import Contents
 from mouse_cli.formats.matrix_files.columns import Columns
 from mouse_cli.formats.matrix_files.triangles import completed
 from mouse_cli.model.dof_map import DofMap
@@ -53,4 +54,4 @@ def _claims(head: bytes) -> bool:
     return bool(lines) and lines[0].count(b",") == 4
 
 
-FORMAT = MatrixFormat("abaqus", _read, ("mtx",), claims=_claims)
+FORMAT = FileFormat("abaqus", _read, ("mtx",), claims=_claims)

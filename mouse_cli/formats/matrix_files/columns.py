@@ -10,16 +10,18 @@ class Columns:
     """The numbers (rows, width) of a text file; blanks or commas part them, lines that begin with `comment` are passed over."""
 
     def __init__(self, path: str, width: int, layout: str, comment: str):
-        self.path, self.width, self.layout, self.comment = path, width, layout, comment
-        self.lines = text_lines(path)
-        rows = [line for line in self.lines if line.strip() and not line.startswith(comment)]
-        if not rows:
+        self.path, self.width, self.layout = path, width, layout
+        lines = enumerate(text_lines(path), 1)
+        self.rows = [(number, line) for number, line in lines if line.strip() and not line.startswith(comment)]
+        if not self.rows:
             reject("MD252", path, "the file holds no numbers", f"give {layout} on each line")
-        words = " ".join(rows).replace(",", " ").replace("D", "E").split()
+        words = _words(" ".join(line for _, line in self.rows))
         try:
-            self.table = np.array(words, dtype=float).reshape(len(rows), width)
+            self.table = np.array(words, dtype=float).reshape(len(self.rows), width)
         except ValueError:
-            self._fault(f"{layout} is expected on each line")
+            wrong = next((i for i, (_, line) in enumerate(self.rows) if not self._is_row(line)), None)
+            span = None if wrong is None else self.where(wrong)
+            reject("MD252", path, f"{layout} is expected on each line", "write the file again", span)
 
     def whole(self, columns: slice, low: int) -> np.ndarray:
         """Some columns as integers of at least `low`."""
@@ -33,22 +35,14 @@ class Columns:
 
     def where(self, row: int) -> Span:
         """Place of a row of the table."""
-        numbered = (
-            (i, line) for i, line in enumerate(self.lines, 1) if line.strip() and not line.startswith(self.comment)
-        )
-        number, line = next(pair for k, pair in enumerate(numbered) if k == row)
-        return line_span(self.path, number, line)
-
-    def _fault(self, message: str) -> None:
-        """Name the first line that is not `width` numbers."""
-        for number, line in enumerate(self.lines, 1):
-            if line.strip() and not line.startswith(self.comment) and not self._is_row(line):
-                reject("MD252", self.path, message, "write the file again", line_span(self.path, number, line))
-        reject("MD252", self.path, message, "write the file again")
+        return line_span(self.path, *self.rows[row])
 
     def _is_row(self, line: str) -> bool:
-        words = line.replace(",", " ").replace("D", "E").split()
         try:
-            return len(np.array(words, dtype=float)) == self.width
+            return len(np.array(_words(line), dtype=float)) == self.width
         except ValueError:
             return False
+
+
+def _words(text: str) -> list[str]:
+    return text.replace(",", " ").replace("D", "E").split()

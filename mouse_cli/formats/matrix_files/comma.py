@@ -6,7 +6,8 @@ import os
 import numpy as np
 
 from mouse_cli._span import Span
-from mouse_cli.formats.matrix_files import MAX_ORDER, MatrixFormat, check_memory, reject
+from mouse_cli.formats.data_files import FileFormat, check_memory, reject
+from mouse_cli.formats.matrix_files import MAX_ORDER
 from mouse_cli.model.arrays import Matrix, sparse_symmetric
 
 _HEADERS = (("i", "j"), ("row", "col"), ("row", "column"))  # and a third word for the value
@@ -109,4 +110,4 @@ def _no_repetition(path: str, rows: list[tuple[int, str, list[str]]], row: np.nd
         reject("MD252", path, message, "give each element once", Span(path, number, 1, len(line), line))
 
 
-FORMAT = MatrixFormat("csv", _read)
+FORMAT = FileFormat("csv", _read)

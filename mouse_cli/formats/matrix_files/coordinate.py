@@ -1,6 +1,6 @@
 """Row, column, value on each line, from 1: CalculiX (.sti, .mas) and Abaqus FORMAT=COORDINATE (.mtx)."""
 
-from mouse_cli.formats.matrix_files import MatrixFormat
+from mouse_cli.formats.data_files import FileFormat
 from mouse_cli.formats.matrix_files.columns import Columns
 from mouse_cli.formats.matrix_files.triangles import completed, order
 from mouse_cli.model.arrays import Matrix
@@ -21,4 +21,4 @@ def _claims(head: bytes) -> bool:
     return len(words) == 3 and words[0].isdigit() and words[1].isdigit()
 
 
-FORMAT = MatrixFormat("coordinate", _read, ("sti", "mas", "mtx"), claims=_claims)
+FORMAT = FileFormat("coordinate", _read, ("sti", "mas", "mtx"), claims=_claims)

@@ -6,7 +6,8 @@ component and value of each row. Form 6 keeps one triangle.
 
 import numpy as np
 
-from mouse_cli.formats.matrix_files import Contents, MatrixFormat, choose, reject
+from mouse_cli.formats.data_files import FileFormat, reject
+from mouse_cli.formats.matrix_files import Contents, choose
 from mouse_cli.formats.matrix_files.triangles import completed, order
 from mouse_cli.formats.nastran_fields import Bulk, Card
 from mouse_cli.model.dof_map import DofMap
@@ -76,4 +77,4 @@ def _as_given(row: np.ndarray, col: np.ndarray, values: np.ndarray, n: int):
     return coo_array((values, (row, col)), shape=(n, n))
 
 
-FORMAT = MatrixFormat("dmig", _read, ("pch", "bdf", "dat", "nas", "dmig"), named=True)
+FORMAT = FileFormat("dmig", _read, ("pch", "bdf", "dat", "nas", "dmig"), named=True)

@@ -8,8 +8,8 @@ import re
 
 import numpy as np
 
-from mouse_cli.formats.data_files import line_span, reject, text_lines
-from mouse_cli.formats.matrix_files import MAX_ORDER, MatrixFormat
+from mouse_cli.formats.data_files import FileFormat, line_span, reject, text_lines
+from mouse_cli.formats.matrix_files import MAX_ORDER
 from mouse_cli.formats.matrix_files.triangles import completed
 from mouse_cli.model.arrays import Matrix
 
@@ -110,4 +110,4 @@ def _numbers(path: str, lines: list[str], start: int, number: int, count: int, l
     return np.array(words)
 
 
-FORMAT = MatrixFormat("hb", _read, ("hb", "rb", "rsa", "rua", "matrix"))
+FORMAT = FileFormat("hb", _read, ("hb", "rb", "rsa", "rua", "matrix"))

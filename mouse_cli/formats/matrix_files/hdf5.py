@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from mouse_cli._errors import DeckError
-from mouse_cli.formats.matrix_files import MAX_ORDER, MatrixFormat, check_memory, choose, real, reject, whole
+from mouse_cli.formats.data_files import FileFormat, check_memory, reject
+from mouse_cli.formats.matrix_files import MAX_ORDER, choose, real, whole
 from mouse_cli.model.arrays import Matrix
 
 _SIGNATURE = b"\x89HDF\r\n\x1a\n"
@@ -49,15 +50,21 @@ def check_heaps(path: str) -> None:
             at = data.find(_HEAP, at + 1)
 
 
+def library(path: str) -> Any:
+    """The package h5py; MD261 where it is not installed."""
+    try:
+        import h5py
+    except ImportError:
+        reject("MD261", path, "reading HDF5 needs the package h5py, which is not installed", _INSTALL)
+    return h5py
+
+
 def read(path: str, variable: str | None) -> Matrix:
     """The matrix at `variable`, a path such as `model/K`, or the only one at the root."""
     if not claims(path):
         reject("MD252", path, "not an HDF5 file", "write it with h5py, or in MATLAB with save -v7.3")
     check_heaps(path)
-    try:
-        import h5py
-    except ImportError:
-        reject("MD261", path, "reading HDF5 needs the package h5py, which is not installed", _INSTALL)
+    h5py = library(path)
     try:
         with h5py.File(path, "r") as file:
             return _matrix(path, h5py, file, variable)
@@ -175,4 +182,4 @@ def _text(value: Any) -> str:
     return value.decode("latin-1") if isinstance(value, bytes) else str(value)
 
 
-FORMAT = MatrixFormat("h5", read, ("h5", "hdf5", "hdf"), named=True)
+FORMAT = FileFormat("h5", read, ("h5", "hdf5", "hdf"), named=True)

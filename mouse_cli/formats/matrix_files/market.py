@@ -6,7 +6,8 @@ from io import BytesIO
 import numpy as np
 
 from mouse_cli._span import Span
-from mouse_cli.formats.matrix_files import MAX_ORDER, MatrixFormat, check_memory, reject
+from mouse_cli.formats.data_files import FileFormat, check_memory, reject
+from mouse_cli.formats.matrix_files import MAX_ORDER
 from mouse_cli.model.arrays import Matrix, upper_triangle
 
 _HELP = "begin with '%%MatrixMarket matrix coordinate real symmetric' and a line of rows, columns, entries"
@@ -103,4 +104,4 @@ def text(matrix: Matrix, comment: str = "") -> str:
     return "\n".join(lines) + "\n"
 
 
-FORMAT = MatrixFormat("mtx", _read)
+FORMAT = FileFormat("mtx", _read)

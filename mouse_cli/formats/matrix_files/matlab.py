@@ -4,16 +4,9 @@ from math import prod
 
 import numpy as np
 
-from mouse_cli.formats.matrix_files import (
-    MatrixFormat,
-    check_memory,
-    choose,
-    hdf5,
-    matlab_elements,
-    real,
-    reject,
-    whole,
-)
+from mouse_cli._errors import DeckError
+from mouse_cli.formats.data_files import FileFormat, check_memory, reject
+from mouse_cli.formats.matrix_files import choose, hdf5, matlab_elements, real, whole
 from mouse_cli.model.arrays import Matrix, is_sparse
 
 _NUMBERS = ("double", "single", "sparse", "logical", *(f"{u}int{bits}" for u in ("", "u") for bits in (8, 16, 32, 64)))
@@ -24,13 +17,9 @@ def _read(path: str, variable: str | None) -> Matrix:
         return hdf5.read(path, variable)
     try:
         return _version_5(path, variable)
-    except MemoryError:
+    except (DeckError, MemoryError):
         raise
     except Exception as error:  # SciPy's reader of damaged files raises whatever its parts do
-        from mouse_cli._errors import DeckError
-
-        if isinstance(error, DeckError):
-            raise
         message = f"cut short, or not a MATLAB file: {str(error)[:200]}"
         reject("MD252", path, message, "write it again: save('model.mat', 'K', 'M')")
 
@@ -44,10 +33,8 @@ def _version_5(path: str, variable: str | None) -> Matrix:
     if rest and variable not in found:
         name = choose(path, head, list(found))
     else:
-        rest, name = (
-            "",
-            choose(path, variable, [n for n in found if found[n][1] in _NUMBERS] if variable is None else list(found)),
-        )
+        rest, numbers = "", [n for n in found if found[n][1] in _NUMBERS]
+        name = choose(path, variable, numbers if variable is None else list(found))
     shape, kind = found[name]
     if kind != "sparse":
         check_memory(path, 8 * prod(shape), f"'{name}' of shape {shape}", "save it as sparse")
@@ -60,4 +47,4 @@ def _version_5(path: str, variable: str | None) -> Matrix:
     return real(path, value, variable or name)
 
 
-FORMAT = MatrixFormat("mat", _read, named=True)
+FORMAT = FileFormat("mat", _read, named=True)

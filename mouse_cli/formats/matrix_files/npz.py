@@ -7,7 +7,8 @@ from typing import BinaryIO
 
 import numpy as np
 
-from mouse_cli.formats.matrix_files import MatrixFormat, check_memory, choose, kept, real, reject, whole
+from mouse_cli.formats.data_files import FileFormat, check_memory, kept, reject
+from mouse_cli.formats.matrix_files import choose, real, whole
 from mouse_cli.model.arrays import Matrix
 
 _HELP = "write it with scipy.sparse.save_npz, or with numpy.savez"
@@ -82,4 +83,4 @@ def _sparse(path: str) -> Matrix:
     return matrix
 
 
-FORMAT = MatrixFormat("npz", _read, named=True)
+FORMAT = FileFormat("npz", _read, named=True)

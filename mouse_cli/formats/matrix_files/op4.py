@@ -5,8 +5,8 @@ Own code rather than a package: pyyeti reads them too, but brings a compiler (nu
 
 import numpy as np
 
-from mouse_cli.formats.data_files import line_span
-from mouse_cli.formats.matrix_files import MAX_ORDER, MatrixFormat, choose, reject
+from mouse_cli.formats.data_files import FileFormat, line_span, reject
+from mouse_cli.formats.matrix_files import MAX_ORDER, choose
 from mouse_cli.formats.matrix_files.op4_records import Damaged, Header, Strings, binary_matrices, text_matrices
 from mouse_cli.model.arrays import Matrix
 
@@ -64,4 +64,4 @@ def _matrix(path: str, header: Header, strings: Strings) -> Matrix:
     )
 
 
-FORMAT = MatrixFormat("op4", _read, named=True)
+FORMAT = FileFormat("op4", _read, named=True)

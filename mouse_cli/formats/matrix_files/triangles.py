@@ -5,7 +5,8 @@ from collections.abc import Callable
 import numpy as np
 
 from mouse_cli._span import Span
-from mouse_cli.formats.matrix_files import MAX_ORDER, reject
+from mouse_cli.formats.data_files import reject
+from mouse_cli.formats.matrix_files import MAX_ORDER
 from mouse_cli.model.arrays import Matrix
 
 

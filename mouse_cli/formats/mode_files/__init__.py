@@ -1,6 +1,5 @@
-"""Mode shapes kept in files: one module = one format; here, what each of them hands over."""
+"""Mode shapes kept in files: one module = one format; here, what each of them hands over, a ModeTable."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -34,26 +33,9 @@ class ModeTable:
     def ascending(self) -> "ModeTable":
         """The same with the modes in ascending order of frequency."""
         order = np.argsort(self.frequency_hz, kind="stable")
-        turned = {
-            "shapes": self.shapes[:, order],
-            "frequency_hz": self.frequency_hz[order],
-            "damping": self.damping[order],
-        }
-        if self.frequency_sd_hz is not None:
-            turned["frequency_sd_hz"] = self.frequency_sd_hz[order]
-        if self.shape_sd is not None:
-            turned["shape_sd"] = self.shape_sd[:, order]
-        return replace(self, **turned)
-
-
-@dataclass(frozen=True, slots=True)
-class ModeFormat:
-    """A format of mode shapes: read(path) gives a ModeTable. suffixes: of its files, without the point; default: `key`."""
-
-    key: str
-    read: Callable[[str], ModeTable]
-    suffixes: tuple[str, ...] = ()
-    claims: Callable[[bytes], bool] | None = None
+        each = ("frequency_hz", "damping", "frequency_sd_hz", "shapes", "shape_sd")  # modes along their last axis
+        given = {name: getattr(self, name) for name in each}
+        return replace(self, **{name: values[..., order] for name, values in given.items() if values is not None})
 
 
 def turned(shape: np.ndarray) -> np.ndarray:

@@ -15,7 +15,8 @@ import re
 
 import numpy as np
 
-from mouse_cli.formats.mode_files import ModeFormat, ModeTable, turned
+from mouse_cli.formats.data_files import FileFormat
+from mouse_cli.formats.mode_files import ModeTable, turned
 from mouse_cli.formats.mode_files._cells import Rows, missing, numeric, rows_of
 from mouse_cli.formats.mode_files._labels import ModeLabel, in_hz, mode_label, ratio, sd_in_hz, sd_of_mode, value_label
 from mouse_cli.model.geometry import DIRECTIONS
@@ -277,4 +278,4 @@ def _checked(rows: Rows, i: int, node: str, text: str) -> tuple[str, float]:
     return direction, sign
 
 
-FORMAT = ModeFormat("csv", _read, ("csv", "tsv", "txt"))
+FORMAT = FileFormat("csv", _read, ("csv", "tsv", "txt"))

@@ -5,8 +5,8 @@ Text in its short and long form (numbers of nodes in 5 or 10 columns), after the
 
 import numpy as np
 
-from mouse_cli.formats.data_files import line_span, reject, text_lines
-from mouse_cli.formats.mode_files import ModeFormat, ModeTable
+from mouse_cli.formats.data_files import FileFormat, line_span, reject, text_lines
+from mouse_cli.formats.mode_files import ModeTable
 from mouse_cli.model.geometry import DIRECTIONS
 
 _BLOCK, _MODES, _VALUES = "  100C", "MODAL", slice(12, 24)
@@ -67,4 +67,4 @@ def _damaged(path: str, lines: list[str], at: int, message: str) -> None:
     reject("MD252", path, message, "write the results again, as text", line_span(path, at + 1, lines[at]))
 
 
-FORMAT = ModeFormat("frd", _read)
+FORMAT = FileFormat("frd", _read)

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli._span import Span
-from mouse_cli.formats.data_files import reject
-from mouse_cli.formats.mode_files import ModeFormat, ModeTable, turned
+from mouse_cli.formats.data_files import FileFormat, reject
+from mouse_cli.formats.mode_files import ModeTable, turned
 from mouse_cli.formats.mode_files._survey import survey
 from mouse_cli.formats.recording_files.universal_blocks import Block, blocks
 from mouse_cli.model.geometry import DIRECTIONS
@@ -23,20 +23,10 @@ _NORMAL, _COMPLEX_MODES = 2, (3, 7)  # analysis types
 _HEAD = {55: 8, 2414: 13}  # lines before those of nodes
 _POUND, _FOOT, _INCH, _G = 4.4482216152605, 0.3048, 0.0254, 9.80665
 # mass units of the codes of data set 164, kg: force times s2 per length
-_MASSES = {
-    1: 1.0,
-    2: _POUND / _FOOT,
-    3: _G,
-    4: _POUND / _FOOT,
-    5: 1.0,
-    6: _G / 1e-2,
-    7: _POUND / _INCH,
-    8: _G / 1e-3,
-    10: 1e3,
-}
+_SLUG = _POUND / _FOOT
+_MASSES = {1: 1.0, 2: _SLUG, 3: _G, 4: _SLUG, 5: 1.0, 6: _G / 1e-2, 7: _POUND / _INCH, 8: _G / 1e-3, 10: 1e3}
 # their units of length, m
 _METRES = {1: 1.0, 2: _FOOT, 3: 1.0, 4: _FOOT, 5: 1e-3, 6: 1e-2, 7: _INCH, 8: 1e-3, 10: 1e-3}
-_SAME = 1e-9
 
 
 @dataclass(frozen=True)
@@ -173,4 +163,4 @@ def _damaged(path: str, first: int, lines: list[str], at: int, message: str) -> 
     )
 
 
-FORMAT = ModeFormat("unv", _read, ("unv", "uff", "uf", "ufb"))
+FORMAT = FileFormat("unv", _read, ("unv", "uff", "uf", "ufb"))

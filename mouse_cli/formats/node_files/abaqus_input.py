@@ -1,7 +1,7 @@
 """Nodes of an Abaqus or CalculiX input deck (.inp): *NODE blocks, in the global rectangular system."""
 
-from mouse_cli.formats.data_files import line_span, reject, text_lines
-from mouse_cli.formats.node_files import NodeFormat, Rows
+from mouse_cli.formats.data_files import FileFormat, line_span, reject, text_lines
+from mouse_cli.formats.node_files import Rows
 
 _OTHERS = ("SYSTEM=C", "SYSTEM=S", "INPUT=")
 
@@ -24,4 +24,4 @@ def _read(path: str) -> Rows:
     return found
 
 
-FORMAT = NodeFormat("inp", _read)
+FORMAT = FileFormat("inp", _read)

@@ -1,7 +1,7 @@
 """A table (.csv) of node number, x, y and z, with or without a header."""
 
-from mouse_cli.formats.data_files import text_lines
-from mouse_cli.formats.node_files import NodeFormat, Rows
+from mouse_cli.formats.data_files import FileFormat, text_lines
+from mouse_cli.formats.node_files import Rows
 
 
 def _read(path: str) -> Rows:
@@ -14,4 +14,4 @@ def _read(path: str) -> Rows:
     return found
 
 
-FORMAT = NodeFormat("csv", _read)
+FORMAT = FileFormat("csv", _read)

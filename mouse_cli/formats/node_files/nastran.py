@@ -1,7 +1,8 @@
 """Nodes of Nastran bulk data (.bdf, .dat, .nas, .pch): GRID cards in the basic system of coordinates."""
 
+from mouse_cli.formats.data_files import FileFormat
 from mouse_cli.formats.nastran_fields import Bulk
-from mouse_cli.formats.node_files import NodeFormat, Rows
+from mouse_cli.formats.node_files import Rows
 
 
 def _read(path: str) -> Rows:
@@ -17,4 +18,4 @@ def _read(path: str) -> Rows:
     return found
 
 
-FORMAT = NodeFormat("bdf", _read, ("bdf", "dat", "nas", "pch"))
+FORMAT = FileFormat("bdf", _read, ("bdf", "dat", "nas", "pch"))

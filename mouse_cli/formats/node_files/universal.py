@@ -5,8 +5,8 @@ Own code rather than pyuff, which takes lines padded to 80 columns with blanks, 
 
 from collections.abc import Iterator
 
-from mouse_cli.formats.data_files import line_span, reject, text_lines
-from mouse_cli.formats.node_files import NodeFormat, Rows
+from mouse_cli.formats.data_files import FileFormat, line_span, reject, text_lines
+from mouse_cli.formats.node_files import Rows
 
 _MARK = "-1"
 
@@ -50,4 +50,4 @@ def _data_sets(path: str) -> Iterator[tuple[int, list[str]]]:
         reject("MD252", path, message, "write the file again", line_span(path, begun, ""))
 
 
-FORMAT = NodeFormat("unv", _read, ("unv", "uff", "uf", "ufb"))
+FORMAT = FileFormat("unv", _read, ("unv", "uff", "uf", "ufb"))

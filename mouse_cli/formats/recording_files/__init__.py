@@ -1,26 +1,14 @@
-"""Measured data kept in files: one module = one format; here, what each of them hands over."""
+"""Measured data kept in files: one module = one format; here, what each of them hands over, Contents."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from mouse_cli._errors import DeckError, RecordError
 from mouse_cli.formats import data_files
-from mouse_cli.formats.data_files import check_memory, kept, reject
+from mouse_cli.formats.data_files import reject
 from mouse_cli.model.block_window import BlockWindow
 
-__all__ = [
-    "Column",
-    "Contents",
-    "Function",
-    "RecordingFormat",
-    "check_memory",
-    "kept",
-    "read_contents",
-    "reject",
-    "spread",
-]
 MOST_COLUMNS = 20_000  # of one file
 LARGEST = 1e75  # of a measured value: fourth powers of larger ones are beyond all floating-point numbers
 RATE_NAMES = ("fs", "sample_rate", "samplerate", "sampling_rate", "samplingrate", "sampling_frequency", "rate")
@@ -73,16 +61,6 @@ class Contents:
     functions: tuple[Function, ...] = ()
     remarks: tuple[str, ...] = field(default_factory=tuple)
     stretches: tuple[tuple[int, int], ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class RecordingFormat:
-    """A format of recordings: read(path) gives Contents. suffixes: of its files, without the point; default: `key`."""
-
-    key: str
-    read: Callable[[str], Contents]
-    suffixes: tuple[str, ...] = ()
-    claims: Callable[[bytes], bool] | None = None
 
 
 def read_contents(path: str) -> Contents:

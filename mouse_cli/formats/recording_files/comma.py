@@ -13,8 +13,8 @@ from itertools import islice
 
 import numpy as np
 
-from mouse_cli.formats.data_files import line_span, text_lines
-from mouse_cli.formats.recording_files import MOST_COLUMNS, Column, Contents, RecordingFormat, reject
+from mouse_cli.formats.data_files import FileFormat, line_span, reject, text_lines
+from mouse_cli.formats.recording_files import MOST_COLUMNS, Column, Contents
 from mouse_cli.formats.recording_files.text_head import COMMENTS, labelled, read_head
 
 _MOST_HEAD = 200  # lines before the numbers
@@ -151,4 +151,4 @@ def _slowly(path: str, first: int, separator: str | None, width: int) -> np.ndar
     return table if table.imag.any() else table.real
 
 
-FORMAT = RecordingFormat("csv", _read, ("csv", "txt", "tsv", "dat", "asc"))
+FORMAT = FileFormat("csv", _read, ("csv", "txt", "tsv", "dat", "asc"))

@@ -10,17 +10,9 @@ from typing import Any
 
 import numpy as np
 
+from mouse_cli.formats.data_files import FileFormat, check_memory, reject
 from mouse_cli.formats.matrix_files import hdf5 as hdf5_matrices
-from mouse_cli.formats.recording_files import (
-    RATE_NAMES,
-    STEP_NAMES,
-    Contents,
-    RecordingFormat,
-    check_memory,
-    npz,
-    reject,
-    spread,
-)
+from mouse_cli.formats.recording_files import RATE_NAMES, STEP_NAMES, Contents, npz, spread
 
 _DEEPEST, _LONGEST = 32, 1_000_000  # groups in groups; characters of the texts of one data set
 _UNITS = ("unit", "units", "Unit", "Units", "unit_string")
@@ -31,11 +23,7 @@ def read(path: str) -> Contents:
     if not hdf5_matrices.claims(path):
         raise ValueError("no HDF5 signature")
     hdf5_matrices.check_heaps(path)
-    try:
-        import h5py
-    except ImportError:
-        message = "reading HDF5 needs the package h5py, which is not installed"
-        reject("MD261", path, message, "pip install 'mouse-cli[hdf5]'")
+    h5py = hdf5_matrices.library(path)
     arrays: dict[str, np.ndarray] = {}
     units: dict[str, str] = {}
     with h5py.File(path, "r") as file:
@@ -115,4 +103,4 @@ def _text(value: Any) -> str:
     return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
 
 
-FORMAT = RecordingFormat("h5", read, ("h5", "hdf5", "hdf"))
+FORMAT = FileFormat("h5", read, ("h5", "hdf5", "hdf"))

@@ -10,8 +10,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from mouse_cli.formats.data_files import line_span, text_lines
-from mouse_cli.formats.recording_files import MOST_COLUMNS, Column, Contents, RecordingFormat, check_memory, reject
+from mouse_cli.formats.data_files import FileFormat, check_memory, line_span, reject, text_lines
+from mouse_cli.formats.recording_files import MOST_COLUMNS, Column, Contents
 
 _MARK, _END, _X, _COMMENT = "LabVIEW Measurement", "***End_of_Header***", "X_Value", "Comment"
 _HEADLESS = "no head of a segment and no row of its channels, X_Value"
@@ -194,7 +194,7 @@ def _goes_on(one: _Segment, two: _Segment) -> bool:
     return bool(abs(two.x[0] - one.x[-1] - step) <= _GOES_ON * step)
 
 
-FORMAT = RecordingFormat(
+FORMAT = FileFormat(
     "lvm",
     _read,
     ("lvm", "txt", "csv", "dat", "asc"),

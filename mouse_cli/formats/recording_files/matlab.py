@@ -4,9 +4,10 @@ from math import prod
 
 import numpy as np
 
+from mouse_cli.formats.data_files import FileFormat, check_memory
 from mouse_cli.formats.matrix_files import hdf5 as hdf5_matrices
 from mouse_cli.formats.matrix_files import matlab_elements
-from mouse_cli.formats.recording_files import Contents, RecordingFormat, check_memory, hdf5, spread
+from mouse_cli.formats.recording_files import Contents, hdf5, spread
 
 _DEEPEST = 6  # structs in structs
 
@@ -37,4 +38,4 @@ def _gather(name: str, value: object, arrays: dict[str, np.ndarray], depth: int)
         arrays[name] = value
 
 
-FORMAT = RecordingFormat("mat", _read)
+FORMAT = FileFormat("mat", _read)

@@ -8,8 +8,9 @@ import sys
 
 import numpy as np
 
+from mouse_cli.formats.data_files import FileFormat
 from mouse_cli.formats.matrix_files import npz as npz_matrices
-from mouse_cli.formats.recording_files import Contents, Function, RecordingFormat, spread
+from mouse_cli.formats.recording_files import Contents, Function, spread
 from mouse_cli.model.block_window import WINDOWS, BlockWindow
 
 _LONGEST = 200  # characters of a name or a unit
@@ -80,4 +81,4 @@ def _either(path: str) -> Contents:
     return _read_array(path) if path.lower().endswith(".npy") else _read(path)
 
 
-FORMAT = RecordingFormat("npz", _either, ("npz", "npy"))
+FORMAT = FileFormat("npz", _either, ("npz", "npy"))

@@ -5,15 +5,8 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from mouse_cli.formats.recording_files import (
-    MOST_COLUMNS,
-    Column,
-    Contents,
-    RecordingFormat,
-    check_memory,
-    kept,
-    reject,
-)
+from mouse_cli.formats.data_files import FileFormat, check_memory, kept, reject
+from mouse_cli.formats.recording_files import MOST_COLUMNS, Column, Contents
 
 _UNITS = ("unit_string", "NI_UnitDescription", "Unit", "unit")
 _SCALES, _MOST_SCALES = "NI_Number_Of_Scales", 100
@@ -89,4 +82,4 @@ def _column(channel) -> Column | None:
     return Column(f"{channel.group_name}.{channel.name}", values, unit, float(step) if sound else None)
 
 
-FORMAT = RecordingFormat("tdms", _read)
+FORMAT = FileFormat("tdms", _read)

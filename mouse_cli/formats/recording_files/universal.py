@@ -6,7 +6,8 @@ one another, blanks up to column 80, text in national letters.
 
 import numpy as np
 
-from mouse_cli.formats.recording_files import Column, Contents, Function, RecordingFormat
+from mouse_cli.formats.data_files import FileFormat
+from mouse_cli.formats.recording_files import Column, Contents, Function
 from mouse_cli.formats.recording_files.universal_blocks import blocks, lines
 from mouse_cli.formats.recording_files.universal_functions import Axis, NodalFunction, nodal_function
 from mouse_cli.model.channel_units import unit
@@ -82,4 +83,4 @@ def _function(
     )  # fmt: skip
 
 
-FORMAT = RecordingFormat("unv", _read, ("unv", "uff", "uf", "ufb"))
+FORMAT = FileFormat("unv", _read, ("unv", "uff", "uf", "ufb"))

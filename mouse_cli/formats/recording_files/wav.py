@@ -4,7 +4,8 @@ import os
 
 import numpy as np
 
-from mouse_cli.formats.recording_files import Column, Contents, RecordingFormat, reject
+from mouse_cli.formats.data_files import FileFormat, reject
+from mouse_cli.formats.recording_files import Column, Contents
 
 _MOST_CHANNELS = 1000
 
@@ -57,4 +58,4 @@ def _check_samples(path: str, promised: int, held: int) -> None:
         reject("MD252", path, message, "the file is cut short, or its head was never finished: write it again")
 
 
-FORMAT = RecordingFormat("wav", _read)
+FORMAT = FileFormat("wav", _read)
