@@ -14,7 +14,6 @@ from mouse_cli.batch.expectation import Expectation
 from mouse_cli.formats import below, is_yaml
 
 RUN, CHECK, DIAGNOSE = "run", "check", "diagnose"
-COMMANDS = (RUN, CHECK, DIAGNOSE)
 _DIGITS = 12  # of the hash in the name of a result
 _STEM = 60  # characters of the deck's name in it
 

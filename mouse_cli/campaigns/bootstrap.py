@@ -19,8 +19,6 @@ from mouse_cli.updating.posterior import laplace
 from mouse_cli.updating.prior_model import begin, estimator
 from mouse_cli.updating.state import Setting
 
-OVER = ("modes", "sensors", "both", "functions", "records")
-
 
 @dataclass(frozen=True)
 class Plan:

@@ -6,7 +6,6 @@ from itertools import product
 import numpy as np
 
 Value = float | int | str | bool
-DESIGNS = ("sobol", "latin-hypercube")
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli.model.arrays import Matrix, is_sparse
-from mouse_cli.model.coupling import Connection, Coupling, Substructure
+from mouse_cli.model.coupling import Connection, Coupling
 
 _DEPENDENT = 1e-10  # of the largest pivot: a condition that others imply
 
@@ -105,8 +105,3 @@ def boundary(coupling: Coupling, k: int) -> np.ndarray:
     points = [p for pair in coupling.interfaces for p in pair]
     points += [p for one in coupling.connections for p in (one.at, one.to) if p is not None]
     return np.unique([p.place for p in points if p.substructure == k]).astype(int)
-
-
-def named(part: Substructure, places: np.ndarray) -> str:
-    """Names of places, for messages."""
-    return ", ".join(part.places[i] for i in places[:6])

@@ -139,11 +139,6 @@ class Fields:
         L = self.model.loads[:, self.model.columns[left]]
         return np.matmul(L.T, self.of(right))
 
-    def motions(self, which: int, lines: slice = slice(None)) -> np.ndarray:
-        """Z^-1 loads (f, n, i) at all degrees of freedom; large."""
-        Y = self.of(which)[lines]
-        return Y if self.model.V is None else np.matmul(self.model.V.T, Y)
-
 
 def kind_factor(power: int, s: np.ndarray) -> np.ndarray:
     """s^power (f, 1, 1): receptance (power 0) times that is mobility (1) or accelerance (2)."""

@@ -28,9 +28,9 @@ def solve(problem: LinearProblem) -> LinearEstimate:
 
     def root() -> np.ndarray:
         """L C^-1, given that the properties at their limits stay there."""
-        return problem.expand(conditioned(problem, np.linalg.inv(C), active)[0])
+        return problem.expand(conditioned(problem, np.linalg.inv(C), active))
 
-    return LinearEstimate(problem.expand(z), z, root, active != 0)
+    return LinearEstimate(problem.expand(z), z, root)
 
 
 def _mode(B: np.ndarray, r: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -109,7 +109,7 @@ def _within_row_space(problem: LinearProblem, B: np.ndarray, r: np.ndarray) -> L
         unseen[small] = np.sum((rows - seen[small] @ Q.T) ** 2, axis=1)
         return unseen + np.sum(revised * revised, axis=1)
 
-    return LinearEstimate(problem.expand(z), z, root, np.zeros(problem.T.shape[1], bool), variances, narrow)
+    return LinearEstimate(problem.expand(z), z, root, variances, narrow)
 
 
 ESTIMATOR = Estimator(

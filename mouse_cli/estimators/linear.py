@@ -78,7 +78,7 @@ def expand(L: np.ndarray, z: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True)
 class LinearEstimate:
-    """x (p,); z (k,) with x = L z; root(): matrix (p, ...) with covariance = root root'; at_limit (p,).
+    """x (p,); z (k,) with x = L z; root(): matrix (p, ...) with covariance = root root'.
 
     seen(): columns of the root that the data see, where T times the others is zero.
 
@@ -89,7 +89,6 @@ class LinearEstimate:
     x: np.ndarray
     z: np.ndarray
     root: Callable[[], np.ndarray]
-    at_limit: np.ndarray
     variances: Callable[[], np.ndarray] | None = None
     seen: Callable[[], np.ndarray] | None = None
 
@@ -156,11 +155,10 @@ def without_prior(problem: LinearProblem, weighted: bool) -> LinearEstimate:
     inverse = (Vt.T / s) / scale[:, None]  # R^-1 B = V s^-1 U': inverse @ U' is the pseudo-inverse
     z = inverse @ (U.T @ r)
     root_z = inverse if weighted else inverse @ problem.carried(U.T)
-    at_limit = np.zeros(len(problem.T[0]), bool)
     if problem.lower is not None:
         z, active = limited(problem, z, (Vt * s[:, None]) * scale)
-        root_z, at_limit = conditioned(problem, root_z, active)
-    return LinearEstimate(problem.expand(z), z, lambda: problem.expand(root_z), at_limit)
+        root_z = conditioned(problem, root_z, active)
+    return LinearEstimate(problem.expand(z), z, lambda: problem.expand(root_z))
 
 
 def limited(problem: LinearProblem, z: np.ndarray, C: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -197,12 +195,11 @@ def limited(problem: LinearProblem, z: np.ndarray, C: np.ndarray) -> tuple[np.nd
     return z + step, active
 
 
-def conditioned(problem: LinearProblem, root_z: np.ndarray, active: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """`root_z` (k, c) given that the properties `active` (p,) stay at their limits, and that mask (p,)."""
-    held = active != 0
-    if held.any():
-        rows = problem.expand(root_z)[held]
-        basis, s, _ = np.linalg.svd(rows.T, full_matrices=False)
-        basis = basis[:, s > 1e-12 * s.max(initial=0.0)]
-        root_z = root_z - (root_z @ basis) @ basis.T
-    return root_z, held
+def conditioned(problem: LinearProblem, root_z: np.ndarray, active: np.ndarray) -> np.ndarray:
+    """`root_z` (k, c) given that the properties `active` (p,), which are not 0 there, stay at their limits."""
+    if not active.any():
+        return root_z
+    rows = problem.expand(root_z)[active != 0]
+    basis, s, _ = np.linalg.svd(rows.T, full_matrices=False)
+    basis = basis[:, s > 1e-12 * s.max(initial=0.0)]
+    return root_z - (root_z @ basis) @ basis.T

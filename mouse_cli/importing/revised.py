@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli._errors import DeckError
 from mouse_cli.formats.solver_cards import tag
-from mouse_cli.formats.solver_cards._keywords import keyword_lines
+from mouse_cli.formats.solver_cards.keywords import keyword_lines
 from mouse_cli.importing.bricks import brick_lines
 from mouse_cli.importing.cards import Card
 from mouse_cli.importing.jobs import elastic, listed, of_same_elements, real, section, times

@@ -18,20 +18,16 @@ def by_loop(given: Given) -> Found:
     theta = result.revised.theta
     settled = result.status.answered and result.status.exit_code == 0
     moved = movements(given.problem, theta)
-    names = tuple(p.name for p in given.problem.parameters)
-    against = (
-        "the data contradict the form of the model, whatever the values of its properties" if result.rejected else ""
-    )
+    rejected = "the data contradict the form of the model, whatever the values of its properties"
     return Found(
-        K=result.revised.K,
-        M=result.revised.M,
+        result.revised.K,
+        result.revised.M,
         iterations=len(result.cycles) - 1,
         change=change,
         converged=settled,
         moved=moved,
         conditioning=result.conditioning,
-        names=names,
-        against=against,
+        against=rejected if result.rejected else "",
     )
 
 

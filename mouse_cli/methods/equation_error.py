@@ -26,23 +26,13 @@ def update(given: Given) -> Found:
         return bool(((theta >= low) & (theta <= high) & ~(strict & (theta <= 0))).all())
 
     units = np.array([parameters[i].sd for i in free])
-    names = [parameters[i].name for i in free]
     try:
         found = least_error(given, Unknowns(given.assembly, start, free, units, admissible))
     except Undetermined as reason:
-        loose = [name for name, is_loose in zip(names, reason.loose, strict=True) if is_loose]
+        loose = [parameters[i].name for i, is_loose in zip(free, reason.loose, strict=True) if is_loose]
         raise refusals.undetermined(problem, METHOD.key, loose, str(reason)) from None
     moved = [Moved(parameters[i].name, parameters[i].unit, float(start[i]), float(found.theta[i])) for i in free]
-    return Found(
-        found.K,
-        found.M,
-        found.iterations,
-        found.change,
-        found.settled,
-        tuple(moved),
-        found.conditioning,
-        tuple(names),
-    )
+    return Found(found.K, found.M, found.iterations, found.change, found.settled, tuple(moved), found.conditioning)
 
 
 METHOD = Method(

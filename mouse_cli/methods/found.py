@@ -9,7 +9,7 @@ from mouse_cli.model.updated import Moved
 
 @dataclass(frozen=True)
 class Found:
-    """K, M (n, n) and how they were reached; see Updated. names: of the parameters that `conditioning` speaks of.
+    """K, M (n, n) and how they were reached; the same fields of Updated hold them. moved: in the order that `conditioning` counts.
 
     against: what the method's own tests say against the answer, as a sentence without its full stop.
     """
@@ -21,5 +21,4 @@ class Found:
     converged: bool = True
     moved: tuple[Moved, ...] = ()
     conditioning: Conditioning | None = None
-    names: tuple[str, ...] = ()
     against: str = ""

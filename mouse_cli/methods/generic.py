@@ -141,15 +141,9 @@ def update(given: Given) -> Found:
     except Undetermined as reason:
         loose = [name for name, is_loose in zip(beams.names, reason.loose, strict=True) if is_loose]
         raise refusals.undetermined(given.problem, METHOD.key, loose, str(reason)) from None
-    return _answer(beams, found)
-
-
-def _answer(beams: GenericBeams, found) -> Found:
     rows = zip(beams.names, beams.theta[beams.free], found.theta[beams.free], strict=True)
     moved = tuple(Moved(name, "", float(before), float(after)) for name, before, after in rows)
-    return Found(
-        found.K, found.M, found.iterations, found.change, found.settled, moved, found.conditioning, tuple(beams.names)
-    )
+    return Found(found.K, found.M, found.iterations, found.change, found.settled, moved, found.conditioning)
 
 
 METHOD = Method(

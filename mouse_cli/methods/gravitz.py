@@ -10,16 +10,11 @@ from mouse_cli.model.updated import LOST, PARTLY
 _ZERO = 1e-12  # of the largest eigenvalue of the flexibility
 
 
-def flexibility(M: np.ndarray, X: np.ndarray, eigenvalues: np.ndarray) -> np.ndarray:
-    """F = (G + G')/2 with G = X L^-1 (X'MX)^-1 X', for shapes X (n, m) as measured: G is symmetric where X'MX is diagonal."""
-    G = (X / eigenvalues) @ np.linalg.solve(X.T @ (M @ X), X.T)
-    return (G + G.T) / 2
-
-
 def update(given: Given) -> Found:
-    """K is the inverse of F within its range; shapes are expanded once, and not made orthogonal.
+    """K is the inverse of F = (G + G')/2 within its range; shapes X are expanded once, and not made orthogonal.
 
-    In m coordinates: F = Q f Q', Q an orthonormal basis of the shapes in the metric of M, and K = M Q f^-1 Q'M.
+    G = X L^-1 (X'MX)^-1 X' is symmetric where X'MX is diagonal. In m coordinates: F = Q f Q', Q an orthonormal basis of the shapes
+    in the metric of M, and K = M Q f^-1 Q'M.
     """
     X, M = given.expanded(given.K), given.M
     L = np.linalg.cholesky(X.T @ (M @ X))

@@ -112,17 +112,9 @@ def _judged(given: Given, chosen: Method, found: Found) -> Updated:
         problem=problem,
         about=chosen.about,
         expansion=given.how if SHAPES in chosen.needs else "",
-        K=found.K,
-        M=found.M,
-        iterations=found.iterations,
-        change=found.change,
-        converged=found.converged,
-        moved=found.moved,
         configurations=tuple(_configurations(given, found, prior, revised)),
         checked=_checked(given, chosen, found, prior, revised),
-        conditioning=found.conditioning,
-        names=found.names,
-        against=found.against,
+        **vars(found),
     )
     return replace(answer, warnings=tuple(remarks(answer)))
 

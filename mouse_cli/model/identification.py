@@ -35,7 +35,6 @@ class Diagram:
     stable: np.ndarray
     line_hz: np.ndarray
     level: np.ndarray
-    orders: int
 
 
 @dataclass(frozen=True)

@@ -91,9 +91,8 @@ class Noise:
 class RecordDiagnosis(Diagnosis):
     """The answer of `diagnose` for recordings; `result` is None: there is no modal test.
 
-    channels, sd (s,): outputs and the accuracy taken for them; inputs: names. variants: the law of each explanation in a word
-    (hardening, one side, ...). scores: of held-out records. noise: that which
-    the answer rests on, where the accuracy of the channels is not all. fitted: titles of what was fitted. inputs_held: description.
+    channels, sd (s,): outputs and the accuracy taken for them; inputs: names. scores: of held-out records. noise: that which the
+    answer rests on, where the accuracy of the channels is not all. fitted: titles of what was fitted. inputs_held: description.
     """
 
     channels: tuple[str, ...] = ()
@@ -101,7 +100,6 @@ class RecordDiagnosis(Diagnosis):
     inputs: tuple[str, ...] = ()
     sd: np.ndarray = field(default_factory=lambda: np.zeros(0))
     fitted: tuple[str, ...] = ()
-    variants: tuple[str, ...] = ()
     linearity: Linearity = Linearity()
     scores: tuple[RecordScore, ...] = ()
     noise: Noise | None = None

@@ -110,7 +110,6 @@ class Updated(Shown):
     configurations: tuple[Predicted, ...]
     checked: Checked
     conditioning: Conditioning | None = None
-    names: tuple[str, ...] = ()
     against: str = ""
     warnings: tuple[Diagnostic, ...] = ()
 

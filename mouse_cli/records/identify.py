@@ -130,7 +130,7 @@ def _nothing(
     none, s = np.zeros(0), len(sensors)
     table = np.zeros((s, 0))
     modes = Modes(none, none, none, none, np.zeros((0, 0)), table + 0j, table, table, none, (), none, none, none)
-    diagram = Diagram(none, none, none, none.astype(bool), none, none, 0)
+    diagram = Diagram(none, none, none, none.astype(bool), none, none)
     return Identification(title, sources, method, sensors, edges, modes, diagram, noise, doubts=(doubt,))
 
 
@@ -148,19 +148,17 @@ def _rejected(dropped: list[Dropped], passing: list[Track]) -> tuple[Rejected, .
 def _diagram_frf(found: Found, hz: np.ndarray, H: np.ndarray) -> Diagram:
     """The diagram over the root mean square of all functions."""
     level = np.sqrt((np.abs(H) ** 2).mean(axis=(1, 2)))
-    return _diagram(
-        found.search.poles, [*found.search.candidates, *found.search.passing], hz, level, found.search.orders
-    )
+    return _diagram(found.search.poles, [*found.search.candidates, *found.search.passing], hz, level)
 
 
-def _diagram(poles: list[OrderPoles], every: list[Track], hz: np.ndarray, level: np.ndarray, orders: int) -> Diagram:
+def _diagram(poles: list[OrderPoles], every: list[Track], hz: np.ndarray, level: np.ndarray) -> Diagram:
     points = [
         (o, abs(p) / 2 / np.pi, -p.real / abs(p), s)
         for t in every
         for o, p, s in zip(t.order, t.pole, t.stable, strict=True)
     ]
     order, frequency, damping, stable = np.array(points).T if points else np.zeros((4, 0))
-    return Diagram(order.astype(int), frequency, damping, stable.astype(bool), hz, level, orders)
+    return Diagram(order.astype(int), frequency, damping, stable.astype(bool), hz, level)
 
 
 def _diagram_outputs(found: FoundOutputs, parts: Sequence[np.ndarray], rate_hz: float) -> Diagram:
@@ -172,7 +170,7 @@ def _diagram_outputs(found: FoundOutputs, parts: Sequence[np.ndarray], rate_hz: 
     every = [welch(each / np.where(size > 0, size, 1), rate_hz, nperseg=block, axis=0) for each in parts]
     power = np.mean([each[1] for each in every], axis=0)
     level_hz, level = every[0][0][1:], np.sqrt(power[1:].mean(axis=1))
-    return _diagram(found.poles, [*found.tracks, *found.passing], level_hz, level, found.orders[-1])
+    return _diagram(found.poles, [*found.tracks, *found.passing], level_hz, level)
 
 
 _SAME = 1e-6  # relative difference of two sample rates

@@ -19,11 +19,6 @@ class Distortion:
     odd: float
     noise: float
 
-    @property
-    def level(self) -> float:
-        """Distortion by what was excited."""
-        return float(np.nanmax([self.even, self.odd])) / self.excited
-
 
 def incoherent(force: np.ndarray, response: np.ndarray, dt: float) -> float:
     """Share of the excited band in which the coherence of one force (t,) and one response (t,) is below 0.95."""

@@ -21,12 +21,11 @@ ROUGH = 1e-4  # of chi2: a fall that decides nothing while it is not settled whi
 
 @dataclass(frozen=True)
 class Fit:
-    """A fitted model; chi2: sum of squares of weighted errors; free: how many values less how many unknowns; converged: or not."""
+    """A fitted model; chi2: sum of squares of weighted errors; free: how many values less how many unknowns."""
 
     model: ModalModel
     chi2: float
     free: int
-    converged: bool = True
 
     @property
     def misfit(self) -> float:
@@ -51,11 +50,11 @@ def fitted(lines: Lines, model: ModalModel, iterations: int = _ITERATIONS, small
         normal, gradient = reduced(lines, model)
         tried, lower, damping = _step(lines, model, chi2, normal, gradient, damping)
         if tried is None:
-            return Fit(model, chi2, free)
+            break
         gain, model, chi2 = chi2 - lower, tried, lower
         if gain <= small * chi2 + _NEGLIGIBLE:
-            return Fit(model, chi2, free)
-    return Fit(model, chi2, free, converged=model.m == 0)
+            break
+    return Fit(model, chi2, free)
 
 
 def _step(

@@ -161,9 +161,8 @@ def _spread(setting: Setting, state: State, estimator: Estimator) -> tuple[Linea
         estimate = find_estimator("bayes").solve(problem)
     at_limit = setting.coordinates.at_limit(state.u)
     if at_limit.any():
-        root_x, held = estimate.root(), at_limit.astype(int)
         in_u = replace(problem, L=np.eye(len(state.u)))
-        root = np.where(at_limit[:, None], 0.0, conditioned(in_u, root_x, held)[0])
+        root = np.where(at_limit[:, None], 0.0, conditioned(in_u, estimate.root(), at_limit))
         estimate = replace(estimate, root=lambda: root, variances=None, seen=None)
     return estimate, at_limit
 

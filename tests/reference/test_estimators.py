@@ -210,8 +210,7 @@ def test_limits_equal_bounded_least_squares(key, seed):
     answer = estimator(key).solve(replace(free, lower=lower, upper=upper))
     assert answer.x == pytest.approx(expected, rel=1e-8, abs=1e-9)
     at = (np.abs(expected - lower) < 1e-9) | (np.abs(expected - upper) < 1e-9)
-    assert at.any() and answer.at_limit.tolist() == at.tolist()
-    assert answer.variance[at] == pytest.approx(0, abs=1e-20)
+    assert at.any() and (answer.variance < 1e-20).tolist() == at.tolist()
 
 
 @pytest.mark.parametrize("key", EVERY)

@@ -26,9 +26,8 @@ class Factor(Protocol):
 
 
 class Symbolic(Protocol):
-    """What can be known of a factorisation from the pattern alone. nonzeros: of L; memory_bytes: at the peak of a factorisation."""
+    """What can be known of a factorisation from the pattern alone. memory_bytes: at the peak of a factorisation."""
 
-    nonzeros: int
     memory_bytes: int
 
     def factor(self, matrix: Matrix) -> Factor:

@@ -24,7 +24,7 @@ class _Symbolic:
         threads = int(os.environ.get("OMP_NUM_THREADS") or 1)
         self._symbolic = rslab.analyze(lower, path="ldlt", threads=threads, scaling="none")
         known = self._symbolic.estimate_memory()
-        self.nonzeros, self.memory_bytes = int(known["factor_nnz"]), int(known["transient_peak_bytes"])
+        self.memory_bytes = int(known["transient_peak_bytes"])
 
     def factor(self, matrix: Matrix) -> "_Factor":
         """L D L' of the values of `matrix`."""

@@ -12,8 +12,7 @@ class _Symbolic:
     """SuperLU keeps nothing between factorisations, and tells nothing before: sizes are estimates, of L and U."""
 
     def __init__(self, pattern: Matrix):
-        self.nonzeros = nonzeros(pattern)
-        self.memory_bytes = 2 * 12 * self.nonzeros
+        self.memory_bytes = 2 * 12 * nonzeros(pattern)
         self._order = dissected(pattern) if densely_connected(pattern) else None
 
     def factor(self, matrix: Matrix) -> "_Factor":

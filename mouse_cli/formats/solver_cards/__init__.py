@@ -10,14 +10,13 @@ from mouse_cli.model.revision import Revision
 
 @dataclass(frozen=True, slots=True)
 class SolverFormat:
-    """A program: write(revision) gives the text of its include file; comment: what begins a line that it passes over.
+    """A program: write(revision) gives the text of its include file.
 
     whole: a material stands in it with all its constants, so that they must be known.
     """
 
     key: str
     write: Callable[[Revision], str]
-    comment: str
     whole: bool = True
 
 

@@ -58,4 +58,4 @@ def _points(revision: Revision) -> Iterator[str]:
         number_of += 1
 
 
-PROGRAM = SolverFormat("ansys", lambda revision: "\n".join(_lines(revision)) + "\n", "!", whole=False)
+PROGRAM = SolverFormat("ansys", lambda revision: "\n".join(_lines(revision)) + "\n", whole=False)

@@ -45,4 +45,4 @@ def _lines(revision: Revision) -> Iterator[str]:
         element += 1
 
 
-PROGRAM = SolverFormat("nastran", lambda revision: "\n".join(_lines(revision)) + "\n", "$")
+PROGRAM = SolverFormat("nastran", lambda revision: "\n".join(_lines(revision)) + "\n")

@@ -12,8 +12,6 @@ from mouse_cli.formats.yaml_deck.sections import Section
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.terms.elements import AXES, END_DIRECTIONS, END_VECTORS, VECTOR, Option
 
-_ALL = "all"
-
 
 def option(section: Section, key: str, definition: Option) -> Any:
     """The value of the option `key`; None after an error."""

@@ -1,8 +1,8 @@
-"""The keyword cards that Abaqus and CalculiX share."""
+"""Include files of Abaqus and CalculiX: *MATERIAL, *SPRING and *MASS; of Abaqus *ROTARY INERTIA too."""
 
 from collections.abc import Iterator
 
-from mouse_cli.formats.solver_cards import head, number, tag
+from mouse_cli.formats.solver_cards import SolverFormat, head, number, tag
 from mouse_cli.model.revision import Revision
 
 _IN_LINE = 8  # numbers of elements
@@ -62,3 +62,13 @@ def _points(revision: Revision, used: set[str], inertia: bool) -> Iterator[str]:
             element += 1
         elif any(mass.inertia):
             yield f"** not written: moments of inertia {', '.join(map(number, mass.inertia))}"
+
+
+def _text(revision: Revision, inertia: bool) -> str:
+    return "\n".join(keyword_lines(revision, inertia)) + "\n"
+
+
+PROGRAMS = (
+    SolverFormat("abaqus", lambda revision: _text(revision, inertia=True)),
+    SolverFormat("calculix", lambda revision: _text(revision, inertia=False)),
+)
