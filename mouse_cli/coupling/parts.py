@@ -15,7 +15,6 @@ from mouse_cli.estimators.linear import in_prior_units
 from mouse_cli.model.arrays import dense, is_sparse
 from mouse_cli.model.coupling import Substructure
 from mouse_cli.model.frf_test import KINDS
-from mouse_cli.terms.assembly import Assembly
 from mouse_cli.terms.assembly import assembly as assemble
 from mouse_cli.terms.modal_damping import with_modal_damping
 from mouse_cli.updating import refusals
@@ -51,7 +50,9 @@ class Modelled:
             coordinates(problem, assembly),
         )
         try:
-            self.model = model_of(Dynamics(*_matrices(assembly, theta)), (part.weights[places],), s, notice)
+            self.model = model_of(
+                Dynamics(*assembly.matrices(theta), *assembly.damping(theta)), (part.weights[places],), s, notice
+            )
         except (IndefiniteError, np.linalg.LinAlgError) as reason:
             raise refusals.unphysical(part.problem, str(reason)) from None
         self.d, self.error = self.model.d, self.model.error
@@ -160,7 +161,3 @@ def _modes(dynamics: Dynamics, top: float, notice: Notice):
         if enough or solution.eigenvalues[-1] > (BEYOND * top) ** 2 or 3 * count + 10 > dynamics.n:
             return solution
         count *= 2
-
-
-def _matrices(assembly: Assembly, theta: np.ndarray) -> tuple:
-    return *assembly.matrices(theta), *assembly.damping(theta)

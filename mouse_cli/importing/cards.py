@@ -74,7 +74,7 @@ def cards(path: str, outside: bool = False) -> list[Card]:
     found: list[Card] = []
     for line in _lines(path, (), outside):
         if line.text.lstrip().startswith("*"):
-            found.append(_card(line))
+            found.append(Card(_keyword(line.text), _options(line.text), line))
         elif found:
             found[-1].lines.append(line)
         else:
@@ -144,10 +144,6 @@ def _named(place: Span, name: str, path: str, job: str, outside: bool) -> str | 
     if refused is not None:
         reject(refused.code, path, f"the line includes '{name[:200]}', {refused}", refused.help, place)
     return None
-
-
-def _card(line: Line) -> Card:
-    return Card(_keyword(line.text), _options(line.text), line)
 
 
 def _keyword(text: str) -> str:

@@ -37,7 +37,7 @@ def frequencies(model: InputModel, count: int | None) -> str:
 
 def colours(model: InputModel) -> list[list[int]]:
     """Groups (numbers) that one job can scale together: no two of them share a node, or are joined by a constraint."""
-    touched = [set(_nodes(model, group)) for group in model.groups]
+    touched = [{node for e in group.elements for node in model.elements[e][1]} for group in model.groups]
     joined = _joined(model)
     near = [bool(nodes & joined) for nodes in touched]
     classes: list[list[int]] = []
@@ -50,10 +50,6 @@ def colours(model: InputModel) -> list[list[int]]:
         else:
             own.append(i)
     return classes
-
-
-def _nodes(model: InputModel, group: Group) -> Iterable[int]:
-    return (node for e in group.elements for node in model.elements[e][1])
 
 
 def _joined(model: InputModel) -> set[int]:

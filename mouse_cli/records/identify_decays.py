@@ -63,7 +63,7 @@ def identify_decays(
         say("poles")
         found, orders = _poles(fit.left if kept else scaled, rate_hz, band_hz, most)
         every = tracks(found)
-        new = [track for track in every if persistent(track, orders) and -track.centre()[0].real < _heaviest(track)]
+        new = [track for track in every if persistent(track, orders) and _light(track)]
         diagram, passing = (diagram or found), (passing or [track for track in every if track not in new])
         if not new:
             break
@@ -81,8 +81,9 @@ def identify_decays(
     return FoundOutputs(modes, kept, passing, dropped, diagram, orders, rate_hz, 0, sum(map(len, records))), fit
 
 
-def _heaviest(track: Track) -> float:
-    return HEAVIEST * abs(track.centre()[0])
+def _light(track: Track) -> bool:
+    pole = track.centre()[0]
+    return -pole.real < HEAVIEST * abs(pole)
 
 
 def _poles(

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from mouse_cli.model.correlation import ALONE, Correlation, Expanded
-from mouse_cli.report.json_values import coded, dof_name, fields, rows
+from mouse_cli.report.json_values import coded, dof_name, fields, heading, rows
 
 SCHEMA = "mouse.correlation/1"
 
@@ -15,9 +15,7 @@ def document(found: Correlation) -> dict[str, Any]:
     """`found` in plain Python values; matrices have a row for each measured mode, columns for model modes 1, 2, ..."""
     problem = found.problem
     return {
-        "schema": SCHEMA,
-        "title": problem.title.strip(),
-        "source": problem.source.path,
+        **heading(SCHEMA, problem),
         "rigid_modes": found.rigid_modes,
         "model_hz": found.frequencies_hz,
         "visible": found.visible,
@@ -26,8 +24,10 @@ def document(found: Correlation) -> dict[str, Any]:
         "mac": found.mac,
         "auto_mac_test": found.auto_test,
         "auto_mac_model": found.auto_model,
-        "sensors": _sensors(found),
-        "sensor_faults": _faults(found),
+        "sensors": rows(name=map(dof_name, found.sensors), comac=found.comac, ecomac=found.ecomac),
+        "sensor_faults": [
+            {**asdict(f), "sensors": [dof_name(found.sensors[k]) for k in f.sensors]} for f in found.faults
+        ],
         "orthogonality": {judged.key: fields(judged, "test", "sd", "cross", "model") for judged in found.orthogonality},
         "subspaces": [
             {
@@ -40,15 +40,6 @@ def document(found: Correlation) -> dict[str, Any]:
         "expansion": None if found.expanded is None else _expansion(found, found.expanded),
         "warnings": coded((*problem.warnings, *found.warnings)),
     }
-
-
-def _sensors(found: Correlation) -> list[dict[str, Any]]:
-    return rows(name=map(dof_name, found.sensors), comac=found.comac, ecomac=found.ecomac)
-
-
-def _faults(found: Correlation) -> list[dict[str, Any]]:
-    """Faults as found, with the names of their sensors."""
-    return [{**asdict(f), "sensors": [dof_name(found.sensors[k]) for k in f.sensors]} for f in found.faults]
 
 
 def _mode(found: Correlation, i: int) -> dict[str, Any]:

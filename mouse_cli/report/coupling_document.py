@@ -74,13 +74,8 @@ def functions(frf: FrfTest) -> dict[str, Any]:
 
 
 def _interface(state: InterfaceState) -> dict[str, Any]:
-    return {
-        "conditions": state.conditions,
-        "condition_number": state.condition,
-        "kept": state.kept,
-        "noise": state.noise,
-        "basis_error": state.error,
-    }
+    named = {"conditions": state.conditions, "condition_number": state.condition}
+    return {**named, **fields(state, "kept", "noise"), "basis_error": state.error}
 
 
 def _modes(modes: CoupledModes) -> dict[str, Any]:

@@ -9,14 +9,13 @@ from mouse_cli.model.diagnosis import (
     Explanation,
     Law,
     Location,
-    Proposal,
     Site,
 )
 from mouse_cli.model.result import Result
 from mouse_cli.model.units import system
 from mouse_cli.report import result_document as of_result
 from mouse_cli.report.frf_document import damping, frf, held_frf
-from mouse_cli.report.json_values import coded, fields
+from mouse_cli.report.json_values import coded, fields, heading
 from mouse_cli.report.theory import document as theory
 from mouse_cli.report.verdict_document import held_out, site, verdict
 
@@ -29,9 +28,7 @@ def document(found: Diagnosis) -> dict[str, Any]:
     """`found` in plain Python values; what was not found out is None."""
     problem, result = found.problem, found.result
     return {
-        "schema": SCHEMA,
-        "title": problem.title.strip(),
-        "source": problem.source.path,
+        **heading(SCHEMA, problem),
         "exit_code": found.exit_code,
         "verdict": verdict(found),
         "candidates": candidates(found),
@@ -47,7 +44,10 @@ def document(found: Diagnosis) -> dict[str, Any]:
         "frf": frf(found.frf),
         "held_out_frf": held_frf(found.held_frf),
         "damping": damping(found.damping),
-        "next_measurement": [_proposal(each) for each in found.proposals],
+        "next_measurement": [
+            {"measure": each.text, **fields(each, "between", "separation", "outlook"), "effort": int(each.effort)}
+            for each in found.proposals
+        ],
         **fields(found, "cautions", "refuted", "misstated"),
         "asked": _asked(found),
         "theory": theory(found),
@@ -57,14 +57,6 @@ def document(found: Diagnosis) -> dict[str, Any]:
         "extended": None if found.extended_result is None else _update(found.extended_result),
         "remarks": list(found.remarks),
         "warnings": coded((*problem.warnings, *result.warnings)),
-    }
-
-
-def _proposal(each: Proposal) -> dict[str, Any]:
-    return {
-        "measure": each.text,
-        **fields(each, "between", "separation", "outlook"),
-        "effort": int(each.effort),
     }
 
 
@@ -101,10 +93,7 @@ def candidate(baseline: Explanation | None, one: Explanation, explains: bool = T
         "probability": one.probability if explains else None,
         "elsewhere": [{"sites": [site(each) for each in sites], "share": share} for sites, share in one.elsewhere],
         "parameters": [
-            {
-                **fields(s, "name", "unit", "value", "sd", "lower", "upper"),
-                "cause": cause.physics,
-            }
+            {**fields(s, "name", "unit", "value", "sd", "lower", "upper"), "cause": cause.physics}
             for cause in one.causes
             for s in cause.sizes
         ],
@@ -134,12 +123,8 @@ def _energy(energy: EnergyMap) -> dict[str, Any]:
 
 
 def _law(law: Law) -> dict[str, Any]:
-    return {
-        "site": site(law.site),
-        "unit": law.unit,
-        "hz": law.frequency_hz,
-        **fields(law, "stiffness", "sd", "fitted"),
-    }
+    named = {"site": site(law.site), "unit": law.unit, "hz": law.frequency_hz}
+    return {**named, **fields(law, "stiffness", "sd", "fitted")}
 
 
 def _update(result: Result) -> dict[str, Any]:
@@ -147,8 +132,7 @@ def _update(result: Result) -> dict[str, Any]:
     return {
         "status": result.status.key,
         "message": result.status.sentence,
-        "model_form": result.model_form,
-        "exit_code": result.exit_code,
+        **fields(result, "model_form", "exit_code"),
         "parameters": of_result.parameters(result),
         "modes": of_result.modes(result),
         "shapes": of_result.shapes(result),

@@ -64,7 +64,7 @@ def geometry(problem: Problem, modes: Sequence[Moved] = ()) -> dict[str, Any] | 
         "lines": bows.lines(kept.lines, k) if bows else kept.lines,
         "elements": elements,
         "of": k,
-        "sensors": [{**_sensor(s), "node": kept.index[s["node"]]} for s in sensors],
+        "sensors": [{"dof": s["dof"], "node": kept.index[s["node"]], "direction": s["direction"]} for s in sensors],
         "shapes": [_shape(m, u, readings) for m, u in zip(modes, shapes, strict=True) if np.abs(u).max() > 0],
     }
 
@@ -138,10 +138,6 @@ def _sensors(problem: Problem, of: Geometry) -> list[dict[str, Any]]:
         more = _placed(of, reads, names(each)[0])
         found += [{**one, "reading": None} for one in more if one["dof"] not in known]
     return found
-
-
-def _sensor(sensor: dict[str, Any]) -> dict[str, Any]:
-    return {key: sensor[key] for key in ("dof", "node", "direction")}
 
 
 def _like(dofs: np.ndarray, sensing: Any) -> ModalTest:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from mouse_cli._errors import Diagnostic
+from mouse_cli.model.problem import Problem
 
 
 def plain(value: Any) -> Any:
@@ -27,6 +28,11 @@ def plain(value: Any) -> Any:
     if isinstance(value, float) and not isfinite(value):
         return None
     return value
+
+
+def heading(schema: str, problem: Problem) -> dict[str, Any]:
+    """What a document of the answer to a deck begins with."""
+    return {"schema": schema, "title": problem.title.strip(), "source": problem.source.path}
 
 
 def fields(of: Any, *names: str) -> dict[str, Any]:

@@ -7,7 +7,7 @@ import numpy as np
 from mouse_cli.dynamics.frequency import eigenvalue
 from mouse_cli.model.result import DampedModes, Forecast
 from mouse_cli.report.geometry_document import MOST_MODES, Moved, geometry
-from mouse_cli.report.json_values import coded, dof_name, fields, rows
+from mouse_cli.report.json_values import coded, dof_name, fields, heading, rows
 
 SCHEMA = "mouse.modes/1"
 
@@ -17,9 +17,7 @@ def document(forecast: Forecast) -> dict[str, Any]:
     problem = forecast.problem
     modes = zip(forecast.frequencies_hz, forecast.sd_hz, forecast.shapes.T, forecast.shape_sd.T, strict=True)
     return {
-        "schema": SCHEMA,
-        "title": problem.title.strip(),
-        "source": problem.source.path,
+        **heading(SCHEMA, problem),
         "rigid_modes": forecast.rigid_modes,
         "dofs": [dof_name(label) for label in problem.structure.labels],
         "modes": [

@@ -16,14 +16,14 @@ SCHEMA = "mouse.modification/1"
 def document(found: Modified) -> dict[str, Any]:
     """`found` in plain Python values; covariances and shapes have a row or entry for each mode after the changes, in their
     order."""
-    modification, after = found.modification, found.after
+    modification, before, after = found.modification, found.before, found.after
     return {
         "schema": SCHEMA,
         "title": modification.title.strip(),
         "source": modification.path,
         "model": modification.problem.source.path,
         "changes": [connection(one, names=modification.part.places) for one in found.connections],
-        "before": _before(found.before),
+        "before": rows(mode=range(1, len(before.frequencies_hz) + 1), hz=_elastic(before), sd_hz=before.sd_hz),
         "modes": _modes(found),
         "covariance_hz2": after.root_hz @ after.root_hz.T,
         "dofs": [dof_name(label) for label in after.problem.structure.labels],
@@ -33,10 +33,6 @@ def document(found: Modified) -> dict[str, Any]:
         "functions": None if found.functions is None else _functions(found.functions),
         "warnings": coded(found.warnings),
     }
-
-
-def _before(before: Forecast) -> list[dict[str, Any]]:
-    return rows(mode=range(1, len(before.frequencies_hz) + 1), hz=_elastic(before), sd_hz=before.sd_hz)
 
 
 def _elastic(forecast: Forecast) -> np.ndarray:
@@ -76,10 +72,8 @@ def _swept(each: Swept) -> dict[str, Any]:
 
 
 def _place(place: Place) -> dict[str, Any]:
-    tuned = {} if np.isnan(place.mass_ratio) else {
-        **fields(place, "mass_ratio", "tuned_hz", "damping_ratio", "peak"),
-    }  # fmt: skip
-    return {"place": place.name, "hz": place.hz, **tuned}
+    tuned = () if np.isnan(place.mass_ratio) else ("mass_ratio", "tuned_hz", "damping_ratio", "peak")
+    return {"place": place.name, **fields(place, "hz", *tuned)}
 
 
 def _functions(found: ModifiedFunctions) -> dict[str, Any]:

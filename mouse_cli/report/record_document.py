@@ -5,12 +5,13 @@ from typing import Any
 import numpy as np
 
 from mouse_cli.model.record_diagnosis import RecordDiagnosis, RecordScore, Surface, Trace
+from mouse_cli.model.record_update import RecordUpdate
 from mouse_cli.model.units import system
 from mouse_cli.report import diagnosis_document as of_diagnosis
 from mouse_cli.report import result_document as of_result
 from mouse_cli.report.frf_document import thinned
 from mouse_cli.report.geometry_document import geometry
-from mouse_cli.report.json_values import coded, fields
+from mouse_cli.report.json_values import coded, fields, heading
 from mouse_cli.report.theory import document as theory
 from mouse_cli.report.verdict_document import verdict
 
@@ -21,9 +22,7 @@ def document(found: RecordDiagnosis) -> dict[str, Any]:
     """`found` in plain Python values; keys of the modal diagnosis that recordings do not fill are None or empty."""
     problem = found.problem
     return {
-        "schema": of_diagnosis.SCHEMA,
-        "title": problem.title.strip(),
-        "source": problem.source.path,
+        **heading(of_diagnosis.SCHEMA, problem),
         "exit_code": found.exit_code,
         "verdict": verdict(found),
         "candidates": of_diagnosis.candidates(found),
@@ -31,7 +30,7 @@ def document(found: RecordDiagnosis) -> dict[str, Any]:
         **fields(found, "noise_scale", "cautions", "refuted"),
         "residual": of_result.tested(found.innovation),
         "noise": None if found.noise is None else vars(found.noise),
-        "held_out": {"records": [score(one) for one in found.scores], "trace": trace(found.trace)},
+        "held_out": held_out(found),
         "restoring_force": restoring_force(found.surface),
         "linearity": vars(found.linearity) | {"levels": [vars(level) for level in found.linearity.levels]},
         "recordings": {
@@ -50,7 +49,12 @@ def document(found: RecordDiagnosis) -> dict[str, Any]:
     }
 
 
-def score(one: RecordScore) -> dict[str, Any]:
+def held_out(found: RecordDiagnosis | RecordUpdate) -> dict[str, Any]:
+    """Records kept from the fit, and a stretch of one."""
+    return {"records": [_score(one) for one in found.scores], "trace": _trace(found.trace)}
+
+
+def _score(one: RecordScore) -> dict[str, Any]:
     """rms of the record and of what either model leaves, by output."""
     return {
         "title": one.title,
@@ -61,7 +65,7 @@ def score(one: RecordScore) -> dict[str, Any]:
     }
 
 
-def trace(found: Trace | None) -> dict[str, Any] | None:
+def _trace(found: Trace | None) -> dict[str, Any] | None:
     """A stretch of a held-out record as [s, value]: measured, and simulated by each model."""
     if found is None:
         return None

@@ -7,7 +7,7 @@ from mouse_cli.model.units import system
 from mouse_cli.report import record_document as of_records
 from mouse_cli.report import result_document as of_result
 from mouse_cli.report.geometry_document import geometry
-from mouse_cli.report.json_values import coded, fields, rows
+from mouse_cli.report.json_values import coded, fields, heading, rows
 from mouse_cli.report.theory import document as theory
 from mouse_cli.report.verdict_document import site
 
@@ -16,9 +16,7 @@ def document(found: RecordUpdate) -> dict[str, Any]:
     """`found` in plain Python values; `--prior` takes parameters and covariance from it."""
     problem = found.problem
     return {
-        "schema": of_result.SCHEMA,
-        "title": problem.title.strip(),
-        "source": problem.source.path,
+        **heading(of_result.SCHEMA, problem),
         "status": "converged",
         "message": found.message,
         "exit_code": found.exit_code,
@@ -37,10 +35,7 @@ def document(found: RecordUpdate) -> dict[str, Any]:
         "residual": of_result.tested(found.residual),
         "noise_scale": found.noise_scale,
         "noise": None if found.noise is None else vars(found.noise),
-        "held_out": {
-            "records": [of_records.score(one) for one in found.scores],
-            "trace": of_records.trace(found.trace),
-        },
+        "held_out": of_records.held_out(found),
         "restoring_force": of_records.restoring_force(found.surface),
         "theory": theory(found),
         "geometry": geometry(problem),

@@ -50,7 +50,10 @@ def document(result: Result) -> dict[str, Any]:
         "exceedances": [name for name, out in zip(result.labels, result.exceeding, strict=True) if out],
         "allowed": result.allowed,
         **_judged(result),
-        "sensitivities": {"method": _method(result), "error": result.partials_error},
+        "sensitivities": {
+            "method": "adjoint" if is_sparse(result.revised.K) else "all modes",
+            "error": result.partials_error,
+        },
         **_partials(result),
         **({"frf": frf(result.frf)} if result.frf else {}),
         **({"held_out_frf": held_frf(result.held_frf)} if result.held_frf else {}),
@@ -64,11 +67,6 @@ def _options(problem: Problem) -> dict[str, Any]:
     """Every option of the run; degrees of freedom count from 1, as in decks."""
     dofs = [dof + 1 for dof in problem.run.total_mass_dofs]
     return {**asdict(problem.run), "total_mass_dofs": dofs, "scale": problem.test.scale}
-
-
-def _method(result: Result) -> str:
-    """How the partial derivatives were computed."""
-    return "adjoint" if is_sparse(result.revised.K) else "all modes"
 
 
 def _partials(result: Result) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from typing import Any
 
 from mouse_cli.model.sampled import Quantity, Sampled
-from mouse_cli.report.json_values import coded, fields
+from mouse_cli.report.json_values import coded, fields, heading
 from mouse_cli.report.result_document import tested
 
 SCHEMA = "mouse.sample/1"
@@ -14,9 +14,7 @@ def document(found: Sampled) -> dict[str, Any]:
     problem, result = found.problem, found.result
     kept, walkers = found.chain.log_posterior.shape
     return {
-        "schema": SCHEMA,
-        "title": problem.title.strip(),
-        "source": problem.source.path,
+        **heading(SCHEMA, problem),
         "exit_code": found.exit_code,
         "status": result.status.key,
         "model_form": result.model_form,

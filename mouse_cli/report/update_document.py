@@ -4,7 +4,6 @@ from typing import Any
 
 from mouse_cli import __version__
 from mouse_cli.model.arrays import dense
-from mouse_cli.model.conditioning import Conditioning
 from mouse_cli.model.updated import Compared, Predicted, Updated
 from mouse_cli.report.json_values import coded, dof_name, fields, plain, rows
 
@@ -24,7 +23,7 @@ def document(found: Updated | Compared) -> dict[str, Any]:
 
 
 def _update(found: Updated) -> dict[str, Any]:
-    about, checked = found.about, found.checked
+    about, bounds = found.about, found.conditioning
     return {
         "method": about.key,
         "equation": about.equation,
@@ -34,8 +33,8 @@ def _update(found: Updated) -> dict[str, Any]:
         **fields(found, "iterations", "change", "converged", "exit_code"),
         "properties": [fields(m, "name", "unit", "before", "after") for m in found.moved],
         "configurations": [_configuration(one) for one in found.configurations],
-        "checked": vars(checked),
-        "conditioning": None if found.conditioning is None else _bounds(found.conditioning),
+        "checked": vars(found.checked),
+        "conditioning": bounds and fields(bounds, "condition", "data", "sensitivities"),
         "warnings": coded(found.warnings),
     }
 
@@ -43,10 +42,6 @@ def _update(found: Updated) -> dict[str, Any]:
 def _configuration(one: Predicted) -> dict[str, Any]:
     modes = rows(mode=one.number, **fields(one, "test_hz", "test_sd_hz", "prior_hz", "revised_hz", "mac"))
     return {**fields(one, "title", "fitted", "rms_percent"), "modes": modes}
-
-
-def _bounds(found: Conditioning) -> dict[str, Any]:
-    return fields(found, "condition", "data", "sensitivities")
 
 
 def _matrix(found: Updated) -> dict[str, Any]:

@@ -38,7 +38,9 @@ def verdict(found: Diagnosis) -> dict[str, Any]:
         "damping": [cause.law or None for cause in causes],
         "probability": None if found.kind == UNKNOWN else found.probability,
         "members": dict(found.members) or None,
-        "companions": [] if found.certain is None else [_share(*each) for each in found.certain.companions],
+        "companions": [{"group": group, "probability": p} for group, p in found.certain.companions]
+        if found.certain
+        else [],
         "elsewhere": elsewhere(found.elsewhere),
         "shared": shared(found.shared),
         "rivals": [name for name, _ in found.rivals] if found.kind == ONE_OF else [],
@@ -60,10 +62,6 @@ def _sites(found: Diagnosis) -> tuple[Site, ...]:
 def _any_of(sites: Sequence[Site]) -> Site:
     ids = tuple(sorted({i for one in sites for i in one.ids}))
     return Site(sites[0].kind, ids, None, f"between two of nodes {', '.join(map(str, ids))}")
-
-
-def _share(group: str, p: float) -> dict[str, Any]:
-    return {"group": group, "probability": p}
 
 
 def elsewhere(found: Elsewhere) -> list[dict[str, Any]]:

@@ -85,7 +85,8 @@ def command(
     problems, found = _answer(named, arranged, common_sd, choice, raw)
     files = _revised(found, output, problems[0] if raw["folder"] else None)
     for path in reports:
-        deliver(_text(found, _form(path), output, files), path, decks[0])
+        form = _FORMS.get(os.path.splitext(path)[1].lower())
+        deliver(_text(found, form, output, files), path, decks[0])
     deliver(_text(found, value_of("form"), output, files), None, decks[0])
     drawn(found)
     return found.exit_code
@@ -169,11 +170,6 @@ def _check_places(deck: str, *paths: str | None) -> None:
     for path in paths:
         if path and os.path.exists(path) and os.path.exists(deck) and os.path.samefile(path, deck):
             raise click.UsageError(f"{path} is the deck itself")
-
-
-def _form(path: str) -> str | None:
-    """That of a report, by the suffix of its file."""
-    return _FORMS.get(os.path.splitext(path)[1].lower())
 
 
 def _revised(found, output: str | None, measured=None) -> list[str]:

@@ -26,23 +26,13 @@ def describe(source: Draft | str | bytes | Sequence[str], **options: object) -> 
 
 def _cards(cursor: Cursor) -> Iterator[list[str]]:
     """The lines of each card; a group is announced at its first."""
-    shown = None
+    shown, ruler = None, [f"     | {row}" for row in RULER]
     for index, group, items in cursor.trace:
-        head = (
-            []
-            if group is shown
-            else ["", f"Group {group.number}: {group.name}  {group.symbol}  {group.format}", *_ruler()]
-        )
+        title = f"Group {group.number}: {group.name}  {group.symbol}  {group.format}"
+        head = [] if group is shown else ["", title, *ruler]
         shown = group
-        yield [
-            *head,
-            f"{index + 1:>4} | {cursor.images.cards[index].rstrip()}",
-            *_fields(cursor, index, group, items),
-        ]
-
-
-def _ruler() -> list[str]:
-    return [f"     | {row}" for row in RULER]
+        card = f"{index + 1:>4} | {cursor.images.cards[index].rstrip()}"
+        yield [*head, card, *_fields(cursor, index, group, items)]
 
 
 def _fields(cursor: Cursor, index: int, group: Group, items: int) -> Iterator[str]:
@@ -53,7 +43,9 @@ def _fields(cursor: Cursor, index: int, group: Group, items: int) -> Iterator[st
     elif card == BLANK:
         yield _line("", "blank card", f"ends group {group.number}" if group.is_input else "zeros")
     elif group.is_input:
-        yield from (_element(group, item, card) for item in group.items if _cut(item, card).strip())
+        yield from (
+            _element(group, item, card) for item in group.items if any(field.cut(card).strip() for field in item)
+        )
     else:
         size = len(group.rows) if group is layout.RS else 1
         for k, field in enumerate(group.fields):
@@ -95,10 +87,6 @@ def _value(field: Field, card: str) -> str:
 
 def _line(columns: str, name: str, value: str, meaning: str = "") -> str:
     return f"     |   {columns:>7}  {name:<18} {value:<20} {meaning}".rstrip()
-
-
-def _cut(item: tuple[Field, ...], card: str) -> str:
-    return "".join(field.cut(card) for field in item)
 
 
 def _unread(cursor: Cursor) -> Iterator[str]:

@@ -18,6 +18,9 @@ _OWN = ("frequency_hz", "H", "output_names", "input_names")
 
 
 def _read(path: str) -> Contents:
+    if path.lower().endswith(".npy"):
+        npz_matrices.check_array(path)
+        return spread(path, {"data": np.load(path, allow_pickle=False)})
     npz_matrices.check(path)
     with np.load(path, allow_pickle=False) as archive:
         arrays = {name: archive[name] for name in archive.files}
@@ -72,13 +75,4 @@ def _texts(array: object) -> list[str]:
     return [str(word)[:_LONGEST] for word in words]
 
 
-def _read_array(path: str) -> Contents:
-    npz_matrices.check_array(path)
-    return spread(path, {"data": np.load(path, allow_pickle=False)})
-
-
-def _either(path: str) -> Contents:
-    return _read_array(path) if path.lower().endswith(".npy") else _read(path)
-
-
-FORMAT = FileFormat("npz", _either, ("npz", "npy"))
+FORMAT = FileFormat("npz", _read, ("npz", "npy"))

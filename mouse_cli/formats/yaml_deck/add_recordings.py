@@ -14,9 +14,9 @@ from mouse_cli.model.recording import INPUT, OUTPUT
 def sensor_names(data: bytes | str, path: str) -> tuple[tuple[str, ...], bool]:
     """Names that `test.sensors` of a deck defines, and whether it names recordings or functions itself. Raises DeckError."""
     _, root = compose(data, path)
-    test = _keys(_keys(root).get("test"))
+    test = yaml_values.keys_of(yaml_values.keys_of(root).get("test"))
     sensors = test["sensors"].value if "sensors" in test and yaml_values.is_list(test["sensors"]) else []
-    names = [_keys(each).get("name") for each in sensors]
+    names = [yaml_values.keys_of(each).get("name") for each in sensors]
     own = tuple(name.value for name in names if name is not None and yaml_values.is_scalar(name))
     return own, "recordings" in test or "frf" in test
 
@@ -29,8 +29,8 @@ def with_recordings(data: bytes | str, path: str, records: tuple[Raw, ...], held
     document, root = compose(data, path)
     listed = ",\n".join(f"    {_entry(each, document.folder, choice)}" for each in records)
     pieces = [("recordings", f"[\n{listed}\n  ]")]
-    test = _keys(root).get("test")
-    kept = _keys(test).get("hold_out")
+    test = yaml_values.keys_of(root).get("test")
+    kept = yaml_values.keys_of(test).get("hold_out")
     text = document.text
     if held and kept is not None and yaml_values.is_mapping(kept):
         text = _inserted(text, kept, [("recordings", f"[{word(held)}]")])
@@ -42,10 +42,6 @@ def with_recordings(data: bytes | str, path: str, records: tuple[Raw, ...], held
     if test is not None and is_null(test):
         return text[: test.start_mark.index] + f" {whole}" + text[test.end_mark.index :]
     return _inserted(text, root, [("test", whole)])
-
-
-def _keys(node: Node | None) -> dict[str, Node]:
-    return {key.value: value for key, value in node.value} if node is not None and yaml_values.is_mapping(node) else {}
 
 
 def _inserted(text: str, node: Node, pieces: list[tuple[str, str]]) -> str:

@@ -5,6 +5,7 @@ from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.kinds import KINDS
 from mouse_cli.formats.yaml_deck.nodes import Node
 from mouse_cli.formats.yaml_deck.sections import Section
+from mouse_cli.formats.yaml_deck.sensors import place
 from mouse_cli.model.problem import RunOptions
 
 
@@ -14,11 +15,9 @@ def run_options(section: Section | None) -> tuple[RunOptions, dict[str, Span]]:
         return RunOptions(), {}
     simple = {key: section.value(key) for key in section.nodes if key != "fix_total_mass"}
     given = {key: value for key, value in simple.items() if value is not None}
-    return RunOptions(**given, **_total_mass(section)), _where(section)
-
-
-def _where(section: Section) -> dict[str, Span]:
-    return {key: section.document.span(node) for key, node in section.nodes.items()}
+    return RunOptions(**given, **_total_mass(section)), {
+        key: section.document.span(node) for key, node in section.nodes.items()
+    }
 
 
 def _total_mass(section: Section) -> dict[str, object]:
@@ -31,19 +30,12 @@ def _total_mass(section: Section) -> dict[str, object]:
         fixed = yaml_values.flag(section.document, node, what, KINDS["flag or dofs"].words)
         return {"fix_total_mass": bool(fixed)}
     below = Section(section.document, node, "total_mass", what)
-    nodes = (
-        yaml_values.items(section.document, below.nodes["dofs"], below.what("dofs"), "") if "dofs" in below else None
-    )
-    found = [_dof(section, item, below.what("dofs")) for item in nodes or []]
+    found = [_dof(section, item, below.what("dofs")) for item in below.read("dofs", yaml_values.items, "") or []]
     numbers = () if None in found else tuple(found)
     return {"fix_total_mass": True, "total_mass_dofs": numbers}
 
 
 def _dof(section: Section, node: Node, what: str) -> int | str | None:
     """A number, from 0, or a label."""
-    if yaml_values.as_number(node) is not None:
-        number = yaml_values.whole(section.document, node, f"a number in {what}")
-        return None if number is None else number - 1
-    return yaml_values.text(
-        section.document, node, f"a value in {what}", "the number or the label of a degree of freedom"
-    )
+    dof = place(section.document, node, what)
+    return dof - 1 if isinstance(dof, int) else dof

@@ -45,6 +45,11 @@ def is_mapping(node: Node) -> bool:
     return isinstance(node, yaml.MappingNode)
 
 
+def keys_of(node: Node | None) -> dict[str, Node]:
+    """The keys of a mapping, with their nodes; none of anything else."""
+    return {key.value: value for key, value in node.value} if node is not None and is_mapping(node) else {}
+
+
 def shown(node: Node) -> str:
     """A value as a message quotes it."""
     if is_list(node):

@@ -4,6 +4,7 @@ import os
 import re
 from dataclasses import fields
 
+from mouse_cli.formats.yaml_deck import values as yaml_values
 from mouse_cli.formats.yaml_deck.kinds import MAX_WHOLE, VERSION
 from mouse_cli.formats.yaml_deck.modal_damping import modal_damping_lines
 from mouse_cli.formats.yaml_deck.nodes import compose
@@ -61,10 +62,8 @@ def _source_note(problem: Problem) -> str:
     if source.format != "yaml" or not source.lines:
         return ""
     _, root = compose("\n".join(source.lines), source.path)
-    return next(
-        (value.value for key, value in root.value if key.value == "source" and isinstance(value.value, str)),
-        "",
-    )
+    note = yaml_values.keys_of(root).get("source")
+    return note.value if note is not None and isinstance(note.value, str) else ""
 
 
 def _model(problem: Problem, stem: str, attachments: dict[str, Matrix | str]) -> list[str]:

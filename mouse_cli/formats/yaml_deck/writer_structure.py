@@ -28,8 +28,9 @@ def structure(mesh: Mesh, stem: str, tables: Tables, labels: tuple[str, ...] = (
     lines.append("    elements:")
     for i, members in enumerate(mesh.elements, 1):
         lines += _elements(mesh, members, named, f"{stem}_elements{i}.csv", tables, labels)
-    rest = _supports(mesh) + _links(mesh) + ([] if labels else _directions(mesh)) + _gravity(mesh)
-    return lines + rest + _generic(mesh)
+    gravity = [] if mesh.gravity is None else [f"    gravity: {_vector(mesh.gravity)}"]
+    rest = _supports(mesh) + _links(mesh) + ([] if labels else _directions(mesh))
+    return lines + rest + gravity + _generic(mesh)
 
 
 def _mapping(values: dict[str, float]) -> str:
@@ -96,8 +97,8 @@ def _elements(
 ) -> list[str]:
     """One entry; elements at degrees of freedom, which a deck names one by one, an entry each."""
     if labels:
-        rows = range(len(members))
-        return [_entry(members, np.array([i]), named, [f"dofs: {_dofs(members.nodes[i], labels)}"], ()) for i in rows]
+        each = [flow(str(dof + 1) for dof in nodes) for nodes in members.nodes]
+        return [_entry(members, np.array([i]), named, [f"dofs: {dofs}"], ()) for i, dofs in enumerate(each)]
     numbers, chain = mesh.node_ids[members.nodes], _chain(members.nodes)
     varying = [name for name, values in members.properties.items() if not (values == values[0]).all()]
     if len(members) > LARGEST_INLINE and (chain is None or varying):
@@ -116,10 +117,6 @@ def _chain(nodes: np.ndarray) -> np.ndarray | None:
     if nodes.shape[1] == 2 and (nodes[1:, 0] == nodes[:-1, 1]).all():
         return np.append(nodes[:, 0], nodes[-1, 1])
     return None
-
-
-def _dofs(nodes: np.ndarray, labels: tuple[str, ...]) -> str:
-    return flow(str(int(i) + 1) for i in nodes)
 
 
 def _table(members: ElementSet, numbers: np.ndarray, varying: list[str]) -> str:
@@ -169,10 +166,6 @@ def _directions(mesh: Mesh) -> list[str]:
     if names == DIRECTIONS:
         return []
     return [f"    plane: {plane}"] if plane else [f"    directions: {flow(names)}"]
-
-
-def _gravity(mesh: Mesh) -> list[str]:
-    return [] if mesh.gravity is None else [f"    gravity: {_vector(mesh.gravity)}"]
 
 
 def _generic(mesh: Mesh) -> list[str]:

@@ -129,7 +129,7 @@ class Written:
             return
         if problem.source.format == "yaml" and problem.source.lines:
             _, root = compose("\n".join(problem.source.lines), problem.source.path)
-            self.test = _keys(_keys(root).get("test"))
+            self.test = yaml_values.keys_of(yaml_values.keys_of(root).get("test"))
         if not ("frf" in self.test or "recordings" in self.test):
             message = "the measured data of the problem were read from no deck; a deck can only name their files"
             raise WrittenError.of("MD616", message, help="write them with `mouse spectra`, and name the file")
@@ -145,12 +145,12 @@ class Written:
     def sensors(self, known: set[str]) -> list[str]:
         """Definitions of sensors whose names are not `known`."""
         node = self.test.get("sensors")
-        found = [] if node is None else [(_keys(item), item) for item in node.value]
+        found = [] if node is None else [(yaml_values.keys_of(item), item) for item in node.value]
         return [self._rendered(item) for keys, item in found if keys["name"].value not in known]
 
     def held(self) -> list[str]:
         """Lines of `hold_out:` that concern them."""
-        keys = _keys(self.test.get("hold_out"))
+        keys = yaml_values.keys_of(self.test.get("hold_out"))
         return [
             f"    {key}: {self._rendered(keys[key], 4)}" for key in HELD_KEYS if key in keys and not is_null(keys[key])
         ]
@@ -175,11 +175,6 @@ class Written:
             help = f"write the deck to {os.path.relpath(old)}, where its recordings are, or copy them first"
             raise WrittenError.of("MD617", message, help=help)
         return new
-
-
-def _keys(node: Node | None) -> dict[str, Node]:
-    """The keys of a mapping, with their nodes."""
-    return {key.value: value for key, value in node.value} if node is not None and yaml_values.is_mapping(node) else {}
 
 
 def _scalar(node: Node) -> str:

@@ -2,10 +2,11 @@
 
 from collections.abc import Sequence
 
-from mouse_cli.model.diagnosis import NAMED, ONE_OF, Cause, Diagnosis, Explanation, Site, Size, members
+from mouse_cli.model.diagnosis import NAMED, ONE_OF, Cause, Diagnosis, Explanation, Score, Site, Size, members
 from mouse_cli.model.groups import TITLES, enumerated
 from mouse_cli.model.shared_place import SharedPlace
 from mouse_cli.model.units import Units
+from mouse_cli.report.blocks import Cell, heads
 
 LEAST = 0.005  # probability within a group below which a member is not printed
 
@@ -77,6 +78,15 @@ def mac_text(mac: float) -> str:
     ('0.9893', '1.0000', '')
     """
     return "" if mac != mac else f"{mac:.4f}"
+
+
+SCORES = heads("<model | rms frequency error [per cent] | log predictive density | within 90 % intervals [per cent]")
+
+
+def scored(name: str, score: Score) -> tuple[Cell, ...]:
+    """A row of SCORES: how well a model predicted what no fit has seen."""
+    covered = "" if score.covered != score.covered else f"{100 * score.covered:.0f}"
+    return name, per_cent(100 * score.rms_frequency_error), f"{score.log_predictive_density:.1f}", covered
 
 
 def place(site: Site) -> str:

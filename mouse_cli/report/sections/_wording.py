@@ -46,7 +46,7 @@ def test_table(tests: tuple[ChiSquareTest, ...]) -> Table:
     return Table(columns, tuple((t.name, t.chi2, t.dof, t.p if t.dof else None) for t in tests))
 
 
-def remarks(found: Iterable[Diagnostic], options: Options) -> Iterator[Text]:
+def worded(found: Iterable[Diagnostic], options: Options) -> Iterator[Text]:
     """One paragraph a remark, with its place and advice; in a short report the first ones in brief, and how many more."""
     found = tuple(found)
     for remark in found[:_BRIEF] if options.short else found:

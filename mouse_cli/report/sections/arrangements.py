@@ -4,14 +4,13 @@ from collections.abc import Iterator
 
 from mouse_cli._texts import capital
 from mouse_cli.model.arrangements import ArrangementsDiagnosis
-from mouse_cli.model.diagnosis import UNKNOWN, Explanation, Score
+from mouse_cli.model.diagnosis import UNKNOWN, Explanation
 from mouse_cli.report.arrangements_sentences import sentences
 from mouse_cli.report.blocks import Block, Cell, Column, Heading, Table, Text, heads
 from mouse_cli.report.section import RESULT, VERDICT, Options, Section
-from mouse_cli.report.sections._diagnosis_wording import nats, p_value, per_cent, probable, where
+from mouse_cli.report.sections._diagnosis_wording import SCORES, nats, p_value, per_cent, probable, scored, where
 from mouse_cli.report.sections._field import field_blocks, untried_text
-from mouse_cli.report.sections._wording import LEFT, counted, deck_table
-from mouse_cli.report.sections._wording import remarks as worded
+from mouse_cli.report.sections._wording import LEFT, counted, deck_table, worded
 from mouse_cli.report.theory import stated
 
 
@@ -123,7 +122,6 @@ def _row(before: Explanation, one: Explanation, explains: bool) -> tuple[Cell, .
     return one.physics, where(one), over, probable(one.probability) if explains else None, f"{one.chi2:.1f}"
 
 
-_SCORES = heads("<model | rms frequency error [per cent] | log predictive density | within 90 % intervals [per cent]")
 _ROWS = heads(
     "<frequency | test [Hz] | as it is [Hz] | error [per cent] | with all mechanisms [Hz] | sd [Hz] | error [per cent]"
 )
@@ -138,22 +136,13 @@ def held_out(found: ArrangementsDiagnosis, options: Options) -> Iterator[Block]:
     scores = [("as it is", held.baseline)]
     scores += [(f"with {turn.best.title}", turn.held) for turn in found.turns if turn.held is not None]
     scores += [] if after is None else [("with all mechanisms, fitted together", after)]
-    yield Table(_SCORES, tuple(_score(name, score) for name, score in scores))
+    yield Table(SCORES, tuple(scored(name, score) for name, score in scores))
     off = 100 * (held.baseline.frequencies_hz / held.measured_hz - 1)
     columns = [held.measured_hz, held.baseline.frequencies_hz, map(per_cent, off)]
     if after is not None:
         left = 100 * (after.frequencies_hz / held.measured_hz - 1)
         columns += [after.frequencies_hz, (f"{sd:.2g}" for sd in after.sd_hz), map(per_cent, left)]
     yield Table(_ROWS[: len(columns) + 1], tuple(zip(held.labels, *columns, strict=True)))
-
-
-def _score(name: str, score: Score) -> tuple[Cell, ...]:
-    return (
-        name,
-        per_cent(100 * score.rms_frequency_error),
-        f"{score.log_predictive_density:.1f}",
-        f"{100 * score.covered:.0f}",
-    )
 
 
 SECTIONS = (

@@ -7,8 +7,7 @@ import numpy as np
 from mouse_cli.model.campaign import Bootstrap, Moved, Spread, Sweep
 from mouse_cli.report.blocks import Block, Column, Table, Text, heads
 from mouse_cli.report.section import RESULT, VERDICT, Options, Section
-from mouse_cli.report.sections._wording import LEFT, counted, deck_table
-from mouse_cli.report.sections._wording import remarks as worded
+from mouse_cli.report.sections._wording import LEFT, counted, deck_table, worded
 
 
 def remarks(found: Sweep | Bootstrap, options: Options) -> Iterator[Block]:

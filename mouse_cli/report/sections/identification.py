@@ -8,8 +8,7 @@ from mouse_cli import __version__
 from mouse_cli.model.identification import Identification
 from mouse_cli.report.blocks import Block, Lines, Matrix, Table, Text, heads
 from mouse_cli.report.section import RESULT, VERDICT, Options, Section
-from mouse_cli.report.sections._wording import counted
-from mouse_cli.report.sections._wording import remarks as worded
+from mouse_cli.report.sections._wording import counted, worded
 
 
 def verdict(found: Identification, options: Options) -> Iterator[Block]:
@@ -36,22 +35,10 @@ def modes(found: Identification, options: Options) -> Iterator[Block]:
     each = found.modes
     if not each.m:
         return
-    measured = np.isfinite(each.error)
-    rows = [
-        (
-            r + 1,
-            each.frequency_hz[r],
-            each.frequency_sd_hz[r],
-            100 * float(each.damping[r]),
-            100 * float(each.damping_sd[r]),
-            each.mpc[r],
-            each.stable_orders[r],
-            each.lines[r] if measured[r] else None,
-            100 * float(each.error[r]),
-            each.scale[r],
-        )
-        for r in range(each.m)
-    ]
+    lines = [count if known else None for count, known in zip(each.lines, np.isfinite(each.error), strict=True)]
+    damping = 100 * each.damping, 100 * each.damping_sd
+    columns = (each.frequency_hz, each.frequency_sd_hz, *damping, each.mpc, each.stable_orders, lines, 100 * each.error)
+    rows = zip(range(1, each.m + 1), *columns, each.scale, strict=True)
     yield Table(_COLUMNS, rows).without_empty_columns()
     yield Text(
         "Frequency is |lambda| / 2 pi, damping -Re lambda / |lambda|. MPC, modal phase collinearity, is 1 for a real shape. "

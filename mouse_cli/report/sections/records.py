@@ -12,8 +12,7 @@ from mouse_cli.report.blocks import Block, Column, Heading, Table, Text, heads
 from mouse_cli.report.section import RESULT, VERDICT, Options, Section
 from mouse_cli.report.sections._diagnosis_wording import leaders, p_value, rivals_of_site, sized, where, with_p, within
 from mouse_cli.report.sections._field import field_blocks
-from mouse_cli.report.sections._wording import counted, deck_table
-from mouse_cli.report.sections._wording import remarks as worded
+from mouse_cli.report.sections._wording import counted, deck_table, worded
 from mouse_cli.report.sections.diagnosis.evidence import evidence
 from mouse_cli.report.theory import stated
 from mouse_cli.report.verdict_sentences import remains, sentences
@@ -221,7 +220,12 @@ def held_out(found: RecordDiagnosis | RecordUpdate, options: Options) -> Iterato
         Column(found.after),
     )
     rows = [
-        (one.title, channel, f"{one.signal[i]:.4g}", *_row(one, i))
+        (
+            one.title,
+            channel,
+            f"{one.signal[i]:.4g}",
+            *(_error(part, name, i) for part in (one.short, one.free) for name in (AS_IT_IS, WITH_CAUSE)),
+        )
         for one in found.scores
         for i, channel in enumerate(found.channels)
     ]
@@ -230,10 +234,6 @@ def held_out(found: RecordDiagnosis | RecordUpdate, options: Options) -> Iterato
         f"rms of measured less simulated. Short horizons are of {found.scores[0].horizon_s:.3g} s, each with the initial state "
         "that fits it best, for both models alike: where trajectories diverge, as under impacts, a whole record judges nothing."
     )
-
-
-def _row(one: RecordScore, i: int) -> list[str]:
-    return [_error(part, name, i) for part in (one.short, one.free) for name in (AS_IT_IS, WITH_CAUSE)]
 
 
 def _error(errors: dict, name: str, i: int) -> str:

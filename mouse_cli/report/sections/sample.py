@@ -5,8 +5,7 @@ from collections.abc import Iterator
 from mouse_cli.model.sampled import Sampled
 from mouse_cli.report.blocks import Block, Column, Table, Text, heads
 from mouse_cli.report.section import RESULT, VERDICT, Options, Section
-from mouse_cli.report.sections._wording import counted, deck_table
-from mouse_cli.report.sections._wording import remarks as worded
+from mouse_cli.report.sections._wording import counted, deck_table, worded
 
 
 def verdict(found: Sampled, options: Options) -> Iterator[Block]:

@@ -8,8 +8,7 @@ from mouse_cli.model.arrays import dense
 from mouse_cli.model.updated import ASPECTS, Checked, Predicted, Updated
 from mouse_cli.report.blocks import Block, Column, Heading, Matrix, Table, Text, heads
 from mouse_cli.report.section import APPENDIX, RESULT, VERDICT, Options, Section
-from mouse_cli.report.sections._wording import LEFT, counted, deck_table
-from mouse_cli.report.sections._wording import remarks as worded
+from mouse_cli.report.sections._wording import LEFT, counted, deck_table, worded
 
 
 def remarks(found: Updated, options: Options) -> Iterator[Block]:

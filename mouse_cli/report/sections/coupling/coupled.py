@@ -11,8 +11,7 @@ from mouse_cli.model.coupling import Connection, Coupling
 from mouse_cli.model.modified import Modified
 from mouse_cli.report.blocks import Block, Column, Table, Text, heads
 from mouse_cli.report.section import RESULT, VERDICT, Options, Section
-from mouse_cli.report.sections._wording import LEFT, counted
-from mouse_cli.report.sections._wording import remarks as worded
+from mouse_cli.report.sections._wording import LEFT, counted, worded
 
 
 def verdict(found: Coupled, options: Options) -> Iterator[Block]:
@@ -164,18 +163,10 @@ def connections(each: tuple[Connection, ...], names: list[tuple[str, str]]) -> T
         Column("to", align=LEFT, literal=True),
         "mass | stiffness | loss factor | damping | <",
     )
+    sizes = [(one.mass, one.stiffness, one.loss_factor, one.damping) for one in each]
     rows = tuple(
-        (
-            one.name,
-            at,
-            to,
-            one.mass or None,
-            one.stiffness or None,
-            one.loss_factor or None,
-            one.damping or None,
-            "hung" if one.hung else "",
-        )
-        for one, (at, to) in zip(each, names, strict=True)
+        (one.name, *ends, *(size or None for size in own), "hung" if one.hung else "")
+        for one, ends, own in zip(each, names, sizes, strict=True)
     )
     return Table(columns, rows, 2).without_empty_columns()
 

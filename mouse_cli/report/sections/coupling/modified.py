@@ -103,15 +103,7 @@ def _answer(target: Target, needs: list[Need], unit: str, confidence: int) -> It
         "MAC",
     )
     rows = tuple(
-        (
-            n.place,
-            n.value,
-            n.sd if n.sd > 0 else None,
-            n.sure if n.sd > 0 else None,
-            n.reached_hz,
-            n.limit_hz,
-            n.likeness,
-        )
+        (n.place, n.value, *((n.sd, n.sure) if n.sd > 0 else (None, None)), n.reached_hz, n.limit_hz, n.likeness)
         for n in needs
     )
     yield Table(columns, rows).without_empty_columns()

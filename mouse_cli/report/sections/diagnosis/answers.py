@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from math import comb
+from operator import attrgetter
 
 import numpy as np
 
@@ -231,23 +232,14 @@ def _predicted_frf(found: Diagnosis) -> str:
 
 def _errors(base: Score, after: Score | None = None) -> Iterator[str]:
     """Root mean square errors, of the model as it is, or before and after; of frequencies, and at sensors held out."""
-    frequencies = (
-        "the rms frequency error",
-        base.rms_frequency_error,
-        after and after.rms_frequency_error,
-    )
-    shapes = (
-        "the rms shape error at sensors held out",
-        base.rms_shape_error,
-        after and after.rms_shape_error,
-    )
-    for name, before, now in (frequencies, shapes):
+    for name, of in (
+        ("frequency error", "rms_frequency_error"),
+        ("shape error at sensors held out", "rms_shape_error"),
+    ):
+        before, now = (None if score is None else 100 * getattr(score, of) for score in (base, after))
         if before == before:
-            yield (
-                f"{name} is {100 * before:.2g} %"
-                if now is None
-                else f"{name} goes from {100 * before:.2g} % to {100 * now:.2g} %"
-            )
+            change = f"is {before:.2g} %" if now is None else f"goes from {before:.2g} % to {now:.2g} %"
+            yield f"the rms {name} {change}"
 
 
 def _proof(found: Diagnosis, held: HeldOut) -> str:
@@ -258,11 +250,8 @@ def _proof(found: Diagnosis, held: HeldOut) -> str:
     if not after.log_predictive_density - base.log_predictive_density > _GAIN:
         fails.append("the density gains too little")
     of_frequencies = base.rms_frequency_error == base.rms_frequency_error
-    ratio = (
-        after.rms_frequency_error / base.rms_frequency_error
-        if of_frequencies
-        else after.rms_shape_error / base.rms_shape_error
-    )
+    error = attrgetter("rms_frequency_error" if of_frequencies else "rms_shape_error")
+    ratio = error(after) / error(base)
     if not faulty(found.best) and not ratio < _RATIO:
         fails.append("the error falls too little")
     if of_frequencies and _too_narrow(int(np.isfinite(held.measured_hz).sum()), after.covered):

@@ -9,35 +9,30 @@ from mouse_cli.model.diagnosis import BY_DECK, BY_MODE, NAMED, Diagnosis, Score
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.result import Result
 from mouse_cli.model.units import system
-from mouse_cli.report.blocks import Block, Cell, Column, Table, Text, heads
+from mouse_cli.report.blocks import Block, Cell, Table, Text, heads
 from mouse_cli.report.section import RESULT, Options, Section
-from mouse_cli.report.sections._diagnosis_wording import mac_text, per_cent, predicting, with_cause
+from mouse_cli.report.sections._diagnosis_wording import SCORES, mac_text, per_cent, predicting, scored, with_cause
 from mouse_cli.report.sections._functions import covered, functions
-from mouse_cli.report.sections._wording import counted, deck_table
-from mouse_cli.report.sections._wording import remarks as worded
+from mouse_cli.report.sections._wording import counted, deck_table, worded
 from mouse_cli.report.sections.run.results import held_out_words
 from mouse_cli.report.theory import stated
 
 
-def _fitted_columns(after: str) -> tuple[Column, ...]:
-    return heads(
-        f"mode | test frequency [Hz] | model as it is [Hz] | difference [per cent] | {after} [Hz] | "
-        f"difference [per cent] | MAC as it is | MAC {after}"
-    )
-
-
 def fitted(found: Diagnosis, options: Options) -> Iterator[Block]:
     """One line a mode, both models revised by the test."""
-    test, after = found.problem.test, found.extended_result
+    test, after, name = found.problem.test, found.extended_result, with_cause(found)
     hz, off, alike = _against(found.result, test)
     hz_after, off_after, alike_after = _against(after, test) if after else np.full((3, test.m), np.nan)
     rows = zip(test.number, test.frequency_hz, hz, off, hz_after, off_after, alike, alike_after, strict=True)
-    columns = _fitted_columns(with_cause(found))
+    columns = heads(
+        "mode | test frequency [Hz] | model as it is [Hz] | difference [per cent] | "
+        f"{name} [Hz] | difference [per cent] | MAC as it is | MAC {name}"
+    )
     yield Table(columns, tuple((n, *_fitted_row(row)) for n, *row in rows)).without_empty_columns()
     which = "Both models with their" if after else "The model with its"
     yield Text(f"{which} parameters revised by these data; differences are model minus test.")
     if after and after.model_form == "rejected":
-        which = with_cause(found) if found.kind == NAMED else f"model {with_cause(found)}"
+        which = name if found.kind == NAMED else f"model {name}"
         yield Text(
             f"At the stated accuracies alone, which `mouse run` takes, the form of the {which} is rejected too: a diagnosis allows "
             "for what theory leaves beside them."
@@ -102,16 +97,10 @@ def fitted_functions(found: Diagnosis, options: Options) -> Iterator[Block]:
     """One line a function; then loss factor and viscous damping of the structure beside the cause."""
     yield from functions(found.frf)
     if found.damping:
-        rows = (
-            (
-                f"{d.name}: {d.meaning}",
-                f"{d.value:.4g}",
-                f"{d.sd:.2g}",
-                d.unit if d.unit != "1" else "",
-                "" if d.determined else "hardly determined by the FRFs",
-            )
-            for d in found.damping
-        )
+        rows = []
+        for d in found.damping:
+            unit, doubt = d.unit if d.unit != "1" else "", "" if d.determined else "hardly determined by the FRFs"
+            rows.append((f"{d.name}: {d.meaning}", f"{d.value:.4g}", f"{d.sd:.2g}", unit, doubt))
         yield Table(_COLUMNS, rows)
         which = found.frf[0].models[-1].name
         yield Text(
@@ -126,13 +115,6 @@ _HOW = {
 }
 
 
-def _held_out_columns(after: str) -> tuple[Column, ...]:
-    return heads(
-        f"<held out | measured [Hz] | model as it is [Hz] | sd [Hz] | difference [per cent] | {after} [Hz] | "
-        f"sd [Hz] | difference [per cent] | MAC as it is | MAC {after}"
-    )
-
-
 def held_out_data(found: Diagnosis, options: Options) -> Iterator[Block]:
     """One line a frequency, then the scores; nothing without such data."""
     held = found.held_out
@@ -142,13 +124,14 @@ def held_out_data(found: Diagnosis, options: Options) -> Iterator[Block]:
     nothing = [np.full(len(held.labels), np.nan)] * 3
     after, alike_after = _predicted(held.revised, held.measured_hz) if held.revised else (nothing, nothing[0])
     rows = zip(held.labels, held.measured_hz, *before, *after, alike, alike_after, strict=True)
-    columns = _held_out_columns(predicting(found))
-    yield Table(columns, tuple((label, *_held_out_row(row)) for label, *row in rows)).without_empty_columns()
+    name = predicting(found)
     columns = heads(
-        "<model | rms frequency error [per cent] | log predictive density | within 90 % intervals [per cent]"
+        "<held out | measured [Hz] | model as it is [Hz] | sd [Hz] | difference [per cent] | "
+        f"{name} [Hz] | sd [Hz] | difference [per cent] | MAC as it is | MAC {name}"
     )
-    scores = (("as it is", held.baseline), (predicting(found), held.revised))
-    yield Table(columns, tuple(_score(name, score) for name, score in scores if score is not None))
+    yield Table(columns, tuple((label, *_held_out_row(row)) for label, *row in rows)).without_empty_columns()
+    scores = (("as it is", held.baseline), (name, held.revised))
+    yield Table(SCORES, tuple(scored(name, score) for name, score in scores if score is not None))
     yield Text(f"{_HOW[held.kind]} Each sd is that of the difference, by model and measurement.")
 
 
@@ -165,11 +148,6 @@ def _held_out_row(row: list[float]) -> tuple[Cell, ...]:
 
 def _fine(sd: float) -> str:
     return "" if sd != sd else f"{sd:.2g}"
-
-
-def _score(name: str, score: Score) -> tuple[str, str, str, str]:
-    covered = "" if score.covered != score.covered else f"{100 * score.covered:.0f}"
-    return name, per_cent(100 * score.rms_frequency_error), f"{score.log_predictive_density:.1f}", covered
 
 
 def held_functions(found: Diagnosis, options: Options) -> Iterator[Block]:

@@ -109,17 +109,10 @@ def _convergence(result: Result) -> tuple[tuple[Cell, ...], ...]:
     cycles = ("as needed", ends) if run.cycles is None else (run.cycles, "exactly so many")
     extra = "one more cycle after convergence" if run.extra_update else "no cycle after convergence"
     passes = "passes over each set of partial derivatives (ITERMX)"
+    may = f"{_RULES[run.convergence]}: {result.allowed} of {len(result.y)} may exceed"
     return (
-        (
-            "confidence",
-            f"{run.confidence} %",
-            f"a datum exceeds its limits beyond {z:.3f} standard deviations",
-        ),
-        (
-            "convergence",
-            run.convergence,
-            f"{_RULES[run.convergence]}: {result.allowed} of {len(result.y)} may exceed",
-        ),
+        ("confidence", f"{run.confidence} %", f"a datum exceeds its limits beyond {z:.3f} standard deviations"),
+        ("convergence", run.convergence, may),
         ("partials", run.partials, "most computations of the partial derivatives (NPARD)"),
         ("passes", run.passes, passes if replaced else _UNUSED),
         ("cycles", *cycles),
@@ -137,14 +130,11 @@ def _limits(problem: Problem) -> tuple[tuple[Cell, ...], ...]:
         over = "degrees of freedom " + ", ".join(problem.structure.labels[d] for d in run.total_mass_dofs)
     mass = f"held, over {over}" if run.fix_total_mass else "free to change"
     limits = "of 1972, enforced" if run.legacy else "none"
+    sizes = "orders and counts that the program of 1972 could hold" if run.legacy else ""
     return (
         ("limits", "none" if run.limit_sd is None else run.limit_sd, bounded),
         ("total mass", "held" if run.fix_total_mass else "free", mass),
-        (
-            "size limits",
-            limits,
-            "orders and counts that the program of 1972 could hold" if run.legacy else "",
-        ),
+        ("size limits", limits, sizes),
     )
 
 
@@ -181,19 +171,10 @@ def _properties(problem: Problem) -> Table:
     columns = heads(
         "<property | <unit | nominal value | standard deviation | lower limit | upper limit | <transform | <"
     )
-    rows = tuple(
-        (
-            p.name,
-            p.unit,
-            mean,
-            sd,
-            finite(p.lower),
-            finite(p.upper),
-            p.transform if p.transform != "identity" else None,
-            None if sd > 0 else "held",
-        )
-        for p, mean, sd in zip(problem.parameters, problem.prior.mean, problem.prior.sd, strict=True)
-    )
+    rows = []
+    for p, mean, sd in zip(problem.parameters, problem.prior.mean, problem.prior.sd, strict=True):
+        transform, held = p.transform if p.transform != "identity" else None, None if sd > 0 else "held"
+        rows.append((p.name, p.unit, mean, sd, finite(p.lower), finite(p.upper), transform, held))
     return Table(columns, rows).without_empty_columns()
 
 
@@ -215,18 +196,12 @@ def _frequencies(result: Result) -> Table:
         "mode | test frequency [Hz] | standard deviation [Hz] | test eigenvalue [rad2/s2] | "
         "standard deviation [rad2/s2] | positions measured | scale factor of shape"
     )
-    rows = tuple(
-        (
-            test.number[i],
-            test.frequency_hz[i],
-            test.frequency_sd_hz[i],
-            result.y[k] if k != NOT_MEASURED else None,
-            result.sd[k] if k != NOT_MEASURED else None,
-            np.isfinite(test.shapes[:, i]).sum(),
-            result.shape_factor[i] if np.isfinite(test.shapes[:, i]).any() else None,
-        )
-        for i, k in enumerate(index.tolist())
-    )
+    rows = []
+    for i, k in enumerate(index.tolist()):
+        datum = (result.y[k], result.sd[k]) if k != NOT_MEASURED else (None, None)
+        count = np.isfinite(test.shapes[:, i]).sum()
+        factor = result.shape_factor[i] if count else None
+        rows.append((test.number[i], test.frequency_hz[i], test.frequency_sd_hz[i], *datum, count, factor))
     return Table(columns, rows)
 
 

@@ -26,17 +26,10 @@ def cycles(result: Result, options: Options) -> Iterator[Block]:
     searched = result.problem.run.recursion == "anchored"
     rows = []
     for before, cycle in zip((None, *result.cycles), result.cycles, strict=False):
+        largest = _largest_change(result, before, cycle) if short else ()
+        ended = (cycle.cost, cycle.damping) if searched else (None, None)
         rows.append(
-            (
-                cycle.index,
-                *cycle.theta[: len(shown)],
-                *(_largest_change(result, before, cycle) if short else ()),
-                cycle.chi2,
-                cycle.exceedances,
-                cycle.allowed,
-                cycle.cost if searched else None,
-                cycle.damping if searched else None,
-            )
+            (cycle.index, *cycle.theta[: len(shown)], *largest, cycle.chi2, cycle.exceedances, cycle.allowed, *ended)
         )
     yield Table(columns, rows).without_empty_columns()
     yield Text(_explained(len(result.y), searched, short, len(shown)))
@@ -190,16 +183,9 @@ def _eigenvectors(result: Result) -> Table:
     columns = heads("position | mode | revised eigenvectors | test eigenvectors | interval | difference | *")
     places, numbers = positions(result), result.problem.test.number
     model, test, interval = result.revised.model_shapes, result.test_shapes, result.z * result.test_shape_sd
+    values = (model, test, interval, test - model)
     rows = tuple(
-        (
-            places[s],
-            numbers[i],
-            model[s, i],
-            test[s, i],
-            interval[s, i],
-            test[s, i] - model[s, i],
-            "*" if result.exceeding[k] else None,
-        )
+        (places[s], numbers[i], *(each[s, i] for each in values), "*" if result.exceeding[k] else None)
         for i, column in enumerate(shape_index(result).T)
         for s, k in enumerate(column)
         if k != NOT_MEASURED

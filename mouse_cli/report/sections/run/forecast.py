@@ -32,15 +32,9 @@ def damping(forecast: Forecast, options: Options) -> Iterator[Block]:
     if found is None:
         return
     columns = heads("mode | frequency [Hz] | damping ratio [per cent] | standard deviation [per cent] | complexity")
-    values = zip(found.frequencies_hz, found.damping, found.damping_sd, found.complexity, strict=True)
     rigid = forecast.rigid_modes
-    yield Table(
-        columns,
-        tuple(
-            (rigid + i, hz, 100 * ratio, 100 * sd, complexity)
-            for i, (hz, ratio, sd, complexity) in enumerate(values, 1)
-        ),
-    )
+    values = zip(found.frequencies_hz, found.damping, found.damping_sd, found.complexity, strict=True)
+    yield Table(columns, ((rigid + i, hz, 100 * ratio, 100 * sd, c) for i, (hz, ratio, sd, c) in enumerate(values, 1)))
     yield Text(
         "Frequencies are |s| / 2 pi of the poles s, damping ratios -Re s / |s|, half of the loss factor at resonance. Complexity "
         "is 0 for a shape whose points move in phase or against it, and up to 1."

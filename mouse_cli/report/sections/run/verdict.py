@@ -9,7 +9,7 @@ from mouse_cli.model.result import NO_ANSWER, Result
 from mouse_cli.report.blocks import Block, Lines, Text
 from mouse_cli.report.section import RESULT, VERDICT, Options, Section
 from mouse_cli.report.sections._diagnosis_wording import p_value
-from mouse_cli.report.sections._wording import remarks, test_table
+from mouse_cli.report.sections._wording import test_table, worded
 
 _UNFINISHED = {
     "stalled": "more data lie outside their limits than chance allows",
@@ -109,7 +109,7 @@ def _conclusion(result: Result) -> str:
 
 def warnings(result: Result, options: Options) -> Iterator[Block]:
     """What a careful reader of a run should know: warnings of the deck and of the update. One paragraph each."""
-    yield from remarks((*result.problem.warnings, *result.warnings), options)
+    yield from worded((*result.problem.warnings, *result.warnings), options)
 
 
 def commands(result: Result, options: Options) -> Iterator[Block]:
