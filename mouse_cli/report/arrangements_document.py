@@ -9,6 +9,7 @@ from mouse_cli.model.arrangements import ArrangementsDiagnosis, Turn
 from mouse_cli.model.diagnosis import ONE_OF, UNKNOWN
 from mouse_cli.model.units import system
 from mouse_cli.report.arrangements_sentences import sentences
+from mouse_cli.report.asked import document as asked
 from mouse_cli.report.diagnosis_document import candidate
 from mouse_cli.report.geometry_document import geometry
 from mouse_cli.report.json_values import fields
@@ -37,6 +38,7 @@ def document(found: ArrangementsDiagnosis) -> dict[str, Any]:
         ],
         "shared_errors": [fields(e, "mode", "value", "sd") for e in found.shared],
         "common_sd": found.common_sd,
+        "asked": asked(found.choices),
         "theory": theory(found),
         "held_out": None
         if held is None

@@ -14,6 +14,7 @@ from mouse_cli.model.diagnosis import (
 from mouse_cli.model.result import Result
 from mouse_cli.model.units import system
 from mouse_cli.report import result_document as of_result
+from mouse_cli.report.asked import document as asked
 from mouse_cli.report.frf_document import damping, frf, held_frf
 from mouse_cli.report.json_values import coded, fields, heading
 from mouse_cli.report.theory import document as theory
@@ -49,7 +50,7 @@ def document(found: Diagnosis) -> dict[str, Any]:
             for each in found.proposals
         ],
         **fields(found, "cautions", "refuted", "misstated"),
-        "asked": _asked(found),
+        "asked": {**asked(found.choices), **fields(problem.run, "estimator", "recursion")},
         "theory": theory(found),
         "units": system(problem.units) or None,
         **of_result.drawn(found.extended_result or result),
@@ -57,17 +58,6 @@ def document(found: Diagnosis) -> dict[str, Any]:
         "extended": None if found.extended_result is None else _update(found.extended_result),
         "remarks": list(found.remarks),
         "warnings": coded((*problem.warnings, *result.warnings)),
-    }
-
-
-def _asked(found: Diagnosis) -> dict[str, Any]:
-    """The options that change the answer."""
-    only, run = found.choices.candidates, found.problem.run
-    return {
-        "candidates": None if only is None else list(only),
-        "causes": found.choices.causes,
-        "estimator": run.estimator,
-        "recursion": run.recursion,
     }
 
 

@@ -9,6 +9,7 @@ from mouse_cli.model.record_update import RecordUpdate
 from mouse_cli.model.units import system
 from mouse_cli.report import diagnosis_document as of_diagnosis
 from mouse_cli.report import result_document as of_result
+from mouse_cli.report.asked import document as asked
 from mouse_cli.report.frf_document import thinned
 from mouse_cli.report.geometry_document import geometry
 from mouse_cli.report.json_values import coded, fields, heading
@@ -41,6 +42,7 @@ def document(found: RecordDiagnosis) -> dict[str, Any]:
             "sd": found.sd,
         },
         "next_measurement": [],
+        "asked": asked(found.choices),
         "theory": theory(found),
         "geometry": geometry(problem),
         "units": system(problem.units) or None,

@@ -4,14 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from diagnosis_examples import CRACK, DIAGNOSES, MASS, SHEAR, SOFT, SPRING, explanation, nameless
+from diagnosis_examples import CRACK, DIAGNOSES, MASS, SHEAR, SOFT, SPRING, explanation, named, nameless
 from page_answers import Reader
 from report_examples import chain
 from test_sections import plain_python, valid
 
 from mouse_cli import report
 from mouse_cli.model.arrangements import ArrangementsDiagnosis, Turn
-from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, Diagnosis, Explanation, Site, elsewhere
+from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, Choices, Diagnosis, Explanation, Site, elsewhere
 from mouse_cli.model.record_diagnosis import RecordDiagnosis
 from mouse_cli.page import Part, page, summary
 from mouse_cli.report.section import Options, blocks
@@ -300,3 +300,16 @@ def test_nothing_missing_names_nothing():
     verdict = report.document(DIAGNOSES["nothing"]())["verdict"]
     assert verdict["kind"] == NOTHING and verdict["probability"] == 0.97
     assert (verdict["physics"], verdict["members"], verdict["elsewhere"]) == (None, None, [])
+
+
+@pytest.mark.parametrize(
+    "found", [named, lambda: recordings("members"), configurations], ids=["modes", "records", "several"]
+)
+def test_what_was_asked_stands_in_every_form(found):
+    """`--candidates` and `--causes` change the answer: whoever reads it sees them, whatever kind of test it is of."""
+    asked = replace(found(), choices=Choices(("mass", "crack"), 1))
+    told = report.document(asked)["asked"]
+    assert (told["candidates"], told["causes"]) == (["mass", "crack"], 1)
+    assert "Considered: of all candidates only mass, crack; one mechanism at a time." in " ".join(
+        report.markdown(asked).split()
+    )

@@ -6,6 +6,7 @@ from mouse_cli._texts import capital
 from mouse_cli.model.arrangements import ArrangementsDiagnosis
 from mouse_cli.model.diagnosis import UNKNOWN, Explanation
 from mouse_cli.report.arrangements_sentences import sentences
+from mouse_cli.report.asked import considered
 from mouse_cli.report.blocks import Block, Cell, Column, Heading, Table, Text, heads
 from mouse_cli.report.section import RESULT, VERDICT, Options, Section
 from mouse_cli.report.sections._diagnosis_wording import SCORES, nats, p_value, per_cent, probable, scored, where
@@ -82,6 +83,7 @@ def heading(found: ArrangementsDiagnosis, options: Options) -> Iterator[Block]:
         f"together; {counted(unseen, 'frequency', 'frequencies')} of other configurations held out. They share "
         f"{counted(len(first.parameters), 'parameter')} and every mechanism."
     )
+    yield Text(considered(found.choices))
     yield Text(f"{stated(found)} What the decks state of their tests comes in addition, independent in each.")
     yield Text(f"Fitted: {', '.join(each.source.path for each in found.problems)}.")
     if found.changed is not None:

@@ -8,6 +8,7 @@ from mouse_cli._texts import capital
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, elsewhere
 from mouse_cli.model.record_diagnosis import AS_IT_IS, WITH_CAUSE, RecordDiagnosis, RecordScore
 from mouse_cli.model.record_update import RecordUpdate
+from mouse_cli.report.asked import considered
 from mouse_cli.report.blocks import Block, Column, Heading, Table, Text, heads
 from mouse_cli.report.section import RESULT, VERDICT, Options, Section
 from mouse_cli.report.sections._diagnosis_wording import leaders, p_value, rivals_of_site, sized, where, with_p, within
@@ -176,6 +177,8 @@ def heading(found: RecordDiagnosis | RecordUpdate, options: Options) -> Iterator
     yield Text(
         "The sd is the floor of the spectrum of the output, and at least 1 % of its rms: no transducer is better."
     )
+    if isinstance(found, RecordDiagnosis):
+        yield Text(considered(found.choices))
     yield Text(stated(found))
 
 

@@ -9,6 +9,7 @@ from mouse_cli.model.diagnosis import BY_DECK, BY_MODE, NAMED, Diagnosis, Score
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.result import Result
 from mouse_cli.model.units import system
+from mouse_cli.report.asked import considered
 from mouse_cli.report.blocks import Block, Cell, Table, Text, heads
 from mouse_cli.report.section import RESULT, Options, Section
 from mouse_cli.report.sections._diagnosis_wording import SCORES, mac_text, per_cent, predicting, scored, with_cause
@@ -76,18 +77,11 @@ def heading(found: Diagnosis, options: Options) -> Iterator[Block]:
 
 def _how(found: Diagnosis) -> str:
     """What was considered, and in which units."""
-    run, asked = found.problem.run, found.choices
-    causes = (
-        "one mechanism at a time"
-        if asked.causes == 1
-        else f"up to {asked.causes} mechanisms together, as the data need"
-    )
-    which = "all candidates" if asked.candidates is None else f"of all candidates only {', '.join(asked.candidates)}"
-    named = system(found.problem.units)
+    run, named = found.problem.run, system(found.problem.units)
     units = (
         f"units of the deck: {named}" if named else "the deck declares no units: numbers are in those it is written in"
     )
-    return f"Considered: {which}; {causes}. Estimator: {run.estimator}, recursion: {run.recursion}; {units}."
+    return f"{considered(found.choices)} Estimator: {run.estimator}, recursion: {run.recursion}; {units}."
 
 
 _COLUMNS = heads("<damping | value | standard deviation | <unit | <")
