@@ -10,21 +10,26 @@ from mouse_cli.dynamics.frequency import frequency_hz
 from mouse_cli.model.campaign import Answered
 
 
+def document(outcome: Outcome) -> dict[str, Any]:
+    """The document in the file of `outcome`; empty where it has no answer."""
+    if outcome.exit_code >= 4:
+        return {}
+    with open(outcome.result, encoding="utf-8") as stream:
+        return json.load(stream)["document"] or {}
+
+
 def read(outcome: Outcome, names: list[str], modes: list[int]) -> Answered:
     """What the file of `outcome` says of the parameters called so and of these modes, (mode of the model, from 0)."""
-    document: dict[str, Any] = {}
-    if outcome.exit_code < 4:
-        with open(outcome.result, encoding="utf-8") as stream:
-            document = json.load(stream)["document"] or {}
-    values = {each["name"]: each for each in document.get("parameters", ())}
-    residual = document.get("residual") or {}
+    found = document(outcome)
+    values = {each["name"]: each for each in found.get("parameters", ())}
+    residual = found.get("residual") or {}
     return Answered(
         outcome.exit_code,
         outcome.ended,
-        document.get("model_form") or "",
+        found.get("model_form") or "",
         _numbers([values.get(name, {}).get("posterior") for name in names]),
         _numbers([values.get(name, {}).get("posterior_sd") for name in names]),
-        _frequencies(document.get("eigenvalues") or [], modes),
+        _frequencies(found.get("eigenvalues") or [], modes),
         _number(residual.get("chi2")),
         _number(residual.get("p")),
         outcome.result,

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli._errors import ERROR, WARNING, Diagnostic, NumericalError
+from mouse_cli._errors import WARNING, Diagnostic, NumericalError
 from mouse_cli.batch.outcome import Outcome
 from mouse_cli.campaigns import answers, bootstrap
 from mouse_cli.campaigns.bootstrap import Plan
@@ -24,7 +24,7 @@ def summed(problem: Problem, plan: Plan, outcomes: list[Outcome], seed: int) -> 
     first, *rest = (answers.read(each, names, modes) for each in outcomes)
     if not first.found:
         message = f"the deck itself has no answer: {first.ended}"
-        raise NumericalError(Diagnostic("MD935", ERROR, message, help="check it with `mouse run`"))
+        raise NumericalError.of("MD935", message, help="check it with `mouse run`")
     units = tuple(name for each in plan.named.values() for name in each)
     left_out, drawn = rest[: len(units)], rest[len(units) :]
     predicted = bootstrap.predicted(problem, first, plan)
@@ -34,33 +34,17 @@ def summed(problem: Problem, plan: Plan, outcomes: list[Outcome], seed: int) -> 
                 [a.theta[i] for a in left_out], plan)
         for i, each in enumerate(problem.parameters)
     )  # fmt: skip
-    sd = _frequency_sd(outcomes[0])
+    sd = [np.nan if each["sd_hz"] is None else each["sd_hz"] for each in answers.document(outcomes[0]).get("modes", ())]
     frequencies = tuple(
-        _spread(
-            str(number),
-            "Hz",
-            (first.hz[i], sd[i], predicted[1][i]),
-            [a.hz[i] for a in kept],
-            [a.hz[i] for a in left_out],
-            plan,
-        )
+        _spread(str(number), "Hz", (first.hz[i], sd[i], predicted[1][i]), [a.hz[i] for a in kept],
+                [a.hz[i] for a in left_out], plan)
         for i, number in enumerate(numbers)
-    )
+    )  # fmt: skip
     found = Bootstrap(
         problem, plan.over, seed, first, units, tuple(left_out), tuple(drawn), plan.counts, parameters,
         frequencies, first.exit_code,
     )  # fmt: skip
     return replace(found, warnings=tuple(_remarks(found, plan)))
-
-
-def _frequency_sd(outcome: Outcome) -> list[float]:
-    import json
-
-    with open(outcome.result, encoding="utf-8") as stream:
-        return [
-            np.nan if each["sd_hz"] is None else each["sd_hz"]
-            for each in json.load(stream)["document"].get("modes", ())
-        ]
 
 
 def _spread(
@@ -81,12 +65,6 @@ def _spread(
         name, unit, value, sd, predicted, float(x.std(ddof=1)), float(x.mean() - value), percentile(x),
         bca(x, value, samples), jackknife, influence,
     )  # fmt: skip
-
-
-def strongest(spread: Spread) -> int | None:
-    """The unit without which the value moves most; None where none is known."""
-    size = np.nan_to_num(np.abs(spread.influence))
-    return int(size.argmax()) if len(size) and size.max() > 0 else None
 
 
 def limits(plan_units: int) -> tuple[float, float]:
@@ -123,7 +101,7 @@ def _remarks(found: Bootstrap, plan: Plan) -> Iterator[Diagnostic]:
 
 def _influential(found: Bootstrap) -> Iterator[Diagnostic]:
     for each in found.parameters:
-        unit = strongest(each)
+        unit = each.most_influential
         if unit is not None and abs(each.influence[unit]) > _LARGE:
             message = f"without {found.units[unit]} {each.name} moves by {each.influence[unit]:+.2g} posterior standard deviations"
             yield Diagnostic("MD938", WARNING, message, help="check that measurement: the answer depends on it")

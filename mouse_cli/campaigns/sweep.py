@@ -1,6 +1,5 @@
 """A sweep: how the answer depends on quantities that are not known exactly, and how much of that is due to each."""
 
-import json
 from collections.abc import Iterator
 
 import numpy as np
@@ -55,10 +54,7 @@ def summed(
 
 def paired(outcome: Outcome) -> tuple[list[int], list[int]]:
     """Numbers of the measured modes of the deck as it is, and the modes of the model, from 0, that they are."""
-    if outcome.exit_code >= 4:
-        return [], []
-    with open(outcome.result, encoding="utf-8") as stream:
-        modes = (json.load(stream)["document"] or {}).get("modes", [])
+    modes = answers.document(outcome).get("modes", [])
     return [each["mode"] for each in modes], [each["model_mode"] - 1 for each in modes]
 
 
@@ -74,20 +70,13 @@ def _moved(name: str, unit: str, values: list, sds: list, groups: list[np.ndarra
     return Moved(name, unit, low, high, sd, lengths, tuple(share(y, each, by_chance) for each in groups))
 
 
-def most(moved: Moved) -> int | None:
-    """Which varied quantity moves it most; None where nothing does."""
-    shares = np.nan_to_num(np.array(moved.shares))
-    return int(shares.argmax()) if len(shares) and shares.max() > 0 else None
-
-
 def _remarks(
     problem: Problem, varied: tuple[design.Varied, ...], found: tuple[Answered, ...], parameters: tuple[Moved, ...]
 ) -> Iterator[Diagnostic]:
     """What a careful reader of a sweep should know."""
     for each in parameters:
         if each.lengths > _FAR:
-            cause = most(each)
-            by = "" if cause is None else f", most by {varied[cause].name}"
+            by = "" if each.most_by is None else f", most by {varied[each.most_by].name}"
             message = f"{each.name} moves by {each.lengths:.2g} of its posterior standard deviations over the sweep{by}"
             yield Diagnostic(
                 "MD930", WARNING, message, help="state the posterior with that spread, or find out what was varied"

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli._errors import ERROR, Diagnostic, NumericalError
+from mouse_cli._errors import NumericalError
 from mouse_cli.coupling.picks import block, span
 from mouse_cli.dynamics.eigen import IndefiniteError
 from mouse_cli.dynamics.frf import Dynamics, Fields, FrfModel, Loads
@@ -135,7 +135,7 @@ class Measured:
         )
         note = "nor was the one with response and force exchanged" if self.part.reciprocal else "reciprocal is false"
         help = "measure it, or leave the degree of freedom out"
-        raise NumericalError(Diagnostic("MD710", ERROR, message, note=note, help=help))
+        raise NumericalError.of("MD710", message, note=note, help=help)
 
 
 def model_of(dynamics: Dynamics, sensings: tuple, s: np.ndarray, notice: Notice = lambda text: None) -> FrfModel:

@@ -35,7 +35,7 @@ def chosen(model: InputModel, names: tuple[str, ...]) -> list[Card]:
     if absent:
         message = f"--thickness {absent[0]}: no *SHELL SECTION of one thickness is for that element set"
         help = f"give one of {', '.join(shells)}" if shells else "only shells have a thickness"
-        raise DeckError(Diagnostic("MD272", ERROR, message, Span(model.path, 1), help=help))
+        raise DeckError.of("MD272", message, Span(model.path, 1), help=help)
     return [shells[name.upper()] for name in dict.fromkeys(names)]
 
 

@@ -9,6 +9,12 @@ from mouse_cli._notebook import Shown
 from mouse_cli.model.problem import Problem
 
 
+def largest(sizes: np.ndarray) -> int | None:
+    """Which size is the largest in absolute value; None where none is known or all are 0."""
+    known = np.nan_to_num(np.abs(np.asarray(sizes, float)))
+    return int(known.argmax()) if len(known) and known.max() > 0 else None
+
+
 @dataclass(frozen=True)
 class Answered:
     """How one run ended; NaN where it has no answer.
@@ -48,6 +54,11 @@ class Moved:
     lengths: float
     shares: tuple[float, ...]
 
+    @property
+    def most_by(self) -> int | None:
+        """Which varied quantity moves it most; None where nothing does."""
+        return largest(np.array(self.shares))
+
 
 @dataclass(frozen=True)
 class Sweep(Shown):
@@ -83,6 +94,11 @@ class Spread:
     bca: np.ndarray
     jackknife: float
     influence: np.ndarray
+
+    @property
+    def most_influential(self) -> int | None:
+        """The unit without which the value moves most; None where none is known."""
+        return largest(self.influence)
 
 
 @dataclass(frozen=True)

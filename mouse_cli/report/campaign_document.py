@@ -2,8 +2,6 @@
 
 from typing import Any
 
-import numpy as np
-
 from mouse_cli.model.campaign import Answered, Bootstrap, Moved, Spread, Sweep
 from mouse_cli.report.json_values import coded, fields
 
@@ -74,7 +72,7 @@ def _bootstrap(found: Bootstrap) -> dict[str, Any]:
 
 
 def _spread(each: Spread, units: tuple[str, ...]) -> dict[str, Any]:
-    size = np.nan_to_num(np.abs(each.influence))
+    most = each.most_influential
     return {
         **fields(each, "name", "unit", "value", "posterior_sd"),
         "predicted_sd": each.predicted,
@@ -84,5 +82,5 @@ def _spread(each: Spread, units: tuple[str, ...]) -> dict[str, Any]:
         "bca_95": each.bca,
         "jackknife_sd": each.jackknife,
         "influence": dict(zip(units, each.influence, strict=True)),
-        "most_influential": units[int(size.argmax())] if len(size) and size.max() > 0 else None,
+        "most_influential": None if most is None else units[most],
     }

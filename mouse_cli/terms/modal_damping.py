@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli._errors import ERROR, Diagnostic, NumericalError
+from mouse_cli._errors import NumericalError
 from mouse_cli.dynamics.eigen import dense_solution
 from mouse_cli.model.arrays import is_sparse
 from mouse_cli.model.modal_damping import ModalDamping
@@ -69,7 +69,7 @@ def with_modal_damping(problem: Problem) -> Problem:
     if structure.n > LARGEST or is_sparse(structure.K):
         message = f"modal damping of a model of {structure.n} degrees of freedom; its matrix is full, and {LARGEST} are the most"
         help = "give the elements or their material a loss_factor, twice the damping ratio"
-        raise NumericalError(Diagnostic("MD519", ERROR, message, problem.place("modal_damping"), help=help))
+        raise NumericalError.of("MD519", message, problem.place("modal_damping"), help=help)
     K, M = assembly(problem).matrices(problem.prior.mean)
     first = len(problem.parameters) if damping.sd else None
     term = ModalDampingTerm(K, M, damping, first)

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mouse_cli._errors import ERROR, DeckError, Diagnostic
+from mouse_cli._errors import DeckError
 from mouse_cli.dynamics.correlation import mac, pair
 from mouse_cli.dynamics.eigen import RIGID, EigenSolution
 from mouse_cli.model.geometry import DIRECTIONS
@@ -41,7 +41,7 @@ def check(problem: Problem, solution: EigenSolution) -> None:
     if found:
         mean, said, help = max(found)
         message = f"the shapes are like those of the model by a mean MAC of {before.mean():.2f}; {said}, by {mean:.2f}"
-        raise DeckError(Diagnostic("MD454", ERROR, message, problem.place(f"mode {test.number[0]}"), help=help))
+        raise DeckError.of("MD454", message, problem.place(f"mode {test.number[0]}"), help=help)
 
 
 def _mac_of_pairs(frequency_hz: np.ndarray, hz: np.ndarray, x: np.ndarray, read: np.ndarray) -> np.ndarray:

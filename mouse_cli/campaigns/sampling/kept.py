@@ -55,13 +55,8 @@ class Kept:
             return
         self._written = n = backend.iteration
         _, words, position, has, cached = backend.random_state
-        values = dict(
-            zip(
-                _ARRAYS,
-                (backend.accepted, backend.chain[:n], backend.log_prob[:n], backend.blobs["hz"][:n]),
-                strict=True,
-            )
-        )
+        arrays = backend.accepted, backend.chain[:n], backend.log_prob[:n], backend.blobs["hz"][:n]
+        values = dict(zip(_ARRAYS, arrays, strict=True))
         stream = io.BytesIO()
         np.savez(stream, words=words, place=np.array([position, has, cached], float), key=np.array(self._key), **values)
         write_bytes_atomically(self.path, stream.getvalue())

@@ -93,15 +93,9 @@ def moved(found: Sweep, options: Options) -> Iterator[Block]:
 
 
 def _moved_row(each: Moved, varied: tuple[str, ...]) -> tuple:
-    shares = np.nan_to_num(np.array(each.shares))
-    most = varied[int(shares.argmax())] if len(shares) and shares.max() > 0 else ""
-    return (
-        each.low,
-        each.high,
-        round(each.lengths, 3) if np.isfinite(each.lengths) else None,
-        most,
-        *(round(s, 3) for s in each.shares),
-    )
+    most = "" if each.most_by is None else varied[each.most_by]
+    lengths = round(each.lengths, 3) if np.isfinite(each.lengths) else None
+    return (each.low, each.high, lengths, most, *(round(s, 3) for s in each.shares))
 
 
 def points(found: Sweep, options: Options) -> Iterator[Block]:
