@@ -168,3 +168,11 @@ def test_a_recording_at_a_clamp_is_read(tmp_path):
     text = "  recordings: [{file: r.csv, sample_rate: 100, inputs: {9TY: f}, outputs: {1TY: a, 5TY: b}}]\n"
     channels = deck(tmp_path, text).recordings[0].channels
     assert [(each.weights, len(each.held)) for each in channels[1:]] == [({0: 0.0}, 1), ({6: 1.0}, 0)]
+
+
+@pytest.mark.parametrize(("weights", "shown"), [("{1TY: .nan, 5TY: 1}", "1, nan"), ("{1TY: .inf}", "inf")])
+def test_a_weight_that_is_no_number_is_refused_where_a_support_holds_too(tmp_path, weights, shown):
+    np.savetxt(tmp_path / "r.csv", np.arange(128.0).reshape(64, 2), delimiter=",", header="f,a", comments="")
+    sensors = f"  sensors: [{{name: mean, weights: {weights}}}]\n"
+    with pytest.raises(DeckError, match=rf"MD328.*its weights are {shown}\b"):
+        deck(tmp_path, f"{sensors}  recordings: [{{file: r.csv, sample_rate: 100, outputs: {{mean: a}}}}]\n")

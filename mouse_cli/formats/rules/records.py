@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.formats.draft import Draft
 from mouse_cli.formats.record_drafts import FrfDraft, RecordingDraft
-from mouse_cli.formats.rules.sensors import Reading, weights
+from mouse_cli.formats.rules.sensors import Reading, rows, weights
 from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.frf_test import FrfTest
@@ -40,11 +40,7 @@ def _matrix(draft: Draft, found: list[Reading]) -> Matrix:
     """What sensors read: degrees of freedom (s,), or weights (s, n) where that is not enough."""
     if all(each.weights.tolist() == [1.0] for each in found):
         return np.array([each.dofs[0] for each in found], dtype=int)
-    from scipy.sparse import csr_array
-
-    ends = np.cumsum([0] + [len(each.dofs) for each in found])
-    dofs, shares = (np.concatenate([each[k] for each in found]) for k in (0, 1))
-    return csr_array((shares, dofs.astype(int), ends), shape=(len(found), draft.order))
+    return rows(found, draft.order)
 
 
 def _acting(draft: Draft, forces: tuple[SensorDraft, ...], found: list[Reading]) -> bool:

@@ -45,18 +45,14 @@ def sensing(draft: Draft, sensors: tuple[SensorDraft, ...], geometry: Geometry |
     """What each of `sensors` reads of a model of n degrees of freedom; None after errors."""
     if geometry is not None and _of_another_size(draft, sensors, geometry):
         return None
-    labels = draft.labels if geometry is None else geometry.labels()
-    place = {label: i for i, label in enumerate(labels)}
-    readings = [_reading(draft, sensor, geometry, place, n) for sensor in sensors]
-    if any(reading is None for reading in readings):
+    readings = weights(draft, sensors, geometry, n)
+    if readings is None:
         return None
     _twice(draft, sensors, readings)
     dofs = np.array([_largest(each, geometry) for each in readings], dtype=int)
     plain = all(len(each.dofs) == 1 and each.weights[0] == 1.0 and not each.held for each in readings)
     names = () if all(sensor.plain for sensor in sensors) and plain else tuple(sensor.name for sensor in sensors)
-    return Sensing(
-        dofs, None if plain else _matrix(readings, n), names, tuple(h for each in readings for h in each.held)
-    )
+    return Sensing(dofs, None if plain else rows(readings, n), names, tuple(h for each in readings for h in each.held))
 
 
 def _largest(reading: Reading, geometry: Geometry | None) -> int:
@@ -74,17 +70,16 @@ def weights(draft: Draft, sensors: tuple[SensorDraft, ...], geometry: Geometry |
     labels = draft.labels if geometry is None else geometry.labels()
     place = {label: i for i, label in enumerate(labels)}
     readings = [_reading(draft, sensor, geometry, place, n) for sensor in sensors]
-    if any(reading is None for reading in readings):
-        return None
-    return readings
+    return None if any(reading is None for reading in readings) else readings
 
 
-def _matrix(readings: list[Reading], n: int) -> Matrix:
+def rows(readings: list[Reading], n: int) -> Matrix:
+    """A row of weights of n degrees of freedom for each reading."""
     from scipy.sparse import csr_array
 
     ends = np.cumsum([0] + [len(each.dofs) for each in readings])
     dofs, weights = (np.concatenate([each[k] for each in readings]) for k in (0, 1))
-    return csr_array((weights, dofs, ends), shape=(len(readings), n))
+    return csr_array((weights, dofs.astype(int), ends), shape=(len(readings), n))
 
 
 def _reading(
