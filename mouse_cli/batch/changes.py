@@ -38,11 +38,8 @@ def edited(data: bytes, path: str, options: dict[str, Any]) -> bytes:
     spans = []
     for place, text in texts.items():
         if not _PLAIN.fullmatch(str(text)):
-            raise _refused(
-                "MD933",
-                f"'{str(text)[:40]}' is no number or word that could stand at {place}",
-                "give a number or a word",
-            )
+            message = f"'{str(text)[:40]}' is no number or word that could stand at {place}"
+            raise DeckError.of("MD933", message, help="give a number or a word")
         node = _at(root, place, path)
         spans.append((node.start_mark.index, node.end_mark.index, str(text)))
     found = document.text
@@ -116,11 +113,8 @@ def _with_values(problem: Problem, values: dict[str, float]) -> Problem:
         elif own in places and name.endswith(SD):
             sd = problem.prior.sd[places[own]]
             if not (sd > 0 and 0 < value < _LARGEST):
-                raise _refused(
-                    "MD933",
-                    f"{name} is {value:g}, in the deck {sd:g}; both must be above zero and below {_LARGEST:g}",
-                    "vary another quantity",
-                )
+                message = f"{name} is {value:g}, in the deck {sd:g}; both must be above zero and below {_LARGEST:g}"
+                raise DeckError.of("MD933", message, help="vary another quantity")
             factor[places[own]] = value / sd
         else:
             raise _unknown(name, problem.source.path, f"the properties of the deck are {', '.join(places)}")
@@ -133,7 +127,7 @@ def _scaled(test: ModalTest, name: str, factor: float) -> ModalTest:
     low, high = _FACTORS
     if not low <= factor <= high:
         message = f"{name} is {factor:g}; a factor of accuracies must be between {low:g} and {high:g}"
-        raise _refused("MD933", message, "give factors such as 0.5,1,2")
+        raise DeckError.of("MD933", message, help="give factors such as 0.5,1,2")
     if name == "shape_sd*":
         return replace(test, shape_sd=test.shape_sd * factor)
     return replace(test, frequency_sd_hz=test.frequency_sd_hz * factor)
@@ -145,7 +139,3 @@ def _unknown(name: str, path: str, note: str) -> DeckError:
         "in the deck"
     )
     return DeckError.of("MD932", f"'{name}' is nothing that can be varied in {path}: {note}", help=help)
-
-
-def _refused(code: str, message: str, help: str) -> DeckError:
-    return DeckError.of(code, message, help=help)

@@ -48,12 +48,8 @@ def identified(
         return _of_deck(found, problem, functions[0].outputs), warnings
     if not recordings:
         message = f"{sources[0]} holds no recordings" + ("" if output_only else " and no frequency response functions")
-        _refuse(
-            "MD659",
-            message,
-            "name a file of functions or of time histories, or a deck with test: frf or recordings",
-            sources[0],
-        )
+        help = "name a file of functions or of time histories, or a deck with test: frf or recordings"
+        raise RecordError.of("MD659", message, Span(sources[0], 1), help=help)
     if over:
         from mouse_cli.records.identify_decays import begun
 
@@ -73,10 +69,6 @@ def of_outputs(
     found, first = identify(recordings, band, orders, say), recordings[0]
     n = problem.structure.n if problem else 0
     return _of_deck(found, problem, weights([first.channels[j] for j in first.outputs], n))
-
-
-def _refuse(code: str, message: str, help: str, source: str) -> None:
-    raise RecordError.of(code, message, Span(source, 1), help=help)
 
 
 def _read(sources: tuple[str, ...], given: dict[str, object]) -> tuple[Problem | None, Measured]:

@@ -145,6 +145,14 @@ def text_lines(path: str, encoding: str = "latin-1", errors: str = "strict") -> 
         return stream.read().split("\n")
 
 
+def decoded(data: bytes) -> str:
+    """UTF-8 when it is, so that one character is one column; else one column a byte."""
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError:
+        return data.decode("latin-1")
+
+
 def natural(word: str) -> int:
     """The number of a node or of a row that a word spells, from 1; 0 where it spells none."""
     number = int(word) if word.isascii() and word.isdigit() and len(word) < 13 else 0

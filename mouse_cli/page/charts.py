@@ -60,7 +60,7 @@ def intervals(
     return _figure(key, title, description, height, [_legend(series), *drawn])
 
 
-def curve(key: str, title: str, description: str, values: Sequence[float | None]) -> Markup:
+def curve(description: str, values: Sequence[float | None]) -> Markup:
     """Positive values one after another on a logarithmic axis, a mark at each."""
     known = [(i, log10(v)) for i, v in enumerate(values) if v is not None and v > 0]
     if len(known) < 2:
@@ -73,7 +73,7 @@ def curve(key: str, title: str, description: str, values: Sequence[float | None]
     marks = [tag("circle", cx=tenth(x), cy=tenth(y), r=3, class_="after") for x, y in points]
     words = [_words(_LEFT, 14, f"largest {shown(10**high, 3)}"), _words(_LEFT, 148, f"least {shown(10**low, 3)}")]
     last = _words(_RIGHT, 148, f"cycle {known[-1][0]}", "end")
-    return _figure(key, title, description, 154, [line, *marks, *words, last])
+    return _figure("chi-square", "Chi-square after each cycle", description, 154, [line, *marks, *words, last])
 
 
 def _scale(low: float, high: float):

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from mouse_cli.page.html import Markup, tag
 from mouse_cli.page.marks import named
-from mouse_cli.page.numbers import shown
+from mouse_cli.page.numbers import padded, shown
 from mouse_cli.page.sections._words import drawn_model, listed, paragraphs
 from mouse_cli.page.svg import figure, tenth
 from mouse_cli.report.reading import Part
@@ -46,7 +46,7 @@ def _whole(document: Part) -> list[Stems]:
     if len(dofs) > _MOST_DOFS:
         return []
     return [
-        Stems(_title(m), dofs, _padded(m.numbers("shape"), len(dofs)), _padded(m.numbers("test"), len(dofs)))
+        Stems(_title(m), dofs, padded(m.numbers("shape"), len(dofs)), padded(m.numbers("test"), len(dofs)))
         for m in part.parts("modes")[:_MOST]
     ]
 
@@ -72,10 +72,6 @@ def _measured(document: Part) -> list[Stems]:
 def _title(mode: Part) -> str:
     hz = mode.number("hz" if "hz" in mode.values else "revised_hz")
     return f"Mode {mode.label('mode')}" + ("" if hz is None else f", {shown(hz, 4)} Hz")
-
-
-def _padded(values: list[float | None], count: int) -> list[float | None]:
-    return (values + [None] * count)[:count]
 
 
 def _figure(one: Stems, places: set[str], number: int) -> Markup:

@@ -33,6 +33,15 @@ def probable(p: float | None) -> str:
     return "–" if p is None else "> 0.999" if p > 0.999 else "< 0.001" if p < 0.001 else f"{p:.3f}"
 
 
+def padded(values: list[float | None], count: int) -> list[float | None]:
+    """As many values as `count`; None where there are none.
+
+    >>> padded([1.5], 3), padded([1.5, 2.0, 3.0], 2)
+    ([1.5, None, None], [1.5, 2.0])
+    """
+    return (values + [None] * count)[:count]
+
+
 def apart(value: float | None, truth: float | None) -> float | None:
     """By how many per cent `value` is above `truth`; None where either is unknown or there is no truth to divide by."""
     if value is None or not truth:

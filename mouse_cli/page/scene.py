@@ -79,7 +79,7 @@ def scene(document: Part) -> Scene | None:
     elements = {str(id_): nodes for id_, *nodes in _indices(part, "elements", k)}
     names = {name: i for i, name in enumerate(part.labels("nodes")[:k])}
     sensors = part.parts("sensors")
-    at = {each.label("dof"): _index(each, "node", k) for each in sensors}
+    at = {each.label("dof"): _node(each, k) for each in sensors}
     shapes = tuple(_shape(each, sensors, k) for each in part.parts("shapes"))
     found = Scene(
         positions, lines, elements, names, at, shapes, part.text("unit"), int(part.number("of") or k), len(names) or k
@@ -96,7 +96,7 @@ def _shape(part: Part, sensors: list[Part], k: int) -> Shape:
         direction = sensor.numbers("direction")
         if test is None or model is None or len(direction) != 3 or None in direction:
             continue
-        node = _index(sensor, "node", k)
+        node = _node(sensor, k)
         moved[node] = moved.get(node, u[node]) + (test - model) * np.array(direction, float)
     return Shape(part.label("mode"), part.number("hz"), u, tuple(moved.items()))
 
@@ -125,8 +125,8 @@ def _indices(part: Part, key: str, k: int, width: int | None = None) -> list[lis
     return rows
 
 
-def _index(part: Part, key: str, k: int) -> int:
-    value = part.number(key)
+def _node(part: Part, k: int) -> int:
+    value = part.number("node")
     if value is None or not 0 <= value < k:
-        raise rejected("MD922", f"{part.file}: {part.place}.{key} names a node that is not there")
+        raise rejected("MD922", f"{part.file}: {part.place}.node names a node that is not there")
     return int(value)

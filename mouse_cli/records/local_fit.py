@@ -17,6 +17,7 @@ _GROUP, _NEIGHBOURS = 6, 4
 _REACH = 30.0  # decay rates on either side of a group from where on its lines say little of it
 _FEWEST = 40  # lines on either side
 _SWEEPS, _STEPS = 3, 6
+_FEW = 6  # iterations after a mode was taken out
 _GAINED = 0.01  # of chi2, by which another sweep has to lower it
 
 
@@ -38,16 +39,16 @@ def approached(lines: Lines, model: ModalModel) -> ModalModel:
     return model
 
 
-def without(lines: Lines, fit: Fit, mode: int, steps: int) -> Fit:
+def without(lines: Lines, fit: Fit, mode: int) -> Fit:
     """The fit without one of its modes: those near it are fitted anew; all, where they are few or that does not make up for it."""
     rest = fit.model.without(mode)
     if rest.m < MANY:
-        return fitted(lines, rest, steps)
+        return fitted(lines, rest, _FEW)
     away = np.abs(rest.poles.imag - fit.model.poles[mode].imag)
     near = np.sort(np.argsort(away)[:_GROUP])
-    model, chi2 = solved(lines, _fitted_group(lines, solved(lines, rest)[0], near, steps))
+    model, chi2 = solved(lines, _fitted_group(lines, solved(lines, rest)[0], near, _FEW))
     if chi2 - fit.chi2 > _GAINED * fit.chi2:
-        return fitted(lines, rest, steps)
+        return fitted(lines, rest, _FEW)
     return Fit(model, chi2, 2 * lines.values - unknowns(model))
 
 

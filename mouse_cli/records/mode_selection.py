@@ -22,7 +22,6 @@ ALIKE = 0.9  # MAC of residues from which on two poles have one shape
 UNKNOWN = 0.5  # sd of the decay rate over it
 UNKNOWN_DAMPING = "has a damping that is not known to half of it"
 _STRAYED = 3.0  # decay rates
-_FEW = 6  # iterations after a mode was taken out
 _CLEAR = 20.0  # a rise of chi2 above this many limits, other poles held, needs no second fit
 
 
@@ -58,7 +57,7 @@ def selected(lines: Lines, fit: Fit, centres: np.ndarray) -> tuple[Fit, list[Dro
         if not doubtful:
             return fit, dropped
         r = doubtful[0]
-        pole, simpler = complex(fit.model.poles[r]), without(lines, fit, r, _FEW)
+        pole, simpler = complex(fit.model.poles[r]), without(lines, fit, r)
         if simpler.chi2 - fit.chi2 >= least:
             kept.add(pole)
             continue
@@ -82,7 +81,7 @@ def _physical(lines: Lines, fit: Fit, centres: np.ndarray) -> tuple[Fit, list[Dr
     ):
         r, why = bad[0]
         dropped.append(Dropped(complex(fit.model.poles[r]), why))
-        fit = without(lines, fit, r, _FEW)
+        fit = without(lines, fit, r)
     return fit, dropped
 
 
@@ -117,7 +116,7 @@ def known(lines: Lines, fit: Fit, centres: np.ndarray) -> tuple[Fit, list[Droppe
             break
         r = int(unknown[np.argmin(_rises(lines, fit.model)[unknown])])
         dropped.append(Dropped(complex(fit.model.poles[r]), UNKNOWN_DAMPING))
-        fit = without(lines, fit, r, _FEW)
+        fit = without(lines, fit, r)
     return fit, dropped
 
 
@@ -134,7 +133,7 @@ def doubled(lines: Lines, fit: Fit, centres: np.ndarray) -> tuple[Fit, list[Drop
         hz = abs(fit.model.poles[stays]) / 2 / np.pi
         reason = f"has the shape of the mode at {hz:.6g} Hz within its bandwidth: one resonance, fitted twice"
         dropped.append(Dropped(complex(fit.model.poles[gone]), reason))
-        fit = without(lines, fit, gone, _FEW)
+        fit = without(lines, fit, gone)
     return fit, dropped
 
 

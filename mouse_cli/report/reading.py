@@ -40,11 +40,11 @@ class Part:
 
     def labels(self, key: str) -> list[str]:
         """Names, texts or numbers."""
-        return [Part({"": value}, self.file, f"{self._at(key)}[]").label("") for value in self._list(key)]
+        return [each.label("") for each in self._items(key)]
 
     def texts(self, key: str) -> list[str]:
         """Sentences."""
-        return [Part({"": value}, self.file, f"{self._at(key)}[]").text("") for value in self._list(key)]
+        return [each.text("") for each in self._items(key)]
 
     def flag(self, key: str) -> bool:
         """Whether; False where it is not said."""
@@ -59,11 +59,11 @@ class Part:
 
     def numbers(self, key: str) -> list[float | None]:
         """Numbers, None where one is unknown."""
-        return [Part({"": value}, self.file, f"{self._at(key)}[]").number("") for value in self._list(key)]
+        return [each.number("") for each in self._items(key)]
 
     def rows(self, key: str) -> list[list[float | None]]:
         """Lists of numbers, such as coordinates."""
-        return [Part({"": value}, self.file, f"{self._at(key)}[]").numbers("") for value in self._list(key)]
+        return [each.numbers("") for each in self._items(key)]
 
     def vectors(self, key: str, width: int | None = None) -> list[list[float]]:
         """Lists of numbers, `width` in each, none of them unknown."""
@@ -80,7 +80,11 @@ class Part:
 
     def parts(self, key: str) -> list["Part"]:
         """The objects of the list below `key`."""
-        return [Part({"": value}, self.file, f"{self._at(key)}[]").part("") for value in self._list(key)]
+        return [each.part("") for each in self._items(key)]
+
+    def _items(self, key: str) -> list["Part"]:
+        """The items of the list below `key`, each below "" of a part of its own."""
+        return [Part({"": value}, self.file, f"{self._at(key)}[]") for value in self._list(key)]
 
     def _list(self, key: str) -> list[Any]:
         return self._of(key, (list,), "a list") or []

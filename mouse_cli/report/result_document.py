@@ -50,11 +50,7 @@ def document(result: Result) -> dict[str, Any]:
         "exceedances": [name for name, out in zip(result.labels, result.exceeding, strict=True) if out],
         "allowed": result.allowed,
         **_judged(result),
-        "sensitivities": {
-            "method": "adjoint" if is_sparse(result.revised.K) else "all modes",
-            "error": result.partials_error,
-        },
-        **_partials(result),
+        **_sensitivities(result),
         **({"frf": frf(result.frf)} if result.frf else {}),
         **({"held_out_frf": held_frf(result.held_frf)} if result.held_frf else {}),
         "conditioning": conditioned(result),
@@ -69,14 +65,15 @@ def _options(problem: Problem) -> dict[str, Any]:
     return {**asdict(problem.run), "total_mass_dofs": dofs, "scale": problem.test.scale}
 
 
-def _partials(result: Result) -> dict[str, Any]:
-    """Partial derivatives of the data at the revised model, when they were asked for."""
+def _sensitivities(result: Result) -> dict[str, Any]:
+    """How the partial derivatives of the data at the revised model were computed; themselves when they were asked for."""
+    method = "adjoint" if is_sparse(result.revised.K) else "all modes"
+    found = {"sensitivities": {"method": method, "error": result.partials_error}}
     if result.B is None:
-        return {}
+        return found
     elements, names = result.problem.elements.labels(), [p.name for p in result.problem.parameters]
-    return {
-        "partials": {"data": result.labels, "elements": elements, "B": result.B, "parameters": names, "T": result.T}
-    }
+    partials = {"data": result.labels, "elements": elements, "B": result.B, "parameters": names, "T": result.T}
+    return {**found, "partials": partials}
 
 
 def _cycle(cycle) -> dict[str, Any]:

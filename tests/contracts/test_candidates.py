@@ -328,6 +328,8 @@ def _apart(eigenvalues, i):
 def test_the_deck_with_the_cause_is_the_reduced_model_with_it(models, name, key, tmp_path):
     model = models[name]
     recipes = registry()[key].recipes(model, registry()[key])
+    if not recipes:
+        pytest.skip("this structure has no place for it")
     for recipe in recipes[:: max(1, len(recipes) // 3)]:
         assert recipe.candidate.key == key
         assert recipe.grid.shape[1] == len(recipe.unknowns)

@@ -162,12 +162,17 @@ def freed(request, tmp_path_factory):
     return reduced(problem, problem.prior.mean)
 
 
-@pytest.mark.parametrize("key", sorted(registry()))
+# what a plane portal of beams alone, feet clamped, has no place for: lumped masses, offsets, tapers, shells, free directions
+NOWHERE = ("eccentric-bearing", "item-offset", "items", "mass-loss", "offset", "support-restraint", "taper", "thinner")
+
+
+@pytest.mark.parametrize("key", sorted(registry().keys() - set(NOWHERE)))
 def test_functions_with_a_mechanism_are_those_of_the_deck_that_has_it(freed, key):
     """By solving (1 + i eta) K - omega^2 M of that deck; a sensor that errs reads so in functions too, wherever supports are."""
     problem, candidate = freed.problem, registry()[key]
     blocks = tuple(lines(test, problem.theory) for test in problem.frf)
     recipes = candidate.recipes(freed, candidate)
+    assert recipes
     for recipe in recipes[:: max(1, len(recipes) // 3)]:
         inside = recipe.bounds[:, 0] + 0.45 * np.ptp(recipe.bounds, axis=1)
         values = recipe.values(inside)

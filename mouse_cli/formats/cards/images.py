@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from mouse_cli._span import Span
 from mouse_cli.formats.cards.findings import Findings
 from mouse_cli.formats.cards.layout import COLUMNS
+from mouse_cli.formats.data_files import decoded
 
 SEQUENCE_COLUMN = 73
 ENOUGH_NUMBERED = 0.8  # of the cards
@@ -51,19 +52,11 @@ def check(deck: Images, findings: Findings) -> None:
 def _lines(text: str | bytes) -> list[str]:
     """Lines without LF or CR LF; a last line without LF counts."""
     if isinstance(text, bytes | bytearray):
-        text = _decoded(bytes(text))
+        text = decoded(bytes(text))
     lines = text.removeprefix("\ufeff").split("\n")
     if lines[-1] == "":
         lines.pop()
     return [line.removesuffix("\r") for line in lines]
-
-
-def _decoded(data: bytes) -> str:
-    """UTF-8 when it is, so that one character is one column; else one column a byte."""
-    try:
-        return data.decode("utf-8")
-    except UnicodeDecodeError:
-        return data.decode("latin-1")
 
 
 def _check_characters(deck: Images, findings: Findings) -> None:

@@ -21,7 +21,7 @@ def _read(path: str, _: str | None) -> Matrix:
     lines = text_lines(path)
     if len(lines) < 4:
         reject("MD252", path, "a Harwell-Boeing file has a header of four lines", _HELP)
-    cards = _wholes(path, lines, 1, lines[1], 14)
+    cards = _wholes(path, lines, 1, lines[1])
     kind = lines[2][:3].upper()
     rows, columns, entries = _sizes(path, lines)
     _known(path, lines, kind)
@@ -62,7 +62,7 @@ def _known(path: str, lines: list[str], kind: str) -> None:
 
 
 def _sizes(path: str, lines: list[str]) -> tuple[int, int, int]:
-    sizes = _wholes(path, lines, 2, lines[2][14:], 14)
+    sizes = _wholes(path, lines, 2, lines[2][14:])
     if len(sizes) < 3 or min(sizes[:3]) < 0:
         reject("MD252", path, "rows, columns and entries are expected", _HELP, line_span(path, 3, lines[2]))
     if max(sizes[:2]) > MAX_ORDER:
@@ -71,10 +71,10 @@ def _sizes(path: str, lines: list[str]) -> tuple[int, int, int]:
     return sizes[0], sizes[1], sizes[2]
 
 
-def _wholes(path: str, lines: list[str], at: int, text: str, width: int) -> list[int]:
-    """Whole numbers in fields of `width`, or between blanks."""
+def _wholes(path: str, lines: list[str], at: int, text: str) -> list[int]:
+    """Whole numbers in fields of 14 columns, or between blanks."""
     try:
-        words = [text[i : i + width] for i in range(0, len(text.rstrip()), width)]
+        words = [text[i : i + 14] for i in range(0, len(text.rstrip()), 14)]
         found = [int(word) for word in words if word.strip()]
         if at == 1 and (len(found) < 4 or min(found) < 0):
             raise ValueError

@@ -16,7 +16,7 @@ def _read(path: str) -> Rows:
     for number, lines in _data_sets(path):
         kind = lines[0].strip()
         if kind == "15":
-            found += [(at, line, _words(line, 4)) for at, line in enumerate(lines[1:], number + 1) if line.strip()]
+            found += [(at, line, _words(line)) for at, line in enumerate(lines[1:], number + 1) if line.strip()]
         elif kind == "2411":
             body = [(at, line) for at, line in enumerate(lines[1:], number + 1) if line.strip()]
             for (_, label), (at, line) in zip(body[::2], body[1::2], strict=False):
@@ -27,10 +27,10 @@ def _read(path: str) -> Rows:
     return found
 
 
-def _words(line: str, skipped: int) -> list[str]:
-    """Label and coordinates of a line that has `skipped` whole numbers before them."""
+def _words(line: str) -> list[str]:
+    """Label and coordinates of a line of data set 15, which has three more whole numbers between them."""
     words = line.split()
-    return words[:1] + words[skipped:]
+    return words[:1] + words[4:]
 
 
 def _data_sets(path: str) -> Iterator[tuple[int, list[str]]]:

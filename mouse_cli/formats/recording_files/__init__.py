@@ -68,11 +68,11 @@ def read_contents(path: str) -> Contents:
     try:
         form = data_files.reader(__name__, path, "a recording")
         contents = data_files.opened(form, path)
+        if not contents.columns and not contents.functions:
+            because = f": {'; '.join(contents.remarks[:3])}" if contents.remarks else ""
+            reject("MD601", path, f"the file holds no channel of numbers{because}", "give a file with measured data")
     except DeckError as error:
         raise RecordError(error.diagnostics) from error
-    if not contents.columns and not contents.functions:
-        because = f": {'; '.join(contents.remarks[:3])}" if contents.remarks else ""
-        _refuse("MD601", path, f"the file holds no channel of numbers{because}", "give a file with measured data")
     return replace(
         contents,
         columns=tuple(replace(each, values=_measured(each.values)) for each in contents.columns),
@@ -85,13 +85,6 @@ def _measured(values: np.ndarray) -> np.ndarray:
     with np.errstate(over="ignore"):
         beyond = np.abs(values) >= LARGEST if values.dtype.kind in "fc" else np.False_
     return np.where(beyond, np.nan, values) if beyond.any() else values
-
-
-def _refuse(code: str, path: str, message: str, help: str) -> None:
-    try:
-        reject(code, path, message, help)
-    except DeckError as error:
-        raise RecordError(error.diagnostics) from None
 
 
 def spread(path: str, arrays: dict[str, np.ndarray]) -> Contents:

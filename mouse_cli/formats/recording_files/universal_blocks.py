@@ -5,6 +5,8 @@ from bisect import bisect_left
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from mouse_cli.formats.data_files import decoded
+
 _MARK = re.compile(rb"(?:^|(?<=\n)|(?<=\r))[ \t]*-1[ \t]*(?:\r\n|\n|\r|$)")
 _HEAD = re.compile(rb"[ \t]*([0-9]+)([bB]?)([^\r\n]*)(?:\r\n|\n|\r|$)")
 _LINE = re.compile(rb"([^\r\n]*)(?:\r\n|\n|\r|$)")
@@ -61,16 +63,9 @@ def lines(data: bytes | memoryview, at: int, count: int) -> tuple[list[str], int
     found = []
     for _ in range(count):
         line = _LINE.match(data, at)
-        found.append(_decoded(bytes(line[1])))
+        found.append(decoded(bytes(line[1])))
         at = line.end()
     return found, at
-
-
-def _decoded(line: bytes) -> str:
-    try:
-        return line.decode("utf-8")
-    except UnicodeDecodeError:
-        return line.decode("latin-1")
 
 
 def _end(data: bytes, at: int, closing: list[tuple[int, int]]) -> tuple[int, int]:

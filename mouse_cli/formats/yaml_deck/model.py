@@ -79,14 +79,13 @@ def _entries(section: Section, node: Node) -> tuple[Entries, int] | None:
 
 def _diagonal(section: Section, node: Node) -> tuple[Entries, int] | None:
     values = section.value("diagonal")
-    if values is None or not len(values):
-        return _empty(section, node, "diagonal") if values is not None else None
+    if values is None:
+        return None
+    if not len(values):
+        message = f"{section.what('diagonal')} holds no number"
+        return section.document.error("MD216", node, message, "give one number for each row")
     index = np.arange(1, len(values) + 1)
     return Entries(index, index, values, section.document.where(node.value)), len(values)
-
-
-def _empty(section: Section, node: Node, key: str) -> None:
-    section.document.error("MD216", node, f"{section.what(key)} holds no number", "give one number for each row")
 
 
 def _identity(section: Section, node: Node) -> tuple[Entries, int] | None:

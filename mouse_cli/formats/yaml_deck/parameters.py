@@ -61,7 +61,7 @@ def _sd(section: Section, nominal: float, variance: float | None) -> float | Non
         return from_covariance
     if nominal == 0 and document.incomplete and any(key in section for key in (*WHOSE, "nominal")):
         return None  # its nominal value, or the elements that give it, could not be read
-    sd = fraction_of(document, node, section.what("sd"), abs(nominal), "the nominal value, which is 0")
+    sd = fraction_of(document, node, section.what("sd"), abs(nominal))
     if sd is None or variance is None or np.isclose(sd, from_covariance, rtol=1e-6, atol=0):
         return sd
     both = f"{section.what('sd')} is {sd:.8g}, but prior.covariance has {from_covariance:.8g}"
@@ -69,13 +69,13 @@ def _sd(section: Section, nominal: float, variance: float | None) -> float | Non
     return from_covariance
 
 
-def fraction_of(document: Document, node: Node, what: str, whole: float, zero: str) -> float | None:
-    """A number, or a percentage of `whole`; one of 0 is refused, and `zero` says of what it was to be."""
+def fraction_of(document: Document, node: Node, what: str, whole: float) -> float | None:
+    """A number, or a percentage of `whole`; one of 0 is refused."""
     percent = yaml_values.as_percent(node)
     if percent is None:
         return yaml_values.number(document, node, what, KINDS["sd"].words)
     if whole == 0:
-        message = f"{what} is {node.value.strip()} of {zero}"
+        message = f"{what} is {node.value.strip()} of the nominal value, which is 0"
         return document.error("MD223", node, message, "give the standard deviation as a number")
     return percent * whole / 100
 

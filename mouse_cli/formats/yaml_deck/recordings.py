@@ -43,15 +43,15 @@ def title(section: Section, segment: tuple[int, int] | None = None) -> str:
     return section.value("title", f"{name}[{segment[0]}:{segment[1]}]" if segment else name)
 
 
-def span(section: Section, key: str = "segment") -> tuple[int, int] | None:
+def span(section: Section) -> tuple[int, int] | None:
     """First and last sample; None where not given, or after an error."""
-    node = section.nodes.get(key)
+    node = section.nodes.get("segment")
     if node is None:
         return None
     words = KINDS["span"].words
-    values = yaml_values.wholes(section.document, node, section.what(key), words)
+    values = yaml_values.wholes(section.document, node, section.what("segment"), words)
     if values is not None and len(values) != 2:
-        return yaml_values.mistyped(section.document, node, section.what(key), words)
+        return yaml_values.mistyped(section.document, node, section.what("segment"), words)
     return None if values is None else (int(values[0]), int(values[1]))
 
 

@@ -90,7 +90,7 @@ def convergence(document: Part) -> Iterator[Markup]:
     chi2 = [cycle.number("chi2") for cycle in cycles]
     listed = "; ".join(f"cycle {i}: {shown(value, 4)}" for i, value in enumerate(chi2))
     description = f"Sum of squared differences over their variances, logarithmic; cycle 0 is the prior model. {listed}."
-    yield curve("chi-square", "Chi-square after each cycle", description, chi2)
+    yield curve(description, chi2)
     yield Listing("cycles", "Cycles of the run", _CYCLES, cycles).html()
 
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from mouse_cli.page.charts import Bar, bars
 from mouse_cli.page.html import Markup
 from mouse_cli.page.lines import Line, lines
-from mouse_cli.page.numbers import apart, shown, signed_per_cent
+from mouse_cli.page.numbers import apart, padded, shown, signed_per_cent
 from mouse_cli.page.section import PageSection
 from mouse_cli.page.sections._words import differences, paragraphs
 from mouse_cli.page.tables import Cell, table
@@ -25,7 +25,7 @@ def held_out(document: Part) -> Iterator[Markup]:
         f"Held out: {held.text('kind') or 'whole configurations'}.",
         *(_score(name, held.part(key)) for key, name in _MODELS),
     )
-    columns = [_padded(held.part(key).numbers(what), len(labels)) for key, _ in _MODELS for what in ("hz", "sd_hz")]
+    columns = [padded(held.part(key).numbers(what), len(labels)) for key, _ in _MODELS for what in ("hz", "sd_hz")]
     if held.part("revised"):
         rows = list(zip(labels, measured, columns[0], columns[2], strict=True))
         yield differences("off-held-out", "Frequency error of held-out data", rows)
@@ -39,10 +39,6 @@ def _score(name: str, score: Part) -> str:
         return ""
     within = f"{100 * covered:.0f} % lie within its 90 % intervals"
     return f"Frequency error of {name}: {100 * error:.2g} % (rms); {within}."
-
-
-def _padded(values: list[float | None], count: int) -> list[float | None]:
-    return (values + [None] * count)[:count]
 
 
 def _row(label: str, measured, hz, sd, revised, revised_sd) -> tuple[object, ...]:
