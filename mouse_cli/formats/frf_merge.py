@@ -24,33 +24,30 @@ def _fit(group: list[FrfDraft], say: Findings) -> bool:
     if not _ascending(first, say):
         return False
     for each in group[1:]:
-        where, help = each.where, "give measurements that differ titles of their own"
-        if each.decay_rate != first.decay_rate:
-            message = f"functions of '{each.title}' have exponential windows of {first.decay_rate:g} and {each.decay_rate:g} 1/s"
-            say.error("MD614", where, message, help)
-            return False
-        if each.window != first.window:
-            say.error("MD614", where, f"functions of '{each.title}' have different windows, blocks or bursts", help)
-            return False
-        if each.kind != first.kind:
-            say.error("MD614", where, f"'{each.title}' holds functions of {first.kind} and of {each.kind}", help)
-            return False
-        a, b = first.frequency_hz, each.frequency_hz
-        if len(a) != len(b):
-            message = (
-                f"functions of '{each.title}' have {len(a)} and {len(b)} lines; those of one measurement have the same"
-            )
-            say.error("MD614", where, message, help)
-            return False
-        off = np.flatnonzero(np.abs(a - b) > _SAME * np.diff(a).min(initial=np.inf if len(a) > 1 else 1.0))
-        if len(off):
-            i = int(off[0])
-            message = (
-                f"line {i + 1} of '{each.title}' is at {a[i]:.8g} Hz in one function and at {b[i]:.8g} Hz in another"
-            )
-            say.error("MD614", where, message, help)
+        message = _difference(first, each)
+        if message:
+            say.error("MD614", each.where, message, "give measurements that differ titles of their own")
             return False
     return True
+
+
+def _difference(first: FrfDraft, each: FrfDraft) -> str:
+    """What keeps functions from being of one measurement; empty where nothing does."""
+    if each.decay_rate != first.decay_rate:
+        rates = f"{first.decay_rate:g} and {each.decay_rate:g} 1/s"
+        return f"functions of '{each.title}' have exponential windows of {rates}"
+    if each.window != first.window:
+        return f"functions of '{each.title}' have different windows, blocks or bursts"
+    if each.kind != first.kind:
+        return f"'{each.title}' holds functions of {first.kind} and of {each.kind}"
+    a, b = first.frequency_hz, each.frequency_hz
+    if len(a) != len(b):
+        return f"functions of '{each.title}' have {len(a)} and {len(b)} lines; those of one measurement have the same"
+    off = np.flatnonzero(np.abs(a - b) > _SAME * np.diff(a).min(initial=np.inf if len(a) > 1 else 1.0))
+    if len(off):
+        i = int(off[0])
+        return f"line {i + 1} of '{each.title}' is at {a[i]:.8g} Hz in one function and at {b[i]:.8g} Hz in another"
+    return ""
 
 
 def _ascending(each: FrfDraft, say: Findings) -> bool:
@@ -60,21 +57,13 @@ def _ascending(each: FrfDraft, say: Findings) -> bool:
     if not len(hz) or len(bad):
         i = int(bad[0]) if len(bad) else 0
         what = f"frequency {i + 1} of '{each.title}' is {hz[i]:.8g} Hz" if len(bad) else f"'{each.title}' has no lines"
-        say.error(
-            "MD614",
-            each.where,
-            f"{what}; frequencies ascend, from 0 on",
-            "name the channel of the frequencies: frequency: NAME",
-        )
+        help = "name the channel of the frequencies: frequency: NAME"
+        say.error("MD614", each.where, f"{what}; frequencies ascend, from 0 on", help)
         return False
     infinite = np.argwhere(np.isinf(each.H))
     if len(infinite):
-        say.error(
-            "MD605",
-            each.where,
-            f"'{each.title}' holds {len(infinite)} infinite values",
-            "write null where nothing was measured",
-        )
+        message = f"'{each.title}' holds {len(infinite)} infinite values"
+        say.error("MD605", each.where, message, "write null where nothing was measured")
     return not len(infinite)
 
 
