@@ -101,6 +101,14 @@ def test_a_link_joins_two_towers_at_floors_between_their_ends():
     assert lowest(model(TOWERS), "brace", [k], "nodes 3 and 12") == pytest.approx(expected, rel=1e-3)
 
 
+def test_a_share_of_a_mass_on_a_spring_is_taken_out_of_what_is_fixed():
+    """Liquid that sloshes at the tip of a light cantilever, 3 EI / l^3: two masses on two springs."""
+    share, hz, tip = 0.3, 0.02, 3 * EI / H**3
+    k = share * KG * (2 * np.pi * hz) ** 2
+    expected = eigh([[tip + k, -k], [-k, k]], np.diag([(1 - share) * KG, share * KG]), eigvals_only=True)[0]
+    assert lowest(model(TIP % KG), "sprung-mass", [share, hz], "TY") == pytest.approx(expected, rel=1e-4)
+
+
 def test_mass_of_a_floor_sways_with_it():
     m = 0.3
     expected = 24 * EI / H**3 / (KG + m * W)

@@ -159,7 +159,7 @@ def _unsettled(found: Diagnosis) -> str:
         )
     if found.probability < _SURE:
         return f"No mechanism is probable enough to be named: that takes a probability of {_SURE:g}."
-    if not np.isfinite(measured.shapes).any() and any(cause.physics == "oscillator" for cause in best.causes):
+    if not np.isfinite(measured.shapes).any() and any(cause.group == "oscillator" for cause in best.causes):
         return (
             f"{capital(best.title)} is the most probable, with {with_p(found.probability)}, but frequencies without shapes do "
             "not prove that the structure has a mode which the model has not. Mode shapes would."
