@@ -98,6 +98,19 @@ class Mesh:
             groups.setdefault(elements.kind, []).append(number)
         return Gathered.of(self.elements, list(groups.values()))
 
+    @cached_property
+    def standing(self) -> np.ndarray:
+        """Supports (c, 2) by which it stands somewhere: without directions that all nodes are held in, as those of a frame in its
+        plane, or of floors that only sway, which say as little of a place as `directions` that are not kept.
+        """
+        held = np.zeros((len(self.node_ids), 6), bool)
+        held[tuple(self.supports.T)] = True
+        joined = np.zeros(len(self.node_ids), bool)
+        for each in self.elements:
+            joined[each.nodes] = True
+        everywhere = held[joined].all(axis=0)
+        return self.supports[~everywhere[self.supports[:, 1]]]
+
 
 @dataclass(frozen=True)
 class Binding:

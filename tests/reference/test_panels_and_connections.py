@@ -167,3 +167,41 @@ def test_elbows_of_a_pipe_in_space_by_unit_loads(k):
     deck = recipe.extend(found.problem, np.array([k]))
     assert reduced(deck, deck.prior.mean).eigenvalues[:3] == pytest.approx(expected, rel=2e-4)
     assert len(deck.parameters) == len(found.problem.parameters) + 1
+
+
+@pytest.mark.parametrize("text", [PORTAL, BAYS])
+def test_a_frame_held_in_its_plane_by_supports_is_one_of_that_plane(text):
+    """Nodes that are held across the plane alone stand on no ground: same places of braces, panels, connections and joints."""
+    numbers = {int(n) for n in assemble(yaml_deck.read(text, "deck.yaml")).mesh.node_ids}
+    feet = {1, 4} if text is PORTAL else {1, 3, 5}
+    held = "".join(f", {n}: [TZ, RX, RY]" for n in sorted(numbers - feet))
+    supports = f"{{{', '.join(f'{n}: all' for n in sorted(feet))}"
+    inside = text.replace(f"{supports}}}", f"{supports}{held}}}").replace("    plane: XY\n", "")
+    assert "plane" not in inside and held in inside
+    for key in ("brace", "semi-rigid", "joint"):
+        places = [[each.site(each.grid[0]).text for each in recipes(model(own), key)] for own in (text, inside)]
+        assert sorted(places[0]) == sorted(places[1]) and places[0]
+
+
+def test_rigid_floors_that_only_sway_have_panels_between_them_alone():
+    """Three columns and two floors that supports keep level: storeys are braced between neighbouring floors, and quickly found."""
+    nodes = {3 * level + i + 1: [5.0 * i, 3.0 * level] for level in range(3) for i in range(3)}
+    columns = [[n, n + 3] for n in range(1, 7)]
+    links = [{"independent": 3 * level + 1, "dependent": [3 * level + 2, 3 * level + 3]} for level in (1, 2)]
+    text = f"""\
+mouse: 1
+model:
+  structure:
+    nodes: {nodes}
+    elements:
+      - {{id: 1-6, type: beam, nodes: {columns}, E: 2.1e+11, A: 0.01, Iz: 1.0e-4, Iy: 1.0e-4, J: 1.0e-4, density: 7850}}
+    rigid_links: {str(links).replace("'", "")}
+    supports: {{1-3: all, 4: [TY, RZ], 7: [TY, RZ]}}
+    plane: XY
+test:
+  modes: {{number: [1, 2], frequency: [4, 20], frequency_sd: 1 %}}
+"""
+    found = [each.site(each.grid[0]) for each in recipes(model(text), "brace", "crossed")]
+    assert {frozenset(site.ids) for site in found} >= {frozenset((1, 5, 2, 4)), frozenset((4, 8, 5, 7))}
+    rise = lambda site: max(nodes[n][1] for n in site.ids) - min(nodes[n][1] for n in site.ids)
+    assert all(rise(site) <= 3.0 for site in found)

@@ -13,7 +13,7 @@ from mouse_cli.model.diagnosis import Site
 MESH = SimpleNamespace(
     node_ids=np.array([1, 2, 3, 4]),
     coordinates=np.array([[0.0, 0, 0], [0, 3, 0], [4, 3, 0], [4, 0, 0]]),
-    supports=np.array([(0, 0), (0, 1), (3, 0), (3, 1)]),
+    standing=np.array([(0, 0), (0, 1), (3, 0), (3, 1)]),
 )
 
 

@@ -98,7 +98,7 @@ def _spliced(
 
 def _root(model: Reduced, line: Line) -> Callable[[np.ndarray], str]:
     """`support` of a splice at an end that is held against turning: that end is then a flexible support."""
-    held = {node for node, direction in model.problem.mesh.supports.tolist() if direction >= 3}
+    held = {node for node, direction in model.problem.mesh.standing.tolist() if direction >= 3}
     nodes = model.bars.nodes[line.members[[0, -1]], [0, 1]].tolist()
     ends = [s for s, node in zip((0.0, line.length), nodes, strict=True) if node in held]
     limit = lambda values: "support" if any(abs(values[-1] - s) < _ROOT * line.length for s in ends) else ""

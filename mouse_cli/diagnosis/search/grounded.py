@@ -23,7 +23,7 @@ def one_tie(one: Fit, other: Fit) -> bool:
     if mesh is None or len(strut.sites[0].ids) != 2 or site.position is None:
         return False
     nodes = np.flatnonzero(np.isin(mesh.node_ids, strut.sites[0].ids))
-    held = np.isin(nodes, mesh.supports[mesh.supports[:, 1] < 3, 0])
+    held = np.isin(nodes, mesh.standing[mesh.standing[:, 1] < 3, 0])
     if held.sum() != 1:
         return False
     off = np.linalg.norm(mesh.coordinates[nodes[~held][0]] - site.position)

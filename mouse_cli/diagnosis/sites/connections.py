@@ -45,7 +45,7 @@ def _corners(model: Reduced, bars: Bars) -> np.ndarray:
     mesh = model.problem.mesh
     joined = np.concatenate([each.nodes.ravel() for each in mesh.elements if each.nodes.shape[1] == 2])
     degree = np.bincount(joined, minlength=len(mesh.coordinates))
-    degree[mesh.supports[:, 0]] = 0
+    degree[mesh.standing[:, 0]] = 0
     at: dict[int, list[tuple[int, int]]] = {}
     for bar in range(len(bars)):
         for end in (0, 1):
@@ -70,7 +70,7 @@ def _named(bars: Bars, bar: int, text: str) -> str:
 
 def _ends(model: Reduced, bars: Bars) -> np.ndarray:
     """Ends (c, 2) of beams at columns, where neither is held nor released."""
-    held = np.unique(model.problem.mesh.supports[:, 0])
+    held = np.unique(model.problem.mesh.standing[:, 0])
     standing = bars.axis[np.isin(bars.nodes, held).any(axis=1)]
     if not len(standing):
         return np.zeros((0, 2), int)

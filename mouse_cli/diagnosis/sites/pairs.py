@@ -214,7 +214,7 @@ def _in_a_row(u: np.ndarray, nodes: np.ndarray, joined: set) -> tuple[np.ndarray
 
 
 def ends(mesh: Mesh) -> np.ndarray:
-    """Nodes (indices) of two-node elements at which not just one straight member passes."""
+    """Nodes (indices) of two-node elements at which not just one straight member passes: held or linked, it ends."""
     arms: dict[int, list[np.ndarray]] = {}
     for elements in mesh.elements:
         if elements.nodes.shape[1] == 2:
@@ -223,7 +223,10 @@ def ends(mesh: Mesh) -> np.ndarray:
             along[bent] = 0.0  # only beams carry a load past a node
             for (a, b), vector in zip(elements.nodes.tolist(), along, strict=True):
                 arms.setdefault(a, []).append(vector), arms.setdefault(b, []).append(-vector)
-    held = set(mesh.supports[:, 0].tolist())
+    held = {
+        *mesh.standing[:, 0].tolist(),
+        *(node for link in mesh.links for node in (link.independent, link.dependent)),
+    }
     return np.array(sorted(node for node, own in arms.items() if node in held or not _passes(own)), int)
 
 

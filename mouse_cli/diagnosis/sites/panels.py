@@ -23,10 +23,12 @@ def crossed(model: Reduced, found: Pairs) -> np.ndarray:
         between = sorted(beside[one] & beside[other])
         for n, c in enumerate(between):
             others = (number.get(frozenset((c, d))) for d in between[n + 1 :])
-            own |= {(min(i, j), max(i, j)) for j in others if j is not None and _cross(mesh, found.keys[[i, j], :2])}
+            own |= {(min(i, j), max(i, j)) for j in others if j is not None}
+    two = np.array(sorted(own), int).reshape(-1, 2)
+    own = two[_cross(mesh.coordinates[found.keys[two, :2]])].tolist()
     rank = np.empty(len(found), int)
     rank[strained(model, found)] = np.arange(len(found))
-    return np.array(sorted(own, key=lambda two: (min(rank[list(two)]), two)), int).reshape(-1, 2)[:MOST]
+    return np.array(sorted(own, key=lambda two: (min(rank[two]), two)), int).reshape(-1, 2)[:MOST]
 
 
 def panel(mesh: Mesh, keys: np.ndarray) -> Site:
@@ -43,17 +45,28 @@ def _neighbours(mesh: Mesh, nodes: np.ndarray) -> dict[int, set[int]]:
     """Nodes of `nodes` (indices) that one member, or the ground, joins to each of them."""
     one, other = np.triu_indices(len(nodes), 1)
     keys = np.column_stack([nodes[one], nodes[other]])
-    held = np.isin(keys, mesh.supports[:, 0]).all(axis=1)
+    held = np.isin(keys, _grounded(mesh)).all(axis=1)
     beside: dict[int, set[int]] = {int(node): set() for node in nodes}
     for a, b in keys[held | (apart(mesh, keys) == 1)].tolist():
         beside[a].add(b), beside[b].add(a)
     return beside
 
 
-def _cross(mesh: Mesh, keys: np.ndarray) -> bool:
-    """Whether two lines, keys (2, 2), meet between their ends."""
-    (a, b), (c, d) = mesh.coordinates[keys]
-    A = np.column_stack([b - a, c - d])
-    (s, t), *_ = np.linalg.lstsq(A, c - a)
-    off = np.linalg.norm(A @ [s, t] - (c - a))
-    return bool(0 < s < 1 and 0 < t < 1 and off < _FLAT * np.linalg.norm(b - a))
+def _grounded(mesh: Mesh) -> np.ndarray:
+    """Nodes (indices) that move in no direction in which any is held: what guides them alone joins them to nothing."""
+    moving = mesh.standing[mesh.standing[:, 1] < 3]
+    nodes, held = np.unique(moving[:, 0], return_counts=True)
+    return nodes[held == held.max(initial=0)]
+
+
+def _cross(ends: np.ndarray) -> np.ndarray:
+    """Mask (x,) of the pairs of lines, ends (x, 2, 2, 3), that meet between their ends."""
+    (u, v), between = (ends[:, i, 1] - ends[:, i, 0] for i in (0, 1)), ends[:, 1, 0] - ends[:, 0, 0]
+    dot = lambda a, b: np.einsum("xi,xi->x", a, b)
+    uu, uv, vv, uw, vw = dot(u, u), dot(u, v), dot(v, v), dot(u, between), dot(v, between)
+    det = uu * vv - uv**2
+    parallel = det <= 1e-12 * uu * vv
+    det = np.where(parallel, 1.0, det)
+    s, t = (uw * vv - uv * vw) / det, (uv * uw - uu * vw) / det
+    off = np.linalg.norm(s[:, None] * u - t[:, None] * v - between, axis=1)
+    return ~parallel & (s > 0) & (s < 1) & (t > 0) & (t < 1) & (off < _FLAT * np.sqrt(uu))
