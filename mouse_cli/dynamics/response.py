@@ -193,8 +193,12 @@ def _corrected(local: LocalForce | LocalForces, free: np.ndarray, drop: np.ndarr
     """F over a step and at its end, states and local motions with it, by fixed-point iteration from `begun`, v and F before it."""
     v, F = begun
     over, end, r = F, F, F.shape[1]
-    moving = lambda F: free - drop * F if r == 1 else free - drop @ F
     implicit = local.implicit if isinstance(local, LocalForces) else {}
+    if len(implicit) == r == 1:  # alone, such a force follows from the step at once
+        over, end = implicit[0](v[:, 0], F[:, 0], free[:, 1], drop[:, 1])
+        one = over[:, None]
+        return one, one if over is end else end[:, None], z, free - drop * one
+    moving = lambda F: free - drop * F if r == 1 else free - drop @ F
     for _ in range(CORRECTIONS):
         moved = moving(over)
         there, after = local(moved[:, :r], moved[:, r:], z)

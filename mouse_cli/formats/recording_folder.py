@@ -82,22 +82,22 @@ def read_folder(
     Raises RecordError (MD626) where no file has channels that are sensors of the model.
     """
     names = sorted((name for name in os.listdir(folder) if not name.startswith(".")), key=_natural)
-    records, unread, passed, unused = [], [], [], {}
+    records, unread, passed, unused, clipped = [], [], [], {}, {}
     for k, name in enumerate(names, 1):
         notice(f"reading {name}, {k} of {len(names)}")
         path = os.path.join(folder, name)
         try:
             below.found(folder, path, outside, "the folder of the recordings")
-            found, others = _recordings(path, choice, sensors)
+            found, others, clipped[path] = _recordings(path, choice, sensors)
         except below.Refused as error:
             passed.append(
                 Diagnostic(error.code, WARNING, f"passed over: the file, {error}", Span(path, 1), help=error.help)
             )
         except MouseError as error:
-            own = [replace(each, severity=WARNING) for each in error.diagnostics if each.severity == ERROR]
+            own = [each for each in error.diagnostics if each.severity == ERROR]
             strange = any(each.code == "MD251" for each in own)
             unread += [name] if strange else []
-            passed += [] if strange else [replace(each, message=f"passed over: {each.message}") for each in own]
+            passed += [] if strange else _passed(own)
         else:
             records += found
             unused |= dict.fromkeys(others)
@@ -105,8 +105,15 @@ def read_folder(
         message = f"none of {len(names)} files in {folder} is a recording of the model"
         help = "map channels to sensors: --force SENSOR=CHANNEL --response SENSOR=CHANNEL"
         raise RecordError((Diagnostic("MD626", ERROR, message, Span(folder, 1), help=help), *passed))
-    records = _titled(records)
+    whole = [each for each in records if not clipped[each.path]]
+    if whole:  # no fit needs what a channel has cut off where others have it whole
+        passed += _passed([one for each in clipped.values() for one in each])
+    records = _titled(whole or records)
     return RawFolder(tuple(records), _held(records), tuple(unread), tuple(passed), tuple(unused))
+
+
+def _passed(why: list[Diagnostic]) -> list[Diagnostic]:
+    return [replace(each, severity=WARNING, message=f"passed over: {each.message}") for each in why]
 
 
 def _natural(name: str) -> list[tuple[bool, int, str]]:
@@ -117,8 +124,8 @@ def _natural(name: str) -> list[tuple[bool, int, str]]:
     ]
 
 
-def _recordings(path: str, choice: Choice, sensors: Sensors) -> tuple[list[Raw], list[str]]:
-    """Those of one file, and its channels that are no sensor. Raises RecordError with what forbids its use."""
+def _recordings(path: str, choice: Choice, sensors: Sensors) -> tuple[list[Raw], list[str], list[Diagnostic]]:
+    """Those of one file, its channels that are no sensor, and what is clipped. Raises RecordError with what forbids its use."""
     contents, say, where = read_contents(path), Findings(), Span(path, 1)
     if not contents.columns:
         _refuse(where, "the file holds functions, no recording", "name it in a deck: test: {frf: [{file: ...}]}")
@@ -131,7 +138,7 @@ def _recordings(path: str, choice: Choice, sensors: Sensors) -> tuple[list[Raw],
         found += [] if one is None else [Raw(path, tuple(picks), one, segment)]
     if any(each.severity == ERROR for each in say.diagnostics):
         raise RecordError(say.diagnostics)
-    return found, unused
+    return found, unused, [each for each in say.diagnostics if each.code == "MD606"]
 
 
 def _refuse(where: Span, message: str, help: str) -> None:

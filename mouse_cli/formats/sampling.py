@@ -69,7 +69,10 @@ def _time(
         (
             each
             for each in contents.columns
-            if is_time(each.name) and len(each.values) == length and all(each is not other for other in chosen)
+            if is_time(each.name)
+            and len(each.values) == length
+            and not np.isnan(each.values).all()
+            and all(each is not other for other in chosen)
         ),
         None,
     )
@@ -85,6 +88,11 @@ def _clock(found: Column, span: tuple[int, int], say: Findings, where: Span | No
         sample = span[0] + ticks.backward
         message = f"time runs backwards in column '{found.name}' at sample {sample}"
         return say.error("MD604", where, message, "give one recording at a time: segment: [first, last]")
+    elif ticks.still is not None:
+        sample = span[0] + ticks.still
+        message = f"sample {sample} has the time of the one before it in column '{found.name}'"
+        help = "a sample was written twice, or two records follow one another: segment: [first, last]"
+        return say.error("MD604", where, message, help)
     elif ticks.breaks:
         sample, missing = ticks.breaks[0]
         more = f", and at {len(ticks.breaks) - 1} more positions" if len(ticks.breaks) > 1 else ""

@@ -79,14 +79,15 @@ def _runs(mask: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 class Clock:
     """What a time column says. step_s: mean time between samples where none is missing; resolution_s: of the column.
 
-    breaks: (sample, missing) of each place, the number of the sample after it and of those that are missing; backward: the first
-    sample that is earlier than the one before, None where there is none.
+    breaks: (sample, missing) of each place, the number of the sample after it and of those that are missing; backward, still: the
+    first sample that is earlier than the one before, or as late, None where there is none.
     """
 
     step_s: float
     resolution_s: float
     breaks: tuple[tuple[int, int], ...] = ()
     backward: int | None = None
+    still: int | None = None
 
 
 def clock(t: np.ndarray) -> Clock | None:
@@ -101,6 +102,8 @@ def clock(t: np.ndarray) -> Clock | None:
     positive = steps[steps > 0]
     # rounded times step by 0 or by one unit of the last digit: then the mean is the step, and breaks are beyond several units
     rounded = len(positive) < 0.99 * len(steps)
+    if len(positive) < len(steps) and not rounded:
+        return Clock(float("nan"), 0.0, still=int(np.argmax(steps == 0)) + 1)
     step = float(t[-1] - t[0]) / len(steps) if rounded else float(np.median(steps))
     resolution = float(positive.min()) if rounded else float(np.median(np.abs(steps - step)))
     broken = np.flatnonzero(steps > 1.5 * step + 2 * resolution)

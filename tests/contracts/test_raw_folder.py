@@ -220,10 +220,12 @@ def test_what_is_wrong_with_a_file_is_told_with_channel_and_sample(told):
     def write(name: str, table: np.ndarray, head: str = "t (s),1TX (N),2TX (g)") -> None:
         np.savetxt(f"raw/{name}", table, delimiter=",", header=head, comments="", fmt="%.9g")
 
-    dead, gap, back = values.copy(), values.copy(), values.copy()
-    dead[:, 2], gap[77, 2], back[300:, 0] = 0.0, np.nan, back[300:, 0] - 0.2
-    for name, table in {"a.csv": values, "dead.csv": dead, "gap.csv": gap, "back.csv": back}.items():
-        write(name, table)
+    dead, gap, back, twice, clipped = (values.copy() for _ in range(5))
+    dead[:, 2], gap[77, 2], back[300:, 0], twice[300:, 0] = 0.0, np.nan, back[300:, 0] - 0.2, twice[300:, 0] - 1e-3
+    clipped[:, 2] = np.clip(clipped[:, 2], -clipped[:, 2].std(), clipped[:, 2].std())
+    tables = {"a": values, "dead": dead, "gap": gap, "back": back, "twice": twice, "clipped": clipped}
+    for name, table in tables.items():
+        write(f"{name}.csv", table)
     write("slow.csv", values, "Sample rate,512\nt (s),1TX (N),2TX (g)")
     Path("raw/cut.csv").write_text(Path("raw/a.csv").read_text()[:5000].rpartition(",")[0])
     Path("raw/empty.csv").write_text("")
@@ -234,12 +236,85 @@ def test_what_is_wrong_with_a_file_is_told_with_channel_and_sample(told):
         "raw/dead.csv MD607 passed over: channel '2TX' is dead: all 500 samples from 0 on are zero",
         "raw/gap.csv MD605 passed over: 1 samples of channel '2TX' are no numbers, the first is sample 77",
         "raw/back.csv MD604 passed over: time runs backwards in column 't' at sample 300",
+        "raw/twice.csv MD604 passed over: sample 300 has the time of the one before it in column 't'",
         "raw/slow.csv MD603 passed over: the file says 512 samples a second, its time column 1000",
         "raw/empty.csv MD252 passed over: the file is empty",
     ):
         assert words in said, said
     assert any(each.startswith("raw/cut.csv MD252 passed over: the line has") for each in said), said
+    top = clipped[:, 2].max()
+    runs = np.flatnonzero(np.diff(clipped[:, 2] == top, prepend=False, append=False)).reshape(-1, 2)
+    first = next(begin for begin, end in runs if end - begin >= 3)  # two samples may be equal by chance
+    begun = f"raw/clipped.csv MD606 passed over: channel '2TX' is clipped at {9.80665 * top:.6g} m/s2: "
+    assert any(each.startswith(begun) and each.endswith(f"the first is sample {first}") for each in said), said
     assert all(each.severity == "warning" for each in found.passed)
+
+
+def test_recordings_that_are_all_clipped_are_taken_with_a_warning(told):
+    """There is nothing better to judge by."""
+    laboratory(Path("raw"), runs=1)
+    values = measured(1, 0.0)
+    values[:, 2] = np.clip(values[:, 2], -2 * values[:, 2].std(), 2 * values[:, 2].std())
+    for run in (1, 2):
+        np.savetxt(f"raw/run{run}.csv", values, delimiter=",", header="hammer [N],acc1 [g],acc2 [g],acc3 [g]", comments="")
+    _, out, err = told("deck.yaml", "--recordings", "raw", "--force", "1=hammer", "--sample-rate", "1000", "--candidates", "spring")
+    assert out and "raw: 2 recordings in 2 files" in err and "warning[MD606]: channel 'acc2' is clipped" in err
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-be"])
+@pytest.mark.parametrize("point", [".", ","])
+def test_tables_that_windows_calls_unicode(told, encoding, point):
+    from mouse_cli.formats.recording_files import read_contents
+
+    mark = "\ufeff" if encoding == "utf-16-be" else ""
+    rows = [["0.001", "2.5"], ["0.002", "-1"], ["0.003", ""]]
+    text = "t (s)\tF (N)\n" + "".join("\t".join(row) + "\n" for row in rows).replace(".", point)
+    for name, part in (("gap.txt", text), ("whole.txt", text.rpartition("0" + point)[0])):
+        Path(name).write_bytes((mark + part).encode(encoding))
+        columns = read_contents(name).columns
+        assert [(each.name, each.unit) for each in columns] == [("t", "s"), ("F", "N")]
+        assert columns[1].values[:2] == pytest.approx([2.5, -1.0])
+
+
+def test_labview_without_heads(told):
+    """`Segment headers: none`, and no times: the first column is empty."""
+    from mouse_cli.formats.recording_folder import read_folder
+    from mouse_cli.formats.recording_source import Choice
+
+    Path("raw").mkdir()
+    values = measured(1)[:500, :2]
+    rows = ["\t" + "\t".join(f"{x:.7g}" for x in row) for row in values]
+    Path("raw/run.lvm").write_text("X_Value\t1TX\t2TX\tComment\n" + "\n".join(rows) + "\n")
+    found = read_folder("raw", Choice(("1TX",), sample_rate_hz=1000.0), Sensors((), ("1TX", "2TX")))
+    assert found.records[0].recording.samples[:, 1] == pytest.approx(values[:, 1], abs=1e-5)
+
+
+def stood_still(values: np.ndarray) -> None:
+    values[1000:1400, 2] = values[1000, 2]
+
+
+def exchanged(values: np.ndarray) -> None:
+    values[:, [1, 3]] = values[:, [3, 1]]
+
+
+@pytest.mark.parametrize(
+    ("fault", "words"),
+    [
+        (exchanged, "% of recording 'run2' (raw/run2.csv) unexplained; with channels acc1 and acc3 exchanged, it would leave"),
+        (stood_still, "Recording 'run2' alone is at odds with the model:"),
+    ],
+)
+def test_one_run_that_is_at_odds_with_the_others_is_named(told, fault, words):
+    """A fit looks for laws and noise in the loudest run; what another one left was called noise, and nothing missing."""
+    Path("raw").mkdir()
+    for run, size in ((1, 1.5), (2, 1.0), (3, 1.5)):
+        values = size * measured(run, 0.0)
+        if run == 2:
+            fault(values)
+        np.savetxt(f"raw/run{run}.csv", values, delimiter=",", header="hammer [N],acc1 [g],acc2 [g],acc3 [g]", comments="")
+    code, out, err = told("deck.yaml", "--recordings", "raw", "--force", "1=hammer", "--sample-rate", "1000", "--candidates", "spring")
+    assert code != 0 and words in " ".join((out + err).split())
+    assert fault is exchanged or "of channel acc2 remains, from sample" in " ".join(out.split())
 
 
 def test_segments_of_one_file_are_recordings_of_their_own(told):

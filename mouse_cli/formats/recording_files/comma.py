@@ -7,6 +7,7 @@ comma in a number is a decimal comma. The first of several columns may hold time
 """
 
 import re
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from contextlib import suppress
 from datetime import date
 from itertools import islice
@@ -42,9 +43,16 @@ def _read(path: str) -> Contents:
     return Contents(columns, found.sample_rate_hz)
 
 
+def _wide(path: str) -> bool:
+    """Whether the text is UTF-16, as Windows calls Unicode: it begins with the mark of its order of bytes."""
+    with open(path, "rb") as stream:
+        return stream.read(2) in (BOM_UTF16_LE, BOM_UTF16_BE)
+
+
 def _lines(path: str) -> list[str]:
-    """The first lines, in UTF-8 or, where they are none, in the code page of Western Windows."""
-    for encoding, errors in (("utf-8-sig", "strict"), ("cp1252", "replace")):
+    """The first lines, in UTF-16 or UTF-8 or, where they are neither, in the code page of Western Windows."""
+    encodings = [("utf-16", "replace")] if _wide(path) else [("utf-8-sig", "strict"), ("cp1252", "replace")]
+    for encoding, errors in encodings:
         with suppress(UnicodeDecodeError), open(path, encoding=encoding, errors=errors, newline=None) as stream:
             return [line.rstrip("\n") for line in islice(stream, _MOST_HEAD)]
     return []
@@ -108,11 +116,11 @@ def _spelled(text: str, comma: bool) -> str:
 
 def _at_once(path: str, first: int, separator: str | None, line: str) -> np.ndarray | None:
     """The table (k, c) as numpy reads it, decimal commas included; None where a cell is no plain number."""
-    kind = complex if "j" in line else float
+    kind, encoding = complex if "j" in line else float, "utf-16" if _wide(path) else "latin-1"
     try:
         if not _has_decimal_commas(line, separator):
-            return np.loadtxt(path, kind, None, separator, skiprows=first, ndmin=2, encoding="latin-1")
-        with open(path, encoding="latin-1") as stream:
+            return np.loadtxt(path, kind, None, separator, skiprows=first, ndmin=2, encoding=encoding)
+        with open(path, encoding=encoding) as stream:
             return np.loadtxt((row.replace(",", ".") for row in stream), kind, None, separator, skiprows=first, ndmin=2)
     except ValueError:
         return None
@@ -124,7 +132,7 @@ def _has_decimal_commas(line: str, separator: str | None) -> bool:
 
 def _slowly(path: str, first: int, separator: str | None, width: int) -> np.ndarray:
     """The table cell by cell: NaN for a cell that is empty or says so, decimal commas, i for j; refuses what is no number."""
-    lines = text_lines(path, "utf-8-sig", "replace")
+    lines = text_lines(path, "utf-16" if _wide(path) else "utf-8-sig", "replace")
     comma = _has_decimal_commas(lines[first], separator)
     rows = []
     last = max(i for i, line in enumerate(lines) if line.strip())

@@ -2,6 +2,7 @@
 
 After National Instruments, Specification for the LabVIEW Measurement File (.lvm), 2020. Segments of the same channels follow one
 another in each column, and so do their times in `X_Value`; where time does not go on from one to the next begins a new stretch.
+A file may be written without heads: its first line then names the columns.
 """
 
 from collections.abc import Iterator
@@ -50,10 +51,11 @@ class _Segment:
 
 def _read(path: str) -> Contents:
     lines = text_lines(path, "utf-8-sig", "replace")
-    if not lines[0].startswith(_MARK):
-        reject("MD252", path, f"the first line is not '{_MARK}'", "give the file as LabVIEW writes it")
-    style = _style(lines[:200])
-    segments = [_segment(path, style, lines, *span) for span in _spans(path, style, lines)]
+    style, bare = _style(lines[:200]), lines[0].startswith(_X)
+    if not (bare or lines[0].startswith(_MARK)):
+        reject("MD252", path, f"the first line is neither '{_MARK}' nor '{_X}'", "give the file as LabVIEW writes it")
+    spans = [(0, 0, len(lines))] if bare else _spans(path, style, lines)
+    segments = [_segment(path, style, lines, *span) for span in spans]
     first = segments[0]
     same = [
         each for each in segments if (each.names, each.units, each.timed) == (first.names, first.units, first.timed)
@@ -75,9 +77,10 @@ def _read(path: str) -> Contents:
 
 
 def _style(lines: list[str]) -> _Style:
-    """By the lines `Separator` and `Decimal_Separator` of the head; a tabulator and a point where it has none."""
+    """By the lines `Separator` and `Decimal_Separator` of the head; where it has none, a tabulator, and what numbers have."""
     separator = next((line[9] for line in lines if line.startswith("Separator") and len(line) > 9), "\t")
-    point = next((line[18] for line in lines if line.startswith("Decimal_Separator") and len(line) > 18), ".")
+    usual = "," if separator != "," and "," in "".join(lines[1:3]) and "." not in "".join(lines[1:3]) else "."
+    point = next((line[18] for line in lines if line.startswith("Decimal_Separator") and len(line) > 18), usual)
     return _Style(separator, point)
 
 
@@ -198,5 +201,5 @@ FORMAT = FileFormat(
     "lvm",
     _read,
     ("lvm", "txt", "csv", "dat", "asc"),
-    lambda head: head.removeprefix(b"\xef\xbb\xbf").startswith(_MARK.encode()),
+    lambda head: head.removeprefix(b"\xef\xbb\xbf").startswith((_MARK.encode(), f"{_X}\t".encode())),
 )

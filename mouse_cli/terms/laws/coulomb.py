@@ -16,13 +16,17 @@ def implicit(v, before, free, drop, p):
     free - drop F is the velocity at the end. Where it passes zero on the way the mass stops, and sticks if the mean R of all other
     forces of the step is no more than Fs (velocity 0, F = R at the end), or else goes on the other way for the rest of the step.
     """
+    sign = np.sign(v)
+    slip = p[0] * sign
+    slides = free - drop * slip
+    on = sign * slides > 0
+    if on.all():
+        return slip, slip
     R = (free - v) / (2 * drop) + before / 2
-    slides = free - drop * p[0] * np.sign(v)
-    on = np.sign(v) * slides > 0
-    rest = np.where(v == 0, 1.0, 1 - v / np.where(v == slides, np.inf, v - slides))
-    there = np.where(np.abs(R) <= p[0], 0.0, (R - p[0] * np.sign(R)) * 2 * drop * rest)
-    end = np.where(on, p[0] * np.sign(v), np.clip(R, -p[0], p[0]))
-    return (free - np.where(on, slides, there)) / drop, end
+    held = np.minimum(np.maximum(R, -p[0]), p[0])
+    rest = 1 - v / np.where(v == slides, np.inf, v - slides)  # share of the step behind the stop: all of it from rest
+    there = (R - held) * 2 * drop * rest
+    return np.where(on, slip, (free - there) / drop), np.where(on, slip, held)
 
 
 def unknowns(scale: Scale) -> tuple[Unknown, ...]:

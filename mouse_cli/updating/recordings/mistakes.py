@@ -39,17 +39,34 @@ class _Reading:
 
 
 def check(own: Study) -> None:
-    """Raise DeckError (MD457) where the model leaves most of a record as it is read, and little of it in another reading."""
-    problem, title = own.problem, own.look.title.removesuffix(", its end")
-    record = next(one for one in problem.recordings if one.title == title)
+    """Raise DeckError (MD457) where the model leaves most of a record as it is read, and little of it in another reading.
+
+    Read otherwise are the loudest record, and that of which the model leaves most: it may be one of many that is wrong.
+    """
+    looks = [own.look, *(each.series.part(0, len(own.look)) for each in own.data if each.series.title != own.look.title)]
+    left = [_left(_looked(own, each), _record(own, each)[1]) for each in looks]
+    worst = max(range(len(looks)), key=lambda i: left[i][1].max())
+    for i in dict.fromkeys((0, worst)):
+        if left[i][1].max() >= _ASTRAY:
+            _check(own, looks[i], *left[i])
+
+
+def _record(own: Study, look: Series) -> tuple[Recording, np.ndarray]:
+    """The recording that a series is of, and its outputs (t, s) as they were read."""
+    title = look.title.removesuffix(", its end")
+    record = next(one for one in own.problem.recordings if one.title == title)
     outputs = [_column(record, one) for one in own.records.outputs]
-    before, by_channel = _left(_looked(own, own.look), record.samples[:, outputs])
-    if by_channel.max() < _ASTRAY:
-        return
+    return record, record.samples[:, outputs]
+
+
+def _check(own: Study, look: Series, before: float, by_channel: np.ndarray) -> None:
+    """Raise DeckError (MD457) where a record, of which the model leaves so much, is explained in another reading."""
+    problem, (record, _) = own.problem, _record(own, look)
+    outputs = [_column(record, one) for one in own.records.outputs]
     worst = [outputs[i] for i in np.argsort(-by_channel)[:_WORST]]
     found = []
     for each in _readings(problem, record, outputs, [_column(record, one) for one in own.records.inputs], worst):
-        after = _read(own, each.of(record), outputs)
+        after = _read(own, each.of(record), outputs, look)
         if after < _GAINED * min(before, 1.0):
             found.append((after, each))
     if found:
@@ -74,14 +91,14 @@ def _column(record: Recording, channel: Channel) -> int:
     return record.channels.index(channel)
 
 
-def _read(own: Study, record: Recording, outputs: list[int]) -> float:
+def _read(own: Study, record: Recording, outputs: list[int], seen: Series) -> float:
     """Share of a record that is left; infinite where it cannot judge in that reading, or moves nuisances out of their prior."""
     try:
         (series,) = records(replace(own.problem, recordings=(record,), held_records=None)).fitted
     except DeckError:
         return np.inf
-    look = reduced(series, own.model).part(0, len(own.look))
-    at = _looked(own, replace(look, slow=own.look.slow, disturbance=own.look.disturbance))
+    look = reduced(series, own.model).part(0, len(seen))
+    at = _looked(own, replace(look, slow=seen.slow, disturbance=seen.disturbance))
     z = at.begin(np.zeros_like(at.y), np.zeros(0))[0][: own.model.linear.k]
     return np.inf if np.abs(z).max(initial=0.0) > _FAR else _left(at, record.samples[:, outputs])[0]
 

@@ -6,12 +6,13 @@ from mouse_cli.diagnosis.extend.laws import extended
 from mouse_cli.diagnosis.likelihoods.history.search import weighed
 from mouse_cli.diagnosis.likelihoods.history.verdict import decided, explanations, ranked, remedies, untried
 from mouse_cli.diagnosis.verdict import leader
-from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, Choices, Diagnosis
+from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, UNKNOWN, Choices, Diagnosis
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.record_diagnosis import RecordDiagnosis
 from mouse_cli.model.result import ChiSquareTest
 from mouse_cli.terms.laws import registry
 from mouse_cli.updating.chi_square import upper_tail
+from mouse_cli.updating.recordings.at_odds import odd
 from mouse_cli.updating.recordings.channels import misreadings
 from mouse_cli.updating.recordings.records import named, records
 from mouse_cli.updating.recordings.signs import linearity
@@ -38,6 +39,8 @@ def diagnose_records(problem: Problem, notice: Notice, choices: Choices, own: St
     decision = decided(ranking, searched, ratio(proof), own.look.free, known is None)
     kind = decision.kind
     told = best if kind in (NAMED, ONE_OF) else None
+    strange = odd(best or baseline, own.data) if kind == UNKNOWN else None
+    cautions = decision.cautions + remedies(told, own) + (() if strange is None else (strange.said(found.outputs),))
     dof = max(int(baseline.dof), 1)
     return RecordDiagnosis(
         problem=problem,
@@ -46,7 +49,7 @@ def diagnose_records(problem: Problem, notice: Notice, choices: Choices, own: St
         explanations=explanations(ranking, own),
         groups=ranking.groups,
         noise_scale=ranking.noise_scale,
-        **vars(decision) | {"cautions": decision.cautions + remedies(told, own)},
+        **vars(decision) | {"cautions": cautions},
         untried=untried(searched, own, known),
         remarks=found.remarks + own.model.remarks + (best or baseline).calibrated,
         choices=choices,

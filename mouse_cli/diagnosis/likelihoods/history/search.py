@@ -10,6 +10,7 @@ from mouse_cli.terms.laws import Law
 from mouse_cli.terms.laws import registry as laws
 from mouse_cli.updating.recordings.acting import Place
 from mouse_cli.updating.recordings.adequacy import adequate, innovation, missing, strained, unlikely, with_noise
+from mouse_cli.updating.recordings.at_odds import odd
 from mouse_cli.updating.recordings.channels import Misreading, misreadings
 from mouse_cli.updating.recordings.misread import misread
 from mouse_cli.updating.recordings.mistakes import check
@@ -58,7 +59,7 @@ def weighed(study: Study, notice: Notice, known: list[Law] | None = None, causes
     if not missing(baseline):
         return Weighed(baseline, [])
     check(study)
-    quiet = noise(study.spectrum, study.base, study.places) if unlikely(baseline) else None
+    quiet = _left(study, baseline) if unlikely(baseline) else None
     noisy = quiet is not None and not strained(baseline, with_noise(baseline, quiet))
     if noisy and not doubtful(study.spectrum, study.base, study.places, quiet):
         return Weighed(baseline, [], quiet, baseline)
@@ -113,6 +114,8 @@ def hidden(one: Fit, horizon_s: float) -> tuple[str, str] | None:
 
 
 def _left(study: Study, one: Fit) -> Noise | None:
+    if odd(one, study.data) is not None:
+        return None
     return noise(study.spectrum, one.hypothesis, study.places, one.x)
 
 
@@ -228,7 +231,7 @@ def _again(study: Study, best: Fit) -> list[Fit]:
     found = []
     last = best.hypothesis.parts[-1]
     for start in study.at(last.place).apart(last.law, last.variant, _AGAIN)[1:]:
-        one = fitted(study, start)
+        one = fitted(study, start, best.cost)
         found += [] if one is None else [one]
         if one is not None and adequate(one):
             break
