@@ -27,8 +27,8 @@ CODES = {
     ),
     "MD604": Code(
         "samples missing",
-        "The time column leaps: samples were dropped while recording, or several recordings were joined, or time runs backwards. "
-        "Spectra over such a gap are wrong.",
+        "The time column leaps: samples were dropped while recording, or several recordings were joined, or time runs backwards "
+        "or stands still. Spectra over such a gap are wrong.",
         "Use a stretch without a leap: `segment: [first, last]`, samples counted from 0, the last one not included.",
     ),
     "MD605": Code(

@@ -256,8 +256,12 @@ def test_recordings_that_are_all_clipped_are_taken_with_a_warning(told):
     values = measured(1, 0.0)
     values[:, 2] = np.clip(values[:, 2], -2 * values[:, 2].std(), 2 * values[:, 2].std())
     for run in (1, 2):
-        np.savetxt(f"raw/run{run}.csv", values, delimiter=",", header="hammer [N],acc1 [g],acc2 [g],acc3 [g]", comments="")
-    _, out, err = told("deck.yaml", "--recordings", "raw", "--force", "1=hammer", "--sample-rate", "1000", "--candidates", "spring")
+        np.savetxt(
+            f"raw/run{run}.csv", values, delimiter=",", header="hammer [N],acc1 [g],acc2 [g],acc3 [g]", comments=""
+        )
+    _, out, err = told(
+        "deck.yaml", "--recordings", "raw", "--force", "1=hammer", "--sample-rate", "1000", "--candidates", "spring"
+    )
     assert out and "raw: 2 recordings in 2 files" in err and "warning[MD606]: channel 'acc2' is clipped" in err
 
 
@@ -300,7 +304,10 @@ def exchanged(values: np.ndarray) -> None:
 @pytest.mark.parametrize(
     ("fault", "words"),
     [
-        (exchanged, "% of recording 'run2' (raw/run2.csv) unexplained; with channels acc1 and acc3 exchanged, it would leave"),
+        (
+            exchanged,
+            "% of recording 'run2' (raw/run2.csv) unexplained; with channels acc1 and acc3 exchanged, it would leave",
+        ),
         (stood_still, "Recording 'run2' alone is at odds with the model:"),
     ],
 )
@@ -311,8 +318,12 @@ def test_one_run_that_is_at_odds_with_the_others_is_named(told, fault, words):
         values = size * measured(run, 0.0)
         if run == 2:
             fault(values)
-        np.savetxt(f"raw/run{run}.csv", values, delimiter=",", header="hammer [N],acc1 [g],acc2 [g],acc3 [g]", comments="")
-    code, out, err = told("deck.yaml", "--recordings", "raw", "--force", "1=hammer", "--sample-rate", "1000", "--candidates", "spring")
+        np.savetxt(
+            f"raw/run{run}.csv", values, delimiter=",", header="hammer [N],acc1 [g],acc2 [g],acc3 [g]", comments=""
+        )
+    code, out, err = told(
+        "deck.yaml", "--recordings", "raw", "--force", "1=hammer", "--sample-rate", "1000", "--candidates", "spring"
+    )
     assert code != 0 and words in " ".join((out + err).split())
     assert fault is exchanged or "of channel acc2 remains, from sample" in " ".join(out.split())
 

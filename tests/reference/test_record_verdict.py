@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 from two_masses import linear, record
 
 from mouse_cli.cli.main import cli
-from mouse_cli.diagnosis.likelihoods.history.search import Weighed, alike, doubled, hidden
+from mouse_cli.diagnosis.likelihoods.history.search import Weighed, alike, doubled, hidden, plainest
 from mouse_cli.diagnosis.likelihoods.history.verdict import decided, far, ranked
 from mouse_cli.formats import read_deck
 from mouse_cli.model.diagnosis import Rest
@@ -299,6 +299,36 @@ def test_two_laws_or_a_mode_of_its_own_that_leave_something_are_no_name(weighed_
         x = np.concatenate([law.x[: other.nuisances], other.mean[other.nuisances :]])
         partly = replace(law, hypothesis=other, x=x, covariance=np.eye(len(x)), misfit=0.1 * baseline.misfit)
         assert said(0.3, baseline, partly).kind == "unknown"
+
+
+def test_a_law_that_pairs_hold_which_do_not_do_is_named_with_what_remains(weighed_laws):
+    """Friction beside play in a shaft: fits of both ended beside the right play, and all of it was unknown."""
+    baseline, law, _ = weighed_laws
+    here = law.hypothesis.place
+    there = replace(here, site=replace(here.site, text="elsewhere"))
+    leaves = lambda misfit: {"misfit": misfit, "log_evidence": law.log_evidence - (misfit - law.misfit) / 2}
+    partly = replace(law, **leaves(0.2 * baseline.misfit))
+
+    def pair(first, misfit):
+        other = first.placed(there).at(registry()["bilinear"], 0)
+        x = np.concatenate([law.x[: other.nuisances], other.mean[other.nuisances :]])
+        return replace(law, hypothesis=other, x=x, covariance=np.eye(len(x)), **leaves(misfit))
+
+    held = pair(law.hypothesis, 0.05 * baseline.misfit)
+    found = said(0.3, baseline, partly, held)
+    assert found.kind == "named" and found.rest.share == pytest.approx(0.2, abs=0.03)
+    assert said(0.3, baseline, partly, pair(law.hypothesis, law.misfit)).rest is None  # which explains the records
+    elsewhere = pair(law.hypothesis.without_last.placed(there).at(registry()["gap"], 0), 0.05 * baseline.misfit)
+    assert said(0.3, baseline, partly, held, elsewhere).kind == "unknown"  # another two leave as little without it
+
+
+def test_a_second_law_is_sought_beside_the_plainest_of_those_that_leave_alike(weighed_laws):
+    """Microslip, with four sizes, left 1 % less than friction beside play, and cost ten times as much."""
+    _, law, rival = weighed_laws
+    assert len(rival.hypothesis.unknowns) > len(law.hypothesis.unknowns)
+    less = lambda one, misfit: replace(one, misfit=misfit, x=0 * one.x)
+    assert plainest([less(law, 1000.0), less(rival, 990.0)]).hypothesis is law.hypothesis
+    assert plainest([less(law, 1000.0), less(rival, 700.0)]).hypothesis is rival.hypothesis
 
 
 def test_what_predicts_worse_or_leaves_its_prior_is_no_name(weighed_laws):

@@ -31,7 +31,8 @@ class Odd:
         """What to look at, in a sentence."""
         return (
             f"Recording '{self.recording}' alone is at odds with the model: {100 * min(self.share, 1.0):.3g} % of channel "
-            f"{outputs[self.channel].name} remains, from sample {self.sample} on. Look at that channel there, or leave the recording out."
+            f"{outputs[self.channel].name} remains, from sample {self.sample} on. Look at that channel there, or leave the "
+            "recording out."
         )
 
 

@@ -43,7 +43,10 @@ def check(own: Study) -> None:
 
     Read otherwise are the loudest record, and that of which the model leaves most: it may be one of many that is wrong.
     """
-    looks = [own.look, *(each.series.part(0, len(own.look)) for each in own.data if each.series.title != own.look.title)]
+    looks = [
+        own.look,
+        *(each.series.part(0, len(own.look)) for each in own.data if each.series.title != own.look.title),
+    ]
     left = [_left(_looked(own, each), _record(own, each)[1]) for each in looks]
     worst = max(range(len(looks)), key=lambda i: left[i][1].max())
     for i in dict.fromkeys((0, worst)):

@@ -27,6 +27,7 @@ _ALIKE = 6  # starts that are fitted although an adequate law was found, as they
 _TAKEN = 0.5  # of what may be noise, that a law leaves at most to be more than it
 _SERIES = "smooth-stiffness"  # group of laws that are terms of one power series
 _END = 0.01  # of the logarithm of a range, from its end
+_ABOUT = 1.15  # times the least that a law leaves, up to which another one leaves about as much
 _ROUNDS, _SECONDS = 3, 4  # laws beside which a second one is sought, and starts of it that are fitted
 
 Notice = Callable[[str], None]
@@ -172,7 +173,7 @@ def _named(start: Start) -> str:
 def _pairs(study: Study, notice: Notice, known: list[Law] | None, singles: list[Fit]) -> list[Fit]:
     """Two laws: a second one beside the best, then beside that second one by itself, as the first may have stood for both."""
     found: list[Fit] = []
-    first = min(singles, key=innovation)
+    first = plainest(singles)
     tried = []
     for _ in range(_ROUNDS):
         tried.append(_where(first))
@@ -184,6 +185,15 @@ def _pairs(study: Study, notice: Notice, known: list[Law] | None, singles: list[
         if first is None:
             break
     return found
+
+
+def plainest(singles: list[Fit]) -> Fit:
+    """The law with the fewest sizes among those that leave about the least: further sizes follow what the second law will take."""
+    least = _ABOUT * min(map(innovation, singles))
+    return min(
+        (one for one in singles if innovation(one) <= least),
+        key=lambda one: (len(one.hypothesis.unknowns), innovation(one)),
+    )
 
 
 def _where(one: Fit) -> tuple[str, str]:

@@ -36,7 +36,7 @@ _FAR_OVER = 10 * ODDS  # nats over no cause that such a name takes
 
 def ranked(found: Weighed) -> Ranking:
     """Probabilities as of every kind of test; coloured noise counts by the share of its samples that are independent."""
-    every = _telling([found.baseline, *found.fits])
+    every = _telling([found.baseline, *found.fits], found.beside)
     share = 1.0 if found.noise is None else found.noise.effective
     less = lambda one: replace(
         one, misfit=share * one.misfit, dof=share * one.dof, log_evidence=share * one.log_evidence
@@ -47,11 +47,22 @@ def ranked(found: Weighed) -> Ranking:
     return replace(again, baseline=found.baseline, fits=fits, noise_scale=again.noise_scale / share)
 
 
-def _telling(every: list[Fit]) -> list[Fit]:
-    """`every` without pairs that neither explain the records nor take most of what the best law alone leaves."""
-    alone = min((_excess(one) for one in every if len(one.hypothesis.parts) == 1), default=np.inf)
+def _telling(every: list[Fit], beside: Fit | None) -> list[Fit]:
+    """`every` without pairs that say nothing: those that neither explain the records nor take most of what the best law leaves.
+
+    Where no pair explains them, those that hold the best law at its site say no more than that it is there: it is judged alone,
+    with what remains. beside: the fit that leaves noise, which explains them too.
+    """
     count = lambda one: len(one.hypothesis.parts)
-    return [one for one in every if count(one) < 2 or adequate(one) or _excess(one) <= _MOST * alone]
+    alone = min((one for one in every if count(one) == 1), key=_excess, default=None)
+    if alone is None:
+        return every
+    explains = lambda one: adequate(one) or one is beside
+    unexplained = not any(explains(one) for one in every if count(one) > 1)
+    says = lambda one: (
+        explains(one) or (_excess(one) <= _MOST * _excess(alone) and not (unexplained and _sites(alone) <= _sites(one)))
+    )
+    return [one for one in every if count(one) < 2 or says(one)]
 
 
 def _excess(one: Fit) -> float:
