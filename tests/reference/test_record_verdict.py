@@ -17,7 +17,7 @@ from mouse_cli.diagnosis.likelihoods.history.verdict import decided, far, ranked
 from mouse_cli.formats import read_deck
 from mouse_cli.model.diagnosis import Rest
 from mouse_cli.model.record_diagnosis import AS_IT_IS, WITH_CAUSE, RecordScore
-from mouse_cli.report.sections.records import _proof, _row
+from mouse_cli.report.sections.records import _error, _proof
 from mouse_cli.report.verdict_sentences import remains
 from mouse_cli.terms.laws import registry
 from mouse_cli.updating.recordings.adequacy import missing, shift_p, shifted, unlikely
@@ -196,7 +196,8 @@ def test_a_simulation_that_diverges_is_no_error_of_so_many_times():
     one = RecordScore("r", 1.0, np.ones(1), {AS_IT_IS: np.full(1, 0.05), WITH_CAUSE: np.full(1, np.inf)}, {}, None)
     found = replace(one, free=one.short)
     assert _proof(found) == "'r' from 5 % to divergence over 1 s, from 5 % to divergence over the whole."
-    assert _row(found, 0) == ["0.05", "diverges"] * 2
+    rows = [[_error(part, name, 0) for name in (AS_IT_IS, WITH_CAUSE)] for part in (found.short, found.free)]
+    assert rows == [["0.05", "diverges"]] * 2
 
 
 def test_floor_of_a_spectrum_is_the_sd_of_white_noise():
