@@ -75,6 +75,16 @@ def test_one_of_several_predicts_as_all_of_them(proofs, monkeypatch):
     assert one.kind == NAMED and one.proof is not together
 
 
+@pytest.mark.parametrize("left", [0.0, 1e-320, 1e-30])
+def test_what_is_held_out_may_refute_all_that_the_fitted_data_leave(proofs, left):
+    """A density lower by thousands: probabilities are shares of what is left, however little that was."""
+    proofs.update({"ground-spring": -5000.0, "force": 0.0})
+    field = made_up(nameless="force")
+    found = informed(ranked(SPRING, field, BARE, p=(1.0, left, 1e-35), odds=(80.0, 5.0, 0.0)))
+    assert found.fits[0] is field and found.probabilities == pytest.approx([1, 1e-35, 0], abs=1e-40)
+    assert judged(SPRING, field, BARE, p=(1.0, left, 1e-35), odds=(80.0, 5.0, 0.0)).kind == UNKNOWN
+
+
 # --- whether something is missing
 
 
@@ -114,7 +124,9 @@ def test_a_part_is_sure_where_others_may_act_with_it(proofs, others, kind):
     assert (found.kind, found.placed) == (kind, kind == NAMED)
 
 
-@pytest.mark.parametrize(("sd", "certain"), [((0.0255, 0.0255), None), ((0.001, 0.0256), (0,)), ((0.0256, 0.0256), None)])
+@pytest.mark.parametrize(
+    ("sd", "certain"), [((0.0255, 0.0255), None), ((0.001, 0.0256), (0,)), ((0.0256, 0.0256), None)]
+)
 def test_of_a_set_those_are_named_whose_places_are_sure(proofs, sd, certain):
     """0.95 of a Gaussian is within 1.96 sd, and 0.05 m is one place; where no place is, all are named with their sd."""
     pair = made_up("mass@0.2", "ground-spring@0.7", covariance=np.diag([1.0, 1.0, *np.square(sd)]))

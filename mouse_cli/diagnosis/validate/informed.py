@@ -29,9 +29,12 @@ def informed(ranking: Ranking) -> Ranking:
     if None in predicted:
         return ranking
     densities = np.array([one.over_noise for one in predicted])
-    p = ranking.probabilities.copy()
-    p[asked] *= np.exp(densities - densities.max())
-    p[rivals] *= ranking.probabilities[rivals].sum() / p[rivals].sum()
+    p, weight = ranking.probabilities.copy(), np.log(np.maximum(ranking.probabilities, np.finfo(float).tiny))
+    weight[asked] += (
+        densities - densities.max()
+    )  # what predicts badly enough is nothing, and so is the rest of what it led
+    weight = np.exp(weight - weight[rivals].max())
+    p[rivals] = ranking.probabilities[rivals].sum() * weight[rivals] / weight[rivals].sum()
     order = np.argsort(-p, kind="stable")
     return replace(
         ranking,
