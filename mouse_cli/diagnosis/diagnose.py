@@ -97,8 +97,7 @@ def _by_its_modes(measured: Measured, notice: Notice, choices: Choices) -> Diagn
         proposals=_proposals(ranking, verdict),
         remarks=(*measured.doubts, *remarks, *measured.remarks(ranking), *warnings, *(_coarse(deck) if deck else ())),
         extended=deck and measured.extended(deck, put),
-        extended_result=deck
-        and run(_by_modes(deck), notice=notice, guess=_values(deck, put), enough=enough, search=False),
+        extended_result=deck and _update(deck, related(deck), notice, _values(deck, put), enough)[0],
         choices=choices,
         field=verdict.field and field_of(ranking, verdict.field, verdict.field_proof),
         rest=rest(ranking) if kind == NAMED else None,
@@ -165,9 +164,14 @@ def _values(deck: Problem, best: Fit) -> np.ndarray:
 
 
 def _update(
-    problem: Problem, kept: np.ndarray, notice: Notice, guess: np.ndarray | None, enough: float, solver: EigenSolver
+    problem: Problem,
+    kept: np.ndarray,
+    notice: Notice,
+    guess: np.ndarray | None,
+    enough: float,
+    solver: EigenSolver | None = None,
 ) -> tuple[Result, tuple[str, ...]]:
-    """The update of the model as it is, by those modes (mask `kept`) that have to do with it; what to say of the others."""
+    """The update of a model by those modes (mask `kept`) that have to do with it; what to say of the others."""
     problem, lost = _by_modes(problem), ", ".join(str(number) for number in problem.test.number[~kept])
     if kept.all() or not kept.any():
         return run(problem, notice=notice, guess=guess, enough=enough, solver=solver, search=False), ()

@@ -1,6 +1,8 @@
 """Modes that a mechanism makes and that nobody measured: those that the deck holds out were measured."""
 
+import importlib
 from dataclasses import replace
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -9,8 +11,9 @@ import pytest
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unmeasured_hz, unseen
-from mouse_cli.formats import yaml_deck
+from mouse_cli.formats import read_deck, yaml_deck
 from mouse_cli.formats.assemble import assemble
+from mouse_cli.model.diagnosis import NAMED, Choices
 
 # masses of 1 kg in a row on four springs of 1000 N/m, held at one end: 2 sqrt(k/m) sin((2 i - 1) pi / 18) rad/s, by sines
 NUMBERS = np.arange(1, 5)
@@ -47,3 +50,18 @@ def test_a_mode_that_is_held_out_was_measured(held, unmeasured):
     one = SimpleNamespace(model=SimpleNamespace(parts=lambda point: parts), point=swapped)
     assert unmeasured_hz(one) == pytest.approx(HZ[1:2][:unmeasured], rel=1e-6)
     assert (unseen(one) > 1) == bool(unmeasured)
+
+
+def test_an_extended_deck_is_updated_by_the_modes_that_have_to_do_with_it(monkeypatch):
+    """A mechanism may turn double modes so that nothing in its prior model is like one: the rest is updated, nothing refused."""
+    whole, seen = importlib.import_module("mouse_cli.diagnosis.diagnose"), []
+
+    def all_but_the_last(problem, *_):
+        seen.append(problem.test.m)
+        return np.arange(problem.test.m) < problem.test.m - (len(seen) > 1)
+
+    monkeypatch.setattr(whole, "related", all_but_the_last)
+    problem = read_deck(Path(__file__).parents[2] / "decks" / "ground_spring.yaml")
+    found = whole.diagnose(problem, choices=Choices(("ground-spring",), causes=1))
+    assert found.kind == NAMED and len(seen) == 2
+    assert found.extended_result.problem.test.m == problem.test.m - 1
