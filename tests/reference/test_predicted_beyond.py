@@ -4,6 +4,8 @@ Two masses, joined by a soft spring c, each on its own spring to the ground, and
 is fitted: it says nothing of the second spring k2, so that p(held | fitted) = integral of p(held | k2) p(k2).
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.linalg import eigh
@@ -11,7 +13,7 @@ from scipy.linalg import eigh
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.search.fit import fit
-from mouse_cli.diagnosis.validate.held_out import held_out
+from mouse_cli.diagnosis.validate.held_out import held_out, held_out_density
 from mouse_cli.dynamics.solver import EigenSolver
 from mouse_cli.formats import read_deck
 
@@ -84,3 +86,13 @@ def test_a_crossing_in_what_the_new_data_do_not_feel_at_the_fit(tmp_path):
     model = reduced(problem, problem.prior.mean, EigenSolver(lambda text: None))
     found = held_out(model, fit(Model(model), np.zeros(0)), None)
     assert found.baseline.p > 0.05
+
+
+def test_a_fit_that_is_no_optimum_gains_nothing_by_more_data(tmp_path):
+    """New data may lead a descent to where the old ones misfit less, too: they add their own chi-square all the same."""
+    hz, shapes = modes(1.35)
+    (path := tmp_path / "deck.yaml").write_text(DECK.format(frequency=hz.tolist(), shapes=shapes.tolist()))
+    problem = read_deck(path)
+    found = fit(Model(reduced(problem, problem.prior.mean, EigenSolver(lambda text: None))), np.zeros(0))
+    poor = held_out_density(replace(found, misfit=found.misfit + 30.0))
+    assert 0.0 <= poor.misfit <= held_out_density(found).misfit and np.isfinite(poor.over_noise)

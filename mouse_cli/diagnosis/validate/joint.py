@@ -75,7 +75,8 @@ def beyond_linear(one: Fit, held: Model, at: Point, T: np.ndarray, misfit: float
             break
     if best is None:
         return None
-    more, there = best.misfit - one.misfit, best.point.each[1]
+    there = best.point.each[1]
+    more = max(best.misfit - one.misfit, there.chi2)  # less only where the fit was no optimum of its own data
     return more, -0.5 * (more + _size(both, best) - np.linalg.slogdet(capped(one.hessian, both.width))[1]) - there.nats
 
 
