@@ -3,13 +3,16 @@
 import numpy as np
 import pytest
 from hermite_beams import LENGTH, Truth, deck
+from scipy.optimize import minimize
 
 from mouse_cli.diagnosis import diagnose
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.nameless import registry
 from mouse_cli.diagnosis.nameless._both import both
 from mouse_cli.diagnosis.nameless._field import fielded, smooth
 from mouse_cli.diagnosis.nameless._tied import tied
+from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.model.diagnosis import AXIAL, FORCE, STIFFNESS, UNKNOWN, Choices
@@ -85,6 +88,34 @@ def test_two_rivals_at_once_and_their_derivatives():
                 size = 1e-5 * np.abs(up @ u).max()
                 assert moved[i] == pytest.approx((up - down) @ u / 2e-5, rel=1e-4, abs=size)
                 assert slope[i] @ u == pytest.approx(moved[i], rel=1e-9, abs=size)
+
+
+@pytest.mark.parametrize("key", ["force", "compliance"])
+@pytest.mark.parametrize("beside", [False, True])
+def test_how_a_change_of_rank_one_bends(key, beside):
+    """Second derivatives of K, by differences of the first where there is no change yet; beside a field by unknowns of both."""
+    problem = assemble(yaml_deck.read(deck(Truth(), False), "beam.yaml"))
+    model, known = reduced(problem, problem.prior.mean), registry()
+    cells = {name: known[name].cells(model) for name in (key, "field-section")}
+    one = tied(model, smooth(known[key], cells[key], 0.3, 0.5, known[key].signs[0]), cells[key])
+    if beside:
+        one = both(one, smooth(known["field-section"], cells["field-section"], 0.1, 0.5), cells["field-section"])
+    z, u, h = np.zeros(one.L.shape[1]), np.eye(one.r)[:, :5], 1e-6 * np.eye(one.L.shape[1])
+    for i, j, bent in zip(*one.bent(z, u), strict=True):
+        up, down = (one.moved(z + step, u)[0][i] for step in (h[j], -h[j]))
+        assert bent == pytest.approx((up - down) / 2e-6, abs=1e-3 * np.abs(bent).max())
+
+
+def test_a_descent_past_where_a_change_of_rank_one_vanishes():
+    """Both motions end at one optimum, which another optimiser does not leave: steps by slopes alone cross zero to and fro."""
+    problem = assemble(yaml_deck.read(deck(Truth(tension=lambda x: -2.0 + 0 * x), False), "beam.yaml"))
+    model, rival = reduced(problem, problem.prior.mean), registry()["force"]
+    field = smooth(rival, cells := rival.cells(model), 1.0, np.inf, rival.signs[0])
+    trial = Model(tied(model, field, cells))
+    ends = [fit(trial, np.zeros(0), np.append(np.zeros(model.L.shape[1]), 0.1 * w)) for w in np.eye(2)]
+    assert ends[0].misfit == pytest.approx(ends[1].misfit, rel=1e-6)
+    cost = lambda x: trial.point(x).chi2 + x @ x
+    assert minimize(cost, ends[0].point.x, method="Nelder-Mead").fun > (1 - 1e-6) * ends[0].misfit
 
 
 def test_an_axial_force_that_varies():

@@ -55,6 +55,16 @@ class Tied(Fielded):
         dK += np.outer(g, gu) * (d_size / size**2)[:, None, None]
         return dK, dM
 
+    def bent(self, z: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Unknowns i and j (c,) of z, and d2K/dz_i dz_j u (c, r, m) for motion u (r, m); of added flexibility to leading order."""
+        i, j = np.triu_indices(len(self.R))
+        rows = self.R
+        if self.nameless.sign < 0:
+            rows, h = rows @ Reduced.matrices(self, z)[0], z[self.deck :] @ self.R
+            rows = rows / np.sqrt(1 + h @ (z[self.deck :] @ rows))
+        pulled = self.nameless.sign * (rows @ u)[:, None]
+        return self.deck + i, self.deck + j, rows[i, :, None] * pulled[j] + rows[j, :, None] * pulled[i]
+
 
 def tied(base: Reduced, field: Smooth, cells: Cells | None) -> Tied:
     """`base` with such a spring along the rows of motion of `cells`; None: it does not have it."""

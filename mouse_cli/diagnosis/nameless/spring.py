@@ -53,8 +53,7 @@ def best_spring(model: Reduced, reach: float = np.inf) -> Fit | None:
     Springs are put in order by the shapes that they would make, whatever their stiffness; the first are fitted, then those that
     end beside the best of them. None where no shapes tell them apart. reach: misfit above which no fit matters.
     """
-    found = [each for each in _at_nodes(model) if each.fit.misfit < _GAINED * reach]
-    found = [each for each in _beside(model, found) if each.fit.misfit < reach]
+    found = _beside(model, _at_nodes(model, _GAINED * reach), reach)
     if not found:
         return None
     first = max(found, key=lambda each: each.weight)
@@ -67,17 +66,17 @@ def best_spring(model: Reduced, reach: float = np.inf) -> Fit | None:
     return averaged(fits, [each.weight for each in found], float(total + np.log(2)))  # b and -b are the same
 
 
-def _at_nodes(model: Reduced) -> list[_Tried]:
+def _at_nodes(model: Reduced, reach: float) -> list[_Tried]:
     measured, every = shapes(model), list(springs(model))
     if measured.dof < 1 or not len(measured.modes) or not every:
         return []
     prior = _log_prior(every)
     matches = matched(model, measured, np.stack([_row(each) for each in every]))
     order = np.argsort(matches.cost + matches.volume() - 2 * prior, kind="stable")[:_FITTED]
-    return _fitted(model, [(every[i], float(prior[i]), matches.z[i]) for i in order])
+    return _fitted(model, [(every[i], float(prior[i]), matches.z[i]) for i in order], reach)
 
 
-def _beside(model: Reduced, found: list[_Tried]) -> list[_Tried]:
+def _beside(model: Reduced, found: list[_Tried], reach: float) -> list[_Tried]:
     """The springs of `found`, the best of them with ends at the places beside theirs too, which share their prior.
 
     Those that match the shapes best are fitted; the evidence of others differs by what their shapes do, as in `local.best_law`.
@@ -95,7 +94,7 @@ def _beside(model: Reduced, found: list[_Tried]) -> list[_Tried]:
         prior = each.prior - float(np.log(len(some)) - others)
         z = each.fit.point.x[: model.L.shape[1]]
         near += [(some[i], prior, z) for i in first]
-    return _fitted(model, near) + found[_FOLLOWED:]
+    return _fitted(model, near, reach) + [each for each in found[_FOLLOWED:] if each.fit.misfit < reach]
 
 
 def _joined(chosen: Iterable[tuple[Ends, int]]) -> Spring:
@@ -106,12 +105,12 @@ def _joined(chosen: Iterable[tuple[Ends, int]]) -> Spring:
     return Ends(sites, rows, at, numbers, ends[0].direction), tuple(range(len(sites)))
 
 
-def _fitted(model: Reduced, chosen: list[tuple[Spring, float, np.ndarray]]) -> list[_Tried]:
-    """Those springs with their ln prior, from parameters z, at a spread of one."""
+def _fitted(model: Reduced, chosen: list[tuple[Spring, float, np.ndarray]], reach: float) -> list[_Tried]:
+    """Those springs with their ln prior, from parameters z, at a spread of one, that misfit less than `reach`."""
     found: list[_Tried] = []
     for spring, prior, z in chosen:
-        one = _at(model, spring, 1.0, z, within([each.fit for each in found], NEAR) if found else np.inf)
-        found += [] if one is None else [_Tried(one, prior, spring)]
+        one = _at(model, spring, 1.0, z, min(reach, within([each.fit for each in found], NEAR) if found else reach))
+        found += [] if one is None or one.misfit >= reach else [_Tried(one, prior, spring)]
     return found
 
 

@@ -120,6 +120,10 @@ class FrfModel:
         residual = np.concatenate(residual)
         return FrfPoint(x, eigenvalues, X, residual, parts, modal) if np.isfinite(residual).all() else None
 
+    def bending(self, at: FrfPoint) -> float:
+        """0: products of slopes have all of it that is known."""
+        return 0.0
+
     def _erring(self, at: Point) -> np.ndarray:
         """d(prediction)/d(errs) (m, c) of the measured modes, whitened."""
         rows = self.theory * (at.modes[:, None] == np.arange(len(self.theory))) / self.modes.sd_log[:, None]

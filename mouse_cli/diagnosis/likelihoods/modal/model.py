@@ -137,13 +137,34 @@ class Model(Carrying):
         return self._slopes[1]
 
     def _jacobian(self, at: Point) -> np.ndarray:
-        X, m = at.X, at.which
-        u, lam = X[:, m], at.eigenvalues[m]
+        m = at.which
+        u, lam = at.X[:, m], at.eigenvalues[m]
         shape = (self.k + self.t, self.size, len(m))
         pushed = np.zeros(shape), np.zeros(shape[::2]), np.zeros((shape[0], len(at.seen), shape[2]))
         self._by_deck(at, u, lam, pushed)
         self._by_causes(at, u, lam, pushed)
-        forces, inertia, sensed = pushed
+        return self._moved(at, *pushed)
+
+    def bending(self, at: Point) -> np.ndarray | float:
+        """What products of slopes leave out of the Hessian (k + t, k + t) of half the misfit, as far as it bends upwards: what
+        second derivatives of K do. Where a change of rank one vanishes it is all that there is. 0: nothing.
+        """
+        r, m = self.base.r, at.which
+        bent = self.base.bent(at.x[: self.k], at.X[:r, m])
+        if bent is None:
+            return 0.0
+        i, j, pushed = bent
+        forces, inertia, sensed = (np.zeros((len(i), *own, len(m))) for own in ((self.size,), (), (len(at.seen),)))
+        forces[:, :r] = pushed
+        H = np.zeros((len(at.x), len(at.x)))
+        H[i, j] = H[j, i] = -at.residual @ self._moved(at, forces, inertia, sensed)
+        values, vectors = np.linalg.eigh(H)
+        return (vectors * np.maximum(values, 0.0)) @ vectors.T
+
+    def _moved(self, at: Point, forces: np.ndarray, inertia: np.ndarray, sensed: np.ndarray) -> np.ndarray:
+        """Change (q, p) of what is predicted by each of p changes; see `Pushed`."""
+        X, m = at.X, at.which
+        lam = at.eigenvalues[m]
         G = (np.swapaxes(forces, 1, 2).reshape(-1, self.size) @ X).reshape(len(forces), len(m), self.size)
         apart = lam[:, None] - at.eigenvalues
         apart[np.abs(apart) < 1e-9 * np.abs(lam)[:, None]] = np.inf

@@ -167,6 +167,10 @@ class Reduced:
         """d ln EI / dz (b, k) of the bars: what softens them follows their stiffness."""
         return stiffening(self.problem, self.bars, self.theta) @ self.by(self.z)
 
+    def bent(self, z: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+        """Unknowns i and j (c,) of z, and d2K/dz_i dz_j u (c, r, m) for motion u (r, m), where that matters; None: nowhere."""
+        return None
+
     @cached_property
     def total_mass(self) -> float:
         """Mass (kg) that moves when the structure translates; without geometry the sum of the diagonal."""
