@@ -13,6 +13,7 @@ from mouse_cli.diagnosis.likelihoods.frf.lossy_parts import lossy_parts
 from mouse_cli.diagnosis.likelihoods.frf.model import FrfModel
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
+from mouse_cli.diagnosis.search.optima import within
 
 _PLACES, _KEPT = 5, 2  # places from which what only damps begins, and how many of its kind go on
 THIN, BRIEF = 4, 12  # in a first look: every so manieth line, and steps
@@ -56,10 +57,12 @@ class Judge:
             modes = modes.sharpened(self.known)
         return FrfModel(replace(base, data=replace(self.data, modes=modes)), self.damping, recipes)
 
-    def fitted(self, one: Fit, law: str = SAME, most: int = MOST, damping: Damping | None = None) -> Fit | None:
+    def fitted(
+        self, one: Fit, law: str = SAME, most: int = MOST, damping: Damping | None = None, reach: float = np.inf
+    ) -> Fit | None:
         """The explanation `one` of modes, or of FRFs, fitted from where it is; law: of its springs, where they have none yet.
 
-        damping: of the structure; None: as `one` has it, of modes as it is held likely.
+        damping: of the structure; None: as `one` has it, of modes as it is held likely. reach: misfit above which no fit matters.
         """
         recipes = tuple(lossy(recipe, law, self.data.middle) for recipe in one.recipes)
         own = replace(self, damping=damping or getattr(one.model, "damping", self.damping))
@@ -67,18 +70,21 @@ class Judge:
         parts = zip(one.recipes, recipes, one.model.own, strict=True)
         c = [np.append(one.c[own], [np.log(LOSS)] * (len(r.unknowns) - len(was.unknowns))) for was, r, own in parts]
         start = np.concatenate([one.point.x[: one.model.k], model.start[one.model.k :]])
-        return fit(model, np.concatenate([np.zeros(0), *c]), start, most)
+        return fit(model, np.concatenate([np.zeros(0), *c]), start, most, reach)
 
     def all_of(self, fits: list[Fit]) -> list[Fit]:
-        """Each fitted to the end, from where it is."""
-        found = [self.fitted(one) for one in fits]
-        return [one for one in found if one is not None]
+        """Each fitted to the end from where it is, but for those after the first that come nowhere near the best."""
+        found: list[Fit] = []
+        for one in fits:
+            end = self.fitted(one, reach=within(found) if found else np.inf)
+            found += [] if end is None else [end]
+        return found
 
     def uneven(self, fits: list[Fit]) -> list[Fit]:
         """Each with damping of every mode of its own where that is the more probable; before, both are equally likely."""
-        found = []
+        found, reach = [], within(fits)
         for one in fits:
-            other = self.fitted(one, damping=one.model.damping.unevenly()) or one
+            other = self.fitted(one, damping=one.model.damping.unevenly(), reach=reach) or one
             likelier = max(one, other, key=lambda each: each.log_evidence)
             total = np.logaddexp(one.log_evidence, other.log_evidence) - np.log(2)
             found.append(replace(likelier, log_evidence=float(total)))
@@ -92,18 +98,18 @@ class Judge:
         starts = [at for at in (self.fitted(one, most=0), self.fitted(end, most=0)) if at is not None]
         return min(starts, key=lambda at: at.misfit, default=None)
 
-    def laws(self, one: Fit) -> list[Fit]:
-        """A first look at the explanation `one` under each law of damping that its springs may follow."""
+    def laws(self, one: Fit, reach: float) -> list[Fit]:
+        """A first look at the explanation `one` under each law of damping that its springs may follow; reach: as in `fitted`."""
         may = any(recipe.candidate.group in GROUPS for recipe in one.recipes)
-        found = [self.fitted(one, law, BRIEF) for law in (LAWS if may else (SAME,))]
+        found = [self.fitted(one, law, BRIEF, reach=reach) for law in (LAWS if may else (SAME,))]
         return [each for each in found if each is not None]
 
-    def damped(self, one: Fit, base: Reduced) -> list[Fit]:
-        """A first look at what only damps, beside the causes of `one`, a fit of FRFs; base: its model with its modes."""
+    def damped(self, one: Fit, base: Reduced, reach: float) -> list[Fit]:
+        """The same of what only damps, beside the causes of `one`, a fit of FRFs; base: its model with its modes."""
         found = []
         for recipes in (dashpots(base), lossy_parts(base, self.data.middle)):
             recipes = [replace(recipe, number=i) for i, recipe in enumerate(recipes)]
-            fits = [fit(trial, x[trial.k :], x[: trial.k], BRIEF) for trial, x in self._starts(one, recipes)]
+            fits = [fit(trial, x[trial.k :], x[: trial.k], BRIEF, reach) for trial, x in self._starts(one, recipes)]
             found += sorted((each for each in fits if each is not None), key=lambda each: -each.log_evidence)[:_KEPT]
         return found
 

@@ -17,7 +17,7 @@ from mouse_cli.diagnosis.likelihoods.frf.lossy import GROUPS, LAWS
 from mouse_cli.diagnosis.likelihoods.frf.mesh import of_mesh
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.search.fit import Fit, fit
-from mouse_cli.diagnosis.search.optima import distinct
+from mouse_cli.diagnosis.search.optima import distinct, within
 from mouse_cli.diagnosis.search.rank import Ranking, ranking
 from mouse_cli.diagnosis.search.several import adequate
 from mouse_cli.diagnosis.search.study import Study
@@ -97,11 +97,17 @@ def _searched(judge: Judge, modal: Ranking) -> list[Fit]:
     none = None if begun is None else quick.fitted(begun)
     if none is None:
         return []
-    starts = [quick.near(one, stages) for one in _promising(modal)]
-    looked = [law for one in starts if one for law in quick.laws(one)] + quick.damped(none, base)
+    looked: list[Fit] = []
+
+    def look(starts: list[Fit], stages: tuple[Judge, ...]) -> None:
+        for start in starts:
+            one = quick.near(start, stages)
+            looked.extend([] if one is None else quick.laws(one, within([none, *looked])))
+
+    look(_promising(modal), stages)
+    looked += quick.damped(none, base, within([none, *looked]))
     if judge.known is not None or not any(map(adequate, looked)):
-        starts = [quick.near(one, stages[1:]) for one in anew(stages[0], modal)]
-        looked += [law for one in starts if one for law in quick.laws(one)]
+        look(anew(stages[0], modal), stages[1:])
     return judge.uneven(judge.all_of([none, *_leading(looked)]))
 
 
