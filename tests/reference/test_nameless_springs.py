@@ -101,7 +101,7 @@ def test_how_a_change_of_rank_one_bends(key, beside):
     if beside:
         one = both(one, smooth(known["field-section"], cells["field-section"], 0.1, 0.5), cells["field-section"])
     z, u, h = np.zeros(one.L.shape[1]), np.eye(one.r)[:, :5], 1e-6 * np.eye(one.L.shape[1])
-    for i, j, bent in zip(*one.bent(z, u), strict=True):
+    for i, j, bent in zip(*one.second_slopes(z, u), strict=True):
         up, down = (one.moved(z + step, u)[0][i] for step in (h[j], -h[j]))
         assert bent == pytest.approx((up - down) / 2e-6, abs=1e-3 * np.abs(bent).max())
 

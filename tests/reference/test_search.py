@@ -259,7 +259,8 @@ def test_a_refused_step_is_followed_by_one_of_half_its_length_at_most():
         return SimpleNamespace(x=x, residual=r(x), chi2=float(r(x) @ r(x)))
 
     box = {"bounds": np.array([[-50.0, 50.0]] * 2), "width": np.full(2, 100.0)}
-    valley = SimpleNamespace(k=0, base=SimpleNamespace(z=np.zeros(0)), point=point, jacobian=slopes, **box)
+    of = {"point": point, "jacobian": slopes, "curvature": lambda at: 0.0}
+    valley = SimpleNamespace(k=0, base=SimpleNamespace(z=np.zeros(0)), **of, **box)
     end = descended(valley, np.array([-3.0, -4.0]))
     assert end.point.x == pytest.approx([1, 1], abs=1e-2) and any(len(each) > 1 for each in tried)
     assert all(after <= before / 2 + 1e-12 for each in tried for before, after in pairwise(each))

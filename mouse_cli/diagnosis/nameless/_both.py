@@ -49,9 +49,9 @@ class Both(Fielded):
             found[into] = np.concatenate([each[: self.deck], own, each[self.deck :]])
         return found["K"], found["M"]
 
-    def bent(self, z: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+    def second_slopes(self, z: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
         """That of the other, by unknowns of both."""
-        found = self.other.bent(self._of_other(z), u)
+        found = self.other.second_slopes(self._of_other(z), u)
         behind = len(self.of_field)
         return found and (found[0] + behind, found[1] + behind, found[2])
 

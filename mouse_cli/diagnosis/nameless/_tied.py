@@ -55,7 +55,7 @@ class Tied(Fielded):
         dK += np.outer(g, gu) * (d_size / size**2)[:, None, None]
         return dK, dM
 
-    def bent(self, z: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def second_slopes(self, z: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Unknowns i and j (c,) of z, and d2K/dz_i dz_j u (c, r, m) for motion u (r, m); of added flexibility to leading order."""
         i, j = np.triu_indices(len(self.R))
         rows = self.R

@@ -144,7 +144,7 @@ def descended(
     damping, scale, gained = 1e-3, np.concatenate([np.ones(k), 1 / model.width**2]), np.inf
     for step_number in range(most):
         J, (H, slope) = cost_at(at, k), normal(model, at)
-        H = H + model.bending(at)
+        H = H + model.curvature(at)
         step = lambda damped, H=H, slope=slope, x=at.x: _step(H, slope, damped, scale, x, lower, upper)
         hope = min(_AHEAD, most - step_number) * gained if step_number >= min(_LEAST, most // 3) else np.inf
         full = float(slope @ step(1e-6))

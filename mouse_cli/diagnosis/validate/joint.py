@@ -54,9 +54,9 @@ class Both:
         """d(prediction)/dx (q, k + t), whitened."""
         return np.vstack([model.jacobian(own) for model, own in zip(self.models, at.each, strict=True)])
 
-    def bending(self, at: Two) -> np.ndarray | float:
+    def curvature(self, at: Two) -> np.ndarray | float:
         """See `Model`."""
-        return sum(model.bending(own) for model, own in zip(self.models, at.each, strict=True))
+        return sum(model.curvature(own) for model, own in zip(self.models, at.each, strict=True))
 
 
 def beyond_linear(one: Fit, held: Model, at: Point, T: np.ndarray, misfit: float) -> tuple[float, float] | None:

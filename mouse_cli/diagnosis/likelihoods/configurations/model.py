@@ -231,9 +231,9 @@ class Together:
         """The same, each arrangement whitened by itself alone."""
         return np.vstack([model.jacobian(point) for model, point in zip(self.models, at.points, strict=True)])
 
-    def bending(self, at: Points) -> np.ndarray | float:
+    def curvature(self, at: Points) -> np.ndarray | float:
         """See `Model`; errors that arrangements share are left out."""
-        return sum(model.bending(point) for model, point in self.parts(at))
+        return sum(model.curvature(point) for model, point in self.parts(at))
 
     def parts(self, at: Points) -> list[tuple[Model, Point]]:
         """Model and point of each arrangement."""

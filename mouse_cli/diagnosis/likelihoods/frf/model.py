@@ -120,8 +120,8 @@ class FrfModel:
         residual = np.concatenate(residual)
         return FrfPoint(x, eigenvalues, X, residual, parts, modal) if np.isfinite(residual).all() else None
 
-    def bending(self, at: FrfPoint) -> float:
-        """0: products of slopes have all of it that is known."""
+    def curvature(self, at: FrfPoint) -> float:
+        """0: of FRFs products of slopes are all of the Hessian that is known."""
         return 0.0
 
     def _erring(self, at: Point) -> np.ndarray:

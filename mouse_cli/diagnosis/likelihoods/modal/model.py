@@ -145,15 +145,16 @@ class Model(Carrying):
         self._by_causes(at, u, lam, pushed)
         return self._moved(at, *pushed)
 
-    def bending(self, at: Point) -> np.ndarray | float:
-        """What products of slopes leave out of the Hessian (k + t, k + t) of half the misfit, as far as it bends upwards: what
-        second derivatives of K do. Where a change of rank one vanishes it is all that there is. 0: nothing.
+    def curvature(self, at: Point) -> np.ndarray | float:
+        """Second-order term of the Hessian (k + t, k + t) of half the misfit, -r d2h/dx2 by the second derivatives of K, which
+        products of slopes leave out; its positive part, so that steps lead downwards. Where a change of rank one vanishes so do its
+        slopes, and this is all that there is. 0: there is none.
         """
         r, m = self.base.r, at.which
-        bent = self.base.bent(at.x[: self.k], at.X[:r, m])
-        if bent is None:
+        found = self.base.second_slopes(at.x[: self.k], at.X[:r, m])
+        if found is None:
             return 0.0
-        i, j, pushed = bent
+        i, j, pushed = found
         forces, inertia, sensed = (np.zeros((len(i), *own, len(m))) for own in ((self.size,), (), (len(at.seen),)))
         forces[:, :r] = pushed
         H = np.zeros((len(at.x), len(at.x)))

@@ -167,7 +167,7 @@ class Reduced:
         """d ln EI / dz (b, k) of the bars: what softens them follows their stiffness."""
         return stiffening(self.problem, self.bars, self.theta) @ self.by(self.z)
 
-    def bent(self, z: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+    def second_slopes(self, z: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
         """Unknowns i and j (c,) of z, and d2K/dz_i dz_j u (c, r, m) for motion u (r, m), where that matters; None: nowhere."""
         return None
 
