@@ -36,6 +36,9 @@ class Linear:
     def jacobian(self, at) -> np.ndarray:
         return self.T
 
+    def curvature(self, at) -> float:
+        return 0.0
+
 
 def exact(model: Linear, c: np.ndarray) -> float:
     """ln p(y | c), z integrated out, but for (2 pi)^(-q/2)."""

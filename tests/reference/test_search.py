@@ -105,6 +105,9 @@ class Curve:
         c = at.x[0] / self.per
         return ((self.f(c - h) - self.f(c + h)) / (2 * h * self.per))[:, None]
 
+    def curvature(self, at):
+        return 0.0
+
     def loosened(self, at, share):
         return None
 
