@@ -91,8 +91,8 @@ MUTANTS = (
         "validate/informed.py",
         _GATES,
         held_out_counts_for_nothing=(
-            "np.exp(densities - densities.max())",
-            "np.exp(0 * densities)",
+            "+= densities - densities.max()",
+            "+= 0 * densities",
             "test_held_out_data_settle_what_the_fitted_data_leave_open test_held_out_data_turn_the_odds_of_a_field",
         ),
     ),

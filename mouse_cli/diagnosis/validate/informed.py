@@ -29,10 +29,9 @@ def informed(ranking: Ranking) -> Ranking:
     if None in predicted:
         return ranking
     densities = np.array([one.over_noise for one in predicted])
+    # In logarithms: what predicts badly enough may have led by all of the probability.
     p, weight = ranking.probabilities.copy(), np.log(np.maximum(ranking.probabilities, np.finfo(float).tiny))
-    weight[asked] += (
-        densities - densities.max()
-    )  # what predicts badly enough is nothing, and so is the rest of what it led
+    weight[asked] += densities - densities.max()
     weight = np.exp(weight - weight[rivals].max())
     p[rivals] = ranking.probabilities[rivals].sum() * weight[rivals] / weight[rivals].sum()
     order = np.argsort(-p, kind="stable")
