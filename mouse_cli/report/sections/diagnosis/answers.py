@@ -46,6 +46,7 @@ _FEW = 0.25  # share of all places that may hold half of the energy, for it to p
 _INFLATED = 1.05  # noise scale from which on it is told
 _SURE = 0.9  # probability from which on a doubt is none between groups
 _GAIN, _RATIO = 3.0, 0.7  # what a proof takes: gain in log density, ratio of errors
+_OWN_MODE = ("oscillator", "sprung-mass")  # mechanisms that bring a mode with them, whatever group they are in
 _INTERVAL = 0.9  # probability of each interval of a prediction
 _RARE = 0.01  # probability of so few frequencies within their intervals below which these are too narrow
 
@@ -159,7 +160,7 @@ def _unsettled(found: Diagnosis) -> str:
         )
     if found.probability < _SURE:
         return f"No mechanism is probable enough to be named: that takes a probability of {_SURE:g}."
-    if not np.isfinite(measured.shapes).any() and any(cause.group == "oscillator" for cause in best.causes):
+    if not np.isfinite(measured.shapes).any() and any(cause.physics in _OWN_MODE for cause in best.causes):
         return (
             f"{capital(best.title)} is the most probable, with {with_p(found.probability)}, but frequencies without shapes do "
             "not prove that the structure has a mode which the model has not. Mode shapes would."
