@@ -23,14 +23,14 @@ _SMALL = 0.2  # share of all places that the 90 % region may hold to point anywh
 _CERTAIN = ("is less accurate than stated in the deck", "has an error")  # of all entries of a kind, and of one mode
 _POSSIBLE = ("may be less accurate than stated in the deck", "may have an error")
 _TOLD = {
-    "gains": "every sensor looks off by about {size:.1f} % of what it reads, in all modes alike, which the deck does not state: "
-    "calibrate the sensors, or add that much of each component to shape_sd",
-    "places": "every sensor appears misplaced by about {size:.2f} % of the length of its row of bars, which the deck does not "
-    "state: measure the sensor positions, or add the resulting shape error to shape_sd",
-    "drift": "the frequencies look off by about {size:.2f} % each, one from another, which the deck does not state (temperature, "
-    "amplitude, sensors moved between modes): repeat the test, or add that much to frequency_sd",
-    "frequency": "the frequency of mode {modes} does not agree with all that agrees among the others: check that entry, or leave "
-    "it out (null)",
+    "gains": "every sensor looks off by about {size:.1f} % of what it reads, in all modes alike: calibrate the sensors, or add "
+    "that much of each component to shape_sd",
+    "places": "every sensor appears misplaced by about {size:.2f} % of its row of bars: measure the sensor positions, "
+    "or add the resulting shape error to shape_sd",
+    "drift": "the frequencies look off by about {size:.2f} % each (temperature, amplitude, sensors moved between "
+    "modes): repeat the test, or add that much to frequency_sd",
+    "frequency": "the frequency of mode {modes} does not agree with all that agrees among the others: check that entry, or make "
+    "it null",
     "mode": "mode {modes} is none that the structure can have beside the others: a false mode of the identification, of another "
     "part, or paired wrongly: check it, or leave it out",
 }
@@ -88,8 +88,8 @@ def _narrow(ranking: Ranking) -> Iterator[str]:
         for j in chosen
     ]
     yield (
-        f"The model as it is explains the data (p = {p:.2g}) with {enumerated(parts)}. Where such a prior may be too narrow, a "
-        "value of the deck is wrong and nothing need be missing: check the value, or state a larger sd, and diagnose again."
+        f"The model as it is explains the data (p = {p:.2g}) with {enumerated(parts)}: if a prior may be too narrow, "
+        "nothing need be missing. Check the value, or state a larger sd."
     )
 
 

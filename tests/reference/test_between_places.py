@@ -109,6 +109,15 @@ def test_a_share_of_a_mass_on_a_spring_is_taken_out_of_what_is_fixed():
     assert lowest(model(TIP % KG), "sprung-mass", [share, hz], "TY") == pytest.approx(expected, rel=1e-4)
 
 
+def test_of_a_mass_that_is_hardly_a_body_all_may_be_on_a_spring():
+    """A share of it would be too light to be sought, so that the search begins with the whole."""
+    light = 1.2e-3 * KG
+    text = (TIP % KG).replace("supports:", f"  - {{id: 10, type: mass, nodes: [3], mass: {light}}}\n    supports:")
+    recipe = recipe_of(model(text), "sprung-mass", "mass 10, TY")
+    share = recipe.unknowns[0]
+    assert share.lower > 0.8 and len(recipe.grid) and (recipe.grid[:, 0] >= share.lower).all()
+
+
 def test_mass_of_a_floor_sways_with_it():
     m = 0.3
     expected = 24 * EI / H**3 / (KG + m * W)

@@ -167,11 +167,11 @@ def test_all_data_together_say_whether_fields_are_asked(explained):
     heavier = 0.25 * np.sin(np.arange(N) / 1.6)
     problem = assemble(yaml_deck.read(chain(np.full(N, 1000.0), 1 + heavier), "chain.yaml"))
 
-    def hear(found):
+    def by_all(found):
         own = found.baseline
         return replace(found, baseline=replace(own, misfit=float(own.dof))) if explained else found
 
-    fits = rank(reduced(problem, problem.prior.mean), {}, hear=hear).fits
+    fits = rank(reduced(problem, problem.prior.mean), {}, by_all=by_all).fits
     assert any(one.nameless for one in fits) is not explained
 
 

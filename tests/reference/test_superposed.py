@@ -82,6 +82,19 @@ def test_two_that_hide_one_another_are_begun_together():
     assert all(len(c) == sum(len(one.unknowns) for one in recipes) for recipes, c in begun)
 
 
+def test_what_was_looked_at_at_several_places_together_only_is_in_no_pair():
+    """As where all sizes at single places were passed over for several feet at once: the others pair without it."""
+    study = Study(chain_with({5: 0.4}, {16: 4e3}))
+    for name in ("mass", "ground-spring"):
+        study.coarse.looks(name, np.zeros(study.k), ())
+    before = [tuple(each.site(each.grid[0]).text for each in recipes) for recipes, _ in study.coarse.together(["mass"], 4)]
+    none = study.coarse.alone["mass"].none
+    study.coarse.alone["oscillator"] = Alone([("6 and 17", 0)], none[None, :] + 1, none)
+    for leading in (["mass"], ["oscillator", "mass"]):
+        after = [tuple(each.site(each.grid[0]).text for each in recipes) for recipes, _ in study.coarse.together(leading, 4)]
+        assert after == before != []
+
+
 @pytest.mark.parametrize("name", ["ground-spring", "oscillator", "mass"])
 def test_the_best_look_beside_a_cause_is_among_those_that_are_taken(name, monkeypatch):
     """At most so many of all places and sizes are looked at exactly, and the best of all of them is one."""

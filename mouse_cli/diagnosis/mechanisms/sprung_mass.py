@@ -60,7 +60,7 @@ def _recipe(model: Reduced, candidate: Candidate, number: int, node: int, mass: 
             return "mass"
         return "mass-loss" if values[1] < hz[0] else ""
 
-    starts = product(_SHARES[share.lower <= _SHARES], np.concatenate([steps(f, 10), measured]))
+    starts = product(np.unique(np.maximum(_SHARES, share.lower)), np.concatenate([steps(f, 10), measured]))
     extend = lambda problem, values: _hung(problem, number, d, values[0], mass, (2 * np.pi * values[1]) ** 2)
     prior = -float(np.log(count))
     return Recipe(

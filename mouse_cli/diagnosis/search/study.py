@@ -90,7 +90,7 @@ class Study:
     def together(self, leading: list[str], most: int) -> list[tuple[tuple[Recipe, ...], np.ndarray]]:
         """The `most` pairs that promise most where effects add up, each one of `leading` and any other, and their coordinates."""
         known = {name: {text(each): each for each in self.recipes(name) if len(each.parts) < 2} for name in self.alone}
-        alone = {name: one.of(known[name]) for name, one in self.alone.items() if known[name]}
+        alone = {name: own for name, one in self.alone.items() if (own := one.of(known[name])).at}
         own = [name for name in leading if name in alone]
         pairs = best_pairs(alone, own, *self._adapted(np.zeros(self.k), ()), most)
         made = [[(known[name][place], i) for name, (place, i) in two] for two in pairs]
