@@ -236,6 +236,7 @@ FAULTS = [
     ("MD210", "mass: {identity", "mas: {identity", "mas:", 3, "write 'mass'"),
     ("MD210", "run: {partials", "run: {partial", "partial:", 7, "write 'partials'"),
     ("MD210", "sd: 5 %,", "sd: 5 %, colour: red,", "colour", 6, "keys of parameters[1] are name"),
+    ("MD210", "sd: 5 %,", "sd: 5 %, dofs: [1],", "dofs", 4, "'dofs' is a key of "),
     ("MD207", "{partials: 5}", "{partials: 5, partials: 6}", "partials: 6", 8, "given twice"),
     ("MD211", "  mass: {identity: 2}\n", "", "stiffness: {order", None, "model.mass is missing"),
     ("MD211", "name: b, ", "", "{sd: 0.5", None, "parameters[2].name is missing"),

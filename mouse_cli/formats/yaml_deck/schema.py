@@ -32,3 +32,18 @@ def _reached(name: str, sections: dict[str, Section]) -> Iterator[str]:
 
 
 SECTIONS = _sections()
+
+
+def homes(key: str, section: str = "deck", path: str = "") -> Iterator[str]:
+    """Full names of the mappings of a deck that have this key, in the order in which a deck is written.
+
+    >>> list(homes("dofs"))
+    ['model', 'model.supports.*', 'test.modes']
+    """
+    if key in SECTIONS[section].keys and path:
+        yield path
+    for name, own in SECTIONS[section].keys.items():
+        kind, _, below = own.kind.partition(" ")
+        if below in SECTIONS:
+            step = f"{path}.{name}" if path else name
+            yield from homes(key, below, step + {"list": "[]", "map": ".*"}.get(kind, ""))
