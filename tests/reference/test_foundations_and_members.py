@@ -185,3 +185,33 @@ parameters:
     model = of(text + TEST.format(20, 60, 90))
     motions = {each.site(each.grid[0]).text for each in registry()["rocking"].recipes(model, registry()["rocking"])}
     assert "the foundation of all supports as one body, TX" in motions
+
+
+PORTAL = """\
+mouse: 1
+model:
+  structure:
+    nodes: {1: [0, 0], 2: [0, 3], 3: [4, 3], 4: [4, 0]}
+    elements:
+      - {id: 1-3, type: beam, nodes: 1-4, E: 2.1e+11, density: 7850, A: 0.01, Iz: 1.0e-5, Iy: 1.0e-5, J: 1.0e-5}
+      - {id: 4, type: mass, nodes: [2], mass: 3000}
+"""
+IN_PLANE = ("    supports: {1: all, 4: all}\n    plane: XY\n", '    supports: {1: all, 4: all, 2-3: [TZ, RX, RY]}\n')
+
+
+def test_what_is_held_to_a_plane_rocks_as_what_is_modelled_in_it():
+    """Supports that only keep a frame in its plane are no ground: its feet turn together, about the axis across the plane."""
+    says, k = "the foundation of all supports as one body, RZ", 3e7
+    found = []
+    for supports in IN_PLANE:
+        model = of(PORTAL + supports + TEST.format(3, 15, 40))
+        recipes = registry()["rocking"].recipes(model, registry()["rocking"])
+        assert {each.site(each.grid[0]).ids for each in recipes} == {(1, 4)}
+        assert not any(axis in each.site(each.grid[0]).text for axis in ("RX", "RY", "TZ") for each in recipes)
+        found.append(frequencies(model, "rocking", says, [k])[:4])
+        recipe = next(each for each in recipes if each.site(each.grid[0]).text == says)
+        deck = recipe.extend(model.problem, np.array([k]))
+        extended = np.sqrt(reduced(deck, deck.prior.mean).eigenvalues[:4]) / (2 * np.pi)
+        assert found[-1] == pytest.approx(extended, rel=1e-3)
+    assert found[0] == pytest.approx(found[1], rel=1e-6)
+    assert found[0][0] < 0.95 * np.sqrt(model.eigenvalues[0]) / (2 * np.pi)

@@ -41,14 +41,15 @@ class Axis:
 def base(problem: Problem) -> Base | None:
     """All supports together; None where they are one node, guide more than hold, or turn by themselves."""
     mesh = problem.mesh
-    held = [(node, d) for node, d in mesh.supports.tolist() if d in mesh.directions]
+    moving = set(mesh.directions) - (set(mesh.supports[:, 1].tolist()) - set(mesh.standing[:, 1].tolist()))
+    held = [(node, d) for node, d in mesh.standing.tolist() if d in moving]
     nodes = sorted({node for node, _ in held})
     fewest = min((sum(n == node for n, _ in held) for node in nodes), default=0)
-    if not 1 < len(nodes) <= _MOST or fewest < min(3, len(mesh.directions)) or set(mesh.directions) <= {0, 1, 2}:
+    if not 1 < len(nodes) <= _MOST or fewest < min(3, len(moving)) or moving <= {0, 1, 2}:
         return None
     centre = mesh.coordinates[nodes].mean(axis=0)
     pattern = np.array([rigid(mesh.coordinates[node] - centre)[d] for node, d in held])
-    pattern[:, [d for d in range(6) if d not in mesh.directions]] = 0.0
+    pattern[:, [d for d in range(6) if d not in moving]] = 0.0
     labels = tuple(f"{mesh.node_ids[node]}{DIRECTIONS[d]}" for node, d in held)
     return Base(tuple(int(mesh.node_ids[n]) for n in nodes), labels, pattern, tuple(centre.tolist()))
 
