@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from difflib import get_close_matches
-from os.path import commonprefix
 from typing import Any
 
 from mouse_cli.formats.yaml_deck import schema as yaml_schema
@@ -132,8 +131,7 @@ class Section:
         known, place = self.definition.keys, self.called or "a deck"
         near = get_close_matches(name, known, 1)
         self._misspelt.update(near)
-        alike = lambda home: len(commonprefix([home, place]))
-        home = max(yaml_schema.homes(name), key=alike, default="")
+        home = max(yaml_schema.homes(name), key=lambda home: home.startswith(place), default="")
         elsewhere = f"'{name}' is a key of {home}; " if home else ""
         help = f"write '{near[0]}'" if near else f"{elsewhere}the keys of {place} are {_listed(known)}"
         self.document.error("MD210", key, f"'{name[:40]}' is not a key of {place}", help)
