@@ -4,6 +4,7 @@ import os
 import signal
 from pathlib import Path
 
+import once
 import pytest
 from hypothesis import HealthCheck, settings
 from quick import QUICK
@@ -39,6 +40,13 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         path = item.path.relative_to(_TESTS).as_posix() if item.path.is_relative_to(_TESTS) else ""
         if path in chosen or f"{path}::{item.name.partition('[')[0]}" in chosen:
             item.add_marker(pytest.mark.quick)
+
+
+@pytest.fixture(scope="session", autouse=True)
+def one_folder(tmp_path_factory: pytest.TempPathFactory):
+    """A folder of all processes of this run, for what one of them makes for all; see `once`."""
+    if "PYTEST_XDIST_WORKER" in os.environ and os.name == "posix":
+        once.folder = tmp_path_factory.getbasetemp().parent
 
 
 @pytest.fixture

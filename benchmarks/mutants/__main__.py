@@ -70,7 +70,7 @@ def killed(one: Mutant, copy: Path) -> bool:
 def _exit_code(copy: Path, tests: Iterable[str]) -> int:
     """Of pytest, in the copy alone; no compiled files, which two changes within a second might share."""
     env = os.environ | {"PYTHONPATH": str(copy), "PYTHONDONTWRITEBYTECODE": "1", "OPENBLAS_NUM_THREADS": "1"}
-    command = [sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *tests]
+    command = [sys.executable, "-m", "pytest", "-q", "-x", "-m", "", "-p", "no:cacheprovider", *tests]
     return subprocess.run(command, cwd=copy, env=env, capture_output=True, check=False).returncode
 
 

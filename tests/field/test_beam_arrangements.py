@@ -65,6 +65,7 @@ def bare(tmp_path_factory):
     return beam, asked(beam, *fitted, *held, "-o", str(folder)), folder
 
 
+@pytest.mark.proof
 def test_a_bare_beam_tells_its_masses_and_its_clamp(bare):
     _, found, _ = bare
     masses, clamp, *_ = found["verdict"]["causes"]
@@ -80,6 +81,7 @@ def test_a_bare_beam_tells_its_masses_and_its_clamp(bare):
     assert found["residual"]["p"] > 0.05
 
 
+@pytest.mark.proof
 def test_and_then_which_mass_went(bare):
     """The decks that the first diagnosis wrote are what changed."""
     beam, _, folder = bare

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import vibrating
+from proofs import proofs
 
 from mouse_cli.model.frf_test import FrfTest
 from mouse_cli.model.recording import OUTPUT, Channel, Recording
@@ -53,7 +54,7 @@ def draws(kind: str) -> tuple[np.ndarray, int, int]:
     return FOUND[kind]
 
 
-@pytest.mark.parametrize("kind", ["stated", "unstated", "outputs"])
+@pytest.mark.parametrize("kind", proofs(["stated", "unstated", "outputs"], "stated"))
 def test_ninety_per_cent_intervals_hold_the_truth(kind):
     found, spurious, missed = draws(kind)
     assert spurious == 0

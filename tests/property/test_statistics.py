@@ -60,6 +60,7 @@ def test_all_runs_converge(wide):
     assert {r.status.key for _, r in wide} == {"converged"}
 
 
+@pytest.mark.proof
 def test_joint_coverage(narrow):
     """(theta - truth)' S*^-1 (theta - truth) is chi-square with p degrees of freedom."""
     distance = [(r.revised.theta - t) @ np.linalg.solve(r.covariance, r.revised.theta - t) for t, r in narrow]

@@ -65,6 +65,7 @@ def given(decks: list[str], fitted: int) -> list[str]:
     return decks[:fitted] + [part for each in decks[fitted:] for part in ("--held-out", each)]
 
 
+@pytest.mark.proof
 def test_items_and_a_spring_are_told_in_turn(tmp_path, capsys):
     decks = [deck(tmp_path, f"a{i}", p, frequencies(p, ITEM, 3e4), i) for i, p in enumerate(PLACES)]
     code, found = asked(tmp_path, *given(decks, 6), "-o", str(tmp_path / "revised"))
@@ -111,6 +112,7 @@ def test_what_changed_is_sought_in_what_changed(tmp_path):
     assert found["changed"] == [False] * 5 + [True] * 5
 
 
+@pytest.mark.proof
 def test_what_did_not_change_may_be_held_out_too(tmp_path):
     """Of what is held out nothing has the cause: that it is elsewhere takes nothing from its prediction."""
     before = [deck(tmp_path, f"b{i}", p, frequencies(p, ITEM), i, ITEM) for i, p in enumerate(PLACES[:6])]
@@ -187,6 +189,7 @@ def test_what_has_no_meaning_for_arrangements_is_refused(tmp_path, monkeypatch, 
     assert _run(["diagnose", "one.yaml", "three.yaml", *arguments]) == 2
 
 
+@pytest.mark.proof
 def test_a_step_that_leaves_too_much_is_no_name(tmp_path):
     """Items and a spring to the ground where only springs may be named: with one in the model far more is left than noise."""
     decks = [deck(tmp_path, f"n{i}", p, frequencies(p, ITEM, 3e4), i) for i, p in enumerate(PLACES[:6])]

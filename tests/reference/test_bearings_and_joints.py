@@ -4,6 +4,7 @@ Elements of bars in space: axial and torsion linear, bending cubic, consistent m
 """
 
 import numpy as np
+import pytest
 from scipy.linalg import eigh
 
 from mouse_cli.diagnosis import diagnose
@@ -109,6 +110,7 @@ def test_a_seized_bearing_below_the_axis_holds_beside_it():
         assert abs(abs(size.value) - true) < 3 * size.sd  # motion across alone does not tell above from below
 
 
+@pytest.mark.proof
 def test_a_joint_turns_about_both_axes():
     """A drive, a flange, a socket: one axis alone leaves the modes of the other plane wrong."""
     A, I, n = 9.6e-4, 7.6e-7, 6
@@ -136,6 +138,7 @@ def test_a_joint_turns_about_both_axes():
     assert "local y and local z" in found.best.causes[0].site.text
 
 
+@pytest.mark.proof
 def test_a_dish_beside_a_mast_is_a_mass_on_an_arm():
     """Between the ends of a member, where two modes of almost one frequency bend either way."""
     A, I, m, arm, n, at = 1.5e-3, 4e-6, 6.0, 0.7, 10, 6

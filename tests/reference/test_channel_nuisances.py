@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from proofs import proofs
 from test_channel_errors import late
 from two_masses import RATE, SECONDS, linear, record
 
@@ -55,9 +56,14 @@ def test_a_delay_within_its_prior_is_no_missing_physics_and_is_reported(tmp_path
 
 
 @pytest.mark.parametrize(
-    ("keys", "added"), [("mains: 50", HUM), ("drift: 1", DRIFT), ("{mains: 50, drift: 1}", HUM + DRIFT)]
+    ("law", "keys", "added"),
+    [
+        (linear, "mains: 50", HUM),
+        (linear, "drift: 1", DRIFT),
+        (cubic, "{mains: 50, drift: 1}", HUM + DRIFT),
+        *proofs([(linear, "{mains: 50, drift: 1}", HUM + DRIFT), (cubic, "mains: 50", HUM), (cubic, "drift: 1", DRIFT)]),
+    ],
 )
-@pytest.mark.parametrize("law", [linear, cubic])
 def test_hum_and_drift_that_are_stated_hide_nothing_and_are_no_physics(tmp_path, keys, added, law):
     keys = keys.strip("{}").replace(", ", "\n      ")
     found = answer(tmp_path, law, keys, a1=lambda x: x + added, a2=lambda x: x - 0.5 * added)

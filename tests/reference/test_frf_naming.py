@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from proofs import proofs
 
 from mouse_cli.cli.main import _run
 from mouse_cli.diagnosis import diagnose
@@ -90,7 +91,7 @@ CAUSES = {  # what is concealed: group, law, and sizes that must come back withi
 }
 
 
-@pytest.mark.parametrize("name", CAUSES)
+@pytest.mark.parametrize("name", proofs(CAUSES, "spring to the ground", "wrong gain"))
 def test_what_is_concealed_is_named_with_its_law_and_size(name, tmp_path):
     concealed, group, law, sizes = CAUSES[name]
     found = diagnose(read_deck(deck(tmp_path, **concealed)))
@@ -106,6 +107,7 @@ def test_nothing_is_missing_in_a_control(tmp_path):
     assert diagnose(read_deck(deck(tmp_path))).kind == NOTHING
 
 
+@pytest.mark.proof
 def test_the_extended_deck_runs_and_fits_as_well(tmp_path):
     """A loss that only functions show is in the deck that is written, and its functions agree to the noise of 1 %."""
     path = deck(tmp_path, lost=0.4, loss=(1, 0.2))

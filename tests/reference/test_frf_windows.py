@@ -74,12 +74,14 @@ def test_a_sound_structure_whose_resonances_are_narrower_than_a_line_lacks_nothi
     assert not any("window" in remark for remark in found.remarks)
 
 
+@pytest.mark.proof
 def test_a_window_that_the_deck_does_not_state_is_found_and_reported(tmp_path):
     found = diagnosed(tmp_path, 0.0)
     assert found.kind == NOTHING
     assert sum("under a window 'hann'" in remark for remark in found.remarks) == 1
 
 
+@pytest.mark.proof
 def test_a_mass_is_named_from_averages_under_a_window(tmp_path):
     found = diagnosed(tmp_path, 0.25, "      window: hann\n")
     assert found.kind == NAMED

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from proofs import proofs
 from scipy.linalg import eigh
 
 from mouse_cli.diagnosis import diagnose
@@ -74,7 +75,7 @@ def found_in(deck: str):
     return diagnose(assemble(yaml_deck.read(deck, "strips.yaml")), choices=Choices(NAMES, causes=1))
 
 
-@pytest.mark.parametrize("of", [STIFFNESS, MASS])
+@pytest.mark.parametrize("of", proofs([STIFFNESS, MASS], MASS))
 def test_a_wave_over_six_strips_is_a_field_of_them(of):
     """20 % up and down, six of the prior sd of a strip."""
     even = np.ones(COUNT)

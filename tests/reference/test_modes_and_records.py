@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 
 import numpy as np
+import pytest
 from click.testing import CliRunner
 from scipy.linalg import eigh, expm
 from two_masses import K, linear, record
@@ -106,6 +107,7 @@ def test_a_record_tells_the_place_that_two_frequencies_leave_open(tmp_path):
     assert any("recordings judged too" in text and "1 in all" in text for text in both["remarks"])
 
 
+@pytest.mark.proof
 def test_modes_and_a_record_of_the_model_as_it_is_lack_nothing(tmp_path):
     found = answer(tmp_path, chain(SPRINGS))
     assert (found["verdict"]["kind"], found["exit_code"]) == ("nothing-missing", 0)
@@ -121,6 +123,7 @@ def with_modes(deck: str) -> dict:
     return json.loads(done.stdout)
 
 
+@pytest.mark.proof
 def test_a_law_shows_in_a_record_beside_sound_modes(tmp_path):
     """A clearance that is open in the modes, at low level: no mode shows it, and no linear mechanism explains the record."""
 

@@ -1,11 +1,13 @@
 """Physics without a name: truths that no mechanism of the library makes, by finite elements and chains written here."""
 
 from dataclasses import replace
+from itertools import product
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from hermite_beams import COARSE, LENGTH, Truth, deck
+from proofs import proofs
 from scipy.linalg import eigh
 from scipy.stats import norm
 
@@ -46,8 +48,7 @@ def predicts(held) -> bool:
     return gained > 10 and (after < 0.5 * before or (before < 3e-3 and within))
 
 
-@pytest.mark.parametrize("free", [False, True])
-@pytest.mark.parametrize("of", [STIFFNESS, MASS])
+@pytest.mark.parametrize(("of", "free"), proofs(product((STIFFNESS, MASS), (False, True)), (STIFFNESS, False), (MASS, True)))
 def test_what_is_wavy_is_a_field(of, free):
     """15 % up and down: no name, the right field, its largest value at a crest or a trough, of the right sign."""
     truth = Truth(stiffness=WAVY[STIFFNESS]) if of == STIFFNESS else Truth(mass=WAVY[MASS])

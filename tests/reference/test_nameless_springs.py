@@ -51,6 +51,7 @@ def test_a_spring_against_a_turn():
     assert halved(found.field.held_out) and not found.extended_result.rejected
 
 
+@pytest.mark.proof
 def test_an_outrigger_on_a_beam_of_uneven_stiffness():
     """Neither of the two explains the data; both at once do, each at its place, and predict modes that no fit has seen."""
     wave = lambda x: 1 + 0.2 * np.sin(2 * np.pi * 1.6 * x + 0.4)

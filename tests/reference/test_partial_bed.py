@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from proofs import proofs
 from scipy.linalg import eigh
 
 from mouse_cli.diagnosis import diagnose
@@ -70,7 +71,7 @@ def diagnosed(hz: np.ndarray, shapes: np.ndarray):
     return diagnose(clamped(hz, shapes))
 
 
-@pytest.mark.parametrize(("first", "last"), [(0.0, 0.45), (0.6, 1.0)])
+@pytest.mark.parametrize(("first", "last"), proofs([(0.0, 0.45), (0.6, 1.0)], (0.6, 1.0)))
 def test_a_bed_under_a_part_is_named_with_its_extent(first, last):
     found = diagnosed(*measured(BED, first, last))
     assert (found.kind, found.best.group) == (NAMED, "foundation")
@@ -82,7 +83,7 @@ def test_a_bed_under_a_part_is_named_with_its_extent(first, last):
     assert abs((ids.min() - 1) / 30 - first) < 0.07 and abs(ids.max() / 30 - last) < 0.07  # none that has no bed
 
 
-@pytest.mark.parametrize(("first", "last"), [(0.3, 0.65), (0.15, 0.4)])
+@pytest.mark.parametrize(("first", "last"), proofs([(0.3, 0.65), (0.15, 0.4)], (0.3, 0.65)))
 def test_a_bed_between_two_places_is_named_with_both(first, last):
     found = diagnosed(*measured(BED, first, last))
     assert (found.kind, found.best.group) == (NAMED, "foundation")
@@ -100,6 +101,7 @@ def test_a_bed_under_all_stays_under_all():
     assert (found.kind, found.best.group, len(found.best.causes[0].sizes)) == (NAMED, "foundation", 1)
 
 
+@pytest.mark.proof
 def test_mass_between_two_places_is_named_with_both():
     found = diagnosed(*measured(0.0, 0.25, 0.55, 0.3 * MASS))
     assert (found.kind, found.best.group) == (NAMED, "added-mass")

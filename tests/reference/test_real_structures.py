@@ -208,6 +208,7 @@ def test_frequencies_of_the_aeroplane(name):
     np.testing.assert_array_equal(test.frequency_hz, measured[:, 1])
 
 
+@pytest.mark.proof
 def test_bare_tips_lack_the_masses_and_nothing_else():
     whole, bare = (read_deck(ROOT / "decks" / f"{name}.yaml") for name in ("garteur_smag19", "garteur_bare_tips"))
     names = [[p.name for p in problem.parameters] for problem in (whole, bare)]
@@ -216,6 +217,7 @@ def test_bare_tips_lack_the_masses_and_nothing_else():
     assert diagnosed("garteur_smag19").kind == "nothing-missing"
 
 
+@pytest.mark.proof
 def test_masses_of_the_wing_tips_are_missed():
     """Mass on a drum (elements 120, 121, 220, 221) is in all that leads, on both in one; truth: twice 0.2 kg."""
     found = diagnosed("garteur_bare_tips")
