@@ -54,8 +54,7 @@ def built(
     LARGEST_DENSE degrees of freedom, else sparse. searched: for motions that nothing resists. Raises a MeshFault.
     """
     given = mesh
-    if mesh.gravity is None:  # whose axial forces are kept set by set
-        mesh, bindings = replace(mesh, elements=mesh.gathered.elements), mesh.gathered.bindings(bindings)
+    mesh, bindings = replace(mesh, elements=mesh.gathered.elements), mesh.gathered.bindings(bindings)
     kinds = [registry()[elements.type] for elements in mesh.elements]
     layouts = [_layout(kind, elements, mesh) for kind, elements in zip(kinds, mesh.elements, strict=True)]
     places = _base_places(mesh, base)
