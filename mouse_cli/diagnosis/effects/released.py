@@ -163,9 +163,9 @@ def _without_supports(problem: Problem) -> Problem:
     edit = Edit(problem)
     edit.supports, edit.gravity = [], None
     terms = [term for term in problem.terms if isinstance(term, ElementTerm)]
-    for s, term in enumerate(terms):
+    for g, term in enumerate(terms):
         if term.axial is not None:
-            own = [(s, i) for i in range(len(edit.sets[s]))]
+            own = list(zip(*(part.tolist() for part in problem.mesh.gathered.origin(g)), strict=True))
             edit.put(own, "preload", np.array([edit.values(element, "preload") for element in own]) + term.axial)
     return edit.done(
         searched=False
