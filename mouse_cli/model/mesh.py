@@ -99,17 +99,26 @@ class Mesh:
         return Gathered.of(self.elements, list(groups.values()))
 
     @cached_property
-    def standing(self) -> np.ndarray:
-        """Supports (c, 2) by which it stands somewhere: without directions that all nodes are held in, as those of a frame in its
-        plane, or of floors that only sway, which say as little of a place as `directions` that are not kept.
-        """
+    def _still(self) -> np.ndarray:
+        """Directions (6,) that all nodes are held in, as those of a frame in its plane, or of floors that only sway."""
         held = np.zeros((len(self.node_ids), 6), bool)
         held[tuple(self.supports.T)] = True
         joined = np.zeros(len(self.node_ids), bool)
         for each in self.elements:
             joined[each.nodes] = True
-        everywhere = held[joined].all(axis=0)
-        return self.supports[~everywhere[self.supports[:, 1]]]
+        return held[joined].all(axis=0)
+
+    @property
+    def moving(self) -> set[int]:
+        """Those of `directions` in which some node can move."""
+        return {d for d in self.directions if not self._still[d]}
+
+    @cached_property
+    def standing(self) -> np.ndarray:
+        """Supports (c, 2) by which it stands somewhere: those in directions that all nodes are held in say as little of a place
+        as `directions` that are not kept.
+        """
+        return self.supports[~self._still[self.supports[:, 1]]]
 
 
 @dataclass(frozen=True)

@@ -196,7 +196,7 @@ model:
       - {id: 1-3, type: beam, nodes: 1-4, E: 2.1e+11, density: 7850, A: 0.01, Iz: 1.0e-5, Iy: 1.0e-5, J: 1.0e-5}
       - {id: 4, type: mass, nodes: [2], mass: 3000}
 """
-IN_PLANE = ("    supports: {1: all, 4: all}\n    plane: XY\n", '    supports: {1: all, 4: all, 2-3: [TZ, RX, RY]}\n')
+IN_PLANE = ("    supports: {1: all, 4: all}\n    plane: XY\n", "    supports: {1: all, 4: all, 2-3: [TZ, RX, RY]}\n")
 
 
 def test_what_is_held_to_a_plane_rocks_as_what_is_modelled_in_it():

@@ -40,8 +40,7 @@ class Axis:
 
 def base(problem: Problem) -> Base | None:
     """All supports together; None where they are one node, guide more than hold, or turn by themselves."""
-    mesh = problem.mesh
-    moving = set(mesh.directions) - (set(mesh.supports[:, 1].tolist()) - set(mesh.standing[:, 1].tolist()))
+    mesh, moving = problem.mesh, problem.mesh.moving
     held = [(node, d) for node, d in mesh.standing.tolist() if d in moving]
     nodes = sorted({node for node, _ in held})
     fewest = min((sum(n == node for n, _ in held) for node in nodes), default=0)

@@ -25,8 +25,8 @@ def _reached(name: str, sections: dict[str, Section]) -> Iterator[str]:
     """`name` and the sections below it, in the order in which a deck is written."""
     yield name
     for key in sections[name].keys.values():
-        below = key.kind.removeprefix("section ").removeprefix("list ").removeprefix("map ")
-        if below in sections and below != key.kind:
+        _, _, below = key.kind.partition(" ")
+        if below in sections:
             yield from _reached(below, sections)
     yield from sections[name].variants
 

@@ -131,9 +131,7 @@ class Section:
         known, place = self.definition.keys, self.called or "a deck"
         near = get_close_matches(name, known, 1)
         self._misspelt.update(near)
-        home = max(yaml_schema.homes(name), key=lambda home: home.startswith(place), default="")
-        elsewhere = f"'{name}' is a key of {home}; " if home else ""
-        help = f"write '{near[0]}'" if near else f"{elsewhere}the keys of {place} are {_listed(known)}"
+        help = f"write '{near[0]}'" if near else f"{_elsewhere(name, place)}the keys of {place} are {_listed(known)}"
         self.document.error("MD210", key, f"'{name[:40]}' is not a key of {place}", help)
 
     def _require(self) -> None:
@@ -179,6 +177,12 @@ class Section:
             return value
         limits = f"at least {low}" if high is None else f"{low}" if low == high else f"from {low} to {high}"
         return self.document.error("MD215", node, f"{what} is {value}; it must be {limits}", f"give a number {limits}")
+
+
+def _elsewhere(key: str, place: str) -> str:
+    """Where a key belongs that `place` has not, as the beginning of a sentence: below `place` if it can be."""
+    home = max(yaml_schema.homes(key), key=lambda home: home.startswith(place), default="")
+    return f"'{key}' is a key of {home}; " if home else ""
 
 
 def _listed(words: object) -> str:
