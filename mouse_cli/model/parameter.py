@@ -27,6 +27,11 @@ class Parameter:
     transform: str = "identity"
     span: Span | None = None
 
+    @property
+    def variance(self) -> float:
+        """sd^2 as numpy rounds it; Python's ** may be off by the last bit."""
+        return self.sd * self.sd
+
 
 @dataclass(frozen=True)
 class Gaussian:

@@ -19,7 +19,7 @@ def prior(draft: Draft) -> Gaussian | None:
     mean = np.array([p.nominal for p in draft.parameters])
     cov = draft.covariance
     if cov is None:
-        return Gaussian(mean, np.array([p.sd * p.sd for p in draft.parameters]))
+        return Gaussian(mean, np.array([p.variance for p in draft.parameters]))
     _semidefinite(draft, cov)
     return Gaussian(mean, cov)
 

@@ -115,7 +115,7 @@ def _properties(
         names, sd = [p.name for p in parameters], np.array([p.sd for p in parameters])
         covariance = yaml_prior.correlated(prior, form, names, sd)
     if powers is not None and len(parameters) == len(sections):
-        covariance = np.diag([p.sd**2 for p in parameters]) if covariance is None else covariance
+        covariance = np.diag([p.variance for p in parameters]) if covariance is None else covariance
         covariance = powers @ covariance @ powers.T
     return parameters, covariance, sections
 

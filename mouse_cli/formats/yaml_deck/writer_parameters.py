@@ -26,7 +26,7 @@ def parameters(problem: Problem, stem: str, attachments: dict[str, Matrix]) -> l
 def prior(problem: Problem) -> list[str]:
     """The section `prior:`, when the parameters' standard deviations do not tell all."""
     cov = problem.prior.dense()
-    if np.array_equal(cov, np.diag([parameter.sd**2 for parameter in problem.parameters])):
+    if np.array_equal(cov, np.diag([parameter.variance for parameter in problem.parameters])):
         return []
     rows = [f"    - {flow(map(real, row))}" for row in cov]
     return ["", "prior:", "  covariance:", *rows]
