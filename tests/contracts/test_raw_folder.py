@@ -77,6 +77,7 @@ def told(capsys, monkeypatch, tmp_path):
     return run
 
 
+@pytest.mark.proof
 def test_from_raw_files_to_the_spring(told):
     """Truth: 20 kN/m between mass 3 and the ground; the deck that -o writes needs no option any more."""
     laboratory(Path("raw"))

@@ -73,6 +73,7 @@ def test_a_linear_circuit_under_the_same_input_lacks_nothing(tmp_path):
     assert found["verdict"]["kind"] == "nothing-missing"
 
 
+@pytest.mark.proof
 def test_the_quiet_beginning_is_linear_but_for_noise(tmp_path):
     """It leaves 5 times the variance of 1 % of the channel: a force of 5 uV/sqrt(Hz) that nobody measured, at all levels."""
     shutil.copy(DATA, tmp_path / "s.mat")
@@ -84,6 +85,7 @@ def test_the_quiet_beginning_is_linear_but_for_noise(tmp_path):
     assert found["noise"]["explained"] < 0.1
 
 
+@pytest.mark.proof
 def test_the_spring_is_named_from_a_stretch_six_times_quieter_than_the_loudest(tmp_path):
     shutil.copy(DATA, tmp_path / "s.mat")
     spans = {"rising": "4000, 8200", "its end": "8200, 10000"}

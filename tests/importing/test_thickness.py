@@ -39,6 +39,7 @@ def folded(thickness: float) -> str:
     )
 
 
+@pytest.mark.proof
 @solver
 def test_a_thickness_by_its_powers_is_that_of_the_solver(tmp_path):
     """K and M at a thickness that no export had, and a run by frequencies there, against CalculiX at that thickness."""

@@ -265,6 +265,7 @@ def test_a_sound_building_of_a_run_has_its_parameters_back(tmp_path):
         assert abs(found[name]["posterior"] - true) < 3 * found[name]["posterior_sd"]
 
 
+@pytest.mark.proof
 def test_added_mass_is_named_at_its_floor(tmp_path):
     heavier = M + np.array([0, 25.0, 0])
     ag, _, floors, _ = absolute(heavier, damping(heavier, chain(K)), chain(K), np.ones(3))

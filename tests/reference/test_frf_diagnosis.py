@@ -107,6 +107,7 @@ def test_jacobian_is_the_slope_of_the_functions(control, name):
     slopes_agree(model, x)
 
 
+@pytest.mark.proof
 def test_jacobian_of_averages_under_a_window_with_damping_of_each_mode(control):
     """H1 of blocks of 2 s, whose lines are broader than the resonances; the damping of each of five modes is its own."""
     _, base, _, modal = control

@@ -94,6 +94,7 @@ def test_functions_of_a_freed_structure_are_read_where_the_deck_says(deck):
     assert (np.abs(found - exact).max(axis=0) < 1e-5 * np.abs(exact).max(axis=0)).all()
 
 
+@pytest.mark.proof
 def test_a_support_that_turns_is_named_by_functions(deck):
     found = diagnose(read_deck(deck))
     assert (found.kind, found.best.group) == (NAMED, "support")

@@ -80,6 +80,7 @@ def test_start_with_frequencies_wrong_by_an_eighth(form, bias, eta):
     assert result.frf[0].median_db(result.frf[0].revised) < 0.15 < 3 < result.frf[0].median_db(result.frf[0].prior)
 
 
+@pytest.mark.proof
 def test_standard_deviations_cover():
     """Over 40 measurements, (answer - truth) / sd of every parameter has unit variance, whichever form is fitted."""
     k, off = K0 * np.array([1.1, 0.93, 1.04]), {"complex": [], "log": []}

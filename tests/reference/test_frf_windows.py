@@ -68,6 +68,7 @@ def diagnosed(folder, added: float, keys: str = "", seed: int = 3):
     return diagnose(read_deck(str(folder / "deck.yaml")))
 
 
+@pytest.mark.proof
 def test_a_sound_structure_whose_resonances_are_narrower_than_a_line_lacks_nothing(tmp_path):
     found = diagnosed(tmp_path, 0.0, "      window: hann\n")
     assert found.kind == NOTHING

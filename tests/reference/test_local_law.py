@@ -104,6 +104,7 @@ def test_a_constant_mount_keeps_its_name():
     assert dict(found.groups).get("law", 0.0) < 0.05
 
 
+@pytest.mark.proof
 def test_a_mass_keeps_its_name():
     """Its law, -m lambda, is one value too."""
     mass = 0.05 * LINE_MASS * LENGTH

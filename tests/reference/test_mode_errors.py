@@ -1,6 +1,7 @@
 """One wrong entry of a test: a frequency that was misread, a shape that is no mode's, on a pinned beam in closed form."""
 
 import numpy as np
+import pytest
 
 import mouse_cli
 from mouse_cli.model.diagnosis import NOTHING, UNKNOWN
@@ -43,6 +44,7 @@ test:
     return path
 
 
+@pytest.mark.proof
 def test_right_entries_are_not_suspected(tmp_path):
     assert mouse_cli.diagnose(mouse_cli.read_deck(deck(tmp_path, {}, {}))).kind == NOTHING
 
@@ -60,6 +62,7 @@ def test_a_shape_of_noise_is_no_physics(tmp_path):
     assert any("mode 3 is none that the structure can have" in caution for caution in found.cautions)
 
 
+@pytest.mark.proof
 def test_a_frequency_that_physics_may_have_moved_alone_is_said_to_be_one_or_the_other(tmp_path):
     """A spring in the middle lifts the first of these modes, and hardly any other: so does an entry that is wrong."""
     found = mouse_cli.diagnose(mouse_cli.read_deck(deck(tmp_path, {1: 1.1}, {})))

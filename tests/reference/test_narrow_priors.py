@@ -54,6 +54,7 @@ def test_a_parameter_beyond_its_prior_is_said_beside_what_would_explain_it():
     assert value == pytest.approx(0.88 * E, rel=0.01) and shift == pytest.approx(-6, abs=0.5)
 
 
+@pytest.mark.proof
 def test_a_prior_that_holds_the_value_leaves_nothing_to_say():
     found = answer(0.88, "10 %")
     assert (found.kind, found.cautions) == (NOTHING, ())

@@ -95,6 +95,7 @@ def test_a_bed_between_two_places_is_named_with_both(first, last):
     assert found.extended_result.status.key == "converged" and not found.extended_result.rejected
 
 
+@pytest.mark.proof
 def test_a_bed_under_all_stays_under_all():
     """Neither an end nor two places where it would begin are asked for."""
     found = diagnosed(*measured(BED, 0.0, 1.0))

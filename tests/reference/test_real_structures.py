@@ -234,6 +234,7 @@ def test_masses_of_the_wing_tips_are_missed():
 # --- eighteen storeys
 
 
+@pytest.mark.proof
 def test_eighteen_storeys_are_no_shear_building_and_no_cause_is_named():
     free, alike = diagnosed("eighteen_storeys"), diagnosed("eighteen_like_storeys")
     assert free.innovation.p < 1e-10 and free.held_out is None

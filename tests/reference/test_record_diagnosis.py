@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from proofs import proofs
 from two_masses import linear, record
 
 from mouse_cli.cli.main import cli
@@ -41,6 +42,7 @@ def test_a_disturbing_force_that_nobody_measured_is_noise(tmp_path):
     assert found["noise"]["explained"] < 0.1
 
 
+@pytest.mark.proof
 def test_a_law_is_found_above_a_disturbing_force(tmp_path):
     def law(u, v):
         F = 2e8 * (u[1] - u[0]) ** 3
@@ -50,7 +52,7 @@ def test_a_law_is_found_above_a_disturbing_force(tmp_path):
     assert (found["verdict"]["physics"], found["verdict"]["site"]["ids"]) == ("cubic", [1, 2])
 
 
-@pytest.mark.parametrize("sensors", [(1, 2), (2,)])
+@pytest.mark.parametrize("sensors", [(2,), *proofs([((1, 2),)])])
 def test_a_cubic_spring_between_two_masses(tmp_path, sensors):
     k3 = 2e8
 
@@ -67,7 +69,7 @@ def test_a_cubic_spring_between_two_masses(tmp_path, sensors):
     assert max(held["error"]["with the cause"]) < 0.2 * max(held["error"]["as it is"])
 
 
-@pytest.mark.parametrize(("place", "k", "g"), [([1, 2], 3.06e4, 3e-4), ([1], 2.04e4, 5e-4)])
+@pytest.mark.parametrize(("place", "k", "g"), [([1, 2], 3.06e4, 3e-4), *proofs([([1], 2.04e4, 5e-4)])])
 def test_play_in_a_spring_of_the_model(tmp_path, place, k, g):
     """No stop that is added: within the play the spring is not there."""
 
@@ -151,6 +153,7 @@ def test_damping_of_springs_is_uncertain_beside_their_stiffness(tmp_path):
     assert answer(str(tmp_path / "structure.yaml"))["verdict"]["kind"] == "nothing-missing"
 
 
+@pytest.mark.proof
 def test_two_causes_at_two_places_and_the_deck_with_both_runs(tmp_path):
     """A clearance between the masses, and a spring to the ground that the deck does not have."""
 

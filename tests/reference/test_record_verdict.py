@@ -55,6 +55,7 @@ def answer(deck: str, *options: str) -> dict:
     return json.loads(done.stdout)
 
 
+@pytest.mark.proof
 def test_parameters_pushed_out_of_their_prior_are_no_sound_model(tmp_path):
     """They fit the records to the noise: the misfit of the data alone sees nothing."""
     deck = edited(record(tmp_path, softer), "test:", MASSES)
