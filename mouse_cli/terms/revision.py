@@ -10,6 +10,8 @@ from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.mesh import ElementSet
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.revision import (
+    DENSITY_TIMES,
+    E_TIMES,
     MASS_GAINED,
     ON_SPRINGS,
     PART_LEFT,
@@ -38,6 +40,8 @@ _EQUAL = 1e-9
 _OF_SETS: dict[str, Callable[[float], dict[str, float]]] = {
     PART_LEFT: lambda share: {"left": share},
     MASS_GAINED: lambda share: {"mass": share},
+    E_TIMES: lambda factor: {"stiffness": factor - 1.0},
+    DENSITY_TIMES: lambda factor: {"mass": factor - 1.0},
     STIFFNESS_LOST: lambda share: {"stiffness": -share},
     STIFFNESS_GAINED: lambda share: {"stiffness": share},
     "stiffness of {}": lambda factor: {"stiffness": factor - 1.0},

@@ -89,7 +89,8 @@ def test_a_cause_is_the_same_in_few_coordinates_in_its_deck_and_read_back(tmp_pa
     problem = read_deck(deck(tmp_path))
     model = reduced(problem, problem.prior.mean)
     tried = 0
-    for key in ("support-translation", "support-rotation", "stiffness-loss", "stiffness-gain", "member", "added-mass"):
+    keys = ("support-translation", "support-rotation", "stiffness-loss", "stiffness-gain", "member", "added-mass", "material")
+    for key in keys:
         for i, recipe in enumerate(model.recipes(registry()[key])):
             values = np.array([np.exp(np.mean(u.bounds)) if u.log else np.mean(u.bounds) for u in recipe.unknowns])
             change = recipe.change(values)
@@ -267,21 +268,23 @@ def test_a_foot_that_is_stiff_in_itself_may_be_as_soft_as_what_it_stands_on(tmp_
     assert own[0].unknowns[0].lower < 1.01e-3 * bound
 
 
-@pytest.mark.parametrize("what", ["brace missing", "foot loose", "control"])
+@pytest.mark.parametrize("what", ["brace missing", "brace of steel", "foot loose", "control"])
 def test_what_is_missing_is_named_as_the_model_names_it(tmp_path, what):
     _, K, M = truss()
-    share = 0.02 if what == "brace missing" else 1.0
-    stiff = K["FRAME"] + share * K["BRACE"]
-    heavy = M["FRAME"] + share * M["BRACE"]
+    stiffer, denser = {"brace missing": (0.02, 0.02), "brace of steel": (3.0, 2.9)}.get(what, (1.0, 1.0))
+    stiff = K["FRAME"] + stiffer * K["BRACE"]
+    heavy = M["FRAME"] + denser * M["BRACE"]
     found = diagnose(read_deck(deck(tmp_path, springs(stiff, "FOOT_2" if what == "foot loose" else "", 2e6), heavy)))
     sites = [cause.site.text for cause in found.explanations[0].causes]
     if what == "control":
         assert found.kind == "nothing-missing"
     else:
         assert found.kind == "named"
-        assert sites == [
-            {"brace missing": "element set BRACE", "foot loose": "the support FOOT_2, all directions"}[what]
-        ]
+        assert sites == ["the support FOOT_2, all directions" if what == "foot loose" else "element set BRACE"]
+        assert (found.best.physics == "material") == (what == "brace of steel")
+    if what == "brace of steel":
+        for size, truth in zip(found.best.causes[0].sizes, (stiffer, denser), strict=True):
+            assert abs(size.value - truth) < 3 * size.sd < 0.5
 
 
 @pytest.mark.parametrize(

@@ -4,8 +4,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Recipe, Unknown, proportional
-from mouse_cli.diagnosis.extend.matrices import Entries, with_entries, with_part_left
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product, proportional, steps
+from mouse_cli.diagnosis.extend.matrices import NOTHING, Entries, with_entries, with_part_left
 from mouse_cli.diagnosis.extend.points import found as new_parameter
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.sets import sets_in
@@ -13,12 +13,14 @@ from mouse_cli.model.arrays import Matrix, upper_triangle
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.held import ElementGroup
 from mouse_cli.model.problem import Problem
-from mouse_cli.model.revision import MASS_GAINED, PART_LEFT
+from mouse_cli.model.revision import DENSITY_TIMES, E_TIMES, MASS_GAINED, PART_LEFT
 
 # Share lost of a set that is missing: a thousandth of a stiff plate still holds what it is fastened to, and of a slender part less
 # than 1e-8 is lost in the 14 digits of a solver's file.
 _GONE = 1 - 1e-7
 _MISSING, _HEAVIER = Unknown("share lost", "1", 0.02, _GONE), Unknown("share gained", "1", 0.02, 20.0)
+# Of E and density, over those of the deck: from foam or a plastic for steel to the other way round.
+_STIFFER, _DENSER = Unknown("stiffness over that of the deck", "1", 0.02, 50.0), Unknown("mass over that of the deck", "1", 0.05, 20.0)
 _FELT = 1e-6  # share of the energy of a mode below which a set has no part in it
 
 
@@ -60,6 +62,12 @@ def heavier(model: Reduced, candidate) -> list[Recipe]:
     return [_heavier(candidate, *each, len(found)) for each in found]
 
 
+def remade(model: Reduced, candidate) -> list[Recipe]:
+    """(a - 1) K_s and (b - 1) M_s of each set that has both: a part of another material."""
+    found = [each for each in _sets(model) if None not in each[1:] and has_energy(model, each[1].own)]
+    return [_remade(candidate, *each, len(found)) for each in found]
+
+
 def text(group: ElementGroup) -> str:
     """A set in words."""
     return f"element set {group.name}"
@@ -72,6 +80,28 @@ def _missing(candidate, group: ElementGroup, K: _Part, M: _Part, count: int) -> 
 
     found = _recipe(candidate, _MISSING, group, count, (K.own, M.own), -1, extend)
     return replace(found, grows=(K.grows, M.grows))
+
+
+def _remade(candidate, group: ElementGroup, K: _Part, M: _Part, count: int) -> Recipe:
+    def extend(problem: Problem, values: np.ndarray) -> Problem:
+        stiffer, denser = (
+            new_parameter(name.format(group.name), value, "1")
+            for name, value in zip((E_TIMES, DENSITY_TIMES), values, strict=True)
+        )
+        deck = with_part_left(problem, stiffer, K=(K.entries(1), K.slopes), M=(NOTHING, M.slopes))
+        return with_part_left(deck, denser, K=(NOTHING, K.slopes), M=(M.entries(1), M.slopes))
+
+    site = Site("dof", (), None, text(group))
+    return Recipe(
+        candidate,
+        (_STIFFER, _DENSER),
+        lambda values: Change(K=(values[0] - 1) * K.own, M=(values[1] - 1) * M.own),
+        product(steps(_STIFFER, 6), steps(_DENSER, 4)),
+        lambda values: site,
+        log_prior=-float(np.log(count)),
+        extend=extend,
+        grows=(K.grows, M.grows),
+    )
 
 
 def _heavier(candidate, group: ElementGroup, M: _Part, count: int) -> Recipe:

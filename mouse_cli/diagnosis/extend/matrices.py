@@ -12,7 +12,7 @@ from mouse_cli.model.structure import ListedElements
 from mouse_cli.terms.further import with_parameters
 
 Entries = tuple[np.ndarray, np.ndarray, np.ndarray]  # rows <= columns, from 0, and values for one unit of the parameter
-_NONE: Entries = (np.zeros(0, int), np.zeros(0, int), np.zeros(0))
+NOTHING: Entries = (np.zeros(0, int), np.zeros(0, int), np.zeros(0))
 
 
 def of_matrices(problem: Problem) -> bool:
@@ -20,7 +20,7 @@ def of_matrices(problem: Problem) -> bool:
     return problem.mesh is None or problem.structure.geometry is None
 
 
-def with_entries(problem: Problem, parameter: Parameter, K: Entries = _NONE, M: Entries = _NONE) -> Problem:
+def with_entries(problem: Problem, parameter: Parameter, K: Entries = NOTHING, M: Entries = NOTHING) -> Problem:
     """The deck with `parameter` times `K` and `M` in its matrices, and `parameter` among those that are estimated."""
     row, col, value = (np.concatenate([k, m]) for k, m in zip(K, M, strict=True))
     is_mass = np.repeat([False, True], [len(K[0]), len(M[0])])
