@@ -195,17 +195,25 @@ MUTANTS = (
         ),
     ),
     *_of(
-        "search/several.py",
+        "search/alike.py",
         _SEVERAL,
         two_of_a_kind_at_most=(
             "while len(one.recipes) < most and",
             "while len(one.recipes) < 2 and",
             "test_several_of_one_kind_and_as_many_as_are_needed",
         ),
-        adequate_anyway=("_ADEQUATE = 0.05", "_ADEQUATE = 0.01", "test_adequate_is_a_p_value_of_a_twentieth"),
+    ),
+    *_of(
+        "search/moves.py",
+        _SEVERAL,
+        adequate_anyway=("ADEQUATE = 0.05", "ADEQUATE = 0.01", "test_adequate_is_a_p_value_of_a_twentieth"),
+    ),
+    *_of(
+        "search/several.py",
+        _SEVERAL,
         held_out_says_nothing_of_enough=(
-            "while count <= most and not any(map(enough, growing))",
-            "while count <= most and not any(map(adequate, growing))",
+            "not any(enough(one, FURTHER) for one in growing)",
+            "not any(adequate(one, FURTHER) for one in growing)",
             "test_a_pair_that_does_not_predict_what_is_held_out_is_not_enough",
         ),
     ),

@@ -13,11 +13,12 @@ from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unseen
 from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.diagnosis.search.alike import _may_rival
 from mouse_cli.diagnosis.search.descents import settled, tried
 from mouse_cli.diagnosis.search.fit import descended, fit
 from mouse_cli.diagnosis.search.found import Found
 from mouse_cli.diagnosis.search.optima import distinct
-from mouse_cli.diagnosis.search.several import _promised
+from mouse_cli.diagnosis.search.several import _begun
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
@@ -239,10 +240,28 @@ def test_a_brief_descent_ends_where_a_fit_of_as_many_steps_does():
 
 
 def test_what_promises_nothing_grows_no_further():
-    """Of 1000 nats, 900 with a second: if each of two more, and an exchange of each, gained as much, 900 * 0.9^6 would be left."""
-    of = lambda misfit, count: SimpleNamespace(misfit=misfit, recipes=(None,) * count)
-    assert _promised(of(1000.0, 1), of(900.0, 2), 4) == pytest.approx(900 * 0.9**6)
-    assert _promised(of(1000.0, 1), of(1100.0, 2), 4) == 1100.0
+    """Of 1000 nats, 900 with a second: if each of two more, and an exchange of each, gained as much, 900 * 0.9^6 = 478 are left.
+
+    That is 239 nats of evidence, and 20 that the unknowns cost: a rival of what is 6 nats better and explains the data, and of what
+    does not wherever its misfit is not 200 times what noise would leave below it.
+    """
+    of = lambda misfit, count, dof=50: SimpleNamespace(
+        misfit=misfit, recipes=(None,) * count, log_evidence=-0.5 * misfit - 20.0, dof=dof
+    )
+    one, two = of(1000.0, 1), of(900.0, 2)
+    left = 900 * 0.9**6
+    assert _may_rival(one, two, 4, of(left - 11.0, 1, 480)) and not _may_rival(one, two, 4, of(left - 13.0, 1, 480))
+    assert not _may_rival(one, of(1100.0, 2), 4, of(900.0, 1, 900))
+    refuted = of(100.0, 1, 50)
+    assert _may_rival(one, two, 4, refuted) and not _may_rival(one, of(990.0, 2), 4, refuted)
+
+
+def test_sets_with_fewer_sizes_grow_too():
+    """The two best, and the best of those with fewer unknowns: what a mass on an arm does a mass and a third mechanism may do."""
+    of = lambda nats, size: SimpleNamespace(log_evidence=nats, c=np.zeros(size))
+    sets = [of(-62.0, 4), of(-48.0, 6), of(-49.0, 5), of(-56.0, 6), of(-74.0, 3)]
+    assert [(one.log_evidence, one.c.size) for one in _begun(sets)] == [(-48.0, 6), (-49.0, 5), (-62.0, 4)]
+    assert _begun(sets[1:4]) == sets[1:3]
 
 
 def test_a_refused_step_is_followed_by_one_of_half_its_length_at_most():

@@ -9,14 +9,17 @@ from hermite_beams import EI, LENGTH, MASS, Truth, deck
 from proofs import proofs
 
 from mouse_cli.diagnosis import diagnose
-from mouse_cli.diagnosis.gates import log_prior, prior
+from mouse_cli.diagnosis.gates import MATERIAL, log_prior, prior
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.diagnosis.search import moves
 from mouse_cli.diagnosis.search import several as search
 from mouse_cli.diagnosis.search.descents import best
 from mouse_cli.diagnosis.search.fit import fit
+from mouse_cli.diagnosis.search.found import key, material
+from mouse_cli.diagnosis.search.moves import adequate
 from mouse_cli.diagnosis.search.rank import _log_prior
-from mouse_cli.diagnosis.search.several import MATERIAL, _fewer, adequate, key, material, same_kind
+from mouse_cli.diagnosis.search.several import _fewer, same_kind
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
@@ -95,7 +98,7 @@ def test_several_of_one_kind_and_as_many_as_are_needed():
 def of(log_evidence: float, *names: str):
     """A fit of mechanisms of those keys."""
     recipes = tuple(SimpleNamespace(candidate=SimpleNamespace(key=name), parts=()) for name in names)
-    return SimpleNamespace(recipes=recipes, log_evidence=log_evidence)
+    return SimpleNamespace(recipes=recipes, log_evidence=log_evidence, c=np.zeros(len(names)))
 
 
 def test_what_is_not_needed_is_material_to_nothing():
@@ -162,9 +165,10 @@ def test_a_pair_is_exchanged_that_leads_by_a_mechanism_which_is_none_of_it(monke
                 found[both] = SimpleNamespace(misfit=900.0, dof=100, model=None, **vars(of(best_of[both], *both)))
 
     alone = lambda one, i: of(-600.0, *(key(one)[:i] + key(one)[i + 1 :]))
-    for name, stub in (("_beside", beside), ("_without", alone), ("_swap", lambda *given: None)):
-        monkeypatch.setattr(search, name, stub)
-    monkeypatch.setattr(search, "_finished", lambda study, found: list(found.values()))
+    for name, stub in (("beside", beside), ("without", alone), ("swap", lambda *given: None)):
+        for module in (search, moves):
+            monkeypatch.setattr(module, name, stub)
+    monkeypatch.setattr(search, "finished", lambda study, found: list(found.values()))
     study = SimpleNamespace(known=(*names, "c"), coarse=SimpleNamespace(together=lambda *given: []))
     assert max(search.pairs(study, singles), key=lambda one: one.log_evidence).log_evidence == -50.0
 
@@ -245,7 +249,7 @@ def test_a_pair_that_does_not_predict_what_is_held_out_is_not_enough(monkeypatch
     monkeypatch.setattr(search, "pairs", lambda study, singles: [pair])
     monkeypatch.setattr(search, "same_kind", lambda *given: [])
     monkeypatch.setattr(search, "_as_good", lambda *given: [])
-    monkeypatch.setattr(search, "_beside", lambda study, first, partners, found: asked.append(first))
+    monkeypatch.setattr(search, "beside", lambda study, first, partners, found: asked.append(first))
     assert search.several(SimpleNamespace(known=()), [single], 3) == [pair]
     assert asked == [pair] * sought
 
@@ -259,7 +263,7 @@ def test_a_pair_that_leaves_noise_shows_that_the_test_is_as_accurate_as_stated(m
     monkeypatch.setattr(search, "pairs", lambda study, singles: [pair])
     monkeypatch.setattr(search, "same_kind", lambda *given: [])
     monkeypatch.setattr(search, "_as_good", lambda *given: [])
-    monkeypatch.setattr(search, "_beside", lambda study, first, partners, found: asked.append(first))
+    monkeypatch.setattr(search, "beside", lambda study, first, partners, found: asked.append(first))
     search.several(SimpleNamespace(known=()), [single], 3, trusted)
     assert len(asked) == sought
 
@@ -296,9 +300,9 @@ def exchanging(monkeypatch, beside: dict):
     def tried(study, first, partners, found):
         found.update({both: fitted(nats, 20.0, *both) for both, nats in beside.get(key(first)[0], {}).items()})
 
-    monkeypatch.setattr(search, "_beside", tried)
-    monkeypatch.setattr(search, "_without", lambda one, i: of(-90.0, *(key(one)[:i] + key(one)[i + 1 :])))
-    monkeypatch.setattr(search, "_finished", lambda study, found: list(found.values()))
+    monkeypatch.setattr(search, "beside", tried)
+    monkeypatch.setattr(search, "without", lambda one, i: of(-90.0, *(key(one)[:i] + key(one)[i + 1 :])))
+    monkeypatch.setattr(search, "finished", lambda study, found: list(found.values()))
 
 
 FEET = ((5, 600.0), (16, 1500.0), (27, 4000.0))  # nodes of a beam of 30 elements, and springs below them in EI / L^3
@@ -336,9 +340,9 @@ def test_beside_one_that_is_not_refuted_no_sets_are_sought_that_promise_nothing(
     beside = lambda study, first, partners, found: found.update(
         {("a", "b"): SimpleNamespace(log_evidence=first.log_evidence + gain, recipes=[cause("a"), cause("b")])}
     )
-    monkeypatch.setattr(search, "_beside", beside)
+    monkeypatch.setattr(search, "beside", beside)
     monkeypatch.setattr(search, "pairs", lambda study, singles: asked.append(1) or [])
     monkeypatch.setattr(search, "same_kind", lambda *given: [])
-    monkeypatch.setattr(search, "_finished", lambda study, found: list(found.values()))
+    monkeypatch.setattr(search, "finished", lambda study, found: list(found.values()))
     assert search.several(SimpleNamespace(known=()), [single], 2) == []
     assert len(asked) == sought

@@ -20,7 +20,8 @@ from mouse_cli.model.revision import DENSITY_TIMES, E_TIMES, MASS_GAINED, PART_L
 _GONE = 1 - 1e-7
 _MISSING, _HEAVIER = Unknown("share lost", "1", 0.02, _GONE), Unknown("share gained", "1", 0.02, 20.0)
 # Of E and density, over those of the deck: from foam or a plastic for steel to the other way round.
-_STIFFER, _DENSER = Unknown("stiffness over that of the deck", "1", 0.02, 50.0), Unknown("mass over that of the deck", "1", 0.05, 20.0)
+_STIFFER = Unknown("stiffness over that of the deck", "1", 0.02, 50.0)
+_DENSER = Unknown("mass over that of the deck", "1", 0.05, 20.0)
 _FELT = 1e-6  # share of the energy of a mode below which a set has no part in it
 
 

@@ -1,4 +1,4 @@
-"""A set of elements that is made of another material than modelled: its stiffness and its mass change, each by a factor of its own."""
+"""A set of elements of another material than modelled: its stiffness and its mass change, each by a factor of its own."""
 
 from dataclasses import replace
 
@@ -21,8 +21,8 @@ CANDIDATE = Candidate(
     "material",
     "a part of another material",
     "material",
-    "an element set whose stiffness and mass are both other than modelled, each by a factor of its own: steel instead of aluminium, "
-    "a plastic part, a laminate of other plies; where both fall alike it is a softer member; a priori ten times less probable than "
+    "an element set whose stiffness and mass are other than modelled, each by a factor of its own: steel instead of aluminium, a "
+    "plastic part, a laminate of other plies; where both fall alike it is a softer member; a priori ten times less probable than "
     "any other mechanism",
     recipes,
     plain="member",

@@ -24,11 +24,12 @@ from mouse_cli.diagnosis.search.descents import settled
 from mouse_cli.diagnosis.search.disguised import disguised
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.grounded import one_tie
+from mouse_cli.diagnosis.search.moves import adequate
 from mouse_cli.diagnosis.search.optima import within
 from mouse_cli.diagnosis.search.pared import plainest
 from mouse_cli.diagnosis.search.parts import in_turn, promising, single
 from mouse_cli.diagnosis.search.pool import Pool
-from mouse_cli.diagnosis.search.several import adequate, enough, plain, several
+from mouse_cli.diagnosis.search.several import FURTHER, enough, plain, several
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.model.diagnosis import LAW, Untried
 from mouse_cli.model.groups import joined, shares
@@ -45,8 +46,6 @@ _ENTRY = 0.99  # probability of one wrong entry of the test from which on nothin
 # Probability of no mechanism above which what has no name is not asked where that leaves no more than chance
 _IDLE = 0.5
 _SIZES = ("support", "taper")  # groups that have more than one size and yet no place that these could move
-# P-value of the best single mechanism below which several may gain what their prior takes, some ten nats
-_FURTHER = 0.2
 _PLAIN = 2  # mechanisms up to which a set that explains the data needs no two rivals without a name beside it
 
 
@@ -196,7 +195,7 @@ def _ranked(study: Study, causes: int, by_all: Callable[[Ranking], Ranking], las
     if last and (none < _IDLE or not adequate(found.baseline, gates.GATE)):
         fits += rivals(model, baseline, kind, within(fits))
     alone = plain(one for one in found.fits if one.recipes)
-    if causes > 1 and len(found.fits) > 1 and not any(enough(one, _FURTHER, gates.GATE) for one in alone):
+    if causes > 1 and len(found.fits) > 1 and not any(enough(one, FURTHER, gates.GATE) for one in alone):
         trusted = found.stated[0] > _TRUSTED or found.noise_scale > _LOUD
         fits += several(study, singles, causes, trusted)
     others = model.problem.frf or model.problem.recordings  # which may feel what modes do not

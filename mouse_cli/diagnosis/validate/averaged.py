@@ -24,8 +24,8 @@ from mouse_cli.diagnosis.gates import GATE
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.noise import log_density, scale
 from mouse_cli.diagnosis.search.fit import Fit
+from mouse_cli.diagnosis.search.moves import adequate
 from mouse_cli.diagnosis.search.rank import Ranking
-from mouse_cli.diagnosis.search.several import adequate
 from mouse_cli.diagnosis.validate.held_out import (
     COVERED,
     Prediction,

@@ -17,9 +17,9 @@ from mouse_cli.diagnosis.likelihoods.frf.lossy import GROUPS, LAWS
 from mouse_cli.diagnosis.likelihoods.frf.mesh import of_mesh
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.search.fit import Fit, fit
+from mouse_cli.diagnosis.search.moves import adequate
 from mouse_cli.diagnosis.search.optima import distinct, within
 from mouse_cli.diagnosis.search.rank import Ranking, ranking
-from mouse_cli.diagnosis.search.several import adequate
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.updating.chi_square import upper_tail
 from mouse_cli.updating.frf_start import WIDTHS

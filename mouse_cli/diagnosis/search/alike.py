@@ -1,0 +1,66 @@
+"""Several mechanisms of one kind at different sites, as many as may rival what else explains the data."""
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from mouse_cli.diagnosis.gates import GATE, MATERIAL
+from mouse_cli.diagnosis.search.fit import Fit, fit
+from mouse_cli.diagnosis.search.found import Found, keep
+from mouse_cli.diagnosis.search.moves import QUICK, SECOND, adequate, beside, exchanged, finished
+from mouse_cli.diagnosis.search.optima import within
+from mouse_cli.diagnosis.search.study import Study
+
+REACH = 6.0  # log evidence below that of the best from which on a set that is fitted in few steps is no rival of it
+_ALIKE = 5  # kinds of which several are tried
+
+
+def same_kind(study: Study, singles: list[Fit], most: int, known: Iterable[Fit] = ()) -> list[Fit]:
+    """Two and more of one kind at different sites, each moved in turn to where it fits best, as far as they may rival `known`."""
+    found, best = Found(), max(known, key=lambda one: one.log_evidence, default=None)
+    order = sorted(singles, key=lambda one: -one.log_evidence)
+    kinds = [one for one in order if len(study.recipes(one.recipes[0].candidate.key)) > 1 and one.c.size][:_ALIKE]
+    for one in kinds:
+        if not _grown(study, one, most, found, best) and not adequate(one):
+            for other in _elsewhere(study, one):  # beside all feet of a frame no foot of it can be flexible once more
+                _grown(study, other, most, found, best)
+    return finished(study, found)
+
+
+def _grown(study: Study, one: Fit, most: int, found: Found, best: Fit | None) -> bool:
+    """Into `found` sets of the kind of `one` that grow from it while they may rival `best`; whether a second can be beside it."""
+    name, possible = one.recipes[0].candidate.key, False
+    while len(one.recipes) < most and not adequate(one):
+        larger = Found()
+        beside(study, one, [name], larger)
+        possible = possible or bool(larger)
+        if best and not any(_may_rival(one, each, most, best) for each in larger.values()):
+            break
+        more = [exchanged(study, each, (name,)) for each in larger.values()]
+        if not more or more[0].log_evidence < one.log_evidence + MATERIAL:
+            break
+        one = more[0]
+        keep(found, one)
+    return possible
+
+
+def _may_rival(one: Fit, larger: Fit, most: int, best: Fit) -> bool:
+    """Whether a set may rival `best` if every further one up to `most`, and every exchange, gained as the last one did.
+
+    That is by its evidence where the best explains the data, else by its misfit: the second of several often gains least.
+    """
+    promised = larger.misfit * min(1.0, larger.misfit / one.misfit) ** (2 * (most - len(one.recipes)))
+    if not adequate(best, GATE):
+        return promised < within([best])
+    size = lambda fit: fit.log_evidence + 0.5 * fit.misfit  # what its unknowns cost
+    return size(larger) - size(best) - 0.5 * (promised - best.misfit) > -REACH
+
+
+def _elsewhere(study: Study, one: Fit) -> list[Fit]:
+    """The same kind in the recipes that are next best by themselves, in few steps."""
+    (recipe,) = one.recipes
+    name, fits = recipe.candidate.key, {}
+    for _, number, x in study.looks(name, np.zeros(study.k), ()):
+        if number != recipe.number and number not in fits and len(fits) < SECOND:
+            fits[number] = fit(study.with_cause((), name, number), x[study.k :], x[: study.k], QUICK)
+    return [each for each in fits.values() if each is not None]

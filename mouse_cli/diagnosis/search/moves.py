@@ -1,0 +1,113 @@
+"""What is done to a set of mechanisms: one more is put beside it, one is taken out or exchanged, and it is fitted to the end."""
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from mouse_cli.diagnosis.search.descents import settled, summed
+from mouse_cli.diagnosis.search.escape import shifted, tied, walked
+from mouse_cli.diagnosis.search.fit import Fit, fit
+from mouse_cli.diagnosis.search.found import Found, best_of, keep, key
+from mouse_cli.diagnosis.search.optima import NEAR, within
+from mouse_cli.diagnosis.search.pared import pared
+from mouse_cli.diagnosis.search.parts import Beside, in_turn, look_beside, partner
+from mouse_cli.diagnosis.search.study import Study
+from mouse_cli.updating.chi_square import upper_tail
+
+SECOND, QUICK = 2, 8  # fits of a further mechanism beside others, and their steps, in a first try
+FAR_OF_SETS = 100.0  # as FAR, of sets: many are tried, and brief descents say enough of them
+ADEQUATE = 0.05  # p-value of the misfit below which what is left is no noise
+_PARTNERS = 6  # candidates that a first look finds best beside others, which alone are fitted
+_FINISHED = 6  # sets that are fitted to the end
+_ROUNDS = 3  # of exchanges
+_LIMITS = (  # groups of which one is the other at an end of its range: a crack at a clamp, an item on a stiff or a soft mount
+    {"local-stiffness", "support"},
+    {"mass", "oscillator"},
+    {"ground-spring", "oscillator"},
+)
+
+
+def adequate(one: Fit, least: float = ADEQUATE) -> bool:
+    """Whether what a fit leaves may be noise."""
+    return upper_tail(one.misfit, max(one.dof, 1)) > least
+
+
+def finished(study: Study, found: Found) -> list[Fit]:
+    """The best fitted to the end, their evidence summed over sites that are as good."""
+    ended = [settled(walked(shifted(pared(one, study)), study), study) for one in best_of(found, _FINISHED)]
+    return [summed([one, *tied(one, study)]) for one in ended]
+
+
+def swap(study: Study, one: Fit, found: Found) -> None:
+    """Into `found` the same mechanisms with each replaced by what is hard to tell from it, begun from the set itself.
+
+    Where the set leaves too much that may be the same mechanism at another site.
+    """
+    for i, recipe in enumerate(one.recipes):
+        own, moved = recipe.candidate, not adequate(one)
+        alike = {own.group}.union(*(pair for pair in _LIMITS if own.group in pair))
+        aliases = [name for name, each in study.known.items() if each.group in alike and (moved or name != own.key)]
+        rest = without(one, i)
+        if rest is not None and aliases:
+            beside(study, rest, aliases, found)
+
+
+def beside(study: Study, first: Fit, partners: Iterable[str], found: Found) -> None:
+    """Into `found` what `first` and the best of `partners` make together, where it is better than what is there."""
+    there = study.about(first)
+    names = found.untried(first, _promising(study, there, first, list(partners)))
+    causes, own = Beside.of(first, there), there.own(first.recipes)
+
+    def reach(i: int) -> float:
+        same = found.get(tuple(sorted((*key(first), names[i]))))
+        return min(within([first, *found.values()], FAR_OF_SETS), np.inf if same is None else within([same], NEAR))
+
+    def accept(i: int, fits: list) -> None:
+        for one in fits:
+            keep(found, one.fit(there, own, names[i]))
+
+    in_turn(study, partner, [(causes, name, SECOND, QUICK) for name in names], accept, reach)
+
+
+def _promising(study: Study, there: Study, first: Fit, partners: list[str]) -> list[str]:
+    """Those of `partners` that a first look beside `first` finds best."""
+    if len(partners) <= _PARTNERS:
+        return partners
+    coarse, causes, looks = there.coarse, Beside.of(first, there), {}
+
+    def accept(i: int, seen: list) -> None:
+        looks[partners[i]] = seen
+        coarse.keep_beside(partners[i], first.point.x, first.recipes, seen)
+
+    in_turn(study, look_beside, [(causes, name) for name in partners], accept)
+    order = sorted((name for name in partners if looks[name]), key=lambda name: looks[name][0][0])
+    return order[:_PARTNERS]
+
+
+def exchanged(study: Study, one: Fit, names: tuple[str, ...] | None = None, least: float = ADEQUATE) -> Fit:
+    """The set with each mechanism in turn replaced by what fits best beside the others, while that gains and it leaves too much.
+
+    names: candidates that may take a place; None: all. least: p-value of its misfit below which it does leave too much.
+    """
+    for _ in range(_ROUNDS if not adequate(one, least) else 0):
+        before = one.log_evidence
+        for i in range(len(one.recipes)):
+            rest = without(one, i)
+            if rest is None:
+                continue
+            found = Found()
+            beside(study, rest, study.known if names is None else names, found)
+            better = max(found.values(), key=lambda each: each.log_evidence, default=one)
+            one = better if better.log_evidence > one.log_evidence else one
+        if one.log_evidence < before + 1.0:
+            break
+    return one
+
+
+def without(one: Fit, i: int, most: int = 0, reach: float = np.inf) -> Fit | None:
+    """The fit without its mechanism number i, in at most so many steps: with none the others and the parameters are as they are,
+    for begun anew they would make up for it. reach: as `fit` has it.
+    """
+    rest = (*one.recipes[:i], *one.recipes[i + 1 :])
+    c = np.concatenate([np.zeros(0), *(one.c[own] for j, own in enumerate(one.model.own) if j != i)])
+    return fit(type(one.model)(one.model.base, rest), c, one.point.x[: one.model.k], most, reach)
