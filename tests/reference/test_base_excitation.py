@@ -14,10 +14,11 @@ from mouse_cli.dynamics.response import simulate
 from mouse_cli.formats import read_deck
 from mouse_cli.terms.laws import registry
 from mouse_cli.updating.recordings.ground import derivative
+from mouse_cli.updating.recordings.pushed import pushed
 from mouse_cli.updating.recordings.records import records
 from mouse_cli.updating.recordings.segments import Segments
 from mouse_cli.updating.recordings.series import REACH
-from mouse_cli.updating.recordings.study import study
+from mouse_cli.updating.recordings.study import fitted, study
 
 RATE, SECONDS = 200.0, 20.0
 K, M, ZETA = np.array([6e4, 5e4, 4e4]), np.array([100.0, 90.0, 80.0]), 0.0144
@@ -271,6 +272,24 @@ def test_added_mass_is_named_at_its_floor(tmp_path):
     ag, _, floors, _ = absolute(heavier, damping(heavier, chain(K)), chain(K), np.ones(3))
     said = verdict(deck(tmp_path, ag, floors))
     assert (said["kind"], said["physics"], said["site"]["ids"]) == ("named", "mass", [2])
+
+
+@pytest.mark.parametrize(
+    ("more", "left", "law", "sign", "ids", "size"),
+    [([25.0, 0, 0], [1, 1, 1], "mass", 1.0, [1], 25.0), ([0, 0, 0], [1, 1, 0.8], "spring", -1.0, [2, 3], 0.2 * K[2])],
+)
+def test_what_a_parameter_is_pushed_to_do_is_tried_as_a_law(tmp_path, more, left, law, sign, ids, size):
+    """A parameter of the deck does the same at many prior sd, so that a first look sees nothing; the law begins with its size."""
+    m, k = M + np.array(more), chain(K * np.array(left))
+    ag, _, floors, _ = absolute(m, damping(m, k), k, np.ones(3))
+    own = study(*(lambda problem: (problem, records(problem)))(read_deck(deck(tmp_path, ag, floors))))
+    baseline = fitted(own, None)
+    first = pushed(baseline, own.places, None)[0]
+    (part,) = first.hypothesis.parts
+    assert (part.law.key, part.words.get("sign", 1.0), [int(i) for i in part.place.site.ids]) == (law, sign, ids)
+    assert 0.5 * size < np.exp(first.x[-1]) < 1.3 * size  # what all masses and stiffnesses share, no record knows
+    assert np.abs(first.x[: own.base.linear.k]).max() < np.abs(baseline.x).max()
+    assert pushed(fitted(own, first), own.places, None) == []
 
 
 def test_functions_of_a_moving_ground_are_refused_with_the_way_out(tmp_path):

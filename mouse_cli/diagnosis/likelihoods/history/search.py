@@ -16,6 +16,7 @@ from mouse_cli.updating.recordings.misread import misread
 from mouse_cli.updating.recordings.mistakes import check
 from mouse_cli.updating.recordings.noise import doubtful, noise
 from mouse_cli.updating.recordings.polish import Fit
+from mouse_cli.updating.recordings.pushed import pushed
 from mouse_cli.updating.recordings.regression import Regression, Start, starts
 from mouse_cli.updating.recordings.study import Study, fitted
 from mouse_cli.updating.refusals import not_simulated
@@ -123,7 +124,8 @@ def _left(study: Study, one: Fit) -> Noise | None:
 def _singles(study: Study, notice: Notice, known: list[Law] | None, baseline: Fit) -> list[Fit]:
     notice(f"{len(study.places)} sites, first pass")
     error = _FIRST_ORDER if strained(baseline) else 0.0
-    order = _looked(study, lambda place: study.looked(place, study.spectrum, error=error), known)
+    order = pushed(baseline, study.places, known)
+    order += _looked(study, lambda place: study.looked(place, study.spectrum, error=error), known)
     found, best, tried, order = [], baseline, [], _varied(order)
     for count, start in enumerate(order, 1):
         if count > _POLISHED and (adequate(best) or count > _MORE):
@@ -202,7 +204,8 @@ def _where(one: Fit) -> tuple[str, str]:
 
 def _beside(study: Study, notice: Notice, known: list[Law] | None, first: Fit, others: list[Fit]) -> list[Fit]:
     """Fits of `first` with a second law; two laws of one group at one place are one."""
-    order = _looked(study, lambda place: study.looked(place, study.spectrum, first), known)
+    order = pushed(first, study.places, known)
+    order += _looked(study, lambda place: study.looked(place, study.spectrum, first), known)
     order = [one for one in _varied(order) if not doubled(one)]
     found: list[Fit] = []
     for start in order[:_SECONDS]:
