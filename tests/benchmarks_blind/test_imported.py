@@ -55,6 +55,18 @@ def test_the_exported_job_predicts_modes_that_were_not_fitted(tmp_path):
     assert before > 0.01 and after < 0.002  # at 0.1 % accuracy of the fitted ones
 
 
+@pytest.mark.proof
+@pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (ccx) is not on the path")
+def test_a_heavy_mass_on_a_thin_wall_is_looked_at_though_one_mode_hardly_moves_there(tmp_path):
+    """At node 138: a force there makes seven modes of eight, and the eighth least of all places."""
+    command = [sys.executable, "-m", "benchmarks.blind.imported", "--structures", "box", "--kinds", "mass"]
+    given = ["--seed", "98402", "--decks-only", "--output", str(tmp_path)]
+    subprocess.run([*command, *given], cwd=TOP, check=True, capture_output=True)
+    problem = read_deck(next(tmp_path.glob("*/box.yaml")))
+    places = reduced(problem, problem.prior.mean).places
+    assert "138TX" in {problem.structure.labels[i] for i in places}
+
+
 @pytest.mark.parametrize(
     ("kind", "name", "said", "text", "result"),
     [

@@ -6,6 +6,7 @@ from scipy.linalg import eigh
 
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.localise.force import locate, scores
+from mouse_cli.diagnosis.localise.survey import borne
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.problem import Problem
@@ -179,3 +180,11 @@ def test_a_mass_at_a_node_of_modes_is_found(factor: float):
     channel, number = found.find(int(np.argmin(found.matches.cost)))
     assert (channel.name, channel.site(number).ids) == ("force", ("3",))
     assert found.matches.cost.min() < 1.0  # with the factor 3 % off, which is 0.6 of its sd
+
+
+def test_a_mode_that_a_place_does_not_make_hides_nothing():
+    """Within the scatter a misfit counts as it is; far beyond it by its logarithm, so that other modes still tell."""
+    assert borne(np.array([0.5]), 40) == pytest.approx(0.5, rel=0.01)
+    right, wrong = [35.0, 40.0, 60_000.0], [3_000.0, 5_000.0, 20_000.0]
+    assert sum(right) > sum(wrong)
+    assert sum(borne(np.array(right), 40)) < sum(borne(np.array(wrong), 40))

@@ -1,7 +1,8 @@
 """A first look over a large model: at which degrees of freedom a force could make the measured shapes.
 
 The same matching as `locate`, at few values of the parameters: what those leave uncertain of the shapes of the model as it is,
-times the misfit, stands for what they leave uncertain of S R(lambda) B, so that every place costs a few products.
+times the misfit, stands for what they leave uncertain of S R(lambda) B, so that every place costs a few products. A mode that a
+force somewhere does not make counts by the logarithm of its misfit: the place may hardly move in it.
 """
 
 import numpy as np
@@ -131,7 +132,8 @@ def _look(model, measured, update: Fit, z: np.ndarray, scale: float, pairs, coun
     own = [_whitening(update, mode, measured.weight[:, i], scale) for i, mode in enumerate(measured.modes)]
     matcher = Matcher(model, measured, z, own)
     one, other = pairs
-    left = lambda rows: sum(matcher.nearest(i, rows)[1] for i in modes)
+    counts = (measured.weight > 0).sum(axis=0)
+    left = lambda rows: sum(borne(matcher.nearest(i, rows)[1], int(counts[i])) for i in modes)
     misfit = np.concatenate([left(model.V[i : i + _EACH] @ matcher.X) for i in range(0, len(model.V), _EACH)])
     near = np.minimum(misfit[one], misfit[other])
     kept = np.argsort(near, kind="stable")[
@@ -150,6 +152,14 @@ def _look(model, measured, update: Fit, z: np.ndarray, scale: float, pairs, coun
     ends = np.stack([one, other], axis=1)[np.argsort(np.concatenate(between), kind="stable")].ravel()
     _, first = np.unique(np.concatenate([places, ends]), return_index=True)
     return np.concatenate([places, ends])[np.sort(first)][:count]
+
+
+def borne(misfit: np.ndarray, count: int) -> np.ndarray:
+    """What a mode of so many components counts that leaves `misfit` (j,): n ln(1 + misfit / n), that of an unknown scatter.
+
+    One mode that a place does not make, as it hardly moves there, must not hide that it makes all others.
+    """
+    return count * np.log1p(misfit / count)
 
 
 def _whitening(update: Fit, mode: int, weight: np.ndarray, scale: float) -> np.ndarray:
