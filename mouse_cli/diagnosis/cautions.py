@@ -29,8 +29,8 @@ _TOLD = {
     "or add the resulting shape error to shape_sd",
     "drift": "the frequencies look off by about {size:.2f} % each (temperature, amplitude, sensors moved between "
     "modes): repeat the test, or add that much to frequency_sd",
-    "frequency": "the frequency of mode {modes} does not agree with all that agrees among the others: check that entry, or make "
-    "it null",
+    "frequency": "the frequency of mode {modes} does not agree with all that agrees among the others: measure it again, or make "
+    "it null; if it stays, the structure moves that mode alone",
     "mode": "mode {modes} is none that the structure can have beside the others: a false mode of the identification, of another "
     "part, or paired wrongly: check it, or leave it out",
 }
