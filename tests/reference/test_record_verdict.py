@@ -4,6 +4,7 @@ import json
 import re
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,7 +13,9 @@ from scipy.integrate import solve_ivp
 from two_masses import linear, record
 
 from mouse_cli.cli.main import cli
-from mouse_cli.diagnosis.likelihoods.history.search import Weighed, alike, doubled, hidden, plainest
+from mouse_cli.diagnosis.likelihoods.history import shown as showing
+from mouse_cli.diagnosis.likelihoods.history.search import Weighed, alike, doubled, plainest
+from mouse_cli.diagnosis.likelihoods.history.shown import hidden, undamped
 from mouse_cli.diagnosis.likelihoods.history.verdict import decided, far, ranked
 from mouse_cli.formats import read_deck
 from mouse_cli.model.diagnosis import Rest
@@ -89,6 +92,22 @@ def test_damping_that_a_deck_leaves_out_has_no_name(tmp_path, missing_spring, ph
     law = lambda u, v: 3.0 * v + np.array([0.0, missing_spring * u[1]])
     found = answer(record(tmp_path, law))["verdict"]
     assert (found["kind"], found["physics"]) == ("named" if physics else "nothing-missing", physics)
+
+
+@pytest.mark.parametrize("bare, least, left", [(True, 0.9, ["mass"]), (True, 0.1, None), (False, 0.9, None)])
+def test_where_damping_is_assumed_a_dashpot_is_no_rival_of_what_explains_the_records(monkeypatch, bare, least, left):
+    """Whether alone or beside a law; of a deck with damping, or where nothing else leaves noise, it stays."""
+    monkeypatch.setattr(showing, "adequate", lambda one: one.p > 0.5)
+    fits = [
+        SimpleNamespace(
+            p=p, hypothesis=SimpleNamespace(parts=[SimpleNamespace(law=SimpleNamespace(key=key)) for key in keys])
+        )
+        for p, keys in [(0.99, ["dashpot"]), (least, ["mass"]), (0.99, ["mass", "dashpot"])]
+    ]
+    dropped: dict[str, str] = {}
+    found = undamped(SimpleNamespace(model=SimpleNamespace(bare=bare)), fits, dropped)
+    assert found == (fits if left is None else fits[1:2])
+    assert list(dropped) == ([] if left is None else ["dashpot"])
 
 
 def test_assumed_damping_does_not_follow_the_stiffness(tmp_path):

@@ -66,7 +66,7 @@ class Uncertain:
     """The linear model in the coordinates in which it is simulated: u = basis q, basis (n, m); remarks on what was assumed.
 
     along (m, n): q = along u of motions as a rigid body. theta(z (own,)): values of the parameters of the deck, which are the first
-    `own` nuisances.
+    `own` nuisances. bare: the deck has no damping, so that it is assumed.
     """
 
     linear: Linear
@@ -75,6 +75,7 @@ class Uncertain:
     theta: Callable[[np.ndarray], np.ndarray]
     own: int
     remarks: tuple[str, ...]
+    bare: bool = False
 
 
 def uncertain(problem: Problem, highest_hz: float, at: np.ndarray) -> Uncertain:
@@ -99,7 +100,7 @@ def uncertain(problem: Problem, highest_hz: float, at: np.ndarray) -> Uncertain:
 
     steady = found.linear and not where.logarithmic.any()
     linear, said = completed(problem, own, _names(problem, k), bare, steady, problem.structure.labels)
-    return Uncertain(linear, V, along(V, found.matrices(value(np.zeros(k)))[1]), value, k, said)
+    return Uncertain(linear, V, along(V, found.matrices(value(np.zeros(k)))[1]), value, k, said, bare)
 
 
 def completed(

@@ -90,7 +90,7 @@ def modelled(known: Posterior, problem: Problem, highest_hz: float, at: np.ndarr
     labels = (*base.problem.structure.labels, *(f"own {i}" for i in range(1, own_dofs + 1)))
     linear, said = completed(problem, lambda y: at_bytes(np.ascontiguousarray(y).tobytes()), names, bare, False, labels)
     along = np.linalg.lstsq(W, _carried(A, matrices(mean)[0], base.V.shape[1]), rcond=None)[0]
-    return Uncertain(linear, A @ W, along, theta, len(mean), said)
+    return Uncertain(linear, A @ W, along, theta, len(mean), said, bare)
 
 
 def _carried(A: np.ndarray, K: np.ndarray, r: int) -> np.ndarray:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mouse_cli.diagnosis.likelihoods.history.shown import shown, undamped
 from mouse_cli.model.record_diagnosis import Noise
 from mouse_cli.terms.laws import Law
 from mouse_cli.terms.laws import registry as laws
@@ -27,7 +28,6 @@ _FIRST_ORDER = 0.02
 _ALIKE = 6  # starts that are fitted although an adequate law was found, as they are like it
 _TAKEN = 0.5  # of what may be noise, that a law leaves at most to be more than it
 _SERIES = "smooth-stiffness"  # group of laws that are terms of one power series
-_END = 0.01  # of the logarithm of a range, from its end
 _ABOUT = 1.15  # times the least that a law leaves, up to which another one leaves about as much
 _ROUNDS, _SECONDS = 3, 4  # laws beside which a second one is sought, and starts of it that are fitted
 
@@ -66,7 +66,7 @@ def weighed(study: Study, notice: Notice, known: list[Law] | None = None, causes
     if noisy and not doubtful(study.spectrum, study.base, study.places, quiet):
         return Weighed(baseline, [], quiet, baseline)
     dropped: dict[str, str] = {}
-    found = _shown(study, _singles(study, notice, known, baseline), dropped)
+    found = undamped(study, shown(study, _singles(study, notice, known, baseline), dropped), dropped)
     best = min([baseline, *found], key=innovation)
     if noisy and innovation(best) > _TAKEN * innovation(baseline):
         return Weighed(baseline, [], quiet, baseline)
@@ -74,45 +74,10 @@ def weighed(study: Study, notice: Notice, known: list[Law] | None = None, causes
         return Weighed(baseline, found, dropped=tuple(dropped.items()))
     quiet = _left(study, best)
     if quiet is None and causes > 1:
-        found += _shown(study, _pairs(study, notice, known, found), dropped)
+        found = undamped(study, found + shown(study, _pairs(study, notice, known, found), dropped), dropped)
         best = min(found, key=innovation)
         quiet = None if adequate(best) else _left(study, best)
     return Weighed(baseline, found, quiet, None if quiet is None else best, tuple(dropped.items()))
-
-
-def _shown(study: Study, found: list[Fit], dropped: dict[str, str]) -> list[Fit]:
-    """Fits whose laws the records can show; into `dropped` the others."""
-    horizon, kept = study.length * study.look.dt, []
-    for one in found:
-        unseen = hidden(one, horizon)
-        if unseen is None:
-            kept.append(one)
-        else:
-            dropped[unseen[0]] = unseen[1]
-    return kept
-
-
-def hidden(one: Fit, horizon_s: float) -> tuple[str, str] | None:
-    """Key and reason of a law whose own mode is no finding: slower than the stretch it is judged on, or at the end of its range.
-
-    Within a stretch such a mode is a free force, that may stand for anything.
-    """
-    for part, p in one.hypothesis.sizes(one.x[None]):
-        if not part.extra:
-            continue
-        frequency = next((v for u, v in zip(part.unknowns, p[:, 0], strict=True) if u.unit == "Hz"), np.inf)
-        if frequency * horizon_s < 1:
-            slow = f"its period, {1 / frequency:.3g} s, is longer than the stretch of {horizon_s:.3g} s it is judged on"
-            return part.law.key, f"{part.place.site.text}: {slow}"
-        for size, value in zip(part.unknowns, p[:, 0], strict=True):
-            reach = _END * np.log(size.upper / size.lower)
-            low = size.unit != "1" and np.log(value / size.lower) < reach
-            if low or np.log(size.upper / value) < reach:
-                return (
-                    part.law.key,
-                    f"{part.place.site.text}: its {size.name} ends at the limit of its range",
-                )
-    return None
 
 
 def _left(study: Study, one: Fit) -> Noise | None:

@@ -1,0 +1,57 @@
+"""Which laws records can show: none slower than a stretch, none at the end of its range, no dashpot where damping is assumed."""
+
+import numpy as np
+
+from mouse_cli.updating.recordings.adequacy import adequate
+from mouse_cli.updating.recordings.polish import Fit
+from mouse_cli.updating.recordings.study import Study
+
+_END = 0.01  # of the logarithm of a range, from its end
+_DASHPOT = "dashpot"  # key of the law that is damping alone
+
+
+def shown(study: Study, found: list[Fit], dropped: dict[str, str]) -> list[Fit]:
+    """Fits whose laws the records can show; into `dropped` the others."""
+    horizon, kept = study.length * study.look.dt, []
+    for one in found:
+        unseen = hidden(one, horizon)
+        if unseen is None:
+            kept.append(one)
+        else:
+            dropped[unseen[0]] = unseen[1]
+    return kept
+
+
+def undamped(study: Study, found: list[Fit], dropped: dict[str, str]) -> list[Fit]:
+    """Fits without dashpots where the damping of the deck is assumed and others explain the records; into `dropped` why.
+
+    The damping of a structure is not that of the modes of its model, least of all when mass or stiffness is other than modelled.
+    """
+    others = [one for one in found if all(part.law.key != _DASHPOT for part in one.hypothesis.parts)]
+    if not study.model.bare or len(others) == len(found) or not any(map(adequate, others)):
+        return found
+    dropped[_DASHPOT] = "the deck has no damping, and what is left without one may be noise: it is how the structure is damped"
+    return others
+
+
+def hidden(one: Fit, horizon_s: float) -> tuple[str, str] | None:
+    """Key and reason of a law whose own mode is no finding: slower than the stretch it is judged on, or at the end of its range.
+
+    Within a stretch such a mode is a free force, that may stand for anything.
+    """
+    for part, p in one.hypothesis.sizes(one.x[None]):
+        if not part.extra:
+            continue
+        frequency = next((v for u, v in zip(part.unknowns, p[:, 0], strict=True) if u.unit == "Hz"), np.inf)
+        if frequency * horizon_s < 1:
+            slow = f"its period, {1 / frequency:.3g} s, is longer than the stretch of {horizon_s:.3g} s it is judged on"
+            return part.law.key, f"{part.place.site.text}: {slow}"
+        for size, value in zip(part.unknowns, p[:, 0], strict=True):
+            reach = _END * np.log(size.upper / size.lower)
+            low = size.unit != "1" and np.log(value / size.lower) < reach
+            if low or np.log(size.upper / value) < reach:
+                return (
+                    part.law.key,
+                    f"{part.place.site.text}: its {size.name} ends at the limit of its range",
+                )
+    return None
