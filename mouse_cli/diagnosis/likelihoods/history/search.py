@@ -89,7 +89,7 @@ def _left(study: Study, one: Fit) -> Noise | None:
 def _singles(study: Study, notice: Notice, known: list[Law] | None, baseline: Fit) -> list[Fit]:
     notice(f"{len(study.places)} sites, first pass")
     error = _FIRST_ORDER if strained(baseline) else 0.0
-    order = pushed(baseline, study.places, known)
+    order = pushed(baseline, study.places, _of_places(known))
     order += _looked(study, lambda place: study.looked(place, study.spectrum, error=error), known)
     found, best, tried, order = [], baseline, [], _varied(order)
     for count, start in enumerate(order, 1):
@@ -126,11 +126,15 @@ def _looked(study: Study, look: Callable[[Place], Regression], known: list[Law] 
     """Every law at every place, and every error of a channel, that which leaves least first."""
     keys = None if known is None else {law.key for law in known}
     errors = [one for key, one in misreadings(study.look.dt).items() if keys is None or key in keys]
-    laws = None if known is None else [law for law in known if not isinstance(law, Misreading)]
-    every = starts((look(place) for place in study.places), laws)
+    every = starts((look(place) for place in study.places), _of_places(known))
     if errors and study.channels:
         every += misread(look(study.places[0]), study.channels, errors)
     return sorted(every, key=lambda one: one.left)
+
+
+def _of_places(known: list[Law] | None) -> list[Law] | None:
+    """Those of `known` that act at places of the structure, and not on a channel."""
+    return None if known is None else [law for law in known if not isinstance(law, Misreading)]
 
 
 def _named(start: Start) -> str:
@@ -169,7 +173,7 @@ def _where(one: Fit) -> tuple[str, str]:
 
 def _beside(study: Study, notice: Notice, known: list[Law] | None, first: Fit, others: list[Fit]) -> list[Fit]:
     """Fits of `first` with a second law; two laws of one group at one place are one."""
-    order = pushed(first, study.places, known)
+    order = pushed(first, study.places, _of_places(known))
     order += _looked(study, lambda place: study.looked(place, study.spectrum, first), known)
     order = [one for one in _varied(order) if not doubled(one)]
     found: list[Fit] = []
