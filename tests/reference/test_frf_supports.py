@@ -163,9 +163,10 @@ def freed(request, tmp_path_factory):
     return reduced(problem, problem.prior.mean)
 
 
-# what a plane portal of beams alone, feet clamped, has no place for: lumped masses, offsets, tapers, shells, free directions
+# what a plane portal of beams alone, feet clamped, has no place for: lumped masses, offsets, tapers, sets, shells, free directions
 NOWHERE = (
-    "eccentric-bearing", "item-offset", "items", "mass-loss", "offset", "sprung-mass", "support-restraint", "taper", "thinner",
+    "eccentric-bearing", "item-offset", "items", "mass-loss", "material", "offset", "sprung-mass", "support-restraint", "taper",
+    "thinner",
 )  # fmt: skip
 
 

@@ -30,7 +30,7 @@ def undamped(study: Study, found: list[Fit], dropped: dict[str, str]) -> list[Fi
     others = [one for one in found if all(part.law.key != _DASHPOT for part in one.hypothesis.parts)]
     if not study.model.bare or len(others) == len(found) or not any(map(adequate, others)):
         return found
-    dropped[_DASHPOT] = "the deck has no damping, and what is left without one may be noise: it is how the structure is damped"
+    dropped[_DASHPOT] = "the deck has no damping, and the residual without one may be noise: it says how the structure is damped"
     return others
 
 
