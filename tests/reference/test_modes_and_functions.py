@@ -155,8 +155,7 @@ def determined(found, group: str, size: float) -> bool:
     return own.sd < 0.05 * size
 
 
-@pytest.mark.proof
-@pytest.mark.parametrize("name", proofs(CASES, "beam with a mass"))
+@pytest.mark.parametrize("name", proofs(CASES))
 def test_both_determine_what_neither_alone_does(name, tmp_path):
     truth, group, size = CASES[name]
     found = lambda **data: diagnose(truth.deck(tmp_path, **data), choices=KNOWN)

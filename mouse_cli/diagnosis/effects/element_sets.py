@@ -53,7 +53,7 @@ def listed(model: Reduced) -> list[tuple[str, Entries, np.ndarray]]:
 
 def missing(model: Reduced, candidate) -> list[Recipe]:
     """K - d K_s and M - d M_s of each set that has both: a part that is missing, in part or as a whole, or thinner."""
-    found = [each for each in _sets(model) if None not in each[1:] and has_energy(model, each[1].own)]
+    found = _held(model)
     return [_missing(candidate, *each, len(found)) for each in found]
 
 
@@ -65,7 +65,7 @@ def heavier(model: Reduced, candidate) -> list[Recipe]:
 
 def remade(model: Reduced, candidate) -> list[Recipe]:
     """(a - 1) K_s and (b - 1) M_s of each set that has both: a part of another material."""
-    found = [each for each in _sets(model) if None not in each[1:] and has_energy(model, each[1].own)]
+    found = _held(model)
     return [_remade(candidate, *each, len(found)) for each in found]
 
 
@@ -118,6 +118,11 @@ def _recipe(candidate, share: Unknown, group: ElementGroup, count: int, of: tupl
     K, M = of
     site = Site("dof", (), None, text(group))
     return proportional(candidate, share, 4, site, -float(np.log(count)), extend, K=sign * K, M=sign * M)
+
+
+def _held(model: Reduced) -> list[_Set]:
+    """Sets with stiffness and mass, and a share in the energy of a measured mode."""
+    return [each for each in _sets(model) if None not in each[1:] and has_energy(model, each[1].own)]
 
 
 def _sets(model: Reduced) -> list[_Set]:

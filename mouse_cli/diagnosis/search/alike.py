@@ -7,11 +7,10 @@ import numpy as np
 from mouse_cli.diagnosis.gates import GATE, MATERIAL
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.found import Found, keep
-from mouse_cli.diagnosis.search.moves import QUICK, SECOND, adequate, beside, exchanged, finished
+from mouse_cli.diagnosis.search.moves import QUICK, REACH, SECOND, adequate, beside, exchanged, finished
 from mouse_cli.diagnosis.search.optima import within
 from mouse_cli.diagnosis.search.study import Study
 
-REACH = 6.0  # log evidence below that of the best from which on a set that is fitted in few steps is no rival of it
 _ALIKE = 5  # kinds of which several are tried
 
 

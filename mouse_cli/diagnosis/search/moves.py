@@ -16,6 +16,7 @@ from mouse_cli.updating.chi_square import upper_tail
 
 SECOND, QUICK = 2, 8  # fits of a further mechanism beside others, and their steps, in a first try
 FAR_OF_SETS = 100.0  # as FAR, of sets: many are tried, and brief descents say enough of them
+REACH = 6.0  # log evidence below that of the best from which on a set that is fitted in few steps is no rival of it
 ADEQUATE = 0.05  # p-value of the misfit below which what is left is no noise
 _PARTNERS = 6  # candidates that a first look finds best beside others, which alone are fitted
 _FINISHED = 6  # sets that are fitted to the end

@@ -9,13 +9,14 @@ from collections.abc import Iterable
 import numpy as np
 
 from mouse_cli.diagnosis.gates import GATE
-from mouse_cli.diagnosis.search.alike import REACH, same_kind
+from mouse_cli.diagnosis.search.alike import same_kind
 from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
 from mouse_cli.diagnosis.search.found import Found, best_of, keep, key, material, replaced
 from mouse_cli.diagnosis.search.moves import (
     ADEQUATE,
     FAR_OF_SETS,
     QUICK,
+    REACH,
     adequate,
     beside,
     exchanged,

@@ -27,36 +27,25 @@ def pushed(one: Fit, places: list[Place], laws: list[Law] | None) -> list[Start]
 
 
 def _alike(one: Fit, i: int, place: Place, laws: list[Law] | None) -> Iterator[Start]:
-    """Laws at a place that do what parameter number i has done, with that much of it."""
-    back = one.x.copy()
+    """Laws of one size at a place that do what parameter number i has done, with that much of it."""
+    k, back, B = one.hypothesis.linear.k, one.x.copy(), place.directions
     back[i] = one.hypothesis.mean[i]
-    k = one.hypothesis.linear.k
-    there, here = one.hypothesis.linear.matrices(np.array([one.x[:k], back[:k]])), place.directions
-    moved = [matrix[0] - matrix[1] for matrix in there]  # M, C, K
-    for law in allowed(place, laws):
-        if not law.linear or law.motions > 1:
-            continue
+    there = one.hypothesis.linear.matrices(np.array([one.x[:k], back[:k]]))
+    moved = [there[which][0] - there[which][1] for which in (2, 1, 0)]  # K, C, M, as laws have them
+    for law in (each for each in allowed(place, laws) if each.linear and len(each.parameters) == 1):
         for variant, words in enumerate(law.variants):
-            K, C, M = law.matrices(np.ones(len(law.parameters)), **words)
-            if len(law.parameters) != 1 or len(K) > 1:
-                continue
-            size = _size(moved, [here @ each @ here.T for each in (M, C, K)])
-            hypothesis = one.hypothesis.placed(place).at(law, variant)
+            unit = law.matrices(np.ones(1), **words)
+            size = _size(moved, [B @ each @ B.T for each in unit]) if len(unit[0]) == B.shape[1] else 0.0
             if size > 0:
-                x = np.append(back, np.log(size))
-                yield Start(hypothesis, np.clip(x, *hypothesis.bounds), 0.0)
+                hypothesis = one.hypothesis.placed(place).at(law, variant)
+                yield Start(hypothesis, np.clip(np.append(back, np.log(size)), *hypothesis.bounds), 0.0)
 
 
 def _size(moved: list[np.ndarray], unit: list[np.ndarray]) -> float:
-    """How many times `unit` matrices `moved` are; 0 where they are no multiple."""
-    flat = [np.concatenate([each.ravel() for each in scaled]) for scaled in _scaled(moved, unit)]
-    product, norms = float(flat[0] @ flat[1]), float(np.linalg.norm(flat[0]) * np.linalg.norm(flat[1]))
-    return product / float(flat[1] @ flat[1]) if norms > 0 and product > _SAME * norms else 0.0
-
-
-def _scaled(moved: list[np.ndarray], unit: list[np.ndarray]) -> Iterator[list[np.ndarray]]:
-    """Both, each of M, C and K in a unit of its own, so that none is lost beside the others."""
-    sizes = [
-        max(float(np.abs(one).max()), float(np.abs(other).max())) or 1.0 for one, other in zip(moved, unit, strict=True)
-    ]
-    yield from ([each / size for each, size in zip(three, sizes, strict=True)] for three in (moved, unit))
+    """How many times `unit` matrices `moved` are, K, C and M each in a unit of its own; 0 where they are no multiple."""
+    scale = [max(float(np.abs(each).max()) for each in pair) or 1.0 for pair in zip(moved, unit, strict=True)]
+    a, b = (
+        np.concatenate([(each / s).ravel() for each, s in zip(three, scale, strict=True)]) for three in (moved, unit)
+    )
+    product, norms = float(a @ b), float(np.linalg.norm(a) * np.linalg.norm(b))
+    return product / float(b @ b) if norms > 0 and product > _SAME * norms else 0.0
