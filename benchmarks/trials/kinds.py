@@ -12,7 +12,7 @@ from benchmarks.trials.case import Blank, Mechanism
 from benchmarks.trials.chain import chain
 from benchmarks.trials.frame import frame
 from benchmarks.trials.library import Draw
-from benchmarks.trials.outside import fields, links
+from benchmarks.trials.outside import fields, grounds, links, plates
 from benchmarks.trials.plate import plate
 
 Maker = Callable[[np.random.Generator], Blank]
@@ -148,6 +148,17 @@ OUTSIDE: dict[str, tuple[Maker, tuple[Draw, ...]]] = {
     "beam/arch": (_beam(*HELD), (links.arch,)),
     "beam/warm": (_beam(*SUPPORTED, "free"), (fields.warm,)),
     "beam/corroded": (_beam(), (fields.corroded,)),
+    "beam/elastic wall": (_beam(*CLAMPED), (grounds.elastic_wall,)),
+    "beam/pad": (_beam(), (grounds.pad,)),
+    "frame/foot on a block": (frame, (grounds.foot_on_block,)),
+    "storeys/swaying foundation": (storeys, (grounds.swaying,)),
+    "storeys/neighbour": (storeys, (grounds.neighbour,)),
+    "plate/delaminated patch": (plate, (plates.thin_patch,)),
+    "plate/elastic edge": (plate, (plates.elastic_edge,)),
+    "plate/pull": (plate, (plates.pull,)),
+    "plate/rib": (plate, (plates.rib,)),
+    "plate/wet": (plate, (plates.wet,)),
+    "plate/gasket": (plate, (plates.gasket,)),
     "frame/elastomer": (frame, (links.elastomer,)),
     "storeys/overall bending": (storeys, (links.overall_bending,)),
     "frame/outrigger": (frame, (links.outrigger,)),
@@ -166,6 +177,7 @@ OUTSIDE: dict[str, tuple[Maker, tuple[Draw, ...]]] = {
 }
 OUTSIDE_GROUPS: dict[str, tuple[Maker, Callable]] = {
     "beam/attached beam": (_beam(), links.attached_beam),
+    "beam/sleeve": (_beam(*SUPPORTED, "free"), fields.sleeve),
     "frame/every corner": (frame, links.every_corner),
 }
 CONTROLS: dict[str, Maker] = {

@@ -15,7 +15,7 @@ STIFFNESS_SD, MASS_SD = 0.05, 0.02
 _HERMITE = np.array([[1, 0, -3, 2], [0, 1, -2, 1], [0, 0, 3, -2], [0, 0, -1, 1]])  # powers of x/l
 
 
-def _line(l: float) -> list[np.ndarray]:
+def integrals(l: float) -> list[np.ndarray]:
     """Integrals (4, 4) of products of derivatives of Hermite's polynomials over a length: 00, 11, 22 and 02."""
     scale = np.array([1, l, 1, l])
     f = [np.polynomial.Polynomial(row) for row in _HERMITE]
@@ -25,22 +25,29 @@ def _line(l: float) -> list[np.ndarray]:
 
 def element(a: float, b: float) -> tuple[np.ndarray, np.ndarray]:
     """K for D = 1 and M for mass per area 1, (16, 16), of an a x b element: 4 functions along x by 4 along y."""
-    x0, x1, x2, x02 = _line(a)
-    y0, y1, y2, y02 = _line(b)
+    x0, x1, x2, x02 = integrals(a)
+    y0, y1, y2, y02 = integrals(b)
     K = np.kron(x2, y0) + np.kron(x0, y2) + NU * (np.kron(x02.T, y02) + np.kron(x02, y02.T))
     K += 2 * (1 - NU) * np.kron(x1, y1)
     return K, np.kron(x0, y0)
 
 
-def matrices(a: float, b: float, columns: int, rows: int) -> tuple[np.ndarray, np.ndarray]:
-    """K and M of a plate, D = 1 and mass per area 1; four degrees of freedom of point (i, j) from 4 (i (rows + 1) + j)."""
+def matrices(
+    a: float, b: float, columns: int, rows: int, factors: np.ndarray | None = None, of: str = "plate"
+) -> tuple[np.ndarray, np.ndarray]:
+    """K and M of a plate, D = 1 and mass per area 1, times `factors` (columns, rows) of its elements, all 1 if None; `of` slope: K of
+    a unit force per width along x instead. Four degrees of freedom of point (i, j) from 4 (i (rows + 1) + j).
+    """
     k, m = element(a / columns, b / rows)
+    if of == "slope":
+        k = np.kron(integrals(a / columns)[1], integrals(b / rows)[0])
+    factors = np.ones((columns, rows)) if factors is None else factors
     n = 4 * (columns + 1) * (rows + 1)
     K, M = np.zeros((n, n)), np.zeros((n, n))
     for i, j in np.ndindex(columns, rows):
         at = [4 * ((i + p // 2) * (rows + 1) + j + q // 2) + 2 * (q % 2) + p % 2 for p in range(4) for q in range(4)]
-        K[np.ix_(at, at)] += k
-        M[np.ix_(at, at)] += m
+        K[np.ix_(at, at)] += factors[i, j] * k
+        M[np.ix_(at, at)] += factors[i, j] * m
     return K, M
 
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from mouse_cli._errors import NumericalError
 from mouse_cli.diagnosis.cautions import cautions, misstated
 from mouse_cli.diagnosis.companions import loose
 from mouse_cli.diagnosis.extend.deck import extended
@@ -81,7 +82,7 @@ def _by_its_modes(measured: Measured, notice: Notice, choices: Choices) -> Diagn
     kind, best, missing = verdict.kind, verdict.best, verdict.kind != NOTHING
     location = locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None
     put = best if kind in (NAMED, ONE_OF) else verdict.field
-    deck = put and extended(problem, put)
+    deck, of_deck, unfit = _extended(problem, put)
     return Diagnosis(
         problem=problem,
         kind=kind,
@@ -95,9 +96,9 @@ def _by_its_modes(measured: Measured, notice: Notice, choices: Choices) -> Diagn
         cautions=cautions(ranking, verdict, location),
         misstated=misstated(ranking) if missing else None,
         proposals=_proposals(ranking, verdict),
-        remarks=(*measured.doubts, *remarks, *measured.remarks(ranking), *warnings, *(_coarse(deck) if deck else ())),
+        remarks=(*measured.doubts, *remarks, *measured.remarks(ranking), *warnings, *unfit, *(_coarse(deck) if deck else ())),
         extended=deck and measured.extended(deck, put),
-        extended_result=deck and _update(deck, related(deck), notice, _values(deck, put), enough)[0],
+        extended_result=deck and _update(deck, of_deck, notice, _values(deck, put), enough)[0],
         choices=choices,
         field=verdict.field and field_of(ranking, verdict.field, verdict.field_proof),
         rest=rest(ranking) if kind == NAMED else None,
@@ -105,6 +106,17 @@ def _by_its_modes(measured: Measured, notice: Notice, choices: Choices) -> Diagn
         **_tried(ranking),
         **measured.compared(ranking, best if missing else None),
     )
+
+
+def _extended(problem: Problem, put: Fit | None) -> tuple[Problem | None, np.ndarray | None, tuple[str, ...]]:
+    """The deck with what a fit has in it, mask (m,) of the modes that have to do with it, and why there is no such deck."""
+    deck = put and extended(problem, put)
+    if not deck:
+        return None, None, ()
+    try:
+        return deck, related(deck), ()
+    except NumericalError:  # a mean of fields, each of which leaves a mass
+        return None, None, ("no deck with the change in it: at its mean value the matrices are not those of a structure",)
 
 
 def _rejected(result: Result, model: Reduced, ranking: Ranking) -> bool:

@@ -6,7 +6,7 @@ import numpy as np
 
 from benchmarks.trials.case import Blank, Mechanism
 from benchmarks.trials.library import log_uniform
-from benchmarks.trials.outside.places import BED, LOCAL, SOFT, Box, stretch
+from benchmarks.trials.outside.places import ADDED, BED, LOCAL, MASS, SOFT, STIFF, Box, stretch
 
 LAYER = (0.3, 0.7, 2.0)  # from, to, EI over that of one layer
 
@@ -66,6 +66,20 @@ def corroded(blank: Blank, rng: np.random.Generator) -> Mechanism:
     reach, at = max(blank.near(), 0.5 * width * blank.span), (float(middle * blank.span), 0.0)
     region = stretch(blank, middle - width / 4, middle + width / 4)
     return Mechanism("corrosion", "", "", at, reach, depth, (SOFT,), ("stiffness", "mass"), region)
+
+
+def sleeve(blank: Blank, rng: np.random.Generator) -> list[Mechanism]:
+    """A tube over part of a beam: it stiffens and weighs, which are two names."""
+    width, stiffer = rng.uniform(0.1, 0.3), rng.uniform(1.3, 2.5)
+    middle = rng.uniform(width / 2 + 0.05, 0.95 - width / 2)
+    own = np.abs(blank.truth.along / blank.span - middle) < width / 2
+    blank.truth.EI[own] *= stiffer
+    blank.truth.m[own] *= 1 + 0.4 * (stiffer - 1)
+    reach, at = max(blank.near(), 0.5 * width * blank.span), (float(middle * blank.span), 0.0)
+    region = stretch(blank, middle - width / 2, middle + width / 2)
+    about = {"properties": ("stiffness", "mass"), "regions": region}
+    stiff = Mechanism("sleeve that stiffens", "", "", at, reach, stiffer, (STIFF,), **about)
+    return [stiff, Mechanism("sleeve that weighs", "", "", at, reach, stiffer, (MASS, ADDED), **about)]
 
 
 def graded_axial(blank: Blank, rng: np.random.Generator) -> Mechanism:

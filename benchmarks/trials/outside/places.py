@@ -4,9 +4,12 @@ from benchmarks.trials.case import Blank
 
 Box = tuple[tuple[float, ...], tuple[float, ...]]
 # names (physics, group) that are as true where they are declared, at the site of the mechanism
-BED, SOFT, FOOT = ("foundation", "foundation"), ("stiffness-loss", "local-stiffness"), ("support-rotation", "support")
+BED, FOOT = ("foundation", "foundation"), ("support-rotation", "support")
+SOFT, STIFF = ("stiffness-loss", "local-stiffness"), ("stiffness-gain", "added-stiffness")
 BRACE, ROCKING, CORNERS = ("brace", "brace"), ("rocking", "support"), ("semi-rigid", "semi-rigid")
+MOVING, BLOCK = ("support-translation", "support"), ("block-translation", "support")
 MOUNT, OSCILLATOR, MASS = ("ground-spring", "ground-spring"), ("oscillator", "oscillator"), ("mass", "mass")
+ADDED = ("added-mass", "added-mass")
 LOCAL = ("stiffness", "force")  # properties of nameless fields that describe what acts at places
 
 

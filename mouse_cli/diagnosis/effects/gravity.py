@@ -23,11 +23,25 @@ _AXES = (("-Z", (0, 0, -1)), ("-Y", (0, -1, 0)), ("-X", (-1, 0, 0)), ("+X", (1, 
 def self_weight(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """The recipes of a mesh that does not know gravity yet, one for each direction that may be down, or of a chain."""
     if of_matrices(model.problem):
-        return _chain(model, candidate)
+        return _chain(model, candidate, (0.03 * lowest(model), 10.0 * lowest(model)))
+    if (h := _storey(model.problem)) is not None:
+        return _chain(model, candidate, tuple(G / model.problem.units.metre / h * np.array(_STOREYS)))
     if model.problem.mesh.gravity is not None or not len(model.problem.mesh.supports):
         return []
     softer = [(name, Kg) for name, down in _downward(model) if (Kg := _softening(model, down)) is not None]
     return [_under(model, candidate, name, Kg, len(softer)) for name, Kg in softer]
+
+
+def _storey(problem: Problem) -> float | None:
+    """Mean height of storeys, in units of the deck, of point masses on springs one above another that move across; None for others."""
+    mesh, at = problem.mesh, problem.structure.geometry
+    if mesh.gravity is not None or {each.type for each in mesh.elements} != {"mass", "spring"}:
+        return None
+    extent = np.ptp(at.coordinates, axis=0)
+    up = int(np.argmax(extent))
+    straight = np.delete(extent, up).max() <= _NOTHING * extent[up]
+    across = np.unique(at.direction).size == 1 and int(at.direction[0]) not in (up, up + 3)
+    return float(extent[up] / (len(at.coordinates) - 1)) if straight and across and extent[up] > 0 else None
 
 
 def _downward(model: Reduced) -> list[tuple[str, tuple[int, int, int]]]:
@@ -72,8 +86,8 @@ def _under(model: Reduced, candidate: Candidate, name: str, Kg: np.ndarray, coun
     return proportional(candidate, factor, 3, site, -float(np.log(count)), extend, K=Kg)
 
 
-def _chain(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """K - a sum M_above,i b_i b_i', b_i the drift of storey i, for springs in a row on the ground: a = g / h."""
+def _chain(model: Reduced, candidate: Candidate, ends: tuple[float, float]) -> list[Recipe]:
+    """K - a sum M_above,i b_i b_i', b_i the drift of storey i, for springs in a row on the ground: a = g / h within `ends`."""
     entries = _above(model)
     if entries is None:
         return []
@@ -81,8 +95,7 @@ def _chain(model: Reduced, candidate: Candidate) -> list[Recipe]:
     n = model.problem.structure.n
     Kg = np.zeros((n, n))
     Kg[row, col] = Kg[col, row] = value
-    scale = lowest(model)
-    a = Unknown("g / h", "1/s2", 0.03 * scale, 10.0 * scale)
+    a = Unknown("g / h", "1/s2", *ends)
 
     def site(values: np.ndarray) -> Site:
         h = G / values[0]  # rigid storeys are h high, those whose columns bend between floors that do not turn 6/5 h
@@ -95,7 +108,7 @@ def _chain(model: Reduced, candidate: Candidate) -> list[Recipe]:
 def _above(model: Reduced) -> Entries | None:
     """-sum M_above,i b_i b_i' (upper triangle) of a row of springs that stands on the ground; None for other models."""
     n = model.problem.structure.n
-    if n > _LARGEST or model.problem.structure.geometry is not None:
+    if n > _LARGEST or (of_matrices(model.problem) and model.problem.structure.geometry is not None):
         return None
     K, M = (dense(part) for part in model.assembly.matrices(model.theta))
     size = np.abs(K).max()

@@ -18,6 +18,7 @@ from mouse_cli.diagnosis.localise.force import matched
 from mouse_cli.diagnosis.localise.matching import Matcher, shapes
 from mouse_cli.diagnosis.localise.survey import survey
 from mouse_cli.diagnosis.sites.residual import static
+from mouse_cli.diagnosis.sites.sheared import shearing
 from mouse_cli.dynamics.contraction import Stack
 from mouse_cli.dynamics.krylov import Krylov
 from mouse_cli.dynamics.lanczos import INFINITE
@@ -112,7 +113,10 @@ def large(
     by = directions(problem, total, theta, stack, *basis.ritz())
     if basis.full:
         return built(problem, total, theta, *basis.ritz(), by, stack)
-    basis.responses(_moved(basis, stack, by.prior, int(problem.test.number.max())))
+    last = int(problem.test.number.max())
+    basis.responses(_moved(basis, stack, by.prior, last))
+    model = built(problem, total, theta, *basis.ritz(), by, stack)
+    basis.responses(shearing(problem, model.motion, model.bars, min(last, basis.free_vectors)))
     if problem.test.s and basis.free_vectors >= _PLACES + problem.test.s:
         basis.responses(basis.inertia(_placed(total.n, at, values)))
     model = built(problem, total, theta, *basis.ritz(), by, stack)
@@ -125,9 +129,9 @@ def large(
         basis.responses(_placed(total.n, more, np.eye(len(more))))
         places = np.concatenate([places, more])
     if problem.groups:
-        basis.motions(*without_sets(model, K, M, basis.sigma, basis.space.V, int(problem.test.number.max())))
+        basis.motions(*without_sets(model, K, M, basis.sigma, basis.space.V, last))
     model = built(problem, total, theta, *basis.orthonormal(), by, stack)
-    lowest = model.V[:, : min(model.r, int(problem.test.number.max()) + 2)]
+    lowest = model.V[:, : min(model.r, last + 2)]
     by_all = static(problem, model.motion, model.bars, basis.sigma, basis.space.operator.columns, lowest)
     return replace(model, places=np.sort(places), static=by_all)
 
