@@ -35,8 +35,9 @@ def element(a: float, b: float) -> tuple[np.ndarray, np.ndarray]:
 def matrices(
     a: float, b: float, columns: int, rows: int, factors: np.ndarray | None = None, of: str = "plate"
 ) -> tuple[np.ndarray, np.ndarray]:
-    """K and M of a plate, D = 1 and mass per area 1, times `factors` (columns, rows) of its elements, all 1 if None; `of` slope: K of
-    a unit force per width along x instead. Four degrees of freedom of point (i, j) from 4 (i (rows + 1) + j).
+    """K and M of a plate, D = 1 and mass per area 1, times `factors` (columns, rows) of its elements, all 1 if None.
+
+    of: slope for K of a unit force per width along x instead. Four degrees of freedom of point (i, j) from 4 (i (rows + 1) + j).
     """
     k, m = element(a / columns, b / rows)
     if of == "slope":

@@ -1,4 +1,6 @@
-"""What plates lack: parts of another thickness, edges that give way, forces in their plane, ribs, liquid; see `plate` for the element."""
+"""What plates lack: parts that have come apart, edges that give way, forces in their plane, ribs, liquid."""
+
+from itertools import pairwise
 
 import numpy as np
 
@@ -22,7 +24,7 @@ def _column(i: int) -> np.ndarray:
 
 def _line(points: np.ndarray, own: tuple[int, int], piece: np.ndarray, into: np.ndarray) -> None:
     """Adds to a matrix an integral (4, 4) along each piece of a line of points, `own`: value and slope among four at each."""
-    for p, q in zip(points[:-1], points[1:], strict=True):
+    for p, q in pairwise(points.tolist()):
         at = [p + own[0], p + own[1], q + own[0], q + own[1]]
         into[np.ix_(at, at)] += piece
 

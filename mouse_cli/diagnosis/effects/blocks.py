@@ -1,9 +1,9 @@
 """A support on a block of its own: it gives way against the ground, and what gives way has a mass.
 
-A flexible support without mass moves as its spring is loaded. A foundation, a pedestal or the table of a test stand has inertia too,
-so that the structure and its block are two bodies: K + k e e', M + m e e' in the motion e of the support, the structure carried along
-as statics says; k and the frequency of the block alone, sqrt(k / m) / (2 pi), are sought (soil-structure interaction, Wolf, Dynamic
-Soil-Structure Interaction, 1985, ch. 3). A block far above the band is a flexible support, one far below it a mass in free space.
+A flexible support without mass moves as its spring is loaded. A foundation, a pedestal or the table of a test stand has inertia
+too, so that structure and block are two bodies: K + k e e', M + m e e' in the motion e of the support, which carries the structure
+along as statics says (Wolf, Dynamic Soil-Structure Interaction, 1985, ch. 3). Sought are k and the frequency of the block alone,
+sqrt(k / m) / (2 pi): far above the band it is a flexible support, far below it a mass in free space.
 """
 
 from dataclasses import replace

@@ -33,7 +33,7 @@ def self_weight(model: Reduced, candidate: Candidate) -> list[Recipe]:
 
 
 def _storey(problem: Problem) -> float | None:
-    """Mean height of storeys, in units of the deck, of point masses on springs one above another that move across; None for others."""
+    """Mean height of storeys: point masses on springs one above another that move across, in units of the deck; None for others."""
     mesh, at = problem.mesh, problem.structure.geometry
     if mesh.gravity is not None or {each.type for each in mesh.elements} != {"mass", "spring"}:
         return None

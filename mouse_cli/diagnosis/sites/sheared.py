@@ -14,8 +14,8 @@ from mouse_cli.terms.constraints import Motion
 
 
 def shearing(problem: Problem, motion: Motion | None, bars: Bars | None, count: int) -> np.ndarray:
-    """Loads (n, count) that shear puts on the first `count` coordinates, the largest of each is 1; fewer where bars shear as it is, none
-    where there are too many.
+    """Loads (n, count) that shear puts on the first `count` coordinates, the largest of each is 1; none where bars are too many, or
+    shear as it is.
     """
     if motion is None or bars is None or motion.n * count > NUMBERS:
         return np.zeros((0 if motion is None else motion.n, 0))
