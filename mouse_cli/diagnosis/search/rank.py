@@ -46,6 +46,7 @@ _ENTRY = 0.99  # probability of one wrong entry of the test from which on nothin
 # Probability of no mechanism above which what has no name is not asked where that leaves no more than chance
 _IDLE = 0.5
 _SIZES = ("support", "taper")  # groups that have more than one size and yet no place that these could move
+_BY_SIZE = ("mass", "oscillator")  # groups whose stiffness at their place follows the frequency by few sizes
 _PLAIN = 2  # mechanisms up to which a set that explains the data needs no two rivals without a name beside it
 
 
@@ -75,7 +76,8 @@ class Ranking:
 
         A field counts as the mechanism that it is where it does not vary, if that is the more probable of the two: soil on which
         a building moves as one rigid body as a flexible support, a spring in the panels of a brace as a brace, a section that
-        changes linearly along one member as a taper. A law counts as the spring at its site unless it is ODDS more probable.
+        changes linearly along one member as a taper. A law counts as the spring, mass or oscillator at its site unless it is
+        ODDS more probable.
         """
         return shares(*zip(*_counted(self.fits, self.probabilities), strict=True))
 
@@ -116,7 +118,8 @@ def _counted(fits: tuple[Fit, ...], probabilities: np.ndarray) -> Iterator[tuple
         for part, share in ((one, 1 - sum(share for _, share in variants)), *variants):
             limit = part.nameless.rival.even if part.nameless else ""
             if name == LAW:
-                contained = limit in local and _constant(*local[limit], part, p)
+                limit = next((own for own in local if own in (limit, *_BY_SIZE) and _suffices(*local[own], part, p)), "")
+                contained = bool(limit)
             else:
                 contained = limit in even and _contains(even[limit], part)
             yield (limit if contained else name), p * share
@@ -124,9 +127,9 @@ def _counted(fits: tuple[Fit, ...], probabilities: np.ndarray) -> Iterator[tuple
             even.setdefault(name, one)
 
 
-def _constant(known: Fit, p: float, law: Fit, of_law: float) -> bool:
-    """Whether a law is the spring, hinge or brace at its site: one value explains the data, and that its stiffness varies from mode
-    to mode is not shown (ODDS).
+def _suffices(known: Fit, p: float, law: Fit, of_law: float) -> bool:
+    """Whether a law is the spring, hinge or brace at its site, or what follows the frequency by one or two sizes: that explains the
+    data, and that the stiffness varies from mode to mode in another way is not shown (ODDS).
     """
     base, sites = known.model.base, (known.sites[0], law.nameless.cells.sites[0])
     near = gap(*sites) <= gates.SAME_SITE * span(base)
