@@ -7,6 +7,7 @@ from mouse_cli.diagnosis.extend.matrices import of_matrices, with_shares
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.nameless import Nameless
 from mouse_cli.diagnosis.nameless._cells import FEWEST, Cells, of_elements
+from mouse_cli.diagnosis.nameless._energy import local_energy
 from mouse_cli.diagnosis.nameless._groups import of_groups
 from mouse_cli.model.diagnosis import STIFFNESS, Site
 from mouse_cli.model.problem import Problem
@@ -15,10 +16,12 @@ _SUM = 1e-6  # of its size, that a part has beyond sums of others, below which i
 
 
 def cells(model: Reduced) -> Cells | None:
-    """K + sum v_e K_e over elements; of a model of matrices over its springs, of a continuum over its groups."""
+    """K + sum v_e K_e over elements; of a model of matrices over its springs, of a continuum over its groups, or where it has none over
+    degrees of freedom.
+    """
     if not of_matrices(model.problem):
         return of_elements(model, "K", ("E", "G"))
-    return of_groups(model, "K") if _continuum(model) else _springs(model)
+    return (of_groups(model, "K") or local_energy(model)) if _continuum(model) else _springs(model)
 
 
 def _continuum(model: Reduced) -> bool:
