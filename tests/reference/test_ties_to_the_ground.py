@@ -14,6 +14,7 @@ MESH = SimpleNamespace(
     node_ids=np.array([1, 2, 3, 4]),
     coordinates=np.array([[0.0, 0, 0], [0, 3, 0], [4, 3, 0], [4, 0, 0]]),
     standing=np.array([(0, 0), (0, 1), (3, 0), (3, 1)]),
+    elements=(SimpleNamespace(ids=np.array([7, 8]), nodes=np.array([[0, 1], [1, 2]])),),
 )
 
 
@@ -42,6 +43,14 @@ def one(key: str, *ids: int, at=(0.0, 0.0, 0.0), sd: float = 0.0):
 )
 def test_a_strut_from_a_held_node_is_a_spring_to_the_ground_at_its_other_end(strut, spring, same):
     assert one_tie(strut, spring) is same and one_tie(spring, strut) is same
+
+
+@pytest.mark.parametrize(("elements", "same"), [((8,), True), ((7,), False)])
+def test_a_spring_anywhere_along_a_row_is_where_the_strut_ends(elements, same):
+    """A row that is stiff along itself is tied to the ground wherever along it that is."""
+    spring = one("ground-spring")
+    spring.sites = (Site("element", elements, None, "anywhere along a row, TX"),)
+    assert one_tie(one("brace", 1, 3), spring) is same
 
 
 @pytest.mark.parametrize("first", ["ground-spring", "brace"])

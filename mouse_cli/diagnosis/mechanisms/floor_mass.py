@@ -10,6 +10,7 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import BODY, total_mass
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.lines import Line, elements
+from mouse_cli.diagnosis.sites.members import upward
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 
@@ -31,7 +32,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
 def _parts(model: Reduced, found: list[Line]) -> dict[str, tuple[int, ...]]:
     """Rows (numbers) of each floor, section and entry, by its name; each choice of rows once, and none that is all."""
     mesh, bars = model.problem.mesh, model.bars
-    up = 2 if np.ptp(mesh.coordinates[:, 2]) > 0 else 1
+    up = upward(mesh)
     height = float(np.ptp(mesh.coordinates[:, up])) or 1.0
     named: dict[str, list[int]] = {}
     for i, run in enumerate(found):

@@ -1,8 +1,8 @@
 """The stiffness of a continuum whose elements are not known, as parts at its degrees of freedom.
 
-With K X = M X Lambda, X'M X = 1 and Y = M^1/2 X, the root S = Y Lambda^1/2 Y' makes K = M^1/2 S S M^1/2 = sum over i of b_i b_i', b_i
-row i of S M^1/2. Each part is positive, none resists a motion of the whole as a rigid body, for S takes such to nothing, and b_i'u is
-local: the root of K of a bending plate, D times the biharmonic operator, is the root of D times the Laplacian, its curvature there.
+With K X = M X Lambda, X'M X = 1 and Y = M^1/2 X, the root S = Y Lambda^1/2 Y' makes K = M^1/2 S S M^1/2, the sum of b_i b_i', b_i
+row i of S M^1/2. Each part is positive, none resists a motion of the whole as a rigid body, for S takes such to nothing, and
+b_i'u is local: the root of the biharmonic operator of a plate is the Laplacian, its curvature there.
 """
 
 import numpy as np

@@ -16,8 +16,8 @@ _SUM = 1e-6  # of its size, that a part has beyond sums of others, below which i
 
 
 def cells(model: Reduced) -> Cells | None:
-    """K + sum v_e K_e over elements; of a model of matrices over its springs, of a continuum over its groups, or where it has none over
-    degrees of freedom.
+    """K + sum v_e K_e over elements; of a model of matrices over its springs, of a continuum over its groups, or over degrees of
+    freedom where it has none.
     """
     if not of_matrices(model.problem):
         return of_elements(model, "K", ("E", "G"))

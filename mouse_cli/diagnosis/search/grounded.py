@@ -20,13 +20,16 @@ def one_tie(one: Fit, other: Fit) -> bool:
     if _key(strut) != STRUT or _key(spring) not in SPRINGS:
         return False
     mesh, site = strut.model.base.problem.mesh, spring.sites[0]
-    if mesh is None or len(strut.sites[0].ids) != 2 or site.position is None:
+    if mesh is None or len(strut.sites[0].ids) != 2:
         return False
     nodes = np.flatnonzero(np.isin(mesh.node_ids, strut.sites[0].ids))
     held = np.isin(nodes, mesh.standing[mesh.standing[:, 1] < 3, 0])
     if held.sum() != 1:
         return False
-    off = np.linalg.norm(mesh.coordinates[nodes[~held][0]] - site.position)
+    end = nodes[~held][0]
+    if site.position is None:  # anywhere along a row of members that is stiff along itself
+        return site.kind == "element" and any(end in own.nodes[np.isin(own.ids, site.ids)] for own in mesh.elements)
+    off = np.linalg.norm(mesh.coordinates[end] - site.position)
     return bool(off <= max(SAME_SITE * span(spring.model.base), _WITHIN * _sd(spring)))
 
 

@@ -1,4 +1,4 @@
-"""Members of a structure as its engineer sees them: alone, in a row through joints, or all of one section."""
+"""Members of a structure as its engineer sees them: alone, in a row through joints, columns of a storey, all of one section."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -18,23 +18,24 @@ Element = tuple[int, int]  # set and member
 
 @dataclass(frozen=True)
 class Member:
-    """Elements (set, member) that are one part; kind: ONE, ROW or ALIKE; text: in words."""
+    """Elements (set, member) that are one part; kind: ONE, ROW, STOREY or ALIKE; text: in words."""
 
     kind: str
     elements: tuple[Element, ...]
     site: Site
 
 
-ONE, ROW, ALIKE = "one", "row", "alike"
+ONE, ROW, STOREY, ALIKE = "one", "row", "storey", "alike"
+_UPRIGHT, _LEVEL = 0.9, 1e-3  # height of a column over its length; of the height of the structure, within which levels are one
 
 
 def members(mesh: Mesh) -> list[Member]:
-    """All members, rows of them and groups of one section, each once; the structure as a whole is none."""
+    """All members, rows of them, columns of storeys and groups of one section, each once; the structure as a whole is none."""
     sets = [s for s, each in enumerate(mesh.elements) if each.type in _GROUPED]
     slender = [(s, i) for s in sets if mesh.elements[s].type in SLENDER for i in range(len(mesh.elements[s]))]
     ones, rows = _chains(mesh, slender)
     total, found = sum(len(mesh.elements[s]) for s in sets), {}
-    for kind, parts in ((ONE, ones), (ROW, rows), (ALIKE, _alike(mesh, sets))):
+    for kind, parts in ((ONE, ones), (ROW, rows), (STOREY, _storeys(mesh, ones)), (ALIKE, _alike(mesh, sets))):
         for part in parts:
             single = len(part) == 1 and mesh.elements[part[0][0]].type != "beam"  # which losses of elements know
             if len(part) < total and not single:
@@ -123,15 +124,41 @@ def _alike(mesh: Mesh, sets: list[int]) -> Iterator[list[Element]]:
     yield from (part for part in found.values() if len(part) > 1)
 
 
+def _storeys(mesh: Mesh, ones: list[list[Element]]) -> Iterator[list[Element]]:
+    """Columns between the same two levels, where there are several."""
+    up = upward(mesh)
+    height = float(np.ptp(mesh.coordinates[:, up])) or 1.0
+    found: dict[tuple[int, int], list[list[Element]]] = {}
+    for part in ones:
+        ends = _box(mesh, part)
+        if ends[1, up] - ends[0, up] > _UPRIGHT * np.linalg.norm(ends[1] - ends[0]):
+            found.setdefault(tuple(np.rint(ends[:, up] / (_LEVEL * height)).astype(int).tolist()), []).append(part)
+    yield from ([element for part in parts for element in part] for parts in found.values() if len(parts) > 1)
+
+
+def upward(mesh: Mesh) -> int:
+    """The axis that points up: Z where the structure has height along it, else Y."""
+    return 2 if np.ptp(mesh.coordinates[:, 2]) > 0 else 1
+
+
+def _box(mesh: Mesh, part: list[Element]) -> np.ndarray:
+    """Least and largest coordinates (2, 3) of a part."""
+    nodes = np.unique(np.concatenate([mesh.elements[s].nodes[i] for s, i in part]))
+    return np.array([mesh.coordinates[nodes].min(axis=0), mesh.coordinates[nodes].max(axis=0)])
+
+
 def _site(mesh: Mesh, part: list[Element], kind: str) -> Site:
     """In words; where it is, unless it is all over the structure."""
     ids = tuple(int(mesh.elements[s].ids[i]) for s, i in part)
-    nodes = np.unique(np.concatenate([mesh.elements[s].nodes[i] for s, i in part]))
-    own = mesh.elements[part[0][0]]
-    middle = (mesh.coordinates[nodes].min(axis=0) + mesh.coordinates[nodes].max(axis=0)) / 2
+    box, own = _box(mesh, part), mesh.elements[part[0][0]]
+    middle = box.mean(axis=0)
     if kind == ALIKE:
         name = own.origin.get("A") or own.origin.get("E")
         text = f"all of {name}" if name else f"all of {elements(ids)}"
         return Site("element", ids, None, f"{text}, alike")
+    if kind == STOREY:
+        up = upward(mesh)
+        between = " and ".join(f"{level:.4g}" for level in box[:, up].tolist())
+        return Site("element", ids, tuple(middle.tolist()), f"the columns between {'XYZ'[up]} = {between}")
     text = elements(ids) if kind == ONE else f"the row of {elements(ids)}"
     return Site("element", ids, tuple(middle.tolist()), text)
