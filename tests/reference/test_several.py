@@ -15,7 +15,7 @@ from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.diagnosis.search import moves
 from mouse_cli.diagnosis.search import several as search
 from mouse_cli.diagnosis.search.descents import best
-from mouse_cli.diagnosis.search.fit import fit
+from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.found import key, material
 from mouse_cli.diagnosis.search.moves import adequate
 from mouse_cli.diagnosis.search.rank import _log_prior
@@ -98,7 +98,7 @@ def test_several_of_one_kind_and_as_many_as_are_needed():
 def of(log_evidence: float, *names: str):
     """A fit of mechanisms of those keys."""
     recipes = tuple(SimpleNamespace(candidate=SimpleNamespace(key=name), parts=()) for name in names)
-    return SimpleNamespace(recipes=recipes, log_evidence=log_evidence, c=np.zeros(len(names)))
+    return SimpleNamespace(recipes=recipes, log_evidence=log_evidence, c=np.zeros(len(names)), bearable=Fit.bearable)
 
 
 def test_what_is_not_needed_is_material_to_nothing():
@@ -252,6 +252,15 @@ def test_a_pair_that_does_not_predict_what_is_held_out_is_not_enough(monkeypatch
     monkeypatch.setattr(search, "beside", lambda study, first, partners, found: asked.append(first))
     assert search.several(SimpleNamespace(known=()), [single], 3) == [pair]
     assert asked == [pair] * sought
+
+
+@pytest.mark.parametrize(("misfit", "most", "goes_on"), [(400.0, 4, True), (700.0, 4, False), (400.0, 3, False), (25.0, 3, True)])
+def test_larger_sets_are_sought_while_they_may_explain_the_data(misfit, most, goes_on):
+    """One leaves 1000 on 20: two that leave 400 leave 10 if two more gain twice as much each, those that leave 700 leave 168."""
+    single, pair = (SimpleNamespace(misfit=own, dof=20, **vars(of(-own, *names)))
+                    for own, names in ((1000.0, ("mass",)), (misfit, ("mass", "support"))))  # fmt: skip
+    assert search.hopeful([single], [pair, SimpleNamespace(**vars(pair) | {"misfit": 900.0})], most) is goes_on
+    assert not search.hopeful([single], [], most)
 
 
 @pytest.mark.parametrize(("trusted", "misfit", "sought"), [(False, 20.0, 1), (False, 40.0, 0), (True, 40.0, 1)])

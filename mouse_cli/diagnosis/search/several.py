@@ -66,8 +66,8 @@ def several(study: Study, singles: list[Fit], most: int, trusted: bool = True) -
     most = most if trusted or any(map(adequate, found)) else min(most, 2)
     of_kind = (trusted and most > 2) or not any(map(enough, found))
     alike = same_kind(study, singles, most, smaller) if of_kind else []
-    count = 3
-    while count <= most and not any(enough(one, FURTHER) for one in growing):
+    count, fewer = 3, alone
+    while count <= most and not any(enough(one, FURTHER) for one in growing) and hopeful(fewer, growing, most):
         larger = Found()
         for one in _begun(growing):
             beside(study, one, study.known, larger)
@@ -76,8 +76,8 @@ def several(study: Study, singles: list[Fit], most: int, trusted: bool = True) -
         for best in best_of(larger, 1):
             swap(study, best, larger)
         ended = finished(study, larger)
-        fewer = _fewer(study, ended, smaller)
-        found, smaller = replaced(found, fewer), replaced(smaller, fewer)
+        less = _fewer(study, ended, smaller)
+        found, smaller, fewer = replaced(found, less), replaced(smaller, less), growing
         growing = [one for one in ended if material(one, smaller)]
         if not growing:
             break
@@ -85,6 +85,18 @@ def several(study: Study, singles: list[Fit], most: int, trusted: bool = True) -
     known = {key(one) for one in found}
     found += [one for one in alike if key(one) not in known and material(one, smaller + alike)]
     return replaced(found, _as_good(study, found, smaller))
+
+
+def hopeful(fewer: list[Fit], sets: list[Fit], most: int) -> bool:
+    """Whether sets of `most` may explain the data if each further mechanism gained twice what the last one did, in ln of misfit.
+
+    fewer: sets of one mechanism less. Of what no name explains the largest set leaves far more than noise, after most of the work.
+    """
+    if not fewer or not sets:
+        return False
+    best, before = (min(each, key=lambda one: one.misfit) for each in (sets, fewer))
+    promised = best.misfit * min(1.0, best.misfit / before.misfit) ** (2 * (most - len(best.recipes)))
+    return promised <= best.bearable * max(best.dof, 1)
 
 
 def _begun(sets: list[Fit]) -> list[Fit]:
