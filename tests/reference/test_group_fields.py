@@ -8,6 +8,7 @@ from scipy.linalg import eigh
 from mouse_cli.diagnosis import diagnose
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.nameless import registry
+from mouse_cli.diagnosis.nameless._correlated import leading, spacing
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.model.diagnosis import MASS, NAMED, NOTHING, STIFFNESS, UNKNOWN, Choices
@@ -129,3 +130,68 @@ def test_parts_at_degrees_of_freedom_are_put_into_a_deck():
     K, M = assembly(more).matrices(more.prior.mean)
     assert pytest.approx(1.1 * problem.structure.K, rel=1e-9, abs=1e-12 * np.abs(K).max()) == K
     assert (problem.structure.M == M).all()
+
+
+# --- many cells, and few
+
+
+def test_many_places_in_a_plane_have_the_leading_vectors_of_their_correlation():
+    """A grid of 900 places against numpy's eigenvectors of the whole matrix."""
+    x, y = np.meshgrid(np.linspace(0, 2, 30), np.linspace(0, 1, 30))
+    at = np.stack([x.ravel(), y.ravel()], axis=1)
+    A = np.exp(-0.5 * ((at[:, None] - at) ** 2).sum(axis=2) / 0.5**2)
+    size, U = np.linalg.eigh(A)
+    P = leading(at, 0.5)
+    best = (U[:, -P.shape[1] :] * size[-P.shape[1] :]) @ U[:, -P.shape[1] :].T
+    assert P.shape[1] <= 16
+    assert np.abs(P @ P.T - best).max() < 5e-3
+
+
+@pytest.mark.parametrize("storeys", [3, 4, 6])
+def test_few_cells_are_not_independent(storeys):
+    """Storeys next to one another are alike by exp(-1/2) at least: a field of independent ones would not be smooth."""
+    at = 3.0 * np.arange(storeys)[:, None]
+    assert spacing(at) == pytest.approx(3.0)
+    deck = building(storeys)
+    problem = assemble(yaml_deck.read(deck, "storeys.yaml"))
+    cells = registry()["field-stiffness"].cells(reduced(problem, problem.prior.mean))
+    length, P = cells.correlated(0.08)
+    assert length == pytest.approx(3.0)
+    assert (P @ P.T)[0, 1] == pytest.approx(np.exp(-0.5), abs=0.02)
+
+
+def building(storeys: int) -> str:
+    hz = ", ".join(str(1.0 + i) for i in range(storeys))
+    return f"""mouse: 1
+model:
+  structure:
+    nodes: {{line: {{from: 0, to: {storeys}, start: [0, 0, 0], end: [0, 0, {3 * storeys}]}}}}
+    elements:
+      - {{id: 1-{storeys}, type: storey, nodes: 0-{storeys}, TX: 1000}}
+      - {{id: 101-{100 + storeys}, type: mass, nodes: 1-{storeys}, mass: 1}}
+    supports: {{0: all}}
+    directions: [TX]
+parameters:
+  - {{name: all, elements: 1-{storeys}, property: TX, sd: 3 %}}
+test:
+  modes: {{frequency: [{hz}], frequency_sd: 1 %}}
+"""
+
+
+def test_configurations_share_the_cells_that_all_of_them_have():
+    """The second lacks one of four and has another instead: as many, but of three sites alike, in the order of the first."""
+    from mouse_cli.diagnosis.nameless._cells import Cells
+    from mouse_cli.diagnosis.nameless.fit import _shared
+    from mouse_cli.model.site import Site
+
+    def cells(ids: list[int]) -> Cells:
+        sites = tuple(Site("element", (i,)) for i in ids)
+        blocks = tuple((np.full((1, 2), float(i)), np.eye(1)) for i in ids)
+        return Cells(sites, np.array(ids, float)[:, None], "m", blocks, "K")
+
+    first, none, second = _shared([cells([1, 2, 3, 4]), None, cells([2, 5, 4, 1])])
+    assert none is None
+    for each in (first, second):
+        assert [site.ids[0] for site in each.sites] == [1, 2, 4]
+        assert [float(rows[0, 0]) for rows, _ in each.blocks] == [1.0, 2.0, 4.0]
+    assert _shared([cells([1, 2, 3]), cells([3, 4, 5])]) == (None, None)
