@@ -6,23 +6,23 @@ an antisymmetric strain phi e_a of every bar makes, phi = 12 EI / (kappa G A l^2
 
 import numpy as np
 
-from mouse_cli.diagnosis.sites.bars import Bars
+from mouse_cli.diagnosis.sites.bars import bars, motion_of
 from mouse_cli.diagnosis.sites.residual import NUMBERS
 from mouse_cli.diagnosis.sites.strains import by_ends, sparse_rows
 from mouse_cli.model.problem import Problem
-from mouse_cli.terms.constraints import Motion
 
 
-def shearing(problem: Problem, motion: Motion | None, bars: Bars | None, count: int) -> np.ndarray:
-    """Loads (n, count) that shear puts on the first `count` coordinates, the largest of each is 1; none where bars are too many, or
-    shear as it is.
+def shearing(problem: Problem, theta: np.ndarray, V: np.ndarray) -> np.ndarray:
+    """Loads (n, c) that shear puts on motions V (n, c) of a model at theta (p,), the largest of each is 1; none where degrees of
+    freedom are too many, or where there is no bar that does not shear.
     """
-    if motion is None or bars is None or motion.n * count > NUMBERS:
-        return np.zeros((0 if motion is None else motion.n, 0))
-    antisymmetric = bars.strain[:, 1, :count]
-    slip = (bars.phi == 0) * 36 * (bars.EI / bars.length) * (bars.EI / (bars.E * bars.A * bars.length**2))
-    forces = by_ends(problem, bars)[:, 1, :, None] * (slip[:, None] * antisymmetric)[:, None]
-    rows = sparse_rows(motion, (6 * bars.nodes[:, :, None] + np.arange(6)).ravel())
-    loads = rows.T @ forces.reshape(-1, count)
+    motion = None if problem.mesh is None or V.size > NUMBERS else motion_of(problem)
+    found = None if motion is None else bars(problem, motion, theta, V)
+    if found is None:
+        return np.zeros((len(V), 0))
+    slip = (found.phi == 0) * 36 * found.EI / found.length * found.EI / (found.E * found.A * found.length**2)
+    forces = by_ends(problem, found)[:, 1, :, None] * (slip[:, None] * found.strain[:, 1])[:, None]
+    rows = sparse_rows(motion, (6 * found.nodes[:, :, None] + np.arange(6)).ravel())
+    loads = rows.T @ forces.reshape(-1, V.shape[1])
     size = np.abs(loads).max(axis=0)
     return loads[:, size > 0] / size[size > 0]

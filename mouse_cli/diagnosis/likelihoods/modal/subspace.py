@@ -115,8 +115,7 @@ def large(
         return built(problem, total, theta, *basis.ritz(), by, stack)
     last = int(problem.test.number.max())
     basis.responses(_moved(basis, stack, by.prior, last))
-    model = built(problem, total, theta, *basis.ritz(), by, stack)
-    basis.responses(shearing(problem, model.motion, model.bars, min(last, basis.free_vectors)))
+    basis.responses(shearing(problem, theta, basis.ritz()[0][:, : min(last, basis.free_vectors)]))
     if problem.test.s and basis.free_vectors >= _PLACES + problem.test.s:
         basis.responses(basis.inertia(_placed(total.n, at, values)))
     model = built(problem, total, theta, *basis.ritz(), by, stack)
