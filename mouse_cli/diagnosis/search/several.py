@@ -95,7 +95,8 @@ def hopeful(fewer: list[Fit], sets: list[Fit], most: int) -> bool:
     if not fewer or not sets:
         return False
     best, before = (min(each, key=lambda one: one.misfit) for each in (sets, fewer))
-    promised = best.misfit * min(1.0, best.misfit / before.misfit) ** (2 * (most - len(best.recipes)))
+    gained = min(1.0, best.misfit / max(before.misfit, 1e-300))
+    promised = best.misfit * gained ** (2 * (most - len(best.recipes)))
     return promised <= best.bearable * max(best.dof, 1)
 
 
