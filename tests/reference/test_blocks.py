@@ -1,4 +1,4 @@
-"""Supports on blocks with a mass, and storeys of springs under weight, by closed forms.
+"""Supports on blocks with a mass or in walls, and storeys of springs under weight, by closed forms and the bars of the trials.
 
 A cantilever whose clamp turns on a spring k with a block of inertia J behind it: EI w''(0) = (k - omega^2 J) w'(0), so that with
 c(z) = (k - omega^2 J) L / EI, z^4 = omega^2 m L^4 / EI:  c (1 + cos z cosh z) = z (sin z cosh z - cos z sinh z)
@@ -12,6 +12,7 @@ from scipy.linalg import eigh
 
 import mouse_cli
 from benchmarks.blind import verify
+from benchmarks.trials.bars import Bars
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.mechanisms import registry
@@ -82,6 +83,34 @@ def test_a_clamp_on_a_block_turns_as_the_closed_form_says():
     deck = recipe.extend(problem, np.array([k, OWN]))
     eigenvalues = eigh(*(dense(each) for each in assembly(deck).matrices(deck.prior.mean)), eigvals_only=True)
     assert np.sqrt(eigenvalues[:4]) / (2 * np.pi) == pytest.approx(exact, rel=1e-4)
+
+
+def in_a_bed(a: float, count: int) -> np.ndarray:
+    """Frequencies (Hz) of the cantilever that goes on by 10 a without mass on a bed of 4 EI / a^4, by the bars of the trials."""
+    wall = np.linspace(-10 * a, 0, 101)
+    x = np.concatenate([wall[:-1], np.linspace(0, L, 41)])
+    index = np.arange(len(x))
+    bars = Bars(np.column_stack([x, 0 * x]), np.column_stack([index[:-1], index[1:]]), x[:-1])
+    inside = bars.where()[:, :, 0] < 0
+    bars.EI[:], bars.EA[:] = E * I, E * A
+    bars.m[:], bars.bed[:] = np.where(inside, 0.0, RHO * A), np.where(inside, 4 * E * I / a**4, 0.0)
+    bars.held = set(range(0, 3 * len(x), 3))
+    return bars.modes(count)[0]
+
+
+@pytest.mark.parametrize("a", [0.02, 0.15])
+def test_a_clamp_in_a_wall_is_a_beam_that_goes_on_in_a_bed(a):
+    """In the coordinates of the model that is clamped, and in the deck with two springs in its place."""
+    problem = problem_of(CANTILEVER)
+    model = reduced(problem, problem.prior.mean)
+    (recipe,) = registry()["embedment"].recipes(model, registry()["embedment"])
+    exact = in_a_bed(a, 4)
+    assert exact[0] < 0.99 * np.sqrt(model.eigenvalues[0]) / (2 * np.pi)
+    point = Model(model, (recipe,)).solved(np.concatenate([[0.0], recipe.coordinates(np.array([a]))]))
+    assert np.sqrt(point[0][:4]) / (2 * np.pi) == pytest.approx(exact, rel=2e-4)
+    deck = recipe.extend(problem, np.array([a]))
+    eigenvalues = eigh(*(dense(each) for each in assembly(deck).matrices(deck.prior.mean)), eigvals_only=True)
+    assert np.sqrt(eigenvalues[:4]) / (2 * np.pi) == pytest.approx(exact, rel=2e-4)
 
 
 def chain(k: np.ndarray, base: tuple[float, float] | None = None) -> tuple[np.ndarray, np.ndarray]:
