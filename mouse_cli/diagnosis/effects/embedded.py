@@ -1,4 +1,4 @@
-"""Ends of beams that are clamped in a wall which gives way: the beam goes on in it, on an elastic bed.
+"""Ends of beams that are clamped in an elastic wall: the beam goes on in it, on an elastic bed.
 
 A half-infinite beam on a bed, b^4 = bed / (4 EI), resists at its end by 4 EI b^3 across, 2 EI b in turning and 2 EI b^2 of both
 (Hetenyi, Beams on Elastic Foundation, 1946, ch. 2). With a = 1 / b that is two springs k = 2 EI / a^3 across the beam, one at its

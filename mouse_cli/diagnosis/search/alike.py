@@ -8,6 +8,7 @@ from mouse_cli.diagnosis.gates import GATE, MATERIAL
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.found import Found, keep
 from mouse_cli.diagnosis.search.moves import QUICK, REACH, SECOND, adequate, beside, exchanged, finished
+from mouse_cli.diagnosis.search.optima import within
 from mouse_cli.diagnosis.search.study import Study
 
 _ALIKE = 5  # kinds of which several are tried
@@ -49,7 +50,7 @@ def _may_rival(one: Fit, larger: Fit, most: int, best: Fit) -> bool:
     """
     promised = larger.misfit * min(1.0, larger.misfit / one.misfit) ** (2 * (most - len(one.recipes)))
     if not adequate(best, GATE):
-        return promised < best.misfit
+        return promised < within([best])
     size = lambda fit: fit.log_evidence + 0.5 * fit.misfit  # what its unknowns cost
     return size(larger) - size(best) - 0.5 * (promised - best.misfit) > -REACH
 
