@@ -1,5 +1,7 @@
 """Fields over groups of imported matrices: a clamped beam of Hermite elements written here, in six strips of K or of M."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from proofs import proofs
@@ -9,6 +11,7 @@ from mouse_cli.diagnosis import diagnose
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.nameless import registry
 from mouse_cli.diagnosis.nameless._correlated import leading, spacing
+from mouse_cli.diagnosis.nameless._energy import local_energy
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.model.diagnosis import MASS, NAMED, NOTHING, STIFFNESS, UNKNOWN, Choices
@@ -195,3 +198,9 @@ def test_configurations_share_the_cells_that_all_of_them_have():
         assert [site.ids[0] for site in each.sites] == [1, 2, 4]
         assert [float(rows[0, 0]) for rows, _ in each.blocks] == [1.0, 2.0, 4.0]
     assert _shared([cells([1, 2, 3]), cells([3, 4, 5])]) == (None, None)
+
+
+def test_no_matrix_of_a_large_model_is_made_dense():
+    """Its parts would be as many as its degrees of freedom."""
+    large = SimpleNamespace(r=100, problem=SimpleNamespace(structure=SimpleNamespace(n=10**6)))
+    assert local_energy(large) is None

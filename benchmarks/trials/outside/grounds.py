@@ -8,7 +8,7 @@ from benchmarks.trials.outside.places import BED, BLOCK, FOOT, LOCAL, MOUNT, MOV
 
 
 def elastic_wall(blank: Blank, rng: np.random.Generator) -> Mechanism:
-    """A clamp in a wall that gives way: the beam goes on in it on a bed (Hetenyi, Beams on Elastic Foundation, 1946, ch. 2).
+    """A clamp in an elastic wall: the beam goes on in it on a bed (Hetenyi, Beams on Elastic Foundation, 1946, ch. 2).
 
     With beta of bed and EI the end of a half-infinite beam has the stiffness 4 EI b^3 across, 2 EI b in turning, 2 EI b^2 of both.
     """

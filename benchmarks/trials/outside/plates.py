@@ -1,4 +1,4 @@
-"""What plates lack: parts that have come apart, edges that give way, forces in their plane, ribs, liquid."""
+"""What plates lack: parts that have come apart, flexible edges, forces in their plane, ribs, liquid."""
 
 from itertools import pairwise
 

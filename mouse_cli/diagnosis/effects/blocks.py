@@ -1,4 +1,4 @@
-"""A support on a block of its own: it gives way against the ground, and what gives way has a mass.
+"""A support on a block of its own: it is flexible against the ground, and what moves has a mass.
 
 A flexible support without mass moves as its spring is loaded. A foundation, a pedestal or the table of a test stand has inertia
 too, so that structure and block are two bodies: K + k e e', M + m e e' in the motion e of the support, which carries the structure
@@ -10,9 +10,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Recipe, Unknown, product, steps
-from mouse_cli.diagnosis.effects.released import SOFTEST, STIFFEST, followed, free_model, resistance, static
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product, steps
+from mouse_cli.diagnosis.effects.released import SOFTEST, STIFFEST
 from mouse_cli.diagnosis.effects.support_sets import support_site
+from mouse_cli.diagnosis.effects.supports import Released, released
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import highest, lowest
@@ -21,38 +22,21 @@ from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
 
 _MOST = 8  # supports that are looked at: those that bear most
-_LOADED = 0.02  # share of the largest reaction below which a support is not loaded
 _STARTS = 5, 6  # stiffnesses and frequencies to begin from
 _BAND = 0.3, 3.0  # of the lowest and the highest measured frequency: own frequencies of blocks
 
 
 def blocks(model: Reduced, candidate: Candidate, turning: bool) -> list[Recipe]:
     """A recipe for each support that the measured modes load, in translation or in rotation."""
-    mesh, kinds = model.problem.mesh, range(3, 6) if turning else range(3)
-    if model.motion is None or model.problem.held is not None:
+    if model.problem.held is not None:
         return []
-    held = [(node, d) for node, d in mesh.supports.tolist() if d in kinds and d in mesh.directions]
-    free = free_model(model)
-    held = [each for each in held if _label(model, *each) in free.place]
-    if not held:
-        return []
-    s = np.array([free.place[_label(model, *each)] for each in held])
-    load = np.abs(free.reactions(model, s, slice(0, model.low_modes()))).max(axis=1)
-    order = np.sort(np.argsort(-load, kind="stable")[:_MOST])
-    own = order[load[order] > _LOADED * load.max()]
-    moved = followed(model, free, static(model, free, s[own], np.eye(len(own))))
-    against = resistance(model, moved.K, moved.M)
-    return [
-        _recipe(model, candidate, held[i], moved.part([n], model.r), float(against[n]), len(own))
-        for n, i in enumerate(own.tolist())
-    ]
+    found = released(model, range(3, 6) if turning else range(3), _MOST, light=True)
+    return [] if found is None else [_recipe(model, candidate, found, n) for n in range(len(found.held))]
 
 
-def _label(model: Reduced, node: int, d: int) -> str:
-    return f"{model.problem.mesh.node_ids[node]}{DIRECTIONS[d]}"
-
-
-def _recipe(model: Reduced, candidate: Candidate, held: tuple[int, int], moved, against: float, count: int) -> Recipe:
+def _recipe(model: Reduced, candidate: Candidate, found: Released, n: int) -> Recipe:
+    """On support number n."""
+    held, moved, against = found.held[n], found.moved.part([n], model.r), float(found.resistance[n])
     hz = np.sqrt([lowest(model), highest(model)]) / (2 * np.pi)
     unit = "N m/rad" if held[1] > 2 else "N/m"
     k = Unknown("stiffness of the ground", unit, SOFTEST * against, STIFFEST * against)
@@ -60,14 +44,14 @@ def _recipe(model: Reduced, candidate: Candidate, held: tuple[int, int], moved, 
     support = support_site(model.problem, [held])
     site = replace(support, text=f"{support.text}, on a block")
 
-    def change(values: np.ndarray):
-        found, M = moved.on_springs(values[:1]), moved.M.copy()
+    def change(values: np.ndarray) -> Change:
+        M = moved.M.copy()
         M[-1, -1] += _inertia(*values)
-        return replace(found, M=M)
+        return replace(moved.on_springs(values[:1]), M=M)
 
     extend = lambda problem, values: _on_block(problem, model.problem, held, *values)
     grid = product(steps(k, _STARTS[0]), steps(f, _STARTS[1]))
-    prior = -float(np.log(count))
+    prior = -float(np.log(len(found.held)))
     return Recipe(
         candidate, (k, f), change, grid, lambda values: site, 1, log_prior=prior, extend=extend, carried=moved.carried
     )

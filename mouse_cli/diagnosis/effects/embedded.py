@@ -6,12 +6,13 @@ clamped end, one at a rigid arm a behind it. Both motions come of one length: a 
 """
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from mouse_cli.diagnosis.effects.arms import with_arm
-from mouse_cli.diagnosis.effects.change import Recipe, Unknown, steps
-from mouse_cli.diagnosis.effects.released import Followed, followed, free_model, static
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.effects.released import Followed, followed, free_model, label, static
 from mouse_cli.diagnosis.effects.support_sets import support_site
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
@@ -46,7 +47,7 @@ class End:
 
     @property
     def held(self) -> list[tuple[int, int]]:
-        """Supports (node, direction) that give way."""
+        """Supports (node, direction) that are flexible."""
         return [(self.node, d) for plane in self.planes for d in (plane.across, plane.about)]
 
 
@@ -54,12 +55,11 @@ def embedded(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """A recipe for each clamped end of a beam along an axis of the deck."""
     if model.bars is None or model.problem.held is not None:
         return []
-    free = free_model(model)
-    label = lambda node, d: f"{model.problem.mesh.node_ids[node]}{DIRECTIONS[d]}"
-    found = [end for end in _ends(model) if all(label(*each) in free.place for each in end.held)][:_MOST]
+    free, name = free_model(model), partial(label, model.problem)
+    found = [end for end in _ends(model) if all(name(*each) in free.place for each in end.held)][:_MOST]
     if not found:
         return []
-    s = np.array([free.place[label(*each)] for end in found for each in end.held])
+    s = np.array([free.place[name(*each)] for end in found for each in end.held])
     moved = followed(model, free, static(model, free, s, np.eye(len(s))))
     first = np.cumsum([0, *(len(end.held) for end in found)])
     return [
@@ -100,7 +100,7 @@ def _recipe(model: Reduced, candidate: Candidate, end: End, moved: Followed, cou
     a = Unknown("length in the wall", "m", *(share * end.length for share in _LENGTHS))
     support = support_site(model.problem, end.held)
 
-    def change(values: np.ndarray):
+    def change(values: np.ndarray) -> Change:
         found = moved.on_springs(np.zeros(len(end.held)))
         for i, plane in enumerate(end.planes):
             arm = np.array([1.0, -plane.sense * values[0]])  # across, a behind the end

@@ -14,6 +14,7 @@ from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
 from mouse_cli.diagnosis.sites.bars import strained
 from mouse_cli.dynamics.contraction import Stack
 from mouse_cli.model.arrays import Matrix, is_sparse
+from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.held import freed, places
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import Assembly
@@ -70,6 +71,11 @@ class Followed:
         K, own = self.K.copy(), np.arange(len(self.K) - len(stiffness), len(self.K))
         K[own, own] += stiffness
         return Change(K, self.M, self.sensing)
+
+
+def label(problem: Problem, node: int, direction: int) -> str:
+    """Label of the degree of freedom of a node (index), by which a model without supports knows it."""
+    return f"{problem.mesh.node_ids[node]}{DIRECTIONS[direction]}"
 
 
 def free_model(model: Reduced) -> Free:

@@ -14,6 +14,7 @@ from mouse_cli.diagnosis.effects.released import (
     Free,
     followed,
     free_model,
+    label,
     resistance,
     static,
 )
@@ -70,13 +71,13 @@ def _sets(found: Released) -> tuple[list[list[list[int]]], ...]:
     return single, alike, apart
 
 
-def released(model: Reduced, kinds: range) -> Released | None:
-    """The loaded supports in the directions `kinds`; None where there are none."""
+def released(model: Reduced, kinds: range, most: int = _MOST, light: bool = False) -> Released | None:
+    """The loaded supports in the directions `kinds`, `most` at most; None where there are none. light: those without mass too."""
     held = _candidates(model, kinds)
     if not held:
         return None
     free = free_model(model)
-    held, s, load = _loaded(model, held, free)
+    held, s, load = _loaded(model, held, free, most, light)
     if not held:
         return None
     moved = followed(model, free, static(model, free, s, np.eye(len(s))))
@@ -91,20 +92,21 @@ def _candidates(model: Reduced, kinds: range) -> list[tuple[int, int]]:
     return [(node, d) for node, d in mesh.supports.tolist() if d in kinds and d in mesh.directions]
 
 
-def _loaded(model: Reduced, held: list, free: Free) -> tuple[list, np.ndarray, np.ndarray]:
+def _loaded(
+    model: Reduced, held: list, free: Free, most: int, light: bool
+) -> tuple[list, np.ndarray, np.ndarray]:
     """Those that bear a part of the largest reaction in the lowest modes, where they are in `free`, and their largest reactions.
 
     A support without mass would only be in series with what it holds, whose own stiffness says the same.
     """
-    names = [f"{model.problem.mesh.node_ids[node]}{DIRECTIONS[d]}" for node, d in held]
-    heavy = free.M.diagonal() > 0
-    known = [i for i, name in enumerate(names) if name in free.place and heavy[free.place[name]]]
+    names, heavy = [label(model.problem, *each) for each in held], free.M.diagonal() > 0
+    known = [i for i, name in enumerate(names) if name in free.place and (light or heavy[free.place[name]])]
     if not known:
         return [], np.zeros(0, int), np.zeros(0)
     s = np.array([free.place[names[i]] for i in known])
     modes = slice(0, model.low_modes())
     size = np.abs(free.reactions(model, s, modes)).max(axis=1)
-    order = np.sort(np.argsort(-size, kind="stable")[:_MOST])
+    order = np.sort(np.argsort(-size, kind="stable")[:most])
     order = order[size[order] > _LOADED * size.max()]
     return [held[known[i]] for i in order], s[order], size[order]
 

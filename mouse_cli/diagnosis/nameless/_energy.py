@@ -21,11 +21,14 @@ _ENTRIES = 5e5  # of all parts together, up to which a deck holds them
 def local_energy(model: Reduced) -> Cells | None:
     """A part at each degree of freedom of a model in all of its modes; None of one in fewer, or with masses that are none."""
     n = model.problem.structure.n
+    if model.r < n:
+        return None
     values, vectors = np.linalg.eigh(dense(model.assembly.matrices(model.theta)[1]))
-    if model.r < n or values[0] <= 0:
+    if values[0] <= 0:
         return None
     root = (vectors * np.sqrt(values)) @ vectors.T
-    strains = (root @ model.V) * np.sqrt(np.maximum(model.eigenvalues, 0.0))
+    Y = root @ model.V
+    strains = Y * np.sqrt(np.maximum(model.eigenvalues, 0.0))
     sites = [named_dof(model.problem.structure, i) for i in range(n)]
     at, unit = places(model.problem.structure)
     upper = np.triu_indices(n)
@@ -33,7 +36,7 @@ def local_energy(model: Reduced) -> Cells | None:
     def extend(problem: Problem, kept: np.ndarray, shares: np.ndarray, spread: float) -> Problem | None:
         if n * len(upper[0]) > _ENTRIES:
             return None
-        own = strains[kept] @ (root @ model.V).T @ root
+        own = strains[kept] @ Y.T @ root
         parts = [
             (sites[k].text, float(v), (*upper, np.outer(b, b)[upper]))
             for k, v, b in zip(kept, shares, own, strict=True)

@@ -7,7 +7,7 @@ import numpy as np
 from mouse_cli.diagnosis.gates import GATE, MATERIAL
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.found import Found, keep
-from mouse_cli.diagnosis.search.moves import QUICK, REACH, SECOND, adequate, beside, exchanged, finished
+from mouse_cli.diagnosis.search.moves import QUICK, REACH, SECOND, adequate, beside, exchanged, finished, promised
 from mouse_cli.diagnosis.search.optima import within
 from mouse_cli.diagnosis.search.study import Study
 
@@ -48,11 +48,11 @@ def _may_rival(one: Fit, larger: Fit, most: int, best: Fit) -> bool:
 
     That is by its evidence where the best explains the data, else by its misfit: the second of several often gains least.
     """
-    promised = larger.misfit * min(1.0, larger.misfit / one.misfit) ** (2 * (most - len(one.recipes)))
+    least = promised(one, larger, most - len(one.recipes))
     if not adequate(best, GATE):
-        return promised < within([best])
+        return least < within([best])
     size = lambda fit: fit.log_evidence + 0.5 * fit.misfit  # what its unknowns cost
-    return size(larger) - size(best) - 0.5 * (promised - best.misfit) > -REACH
+    return size(larger) - size(best) - 0.5 * (least - best.misfit) > -REACH
 
 
 def _elsewhere(study: Study, one: Fit) -> list[Fit]:

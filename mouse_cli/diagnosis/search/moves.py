@@ -33,6 +33,11 @@ def adequate(one: Fit, least: float = ADEQUATE) -> bool:
     return upper_tail(one.misfit, max(one.dof, 1)) > least
 
 
+def promised(before: Fit, after: Fit, steps: float) -> float:
+    """The misfit after so many further mechanisms if each gained twice, in ln of the misfit, what `after` did on `before`."""
+    return after.misfit * min(1.0, after.misfit / max(before.misfit, 1e-300)) ** (2 * steps)
+
+
 def finished(study: Study, found: Found) -> list[Fit]:
     """The best fitted to the end, their evidence summed over sites that are as good."""
     ended = [settled(walked(shifted(pared(one, study)), study), study) for one in best_of(found, _FINISHED)]

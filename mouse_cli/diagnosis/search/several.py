@@ -21,6 +21,7 @@ from mouse_cli.diagnosis.search.moves import (
     beside,
     exchanged,
     finished,
+    promised,
     swap,
     without,
 )
@@ -66,8 +67,8 @@ def several(study: Study, singles: list[Fit], most: int, trusted: bool = True) -
     most = most if trusted or any(map(adequate, found)) else min(most, 2)
     of_kind = (trusted and most > 2) or not any(map(enough, found))
     alike = same_kind(study, singles, most, smaller) if of_kind else []
-    count, fewer = 3, alone
-    while count <= most and not any(enough(one, FURTHER) for one in growing) and hopeful(fewer, growing, most):
+    count, before = 3, alone
+    while count <= most and not any(enough(one, FURTHER) for one in growing) and hopeful(before, growing, most):
         larger = Found()
         for one in _begun(growing):
             beside(study, one, study.known, larger)
@@ -76,8 +77,8 @@ def several(study: Study, singles: list[Fit], most: int, trusted: bool = True) -
         for best in best_of(larger, 1):
             swap(study, best, larger)
         ended = finished(study, larger)
-        less = _fewer(study, ended, smaller)
-        found, smaller, fewer = replaced(found, less), replaced(smaller, less), growing
+        fewer = _fewer(study, ended, smaller)
+        found, smaller, before = replaced(found, fewer), replaced(smaller, fewer), growing
         growing = [one for one in ended if material(one, smaller)]
         if not growing:
             break
@@ -95,9 +96,7 @@ def hopeful(fewer: list[Fit], sets: list[Fit], most: int) -> bool:
     if not fewer or not sets:
         return False
     best, before = (min(each, key=lambda one: one.misfit) for each in (sets, fewer))
-    gained = min(1.0, best.misfit / max(before.misfit, 1e-300))
-    promised = best.misfit * gained ** (2 * (most - len(best.recipes)))
-    return promised <= best.bearable * max(best.dof, 1)
+    return promised(before, best, most - len(best.recipes)) <= best.bearable * max(best.dof, 1)
 
 
 def _begun(sets: list[Fit]) -> list[Fit]:

@@ -1,4 +1,4 @@
-"""What frames meet beside a softer member or a brace: slabs, walls, corroded storeys, heavy floors, blocks under feet."""
+"""What frames meet beside a softer member or a brace: slabs, walls, corroded storeys, heavy floors, soft footings."""
 
 from collections.abc import Iterator
 
@@ -8,6 +8,7 @@ from benchmarks.blind.case import Case, generator, log_uniform
 from benchmarks.blind.space.frames import E, Frame, case, drawn, quality, visible
 
 SUPPORT, LOSS, MASS = "support", "local-stiffness", ("mass", "floor-mass", "added-mass")
+_SLAB = 0.03 * E  # EA of a diagonal of a slab, N
 
 
 def storey(frame: Frame, rng: np.random.Generator, sound: dict) -> tuple[dict, dict]:
@@ -29,7 +30,7 @@ def slab(frame: Frame, rng: np.random.Generator, sound: dict) -> tuple[dict, dic
     struts = []
     for i, j in fields:
         a, b, c, d = (at[xs[i + p], ys[j + q]] for p, q in ((0, 0), (1, 1), (1, 0), (0, 1)))
-        struts += [[a, b, 30 * E * 1e-4 * 10], [c, d, 30 * E * 1e-4 * 10]]
+        struts += [[a, b, _SLAB], [c, d, _SLAB]]
     return {"struts": struts}, {"groups": (), "outside": True, "truth": "stiff slab", "tolerated": ("brace",)}
 
 
