@@ -16,7 +16,7 @@ from mouse_cli.model.field import STIFFNESS as STIFFNESS
 from mouse_cli.model.field import Field as Field
 from mouse_cli.model.field import FieldValue as FieldValue
 from mouse_cli.model.frf_fit import Damping, FrfFit
-from mouse_cli.model.groups import enumerated, joined, leading, shares
+from mouse_cli.model.groups import counted, joined, leading, shares
 from mouse_cli.model.localisation import EnergyMap as EnergyMap
 from mouse_cli.model.localisation import Law as Law
 from mouse_cli.model.localisation import Location as Location
@@ -114,7 +114,7 @@ class Explanation:
     @property
     def title(self) -> str:
         """Its causes in words."""
-        return enumerated([cause.title for cause in self.causes]) or "nothing"
+        return counted([cause.title for cause in self.causes]) or "nothing"
 
 
 def members(explanations: Sequence[Explanation], group: str) -> tuple[tuple[str, float], ...]:

@@ -1,7 +1,9 @@
 """Groups of mechanisms that are hard to tell apart: how those of several are called, and which of them leads."""
 
+from collections import Counter
 from collections.abc import Sequence
 
+_NUMBERS = {2: "two", 3: "three", 4: "four", 5: "five", 6: "six"}
 TITLES = {  # of groups with more than one member; others are called as their member
     "axial": "an axial force",
     "clearance": "a clearance",
@@ -23,6 +25,16 @@ def enumerated(words: Sequence[str]) -> str:
     ('a crack', 'a crack and a gap', 'a crack, a gap and a mass')
     """
     return " and ".join(filter(None, [", ".join(words[:-1]), *words[-1:]]))
+
+
+def counted(titles: Sequence[str]) -> str:
+    """Mechanisms as a sentence lists them, those of one title once with the number of their sites.
+
+    >>> counted(["a crack"] * 2 + ["a mass"]), counted(["a mass"] * 3), counted([])
+    ('a crack at two sites and a mass', 'a mass at three sites', '')
+    """
+    times = Counter(titles)
+    return enumerated([each if n == 1 else f"{each} at {_NUMBERS.get(n, n)} sites" for each, n in times.items()])
 
 
 def joined(groups: Sequence[str]) -> str:

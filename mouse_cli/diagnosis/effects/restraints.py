@@ -32,11 +32,11 @@ class Turns:
 
 
 def resisting(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """A recipe for each rotation that a supported node is free in, for all alike, and for the two that turn most."""
+    """A recipe for each rotation that a supported node is free in, for a row and for all alike, and for the two that turn most."""
     found = turns(model)
     if found is None:
         return []
-    single, alike = support_sets(found.free, found.size)
+    single, alike = support_sets(model.problem.mesh, found.free, found.size)
     recipes = []
     for kind in (single, alike):
         share = -float(np.log(len(kind) * (1 + bool(alike)))) if kind else 0.0

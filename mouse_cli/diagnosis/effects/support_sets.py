@@ -7,16 +7,20 @@ import numpy as np
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.geometry import DIRECTIONS
+from mouse_cli.model.mesh import Mesh
 from mouse_cli.model.problem import Problem
 
 _TOGETHER = 16  # supports that may be alike
+_ONE_ROW = 1e-6  # of the largest dimension: by which supports of one row are out of line at most
 
 Held = tuple[int, int]  # node (index) and direction
 Sets = list[list[int]]  # supports by number, those of each list with one stiffness
 
 
-def support_sets(held: Sequence[Held], size: np.ndarray) -> tuple[list[Sets], list[Sets]]:
-    """Single supports, and those of one node in both directions of largest `size` (a,); all of a direction, and of both, alike."""
+def support_sets(mesh: Mesh, held: Sequence[Held], size: np.ndarray) -> tuple[list[Sets], list[Sets]]:
+    """Single supports, and those of one node in both directions of largest `size` (a,); all of a direction, and of both, alike,
+    and those of a row: what stands on one abutment, or on one side of a building.
+    """
     by = by_direction(held)
     largest = sorted(by, key=lambda d: -sum(size[by[d]].tolist()))[:2]
     at = {each: i for i, each in enumerate(held)}
@@ -26,7 +30,20 @@ def support_sets(held: Sequence[Held], size: np.ndarray) -> tuple[list[Sets], li
     alike = [[own] for own in many.values()]
     if len(largest) == 2 and all(d in many for d in largest):
         alike.append([many[d] for d in largest])
+    alike += [[own] for d in many for own in _rows(mesh, held, by[d])]
     return [[[i]] for i in range(len(held))] + both, alike
+
+
+def _rows(mesh: Mesh, held: Sequence[Held], own: Sequence[int]) -> list[list[int]]:
+    """Of supports `own` of one direction those, two or more, that share a coordinate with one another and not with all."""
+    at, found = mesh.coordinates[[held[i][0] for i in own]], set()
+    near = _ONE_ROW * float(np.ptp(mesh.coordinates, axis=0).max())
+    for along in at.T:
+        order = np.argsort(along, kind="stable")
+        for row in np.split(order, np.flatnonzero(np.diff(along[order]) > near) + 1):
+            if 1 < len(row) < len(own):
+                found.add(tuple(sorted(own[i] for i in row)))
+    return [list(row) for row in sorted(found)]
 
 
 def by_direction(held: Sequence[Held]) -> dict[int, list[int]]:

@@ -55,7 +55,7 @@ def yielding(model: Reduced, candidate: Candidate, turning: bool) -> list[Recipe
     found = released(model, range(3, 6) if turning else range(3))
     if found is None:
         return []
-    single, *together = [kind for kind in _sets(found) if kind]
+    single, *together = [kind for kind in _sets(model, found) if kind]
     return [
         _recipe(model, candidate, found, which, turning, -float(np.log(len(kind) * some * (1 + bool(together)))))
         for kind, some in [(single, 1), *((kind, len(together)) for kind in together)]
@@ -63,9 +63,9 @@ def yielding(model: Reduced, candidate: Candidate, turning: bool) -> list[Recipe
     ]
 
 
-def _sets(found: Released) -> tuple[list[list[list[int]]], ...]:
-    """Supports by number that are flexible together, in lists of one stiffness each: single nodes, all alike, several apart."""
-    single, alike = support_sets(found.held, found.load)
+def _sets(model: Reduced, found: Released) -> tuple[list[list[list[int]]], ...]:
+    """Supports by number that are flexible together, in lists of one stiffness: single nodes, all or a row alike, several apart."""
+    single, alike = support_sets(model.problem.mesh, found.held, found.load)
     few = [own for own in by_direction(found.held).values() if len(own) <= _APART]
     apart = [[[i] for i in some] for own in few for n in range(2, len(own) + 1) for some in combinations(own, n)]
     return single, alike, apart

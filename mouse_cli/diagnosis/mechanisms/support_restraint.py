@@ -9,7 +9,7 @@ CANDIDATE = Candidate(
     "a support that resists turning",
     "ground-spring",
     "what the model pins is partly clamped: a base plate with anchors, a bearing that has seized, a spherical joint that is stiff; "
-    "K + k b'b for a rotation b of a node that is held but free to turn, one alone, both of a node, or all alike",
+    "K + k b'b for a rotation b of a node that is held but free to turn, one alone, both of a node, or a row or all of them alike",
     resisting,
     turning,
 )

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from mouse_cli.model.diagnosis import NAMED, ONE_OF, Cause, Diagnosis, Explanation, Score, Site, Size, members
-from mouse_cli.model.groups import TITLES, enumerated
+from mouse_cli.model.groups import TITLES, counted, enumerated
 from mouse_cli.model.shared_place import SharedPlace
 from mouse_cli.model.units import Units
 from mouse_cli.report.blocks import Cell, heads
@@ -134,14 +134,14 @@ def called(found: Diagnosis) -> str:
 
 def _in_groups(one: Explanation) -> str:
     titles = [TITLES.get(cause.group, cause.title) for cause in one.causes]
-    return enumerated([t for i, t in enumerate(titles) if one.causes[i].group != "support" or t not in titles[:i]])
+    return counted([t for i, t in enumerate(titles) if one.causes[i].group != "support" or t not in titles[:i]])
 
 
 def companions(found: Diagnosis) -> str:
     """Groups of what may act beside what is certain, and the probability of each."""
     title = {cause.group: cause.title for one in reversed(found.explanations) for cause in one.causes}
     of = lambda group: TITLES.get(group, title[group]) if group != "none" else "nothing"
-    words = lambda groups: enumerated([of(each) for each in groups.split(" + ")])
+    words = lambda groups: counted([of(each) for each in groups.split(" + ")])
     return ", ".join(f"{words(groups)} {probable(p)}" for groups, p in found.certain.companions if p >= LEAST)
 
 
@@ -167,7 +167,7 @@ def _members(explanations: Sequence[Explanation], listed: Sequence[tuple[str, fl
     found = [(physics, p) for physics, p in listed if p >= LEAST]
     title = {cause.physics: cause.title for each in explanations for cause in each.causes}
     named = lambda key: key if title[key] in TITLES.values() else title[key]
-    words = lambda physics: enumerated([named(key) for key in physics.split(" + ")])
+    words = lambda physics: counted([named(key) for key in physics.split(" + ")])
     return ", ".join(f"{words(physics)} {probable(p)}" for physics, p in found) if len(found) > 1 else ""
 
 

@@ -108,7 +108,7 @@ def _what(found: Diagnosis) -> Iterator[Block]:
     best, conditional = found.best, "Probabilities are among the mechanisms that mouse knows"
     if found.kind == NOTHING:
         total = found.result.residual
-        p = found.baseline.p if found.frf and found.baseline else total.p  # functions alone decide where there are any
+        p = found.baseline.p if found.baseline else total.p  # with what was allowed, or corrected, for a coarse mesh
         chances = f": goodness of fit {p_value(p)}" if total.dof else ""
         hidden = "An effect that moves the data by less than their accuracies stays hidden"
         yield Text(f"Nothing{chances}. {hidden}.{_open(found)}")
