@@ -11,6 +11,7 @@ from mouse_cli.diagnosis.extend.matrices import Entries, of_matrices, with_entri
 from mouse_cli.diagnosis.extend.points import found as new_parameter
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.lines import elements as in_words
 from mouse_cli.diagnosis.sites.points import wanted
 from mouse_cli.model.arrays import dense
 from mouse_cli.model.diagnosis import Site
@@ -28,10 +29,14 @@ _LOST, _GAINED = Unknown(LOST, "1", 0.02, 0.99), Unknown("share gained", "1", 0.
 
 
 def of_elements(model: Reduced, candidate: Candidate, sign: int = -1, directed: bool = False) -> list[Recipe]:
-    """K - d K_e of each rod, spring, storey and joint, or K + d K_e by `sign`; directed: of each of its directions alone too."""
+    """K - d K_e of each rod, spring, storey and joint, or K + d K_e by `sign`; directed: of each of its directions alone too, and
+    of springs that are one mount, or one kind, alike.
+    """
     found = _parts(model, directed)
-    count = len({each[:2] for each in found})
-    return [_element(model, candidate, each, count, sign) for each in _strained(model, found)]
+    sets = _strained(model, _mounts(model, found)) if directed else []
+    count = len({each[:2] for each in found}) + len(sets)
+    parts = [((each[:2],), *each[2:]) for each in _strained(model, found)] + sets
+    return [_elements(model, candidate, each, count, sign) for each in parts]
 
 
 def loosened(model: Reduced) -> np.ndarray:
@@ -121,23 +126,43 @@ def _node(model: Reduced, n: int) -> np.ndarray:
     return np.vstack([model.V[n : n + 1], np.zeros((5, model.r))])
 
 
-def _element(model: Reduced, candidate: Candidate, part: tuple, count: int, sign: int) -> Recipe:
-    """part: number of a set, and what `_stiffness` says of one of its members."""
-    s, i, direction, share, K = part
+def _mounts(model: Reduced, found: list[tuple]) -> list[tuple]:
+    """Springs between the same nodes, all springs in one direction and all springs: numbers of sets and members, "", 1, and K."""
+    mesh, parts = model.problem.mesh, {}
+    for s, i, direction, _, K in found:
+        own = mesh.elements[s]
+        if own.type != "spring" or direction:
+            continue
+        acts = tuple(name for name in DIRECTIONS if name in own.properties and own.properties[name][i])
+        for key in (tuple(own.nodes[i].tolist()), acts, "all"):
+            parts.setdefault(key, []).append((s, i, K))
+    joined = {tuple(each[:2] for each in own): sum(each[2] for each in own) for own in parts.values() if len(own) > 1}
+    return [(of, "", 1.0, K) for of, K in joined.items()]
+
+
+def _elements(model: Reduced, candidate: Candidate, part: tuple, count: int, sign: int) -> Recipe:
+    """part: numbers of sets and members that act as one, and what `_stiffness` says of them."""
+    which, direction, share, K = part
     mesh = model.problem.mesh
-    elements, number = mesh.elements[s], int(mesh.elements[s].ids[i])
-    at = mesh.coordinates[elements.nodes[i]].mean(axis=0)
-    text = f"{elements.type} {number}" + (f", {direction}" if direction else "")
-    site = Site("element", (number,), tuple(at.tolist()), text)
+    numbers = tuple(int(mesh.elements[s].ids[i]) for s, i in which)
+    nodes = np.unique(np.concatenate([mesh.elements[s].nodes[i] for s, i in which]))
+    kind = mesh.elements[which[0][0]].type
+    text = in_words(numbers).replace("element", kind) + (f", {direction}" if direction else ", alike" if numbers[1:] else "")
+    site = Site("element", numbers, tuple(mesh.coordinates[nodes].mean(axis=0).tolist()), text)
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         edit = Edit(problem)
-        element = edit.element(number)
-        own = edit.sets[element[0]].properties
-        may = (direction,) if direction else _STIFF[elements.type]
-        stiff = tuple(name for name in may if name in own and own[name][element[1]])
         name = f"stiffness left of {text}" if sign < 0 else f"stiffness of {text}, strengthened"
-        edit.bind(name, [element], stiff, factor=1 + sign * values[0])
+        given = [edit.element(number) for number in numbers]
+        acts: dict[tuple[str, ...], list] = {}
+        for s, i in given:
+            own = edit.sets[s].properties
+            may = (direction,) if direction else _STIFF[kind]
+            acts.setdefault(tuple(name for name in may if name in own and own[name][i]), []).append((s, i))
+        (first, alike), *others = acts.items()
+        edit.bind(name, alike, first, factor=1 + sign * values[0])
+        for stiff, alike in others:
+            edit.follow(alike, stiff, factor=True)
         return edit.done()
 
     return _recipe(candidate, sign * K, site, count / share, extend, sign)
