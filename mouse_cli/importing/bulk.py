@@ -11,6 +11,7 @@ from mouse_cli.formats import nastran_fields
 from mouse_cli.formats.data_files import existing, line_span, text_lines
 from mouse_cli.importing.bulk_deck import BulkDeck, text
 from mouse_cli.importing.bulk_defaults import filled
+from mouse_cli.importing.bulk_passed import PASSED
 from mouse_cli.importing.bulk_springs import springs
 from mouse_cli.importing.bulk_supports import supports
 from mouse_cli.importing.bulk_systems import Systems
@@ -39,18 +40,6 @@ _SHELLS = {  # fields of the nodes end before the first; then those of an offset
 BARS = ("CBAR", "CBEAM", "CROD", "CONROD", "CTUBE")
 SPRINGS = ("CELAS1", "CELAS2", "CBUSH")
 _BARS_HELP = "let Nastran write K and M (DMIG, OUTPUT4), or model the shells by bars: a model of bars alone is read"
-PASSED = {
-    "PARAM", "EIGRL", "EIGR", "EIGB", "EIGC", "FORCE", "FORCE1", "FORCE2", "MOMENT", "PLOAD", "PLOAD1", "PLOAD2", "PLOAD4",
-    "LOAD", "GRAV", "TEMP", "TEMPD", "DLOAD", "RLOAD1", "RLOAD2", "TLOAD1", "TLOAD2", "DAREA", "DELAY", "DPHASE", "FREQ",
-    "FREQ1", "FREQ2", "FREQ3", "FREQ4", "TSTEP", "TABLED1", "TABLED2", "TABLED3", "TABDMP1", "CORD2R", "CORD2C", "CORD2S",
-    "CORD1R", "CORD1C", "CORD1S", "SET1", "SUPORT", "SUPORT1", "ASET", "ASET1", "SPCADD", "SPC", "SPC1", "MAT1", "PSHELL",
-    "PSOLID", "PROD", "PELAS", "PBUSH", "PLOTEL", "SPOINT", "GRDSET", "BAROR", "BEAMOR", "PBAR", "PBARL", "PBEAM", "PBEAML",
-    "PTUBE",    "OMIT", "OMIT1", "QSET", "QSET1", "BSET", "BSET1", "CSET", "CSET1", "SPCD", "RFORCE", "PLOADX1", "ACCEL", "ACCEL1", "TEMPRB",
-    "TEMPP1", "TABLED4", "TABRND1", "RANDPS", "EIGP", "DCONSTR", "DRESP1", "DRESP2", "DVPREL1", "DVPREL2", "DVMREL1", "DESVAR",
-    "DEQATN", "DCONADD", "DOPTPRM", "DLINK", "DSCREEN", "AERO", "AEROS", "AEFACT", "CAERO1", "PAERO1", "SPLINE1", "SPLINE2", "SET3",
-    "MKAERO1", "MKAERO2", "FLFACT", "FLUTTER", "TRIM", "AESTAT", "AESURF", "AELINK", "AELIST", "GUST", "DIVERG", "CSSCHD", "SUPAX",
-    "CDAMP1", "CDAMP2", "PDAMP", "CVISC", "PVISC", "LSEQ", "TIC", "DTI",
-}  # fmt: skip
 _INCLUDE = re.compile(r"\s*INCLUDE\b\s*=?([^$]*)", re.IGNORECASE)
 _NAMES = re.compile(
     r"\$\s*(?:Femap (Property|Material) ([0-9]+)\s*:\s*(.+)|HMNAME (PROP|MAT)\s+([0-9]+)\s*\"([^\"]+)\")", re.IGNORECASE

@@ -32,9 +32,10 @@ class System:
 class Systems:
     """The systems of the bulk data by their numbers, each made when it is asked for; 0: the basic one."""
 
-    def __init__(self, deck: BulkDeck):
+    def __init__(self, deck: BulkDeck, basic: np.ndarray | None = None):
+        """basic: axes (3, 3) of the basic system, as columns, in the one that everything is to be stated in; None: its own."""
         self.deck = deck
-        self.made = {0: System(np.zeros(3), np.eye(3), "R")}
+        self.made = {0: System(np.zeros(3), np.eye(3) if basic is None else basic, "R")}
         self.cards: dict[int, tuple[nastran_fields.Card, int]] = {}
         for card in deck.of(*(f"CORD{n}{kind}" for n in "12" for kind in "RCS")):
             for at in (0, 4) if card.name[4] == "1" else (0,):

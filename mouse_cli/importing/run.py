@@ -83,7 +83,7 @@ def imported(
         remarks.append(
             Diagnostic("MD276", WARNING, f"the units of the job are {text}", Span(path, 1), help="give --units")
         )
-    unit = {"SI": "m", "mm-t-N": "mm"}.get(named, "")
+    unit = {"SI": "m", "mm-t-N": "mm", "in-lbf": "in"}.get(named, "")
     thick = {i: replace(each, unit=unit) for i, each in thick.items()}
     files = write(target, model, found, checked, named, thick, shells)
     return Imported(model, found, checked, files, named, tuple(remarks), thick)

@@ -168,7 +168,7 @@ def _across(bars: Bars, card, nodes: tuple[int, int]) -> np.ndarray | None:
             "MD265",
         )
     vector = np.array([deck.real(card, k) for k in (4, 5, 6)])
-    return vector if text(card, 7).upper().startswith("B") else bars.axes(nodes[0]) @ vector
+    return (bars.systems.made[0].R if text(card, 7).upper().startswith("B") else bars.axes(nodes[0])) @ vector
 
 
 def _principal(

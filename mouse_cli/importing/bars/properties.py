@@ -56,11 +56,11 @@ def _made(
 ) -> Profile:
     """shear: K1 and K2, 0 where there is none to count."""
     given = (abs(shear[0]), abs(shear[1]))
-    kappa = tuple(k or _STIFF for k in given) if any(given) else None
+    kappa = tuple(k or SHEARLESS for k in given) if any(given) else None
     return Profile(called(deck, card), card, deck.whole(card, 1), kappa=kappa, mass=mass * deck.mass, **values)
 
 
-_STIFF = 1e6  # share of A that stands for no shear in one plane, beside shear in the other
+SHEARLESS = 1e6  # share of A that stands for no shear in one plane, beside shear in the other
 
 
 def _bar(deck: BulkDeck, card: nastran_fields.Card) -> Profile:

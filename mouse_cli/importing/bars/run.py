@@ -149,9 +149,14 @@ def _place(bars: Bars, fault, path: str) -> Span:
 def _remarks(bars: Bars, path: str, named: str | None):
     """Warnings: directions of points that are basic now, and units that were deduced."""
     turned = [node for node, card in bars.deck.grid_cards.items() if bars.systems.turned(card)]
+    help = "state measured shapes in these directions, or give sensors theirs"
+    if not np.allclose(bars.systems.made[0].R, np.eye(3), rtol=0, atol=1e-9):
+        message = "all grid points move in one system of their own: the deck has its directions, and its coordinates"
+        yield Diagnostic("MD276", WARNING, message, bars.deck.bulk.where(bars.deck.of("GRID")[0]), help=help)
     if turned:
-        message = f"grid point {turned[0]} has a system of its own ({len(turned)} such points); in the deck it moves in the basic one"
-        help = "state measured shapes in the basic system, or give sensors their directions"
+        message = (
+            f"grid point {turned[0]} has directions of its own ({len(turned)} such points), in the deck those of all"
+        )
         yield Diagnostic("MD276", WARNING, message, bars.deck.bulk.where(bars.deck.grid_cards[turned[0]]), help=help)
     if named is not None:
         text = (

@@ -1,7 +1,8 @@
 """Cross sections that PBARL and PBEAML of Nastran name by their dimensions (MSC Nastran Quick Reference Guide, PBARL).
 
 Their vertical axis is y of the element: I1 is of bending in its x-y plane, and so Iz here. Open sections are sums of
-rectangles; their torsion constant is the sum of b t^3 / 3 (Young and Budynas, Roark's Formulas, 7th ed., table 10.1); closed ones by Bredt.
+rectangles; their torsion constant is the sum of b t^3 / 3 (Young and Budynas, Roark's Formulas, 7th ed., table 10.1). Closed
+ones go by Bredt.
 """
 
 from collections.abc import Callable
