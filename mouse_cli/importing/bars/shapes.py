@@ -15,7 +15,9 @@ _Rectangle = tuple[float, float, float, float]  # height along y, width along z,
 
 
 def _open(*parts: _Rectangle) -> Properties:
-    """Of a section made of rectangles: A, Iy, Iz, Iyz about its centroid, J."""
+    """Of a section made of rectangles: A, Iy, Iz, Iyz about its centroid, J. Raises ValueError where one is of negative size."""
+    if any(min(part[:2]) < 0 for part in parts):
+        raise ValueError("walls that do not fit in")
     parts = tuple(part for part in parts if part[0] > 0 and part[1] > 0)
     A = sum(h * b for h, b, _, _ in parts)
     y0, z0 = (sum(part[0] * part[1] * part[k] for part in parts) / A for k in (2, 3))
@@ -44,7 +46,7 @@ def _box(b: float, h: float, top: float, side: float) -> Properties:
 
 def _unequal_box(b: float, h: float, top: float, bottom: float, left: float, right: float) -> Properties:
     """Walls of four thicknesses; the pair along an axis carries the shear along it."""
-    clear = h - top - bottom
+    clear = h - top - bottom if left + right < b else -1.0
     y = (bottom - top) / 2
     found = _open((top, b, (h - top) / 2, 0), (bottom, b, (bottom - h) / 2, 0),
                   (clear, left, y, (left - b) / 2), (clear, right, y, (b - right) / 2))  # fmt: skip
