@@ -21,6 +21,8 @@ from mouse_cli.importing.cards import Card, Faults, included
 _IS_BULK = re.compile(
     r"\s*(SOL\b|CEND|BEGIN\s+BULK|GRID[ *,]|ASSIGN\b|NASTRAN\b|INIT\b|INCLUDE\b|ID\s+\w+\s*,|\$)", re.IGNORECASE
 )
+_BULK_DATA = re.compile(r"\s*BEGIN\s+BULK|(GRID|CBAR|CQUAD4|CHEXA|PARAM)[*]?[ ,\t]+[0-9A-Z]", re.IGNORECASE)
+_HEAD = 500  # lines of a file within which bulk data begin
 _HEXA = (
     *range(12),
     *range(16, 20),
@@ -47,10 +49,12 @@ _NAMES = re.compile(
 
 
 def is_bulk(path: str) -> bool:
-    """Whether the first line of a file that is not empty is of Nastran."""
+    """Whether the first line of a file that is not empty is of Nastran, or bulk data follow within some pages."""
     existing(path)
-    first = next((line for line in text_lines(path) if line.strip()), "")
-    return bool(_IS_BULK.match(first))
+    lines = [line for line in text_lines(path)[:_HEAD] if line.strip()]
+    if not lines or lines[0].lstrip().startswith("*"):
+        return False
+    return bool(_IS_BULK.match(lines[0])) or any(map(_BULK_DATA.match, lines))
 
 
 def opened(path: str, faults: Faults, outside: bool = False) -> BulkDeck:

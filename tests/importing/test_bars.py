@@ -162,5 +162,7 @@ def test_what_is_no_bar_of_mouse_is_refused_by_its_line(name, tmp_path):
 def test_defaults_and_tabs(tmp_path):
     """GRDSET, BAROR and tabs between fields: the same beam as with everything in its place; planar by GRDSET."""
     plain = BEAM + "CBAR,3,1,1,2,0.,1.,0.\nSPC1,2,345,2\n"
+    headless = "PARAM,GRDPNT,0\n" + plain.partition("BEGIN BULK\n")[2]
+    assert np.allclose(hertz(tmp_path, headless), hertz(tmp_path, plain), rtol=1e-12)
     short = BEAM.replace("GRID,1", "GRDSET,,,,,,,345\nBAROR,,1,,,0.,1.,0.\nGRID,1") + "CBAR\t3\t\t1\t2\n"
     assert np.allclose(hertz(tmp_path, short), hertz(tmp_path, plain), rtol=1e-12)
