@@ -23,7 +23,8 @@ CODES = {
     "MD304": Code(
         "mass not positive",
         "Every diagonal element of M must be positive, and so must be the mass of every motion: a degree of freedom, or a motion, "
-        "without mass has an infinite eigenvalue.",
+        "without mass has an infinite eigenvalue. As a warning: translations of a structure that have stiffness and no mass, which "
+        "follow the masses statically.",
         "Give the mass, or condense the degree of freedom out of the model.",
     ),
     "MD305": Code(

@@ -38,6 +38,7 @@ class Bulk:
         card: Card | None = None
         for number, raw in enumerate(self.lines[self.begun :], self.begun + 1):
             line = raw.split("$", 1)[0].rstrip()
+            line = line if "," in line else line.expandtabs(8)
             if not line.strip():
                 continue
             if line.upper().startswith("ENDDATA"):
@@ -48,7 +49,7 @@ class Bulk:
                 continue
             if card is not None:
                 yield card
-            name = re.split("[,*]", line[:8], maxsplit=1)[0].strip().upper()
+            name = re.split(r"[,*\s]", line[:8].lstrip(), maxsplit=1)[0].upper()
             card = Card(name, self._fields(line, number), number) if wanted in (None, name) else None
         if card is not None:
             yield card
@@ -100,5 +101,4 @@ def _fields(line: str) -> list[str]:
     if "," in line:
         found = [field.strip() for field in line.split(",")[1 : count + 1]]
         return found + [""] * (count - len(found))
-    line = line.expandtabs(8)
     return [line[8 + i * width : 8 + (i + 1) * width].strip() for i in range(count)]

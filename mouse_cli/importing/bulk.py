@@ -4,12 +4,14 @@ Sets are the properties, under the names that comments of preprocessors give the
 """
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from mouse_cli.formats import nastran_fields
 from mouse_cli.formats.data_files import existing, line_span, text_lines
 from mouse_cli.importing.bulk_deck import BulkDeck, text
+from mouse_cli.importing.bulk_defaults import filled
+from mouse_cli.importing.bulk_passed import PASSED
 from mouse_cli.importing.bulk_springs import springs
 from mouse_cli.importing.bulk_supports import supports
 from mouse_cli.importing.bulk_systems import Systems
@@ -19,6 +21,8 @@ from mouse_cli.importing.cards import Card, Faults, included
 _IS_BULK = re.compile(
     r"\s*(SOL\b|CEND|BEGIN\s+BULK|GRID[ *,]|ASSIGN\b|NASTRAN\b|INIT\b|INCLUDE\b|ID\s+\w+\s*,|\$)", re.IGNORECASE
 )
+_BULK_DATA = re.compile(r"\s*BEGIN\s+BULK|(GRID|CBAR|CQUAD4|CHEXA|PARAM)[*]?[ ,\t]+[0-9A-Z]", re.IGNORECASE)
+_HEAD = 500  # lines of a file within which bulk data begin
 _HEXA = (
     *range(12),
     *range(16, 20),
@@ -35,13 +39,9 @@ _SHELLS = {  # fields of the nodes end before the first; then those of an offset
     "CQUAD4": (6, 7, 9, 10, 11, 12, 13), "CTRIA3": (5, 6, 9, 10, 11, 12), "CQUAD8": (10, 10, 11, 12, 13, 15),
     "CTRIA6": (8, 9, 10, 11, 12),
 }  # fmt: skip
-_PASSED = {
-    "PARAM", "EIGRL", "EIGR", "EIGB", "EIGC", "FORCE", "FORCE1", "FORCE2", "MOMENT", "PLOAD", "PLOAD1", "PLOAD2", "PLOAD4",
-    "LOAD", "GRAV", "TEMP", "TEMPD", "DLOAD", "RLOAD1", "RLOAD2", "TLOAD1", "TLOAD2", "DAREA", "DELAY", "DPHASE", "FREQ",
-    "FREQ1", "FREQ2", "FREQ3", "FREQ4", "TSTEP", "TABLED1", "TABLED2", "TABLED3", "TABDMP1", "CORD2R", "CORD2C", "CORD2S",
-    "CORD1R", "CORD1C", "CORD1S", "SET1", "SUPORT", "SUPORT1", "ASET", "ASET1", "SPCADD", "SPC", "SPC1", "MAT1", "PSHELL",
-    "PSOLID", "PROD", "PELAS", "PBUSH", "PLOTEL", "SPOINT",
-}  # fmt: skip
+BARS = ("CBAR", "CBEAM", "CROD", "CONROD", "CTUBE")
+SPRINGS = ("CELAS1", "CELAS2", "CBUSH")
+_BARS_HELP = "let Nastran write K and M (DMIG, OUTPUT4), or model the shells by bars: a model of bars alone is read"
 _INCLUDE = re.compile(r"\s*INCLUDE\b\s*=?([^$]*)", re.IGNORECASE)
 _NAMES = re.compile(
     r"\$\s*(?:Femap (Property|Material) ([0-9]+)\s*:\s*(.+)|HMNAME (PROP|MAT)\s+([0-9]+)\s*\"([^\"]+)\")", re.IGNORECASE
@@ -49,14 +49,16 @@ _NAMES = re.compile(
 
 
 def is_bulk(path: str) -> bool:
-    """Whether the first line of a file that is not empty is of Nastran."""
+    """Whether the first line of a file that is not empty is of Nastran, or bulk data follow within some pages."""
     existing(path)
-    first = next((line for line in text_lines(path) if line.strip()), "")
-    return bool(_IS_BULK.match(first))
+    lines = [line for line in text_lines(path)[:_HEAD] if line.strip()]
+    if not lines or lines[0].lstrip().startswith("*"):
+        return False
+    return bool(_IS_BULK.match(lines[0])) or any(map(_BULK_DATA.match, lines))
 
 
-def cards(path: str, faults: Faults, outside: bool = False) -> list[Card]:
-    """The bulk data of a file, and of those that it includes, as cards of CalculiX.
+def opened(path: str, faults: Faults, outside: bool = False) -> BulkDeck:
+    """The bulk data of a file, and of those that it includes, with what GRDSET, BAROR and BEAMOR give to other cards.
 
     Raises DeckError (MD252) where a field is no number, (MD231, MD250, MD266, MD267) where a file cannot be included.
     """
@@ -64,12 +66,32 @@ def cards(path: str, faults: Faults, outside: bool = False) -> list[Card]:
     for card in deck.bulk.cards():
         deck.by.setdefault(card.name, []).append(card)
     _named(deck)
-    read = {"GRID", "CONM2", "CELAS1", "CELAS2", "CBUSH", "RBE2", "RBE3", *_ELEMENTS, *_PASSED}
-    for name in deck.by.keys() - read:
+    filled(deck)
+    deck.mass = deck.parameter("WTMASS", 1.0)
+    return deck
+
+
+def of_bars(deck: BulkDeck) -> bool:
+    """Whether no element but bars, rods, springs and masses stands in it."""
+    return not deck.of(*(set(_ELEMENTS) - {"CROD"})) and bool(deck.of(*BARS, *SPRINGS))
+
+
+def unread(deck: BulkDeck, read: Iterable[str]) -> None:
+    """Notes every kind of card that is neither read nor without effect on K and M."""
+    for name in sorted(deck.by.keys() - {*read, *PASSED}, key=lambda name: deck.by[name][0].line):
+        if name in ("MPC", "MPCADD") and not deck.chosen("MPC"):
+            continue
         deck.refuse(deck.by[name][0], f"{name[:12]} has no counterpart that is read, and may change K or M")
-    for card in deck.of("PARAM"):
-        if card.fields[0].upper() == "WTMASS":
-            deck.mass = deck.real(card, 1)
+
+
+def cards(deck: BulkDeck) -> list[Card]:
+    """Bulk data as cards of CalculiX."""
+    for card in deck.of(*BARS)[: 0 if of_bars(deck) else 1]:
+        if card.name != "CROD":
+            deck.refuse(
+                card, f"this {card.name} stands among shells or solids, which CalculiX makes K and M of", _BARS_HELP
+            )
+    unread(deck, {"GRID", "CONM2", "CELAS1", "CELAS2", "CBUSH", "RBE2", "RBE3", *_ELEMENTS, *BARS})
     for step in (_nodes, _elements, _materials, _sections, _masses, springs, _rigid, weighted, supports, _step):
         step(deck)
     return deck.found

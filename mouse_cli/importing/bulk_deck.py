@@ -1,5 +1,6 @@
 """Bulk data of Nastran being translated: fields of its cards, findings with their places, and what became of them."""
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -9,7 +10,7 @@ import numpy as np
 from mouse_cli.formats import nastran_fields
 from mouse_cli.importing.cards import Card, Faults, Line
 
-_HELP = "let Nastran write K and M (DMIG, OUTPUT4), or use what docs/how-to/import-models.md lists: shells, solids, CONM2, RBE2"
+_HELP = "let Nastran write K and M (DMIG, OUTPUT4), or use what docs/how-to/import-models.md lists: bars, shells, solids, CONM2"
 
 
 def text(card: nastran_fields.Card, at: int) -> str:
@@ -43,9 +44,27 @@ class BulkDeck:
         """The cards of grid points by their numbers."""
         return {self.whole(card, 0): card for card in self.of("GRID")}
 
+    @cached_property
+    def numbers(self) -> set[int]:
+        """Numbers of all elements, rigid ones and masses among them."""
+        of = (name for name in self.by if name.startswith(("CB", "CE", "CON", "CR", "CT", "RB")))
+        return {self.whole(card, 0) for name in of for card in self.by[name]}
+
     def of(self, *names: str) -> list[nastran_fields.Card]:
         """The cards of these names."""
         return [card for name in names for card in self.by.get(name, [])]
+
+    def parameter(self, name: str, default: float) -> float:
+        """The value of PARAM `name`; the last one counts."""
+        given = [card for card in self.of("PARAM") if text(card, 0).upper() == name]
+        return self.real(given[-1], 1) if given else default
+
+    def chosen(self, name: str) -> int | None:
+        """The set that case control asks for, as SPC = 2; None where it asks for none."""
+        asked = (
+            re.match(rf"\s*{name}\s*=\s*([0-9]+)", line, re.IGNORECASE) for line in self.bulk.lines[: self.bulk.begun]
+        )
+        return next((int(found[1]) for found in asked if found), None)
 
     def line(self, card: nastran_fields.Card, *words: object) -> Line:
         """A line of data with the place of the card that it comes from."""

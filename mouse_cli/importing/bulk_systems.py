@@ -32,9 +32,10 @@ class System:
 class Systems:
     """The systems of the bulk data by their numbers, each made when it is asked for; 0: the basic one."""
 
-    def __init__(self, deck: BulkDeck):
+    def __init__(self, deck: BulkDeck, basic: np.ndarray | None = None):
+        """basic: axes (3, 3) of the basic system, as columns, in the one that everything is to be stated in; None: its own."""
         self.deck = deck
-        self.made = {0: System(np.zeros(3), np.eye(3), "R")}
+        self.made = {0: System(np.zeros(3), np.eye(3) if basic is None else basic, "R")}
         self.cards: dict[int, tuple[nastran_fields.Card, int]] = {}
         for card in deck.of(*(f"CORD{n}{kind}" for n in "12" for kind in "RCS")):
             for at in (0, 4) if card.name[4] == "1" else (0,):
@@ -77,6 +78,22 @@ class Systems:
             return np.zeros(3)
         system = self.system(self.deck.whole(card, 1), card, above)
         return system.place(np.array([self.deck.real(card, k) for k in (2, 3, 4)]))
+
+    def directions(self, number: int) -> np.ndarray:
+        """Directions (3, 3) that a grid point moves in, as columns, in the basic system: radial and so on in round systems."""
+        card = self.deck.grid_cards[number]
+        system = self.system(self.deck.whole(card, 5), card)
+        if system.kind == "R":
+            return system.R
+        x, y, z = system.R.T @ (self.deck.at[number] - system.origin)
+        round, down = np.arctan2(y, x), np.arctan2(np.hypot(x, y), z)
+        about = np.array([-np.sin(round), np.cos(round), 0.0])
+        out = np.array([np.cos(round), np.sin(round), 0.0])
+        up = np.array([0.0, 0.0, 1.0])
+        if system.kind == "C":
+            return system.R @ np.column_stack([out, about, up])
+        radial, fallen = np.sin(down) * out + np.cos(down) * up, np.cos(down) * out - np.sin(down) * up
+        return system.R @ np.column_stack([radial, fallen, about])
 
     def turned(self, card: nastran_fields.Card) -> bool:
         """Whether a GRID moves in directions of its own."""

@@ -21,23 +21,30 @@ from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.held import Thickness
 from mouse_cli.model.revision import THICKNESS, TO_THE_POWER
 
-_E_SD, _DENSITY_SD, _SPRING_SD = "5 %", "1 %", "20 %"  # what is known of a material and of a spring before the test
+E_SD, DENSITY_SD, SPRING_SD = "5 %", "1 %", "20 %"  # what is known of a material and of a spring before the test
 _THICKNESS_SD = "5 %"  # of a shell
-_SI_E, _MM_E = (1e8, 1e13), (1e2, 1e7)  # Young's moduli in Pa and in MPa
+_SYSTEMS = {  # ranges of Young's modulus and of density: in Pa and kg/m3, MPa and t/mm3, psi and lbf s2/in4
+    "SI": ((1e8, 1e13), (1.0, 1e5)),
+    "mm-t-N": ((1e2, 1e7), (1e-12, 1e-6)),
+    "in-lbf": ((1e4, 1e9), (1e-5, 1e-2)),
+}
 _MOST_MODES = 6
 _DIRECTIONS = ("S", *DIRECTIONS)
 
 
 def units(model: InputModel) -> str:
-    """The system of units that the materials speak for: SI, mm-t-N, or nothing where they fit neither.
+    """The system of units that the materials speak for: SI, mm-t-N, in-lbf, or nothing where they fit none.
 
-    Steel has E = 2.1e11 Pa and 7850 kg/m3, or 2.1e5 MPa and 7.85e-9 t/mm3.
+    Steel has E = 2.1e11 Pa and 7850 kg/m3, 2.1e5 MPa and 7.85e-9 t/mm3, or 3e7 psi and 7.3e-4 lbf s2/in4.
     """
-    used = [group.material for group in model.groups if group.material is not None]
-    fits = lambda E, rho: all(E[0] < m.E < E[1] and rho[0] <= m.rho < rho[1] for m in used)
-    if used and fits(_SI_E, (1.0, 1e5)):
-        return "SI"
-    return "mm-t-N" if used and fits(_MM_E, (1e-12, 1e-6)) else ""
+    return units_of((m.E, m.rho) for m in (group.material for group in model.groups) if m is not None)
+
+
+def units_of(materials: Iterable[tuple[float, float]]) -> str:
+    """The same by E and density of materials."""
+    used = list(materials)
+    fits = lambda E, rho: bool(used) and all(E[0] < own < E[1] and rho[0] <= heavy < rho[1] for own, heavy in used)
+    return next((name for name, ranges in _SYSTEMS.items() if fits(*ranges)), "")
 
 
 def write(
@@ -76,7 +83,7 @@ def write(
         *_sets(model, parts, keep, thick),
         *_parameters(model, parts, keep, system),
         *_thick(model, thick, shells, keep),
-        *_stub(checked),
+        *stub(checked.own, "12TZ"),
     ]
     write_text_atomically(target, "\n".join(lines) + "\n")
     return [*written, target]
@@ -117,7 +124,8 @@ def _sets(model: InputModel, parts: Parts, keep, thick: dict[int, Thickness]) ->
 def _parameters(model: InputModel, parts: Parts, keep, system: str) -> list[str]:
     """E and density of each material, springs by their sets."""
     lines = ["", "parameters:"]
-    known = {"SI": ("Pa", "kg/m3", "N/m"), "mm-t-N": ("MPa", "t/mm3", "N/mm")}
+    known = {"SI": ("Pa", "kg/m3", "N/m"), "mm-t-N": ("MPa", "t/mm3", "N/mm"),
+             "in-lbf": ("psi", "lbf s2/in4", "lbf/in")}  # fmt: skip
     pressure, density, of_length = known.get(system, ("", "", ""))
     for name, material in model.materials.items():
         own = [i for i, group in enumerate(model.groups) if group.material is material]
@@ -125,16 +133,16 @@ def _parameters(model: InputModel, parts: Parts, keep, system: str) -> list[str]
         value, unit = (material.E, pressure) if material.isotropic else (1.0, "1")
         if own and K.nnz:
             lines.append(
-                _parameter(f"E of {name}", value, unit, _E_SD, "stiffness", keep(f"E_{_slug(name)}", K / value))
+                _parameter(f"E of {name}", value, unit, E_SD, "stiffness", keep(f"E_{_slug(name)}", K / value))
             )
         if own and M.nnz and material.rho:
             file = keep(f"rho_{_slug(name)}", M / material.rho)
-            lines.append(_parameter(f"density of {name}", material.rho, density, _DENSITY_SD, "mass", file))
+            lines.append(_parameter(f"density of {name}", material.rho, density, DENSITY_SD, "mass", file))
     for i, group in enumerate(model.groups):
         if group.owner.keyword == "SPRING" and parts.K[i].nnz:
             k = float(group.owner.lines[min(1, len(group.owner.lines) - 1)].words[0].upper().replace("D", "E"))
             file = keep(f"spring_{_slug(group.name)}", parts.K[i] / k)
-            lines.append(_parameter(f"stiffness of {group.name}", k, of_length, _SPRING_SD, "stiffness", file))
+            lines.append(_parameter(f"stiffness of {group.name}", k, of_length, SPRING_SD, "stiffness", file))
     return lines if len(lines) > 2 else []
 
 
@@ -171,17 +179,17 @@ def _parameter(name: str, value: float, unit: str, sd: str, key: str, file: str)
     return f"  - {{name: {word(name)}, nominal: {real(value)}{of}, sd: {sd}, transform: log, {key}: {file}}}"
 
 
-def _stub(checked: Checked) -> list[str]:
-    """What to fill in when the test is there; the values are the model's own."""
-    hz = ", ".join(f"{f:.4g}" for f in checked.own[:_MOST_MODES]) or "..."
+def stub(own: np.ndarray, sensor: str) -> list[str]:
+    """What to fill in when the test is there; own (m,): frequencies of the model; sensor: one of its degrees of freedom."""
+    hz = ", ".join(f"{f:.4g}" for f in own[:_MOST_MODES]) or "..."
     return [
         "",
-        "# The test goes here" + ("; the frequencies are those of the model before it." if len(checked.own) else "."),
+        "# The test goes here" + ("; the frequencies are those of the model before it." if len(own) else "."),
         "# test:",
         "#   modes:",
         f"#     frequency: [{hz}]",
         "#     frequency_sd: 0.1 %",
-        "#     dofs: [...]         # of the sensors, such as 12TZ",
+        f"#     dofs: [...]         # of the sensors, such as {sensor}",
         "#     shapes: [[...]]     # a row for each sensor",
         "#     shape_sd: 2 %",
     ]

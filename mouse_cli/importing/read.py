@@ -20,7 +20,7 @@ def read(path: str, outside: bool = False) -> InputModel:
     Raises DeckError (MD231 to MD273) with all that is wrong, by file and line.
     """
     model, faults = InputModel(path), Faults()
-    model.every = bulk.cards(path, faults, outside) if bulk.is_bulk(path) else flat(cards(path, outside), faults)
+    model.every = bulk.cards(bulk.opened(path, faults, outside)) if bulk.is_bulk(path) else flat(cards(path, outside), faults)
     faults.stop()
     known = [card for card in model.every if _understood(card, model, faults)]
     faults.stop()

@@ -7,6 +7,7 @@ from pathlib import Path
 from mouse_cli._errors import WARNING, DeckError, Diagnostic
 from mouse_cli._span import Span
 from mouse_cli.importing import calculix
+from mouse_cli.importing.bars.run import ImportedBars, bars_of, imported_bars
 from mouse_cli.importing.cards import Card
 from mouse_cli.importing.checks import Checked, begin, check
 from mouse_cli.importing.deck import units, write
@@ -56,11 +57,13 @@ class Imported:
 def imported(
     path: str, target: Path, system: str | None, cached: bool, say: Callable[[str], None], outside: bool = False,
     thickness: tuple[str, ...] = (),
-) -> Imported:  # fmt: skip
+) -> Imported | ImportedBars:  # fmt: skip
     """Makes the deck `target` of the input file `path`; say: told what is going on. Raises DeckError, WrittenError.
 
     outside: the file may include others from outside of its folder. thickness: sets of shells whose thickness is a parameter.
     """
+    if (bars := bars_of(path, outside)) is not None:
+        return imported_bars(bars, path, target, system, thickness)
     model = read(path, outside)
     shells = chosen(model, thickness)
     if not calculix.available():
@@ -80,7 +83,7 @@ def imported(
         remarks.append(
             Diagnostic("MD276", WARNING, f"the units of the job are {text}", Span(path, 1), help="give --units")
         )
-    unit = {"SI": "m", "mm-t-N": "mm"}.get(named, "")
+    unit = {"SI": "m", "mm-t-N": "mm", "in-lbf": "in"}.get(named, "")
     thick = {i: replace(each, unit=unit) for i, each in thick.items()}
     files = write(target, model, found, checked, named, thick, shells)
     return Imported(model, found, checked, files, named, tuple(remarks), thick)

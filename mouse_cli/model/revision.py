@@ -38,23 +38,30 @@ class RevisedSection:
 
 @dataclass(frozen=True)
 class RevisedSpring:
-    """A spring between two directions of nodes, or between one and the ground."""
+    """A spring between two directions of nodes, or between one and the ground; number: of its element, where the deck has one."""
 
     name: str
     ends: tuple[End, ...]
     stiffness: float
     note: str = ""
+    number: int | None = None
 
 
 @dataclass(frozen=True)
 class RevisedMass:
-    """A point mass, with moments of inertia about X, Y and Z."""
+    """A point mass, with moments of inertia about X, Y and Z, and products (xy, xz, yz), about axes through it.
+
+    offset: vector from the node to it. number: of its element, where the deck has one.
+    """
 
     name: str
     node: int
     mass: float
     inertia: tuple[float, float, float] = (0.0, 0.0, 0.0)
     note: str = ""
+    products: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    offset: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    number: int | None = None
 
 
 @dataclass(frozen=True)
@@ -88,10 +95,33 @@ class RevisedSupport:
 
 
 @dataclass(frozen=True)
+class JobSection:
+    """A property of beams in a job: its number, that of its material, mass per length, shares of A that carry shear (0: none)."""
+
+    number: int
+    material: int
+    mass: float = 0.0
+    shear: tuple[float, float] = (0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Job:
+    """What the job calls things that the deck has by name: materials and sections by their names; elements: numbers taken.
+
+    weight: a mass of the deck over the number that stands for it in the job (PARAM,WTMASS).
+    """
+
+    materials: dict[str, int]
+    sections: dict[str, JobSection]
+    elements: frozenset[int]
+    weight: float = 1.0
+
+
+@dataclass(frozen=True)
 class Revision:
     """All of it. title, source, units: of the deck; first: number from which new elements count; unwritten: what has no card.
 
-    sets, supports, thicknesses: what only a whole job can have.
+    sets, supports, thicknesses: what only a whole job can have. job: numbers of the job that the deck was imported from.
     """
 
     title: str
@@ -106,3 +136,4 @@ class Revision:
     thicknesses: tuple[RevisedThickness, ...] = ()
     unwritten: tuple[str, ...] = ()
     first: int = 900001
+    job: Job | None = None

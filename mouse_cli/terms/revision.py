@@ -30,6 +30,7 @@ from mouse_cli.model.revision import (
     Revision,
 )
 from mouse_cli.model.units import UNDECLARED, system
+from mouse_cli.terms.elements.mass import INERTIA, PRODUCTS
 
 Constants = dict[str, tuple[float | None, float | None, float | None]]  # E, nu and density of materials by name
 
@@ -93,7 +94,7 @@ def _of_set(made: Revision, problem: Problem, before: Problem, s: int) -> Revisi
     values, notes = _values(problem, before, s)
     if members.type == "mass":
         return replace(made, masses=made.masses + tuple(_masses(problem, members, values, notes)))
-    if members.type == "spring":
+    if members.type == "spring" and not members.options.get("axes"):
         return replace(made, springs=made.springs + tuple(_springs(problem, members, values, notes)))
     if "E" in values and "A" in values:
         made = replace(made, materials=made.materials + tuple(_materials(made, members, values, notes)))
@@ -147,21 +148,25 @@ def _labelled(problem: Problem, dof: int) -> End | None:
 
 
 def _springs(problem: Problem, members: ElementSet, values: dict, notes: dict) -> Iterator[RevisedSpring]:
+    single = sum(bool(values[d].any()) for d in DIRECTIONS if d in values) == 1
     for direction in DIRECTIONS:
         for e, k in enumerate(values.get(direction, ())):
             ends = tuple(_end(problem, int(node), direction) for node in members.nodes[e])
             if k and None not in ends:
                 note = "; ".join(notes.get(direction, ["as in the deck"]))
-                yield RevisedSpring(f"SPRING_{members.ids[e]}_{direction}", ends, float(k), note)
+                number = int(members.ids[e]) if single else None
+                yield RevisedSpring(f"SPRING_{members.ids[e]}_{direction}", ends, float(k), note, number)
 
 
 def _masses(problem: Problem, members: ElementSet, values: dict, notes: dict) -> Iterator[RevisedMass]:
     for e, mass in enumerate(values["mass"]):
         end = _end(problem, int(members.nodes[e, 0]), "TX")
-        inertia = tuple(float(values.get(key, np.zeros(len(members)))[e]) for key in ("IX", "IY", "IZ"))
+        of = lambda names, e=e: tuple(float(values.get(key, np.zeros(len(members)))[e]) for key in names)
+        offset = tuple(members.options.get("offset") or (0.0, 0.0, 0.0))
         note = "; ".join(note for each in notes.values() for note in each) or "as in the deck"
         if end is not None:
-            yield RevisedMass(f"MASS_{members.ids[e]}", end[0], float(mass), inertia, note)
+            own = f"MASS_{members.ids[e]}", end[0], float(mass), of(INERTIA), note, of(PRODUCTS)
+            yield RevisedMass(*own, offset=offset, number=int(members.ids[e]))
 
 
 def _of_matrices(made: Revision, problem: Problem, before: Problem, j: int, known: Constants) -> Revision:

@@ -93,7 +93,7 @@ STRUCTURES = [  # code, deck, line:column, words
         "5:22",
         "a motion of the degrees of freedom 1, 2 has no mass",
     ),
-    ("MD304", changed(BAR, ("density: 7800", "density: 0")), "3:3", "2TX is 0"),
+    ("MD304", changed(BAR, ("density: 7800", "density: 0"), ("mass: 0.5", "mass: 0")), "3:3", "2TX is 0"),
     ("MD418", LINKAGE, "4:24", "nothing resists a motion of 2TY, 3TY"),
     ("MD421", changed(BAR, (BENT, BENT + ", releases: {1: [TX], 2: [TX]}")), "8:9", "move by themselves"),
     ("MD412", changed(BAR, (BENT, BENT + ", orientation: [1, 0, 0]")), "8:9", "parallel to elements 1, 2"),

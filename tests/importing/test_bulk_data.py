@@ -117,7 +117,7 @@ def test_mid_side_nodes_are_in_the_order_of_the_solver(name, tmp_path):
 
 MORE = BRICKS.replace("ENDDATA\n", "")
 REFUSED = {
-    "a beam": (MORE + "CBAR,9,9,1,2,0.,0.,1.\n", "MD268", "CBAR has no counterpart"),
+    "a beam": (MORE + "CBAR,9,9,1,2,0.,0.,1.\n", "MD268", "stands among shells or solids"),
     "a layered shell": (MORE + "PCOMP,9\n", "MD268", "PCOMP"),
     "a local system that is not there": (MORE.replace("GRID,12,,", "GRID,12,5,"), "MD272", "5 is not defined"),
     "an offset": (MORE + "CQUAD4,9,9,9,10,11,12,,.1\nPSHELL,9,1,.1,1\n", "MD268", "offset"),

@@ -62,17 +62,26 @@ def command(
 
 def _cards(problem, before, program: str, job: str | None, first: int, complete: bool) -> str:
     """The include file, or the complete job. Raises DeckError."""
+    from dataclasses import replace
+
     from mouse_cli._errors import DeckError
     from mouse_cli.formats.solver_cards import programs
+    from mouse_cli.importing.bars.read import bars_of, numbers
     from mouse_cli.importing.read import read
     from mouse_cli.importing.revised import revised_job
     from mouse_cli.terms.revision import revision
 
-    model = read(job, outside()) if job is not None else None
+    bars = bars_of(job, outside()) if job is not None else None
+    model = read(job, outside()) if job is not None and bars is None else None
     found, form = revision(problem, before, _constants(model), first), programs()[program]
+    if bars is not None:
+        found = replace(found, job=numbers(bars))
     if not any((found.materials, found.sections, found.springs, found.masses, found.sets, found.supports)):
         message = f"no parameter of the deck has cards of {program}"
         raise DeckError.of("MD481", message, problem.place("order"), help="see `mouse explain MD481`")
+    if complete and model is None:
+        message, help = "a complete job of bars is not written", "leave --complete out: the cards have the job's numbers"
+        raise DeckError.of("MD483", message, problem.place("order"), help=help)
     if complete:
         return revised_job(model, problem, found, inertia=program == "abaqus")
     for material in found.materials:

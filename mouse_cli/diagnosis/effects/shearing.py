@@ -54,7 +54,7 @@ def rotary(model: Reduced, phi: np.ndarray | None = None) -> np.ndarray:
 def lumped(model: Reduced) -> np.ndarray:
     """Mask (b,) of the bars whose mass is at their ends."""
     sets = model.problem.mesh.elements
-    return np.array([sets[s].options.get("mass") == "lumped" for s in model.bars.set.tolist()])
+    return np.array([sets[s].options.get("mass") in beam.AT_ENDS for s in model.bars.set.tolist()])
 
 
 def _mass(bars: Bars, phi: np.ndarray) -> np.ndarray:

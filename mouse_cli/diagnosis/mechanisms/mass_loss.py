@@ -9,9 +9,10 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
+from mouse_cli.terms.elements.mass import INERTIA, PRODUCTS
 
 _SHARE = Unknown(LOST, "1", 0.02, 0.99)
-_OWN = ("mass", "Jx", "Jy", "Jz")
+_OWN = ("mass", *INERTIA, *PRODUCTS)
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:

@@ -7,7 +7,7 @@ import numpy as np
 from mouse_cli._span import Span
 from mouse_cli.formats.draft import Draft, Entries
 from mouse_cli.formats.rules.entries import finite, inside
-from mouse_cli.model.arrays import Matrix, is_sparse, sparse_symmetric
+from mouse_cli.model.arrays import Matrix, dense, is_sparse, sparse_symmetric
 
 LARGEST_DENSE = 1500  # orders up to this are kept as dense arrays: eigh of the whole matrix is then the fastest way
 _TWICE = 18  # elements given twice that are listed one by one
@@ -91,8 +91,28 @@ def positive_masses(draft: Draft, M: Matrix) -> None:
         )
 
 
-def _definite(draft: Draft, M: Matrix) -> None:
-    """No motion may be without mass though every degree of freedom has one: entries beside the diagonal are then wrong."""
+def carried_masses(draft: Draft, K: Matrix, M: Matrix) -> None:
+    """A structure has mass; what of it has none, as rotations or bars without density, has stiffness and follows statically."""
+    mass, stiffness = M.diagonal(), K.diagonal()
+    massless = mass == 0
+    if massless.all() or (mass < 0).any() or (massless & ~(stiffness > 0)).any():
+        return positive_masses(draft, M)
+    moving = [label for label, none in zip(draft.labels, massless.tolist(), strict=True) if none and label[-2] == "T"]
+    if moving:
+        message = f"{', '.join(moving[:_LISTED])} {'have' if len(moving) > 1 else 'has'} no mass"
+        what = f"{message} ({len(moving)} of {draft.order} degrees of freedom); motion there follows that of the masses statically"
+        draft.warn("MD304", what, draft.where_order, help=_MASSIVE)
+    held = np.flatnonzero(~massless)
+    _definite(draft, M[held][:, held], held, K)
+    return None
+
+
+def _definite(draft: Draft, M: Matrix, held: np.ndarray | None = None, K: Matrix | None = None) -> None:
+    """No motion may be without mass though every degree of freedom has one: entries beside the diagonal are then wrong.
+
+    held (n,): the degrees of freedom that M is of, where not of all. K: of all; with it, motions without mass are allowed, as of
+    a point mass off its node, that have stiffness.
+    """
     if is_sparse(M) or np.count_nonzero(M) == len(M):
         return
     scale = 1 / np.sqrt(M.diagonal())
@@ -102,8 +122,15 @@ def _definite(draft: Draft, M: Matrix) -> None:
     eigenvalues, motions = np.linalg.eigh(scaled)
     if eigenvalues[0] > _SINGULAR * eigenvalues[-1]:
         return
+    if K is not None and eigenvalues[0] > -_SINGULAR * eigenvalues[-1]:
+        free = motions[:, eigenvalues <= _SINGULAR * eigenvalues[-1]] * scale[:, None]
+        resisted = free.T @ dense(K[held][:, held]) @ free
+        size = 1 / np.sqrt(resisted.diagonal())
+        if _pivot(resisted * size[:, None] * size) > _SINGULAR:
+            return
     size = np.abs(motions[:, 0])
     moving = np.flatnonzero(size > 0.3 * size.max())
+    moving = moving if held is None else held[moving]
     names = [draft.labels[i] if draft.labels else str(i + 1) for i in moving[:6]]
     what = "no" if eigenvalues[0] > -_SINGULAR * eigenvalues[-1] else "a negative"
     message = f"a motion of the degrees of freedom {', '.join(names)} has {what} mass: M is not positive definite"

@@ -13,7 +13,7 @@ from mouse_cli.model.held import applied as applied_to
 from mouse_cli.model.structure import ListedElements, Structure
 from mouse_cli.model.term import Term
 
-_CODES = {
+FAULTS = {  # codes of what may be wrong with a mesh
     "Disconnected": "MD410",
     "ZeroLength": "MD411",
     "Unoriented": "MD412",
@@ -58,7 +58,7 @@ def _built(draft: Draft, base: Structure | None) -> Model | None:
         found = built(given.mesh, tuple(given.bindings), base)
     except MeshFault as fault:
         place = mesh_rules.fault_place(given, fault.nodes, fault.elements)
-        return draft.error(_CODES.get(type(fault).__name__, "MD418"), str(fault), place, help=fault.help)
+        return draft.error(FAULTS.get(type(fault).__name__, "MD418"), str(fault), place, help=fault.help)
     for remark in found.remarks:
         if len(remark.nodes) == len(given.mesh.node_ids) and remark.kind == "floating":
             continue  # a structure that is free as a whole is no slip
@@ -84,8 +84,10 @@ def _masses(draft: Draft, structure: Structure, terms: tuple[Term, ...]) -> None
 
 
 def _massive(draft: Draft, K: Matrix, M: Matrix) -> None:
-    """The rule for masses: zero is allowed in matrices of other programs alone."""
-    if draft.M is None or isinstance(draft.M, Entries):
+    """The rule for masses: zero is allowed in matrices of other programs, and in structures where stiffness ties it to masses."""
+    if draft.mesh is not None and draft.M is None:
+        matrices.carried_masses(draft, K, M)
+    elif draft.M is None or isinstance(draft.M, Entries):
         matrices.positive_masses(draft, M)
     else:
         masses(draft, K, M)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from mouse_cli import _registry
-from mouse_cli.model.revision import Revision
+from mouse_cli.model.revision import RevisedMass, Revision
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +31,13 @@ def head(revision: Revision, comment: str) -> Iterator[str]:
     yield f"{comment} units: {revision.units or 'those of the deck'}; new elements count from {revision.first}"
     parts = (part.note for part in (*revision.sets, *revision.supports, *revision.thicknesses))
     yield from (f"{comment} not written: {line}" for line in (*revision.unwritten, *parts))
+
+
+def off_node(mass: RevisedMass, comment: str) -> Iterator[str]:
+    """A line for what only Nastran's card of a point mass has: a vector from its node, products of inertia."""
+    if any(mass.offset) or any(mass.products):
+        off, products = (", ".join(map(number, each)) for each in (mass.offset, mass.products))
+        yield f"{comment} not written: it is off its node by {off}, its products of inertia are {products}"
 
 
 def number(value: float) -> str:

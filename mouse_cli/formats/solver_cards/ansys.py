@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from mouse_cli.formats.solver_cards import SolverFormat, head, number
+from mouse_cli.formats.solver_cards import SolverFormat, head, number, off_node
 from mouse_cli.model.revision import Revision
 
 _TYPES = 900  # element types and real constants of the new elements count from here
@@ -47,6 +47,7 @@ def _points(revision: Revision) -> Iterator[str]:
         number_of += 1
     for mass in revision.masses:
         yield f"! {mass.name}: {mass.note}"
+        yield from off_node(mass, "!")
         values = ",".join(number(v) for v in (mass.mass, mass.mass, mass.mass, *mass.inertia))
         yield from (
             f"ET,{number_of},MASS21",

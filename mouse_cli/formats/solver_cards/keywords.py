@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from mouse_cli.formats.solver_cards import SolverFormat, head, number, tag
+from mouse_cli.formats.solver_cards import SolverFormat, head, number, off_node, tag
 from mouse_cli.model.revision import Revision
 
 _IN_LINE = 8  # numbers of elements
@@ -44,6 +44,7 @@ def _points(revision: Revision, used: set[str], inertia: bool) -> Iterator[str]:
     for mass in revision.masses:
         name = tag(mass.name, used)
         yield f"** {mass.name}: {mass.note}"
+        yield from off_node(mass, "**")
         yield from (
             f"*ELEMENT,TYPE=MASS,ELSET={name}",
             f"{element},{mass.node}",

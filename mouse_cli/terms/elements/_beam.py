@@ -22,6 +22,8 @@ ORIENTATION = {
 }
 OFFSETS = {"offsets": Option("global vectors in m from a node to the end of the element there", None, form=END_VECTORS)}
 RELEASES = {"releases": Option("local directions in which an end carries no load", None, form=END_DIRECTIONS)}
+TRANSLATIONAL = "translational"
+AT_ENDS = ("lumped", TRANSLATIONAL)  # mass matrices with half of a beam at each end
 PLANES = (  # of bending: local degrees of freedom w1, slope1, w2, slope2, and the sense in which they count
     (np.array([1, 5, 7, 11]), np.array([1.0, 1.0, 1.0, 1.0])),
     (np.array([2, 4, 8, 10]), np.array([1.0, -1.0, 1.0, -1.0])),

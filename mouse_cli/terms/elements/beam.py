@@ -73,7 +73,8 @@ def _antisymmetric(length: np.ndarray) -> np.ndarray:
 def _bar(layout: Layout, p: Properties, length: np.ndarray, K: np.ndarray, M: np.ndarray) -> None:
     """Axial motion and torsion."""
     line, polar = _per_length(p) * length, p["density"] * (p["Iy"] + p["Iz"]) * length
-    pattern = (0.5, 0.0) if layout.options.get("mass") == "lumped" else (1 / 3, 1 / 6)
+    pattern = (0.5, 0.0) if layout.options.get("mass") in beam.AT_ENDS else (1 / 3, 1 / 6)
+    polar = 0.0 * polar if layout.options.get("mass") == beam.TRANSLATIONAL else polar
     for dofs, k, m in (((0, 6), p["E"] * p["A"], line), ((3, 9), p["G"] * p["J"], polar)):
         beam.two_ended(K, k / length, dofs, (1.0, -1.0))
         beam.two_ended(M, m, dofs, pattern)
@@ -108,8 +109,9 @@ def _inertia(
     theory = options.get("theory") or "euler-bernoulli"
     turning = options.get("rotary_inertia") or (_INCLUDED if theory == "timoshenko" else _OMITTED)
     line = _per_length(p)
-    if options.get("mass") == "lumped":  # half a bar turning about its end: l^3/24
-        ends = line * length**3 / 24 + (rotary * length / 2 if turning == _INCLUDED else 0.0)
+    if options.get("mass") in beam.AT_ENDS:  # half a bar turning about its end: l^3/24
+        half = 0.0 if options["mass"] == beam.TRANSLATIONAL else 1 / 24
+        ends = half * line * length**3 + (rotary * length / 2 if turning == _INCLUDED else 0.0)
         M = np.zeros((len(layout), 4, 4), ends.dtype)
         M[:, (0, 2), (0, 2)] = (line * length / 2)[:, None]
         M[:, (1, 3), (1, 3)] = ends[:, None]
@@ -191,7 +193,11 @@ ELEMENT = ElementType(
     matrices,
     {
         "theory": Option("how it bends", "euler-bernoulli", ("euler-bernoulli", "timoshenko", "generic")),
-        "mass": Option("mass matrix", "consistent", ("consistent", "lumped")),
+        "mass": Option(
+            "mass matrix; lumped: of half the beam at each end; translational: without its inertia against rotation",
+            "consistent",
+            ("consistent", *beam.AT_ENDS),
+        ),
         "rotary_inertia": Option(
             "inertia of sections that turn in bending; none: included after Timoshenko only",
             None,

@@ -17,6 +17,7 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.dynamics.solver import EigenSolver
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
+from mouse_cli.terms.elements._beam import AT_ENDS
 
 _SMALL, _LARGEST = 600, 20_000  # degrees of freedom of the finer model, about, up to which it is small; is solved
 _TELLING = 0.3  # of a standard deviation
@@ -91,7 +92,7 @@ def halved(problem: Problem) -> Problem:
         for half in (i + 1, i) if (s, i) in cables else ():
             edit.split((s, half), 0.5)
     for s in {s for s, _ in (*every_beam(edit), *cables)}:
-        if edit.sets[s].options.get("mass") == "lumped":
+        if edit.sets[s].options.get("mass") in AT_ENDS:
             edit.option(s, mass="consistent")
     return edit.done()
 
