@@ -14,6 +14,7 @@ from mouse_cli.diagnosis.likelihoods.measured import Measured
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.numerics import numerics
+from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.localise.energy_map import energy_map
 from mouse_cli.diagnosis.localise.force import locate
@@ -201,10 +202,23 @@ def _model(problem: Problem, solver: EigenSolver) -> tuple[Reduced, tuple[str, .
     bare = Model(model).point(model.z)
     if bare is None:
         return model, ()
-    found = numerics(problem, problem.prior.mean, bare.modes, model.data.sd_log, corrects=not problem.frf)
-    still = np.zeros(model.data.has_shape.shape)
-    model = replace(model, finer=found.finer, data=model.data.loosened(found.allowed(model, bare), still))
+    numbers, sd = _looked_at(model, bare)
+    found = numerics(problem, problem.prior.mean, numbers, sd, corrects=not problem.frf)
+    mesh, still = found.allowed(model, bare), np.zeros(model.data.has_shape.shape)
+    model = replace(model, finer=found.finer, mesh=mesh, data=model.data.loosened(mesh[bare.modes], still))
     return replace(model, ties=ties(model)), found.remarks
+
+
+def _looked_at(model: Reduced, bare: Point) -> tuple[np.ndarray, np.ndarray]:
+    """Numbers (n,) from 0 of the modes that were fitted or are held out, and the least sd (n,) of their ln f."""
+    least = dict(zip(bare.modes.tolist(), model.data.sd_log.tolist(), strict=True))
+    held = model.problem.hold_out
+    for test in [] if held is None else [each for each in (held.test, *held.altered) if each is not None]:
+        sd = (test.frequency_sd_hz / test.frequency_hz).tolist()
+        for number, own in zip((test.number - 1).tolist(), sd, strict=True):
+            if number < model.r and own == own:
+                least[number] = min(own, least.get(number, own))
+    return np.array(sorted(least), int), np.array([least[number] for number in sorted(least)])
 
 
 def again(problem: Problem) -> Reduced:

@@ -10,8 +10,6 @@ from mouse_cli.dynamics.frequency import eigenvalue
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.theory import Theory
 
-_ROUNDING = 4.0  # times eps and the size of a matrix: what its factors may err by
-
 
 class Data:
     """m modes at s sensors, q data: ln f of each mode, then its shape, over their standard deviations.
@@ -110,13 +108,13 @@ class Data:
     ) -> np.ndarray:
         """Whitened residual (q,) for shapes `seen` (s, k) of all modes, if each of `modes` (m,) has sd (m, k) of them in it.
 
-        L^-1 (y - a f), L L' = I + |y|^2 / |f|^2 F sd^2 F', for each measured shape y, its mode f and all modes F, over the sd of
+        S^-1/2 (y - a f), S = I + |y|^2 / |f|^2 F sd^2 F', for each measured shape y, its mode f and all modes F, over the sd of
         the data.
         """
-        f, y = (seen[:, modes] * self._w).T, self._y.T
+        f, y, near = (seen[:, modes] * self._w).T, self._y.T, sd.any(axis=0)
         length = np.linalg.norm(y, axis=1) / np.maximum(np.linalg.norm(f, axis=1), 1e-300)
-        F = self._w.T[:, :, None] * seen * (length[:, None] * sd)[:, None]
-        f, y = np.moveaxis(np.linalg.solve(root(F), np.stack([f, y], axis=2)), 2, 0)
+        F = self._w.T[:, :, None] * seen[:, near] * (length[:, None] * sd[:, near])[:, None]
+        f, y = np.moveaxis(whitened(F, np.stack([f, y], axis=2)), 2, 0)
         return self._left(eigenvalues[modes], f.T, y.T)[0]
 
     def _left(self, eigenvalues: np.ndarray, f: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -148,10 +146,15 @@ class Data:
         return np.concatenate([of_frequencies[self.has_frequency], of_shapes[self.has_shape]])
 
 
-def root(wide: np.ndarray) -> np.ndarray:
-    """L (..., q, q) with L L' = I + A A', for A (..., q, c) = `wide`; where rounding of A A' is more than 1, that is as large."""
-    S = wide @ np.swapaxes(wide, -1, -2)
-    q = S.shape[-1]
-    S[..., range(q), range(q)] *= 1 + _ROUNDING * q * np.finfo(float).eps
-    S[..., range(q), range(q)] += 1.0
-    return np.linalg.cholesky(S)
+def whitened(wide: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """(I + A A')^-1/2 times values (..., q, n), for A (..., q, c) = `wide`, by the smaller of A'A and A A'.
+
+    I - A h(A'A) A', h(x) = 1 / (sqrt(1 + x) (1 + sqrt(1 + x))), which vanish together.
+    """
+    wide_t = np.swapaxes(wide, -1, -2)
+    if wide.shape[-1] >= wide.shape[-2]:
+        x, U = np.linalg.eigh(wide @ wide_t)
+        return U @ ((np.swapaxes(U, -1, -2) @ values) / np.sqrt(1 + np.maximum(x, 0.0))[..., None])
+    x, U = np.linalg.eigh(wide_t @ wide)
+    B, length = wide @ U, np.sqrt(1 + np.maximum(x, 0.0))
+    return values - B @ ((np.swapaxes(B, -1, -2) @ values) / (length * (1 + length))[..., None])

@@ -39,6 +39,7 @@ class Reduced:
     sensing (s, r); V (n, r); data: the test. places: degrees of freedom (from 0) at which a force is exact, of a large model;
     None: everywhere. ties: pairs of places that are worth looking at, and sizes, see `localise/ties.py`; None: no look was taken.
     static: what a large model does statically in all degrees of freedom. finer: by what its mesh is corrected; None: it is not.
+    mesh (n,): sd of ln f that this leaves, by number of the mode; of modes beyond, none is known.
     """
 
     problem: Problem
@@ -57,6 +58,7 @@ class Reduced:
     ties: dict[tuple[int, int, int], float] | None = None
     static: Static | None = None
     finer: Finer | None = None
+    mesh: np.ndarray = field(default_factory=lambda: np.zeros(0), compare=False)
     built_once: dict = field(default_factory=dict, repr=False, compare=False)
 
     @property
@@ -243,7 +245,7 @@ class Reduced:
         if self.V.shape[0] <= WHOLE:
             matrices = self.assembly.matrices(theta)
             there = exact(self.problem, self.assembly, *matrices, theta)
-            return replace(there, data=self.data, ties=self.ties, finer=self.finer, built_once=self.built_once)
+            return replace(there, data=self.data, ties=self.ties, finer=self.finer, mesh=self.mesh, built_once=self.built_once)
         return replace(self, theta=theta, origin=self.theta if self.origin is None else self.origin)
 
     def without(self, keep_modes: np.ndarray) -> "Reduced":
@@ -252,7 +254,12 @@ class Reduced:
 
     def with_test(self, test: ModalTest, beside: ModalTest | None = None) -> "Reduced":
         """The same model for another test of the same sensors, some modes of which are known to be others; see `Data`."""
-        return replace(self, data=Data(test, self.problem.theory, beside))
+        data, known = Data(test, self.problem.theory, beside), test.number <= len(self.mesh)
+        if known.any():
+            left = np.zeros(test.m)
+            left[known] = self.mesh[test.number[known] - 1]
+            data = data.loosened(left, np.zeros(data.has_shape.shape))
+        return replace(self, data=data)
 
     def left_out(self, i: int) -> "Reduced":
         """The same model for measured mode i alone, which is none of the others."""

@@ -8,8 +8,8 @@ element beside the diagonal has half the variance of one on it (Mehta, Random Ma
 
 and is even over the circle where both are one: of a double mode only the plane is known. Each pair has one angle, for shapes stay
 orthogonal. The angles t of all close pairs, shapes turned by R = (I - T/2)^-1 (I + T/2), T skew with t (Cayley), are fitted at each
-prediction, |r|^2 + t'P t -> min with P = 1 / sd^2, and integrated. With J = dr/dt there, |L^-1 (r + J t)|^2 is left,
-L L' = I + J P^-1 J', and the density is lower by 1/2 ln |I + J (P + c)^-1 J'|: sqrt(c / 2 pi) = 1 / pi is that of an angle that may
+prediction, |r|^2 + t'P t -> min with P = 1 / sd^2, and integrated. With J = dr/dt there, |S^-1/2 (r + J t)|^2 is left,
+S = I + J P^-1 J', and the density is lower by 1/2 ln |I + J (P + c)^-1 J'|: sqrt(c / 2 pi) = 1 / pi is that of an angle that may
 be any.
 """
 
@@ -18,7 +18,7 @@ from functools import cached_property
 
 import numpy as np
 
-from mouse_cli.diagnosis.likelihoods.modal.data import Data, root
+from mouse_cli.diagnosis.likelihoods.modal.data import Data, whitened
 
 _COVERED = 0.02  # angle up to which `theory.shape` allows for it, and what a test states
 _SLIGHT = 0.1  # sd of an angle up to which shapes follow it in proportion: to half a percent
@@ -43,11 +43,6 @@ class Turn:
     slopes: np.ndarray = field(repr=False)
 
     @cached_property
-    def root(self) -> np.ndarray:
-        """L (q, q), of the whitened data's uncertainty by the angles."""
-        return root(self.slopes / np.sqrt(self.weights))
-
-    @cached_property
     def nats(self) -> float:
         """By what the density is lower for the angles."""
         known = self.slopes / np.sqrt(self.weights + _EVEN)
@@ -60,10 +55,9 @@ class Turn:
         return float((_EVEN / (self.weights + _EVEN))[self.slopes.any(axis=0)].sum())
 
     def whitened(self, values: np.ndarray) -> np.ndarray:
-        """L^-1 times values (q, ...)."""
-        from scipy.linalg import solve_triangular
-
-        return solve_triangular(self.root, values, lower=True, check_finite=False)
+        """S^-1/2 times values (q,) or (q, n), S of the whitened data's uncertainty by the angles."""
+        wide = self.slopes / np.sqrt(self.weights)
+        return whitened(wide, values[:, None])[:, 0] if values.ndim == 1 else whitened(wide, values)
 
     def left(self, residual: np.ndarray) -> np.ndarray:
         """What is left of the residual (q,) of the shapes as they are turned, for the angles with their prior."""
