@@ -267,16 +267,21 @@ def test_a_sound_building_of_a_run_has_its_parameters_back(tmp_path):
 
 
 @pytest.mark.proof
-def test_added_mass_is_named_at_its_floor(tmp_path):
-    heavier = M + np.array([0, 25.0, 0])
-    ag, _, floors, _ = absolute(heavier, damping(heavier, chain(K)), chain(K), np.ones(3))
+@pytest.mark.parametrize(("more", "physics"), [(25.0, "mass"), (-22.5, "mass-loss")])
+def test_mass_that_was_added_or_removed_is_named_at_its_floor(tmp_path, more, physics):
+    other = M + np.array([0, more, 0])
+    ag, _, floors, _ = absolute(other, damping(other, chain(K)), chain(K), np.ones(3))
     said = verdict(deck(tmp_path, ag, floors))
-    assert (said["kind"], said["physics"], said["site"]["ids"]) == ("named", "mass", [2])
+    assert (said["kind"], said["physics"], said["site"]["ids"]) == ("named", physics, [2])
 
 
 @pytest.mark.parametrize(
     ("more", "left", "law", "sign", "ids", "size"),
-    [([25.0, 0, 0], [1, 1, 1], "mass", 1.0, [1], 25.0), ([0, 0, 0], [1, 1, 0.8], "spring", -1.0, [2, 3], 0.2 * K[2])],
+    [
+        ([25.0, 0, 0], [1, 1, 1], "mass", 1.0, [1], 25.0),
+        ([0, -22.5, 0], [1, 1, 1], "mass-loss", 1.0, [2], 22.5),
+        ([0, 0, 0], [1, 1, 0.8], "spring", -1.0, [2, 3], 0.2 * K[2]),
+    ],
 )
 def test_what_a_parameter_is_pushed_to_do_is_tried_as_a_law(tmp_path, more, left, law, sign, ids, size):
     """A parameter of the deck does the same at many prior sd, so that a first look sees nothing; the law begins with its size."""

@@ -171,9 +171,10 @@ class Polish:
         return x
 
     def _stands(self, x: np.ndarray) -> bool:
-        """Whether the linear part has no negative stiffness: more lost than there is, and every motion would grow."""
-        K = self.h.plant(x[None], self.series).K[0]
-        return bool(np.linalg.eigvalsh(K)[0] >= -_ROUNDED * np.abs(np.diag(K)).max())
+        """Whether the linear part has inertia and no negative stiffness: more lost than there is, and every motion would grow."""
+        plant = self.h.plant(x[None], self.series)
+        inertia, stiffness = (float(np.linalg.eigvalsh(one[0])[0]) for one in (plant.M, plant.K))
+        return inertia > 0 and stiffness >= -_ROUNDED * np.abs(plant.K).max()
 
     @np.errstate(over="ignore", invalid="ignore")  # simulations may diverge; they are given up by their cost
     def _point(self, x: np.ndarray, states: np.ndarray) -> _Point:
