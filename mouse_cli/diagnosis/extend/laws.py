@@ -38,7 +38,8 @@ def with_linear(problem: Problem, part: Part, p: np.ndarray) -> Problem | None:
     What is lost is a negative spring or, in a model of matrices, a negative mass. Where damping is assumed, as a deck has none, a
     dashpot would be all of it.
     """
-    law, labels, bare = part.law.key, part.place.site.ids, problem.structure.C is None
+    law, labels = part.law.key, part.place.site.ids
+    bare = problem.structure.C is None and problem.modal_damping is None
     if of_matrices(problem) and bare and law in ("dashpot", "oscillator"):
         return None
     numbers = [int(re.match(r"\d+", label)[0]) for label in labels if not of_matrices(problem)]

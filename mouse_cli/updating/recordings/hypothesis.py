@@ -9,6 +9,7 @@ from mouse_cli.terms.laws import Law, Unknown
 from mouse_cli.updating.recordings.acting import Acting, Part, Place
 from mouse_cli.updating.recordings.calibration import KNOWN, Calibration
 from mouse_cli.updating.recordings.channels import Read, read
+from mouse_cli.updating.recordings.damping import followed
 from mouse_cli.updating.recordings.linear import Linear
 from mouse_cli.updating.recordings.series import Series
 
@@ -150,7 +151,7 @@ class Hypothesis:
         local = np.zeros((m + a, len(motions)))
         local[:m] = np.array(motions).reshape(-1, m).T
         if any(one.law.linear for one in (*self.known, *self.parts)):
-            M, C, K = self._with_matrices(many, M, C, K)
+            M, C, K = self._damped(x, (M, K), self._with_matrices(many, M, C, K))
         sensing = np.pad(series.sensing, ((0, 0), (0, a)))
         own = [np.repeat(part.place.B[None] @ series.base, part.extra, 0) for part in self.parts]
         driven = replace(
@@ -181,6 +182,16 @@ class Hypothesis:
                 for whole, own in zip((K, C, M), part.matrices(p), strict=True):
                     whole[i] += B @ own @ B.T
         return M, C, K
+
+    def _damped(self, x: np.ndarray, bare: tuple[np.ndarray, np.ndarray], whole: tuple[np.ndarray, ...]):
+        """M, C, K `whole` with the damping by modes of M, K `bare` at x (P, k) as that of the modes with linear laws.
+
+        A law with degrees of freedom of its own has damping of its own too, and leaves it as it is.
+        """
+        M, C, K = whole
+        if self.linear.by_modes is None or self.extra:
+            return whole
+        return M, C + followed(self.linear.by_modes(x[:, : self.linear.k]), bare[::-1], (K, M)), K
 
     def padded_states(self, states: np.ndarray) -> np.ndarray:
         """Displacements and velocities (2n, ...) with those of the laws' own degrees of freedom, like those of their places."""
