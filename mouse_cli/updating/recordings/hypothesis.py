@@ -119,14 +119,13 @@ class Hypothesis:
             return None
         shaped = [one.p if one.p.ndim > 1 else one.p[:, None, None, None] for one in every]
 
+        along = [one.law.along(p, one.words) for one, p in zip(every, shaped, strict=True)]
+
         def forces(x: np.ndarray, v: np.ndarray, z: list):
             if len(every) == 1:
-                F, after = every[0].law.force(x, v, z[0], shaped[0], **every[0].words)
+                F, after = along[0](x, v, z[0])
                 return F, [after]
-            found = [
-                one.law.force(x[:, i : i + 1], v[:, i : i + 1], z[i], p, **one.words)
-                for i, (one, p) in enumerate(zip(every, shaped, strict=True))
-            ]
+            found = [force(x[:, i : i + 1], v[:, i : i + 1], z[i]) for i, force in enumerate(along)]
             return np.concatenate([F for F, _ in found], axis=1), [after for _, after in found]
 
         def implicit(one: Acting, p: np.ndarray):
