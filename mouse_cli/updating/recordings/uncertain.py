@@ -113,7 +113,7 @@ def uncertain(problem: Problem, highest_hz: float, at: np.ndarray) -> Uncertain:
 
 def completed(
     problem: Problem, own: Own, names: list[str], bare: bool, steady: bool, labels: tuple[str, ...], by_modes: np.ndarray
-) -> tuple[Linear, tuple[str, ...]]:
+) -> tuple[Linear, tuple[str, ...]]:  # fmt: skip
     """The linear model whose named nuisances z (k,) make M, C, K = own(z), and what they do not reach; what to say of it.
 
     bare: its damping is assumed; steady: own is linear in z; labels: of its degrees of freedom; by_modes (n, n): what of C is.
