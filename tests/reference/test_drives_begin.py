@@ -12,7 +12,7 @@ import mouse_cli
 from benchmarks.blind.drives.decks import write
 from benchmarks.blind.drives.draws import cases
 from mouse_cli.cli.main import cli
-from mouse_cli.diagnosis.likelihoods.history.search import anew
+from mouse_cli.diagnosis.likelihoods.history.search import begun_again
 from mouse_cli.terms.laws import registry
 from mouse_cli.updating.recordings.records import records
 from mouse_cli.updating.recordings.study import begin, fitted, study
@@ -37,7 +37,7 @@ def test_no_stretch_begins_at_a_place_that_its_prior_does_not_know(tmp_path):
     assert np.abs(kept).max() < 1e-9
 
 
-def test_a_law_that_leaves_too_much_is_begun_anew_from_the_mean_of_all_nuisances(tmp_path):
+def test_a_law_that_leaves_too_much_is_begun_again_from_the_mean_of_all_nuisances(tmp_path):
     """Friction at the second mass; dampings that act alike stand many sd apart in the first look."""
     case = cases(98803, 6, 0)[2]
     own = study(*(lambda problem: (problem, records(problem)))(mouse_cli.read_deck(str(write(tmp_path, case)))))
@@ -46,7 +46,7 @@ def test_a_law_that_leaves_too_much_is_begun_anew_from_the_mean_of_all_nuisances
     h = start.hypothesis
     assert np.abs(start.x[: h.nuisances]).max() > 5
     first = fitted(own, start)
-    (mean, beat), (ended, _) = (one for one, _ in zip(anew(own, first), range(2), strict=False))
+    (mean, beat), (ended, _) = (one for one, _ in zip(begun_again(own, first), range(2), strict=False))
     assert not mean.x[: h.nuisances].any() and mean.x[-1] == first.x[-1] and beat == np.inf
     assert (ended.x == first.x).all()
     again = fitted(own, mean)

@@ -207,9 +207,9 @@ def _other(study: Study, pair: Fit, tried: list[tuple[str, str]]) -> Fit | None:
 
 
 def _again(study: Study, best: Fit) -> list[Fit]:
-    """The law that comes nearest, begun anew until one is adequate: see `anew`."""
+    """The law that comes nearest, begun again until one is adequate: see `begun_again`."""
     found: list[Fit] = []
-    for start, beat in () if best.hypothesis.law is None else anew(study, best):
+    for start, beat in () if best.hypothesis.law is None else begun_again(study, best):
         one = fitted(study, start, beat)
         found += [] if one is None else [one]
         if one is not None and adequate(one):
@@ -217,7 +217,7 @@ def _again(study: Study, best: Fit) -> list[Fit]:
     return found
 
 
-def anew(study: Study, best: Fit) -> Iterator[tuple[Start, float]]:
+def begun_again(study: Study, best: Fit) -> Iterator[tuple[Start, float]]:
     """Starts of a law that was fitted, with the cost that they have to beat: its sizes with nuisances at their mean, where it
     ended, then other sizes.
 
