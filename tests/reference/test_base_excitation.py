@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from scipy.linalg import eigh
 
 from mouse_cli._errors import DeckError
 from mouse_cli.cli.main import cli
@@ -320,6 +321,11 @@ def test_modal_damping_follows_the_modes_of_the_altered_structure(tmp_path, law,
     h = own.base.placed(next(one for one in own.places if one.ground and one.B[1])).at(registry()[law], 0)
     x = np.append(np.zeros(h.nuisances), np.log(size))
     np.testing.assert_allclose(h.plant(x[None], own.look).C[0], damping(other, chain(K), 0.01), rtol=1e-9, atol=1e-9)
+    z = np.zeros((1, own.base.nuisances))
+    z[0, h.names.index("m2")] = (other - M)[1] / (0.01 * M[1])  # a parameter that does the same to masses: by its modes too
+    X = eigh(chain(K), np.diag(other))[1]
+    by_modes = X.T @ own.base.plant(z, own.look).C[0] @ X
+    np.testing.assert_allclose(by_modes, np.diag(np.diag(by_modes)), atol=1e-9)
     ag, _, floors, _ = absolute(M, damping(M, chain(K)), chain(K), np.ones(3))
     assert fitted(own, Start(h, x, 0.0)).misfit < 1.05 * fitted(opened(deck(tmp_path, ag, floors)), None).misfit
 

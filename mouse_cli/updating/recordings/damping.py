@@ -30,8 +30,9 @@ def structural(K: np.ndarray, M: np.ndarray, D: np.ndarray) -> np.ndarray:
 
 
 def followed(C: np.ndarray, before: tuple[np.ndarray, np.ndarray], after: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
-    """What C (P, n, n) by the modes of K, M (P, n, n) `before` changes by where they are those of `after`: ratios stay.
+    """What C (P, n, n), by modes, changes by where they are those of K, M (P, n, n) `after`: ratios are those of modes `before`.
 
+    Parameters of the deck move modes as laws do: where damping told a mass of either from the other, they shared one falsely.
     Nothing where a matrix of masses is not that of a structure: no motion of it will stay finite.
     """
     found = np.zeros_like(C)
@@ -41,7 +42,7 @@ def followed(C: np.ndarray, before: tuple[np.ndarray, np.ndarray], after: tuple[
     w, L, Q = _modes(*(one[own] for one in before))
     X = np.linalg.solve(L.swapaxes(-1, -2), Q)
     ratio = np.einsum("pij,pik,pkj->pj", X, C[own], X) / (2 * w)
-    found[own] = _damping(ratio, *_modes(*(one[own] for one in after))) - _damping(ratio, w, L, Q)
+    found[own] = _damping(ratio, *_modes(*(one[own] for one in after))) - C[own]
     return found
 
 

@@ -149,8 +149,10 @@ class Hypothesis:
         ]
         local = np.zeros((m + a, len(motions)))
         local[:m] = np.array(motions).reshape(-1, m).T
+        bare = M, C, K
         if any(one.law.linear for one in (*self.known, *self.parts)):
-            M, C, K = self._damped(x, (M, K), self._with_matrices(many, M, C, K))
+            M, C, K = self._with_matrices(many, M, C, K)
+        C = self._damped(x, bare, (M, C, K))
         sensing = np.pad(series.sensing, ((0, 0), (0, a)))
         own = [np.repeat(part.place.B[None] @ series.base, part.extra, 0) for part in self.parts]
         driven = replace(
@@ -182,15 +184,17 @@ class Hypothesis:
                     whole[i] += B @ own @ B.T
         return M, C, K
 
-    def _damped(self, x: np.ndarray, bare: tuple[np.ndarray, np.ndarray], whole: tuple[np.ndarray, ...]):
-        """M, C, K `whole` with the damping by modes of M, K `bare` at x (P, k) as that of the modes with linear laws.
+    def _damped(self, x: np.ndarray, bare: tuple[np.ndarray, ...], whole: tuple[np.ndarray, ...]) -> np.ndarray:
+        """C (P, m + a, m + a) of M, C, K `whole`, at x (P, k): damping by modes is that of the modes with linear laws, which `bare`
+        does not have.
 
-        A law with degrees of freedom of its own has damping of its own too, and leaves it as it is.
+        A law with degrees of freedom of its own has damping of its own too, and leaves that of the others.
         """
-        M, C, K = whole
-        if self.linear.by_modes is None or self.extra:
-            return whole
-        return M, C + followed(self.linear.by_modes(x[:, : self.linear.k]), bare[::-1], (K, M)), K
+        (M, _, K), C, m = bare, whole[1].copy(), bare[0].shape[1]
+        if self.linear.by_modes is not None:
+            after = (K, M) if self.extra else (whole[2], whole[0])
+            C[:, :m, :m] += followed(self.linear.by_modes(x[:, : self.linear.k]), (K, M), after)
+        return C
 
     def padded_states(self, states: np.ndarray) -> np.ndarray:
         """Displacements and velocities (2n, ...) with those of the laws' own degrees of freedom, like those of their places."""
