@@ -1,10 +1,13 @@
 """What every law of a local force must keep, and what single ones are known for."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from mouse_cli.terms.laws import Scale, registry
 from mouse_cli.terms.laws.iwan import sliders
+from mouse_cli.updating.recordings.law_forces import stepped
 
 SCALE = Scale(1e5, 1.0, 2e-3, 0.4, (5.0, 100.0), link=1e5)
 LAWS = list(registry().values())
@@ -100,3 +103,12 @@ def test_friction_that_is_not_seen_to_slip_is_a_spring():
     friction = registry()["friction"]
     assert friction.seen_as(np.array([0.001, 3.0])) == registry()["spring"].group
     assert friction.seen_as(np.array([0.001, 0.1])) == "friction"
+
+
+@pytest.mark.parametrize("law", [law for law in NONLINEAR if law.states], ids=key)
+def test_what_depends_on_parameters_alone_is_found_once_for_all_steps(law):
+    calls, x = [], 4e-3 * np.sin(np.linspace(0, 12, 300))
+    counted = replace(law, prepare=lambda p: calls.append(p) or (law.prepare or (lambda p: p))(p))
+    found = stepped(counted, x, np.gradient(x), middle(law)[:, None], {})
+    assert len(calls) == 1
+    np.testing.assert_allclose(found[:, 0], np.ravel(along(law, middle(law), x, {})), rtol=1e-12)

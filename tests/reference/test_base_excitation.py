@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from scipy.linalg import eigh
 
 from mouse_cli._errors import DeckError
 from mouse_cli.cli.main import cli
@@ -16,6 +17,7 @@ from mouse_cli.terms.laws import registry
 from mouse_cli.updating.recordings.ground import derivative
 from mouse_cli.updating.recordings.pushed import pushed
 from mouse_cli.updating.recordings.records import records
+from mouse_cli.updating.recordings.regression import Start
 from mouse_cli.updating.recordings.segments import Segments
 from mouse_cli.updating.recordings.series import REACH
 from mouse_cli.updating.recordings.study import fitted, study
@@ -267,16 +269,21 @@ def test_a_sound_building_of_a_run_has_its_parameters_back(tmp_path):
 
 
 @pytest.mark.proof
-def test_added_mass_is_named_at_its_floor(tmp_path):
-    heavier = M + np.array([0, 25.0, 0])
-    ag, _, floors, _ = absolute(heavier, damping(heavier, chain(K)), chain(K), np.ones(3))
+@pytest.mark.parametrize(("more", "physics"), [(25.0, "mass"), (-22.5, "mass-loss")])
+def test_mass_that_was_added_or_removed_is_named_at_its_floor(tmp_path, more, physics):
+    other = M + np.array([0, more, 0])
+    ag, _, floors, _ = absolute(other, damping(other, chain(K)), chain(K), np.ones(3))
     said = verdict(deck(tmp_path, ag, floors))
-    assert (said["kind"], said["physics"], said["site"]["ids"]) == ("named", "mass", [2])
+    assert (said["kind"], said["physics"], said["site"]["ids"]) == ("named", physics, [2])
 
 
 @pytest.mark.parametrize(
     ("more", "left", "law", "sign", "ids", "size"),
-    [([25.0, 0, 0], [1, 1, 1], "mass", 1.0, [1], 25.0), ([0, 0, 0], [1, 1, 0.8], "spring", -1.0, [2, 3], 0.2 * K[2])],
+    [
+        ([25.0, 0, 0], [1, 1, 1], "mass", 1.0, [1], 25.0),
+        ([0, -22.5, 0], [1, 1, 1], "mass-loss", 1.0, [2], 22.5),
+        ([0, 0, 0], [1, 1, 0.8], "spring", -1.0, [2, 3], 0.2 * K[2]),
+    ],
 )
 def test_what_a_parameter_is_pushed_to_do_is_tried_as_a_law(tmp_path, more, left, law, sign, ids, size):
     """A parameter of the deck does the same at many prior sd, so that a first look sees nothing; the law begins with its size."""
@@ -290,6 +297,37 @@ def test_what_a_parameter_is_pushed_to_do_is_tried_as_a_law(tmp_path, more, left
     assert 0.5 * size < np.exp(first.x[-1]) < 1.3 * size  # what all masses and stiffnesses share, no record knows
     assert np.abs(first.x[: own.base.linear.k]).max() < np.abs(baseline.x).max()
     assert pushed(fitted(own, first), own.places, None) == []
+
+
+def opened(path):
+    problem = read_deck(path)
+    return study(problem, records(problem))
+
+
+def test_modal_damping_of_a_deck_counts(tmp_path):
+    path = sound(tmp_path)
+    path.write_text(path.read_text().replace("parameters:", "modal_damping: {ratio: [0.03, 0.01]}\nparameters:"))
+    model = opened(path).model
+    np.testing.assert_allclose(model.linear.C, damping(M, chain(K), np.array([0.03, 0.01, 0.01])), atol=1e-9)
+    assert not model.bare and not any("no damping" in one for one in model.remarks)
+
+
+@pytest.mark.parametrize(("law", "size"), [("mass", 60.0), ("mass-loss", 40.0)])
+def test_modal_damping_follows_the_modes_of_the_altered_structure(tmp_path, law, size):
+    """Ratios are those of modes that are there: by those of the deck's model a mass of 60 kg left 1.3 times the noise."""
+    other = M + np.array([0, size if law == "mass" else -size, 0])
+    ag, _, floors, _ = absolute(other, damping(other, chain(K)), chain(K), np.ones(3))
+    own = opened(deck(tmp_path, ag, floors))
+    h = own.base.placed(next(one for one in own.places if one.ground and one.B[1])).at(registry()[law], 0)
+    x = np.append(np.zeros(h.nuisances), np.log(size))
+    np.testing.assert_allclose(h.plant(x[None], own.look).C[0], damping(other, chain(K), 0.01), rtol=1e-9, atol=1e-9)
+    z = np.zeros((1, own.base.nuisances))
+    z[0, h.names.index("m2")] = (other - M)[1] / (0.01 * M[1])  # a parameter that does the same to masses: by its modes too
+    X = eigh(chain(K), np.diag(other))[1]
+    by_modes = X.T @ own.base.plant(z, own.look).C[0] @ X
+    np.testing.assert_allclose(by_modes, np.diag(np.diag(by_modes)), atol=1e-9)
+    ag, _, floors, _ = absolute(M, damping(M, chain(K)), chain(K), np.ones(3))
+    assert fitted(own, Start(h, x, 0.0)).misfit < 1.05 * fitted(opened(deck(tmp_path, ag, floors)), None).misfit
 
 
 def test_functions_of_a_moving_ground_are_refused_with_the_way_out(tmp_path):

@@ -2,13 +2,20 @@
 channel shows.
 """
 
+import json
+
 import numpy as np
+import pytest
+from click.testing import CliRunner
 
 import mouse_cli
 from benchmarks.blind.drives.decks import write
 from benchmarks.blind.drives.draws import cases
+from mouse_cli.cli.main import cli
+from mouse_cli.diagnosis.likelihoods.history.search import begun_again
+from mouse_cli.terms.laws import registry
 from mouse_cli.updating.recordings.records import records
-from mouse_cli.updating.recordings.study import begin, study
+from mouse_cli.updating.recordings.study import begin, fitted, study
 
 
 def test_a_shaft_that_friction_shakes_is_followed_far_above_the_band_of_the_force(tmp_path):
@@ -28,3 +35,28 @@ def test_no_stretch_begins_at_a_place_that_its_prior_does_not_know(tmp_path):
     assert (np.abs(states) < 5 * look.spread[:, None]).all()
     kept = states[1] - states[0] - (look.states(own.data[0].starts - 12)[1] - look.states(own.data[0].starts - 12)[0])
     assert np.abs(kept).max() < 1e-9
+
+
+def test_a_law_that_leaves_too_much_is_begun_again_from_the_mean_of_all_nuisances(tmp_path):
+    """Friction at the second mass; dampings that act alike stand many sd apart in the first look."""
+    case = cases(98803, 6, 0)[2]
+    own = study(*(lambda problem: (problem, records(problem)))(mouse_cli.read_deck(str(write(tmp_path, case)))))
+    place = next(one for one in own.places if one.site.ids == ("2TX",))
+    start = own.at(place).best(registry()["coulomb"], 0)
+    h = start.hypothesis
+    assert np.abs(start.x[: h.nuisances]).max() > 5
+    first = fitted(own, start)
+    (mean, beat), (ended, _) = (one for one, _ in zip(begun_again(own, first), range(2), strict=False))
+    assert not mean.x[: h.nuisances].any() and mean.x[-1] == first.x[-1] and beat == np.inf
+    assert (ended.x == first.x).all()
+    again = fitted(own, mean)
+    assert again.misfit < 0.5 * first.misfit
+    assert np.exp(again.x[-1]) == pytest.approx(case.drive.friction, rel=2e-3)
+
+
+@pytest.mark.proof
+def test_friction_alone_is_named_where_a_fit_runs_out_of_steps(tmp_path):
+    """It was friction at both masses, 2 % of it at the wrong one, probability > 0.999."""
+    deck = str(write(tmp_path, cases(98803, 6, 0)[2]))
+    found = json.loads(CliRunner().invoke(cli, ["diagnose", deck, "--json", "-q"]).stdout)["verdict"]
+    assert (found["kind"], found["group"], found["site"]["ids"]) == ("named", "friction", ["2TX"])

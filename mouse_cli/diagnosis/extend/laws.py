@@ -7,7 +7,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.extend.deck import in_its_units
 from mouse_cli.diagnosis.extend.matrices import of_matrices
-from mouse_cli.diagnosis.extend.points import Ends, add_dashpot, add_mass, add_oscillator, add_spring
+from mouse_cli.diagnosis.extend.points import Ends, add_dashpot, add_mass, add_oscillator, add_spring, remove_mass
 from mouse_cli.diagnosis.extend.renumbered import moved_channels
 from mouse_cli.model.local_law import LocalLaw
 from mouse_cli.model.problem import Problem
@@ -35,9 +35,11 @@ def extended(problem: Problem, best: Fit) -> Problem | None:
 def with_linear(problem: Problem, part: Part, p: np.ndarray) -> Problem | None:
     """The deck with a linear law at its place, of parameters p (q,); None where the deck cannot hold it.
 
-    What is lost is a negative spring. Where damping is assumed, as a deck has none, a dashpot would be all of it.
+    What is lost is a negative spring or, in a model of matrices, a negative mass. Where damping is assumed, as a deck has none, a
+    dashpot would be all of it.
     """
-    law, labels, bare = part.law.key, part.place.site.ids, problem.structure.C is None
+    law, labels = part.law.key, part.place.site.ids
+    bare = problem.structure.C is None and problem.modal_damping is None
     if of_matrices(problem) and bare and law in ("dashpot", "oscillator"):
         return None
     numbers = [int(re.match(r"\d+", label)[0]) for label in labels if not of_matrices(problem)]
@@ -50,12 +52,14 @@ def with_linear(problem: Problem, part: Part, p: np.ndarray) -> Problem | None:
         deck = add_dashpot(problem, ends, f"dashpot at {at}", p[0])
     elif law == "mass":
         deck = add_mass(problem, dofs, lambda edit: edit.index(numbers[0]), f"mass at {at}", p[0])
+    elif law == "mass-loss":
+        deck = remove_mass(problem, dofs, lambda edit: edit.index(numbers[0]), f"mass lost at {at}", p[0])
     else:
         w = 2 * np.pi * p[1]  # k = m w^2, c = 2 zeta m w
         names = f"hidden mass at {at}", f"spring of the hidden mass at {at}"
         deck = add_oscillator(problem, ends, names, p[0], float(p[0] * w**2), float(2 * p[2] * p[0] * w))
     held = problem.held_records
-    if held is None or of_matrices(problem):
+    if deck is None or held is None or of_matrices(problem):
         return deck
     to = np.array([deck.structure.labels.index(label) for label in problem.structure.labels])
     return replace(

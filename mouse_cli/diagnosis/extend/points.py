@@ -54,11 +54,32 @@ def add_dashpot(problem: Problem, ends: Ends, name: str, c: float) -> Problem:
 def add_mass(problem: Problem, dofs: tuple[int, ...], node: Callable[[Edit], int], name: str, m: float) -> Problem:
     """A mass m (kg) at degrees of freedom of a model of matrices, or at a node of a mesh."""
     if of_matrices(problem):
-        at = np.array(dofs)
-        return with_entries(problem, found(name, m, "kg"), M=(at, at, np.ones(len(at))))
+        return with_entries(problem, found(name, m, "kg"), M=_diagonal(dofs, 1.0))
     edit = Edit(problem)
     edit.bind(name, edit.add("mass", [[node(edit)]], {"mass": m}), ("mass",), unit="kg")
     return edit.done()
+
+
+def remove_mass(
+    problem: Problem, dofs: tuple[int, ...], node: Callable[[Edit], int], name: str, m: float
+) -> Problem | None:
+    """The same mass lost; of a mesh by the point masses of the node, None where they are not so heavy."""
+    if of_matrices(problem):
+        return with_entries(problem, found(name, m, "kg"), M=_diagonal(dofs, -1.0))
+    edit = Edit(problem)
+    at = node(edit)
+    heavy = [(s, i) for s, each in enumerate(edit.sets) if each.type == "mass"
+             for i in np.flatnonzero(each.nodes[:, 0] == at).tolist()]  # fmt: skip
+    whole = sum(edit.values(one, "mass") for one in heavy)
+    if whole <= m:
+        return None
+    edit.bind(name, heavy, ("mass",), factor=1 - m / whole)
+    return edit.done()
+
+
+def _diagonal(dofs: tuple[int, ...], value: float) -> Entries:
+    at = np.array(dofs)
+    return at, at, np.full(len(at), value)
 
 
 def add_oscillator(problem: Problem, ends: Ends, names: tuple[str, str], m: float, k: float, c: float = 0.0) -> Problem:

@@ -51,7 +51,8 @@ class Law:
     instead, for linear laws, on x and a coordinates of their own. unknowns(scale): parameters. variants: signs and sides, told
     apart as words. homogeneous: indices of parameters with which F grows in proportion. grid: values of each other parameter
     that a first search tries. implicit(v, F before, free, drop, p) -> F, F at the end: of a step, for a law whose force jumps
-    with the velocity, see dynamics.response.Implicit. at: `anywhere`, `ground` where it acts only between a point and the ground,
+    with the velocity, see dynamics.response.Implicit. prepare(p): what `force` takes in place of p and depends on p alone, where it
+    costs more than a step. at: `anywhere`, `ground` where it acts only between a point and the ground,
     `link` where the model has a spring, or `plane` between two directions of one body. limit: index of the unknown that a record
     must show, and the group of what the law is where it does not. motions: how many it couples, the first rows of `matrices`.
     """
@@ -73,6 +74,12 @@ class Law:
     implicit: Callable | None = None
     limit: tuple[int, str] | None = None
     motions: int = 1
+    prepare: Callable | None = None
+
+    def along(self, p: np.ndarray, words: dict[str, float]) -> Callable:
+        """Its force(x, v, z) -> (F, z) at parameters p for many steps."""
+        held = p if self.prepare is None else self.prepare(p)
+        return lambda x, v, z: self.force(x, v, z, held, **words)
 
     def seen_as(self, log_sd: np.ndarray) -> str:
         """Its group where its unknowns are known to those sd (q,) of their logarithms; that of its limit where one is not seen."""

@@ -11,10 +11,10 @@ _RATIO = 1.5  # of the slip lengths of neighbours
 def force(x, v, z, p):
     """F = sum of k_m (x - z_m), |x - z_m| <= phi_m: density R phi^chi up to phi_max, and beta of the rest at phi_max.
 
-    p: slip force F_S, stiffness before slip K_T, 1 + chi in (0, 1], beta.
+    p: slip force F_S, stiffness before slip K_T, 1 + chi in (0, 1], beta; or their `sliders`.
     """
-    lengths, stiffness = sliders(p)
-    stretch = np.clip(x - z, -lengths, lengths)
+    lengths, stiffness = p if isinstance(p, tuple) else sliders(p)
+    stretch = np.minimum(np.maximum(x - z, -lengths), lengths)
     return (stiffness * stretch).sum(axis=0), x - stretch
 
 
@@ -54,4 +54,5 @@ LAW = Law(
     homogeneous=(0, 1),
     grid=4,
     states=SLIDERS + 1,
+    prepare=sliders,
 )

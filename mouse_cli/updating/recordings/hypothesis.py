@@ -9,6 +9,7 @@ from mouse_cli.terms.laws import Law, Unknown
 from mouse_cli.updating.recordings.acting import Acting, Part, Place
 from mouse_cli.updating.recordings.calibration import KNOWN, Calibration
 from mouse_cli.updating.recordings.channels import Read, read
+from mouse_cli.updating.recordings.damping import followed
 from mouse_cli.updating.recordings.linear import Linear
 from mouse_cli.updating.recordings.series import Series
 
@@ -118,14 +119,13 @@ class Hypothesis:
             return None
         shaped = [one.p if one.p.ndim > 1 else one.p[:, None, None, None] for one in every]
 
+        along = [one.law.along(p, one.words) for one, p in zip(every, shaped, strict=True)]
+
         def forces(x: np.ndarray, v: np.ndarray, z: list):
             if len(every) == 1:
-                F, after = every[0].law.force(x, v, z[0], shaped[0], **every[0].words)
+                F, after = along[0](x, v, z[0])
                 return F, [after]
-            found = [
-                one.law.force(x[:, i : i + 1], v[:, i : i + 1], z[i], p, **one.words)
-                for i, (one, p) in enumerate(zip(every, shaped, strict=True))
-            ]
+            found = [force(x[:, i : i + 1], v[:, i : i + 1], z[i]) for i, force in enumerate(along)]
             return np.concatenate([F for F, _ in found], axis=1), [after for _, after in found]
 
         def implicit(one: Acting, p: np.ndarray):
@@ -149,8 +149,10 @@ class Hypothesis:
         ]
         local = np.zeros((m + a, len(motions)))
         local[:m] = np.array(motions).reshape(-1, m).T
+        bare = M, C, K
         if any(one.law.linear for one in (*self.known, *self.parts)):
             M, C, K = self._with_matrices(many, M, C, K)
+        C = self._damped(x, bare, (M, C, K))
         sensing = np.pad(series.sensing, ((0, 0), (0, a)))
         own = [np.repeat(part.place.B[None] @ series.base, part.extra, 0) for part in self.parts]
         driven = replace(
@@ -181,6 +183,18 @@ class Hypothesis:
                 for whole, own in zip((K, C, M), part.matrices(p), strict=True):
                     whole[i] += B @ own @ B.T
         return M, C, K
+
+    def _damped(self, x: np.ndarray, bare: tuple[np.ndarray, ...], whole: tuple[np.ndarray, ...]) -> np.ndarray:
+        """C (P, m + a, m + a) of M, C, K `whole`, at x (P, k): damping by modes is that of the modes with linear laws, which `bare`
+        does not have.
+
+        A law with degrees of freedom of its own has damping of its own too, and leaves that of the others.
+        """
+        (M, _, K), C, m = bare, whole[1].copy(), bare[0].shape[1]
+        if self.linear.by_modes is not None:
+            after = (K, M) if self.extra else (whole[2], whole[0])
+            C[:, :m, :m] += followed(self.linear.by_modes(x[:, : self.linear.k]), (K, M), after)
+        return C
 
     def padded_states(self, states: np.ndarray) -> np.ndarray:
         """Displacements and velocities (2n, ...) with those of the laws' own degrees of freedom, like those of their places."""

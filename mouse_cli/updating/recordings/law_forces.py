@@ -25,7 +25,7 @@ def linear_force(matrices: tuple[np.ndarray, ...], w: np.ndarray, X: np.ndarray,
 
 def stepped(law: Law, x: np.ndarray, v: np.ndarray, p: np.ndarray, words: dict[str, float]) -> np.ndarray:
     """The forces (t, m) of a law with internal states along a motion (t,), for parameters (q, m)."""
-    z, found = np.zeros((law.states, p.shape[1])), np.empty((len(x), p.shape[1]))
+    z, found, force = np.zeros((law.states, p.shape[1])), np.empty((len(x), p.shape[1])), law.along(p, words)
     for i in range(len(x)):
-        found[i], z = law.force(x[i], v[i], z, p, **words)
+        found[i], z = force(x[i], v[i], z)
     return found

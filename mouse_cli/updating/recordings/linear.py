@@ -22,6 +22,7 @@ class Linear:
 
     matrices(z (P, k)) gives M, C, K (P, n, n); slopes: their derivatives dM, dC, dK (k, n, n) at the mean. names (k,).
     scaled(z (k,), s): nuisances of the same model with M, C and K s times as large; None where they do not make one.
+    by_modes(z (P, k)): what of C (P, n, n) is damping by modes; None where nothing is.
     """
 
     M: np.ndarray
@@ -31,6 +32,7 @@ class Linear:
     slopes: tuple[np.ndarray, np.ndarray, np.ndarray]
     names: tuple[str, ...]
     scaled: Callable[[np.ndarray, float], np.ndarray | None] = lambda z, s: None
+    by_modes: Callable[[np.ndarray], np.ndarray] | None = None
 
     @property
     def common(self) -> np.ndarray:

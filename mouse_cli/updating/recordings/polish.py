@@ -171,9 +171,10 @@ class Polish:
         return x
 
     def _stands(self, x: np.ndarray) -> bool:
-        """Whether the linear part has no negative stiffness: more lost than there is, and every motion would grow."""
-        K = self.h.plant(x[None], self.series).K[0]
-        return bool(np.linalg.eigvalsh(K)[0] >= -_ROUNDED * np.abs(np.diag(K)).max())
+        """Whether the linear part has inertia and no negative stiffness: more lost than there is, and every motion would grow."""
+        plant = self.h.plant(x[None], self.series)
+        mass, stiffness = (np.linalg.eigvalsh(one[0])[0] for one in (plant.M, plant.K))
+        return bool(mass > 0 and stiffness >= -_ROUNDED * np.abs(plant.K).max())
 
     @np.errstate(over="ignore", invalid="ignore")  # simulations may diverge; they are given up by their cost
     def _point(self, x: np.ndarray, states: np.ndarray) -> _Point:
@@ -253,11 +254,10 @@ class Polish:
         """
         near = np.clip(x + _PROBE * dx, *self.h.bounds)
         seen = self._simulated(near[None], (states + _PROBE * ds)[None])[0]
-        first = at.J @ dx + np.einsum("stgn,ng->stg", at.X, ds)
-        bend = 2 / _PROBE * ((seen - (self.measured - at.residual)) / _PROBE - first)
+        bend = (seen - self.measured + at.residual) / _PROBE - at.J @ dx - np.einsum("stgn,ng->stg", at.X, ds)
         if not np.isfinite(bend).all():
             return dx, ds
-        along = replace(at, residual=-bend / 2)
+        along = replace(at, residual=-bend / _PROBE)  # of half the second derivative
         d2x, d2s = self._step(along, self.h.mean, np.zeros_like(states), damping)
         size = lambda a, b: float((a @ a) + ((b / self.spread[:, None]) ** 2).sum())
         return (dx, ds) if size(d2x, d2s) > _LESS**2 * size(dx, ds) else (dx + d2x, ds + d2s)

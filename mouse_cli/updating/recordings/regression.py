@@ -145,9 +145,9 @@ class Regression:
         n = len(one.B)
         x, v = one.B @ self._states[:n], one.B @ self._states[n:]
         z, found = np.zeros((law.states, 1)), np.zeros((law.states, 1, len(at)))
-        wanted = {int(sample): g for g, sample in enumerate(at)}
+        wanted, force = {int(sample): g for g, sample in enumerate(at)}, law.along(p[:, None], words)
         for i in range(int(max(at)) + 1):
-            _, z = law.force(x[i], v[i], z, p[:, None], **words)
+            _, z = force(x[i], v[i], z)
             if i in wanted:
                 found[:, :, wanted[i]] = z
         return found

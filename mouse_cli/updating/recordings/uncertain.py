@@ -5,7 +5,7 @@ the ground, may be stiffer or softer and damped otherwise, whether or not the de
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,9 +14,10 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
 from mouse_cli.updating.coordinates import coordinates
 from mouse_cli.updating.recordings.basis import LARGEST, along, basis_of
+from mouse_cli.updating.recordings.damping import UNDAMPED, by_ratios, structural
 from mouse_cli.updating.recordings.linear import Linear
 
-UNDAMPED, LOOSE = 0.01, 2.0  # damping ratio assumed of each mode where the deck has no damping; its sd, by its value
+LOOSE = 2.0  # sd of the damping ratio assumed of each mode where the deck has no damping, by its value
 # Sd at least of the damping ratio of a mode where the deck has damping: air, joints and supports add to it
 LEFT_OUT = 0.01
 _PUSHES = 1e-6  # of the largest value of a link: below zero by rounding
@@ -89,26 +90,33 @@ def uncertain(problem: Problem, highest_hz: float, at: np.ndarray) -> Uncertain:
     V = basis_of(*found.matrices(value(np.zeros(k))), highest_hz, at, 0 if bends else LARGEST)
     reduce = lambda matrix: V.T @ (matrix @ V)
 
-    bare = not any(m is not None for m in found.damping(value(np.zeros(k))))
-    usual = viscous(*(reduce(dense(m)) for m in found.matrices(value(np.zeros(k)))), None, None) if bare else None
+    stated = problem.modal_damping
+    bare = stated is None and not any(m is not None for m in found.damping(value(np.zeros(k))))
+
+    def given(z: np.ndarray) -> list[np.ndarray | None]:
+        """K, M, C, D as the deck has them."""
+        every = *found.matrices(value(z)), *found.damping(value(z))
+        return [None if m is None else reduce(dense(m)) for m in every]
+
+    K, M, _, D = given(np.zeros(k))
+    apart = by_ratios(K, M, stated) if bare or stated is not None else np.zeros_like(K)
 
     def own(z: np.ndarray) -> tuple[np.ndarray, ...]:
-        theta = value(z)
-        K, M = (reduce(dense(m)) for m in found.matrices(theta))
-        C, D = (None if m is None else reduce(dense(m)) for m in found.damping(theta))
-        return M, viscous(K, M, C, D) if usual is None else usual, K
+        K, M, C, D = given(z)
+        return M, apart + (0 if C is None else C) + (0 if D is None else structural(K, M, D)), K
 
+    by_modes = apart if D is None else apart + structural(K, M, D)
     steady = found.linear and not where.logarithmic.any()
-    linear, said = completed(problem, own, _names(problem, k), bare, steady, problem.structure.labels)
+    linear, said = completed(problem, own, _names(problem, k), bare, steady, problem.structure.labels, by_modes)
     return Uncertain(linear, V, along(V, found.matrices(value(np.zeros(k)))[1]), value, k, said, bare)
 
 
 def completed(
-    problem: Problem, own: Own, names: list[str], bare: bool, steady: bool, labels: tuple[str, ...]
-) -> tuple[Linear, tuple[str, ...]]:
+    problem: Problem, own: Own, names: list[str], bare: bool, steady: bool, labels: tuple[str, ...], by_modes: np.ndarray
+) -> tuple[Linear, tuple[str, ...]]:  # fmt: skip
     """The linear model whose named nuisances z (k,) make M, C, K = own(z), and what they do not reach; what to say of it.
 
-    bare: its damping is assumed; steady: own is linear in z; labels: of its degrees of freedom.
+    bare: its damping is assumed; steady: own is linear in z; labels: of its degrees of freedom; by_modes (n, n): what of C is.
     """
     k = len(names)
     M, C, K = own(np.zeros(k))
@@ -119,30 +127,23 @@ def completed(
             slope[j] = (up - down) / (2 * _STEP)
     by = problem.theory.link_stiffness, LOOSE if bare else problem.theory.link_damping
     extra = _extra(M, C, K, slopes, bare, labels, by)
-    return _linear(own, (M, C, K), slopes, extra, names, steady), _remarks(bare, len(extra.names), by)
-
-
-def viscous(K: np.ndarray, M: np.ndarray, C: np.ndarray | None, D: np.ndarray | None) -> np.ndarray:
-    """C; structural damping as the viscous one that damps each mode as much; UNDAMPED where the deck has none."""
-    found = np.zeros_like(K) if C is None else C
-    if C is not None and D is None:
-        return found
-    from scipy.linalg import eigh
-
-    values, shapes = eigh(K, M)
-    w, weighted = np.sqrt(np.maximum(values, 1e-12 * (values.max() or 1.0))), M @ shapes
-    ratio = UNDAMPED * np.ones(len(w)) if D is None else np.einsum("ij,ik,kj->j", shapes, D, shapes) / w**2 / 2
-    return found + (weighted * 2 * ratio * w) @ weighted.T
+    each = lambda z: by_modes + np.einsum("pe,eij->pij", extra.moved(z[:, k:])[:, extra.modal], extra.dC[extra.modal])
+    linear = replace(_linear(own, (M, C, K), slopes, extra, names, steady), by_modes=each)
+    return linear, _remarks(bare, len(extra.names), by)
 
 
 @dataclass(frozen=True)
 class _Extra:
-    """dC, dK (e, n, n) of what the deck's own parameters do not move, a step of one sd; share (e,): that sd by the value."""
+    """dC, dK (e, n, n) of what the deck's own parameters do not move, a step of one sd; share (e,): that sd by the value.
+
+    modal (e,): whether it is the damping of a mode.
+    """
 
     dC: np.ndarray
     dK: np.ndarray
     share: np.ndarray
     names: list[str]
+    modal: np.ndarray
 
     def moved(self, z: np.ndarray) -> np.ndarray:
         """Steps (P, e) at z (P, e): what is softer or less damped by many sd tends to nothing and never turns negative."""
@@ -163,6 +164,7 @@ def _extra(M, C, K, slopes, bare: bool, labels: tuple[str, ...], by: tuple[float
     own = _beyond([d for _, d in stiff], slopes[2])
     found = [(np.zeros_like(K), stiffer * d, stiffer, f"stiffness {name}") for name, d in (stiff[i] for i in own)]
     damped = _modal(M, C, K, loose)
+    modes = len(damped)
     if at is not None:
         damped += [(loose * d, loose, name) for name, d in _dashpots(at, K, M, C, labels, bare)]
     # a parameter that moves stiffness, and damping in proportion, leaves the damping alone uncertain
@@ -170,8 +172,9 @@ def _extra(M, C, K, slopes, bare: bool, labels: tuple[str, ...], by: tuple[float
     both = lambda c, k: np.concatenate([c / size[0], k / size[1]], axis=-1)
     own = _beyond([both(d, np.zeros_like(K)) for d, _, _ in damped], both(slopes[1], slopes[2]))
     found += [(d, np.zeros_like(K), share, f"damping {name}") for d, share, name in (damped[i] for i in own)]
+    modal = np.array([False] * (len(found) - len(own)) + [i < modes for i in own], bool)
     C, K = (np.array([one[i] for one in found]).reshape(-1, *K.shape) for i in (0, 1))
-    return _Extra(C, K, np.array([one[2] for one in found]), [one[3] for one in found])
+    return _Extra(C, K, np.array([one[2] for one in found]), [one[3] for one in found], modal)
 
 
 def _by_link(at: Links, labels: tuple[str, ...]) -> _Named:

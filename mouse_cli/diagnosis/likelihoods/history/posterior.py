@@ -19,7 +19,8 @@ from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.model.arrays import dense
 from mouse_cli.model.problem import Problem
 from mouse_cli.updating.recordings.basis import LARGEST, basis_of
-from mouse_cli.updating.recordings.uncertain import Uncertain, completed, viscous
+from mouse_cli.updating.recordings.damping import by_ratios, structural
+from mouse_cli.updating.recordings.uncertain import Uncertain, completed
 
 
 @dataclass(frozen=True)
@@ -72,23 +73,28 @@ def modelled(known: Posterior, problem: Problem, highest_hz: float, at: np.ndarr
     W = basis_of(*matrices(mean)[:2], highest_hz, A.T @ at)
     own_dofs = A.shape[1] - base.V.shape[1]
     theta = lambda y: _theta(known, known.x(y))
-    bare = not any(matrix is not None for matrix in base.assembly.damping(theta(np.zeros(len(mean)))))
+    stated = problem.modal_damping
+    bare = stated is None and not any(m is not None for m in base.assembly.damping(theta(np.zeros(len(mean)))))
     reduce = lambda matrix: W.T @ matrix @ W
-    usual = viscous(*(reduce(matrix) for matrix in matrices(mean)[:2]), None, None) if bare else None
+    apart = by_ratios(*(reduce(matrix) for matrix in matrices(mean)[:2]), stated) if bare or stated is not None else 0.0
+
+    def damped(x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """M, K, the whole of the damping and what of it is by modes."""
+        K, M, C, D = (reduce(matrix) for matrix in matrices(x))
+        C0, D0 = base.assembly.damping(_theta(known, x))
+        C, D = (m if n is None else m + reduce(A.T @ dense(n) @ A) for m, n in ((C, C0), (D, D0)))
+        by_modes = apart + structural(K, M, D)
+        return M, K, C + by_modes, by_modes
 
     @lru_cache(maxsize=512)  # perturbed initial states ask for the same x again
     def at_bytes(y: bytes) -> tuple[np.ndarray, ...]:
-        x = known.x(np.frombuffer(y))
-        K, M, C, D = (reduce(matrix) for matrix in matrices(x))
-        if bare:
-            return M, usual + viscous(K, M, C, D), K
-        C0, D0 = base.assembly.damping(_theta(known, x))
-        C, D = (m if n is None else m + reduce(A.T @ dense(n) @ A) for m, n in ((C, C0), (D, D0)))
-        return M, viscous(K, M, C, D), K
+        M, K, C, _ = damped(known.x(np.frombuffer(y)))
+        return M, C, K
 
     names = [f"direction {i} of what modes leave uncertain" for i in range(1, len(mean) + 1)]
     labels = (*base.problem.structure.labels, *(f"own {i}" for i in range(1, own_dofs + 1)))
-    linear, said = completed(problem, lambda y: at_bytes(np.ascontiguousarray(y).tobytes()), names, bare, False, labels)
+    own = lambda y: at_bytes(np.ascontiguousarray(y).tobytes())
+    linear, said = completed(problem, own, names, bare, False, labels, damped(mean)[3])
     along = np.linalg.lstsq(W, _carried(A, matrices(mean)[0], base.V.shape[1]), rcond=None)[0]
     return Uncertain(linear, A @ W, along, theta, len(mean), said, bare)
 

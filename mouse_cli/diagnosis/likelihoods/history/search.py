@@ -1,6 +1,6 @@
 """Every law at every place, weighed: the model as it is, first looks in closed form, fits by simulation, and a second law."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -207,17 +207,28 @@ def _other(study: Study, pair: Fit, tried: list[tuple[str, str]]) -> Fit | None:
 
 
 def _again(study: Study, best: Fit) -> list[Fit]:
-    """The law that comes nearest, begun from other sizes until one is adequate."""
-    if best.hypothesis.law is None:
-        return []
-    found = []
-    last = best.hypothesis.parts[-1]
-    for start in study.at(last.place).apart(last.law, last.variant, _AGAIN)[1:]:
-        one = fitted(study, start, best.cost)
+    """The law that comes nearest, begun again until one is adequate: see `begun_again`."""
+    found: list[Fit] = []
+    for start, beat in () if best.hypothesis.law is None else begun_again(study, best):
+        one = fitted(study, start, beat)
         found += [] if one is None else [one]
         if one is not None and adequate(one):
             break
     return found
+
+
+def begun_again(study: Study, best: Fit) -> Iterator[tuple[Start, float]]:
+    """Starts of a law that was fitted, with the cost that they have to beat: its sizes with nuisances at their mean, where it
+    ended, then other sizes.
+
+    A first look may put nuisances that act alike many sd apart, along a valley in which a fit runs out of steps: friction then
+    left twice the noise, and a little more friction elsewhere was found for the rest.
+    """
+    own, last = best.hypothesis, best.hypothesis.parts[-1]
+    for x in (np.concatenate([own.mean[: own.nuisances], best.x[own.nuisances :]]), best.x):
+        yield Start(own, x, 0.0), np.inf
+    for start in study.at(last.place).apart(last.law, last.variant, _AGAIN)[1:]:
+        yield start, best.cost
 
 
 def _varied(order: list[Start]) -> list[Start]:
