@@ -124,3 +124,36 @@ test:
     )
     assert found.kind == NOTHING
     assert found.innovation.p < 1e-6
+
+
+def test_a_slender_brace_that_swings_by_itself_leaves_the_modes_of_its_frame():
+    """A brace of one element has no node in its middle; halved it has modes of its own below that of the frame, which by their
+    number would be taken for it. A column, clamped at both ends, and the brace as a rod: f = 1/2 pi sqrt((12 EI/h^3 + k)/m).
+    """
+    h, w, column, floor, area = 3.0, 4.0, 4.0e-6, 5.0e4, 1.0e-4
+    k = E * area / np.hypot(h, w) * (w / np.hypot(h, w)) ** 2
+    exact = np.sqrt((12 * E * column / h**3 + k) / floor) / (2 * np.pi)
+    text = f"""\
+mouse: 1
+model:
+  structure:
+    nodes: {{1: [0, 0], 2: [{w}, 0], 4: [{w}, {h}]}}
+    elements:
+      - {{id: 1, type: beam, nodes: [2, 4], E: {E}, A: 1, density: 1, Iz: {column}}}
+      - {{id: 3, type: beam, nodes: [1, 4], E: {E}, A: {area}, density: {RHO}, Iz: 1e-12}}
+      - {{id: 4, type: mass, nodes: [4], mass: {floor}}}
+    supports: {{1: all, 2: all, 4: [TY, RZ]}}
+    plane: XY
+parameters:
+  - {{name: E, elements: 3, property: E, sd: 2 %}}
+test:
+  modes: {{frequency: [{exact}], frequency_sd: 0.1 %}}
+"""
+    problem = assemble(yaml_deck.read(text, "braced.yaml"))
+    swinging = np.pi / (2 * (h**2 + w**2)) * np.sqrt(E * 1e-12 / (RHO * area))
+    assert swinging < 0.5 * exact  # the lowest of the brace alone, its ends hinged
+    found = numerics(problem, problem.prior.mean, np.array([0]), np.array([1e-3]), corrects=True)
+    assert abs(found.moved[0]) < 1e-3
+    model = replace(reduced(problem, problem.prior.mean), finer=found.finer)
+    rates, _ = model.refined(model.eigenvalues, np.eye(model.r))
+    assert np.sqrt(rates[0]) / (2 * np.pi) == pytest.approx(exact, rel=1e-3)
