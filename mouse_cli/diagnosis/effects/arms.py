@@ -16,7 +16,7 @@ from mouse_cli.model.mesh import RigidLink
 
 _MOST = 40  # nodes that are looked at
 _LONGEST = 0.3  # of the structure
-_BEGIN = 0.4  # of the longest, where a search begins
+_BEGIN = (0.1, 0.4)  # of the longest, where a search begins
 _STILL = 1e-6  # of the largest translation: what turning by a rad adds to that, below which no arm is felt
 _AXES = "XYZ"
 
@@ -33,7 +33,7 @@ def arms(model: Reduced, node: int) -> tuple[tuple[Unknown, ...], np.ndarray, li
     axes = [d for d in range(3) if size[d] > _STILL * np.abs(rows[:3]).max(initial=0.0)]
     unknowns = tuple(Unknown(f"arm along {_AXES[d]}", "m", -length, length, log=False) for d in axes)
     signs = np.concatenate([np.eye(len(axes)), -np.eye(len(axes))])
-    return unknowns, _BEGIN * length * signs, axes
+    return unknowns, np.concatenate([share * length * signs for share in _BEGIN]), axes
 
 
 def turning(model: Reduced) -> tuple[list[tuple[int, Attached]], int]:

@@ -31,6 +31,7 @@ from mouse_cli.diagnosis.search.parts import in_turn, promising, single
 from mouse_cli.diagnosis.search.pool import Pool
 from mouse_cli.diagnosis.search.several import FURTHER, enough, plain, several
 from mouse_cli.diagnosis.search.study import Study
+from mouse_cli.diagnosis.validate.placed import led
 from mouse_cli.model.diagnosis import LAW, Untried
 from mouse_cli.model.groups import joined, shares
 from mouse_cli.model.problem import Problem
@@ -189,6 +190,7 @@ def _ranked(study: Study, causes: int, by_all: Callable[[Ranking], Ranking], las
         lambda _, one: singles.extend([] if one is None else [one]),
         lambda _: within([baseline, *singles]),
     )
+    singles = [led(one) for one in singles]
     fits = [baseline, *singles]
     found = by_all(ranking(baseline, fits))
     none = dict(found.groups).get("none", 0.0)

@@ -9,7 +9,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.gates import LIKELY
 from mouse_cli.diagnosis.search.rank import Ranking
-from mouse_cli.diagnosis.validate.held_out import held_out_density
+from mouse_cli.diagnosis.validate.placed import led, predicted, shared
 
 _ASKED = 1e-3  # probability from which on, but for the leading one without a name, an explanation must predict as well as the best
 
@@ -25,10 +25,10 @@ def informed(ranking: Ranking) -> Ranking:
     asked = np.flatnonzero(wanted).tolist()
     if len(asked) < 2 or dict(ranking.groups).get("none", 0.0) > LIKELY:
         return ranking
-    predicted = [held_out_density(ranking.fits[i]) for i in asked]
-    if None in predicted:
+    told = [predicted(ranking.fits[i]) for i in asked]
+    if None in told:
         return ranking
-    densities = np.array([one.over_noise for one in predicted])
+    densities = np.array([density for density, _ in told])
     # In logarithms: what predicts badly enough may have led by all of the probability.
     p, weight = ranking.probabilities.copy(), np.log(np.maximum(ranking.probabilities, np.finfo(float).tiny))
     weight[asked] += densities - densities.max()
@@ -37,7 +37,7 @@ def informed(ranking: Ranking) -> Ranking:
     order = np.argsort(-p, kind="stable")
     return replace(
         ranking,
-        fits=tuple(ranking.fits[i] for i in order),
+        fits=tuple(shared(led(ranking.fits[i])) if i in asked else ranking.fits[i] for i in order.tolist()),
         probabilities=p[order],
         stated=ranking.stated[order],
         log_odds=ranking.log_odds[order],
