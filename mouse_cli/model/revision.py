@@ -96,12 +96,16 @@ class RevisedSupport:
 
 @dataclass(frozen=True)
 class JobSection:
-    """A property of beams in a job: its number, that of its material, mass per length, shares of A that carry shear (0: none)."""
+    """A property of beams in a job: its number, that of its material, mass per length, shares of A that carry shear (0: none).
+
+    turned: whether its axes are not principal ones, which those of the deck are.
+    """
 
     number: int
     material: int
     mass: float = 0.0
     shear: tuple[float, float] = (0.0, 0.0)
+    turned: bool = False
 
 
 @dataclass(frozen=True)

@@ -104,6 +104,20 @@ def test_a_revised_section_is_a_pbar_of_the_job(tmp_path, capsys):
     assert [float(word) for word in card] == pytest.approx([7, 3, A, IZ, IY, J, 2.5, 0.5, 0.5])
 
 
+def test_a_section_whose_axes_are_not_principal_is_told_and_not_written(tmp_path, capsys):
+    """The deck has it about principal axes, and the elements of the job are turned otherwise."""
+    job, deck = written(tmp_path, MAST.replace("+,.5,.5", "+,,,.5-6")), tmp_path / "mast.yaml"
+    assert ran(["import", job, "-o", str(deck)]) == 0
+    line = "  - {name: IZ, section: MAST, property: Iz, sd: 5 %}\n"
+    deck.write_text(deck.read_text().replace("parameters:\n", "parameters:\n" + line))
+    capsys.readouterr()
+    assert ran(["export", str(deck), "--for", "nastran", "--job", job]) == 0
+    made = capsys.readouterr().out
+    assert "PBAR*" not in made and "not written: PBAR 7 has a product of inertia I12" in made
+    largest = np.linalg.eigvalsh([[IZ, 0.5e-6], [0.5e-6, IY]])[1]
+    assert f"{largest:.6g}" in made
+
+
 def test_a_mass_off_its_node_is_a_rigid_body():
     """M about the node by Huygens and Steiner; the products of inertia turn with the axes."""
     kind, r, m, Jc = registry()["mass"], np.array([0.3, -0.2, 0.5]), 4.0, np.diag([0.1, 0.2, 0.3])

@@ -12,7 +12,7 @@ import mouse_cli
 from benchmarks.blind.drives.decks import write
 from benchmarks.blind.drives.draws import cases
 from mouse_cli.cli.main import cli
-from mouse_cli.diagnosis.likelihoods.history.search import begun_again
+from mouse_cli.diagnosis.likelihoods.history.search import begun_again, from_mean
 from mouse_cli.terms.laws import registry
 from mouse_cli.updating.recordings.records import records
 from mouse_cli.updating.recordings.study import begin, fitted, study
@@ -46,9 +46,9 @@ def test_a_law_that_leaves_too_much_is_begun_again_from_the_mean_of_all_nuisance
     h = start.hypothesis
     assert np.abs(start.x[: h.nuisances]).max() > 5
     first = fitted(own, start)
-    (mean, beat), (ended, _) = (one for one, _ in zip(begun_again(own, first), range(2), strict=False))
-    assert not mean.x[: h.nuisances].any() and mean.x[-1] == first.x[-1] and beat == np.inf
-    assert (ended.x == first.x).all()
+    mean, (ended, beat) = from_mean(first), next(begun_again(own, first))
+    assert not mean.x[: h.nuisances].any() and mean.x[-1] == first.x[-1]
+    assert (ended.x == first.x).all() and beat == np.inf
     again = fitted(own, mean)
     assert again.misfit < 0.5 * first.misfit
     assert np.exp(again.x[-1]) == pytest.approx(case.drive.friction, rel=2e-3)

@@ -65,6 +65,10 @@ def _section(revision: Revision, section: RevisedSection, i: int) -> Iterator[st
         yield from _of(section.elements)
         yield from _wide("PBAR", i, 1, *constants)
         return
+    if own.turned:
+        yield f"$ not written: PBAR {own.number} has a product of inertia I12; about principal axes it has"
+        yield "$ A, I1, I2 and J of " + ", ".join(f"{value:.6g}" for value in constants)
+        return
     shear = (*[""] * 9, *own.shear) if any(own.shear) else ()
     yield from _wide("PBAR", own.number, own.material, *constants, own.mass or "", *shear)
 

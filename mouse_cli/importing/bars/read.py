@@ -53,5 +53,5 @@ def numbers(bars: Bars) -> Job:
     sections = {}
     for number, own in profiles(deck).items():
         shear = tuple(0.0 if k == SHEARLESS else k for k in own.kappa or (0.0, 0.0))
-        sections[own.name] = JobSection(number, own.material, own.mass / deck.mass, shear)
+        sections[own.name] = JobSection(number, own.material, own.mass / deck.mass, shear, bool(own.Iyz))
     return Job(materials, sections, frozenset(deck.numbers), deck.mass)

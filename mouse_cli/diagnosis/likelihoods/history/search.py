@@ -23,6 +23,7 @@ from mouse_cli.updating.recordings.study import Study, fitted
 from mouse_cli.updating.refusals import not_simulated
 
 _POLISHED, _MORE, _AGAIN = 4, 12, 8  # starts that are fitted; where none of them is adequate; of the nearest law again
+_NEAREST = 3  # laws that are begun again with nuisances at their mean
 # Of what is missing: error of first looks, where nuisances that leave their prior explain it by first order
 _FIRST_ORDER = 0.02
 _ALIKE = 6  # starts that are fitted although an adequate law was found, as they are like it
@@ -102,7 +103,7 @@ def _singles(study: Study, notice: Notice, known: list[Law] | None, baseline: Fi
             found.append(one)
             best = min(best, one, key=innovation)
     if not adequate(best):
-        found += _again(study, best)
+        found += _again(study, found)
     elif best is not baseline:
         for start in alike(order, tried, _where(best)):
             notice(_named(start))
@@ -206,27 +207,40 @@ def _other(study: Study, pair: Fit, tried: list[tuple[str, str]]) -> Fit | None:
     return fitted(study, Start(alone, x, 0.0))
 
 
-def _again(study: Study, best: Fit) -> list[Fit]:
-    """The law that comes nearest, begun again until one is adequate: see `begun_again`."""
-    found: list[Fit] = []
-    for start, beat in () if best.hypothesis.law is None else begun_again(study, best):
+def _again(study: Study, singles: list[Fit]) -> list[Fit]:
+    """The laws that come nearest with nuisances at their mean, then the nearest from elsewhere, until one is adequate.
+
+    What a first look put far from the prior may have been given up behind a law that is not the true one.
+    """
+    near = {_where(one): one for one in sorted(singles, key=innovation, reverse=True)}
+    nearest, found = sorted(near.values(), key=innovation)[:_NEAREST], []
+
+    def adequate_from(start: Start, beat: float) -> bool:
         one = fitted(study, start, beat)
-        found += [] if one is None else [one]
-        if one is not None and adequate(one):
-            break
+        found.extend([] if one is None else [one])
+        return one is not None and adequate(one)
+
+    begun = ((from_mean(one), np.inf) for one in nearest)
+    if any(adequate_from(*each) for each in begun) or not nearest:
+        return found
+    any(adequate_from(*each) for each in begun_again(study, min([*nearest, *found], key=innovation)))
     return found
 
 
+def from_mean(one: Fit) -> Start:
+    """Its sizes, with nuisances at their mean."""
+    own = one.hypothesis
+    return Start(own, np.concatenate([own.mean[: own.nuisances], one.x[own.nuisances :]]), 0.0)
+
+
 def begun_again(study: Study, best: Fit) -> Iterator[tuple[Start, float]]:
-    """Starts of a law that was fitted, with the cost that they have to beat: its sizes with nuisances at their mean, where it
-    ended, then other sizes.
+    """Further starts of a law that was fitted, with the cost that they have to beat: where it ended, then other sizes.
 
     A first look may put nuisances that act alike many sd apart, along a valley in which a fit runs out of steps: friction then
     left twice the noise, and a little more friction elsewhere was found for the rest.
     """
-    own, last = best.hypothesis, best.hypothesis.parts[-1]
-    for x in (np.concatenate([own.mean[: own.nuisances], best.x[own.nuisances :]]), best.x):
-        yield Start(own, x, 0.0), np.inf
+    yield Start(best.hypothesis, best.x, 0.0), np.inf
+    last = best.hypothesis.parts[-1]
     for start in study.at(last.place).apart(last.law, last.variant, _AGAIN)[1:]:
         yield start, best.cost
 
