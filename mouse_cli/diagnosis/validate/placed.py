@@ -35,8 +35,11 @@ def predicted(one: Fit) -> tuple[float, np.ndarray] | None:
 
 
 def led(one: Fit) -> Fit:
-    """The same, led by the place that is most probable by what was fitted and what is held out; shares are those of the fit."""
-    found = predicted(one) if one.elsewhere else None
+    """The same, led by the place that is most probable by what was fitted and what is held out; shares are those of the fit.
+
+    What has no name stays where it is: where it acts is its field's to say.
+    """
+    found = predicted(one) if one.elsewhere and not one.nameless else None
     if found is None or not np.argmax(found[1]):
         return one
     every = places(one)
