@@ -12,7 +12,7 @@ from mouse_cli.diagnosis import verdict as decided
 from mouse_cli.diagnosis.effects.change import PLACE
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.search.study import Study
-from mouse_cli.diagnosis.validate import informed as asked
+from mouse_cli.diagnosis.validate import placed as asked
 from mouse_cli.diagnosis.validate.informed import informed
 from mouse_cli.diagnosis.verdict import decide, far_parameters, judge, rest
 from mouse_cli.formats import yaml_deck

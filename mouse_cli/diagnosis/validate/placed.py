@@ -16,6 +16,8 @@ _ASKED = 1e-3  # share from which on a place is asked
 
 def places(one: Fit) -> list[tuple[Fit, float]]:
     """The fit at the place where it leads and at the others, and their shares."""
+    if not one.elsewhere:
+        return [(one, 1.0)]
     total = sum(share for _, share in one.elsewhere)
     own = replace(one, elsewhere=(), log_evidence=one.log_evidence + float(np.log(max(1 - total, 1e-300))))
     return [(own, 1 - total), *one.elsewhere]
@@ -26,9 +28,9 @@ def predicted(one: Fit) -> tuple[float, np.ndarray] | None:
     is held out, or it cannot be predicted.
     """
     found = []
-    for each, share in places(one):
-        density = held_out_density(each) if share > _ASKED or each.point is one.point else None
-        if density is None and each.point is one.point:
+    for i, (each, share) in enumerate(places(one)):
+        density = held_out_density(each) if share > _ASKED or i == 0 else None
+        if density is None and i == 0:
             return None
         found.append(-np.inf if density is None else float(np.log(max(share, 1e-300))) + density.over_noise)
     return float(np.logaddexp.reduce(found)), np.array(found)
