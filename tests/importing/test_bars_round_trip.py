@@ -91,28 +91,27 @@ def test_revised_springs_go_back_under_the_numbers_of_the_job(tmp_path, capsys):
     assert numbers[:7] == pytest.approx([31, 8, 0, 24, 0.1, 0.0, 0.2]) and numbers[7:] == pytest.approx([1.0, 1.2, 0.6])
 
 
-def test_a_revised_section_is_a_pbar_of_the_job(tmp_path, capsys):
-    """Number, material, and what mouse does not revise: shear and nonstructural mass."""
-    job, deck = written(tmp_path, MAST.replace(f"{J},,,+", f"{J},2.5,,+")), tmp_path / "mast.yaml"
+def with_section(tmp_path, capsys, text: str) -> str:
+    """Cards of a job whose deck has the section MAST revised."""
+    job, deck = written(tmp_path, text), tmp_path / "mast.yaml"
     assert ran(["import", job, "-o", str(deck)]) == 0
     line = "  - {name: IZ, section: MAST, property: Iz, sd: 5 %}\n"
     deck.write_text(deck.read_text().replace("parameters:\n", "parameters:\n" + line))
     capsys.readouterr()
     assert ran(["export", str(deck), "--for", "nastran", "--job", job]) == 0
-    made = capsys.readouterr().out
+    return capsys.readouterr().out
+
+
+def test_a_revised_section_is_a_pbar_of_the_job(tmp_path, capsys):
+    """Number, material, and what mouse does not revise: shear and nonstructural mass."""
+    made = with_section(tmp_path, capsys, MAST.replace(f"{J},,,+", f"{J},2.5,,+"))
     card = re.search(r"PBAR\*([^$C]*)", made)[1].replace("*", "").split()
     assert [float(word) for word in card] == pytest.approx([7, 3, A, IZ, IY, J, 2.5, 0.5, 0.5])
 
 
 def test_a_section_whose_axes_are_not_principal_is_told_and_not_written(tmp_path, capsys):
     """The deck has it about principal axes, and the elements of the job are turned otherwise."""
-    job, deck = written(tmp_path, MAST.replace("+,.5,.5", "+,,,.5-6")), tmp_path / "mast.yaml"
-    assert ran(["import", job, "-o", str(deck)]) == 0
-    line = "  - {name: IZ, section: MAST, property: Iz, sd: 5 %}\n"
-    deck.write_text(deck.read_text().replace("parameters:\n", "parameters:\n" + line))
-    capsys.readouterr()
-    assert ran(["export", str(deck), "--for", "nastran", "--job", job]) == 0
-    made = capsys.readouterr().out
+    made = with_section(tmp_path, capsys, MAST.replace("+,.5,.5", "+,,,.5-6"))
     assert "PBAR*" not in made and "not written: PBAR 7 has a product of inertia I12" in made
     largest = np.linalg.eigvalsh([[IZ, 0.5e-6], [0.5e-6, IY]])[1]
     assert f"{largest:.6g}" in made

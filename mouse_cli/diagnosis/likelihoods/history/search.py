@@ -215,15 +215,16 @@ def _again(study: Study, singles: list[Fit]) -> list[Fit]:
     near = {_where(one): one for one in sorted(singles, key=innovation, reverse=True)}
     nearest, found = sorted(near.values(), key=innovation)[:_NEAREST], []
 
-    def adequate_from(start: Start, beat: float) -> bool:
-        one = fitted(study, start, beat)
-        found.extend([] if one is None else [one])
-        return one is not None and adequate(one)
+    def begun() -> Iterator[tuple[Start, float]]:
+        yield from ((from_mean(one), np.inf) for one in nearest)
+        if nearest:
+            yield from begun_again(study, min([*nearest, *found], key=innovation))
 
-    begun = ((from_mean(one), np.inf) for one in nearest)
-    if any(adequate_from(*each) for each in begun) or not nearest:
-        return found
-    any(adequate_from(*each) for each in begun_again(study, min([*nearest, *found], key=innovation)))
+    for start, beat in begun():
+        one = fitted(study, start, beat)
+        found += [] if one is None else [one]
+        if one is not None and adequate(one):
+            break
     return found
 
 

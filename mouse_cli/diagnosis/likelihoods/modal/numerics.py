@@ -5,7 +5,7 @@ the model, which is corrected to first order where it matters. What that leaves,
 must be allowed.
 """
 
-from collections.abc import Container
+from collections.abc import Container, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -64,17 +64,17 @@ def numerics(
     still = Numerics(numbers, np.zeros(len(numbers)))
     if not len(numbers) or not refinable(problem, _LARGEST):
         return still
-    coarse = _Solved(problem, theta, int(numbers.max()) + 1)
+    coarse = _Modes(_Mesh(problem, theta), int(numbers.max()) + 1)
     if len(coarse.eigenvalues) <= numbers.max():
         return still
-    finer = halved(problem)
-    if loose := _loose(problem, finer, theta, float(coarse.eigenvalues[numbers].max())):
-        finer = halved(problem, loose)
-    moved = coarse.moved(_Solved(finer, theta, 2 * len(coarse.eigenvalues) + _BESIDE))[numbers]
+    finer = _Mesh(halved(problem), theta)
+    if loose := finer.loose(problem, float(coarse.eigenvalues[numbers].max())):
+        finer = _Mesh(halved(problem, loose), theta)
+    moved = coarse.moved(_Modes(finer, 2 * len(coarse.eigenvalues) + _BESIDE))[numbers]
     worst = int(np.argmax(np.abs(moved) / sd))
     if abs(moved[worst]) < _TELLING * sd[worst]:
         return Numerics(numbers, moved)
-    by = inertia(problem, finer, theta) if corrects else None
+    by = inertia(problem, finer.problem, theta) if corrects else None
     done = "that much is allowed for" if by is None else "predictions are corrected for it to first order"
     told = (
         f"numerics: half as long elements with masses spread along them move mode {numbers[worst] + 1} by "
@@ -111,63 +111,74 @@ def halved(problem: Problem, but: Container[int] = ()) -> Problem:
     return edit.done()
 
 
-def _loose(problem: Problem, halves: Problem, theta: np.ndarray, highest: float) -> set[int]:
-    """Numbers of beams that swing between their ends, held still, below the eigenvalue `highest`: they have modes of their own
-    among those that are compared, and to first order no inertia is theirs.
-    """
-    from scipy.linalg import eigh
+class _Mesh:
+    """A deck with K and M (n, n) at theta (p,)."""
 
-    K, M = assembly(halves).matrices(theta)
-    mesh, dofs = halves.mesh, halves.structure.geometry.node
-    first = len(problem.mesh.node_ids)
-    own = {int(n) for each in problem.mesh.elements for n in each.ids}
-    between = {
-        int(node): int(number)
-        for each in mesh.elements
-        if each.type == "beam"
-        for number, nodes in zip(each.ids, each.nodes, strict=True)
-        for node in nodes
-        if node >= first and int(number) in own
-    }
-    found = set()
-    for node, number in between.items():
-        at = np.flatnonzero(dofs == node)
-        block = np.ix_(at, at)
-        stiff, mass = (np.asarray(dense(each[block] if isinstance(each, np.ndarray) else each[at][:, at])) for each in (K, M))
-        if not len(at):
-            continue
-        stiff[range(len(at)), range(len(at))] += np.finfo(float).eps * stiff.trace()  # no stiffness in torsion: loose
-        if highest * eigh(mass, stiff, eigvals_only=True)[-1] > 1:
-            found.add(number)
-    return found
+    def __init__(self, problem: Problem, theta: np.ndarray):
+        self.problem, (self.K, self.M) = problem, assembly(problem).matrices(theta)
+
+    def loose(self, whole: Problem, highest: float) -> set[int]:
+        """Numbers of beams of `whole`, halved here, that swing between their ends, held still, below the eigenvalue `highest`: they
+        have modes of their own among those that are compared, and to first order no inertia is theirs.
+        """
+        from scipy.linalg import eigh
+
+        found, node_of = set(), self.problem.structure.geometry.node
+        for node, number in self._middles(whole):
+            at = np.flatnonzero(node_of == node)
+            stiff, mass = (dense(each[at][:, at]) for each in (self.K, self.M))
+            stiff = stiff + np.finfo(float).eps * stiff.trace() * np.eye(len(at))  # no stiffness in torsion: loose
+            if len(at) and highest * eigh(mass, stiff, eigvals_only=True)[-1] > 1:
+                found.add(number)
+        return found
+
+    def _middles(self, whole: Problem) -> Iterator[tuple[int, int]]:
+        """Nodes (indices) that `whole` does not have, each with the number of the beam that it halves, which its first half keeps."""
+        first, own = len(whole.mesh.node_ids), np.concatenate([each.ids for each in whole.mesh.elements])
+        for each in self.problem.mesh.elements:
+            for number, nodes in zip(each.ids, each.nodes, strict=True) if each.type == "beam" else ():
+                if number in own:
+                    yield from ((int(node), int(number)) for node in nodes[nodes >= first])
 
 
-class _Solved:
-    """The lowest modes of a deck at theta (p,), and its degrees of freedom."""
+class _Modes:
+    """The lowest `count` modes of a mesh."""
 
-    def __init__(self, problem: Problem, theta: np.ndarray, count: int):
-        self.K, self.M = assembly(problem).matrices(theta)
-        found = EigenSolver().solve(self.K, self.M, min(count, problem.structure.n))
-        self.labels = problem.structure.labels
+    def __init__(self, mesh: _Mesh, count: int):
+        found = EigenSolver().solve(mesh.K, mesh.M, min(count, mesh.problem.structure.n))
+        self.mesh, self.labels = mesh, mesh.problem.structure.labels
         self.eigenvalues, self.shapes = found.eigenvalues[:count], found.shapes[:, :count]
 
-    def moved(self, finer: "_Solved") -> np.ndarray:
+    @property
+    def elastic(self) -> np.ndarray:
+        """Which are no motions of a rigid body."""
+        return self.eigenvalues > 1e-9 * abs(self.eigenvalues[-1])
+
+    @property
+    def log(self) -> np.ndarray:
+        """Half the logarithm of each eigenvalue, 0 of a rigid body."""
+        return 0.5 * np.log(np.where(self.elastic, self.eigenvalues, 1.0))
+
+    def moved(self, finer: "_Modes") -> np.ndarray:
         """Change (m,) of ln f of each mode in `finer`: of those that are like it there, in the mean; 0 where none is."""
+        shapes = self._on(finer)
+        inertia = finer.mesh.M @ shapes
+        alike = (inertia.T @ finer.shapes) ** 2 / np.einsum("nm,nm->m", shapes, inertia)[:, None]
+        alike[(alike < _ALIKE) | ~finer.elastic] = 0.0
+        total = alike.sum(axis=1)
+        known = self.elastic & (total > _MATCHED)
+        return np.where(known, (alike @ finer.log) / np.where(known, total, 1.0) - self.log, 0.0)
+
+    def _on(self, finer: "_Modes") -> np.ndarray:
+        """Its shapes in all degrees of freedom of `finer`, whose further nodes follow statically."""
         from scipy.sparse import csc_array
         from scipy.sparse.linalg import splu
 
         place = {label: i for i, label in enumerate(finer.labels)}
         old = np.array([place[label] for label in self.labels])
-        shapes = np.zeros((len(finer.labels), len(self.eigenvalues)))
-        shapes[old] = self.shapes
-        if len(new := np.setdiff1d(np.arange(len(shapes)), old)):  # middles follow statically
-            K = csc_array(finer.K)
-            shapes[new] = -splu(K[new][:, new]).solve(K[new][:, old] @ self.shapes)
-        alike = (shapes.T @ (finer.M @ finer.shapes)) ** 2 / np.einsum("nm,nm->m", shapes, finer.M @ shapes)[:, None]
-        alike[alike < _ALIKE] = 0.0
-        elastic = [each.eigenvalues > 1e-9 * abs(each.eigenvalues[-1]) for each in (self, finer)]
-        own, other = (0.5 * np.log(np.where(is_, each.eigenvalues, 1.0)) for is_, each in zip(elastic, (self, finer), strict=True))
-        alike[:, ~elastic[1]] = 0.0
-        total = alike.sum(axis=1)
-        known = elastic[0] & (total > _MATCHED)
-        return np.where(known, (alike @ other) / np.where(known, total, 1.0) - own, 0.0)
+        found = np.zeros((len(place), len(self.eigenvalues)))
+        found[old] = self.shapes
+        if len(new := np.setdiff1d(np.arange(len(place)), old)):
+            K = csc_array(finer.mesh.K)
+            found[new] = -splu(K[new][:, new]).solve(K[new][:, old] @ self.shapes)
+        return found
