@@ -133,12 +133,12 @@ class _Mesh:
         return found
 
     def _middles(self, whole: Problem) -> Iterator[tuple[int, int]]:
-        """Nodes (indices) that `whole` does not have, each with the number of the beam that it halves, which its first half keeps."""
-        first, own = len(whole.mesh.node_ids), np.concatenate([each.ids for each in whole.mesh.elements])
+        """Nodes (indices) that `whole` does not have, and the number of the beam that each halves, which its first half keeps."""
+        first, own = len(whole.mesh.node_ids), {n for each in whole.mesh.elements for n in each.ids.tolist()}
         for each in self.problem.mesh.elements:
-            for number, nodes in zip(each.ids, each.nodes, strict=True) if each.type == "beam" else ():
+            for number, nodes in zip(each.ids.tolist(), each.nodes, strict=True) if each.type == "beam" else ():
                 if number in own:
-                    yield from ((int(node), int(number)) for node in nodes[nodes >= first])
+                    yield from ((int(node), number) for node in nodes[nodes >= first])
 
 
 class _Modes:
