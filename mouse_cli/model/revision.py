@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 End = tuple[int, int]  # node, and direction from 1 (TX) to 6 (RZ)
 PART_LEFT = "share of element set {} that is left, and of its mass"  # names of parameters that a diagnosis adds
-MASS_GAINED = "share of element set {} in mass, gained"
+MASS_GAINED, MASS_LOST = "share of element set {} in mass, gained", "share of element set {} in mass, lost"
 E_TIMES, DENSITY_TIMES = "E of element set {}, over that of the deck", "density of element set {}, over that of the deck"
 STIFFNESS_LOST, STIFFNESS_GAINED = "share lost by element set {}", "share gained by element set {}"
 ON_SPRINGS = "stiffness of the support {}"

@@ -13,6 +13,7 @@ from mouse_cli.model.revision import (
     DENSITY_TIMES,
     E_TIMES,
     MASS_GAINED,
+    MASS_LOST,
     ON_SPRINGS,
     PART_LEFT,
     STIFFNESS_GAINED,
@@ -41,6 +42,7 @@ _EQUAL = 1e-9
 _OF_SETS: dict[str, Callable[[float], dict[str, float]]] = {
     PART_LEFT: lambda share: {"left": share},
     MASS_GAINED: lambda share: {"mass": share},
+    MASS_LOST: lambda share: {"mass": -share},
     E_TIMES: lambda factor: {"stiffness": factor - 1.0},
     DENSITY_TIMES: lambda factor: {"mass": factor - 1.0},
     STIFFNESS_LOST: lambda share: {"stiffness": -share},

@@ -13,12 +13,13 @@ from mouse_cli.model.arrays import Matrix, upper_triangle
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.held import ElementGroup
 from mouse_cli.model.problem import Problem
-from mouse_cli.model.revision import DENSITY_TIMES, E_TIMES, MASS_GAINED, PART_LEFT
+from mouse_cli.model.revision import DENSITY_TIMES, E_TIMES, MASS_GAINED, MASS_LOST, PART_LEFT
 
 # Share lost of a set that is missing: a thousandth of a stiff plate still holds what it is fastened to, and of a slender part less
 # than 1e-8 is lost in the 14 digits of a solver's file.
 _GONE = 1 - 1e-7
 _MISSING, _HEAVIER = Unknown("share lost", "1", 0.02, _GONE), Unknown("share gained", "1", 0.02, 20.0)
+_LIGHTER = Unknown("share lost", "1", 0.02, 0.99)
 # Of E and density, over those of the deck: from foam or a plastic for steel to the other way round.
 _STIFFER = Unknown("stiffness over that of the deck", "1", 0.02, 50.0)
 _DENSER = Unknown("mass over that of the deck", "1", 0.05, 20.0)
@@ -59,8 +60,18 @@ def missing(model: Reduced, candidate) -> list[Recipe]:
 
 def heavier(model: Reduced, candidate) -> list[Recipe]:
     """M + d M_s of each set: a lining, a filling, something that is fastened all over it."""
+    return _weighing(model, candidate, _HEAVIER, MASS_GAINED, 1)
+
+
+def lighter(model: Reduced, candidate) -> list[Recipe]:
+    """M - d M_s of each set: a tank that is empty, a lining that is gone."""
+    return _weighing(model, candidate, _LIGHTER, MASS_LOST, -1)
+
+
+def _weighing(model: Reduced, candidate, share: Unknown, name: str, sign: int) -> list[Recipe]:
+    """M + d M_s of each set, d times `sign` of it `share`; name: of the parameter of it."""
     found = [(group, M) for group, _, M in _sets(model) if M is not None]
-    return [_heavier(candidate, *each, len(found)) for each in found]
+    return [_weighed(candidate, *each, len(found), share, name, sign) for each in found]
 
 
 def remade(model: Reduced, candidate) -> list[Recipe]:
@@ -105,12 +116,11 @@ def _remade(candidate, group: ElementGroup, K: _Part, M: _Part, count: int) -> R
     )
 
 
-def _heavier(candidate, group: ElementGroup, M: _Part, count: int) -> Recipe:
+def _weighed(candidate, group: ElementGroup, M: _Part, count: int, share: Unknown, name: str, sign: int) -> Recipe:
     def extend(problem: Problem, values: np.ndarray) -> Problem:
-        share = new_parameter(MASS_GAINED.format(group.name), values[0], "1")
-        return with_entries(problem, share, M=M.entries(1))
+        return with_entries(problem, new_parameter(name.format(group.name), values[0], "1"), M=M.entries(sign))
 
-    return _recipe(candidate, _HEAVIER, group, count, (np.zeros_like(M.own), M.own), 1, extend)
+    return _recipe(candidate, share, group, count, (np.zeros_like(M.own), M.own), sign, extend)
 
 
 def _recipe(candidate, share: Unknown, group: ElementGroup, count: int, of: tuple, sign: int, extend) -> Recipe:

@@ -1,6 +1,6 @@
 """Members of a structure as its engineer sees them: alone, in a row through joints, columns of a storey, all of one section."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -39,7 +39,7 @@ def members(mesh: Mesh) -> list[Member]:
         for part in parts:
             single = len(part) == 1 and mesh.elements[part[0][0]].type != "beam"  # which losses of elements know
             if len(part) < total and not single:
-                found.setdefault(tuple(part), Member(kind, tuple(part), _site(mesh, part, kind)))
+                found.setdefault(tuple(part), Member(kind, tuple(part), described(mesh, part, kind)))
     return list(found.values())
 
 
@@ -141,14 +141,14 @@ def upward(mesh: Mesh) -> int:
     return 2 if np.ptp(mesh.coordinates[:, 2]) > 0 else 1
 
 
-def _box(mesh: Mesh, part: list[Element]) -> np.ndarray:
+def _box(mesh: Mesh, part: Sequence[Element]) -> np.ndarray:
     """Least and largest coordinates (2, 3) of a part."""
     nodes = np.unique(np.concatenate([mesh.elements[s].nodes[i] for s, i in part]))
     return np.array([mesh.coordinates[nodes].min(axis=0), mesh.coordinates[nodes].max(axis=0)])
 
 
-def _site(mesh: Mesh, part: list[Element], kind: str) -> Site:
-    """In words; where it is, unless it is all over the structure."""
+def described(mesh: Mesh, part: Sequence[Element], kind: str) -> Site:
+    """The site of a part: in words; where it is, unless it is all over the structure."""
     ids = tuple(int(mesh.elements[s].ids[i]) for s, i in part)
     box, own = _box(mesh, part), mesh.elements[part[0][0]]
     middle = box.mean(axis=0)

@@ -8,6 +8,7 @@ from mouse_cli.model.shared_place import SharedPlace
 from mouse_cli.model.units import Units
 from mouse_cli.report.blocks import Cell, heads
 
+_ALL = 0.9  # upper end of a share from which on its end is all of what there is
 LEAST = 0.005  # probability within a group below which a member is not printed
 
 
@@ -224,7 +225,9 @@ def sized(cause: Cause) -> str:
 
 def _size(size: Size) -> str:
     unit = "" if size.unit in ("", "1") else f" {size.unit}"
-    edge = "" if size.lower * 1.001 < size.value < size.upper * 0.999 else ", at the limit of its range"
+    whole = size.unit == "1" and _ALL < size.upper <= 1  # a share of something that is all there is
+    edge = ", as good as all of it" if whole else ", at the limit of its range"
+    edge = "" if size.lower * 1.001 < size.value < size.upper * 0.999 else edge
     return f"{size.name} {size.value:.4g}{unit} (sd {size.sd:.2g}{edge})"
 
 
