@@ -132,6 +132,7 @@ PARTS = {  # mechanism, its site, and how much of it
     "set softer": ("stiffness-loss", "element set B", 0.3),
     "set stiffer": ("stiffness-gain", "element set A", 0.8),
     "set heavier": ("added-mass", "element set B", 0.5),
+    "set lighter": ("lighter", "element set B", 0.3),
     "foot loose": ("support-translation", "the support ROOT, all directions", 3e7),
     "foot loose along an axis": ("support-translation", "the support ROOT, TY", 1e6),
     "foot turns": ("support-rotation", "the support ROOT, RY", 2e4),
