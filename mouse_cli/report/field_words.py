@@ -77,8 +77,12 @@ def amount(field: Field, value: float) -> str:
 
 def significant(field: Field) -> list[FieldValue]:
     """Values that differ from 0 by more than two standard deviations, in their order; the largest where none does."""
-    found = [each for each in field.values if abs(each.value) > _SHOWN * each.sd]
-    return found or sorted(field.values, key=lambda each: -abs(each.value))[:1]
+    return [each for each in field.values if _tells(each)] or sorted(field.values, key=lambda each: -abs(each.value))[:1]
+
+
+def _tells(one: FieldValue) -> bool:
+    """Whether a value differs from 0 by more than two standard deviations."""
+    return abs(one.value) > _SHOWN * one.sd
 
 
 def core(values: Sequence[FieldValue]) -> tuple[int, int, int]:
@@ -118,8 +122,16 @@ def _law(field: Field) -> str:
 
 
 def _most(field: Field) -> str:
+    """Where most of it is, if it is anywhere more than its uncertainty.
+
+    >>> from mouse_cli.model.site import Site
+    >>> _most(Field(STIFFNESS, (FieldValue(Site("element", (4,)), 2e-10, 0.055),), 0.1, 1.0, "m", 9.0))
+    ', nowhere by more than two standard deviations'
+    """
     if not field.values:
         return ""
+    if not any(map(_tells, field.values)):
+        return ", nowhere by more than two standard deviations"
     first, top, last = core(field.values)
     largest = field.values[top]
     sized = f"{amount(field, largest.value)}, sd {amount(field, largest.sd)}"

@@ -237,3 +237,13 @@ def test_an_update_turns_double_modes_wherever_the_sensors_are(tmp_path):
     shapes = shapes[np.array(at) - 1, :5] + SHAPE_SD * noise[:3]
     parameter = "[{name: k, nominal: 9, sd: 5 %, stiffness: [[1, 1, 1.0]]}]"
     assert run(deck(K, rates, shapes, tmp_path, parameter, at)).innovation.p > 0.01
+
+
+def test_a_mode_that_no_sensor_sees_is_compared_without_overflow(tmp_path):
+    """Torsion of a mast, of which sensors on its axis see nothing: a close mode stands for its measured shape."""
+    shapes = np.array([[1.0, 0.0], [0.0, 1.0]])
+    data = fitted(deck(np.diag([1.0, 1.001]), [1.0, 1.001], shapes, tmp_path)).data
+    seen = np.array([[1.0, 0.0], [0.0, 0.0]])
+    with np.errstate(all="raise"):
+        left = data.residual_beside(np.array([1.0, 1.001]), seen, np.arange(2), np.array([[0.0, 0.3], [0.3, 0.0]]))
+    assert np.isfinite(left).all()

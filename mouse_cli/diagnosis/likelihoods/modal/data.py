@@ -10,6 +10,8 @@ from mouse_cli.dynamics.frequency import eigenvalue
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.theory import Theory
 
+_UNSEEN = 1e-9  # share of the largest shape of the model below which sensors see nothing of one
+
 
 class Data:
     """m modes at s sensors, q data: ln f of each mode, then its shape, over their standard deviations.
@@ -112,7 +114,8 @@ class Data:
         the data.
         """
         f, y, near = (seen[:, modes] * self._w).T, self._y.T, sd.any(axis=0)
-        length = np.linalg.norm(y, axis=1) / np.maximum(np.linalg.norm(f, axis=1), 1e-300)
+        size = np.linalg.norm(f, axis=1)
+        length = np.linalg.norm(y, axis=1) / np.maximum(size, max(_UNSEEN * size.max(), 1e-100))
         F = self._w.T[:, :, None] * seen[:, near] * (length[:, None] * sd[:, near])[:, None]
         f, y = np.moveaxis(whitened(F, np.stack([f, y], axis=2)), 2, 0)
         return self._left(eigenvalues[modes], f.T, y.T)[0]
