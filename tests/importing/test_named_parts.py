@@ -89,7 +89,8 @@ def test_a_cause_is_the_same_in_few_coordinates_in_its_deck_and_read_back(tmp_pa
     problem = read_deck(deck(tmp_path))
     model = reduced(problem, problem.prior.mean)
     tried = 0
-    keys = ("support-translation", "support-rotation", "stiffness-loss", "stiffness-gain", "member", "added-mass", "lighter", "material")
+    stiff = ("support-translation", "support-rotation", "stiffness-loss", "stiffness-gain", "member", "material")
+    keys = (*stiff, "added-mass", "lighter")
     for key in keys:
         for i, recipe in enumerate(model.recipes(registry()[key])):
             values = np.array([np.exp(np.mean(u.bounds)) if u.log else np.mean(u.bounds) for u in recipe.unknowns])
