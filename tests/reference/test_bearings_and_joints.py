@@ -8,9 +8,14 @@ import pytest
 from scipy.linalg import eigh
 
 from mouse_cli.diagnosis import diagnose
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
-from mouse_cli.model.diagnosis import NAMED
+from mouse_cli.model.arrays import dense
+from mouse_cli.model.diagnosis import NAMED, Choices
+from mouse_cli.terms.assembly import assembly
 
 E, G, RHO = 7.1e10, 7.1e10 / 2.6, 2700.0
 
@@ -88,8 +93,8 @@ model:
 {more}"""
 
 
-def diagnosed(text: str):
-    return diagnose(assemble(yaml_deck.read(text, "deck.yaml")))
+def diagnosed(text: str, choices: Choices | None = None):
+    return diagnose(assemble(yaml_deck.read(text, "deck.yaml")), choices or Choices())
 
 
 def test_a_seized_bearing_below_the_axis_holds_beside_it():
@@ -110,32 +115,79 @@ def test_a_seized_bearing_below_the_axis_holds_beside_it():
         assert abs(abs(size.value) - true) < 3 * size.sd  # motion across alone does not tell above from below
 
 
+TURNS, BAR = E * 7.6e-7 / 0.76 * np.array([1.5, 2.0, 3.0]), (9.6e-4, 7.6e-7, 1.52e-6)  # N m/rad about x, y and z; A, I, J
+
+
+def jointed(points: np.ndarray, joins: list[tuple[int, int]], at: int, turns: np.ndarray, bar: tuple = BAR):
+    """K and M of bars of which the one from point `at` on has a joint there, N m/rad about its own x, y and z."""
+    last = len(points)
+    whole = np.vstack([points, points[at]])  # it begins at a node of its own
+    K, M = frame(whole, [(a if (a, b) != (at, at + 1) else last, b) for a, b in joins], *bar)
+    x = (points[at + 1] - points[at]) / np.linalg.norm(points[at + 1] - points[at])
+    y = np.cross([0.0, 0.0, 1.0], x) / np.linalg.norm(np.cross([0.0, 0.0, 1.0], x))
+    axes, spring = np.stack([x, y, np.cross(x, y)]), np.zeros((6, 6))
+    spring[:3, :3], spring[3:, 3:] = 1e5 * E * bar[0] * np.eye(3), axes.T @ np.diag(turns) @ axes
+    both, one = 6 * at + np.arange(6), 6 * last + np.arange(6)
+    for p, q, sign in ((both, both, 1), (one, one, 1), (both, one, -1), (one, both, -1)):
+        K[np.ix_(p, q)] += sign * spring
+    return K, M
+
+
 @pytest.mark.proof
 def test_a_joint_turns_about_both_axes():
     """A drive, a flange, a socket: one axis alone leaves the modes of the other plane wrong."""
-    A, I, n = 9.6e-4, 7.6e-7, 6
+    n = 6
     points = np.concatenate([
         np.linspace([0, 0, 0], [0, 0, 0.6], n + 1), np.linspace([0, 0, 0.6], [0.7, 0, 0.9], n + 1)[1:]
     ])  # fmt: skip
     joins = [(i, i + 1) for i in range(2 * n)]
-    whole = np.vstack([points, points[n]])  # the arm begins at a node of its own
-    K, M = frame(whole, [(a if b != n + 1 else 2 * n + 1, b) for a, b in joins], A, I, 2 * I)
-    x = (points[-1] - points[n]) / np.linalg.norm(points[-1] - points[n])
-    y = np.array([0.0, 1.0, 0.0])
-    both, one = 6 * n + np.arange(6), 6 * (2 * n + 1) + np.arange(6)
-    rigid = 1e4 * E * A / 0.1
-    turns = E * I / 0.76 * np.diag([1e5, 2.0, 3.0])
-    axes = np.stack([x, y, np.cross(x, y)])
-    spring = np.zeros((6, 6))
-    spring[:3, :3], spring[3:, 3:] = rigid * np.eye(3), axes.T @ turns @ axes
-    for p, q, sign in ((both, both, 1), (one, one, 1), (both, one, -1), (one, both, -1)):
-        K[np.ix_(p, q)] += sign * spring
-    free = np.arange(6, len(K))
+    K, M = jointed(points, joins, n, np.array([1e5, 1.0, 1.0]) * TURNS)
     rows = np.array([6 * i + d for i in (2, 4, 6, 8, 10, 12) for d in range(3)])
-    test = measured(K, M, free, rows, 7, seed=4)
-    found = diagnosed(model(points, joins, A, I, 2 * I, "    supports: {1: all}\n") + test)
+    test = measured(K, M, np.arange(6, len(K)), rows, 7, seed=4)
+    found = diagnosed(model(points, joins, *BAR, "    supports: {1: all}\n") + test)
     assert (found.kind, found.best.physics) == (NAMED, "joint")
     assert "local y and local z" in found.best.causes[0].site.text
+
+
+def test_a_joint_that_twists_as_well():
+    """A pylon below a wing, a boom on a bolted bracket: an arm with a crank at its end, whose joint gives way about all axes."""
+    n = 4
+    lines = ([0, 0, 0], [0, 0, 0.6]), ([0, 0, 0.6], [0.7, 0, 0.6]), ([0.7, 0, 0.6], [0.7, 0.5, 0.7])
+    points = np.concatenate([np.linspace(*line, n + 1)[i > 0 :] for i, line in enumerate(lines)])
+    joins = [(i, i + 1) for i in range(3 * n)]
+    K, M = jointed(points, joins, n, TURNS)
+    rows = np.array([6 * i + d for i in (2, 4, 6, 8, 10, 12) for d in range(3)])
+    test = measured(K, M, np.arange(6, len(K)), rows, 8, seed=4)
+    choices = Choices(("joint", "support-rotation", "mass", "member"))
+    found = diagnosed(model(points, joins, *BAR, "    supports: {1: all}\n") + test, choices)
+    (cause,) = found.best.causes
+    assert (found.kind, cause.physics) == (NAMED, "joint")
+    assert cause.site.text == f"element {n + 1} at node {n + 1}, local y, local z and torsion"
+    for size, true in zip(cause.sizes, TURNS[[2, 1, 0]], strict=True):
+        assert abs(size.value - true) < 3 * size.sd + 0.01 * true
+
+
+def test_a_joint_takes_from_torsion_what_a_spring_in_series_does():
+    """omega^2 = k / (2 m a^2) of a column with a bar across: 1 / k = l / GJ + 1 / k_joint, and a / 6EI by which the bar yields."""
+    A, I, m, a, l = 1e-2, 1e-5, 40.0, 1.5, 2.0
+    light = model(
+        np.array([[0, 0, 0], [0, 0, l], [-a, 0, l], [a, 0, l]]), [(0, 1), (1, 2), (1, 3)], A, I, 2 * I,
+        f"      - {{id: 8-9, type: mass, nodes: [3, 4], mass: {m}}}\n    supports: {{1: all}}\n",
+    ).replace(f"density: {RHO}", "density: 1.0e-3")  # fmt: skip
+    test = "test:\n  modes: {frequency: [1.0], frequency_sd: 1 %}\n"
+    problem = assemble(yaml_deck.read(light + test, "deck.yaml"))
+    base = reduced(problem, problem.prior.mean)
+    recipe = next(each for each in base.recipes(registry()["joint"]) if each.site(np.ones(3)).text.startswith(
+        "element 1 at node 2, local y, local z and torsion"))  # fmt: skip
+    k, rigid = G * 2 * I / l, [each.upper for each in recipe.unknowns[:2]]
+    for share in (0.1, 1.0, 10.0):
+        values = np.array([*rigid, share * k])
+        rates = Model(base, (recipe,)).solved(np.concatenate([base.z, recipe.coordinates(values)]))[0]
+        expected = 1 / (1 / k + 1 / (share * k) + a / (6 * E * I)) / (2 * m * a**2)
+        assert np.abs(rates / expected - 1).min() < 1e-3
+        made = recipe.extend(problem, values)
+        there = eigh(*map(dense, assembly(made).matrices(made.prior.mean)), eigvals_only=True)
+        assert np.abs(there / expected - 1).min() < 1e-3
 
 
 @pytest.mark.proof

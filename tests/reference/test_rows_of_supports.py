@@ -74,3 +74,13 @@ def test_rows_are_lines_of_supports_that_are_not_all():
     assert alike == [[[0, 1, 2, 3, 4, 5]], *([row] for row in rows)]
     _, alike = support_sets(problem.mesh, held[:2], np.ones(2))
     assert alike == [[[0, 1]]]
+
+
+def test_one_support_gives_way_in_any_of_its_directions_together():
+    """A mast turns about both axes, or twists as well; of many supports the two directions that bear most are asked."""
+    problem = assemble(yaml_deck.read(f"mouse: 1\n{frames.deck(block())}", "block.yaml"))
+    single, alike = support_sets(problem.mesh, [(0, d) for d in (3, 4, 5)], np.array([3.0, 1.0, 2.0]))
+    assert single == [[[0]], [[1]], [[2]], [[0], [2]], [[0], [1]], [[2], [1]], [[0], [2], [1]]]
+    assert alike == []
+    single, _ = support_sets(problem.mesh, [(n, d) for n in range(5) for d in (3, 4, 5)], np.tile([3.0, 1.0, 2.0], 5))
+    assert single[15:] == [[[3 * n], [3 * n + 2]] for n in range(5)]

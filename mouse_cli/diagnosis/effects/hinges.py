@@ -134,11 +134,12 @@ def with_hinge(
 def with_joint(
     problem: Problem, bars: Bars, planes: list[int], share: float, names: list[str], turning: np.ndarray
 ) -> Problem:
-    """The deck with springs `turning` (c,) at `share` of one element, one or two `planes` of which they let turn."""
+    """The deck with springs `turning` (c,) at `share` of one element, one or two `planes` of which they let turn, and twist."""
     if len(planes) == 1:
         return with_hinge(problem, bars, planes[0], share, names[0], turning[0])
     edit = Edit(problem)
-    spring, soft = hinge(edit, *end_of(edit, bars, planes[0], share), turning[0], other=turning[1])
+    springs = dict(zip(("turning", "other", "twisting"), turning.tolist(), strict=False))
+    spring, soft = hinge(edit, *end_of(edit, bars, planes[0], share), **springs)
     for name, key in zip(names, soft, strict=True):
         edit.bind(name, [spring], (key,), unit="N m/rad")
     return edit.done()

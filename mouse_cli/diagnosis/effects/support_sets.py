@@ -1,6 +1,7 @@
 """Supports of a mesh that act together: which, what they are called, and the deck with springs in them."""
 
 from collections.abc import Sequence
+from itertools import combinations
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from mouse_cli.model.mesh import Mesh
 from mouse_cli.model.problem import Problem
 
 _TOGETHER = 16  # supports that may be alike
+_FEW = 4  # nodes up to which a support may give way in any of its directions together
 _ONE_ROW = 1e-6  # of the largest dimension: by which supports of one row are out of line at most
 
 Held = tuple[int, int]  # node (index) and direction
@@ -18,20 +20,23 @@ Sets = list[list[int]]  # supports by number, those of each list with one stiffn
 
 
 def support_sets(mesh: Mesh, held: Sequence[Held], size: np.ndarray) -> tuple[list[Sets], list[Sets]]:
-    """Single supports, and those of one node in both directions of largest `size` (a,); all of a direction, and of both, alike,
-    and those of a row: what stands on one abutment, or on one side of a building.
+    """Single supports, and those of one node in several directions; all of a direction, and of several, alike, and those of a
+    row: what stands on one abutment, or on one side of a building. Of many nodes in the two directions of largest `size` (a,).
     """
     by = by_direction(held)
-    largest = sorted(by, key=lambda d: -sum(size[by[d]].tolist()))[:2]
     at = {each: i for i, each in enumerate(held)}
-    nodes = dict.fromkeys(node for node, _ in held) if len(largest) == 2 else ()
-    both = [[[at[node, d]] for d in largest] for node in nodes if all((node, d) in at for d in largest)]
+    nodes = dict.fromkeys(node for node, _ in held)
+    order = sorted(by, key=lambda d: -sum(size[by[d]].tolist()))
+    together = [order[:2]] if len(nodes) > _FEW else [list(some) for n in (2, 3) for some in combinations(order, n)]
+    together = [some for some in together if len(some) > 1]
+    several = [
+        [[at[node, d]] for d in some] for some in together for node in nodes if all((node, d) in at for d in some)
+    ]
     many = {d: own for d, own in sorted(by.items()) if 1 < len(own) <= _TOGETHER}
     alike = [[own] for own in many.values()]
-    if len(largest) == 2 and all(d in many for d in largest):
-        alike.append([many[d] for d in largest])
+    alike += [[many[d] for d in some] for some in together if all(d in many for d in some)]
     alike += [[own] for d in many for own in _rows(mesh, held, by[d])]
-    return [[[i]] for i in range(len(held))] + both, alike
+    return [[[i]] for i in range(len(held))] + several, alike
 
 
 def _rows(mesh: Mesh, held: Sequence[Held], own: Sequence[int]) -> list[list[int]]:

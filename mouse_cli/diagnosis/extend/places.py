@@ -101,21 +101,24 @@ def hinge(
     parting: float = 0.0,
     off: float = 0.0,
     other: float = 0.0,
+    twisting: float = 0.0,
 ) -> tuple[tuple[int, int], dict[str, float]]:
     """A spring (N m/rad) in place of the rigid connection of one end of a beam: the element that it is, what is soft by key.
 
     axes (3, 3), rows: along the bar, the direction in which it bends, and the axis about which it does. sliding: stiffness (N/m)
-    across the bar there, parting: along it, other: (N m/rad) in the other plane; 0: rigid. off: how far from the axis it turns.
+    across the bar there, parting: along it, other: (N m/rad) in the other plane, twisting: about the bar; 0: rigid. off: how far
+    from the axis it turns.
     """
     old = int(edit.sets[element[0]].nodes[element[1], end])
     new = edit.detach(element, end)
-    turn, across = (_global(axes[k]) for k in (2, 1))
-    if turn is not None and (across is not None or not (sliding or other)) and not parting:
+    turn, across, along = (_global(axes[k]) for k in (2, 1, 0))
+    if turn is not None and (across is not None or not (sliding or other or twisting)) and not parting:
         soft = {3 + turn: turning} | ({across: sliding} if sliding else {}) | ({3 + across: other} if other else {})
+        soft |= {3 + along: twisting} if twisting else {}
         edit.links.append(RigidLink(old, new, tuple(d for d in range(6) if d not in soft)))
         values = {DIRECTIONS[d]: value for d, value in soft.items()}
         return edit.add("spring", [[old, new]], values)[0], values
-    values = {"RZ": turning, "TY": sliding, "TX": parting, "RY": other}
+    values = {"RZ": turning, "TY": sliding, "TX": parting, "RY": other, "RX": twisting}
     values = {key: value for key, value in values.items() if value}
     return _joint(edit, element, (old, new), axes, values, off), values
 

@@ -1,4 +1,7 @@
-"""A joint of bars that turns in bending, about one axis or both, where bars meet or, as a splice does, along a line of them."""
+"""A joint of bars that turns in bending, about one axis or both, where bars meet or, as a splice does, along a line of them.
+
+Where bars meet in space it may twist too.
+"""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -7,18 +10,20 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, steps, summed
 from mouse_cli.diagnosis.effects.hinges import hinged, joint_stiffness, lines, places, with_joint
+from mouse_cli.diagnosis.effects.twisted import torsion, twisted
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import Bars
 from mouse_cli.diagnosis.sites.lines import Line
 from mouse_cli.diagnosis.sites.reasons import bars
 from mouse_cli.model.diagnosis import Site
+from mouse_cli.model.groups import enumerated
 from mouse_cli.model.problem import Problem
 
 _MOST = 60  # joints that are looked at: those that bend most in the lowest modes
 _SAME = 1e-6  # of directions
 _SPLICE = 0.5  # prior probability that a joint is a splice along a line, where bars meet too
-_BOTH = 0.5  # prior probability that a joint where bars meet in space turns about both axes
+_BOTH, _TWISTS = 0.5, 0.2  # prior probability that a joint in space turns about both axes, and that it twists as well
 _STARTS = 3  # stiffnesses to begin from
 _ROOT = 0.01  # of the length of a line, about half the height of a slender section, up to which a splice is at its end
 _STEP = 1.3  # ratio of stiffnesses or masses from which on a straight line changes its section, and does not taper
@@ -38,19 +43,24 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
 
 
 def _corners(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """Those of bars that meet: about one axis, and in space about both, each with a stiffness of its own."""
+    """Those of bars that meet: about one axis, in space about both, and about all three; each has a stiffness of its own."""
     bars = model.bars
     ends = _ends(bars)
     one = [((bar,), end) for bar, end in ends]
     own = dict.fromkeys((int(bars.set[bar]), int(bars.member[bar]), end) for bar, end in ends)
     both = [(tuple(planes), end) for *element, end in own if len(planes := bars.twins[tuple(element)]) > 1]
-    share = np.log([1 - _BOTH, _BOTH] if both else [1.0, 1.0])
-    modes = slice(0, model.low_modes())
+    stiff = torsion(model, sorted({planes[0] for planes, _ in both}))
+    every = [(planes, end) for planes, end in both if stiff[planes[0]] > 0]
+    kinds = [(one, 1 - _BOTH, False), (both, _BOTH - (_TWISTS if every else 0.0), False), (every, _TWISTS, True)]
+    total, modes = sum(share for some, share, _ in kinds if some) or 1.0, slice(0, model.low_modes())
     found = []
-    for some, prior in zip((one, both), share.tolist(), strict=True):
+    for some, share, twists in kinds:
         bent = [max(np.abs(_moment(bars, bar, end, modes)).max() for bar in planes) for planes, end in some]
         chosen = [some[i] for i in sorted(np.argsort(bent)[::-1][:_MOST])]
-        found += [_recipe(model, candidate, *each, prior - float(np.log(len(some)))) for each in chosen]
+        prior = float(np.log(share / total / max(len(some), 1)))
+        found += [
+            _recipe(model, candidate, planes, end, prior, stiff[planes[0]] if twists else 0.0) for planes, end in chosen
+        ]
     return found
 
 
@@ -148,27 +158,31 @@ def _different(bars: Bars, ends: list[tuple[int, int]]) -> list[tuple[int, int]]
     return found
 
 
-def _recipe(model: Reduced, candidate: Candidate, planes: tuple[int, ...], end: int, log_prior: float) -> Recipe:
-    """planes: the bars of one element, of the planes in which it turns against the rest."""
+def _recipe(
+    model: Reduced, candidate: Candidate, planes: tuple[int, ...], end: int, log_prior: float, GJ: float
+) -> Recipe:
+    """planes: the bars of one element, of the planes in which it turns against the rest; GJ: over its length, if it twists."""
     bars, first = model.bars, planes[0]
     node = int(model.problem.mesh.node_ids[bars.nodes[first, end]])
-    axes = [f"local {'yz'[bars.plane[bar]]}" for bar in planes]
+    axes = [f"local {'yz'[bars.plane[bar]]}" for bar in planes] + (["torsion"] if GJ else [])
     site = Site(
         "node",
         (node,),
         bars.point(first, float(end)),
-        f"element {bars.ids[first]} at node {node}, {' and '.join(axes)}",
+        f"element {bars.ids[first]} at node {node}, {enumerated(axes)}",
     )
-    several = len(planes) > 1
-    k = [joint_stiffness(model, bars.EI[bar] / bars.lines[bars.line[bar]].length) for bar in planes]
+    several = len(axes) > 1
+    scales = [bars.EI[bar] / bars.lines[bars.line[bar]].length for bar in planes] + ([GJ] if GJ else [])
+    k = [joint_stiffness(model, scale) for scale in scales]
     k = [
         replace(each, name=f"{each.name}, {axis}" if several else each.name) for each, axis in zip(k, axes, strict=True)
     ]
     b = np.array([1.0, 2.0 * end - 1, 0.0])
 
     def change(values: np.ndarray) -> Change:
-        turns = zip(planes, values, strict=True)
-        return summed([hinged(bars, bar, float(end), np.outer(b, b) / value) for bar, value in turns])
+        turns = zip(planes, values, strict=False)
+        turning = summed([hinged(bars, bar, float(end), np.outer(b, b) / value) for bar, value in turns])
+        return twisted(turning, bars, first, float(end), GJ, values[-1]) if GJ else turning
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         named = [f"joint of element {bars.ids[first]} at node {node}, {axis}" for axis in axes]
@@ -183,7 +197,7 @@ CANDIDATE = Candidate(
     "a flexible joint",
     "local-stiffness",
     "a connection of bars (bolts, weld, corner, or a splice anywhere along them) that the model takes as rigid and that rotates in "
-    "proportion to the moment, about one axis or both",
+    "proportion to the moment, about one axis or both, and where bars meet in space about all three",
     recipes,
     bars,
 )

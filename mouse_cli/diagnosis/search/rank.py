@@ -48,6 +48,7 @@ _ENTRY = 0.99  # probability of one wrong entry of the test from which on nothin
 _IDLE = 0.5
 _SIZES = ("support", "taper")  # groups that have more than one size and yet no place that these could move
 _BY_SIZE = ("mass", "oscillator")  # groups whose stiffness at their place follows the frequency by few sizes
+_FOLLOWING = 25.0  # ln of odds behind the best mechanism up to which its places are told apart by what is held out
 _PLAIN = 2  # mechanisms up to which a set that explains the data needs no two rivals without a name beside it
 
 
@@ -190,7 +191,7 @@ def _ranked(study: Study, causes: int, by_all: Callable[[Ranking], Ranking], las
         lambda _, one: singles.extend([] if one is None else [one]),
         lambda _: within([baseline, *singles]),
     )
-    singles = [led(one) for one in singles]
+    singles = [led(one) if _matters(one, baseline, singles) else one for one in singles]
     fits = [baseline, *singles]
     found = by_all(ranking(baseline, fits))
     none = dict(found.groups).get("none", 0.0)
@@ -210,6 +211,12 @@ def _ranked(study: Study, causes: int, by_all: Callable[[Ranking], Ranking], las
     if len(fits) > 1 + len(singles) or len(kept) < len(fits):
         found = by_all(ranking(baseline, kept))
     return replace(found, untried=_untried(study, singles))
+
+
+def _matters(one: Fit, baseline: Fit, singles: list[Fit]) -> bool:
+    """Whether a mechanism says more than none, and is so near the best that what is held out may make it that."""
+    best = max(each.log_evidence for each in singles)
+    return one.log_evidence > max(baseline.log_evidence + gates.ODDS, best - _FOLLOWING)
 
 
 def explains(one: Fit) -> bool:
