@@ -45,7 +45,7 @@ class Released:
 
 def yielding(model: Reduced, candidate: Candidate, turning: bool) -> list[Recipe]:
     """In translation or in rotation: a recipe for each support that the measured modes load, for all alike, and for those of one
-    node, or of all alike, in both directions that bear most, each with a stiffness of its own; and for any of few in one direction,
+    node, or of all alike, in several directions, each with a stiffness of its own; and for any of few in one direction,
     each with a stiffness of its own: what was built alike, or stands on one ground, is flexible together though not alike.
 
     Half of the prior is that of one support, half that of several.
