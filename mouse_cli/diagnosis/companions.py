@@ -12,7 +12,7 @@ from math import erf, sqrt
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import PLACE, Recipe
-from mouse_cli.diagnosis.gates import SAME_SITE, SURE
+from mouse_cli.diagnosis.gates import OPEN, SAME_SITE, SURE
 from mouse_cli.diagnosis.likelihoods.modal.scales import span
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.rank import Ranking
@@ -37,14 +37,17 @@ class Shared:
 
 
 def shared(ranking: Ranking, first: Fit) -> Shared | None:
-    """The most mechanisms of `first` whose summed probability is SURE, of those whose place is, if any's is; None: none has it."""
+    """The most mechanisms of `first` whose summed probability is enough, of those whose place is SURE, if any's is; None: none has it.
+
+    SURE is enough beside companions that are as sure, OPEN where these are open.
+    """
     own, every = _mechanisms(first), list(_explanations(ranking))
     reach = SAME_SITE * span(first.model.base)
     kept = steady(first) or tuple(range(len(own)))
     for count in range(len(kept), 0, -1):
         found = [_summed(which, own, every, reach) for which in combinations(kept, count)]
         best = max(found, key=lambda one: one.probability)
-        if best.probability >= SURE:
+        if best.probability >= (SURE if best.companions[:1] and best.companions[0][1] >= SURE else OPEN):
             return best
     return None
 

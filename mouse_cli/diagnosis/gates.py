@@ -17,6 +17,9 @@ NAMELESS = 0.1
 SURE = 0.95
 """Posterior probability of a group, and of its site, from which on it is named: no rival is left that would have to be listed."""
 
+OPEN = 0.97
+"""The same of what many sets share, none of which is sure: sets that were not tried may have it at another place, or not at all."""
+
 STAYS = 0.1
 """Posterior probability of a group above which it stays a rival of a leading field without a name."""
 

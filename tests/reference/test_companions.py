@@ -38,6 +38,13 @@ def test_a_crack_that_all_share_is_certain_and_its_companion_open():
     assert decide(ranked(*fits, BARE, p=(0.46, 0.3, 0.22, 0.02)))[0] == NAMED
 
 
+@pytest.mark.parametrize(("p", "enough"), [((0.5, 0.46, 0.04), False), ((0.5, 0.48, 0.02), True), ((0.95, 0.005, 0.045), True)])
+def test_what_acts_beside_open_companions_takes_more(p, enough):
+    """0.96 in two sets neither of which is sure is no name; 0.98 is, and so is 0.955 where the companion is as sure."""
+    fits = made_up("crack@0.40", "gravity"), made_up("crack@0.41", "axial")
+    assert (found(*fits, p=p) is not None) == enough
+
+
 def test_cracks_elsewhere_are_not_the_same():
     """Neither another fit that has it 0.1 of the span away, nor the share of a fit that stands at a rival site."""
     fits = made_up("crack@0.40", "gravity"), made_up("axial", "crack@0.50"), made_up("crack@0.42")
