@@ -37,7 +37,7 @@ class Shared:
 
 
 def shared(ranking: Ranking, first: Fit) -> Shared | None:
-    """The most mechanisms of `first` whose summed probability is enough, of those whose place is SURE, if any is; None: none has it.
+    """The most mechanisms of `first` that are probable enough together, of those at a sure place, if any is; None: none has it.
 
     SURE is enough beside companions that are as sure, OPEN where these are open.
     """
