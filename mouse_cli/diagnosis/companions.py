@@ -47,7 +47,7 @@ def shared(ranking: Ranking, first: Fit) -> Shared | None:
     for count in range(len(kept), 0, -1):
         found = [_summed(which, own, every, reach) for which in combinations(kept, count)]
         best = max(found, key=lambda one: one.probability)
-        if best.probability >= (SURE if best.companions[:1] and best.companions[0][1] >= SURE else OPEN):
+        if best.probability >= (SURE if max((p for _, p in best.companions), default=0.0) >= SURE else OPEN):
             return best
     return None
 

@@ -76,7 +76,7 @@ def test_rows_are_lines_of_supports_that_are_not_all():
     assert alike == [[[0, 1]]]
 
 
-def test_one_support_gives_way_in_any_of_its_directions_together():
+def test_one_support_is_flexible_in_any_of_its_directions_together():
     """A mast turns about both axes, or twists as well; of many supports the two directions that bear most are asked."""
     problem = assemble(yaml_deck.read(f"mouse: 1\n{frames.deck(block())}", "block.yaml"))
     single, alike = support_sets(problem.mesh, [(0, d) for d in (3, 4, 5)], np.array([3.0, 1.0, 2.0]))

@@ -19,7 +19,7 @@ from mouse_cli.model.revision import DENSITY_TIMES, E_TIMES, MASS_GAINED, MASS_L
 # than 1e-8 is lost in the 14 digits of a solver's file.
 _GONE = 1 - 1e-7
 _MISSING, _HEAVIER = Unknown("share lost", "1", 0.02, _GONE), Unknown("share gained", "1", 0.02, 20.0)
-_LIGHTER = Unknown("share lost", "1", 0.02, 0.99)
+LIGHTER = Unknown("share lost", "1", 0.02, 0.99)
 # Of E and density, over those of the deck: from foam or a plastic for steel to the other way round.
 _STIFFER = Unknown("stiffness over that of the deck", "1", 0.02, 50.0)
 _DENSER = Unknown("mass over that of the deck", "1", 0.05, 20.0)
@@ -65,7 +65,7 @@ def heavier(model: Reduced, candidate) -> list[Recipe]:
 
 def lighter(model: Reduced, candidate) -> list[Recipe]:
     """M - d M_s of each set: a tank that is empty, a lining that is gone."""
-    return _weighing(model, candidate, _LIGHTER, MASS_LOST, -1)
+    return _weighing(model, candidate, LIGHTER, MASS_LOST, -1)
 
 
 def _weighing(model: Reduced, candidate, share: Unknown, name: str, sign: int) -> list[Recipe]:

@@ -12,7 +12,7 @@ from mouse_cli.model.mesh import Mesh
 from mouse_cli.model.problem import Problem
 
 _TOGETHER = 16  # supports that may be alike
-_FEW = 4  # nodes up to which a support may give way in any of its directions together
+_FEW = 4  # nodes up to which a support may be flexible in any of its directions together
 _ONE_ROW = 1e-6  # of the largest dimension: by which supports of one row are out of line at most
 
 Held = tuple[int, int]  # node (index) and direction

@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Recipe, Unknown, proportional
-from mouse_cli.diagnosis.effects.element_sets import lighter
-from mouse_cli.diagnosis.effects.losses import LOST, matrices_of
+from mouse_cli.diagnosis.effects.change import Recipe, proportional
+from mouse_cli.diagnosis.effects.element_sets import LIGHTER, lighter
+from mouse_cli.diagnosis.effects.losses import matrices_of
 from mouse_cli.diagnosis.effects.members import Part, summed
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
@@ -17,7 +17,6 @@ from mouse_cli.diagnosis.sites.reasons import members as why
 from mouse_cli.model.mesh import Mesh
 from mouse_cli.model.problem import Problem
 
-_SHARE = Unknown(LOST, "1", 0.02, 0.99)
 _CARRIED, _OWN = "nonstructural_mass", "density"
 _MOST = 240  # members that are looked at: the heaviest in a low mode
 _FELT = 1e-6  # share of the mass of a mode below which a member has no part in it
@@ -28,7 +27,8 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     if model.motion is None:
         return lighter(model, candidate)
     mesh, count = model.problem.mesh, model.low_modes()
-    listed = [*members(mesh), *_laden(mesh)]
+    listed = members(mesh)
+    listed += _laden(mesh, listed)
     parts = {s: _mass(model, s) for s in {s for member in listed for s, _ in member.elements}}
     found = [(member, summed(member, parts, 2)) for member in listed]
     felt = [float(M.diagonal()[:count].max()) for _, M in found]
@@ -38,9 +38,9 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     return [_recipe(model, candidate, member, M, share[member.kind]) for member, M in chosen]
 
 
-def _laden(mesh: Mesh) -> list[Member]:
-    """What each entry of the deck has of elements that carry mass, where its line or its section has others too."""
-    known = {frozenset(member.elements) for member in members(mesh)}
+def _laden(mesh: Mesh, listed: list[Member]) -> list[Member]:
+    """What each entry of the deck has of elements that carry mass, where that is none of the members `listed`."""
+    known = {frozenset(member.elements) for member in listed}
     carrying = [
         tuple((s, int(i)) for i in np.flatnonzero(own.properties[_CARRIED]))
         for s, own in enumerate(mesh.elements)
@@ -56,19 +56,17 @@ def _lost(model: Reduced, s: int) -> str:
 
 
 def _mass(model: Reduced, s: int) -> Part:
-    """The motion of nodes, nothing, and the mass (e, 12, 12) that may be missing; see `Part`."""
-    elements, whole = model.problem.mesh.elements[s], matrices_of(model, s)["M"]
-    u = displacements(model.motion, elements.nodes, model.V)
-    if elements.type not in SLENDER:
-        return u, np.zeros_like(whole), np.zeros_like(whole)
-    return u, np.zeros_like(whole), whole - matrices_of(model, s, **{_lost(model, s): 0.0})["M"]
+    """See `Part`; M (e, 12, 12) of what may be missing."""
+    elements, found = model.problem.mesh.elements[s], matrices_of(model, s)
+    less = matrices_of(model, s, **{_lost(model, s): 0.0}) if elements.type in SLENDER else found
+    return displacements(model.motion, elements.nodes, model.V), found["K"], found["M"] - less["M"]
 
 
 def _recipe(model: Reduced, candidate: Candidate, member: Member, M: np.ndarray, share: float) -> Recipe:
     site, groups = member.site, {}
     for s, i in member.elements:
         groups.setdefault(_lost(model, s), []).append(int(model.problem.mesh.elements[s].ids[i]))
-    return proportional(candidate, _SHARE, 4, site, share, _extension(groups, site.text), M=-M)
+    return proportional(candidate, LIGHTER, 4, site, share, _extension(groups, site.text), M=-M)
 
 
 def _extension(groups: dict[str, list[int]], text: str) -> Callable[[Problem, np.ndarray], Problem]:

@@ -225,10 +225,19 @@ def sized(cause: Cause) -> str:
 
 def _size(size: Size) -> str:
     unit = "" if size.unit in ("", "1") else f" {size.unit}"
-    whole = size.unit == "1" and _ALL < size.upper <= 1  # a share of something that is all there is
-    edge = ", as good as all of it" if whole else ", at the limit of its range"
-    edge = "" if size.lower * 1.001 < size.value < size.upper * 0.999 else edge
-    return f"{size.name} {size.value:.4g}{unit} (sd {size.sd:.2g}{edge})"
+    return f"{size.name} {size.value:.4g}{unit} (sd {size.sd:.2g}{_limit(size)})"
+
+
+def _limit(size: Size) -> str:
+    """What it means that a size is at a limit of its range; empty: it is at none.
+
+    >>> [_limit(Size("share lost", "1", value, 0.01, 0.02, 0.99)) for value in (0.02, 0.5, 0.99)]
+    [', at the limit of its range', '', ', as good as all of it']
+    """
+    if size.lower * 1.001 < size.value < size.upper * 0.999:
+        return ""
+    whole = size.unit == "1" and _ALL < size.upper <= 1 and size.value > size.lower * 1.001
+    return ", as good as all of it" if whole else ", at the limit of its range"
 
 
 def log_evidence_over_none(found: Diagnosis, one: Explanation) -> float:
