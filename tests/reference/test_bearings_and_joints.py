@@ -150,7 +150,7 @@ def test_a_joint_turns_about_both_axes():
 
 
 def test_a_joint_that_twists_as_well():
-    """A pylon below a wing, a boom on a bolted bracket: an arm with a crank at its end, whose joint gives way about all axes."""
+    """A pylon below a wing, a boom on a bolted bracket: an arm with a crank at its end, whose joint is flexible about all axes."""
     n = 4
     lines = ([0, 0, 0], [0, 0, 0.6]), ([0, 0, 0.6], [0.7, 0, 0.6]), ([0.7, 0, 0.6], [0.7, 0.5, 0.7])
     points = np.concatenate([np.linspace(*line, n + 1)[i > 0 :] for i, line in enumerate(lines)])
@@ -167,13 +167,14 @@ def test_a_joint_that_twists_as_well():
         assert abs(size.value - true) < 3 * size.sd + 0.01 * true
 
 
-def test_a_joint_takes_from_torsion_what_a_spring_in_series_does():
+@pytest.mark.parametrize("mass", ["consistent", "lumped", "translational"])
+def test_a_joint_takes_from_torsion_what_a_spring_in_series_does(mass):
     """omega^2 = k / (2 m a^2) of a column with a bar across: 1 / k = l / GJ + 1 / k_joint, and a / 6EI by which the bar yields."""
     A, I, m, a, l = 1e-2, 1e-5, 40.0, 1.5, 2.0
     light = model(
         np.array([[0, 0, 0], [0, 0, l], [-a, 0, l], [a, 0, l]]), [(0, 1), (1, 2), (1, 3)], A, I, 2 * I,
         f"      - {{id: 8-9, type: mass, nodes: [3, 4], mass: {m}}}\n    supports: {{1: all}}\n",
-    ).replace(f"density: {RHO}", "density: 1.0e-3")  # fmt: skip
+    ).replace(f"density: {RHO}", "density: 1.0e-3").replace("type: beam,", f"type: beam, mass: {mass},")  # fmt: skip
     test = "test:\n  modes: {frequency: [1.0], frequency_sd: 1 %}\n"
     problem = assemble(yaml_deck.read(light + test, "deck.yaml"))
     base = reduced(problem, problem.prior.mean)
@@ -186,8 +187,25 @@ def test_a_joint_takes_from_torsion_what_a_spring_in_series_does():
         expected = 1 / (1 / k + 1 / (share * k) + a / (6 * E * I)) / (2 * m * a**2)
         assert np.abs(rates / expected - 1).min() < 1e-3
         made = recipe.extend(problem, values)
-        there = eigh(*map(dense, assembly(made).matrices(made.prior.mean)), eigvals_only=True)
-        assert np.abs(there / expected - 1).min() < 1e-3
+        K, M = map(dense, assembly(made).matrices(made.prior.mean))
+        assert np.abs(expected * eigh(M, K, eigvals_only=True) - 1).min() < 1e-3
+
+
+@pytest.mark.parametrize("mass", ["consistent", "translational"])
+def test_a_joint_turns_where_masses_have_no_inertia_against_turns(mass):
+    """omega^2 = 1 / (m (l^3 / 3EI + l^2 / k)) of a mast with a joint l below its top, which nothing in the modes of the deck is."""
+    A, I, m, l = 1e-2, 1e-5, 40.0, 2.0
+    deck = model(
+        np.array([[0, 0, 0], [1.0, 0, 0], [1.0, 0, l]]), [(0, 1), (1, 2)], A, I, 2 * I,
+        f"      - {{id: 9, type: mass, nodes: [3], mass: {m}}}\n    supports: {{1-2: all}}\n",
+    ).replace(f"density: {RHO}", "density: 1.0e-3").replace("type: beam,", f"type: beam, mass: {mass},")  # fmt: skip
+    problem = assemble(yaml_deck.read(deck + "test:\n  modes: {frequency: [1.0], frequency_sd: 1 %}\n", "deck.yaml"))
+    base = reduced(problem, problem.prior.mean)
+    recipe = next(each for each in base.recipes(registry()["joint"]) if len(each.unknowns) == 3)
+    for k in np.array([0.1, 1.0, 10.0]) * E * I / l:
+        values = np.array([k, k, 0.0])  # at the foot
+        rates = Model(base, (recipe,)).solved(np.concatenate([base.z, recipe.coordinates(values)]))[0]
+        assert np.abs(rates[:2] * m * (l**3 / (3 * E * I) + l**2 / k) - 1).max() < 1e-3
 
 
 @pytest.mark.proof

@@ -1,39 +1,67 @@
 """A joint that twists: what a spring in torsion at a share of a bar takes from its stiffness, and the jump of its shapes there."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change
 from mouse_cli.diagnosis.effects.losses import matrices_of
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.sites.bars import Bars
+from mouse_cli.diagnosis.sites.bars import Bars, displacements
+from mouse_cli.diagnosis.sites.left_out import Left, loaded
 from mouse_cli.terms.elements import _beam as beam
 
+_TURNS = [3, 4, 5, 9, 10, 11]  # of the motions of two nodes
 _STILL = 1e-9  # share of the largest motion below which a bar does not twist
 
 
-def torsion(model: Reduced, chosen: list[int]) -> dict[int, float]:
-    """GJ / l (N m/rad) of bars by number; 0 of one that no coordinate twists."""
+@dataclass(frozen=True)
+class Torsion:
+    """Of a bar GJ / l (N m/rad), and its inertia (kg m) per length against turns about it, which masses may be modelled without.
+
+    left: what the coordinates leave out of a change of the stiffness; None: nothing.
+    """
+
+    GJ: float
+    inertia: float
+    left: Left | None
+
+
+def torsion(model: Reduced, chosen: list[int]) -> dict[int, Torsion]:
+    """Of the bars `chosen` those that the coordinates twist, by number."""
     bars, found = model.bars, {}
-    whole = {s: matrices_of(model, s)["K"] for s in {int(bars.set[bar]) for bar in chosen}}
+    whole = {s: matrices_of(model, s) for s in {int(bars.set[bar]) for bar in chosen}}
     for bar in chosen:
-        K, axis = whole[int(bars.set[bar])][int(bars.member[bar])], bars.axis[bar]
-        turns = np.abs(np.diff(bars.twist[bar], axis=0)).max() > _STILL * np.abs(bars.twist[bar]).max()
-        found[bar] = max(float(axis @ K[9:12, 9:12] @ axis), 0.0) if turns else 0.0
+        axis, element = np.tile(bars.axis[bar], 2), (int(bars.set[bar]), int(bars.member[bar]))
+        K, M = (whole[element[0]][name][element[1]][np.ix_(_TURNS, _TURNS)] for name in "KM")
+        GJ, polar = float(axis[:3] @ K[3:, 3:] @ axis[:3]), float(axis @ M @ axis)
+        if GJ > 0 and np.abs(np.diff(bars.twist[bar], axis=0)).max() > _STILL * np.abs(bars.twist[bar]).max():
+            found[bar] = Torsion(GJ, polar / float(bars.length[bar]), _left_out(model, bar, element, GJ))
     return found
 
 
-def twisted(beside: Change, bars: Bars, bar: int, share: float, GJ: float, k: float) -> Change:
-    """What turns beside it, and a spring k (N m/rad) in torsion at a share of a bar of stiffness `GJ` over its length.
+def _left_out(model: Reduced, bar: int, element: tuple[int, int], GJ: float) -> Left | None:
+    """See `Torsion`."""
+    angle = np.zeros(12)
+    angle[_TURNS] = np.concatenate([-model.bars.axis[bar], model.bars.axis[bar]])
+    nodes = model.bars.nodes[[bar]]
+    given = loaded(model.static, ("torsion", element), nodes, GJ * np.outer(angle, angle)[None])
+    return (
+        None
+        if given is None
+        else given.left(displacements(model.motion, nodes, model.V), model.eigenvalues, model.static.shift)
+    )
 
-    In series with the bar it leaves GJ / (1 + GJ / k), and the angle is that torque over k.
+
+def twisted(beside: Change, bars: Bars, bar: int, share: float, own: Torsion, k: float) -> Change:
+    """What turns beside it, and a spring k (N m/rad) in torsion at a share of a bar.
+
+    In series with the bar it takes the share GJ / (GJ + k) of its stiffness, and of the angle between its ends.
     """
-    twist, soft = bars.twist[bar], GJ / (1 + GJ / k)
+    twist, lost = bars.twist[bar], own.GJ / (own.GJ + k)  # a share of the stiffness
     angle = twist[1] - twist[0]
-    planes = bars.twins[int(bars.set[bar]), int(bars.member[bar])]
-    inertia = sum(float(bars.section_inertia[each]) for each in planes)
     along, parting = beam.parted(float(bars.length[bar]), share)
-    jump = soft / k * angle
-    half = inertia * np.outer(along @ twist + 0.5 * parting * jump, jump)
-    return replace(beside, K=(soft - GJ) * np.outer(angle, angle), M=beside.M + half + half.T)
+    jump = lost * angle
+    half = own.inertia * np.outer(along @ twist + 0.5 * parting * jump, jump)
+    beyond = 0.0 if own.left is None else own.left.correction(-lost)
+    return replace(beside, K=beyond - lost * own.GJ * np.outer(angle, angle), M=beside.M + half + half.T)

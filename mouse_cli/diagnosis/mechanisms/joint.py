@@ -10,7 +10,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, steps, summed
 from mouse_cli.diagnosis.effects.hinges import hinged, joint_stiffness, lines, places, with_joint
-from mouse_cli.diagnosis.effects.twisted import torsion, twisted
+from mouse_cli.diagnosis.effects.twisted import Torsion, torsion, twisted
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import Bars
@@ -49,8 +49,8 @@ def _corners(model: Reduced, candidate: Candidate) -> list[Recipe]:
     one = [((bar,), end) for bar, end in ends]
     own = dict.fromkeys((int(bars.set[bar]), int(bars.member[bar]), end) for bar, end in ends)
     both = [(tuple(planes), end) for *element, end in own if len(planes := bars.twins[tuple(element)]) > 1]
-    stiff = torsion(model, sorted({planes[0] for planes, _ in both}))
-    every = [(planes, end) for planes, end in both if stiff[planes[0]] > 0]
+    twisting = torsion(model, sorted({planes[0] for planes, _ in both}))
+    every = [(planes, end) for planes, end in both if planes[0] in twisting]
     kinds = [(one, 1 - _BOTH, False), (both, _BOTH - (_TWISTS if every else 0.0), False), (every, _TWISTS, True)]
     total, modes = sum(share for some, share, _ in kinds if some) or 1.0, slice(0, model.low_modes())
     found = []
@@ -58,9 +58,7 @@ def _corners(model: Reduced, candidate: Candidate) -> list[Recipe]:
         bent = [max(np.abs(_moment(bars, bar, end, modes)).max() for bar in planes) for planes, end in some]
         chosen = [some[i] for i in sorted(np.argsort(bent)[::-1][:_MOST])]
         prior = float(np.log(share / total / max(len(some), 1)))
-        found += [
-            _recipe(model, candidate, planes, end, prior, stiff[planes[0]] if twists else 0.0) for planes, end in chosen
-        ]
+        found += [_recipe(model, candidate, *each, prior, twisting[each[0][0]] if twists else None) for each in chosen]
     return found
 
 
@@ -159,12 +157,12 @@ def _different(bars: Bars, ends: list[tuple[int, int]]) -> list[tuple[int, int]]
 
 
 def _recipe(
-    model: Reduced, candidate: Candidate, planes: tuple[int, ...], end: int, log_prior: float, GJ: float
+    model: Reduced, candidate: Candidate, planes: tuple[int, ...], end: int, log_prior: float, own: Torsion | None
 ) -> Recipe:
-    """planes: the bars of one element, of the planes in which it turns against the rest; GJ: over its length, if it twists."""
+    """planes: the bars of one element, of the planes in which it turns against the rest; own: its torsion, if it twists too."""
     bars, first = model.bars, planes[0]
     node = int(model.problem.mesh.node_ids[bars.nodes[first, end]])
-    axes = [f"local {'yz'[bars.plane[bar]]}" for bar in planes] + (["torsion"] if GJ else [])
+    axes = [f"local {'yz'[bars.plane[bar]]}" for bar in planes] + (["torsion"] if own else [])
     site = Site(
         "node",
         (node,),
@@ -172,7 +170,7 @@ def _recipe(
         f"element {bars.ids[first]} at node {node}, {enumerated(axes)}",
     )
     several = len(axes) > 1
-    scales = [bars.EI[bar] / bars.lines[bars.line[bar]].length for bar in planes] + ([GJ] if GJ else [])
+    scales = [bars.EI[bar] / bars.lines[bars.line[bar]].length for bar in planes] + ([own.GJ] if own else [])
     k = [joint_stiffness(model, scale) for scale in scales]
     k = [
         replace(each, name=f"{each.name}, {axis}" if several else each.name) for each, axis in zip(k, axes, strict=True)
@@ -182,7 +180,7 @@ def _recipe(
     def change(values: np.ndarray) -> Change:
         turns = zip(planes, values, strict=False)
         turning = summed([hinged(bars, bar, float(end), np.outer(b, b) / value) for bar, value in turns])
-        return twisted(turning, bars, first, float(end), GJ, values[-1]) if GJ else turning
+        return twisted(turning, bars, first, float(end), own, values[-1]) if own else turning
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         named = [f"joint of element {bars.ids[first]} at node {node}, {axis}" for axis in axes]

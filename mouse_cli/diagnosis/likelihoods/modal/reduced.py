@@ -15,7 +15,7 @@ from mouse_cli.diagnosis.likelihoods.modal.data import Data
 from mouse_cli.diagnosis.likelihoods.modal.directions import Directions, directions, projected
 from mouse_cli.diagnosis.likelihoods.modal.finer import Finer, refined
 from mouse_cli.diagnosis.sites.bars import Bars, bars, motion_of, stiffening
-from mouse_cli.diagnosis.sites.residual import Static
+from mouse_cli.diagnosis.sites.residual import Static, static
 from mouse_cli.dynamics.contraction import Stack
 from mouse_cli.dynamics.eigen import dense_solution
 from mouse_cli.dynamics.sensing import read
@@ -268,11 +268,20 @@ class Reduced:
 
 
 def exact(problem: Problem, total: Assembly, K: Matrix, M: Matrix, theta: np.ndarray) -> Reduced:
-    """The model of K and M (n, n) at theta (p,) in all of its modes."""
-    solution = dense_solution(dense(K), dense(M))
+    """The model of K and M (n, n) at theta (p,) in all of its modes; how degrees of freedom without mass follow is static."""
+    from scipy.linalg import cho_factor, cho_solve
+
+    K, M = dense(K), dense(M)
+    solution = dense_solution(K, M)
     stack = Stack(total.n, total.p, total.slopes(theta))
     V, eigenvalues = solution.shapes, solution.eigenvalues
-    return built(problem, total, theta, V, eigenvalues, directions(problem, total, theta, stack, V, eigenvalues), stack)
+    model = built(problem, total, theta, V, eigenvalues, directions(problem, total, theta, stack, V, eigenvalues), stack)
+    if model.r == total.n:
+        return model
+    shift = -0.3 * model.least_elastic
+    factor = cho_factor(K - shift * M)
+    by_all = static(problem, model.motion, model.bars, shift, lambda loads: cho_solve(factor, loads), V[:, : model.low_modes(2)])
+    return replace(model, static=by_all)
 
 
 def built(
