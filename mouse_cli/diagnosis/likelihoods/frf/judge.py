@@ -17,6 +17,7 @@ from mouse_cli.diagnosis.search.optima import within
 
 _PLACES, _KEPT = 5, 2  # places from which what only damps begins, and how many of its kind go on
 THIN, BRIEF = 4, 12  # in a first look: every so manieth line, and steps
+_ALIKE = 10.0  # squared distance of what two explanations predict, by the data's sd, up to which they are as one
 
 
 @dataclass(frozen=True)
@@ -81,13 +82,22 @@ class Judge:
         return found
 
     def uneven(self, fits: list[Fit]) -> list[Fit]:
-        """Each with damping of every mode of its own where that is the more probable; before, both are equally likely."""
+        """Each with damping of every mode of its own where that is the more probable; before, both are equally likely.
+
+        Of two that predict the same it is the same: where it gains nothing for one, it gains nothing for the other.
+        """
         found, reach = [], within(fits)
+        idle: list[tuple[Fit, float]] = []
         for one in fits:
+            known = next((gain for other, gain in idle if _alike(one, other)), None)
+            if known is not None:
+                found.append(replace(one, log_evidence=one.log_evidence + known))
+                continue
             other = self.fitted(one, damping=one.model.damping.unevenly(), reach=reach) or one
             likelier = max(one, other, key=lambda each: each.log_evidence)
-            total = np.logaddexp(one.log_evidence, other.log_evidence) - np.log(2)
-            found.append(replace(likelier, log_evidence=float(total)))
+            total = float(np.logaddexp(one.log_evidence, other.log_evidence) - np.log(2))
+            idle += [(one, total - one.log_evidence)] if likelier is one else []
+            found.append(replace(likelier, log_evidence=total))
         return found
 
     def near(self, one: Fit, stages: "tuple[Judge, ...]") -> Fit | None:
@@ -130,3 +140,8 @@ class Judge:
                     places[place] = at.chi2, trial, at.x
             tried += places.values()
         return [(trial, x) for _, trial, x in sorted(tried, key=lambda item: item[0])[:_PLACES]]
+
+
+def _alike(one: Fit, other: Fit) -> bool:
+    """Whether two explanations predict the same of the functions."""
+    return float(np.sum((one.point.residual - other.point.residual) ** 2)) < _ALIKE

@@ -91,12 +91,29 @@ def _searched(judge: Judge, modal: Ranking) -> list[Fit]:
 
     None where the model without a cause is not physical.
     """
-    base = modal.baseline.model.base
     quick, stages = judge.thinned(), tuple(judge.broadened(width) for width in _WIDTHS)
     begun = quick.near(modal.baseline, stages)
     none = None if begun is None else quick.fitted(begun)
     if none is None:
         return []
+    looked = _beside_sound(quick, none, modal) if adequate(none) else []
+    if not looked or max(one.log_evidence for one in looked) > none.log_evidence + _PLAIN / THIN:
+        looked = _looked(quick, none, modal, stages)
+    return judge.uneven(judge.all_of([none, *looked]))
+
+
+def _beside_sound(quick: Judge, none: Fit, modal: Ranking) -> list[Fit]:
+    """A first look beside a model that explains the functions by itself: each hypothesis once, its resonances where they are."""
+    looked = [one for start in _promising(modal) if (one := quick.fitted(start, most=BRIEF, reach=within([none])))]
+    looked += quick.damped(none, modal.baseline.model.base, within([none]))
+    best: dict[tuple, Fit] = {}
+    for one in sorted(looked, key=lambda each: -each.log_evidence):
+        best.setdefault(_hypothesis(one), one)
+    return list(best.values())
+
+
+def _looked(quick: Judge, none: Fit, modal: Ranking, stages: tuple[Judge, ...]) -> list[Fit]:
+    """A first look at all explanations, under every law of damping; those that may lead when all lines are used."""
     looked: list[Fit] = []
 
     def look(starts: list[Fit], stages: tuple[Judge, ...]) -> None:
@@ -105,10 +122,10 @@ def _searched(judge: Judge, modal: Ranking) -> list[Fit]:
             looked.extend([] if one is None else quick.laws(one, within([none, *looked])))
 
     look(_promising(modal), stages)
-    looked += quick.damped(none, base, within([none, *looked]))
-    if judge.known is not None or not any(map(adequate, looked)):
+    looked += quick.damped(none, modal.baseline.model.base, within([none, *looked]))
+    if quick.known is not None or not any(map(adequate, looked)):
         look(anew(stages[0], modal), stages[1:])
-    return judge.uneven(judge.all_of([none, *_leading(looked)]))
+    return _leading(looked)
 
 
 def _leaking(judge: Judge, fits: list[Fit]) -> Judge | None:
@@ -182,8 +199,7 @@ def _together(fits: list[Fit]) -> list[Fit]:
     """One of each hypothesis: the best, its evidence summed over distinct optima; those are where else it may act."""
     names: dict[tuple, list[Fit]] = {}
     for one in fits:
-        field = one.nameless.rival.key if one.nameless else ""
-        names.setdefault((field, *((r.candidate.key, r.law) for r in one.recipes)), []).append(one)
+        names.setdefault(_hypothesis(one), []).append(one)
     found = []
     for alike in names.values():
         best, *others = distinct(alike)
@@ -191,6 +207,12 @@ def _together(fits: list[Fit]) -> list[Fit]:
         elsewhere = tuple((one, float(np.exp(one.log_evidence - total))) for one in others)
         found.append(replace(best, log_evidence=float(total), elsewhere=elsewhere))
     return found
+
+
+def _hypothesis(one: Fit) -> tuple:
+    """What a fit says acts, wherever it does."""
+    field = one.nameless.rival.key if one.nameless else ""
+    return (field, *((recipe.candidate.key, recipe.law) for recipe in one.recipes))
 
 
 def _shared(fits: list[Fit]) -> list[Fit]:
