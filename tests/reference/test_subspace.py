@@ -11,6 +11,8 @@ from scipy.sparse.linalg import splu
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.reduced import WHOLE
 from mouse_cli.diagnosis.localise.matching import Matcher, shapes
+from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.model.geometry import Geometry
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.problem import Problem
@@ -159,3 +161,42 @@ def test_places_about_the_best_one_are_kept_apart(both):
     """The degree of freedom that has the mass is among the places, and what the sensors hardly tell from it."""
     problem, model = both
     assert hidden(problem.structure.n) in model.places
+
+
+def lattice(side: int) -> tuple[csr_array, csr_array, Geometry]:
+    """K, M of side x side unit masses in a plane, joined by springs along rows, columns and diagonals, an edge held."""
+    cols, rows = np.divmod(np.arange(side * side), side)
+    K = np.zeros((2 * side * side, 2 * side * side))
+    for dx, dy, k in ((1, 0, 1e4), (0, 1, 1.3e4), (1, 1, 0.6e4), (1, -1, 0.6e4)):
+        along = np.array([dx, dy]) / np.hypot(dx, dy)
+        for i in np.flatnonzero((cols + dx < side) & (rows + dy < side) & (rows + dy >= 0)):
+            j = i + dx * side + dy
+            at = np.array([2 * i, 2 * i + 1, 2 * j, 2 * j + 1])
+            K[np.ix_(at, at)] += k * np.outer(np.r_[along, -along], np.r_[along, -along])
+    free = np.flatnonzero(np.repeat(cols > 0, 2))
+    place = np.stack([cols, rows, np.zeros_like(cols)], axis=1).astype(float)
+    geometry = Geometry(np.arange(1, side * side + 1), place, free // 2, free % 2, np.zeros((0, 2)))
+    return csr_array(K[np.ix_(free, free)]), csr_array(np.eye(len(free))), geometry
+
+
+def test_a_mass_beside_sensors_of_one_direction_acts_along_all_of_its_node():
+    """As much as the whole at a node of a lattice whose sensors look along Y: eigenvalues of the whole matrices with it."""
+    K, M, geometry = lattice(14)
+    whole, n = deck(14, 1), K.shape[0]
+    node = int(geometry.node[n // 2 + 9])
+    here = np.flatnonzero(geometry.node == node)
+    heavy = M.toarray()
+    heavy[here, here] += n / 2
+    lam, X = eigh(K.toarray(), heavy, subset_by_index=[0, MODES - 1])
+    dofs = np.arange(9, n, n // SENSORS) // 2 * 2 + 1
+    sd = 0.002 * np.abs(X[dofs]).max(axis=0) * np.ones((len(dofs), MODES))
+    hz = np.sqrt(lam) / (2 * np.pi)
+    test = ModalTest(np.arange(1, MODES + 1), hz, 1e-4 * hz, dofs, X[dofs], sd)
+    structure = Structure(K, M, geometry=geometry, labels=geometry.labels())
+    listed, A = ListedElements(np.zeros(n, bool), np.arange(n), np.arange(n)), K.diagonal()[:, None] * 1e-3
+    model = reduced(replace(whole, structure=structure, elements=listed, A=A, test=test), np.ones(1))
+    recipe = next(each for each in model.recipes(registry()["mass"]) if each.site(each.grid[0]).ids == (node + 1,))
+    added = recipe.change(np.array([n / 2])).M
+    found = eigh(np.diag(model.eigenvalues), np.eye(model.r) + added, eigvals_only=True)[:MODES]
+    K, _ = assembly(model.problem).matrices(np.ones(1))
+    np.testing.assert_allclose(found, eigh(K.toarray(), heavy, eigvals_only=True)[:MODES], rtol=1e-4)

@@ -96,15 +96,20 @@ def _searched(judge: Judge, modal: Ranking) -> list[Fit]:
     none = None if begun is None else quick.fitted(begun)
     if none is None:
         return []
-    looked = _beside_sound(quick, none, modal) if adequate(none) else []
-    if not looked or max(one.log_evidence for one in looked) > none.log_evidence + _PLAIN / THIN:
-        looked = _looked(quick, none, modal, stages)
-    return judge.uneven(judge.all_of([none, *looked]))
+    starts, looked = _promising(modal), []
+    if adequate(none):
+        once = _once(quick, none, modal, starts)
+        gained = {_causes(one) for one in once if one.log_evidence > none.log_evidence + _PLAIN / THIN}
+        looked = [one for one in once if _causes(one) not in gained]
+        starts = [one for one in starts if _causes(one) in gained]
+    if starts or not looked:
+        looked += _looked(quick, none, modal, starts, stages)
+    return judge.uneven(judge.all_of([none, *_leading(looked)]))
 
 
-def _beside_sound(quick: Judge, none: Fit, modal: Ranking) -> list[Fit]:
+def _once(quick: Judge, none: Fit, modal: Ranking, starts: list[Fit]) -> list[Fit]:
     """A first look beside a model that explains the functions by itself: each hypothesis once, its resonances where they are."""
-    looked = [one for start in _promising(modal) if (one := quick.fitted(start, most=BRIEF, reach=within([none])))]
+    looked = [one for start in starts if (one := quick.fitted(start, most=BRIEF, reach=within([none])))]
     looked += quick.damped(none, modal.baseline.model.base, within([none]))
     best: dict[tuple, Fit] = {}
     for one in sorted(looked, key=lambda each: -each.log_evidence):
@@ -112,8 +117,8 @@ def _beside_sound(quick: Judge, none: Fit, modal: Ranking) -> list[Fit]:
     return list(best.values())
 
 
-def _looked(quick: Judge, none: Fit, modal: Ranking, stages: tuple[Judge, ...]) -> list[Fit]:
-    """A first look at all explanations, under every law of damping; those that may lead when all lines are used."""
+def _looked(quick: Judge, none: Fit, modal: Ranking, starts: list[Fit], stages: tuple[Judge, ...]) -> list[Fit]:
+    """A first look at `starts`, under every law of damping, at what only damps, and where modes did not show anything."""
     looked: list[Fit] = []
 
     def look(starts: list[Fit], stages: tuple[Judge, ...]) -> None:
@@ -121,11 +126,11 @@ def _looked(quick: Judge, none: Fit, modal: Ranking, stages: tuple[Judge, ...]) 
             one = quick.near(start, stages)
             looked.extend([] if one is None else quick.laws(one, within([none, *looked])))
 
-    look(_promising(modal), stages)
+    look(starts, stages)
     looked += quick.damped(none, modal.baseline.model.base, within([none, *looked]))
     if quick.known is not None or not any(map(adequate, looked)):
         look(anew(stages[0], modal), stages[1:])
-    return _leading(looked)
+    return looked
 
 
 def _leaking(judge: Judge, fits: list[Fit]) -> Judge | None:
@@ -210,9 +215,13 @@ def _together(fits: list[Fit]) -> list[Fit]:
 
 
 def _hypothesis(one: Fit) -> tuple:
-    """What a fit says acts, wherever it does."""
-    field = one.nameless.rival.key if one.nameless else ""
-    return (field, *((recipe.candidate.key, recipe.law) for recipe in one.recipes))
+    """What a fit says acts, by which law, wherever it does."""
+    return *_causes(one), *(recipe.law for recipe in one.recipes)
+
+
+def _causes(one: Fit) -> tuple[str, ...]:
+    """What a fit says acts, wherever it does and by whatever law."""
+    return one.nameless.rival.key if one.nameless else "", *(recipe.candidate.key for recipe in one.recipes)
 
 
 def _shared(fits: list[Fit]) -> list[Fit]:
