@@ -2,6 +2,8 @@
 
 from math import comb, log
 
+from mouse_cli.model.diagnosis import UNPROVED
+
 NONE = 0.3
 """Prior probability that nothing is missing."""
 
@@ -38,7 +40,7 @@ GATE = 1e-3
 SEVERAL = 1e-2
 """p-value that an explanation of several mechanisms needs: with two of them almost anything can be fitted."""
 
-LIKELY, DEMANDED = 0.1, 0.02
+LIKELY, DEMANDED = 0.1, UNPROVED
 """Probability of no mechanism below which something is likely missing though not proved, and below which it is missing."""
 
 FAR = 5.0

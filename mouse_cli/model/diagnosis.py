@@ -37,6 +37,7 @@ from mouse_cli.model.site import Site as Site
 from mouse_cli.model.units import Units
 
 NOTHING, NAMED, ONE_OF, UNKNOWN = "nothing-missing", "named", "one-of", "unknown"
+UNPROVED = 0.02  # probability that nothing is missing, from which on it is one of what may be
 RIVAL = 0.05  # probability of a group, or share of a place, from which on it is listed with the leading one
 
 
@@ -272,11 +273,11 @@ class Diagnosis(Shown):
 
     @property
     def rivals(self) -> tuple[tuple[str, float], ...]:
-        """Groups that hold more than 5 % of the probability, and it, the leading one first; never one alone of several groups."""
+        """Groups that hold more than RIVAL, `none` more than UNPROVED, the first first; never one alone of several groups."""
         least = (1 if self.nameless > RIVAL or not self.placed else 2) if self.kind == ONE_OF else 0
         named = {one.group for one in self.explanations}
         standing = [pair for pair in self.groups if pair[0] in named and pair[0] not in self.refuted]
-        return tuple((name, p) for i, (name, p) in enumerate(standing) if p > RIVAL or i < least)
+        return tuple((name, p) for i, (name, p) in enumerate(standing) if p > (UNPROVED if name == "none" else RIVAL) or i < least)
 
     @property
     def nameless(self) -> float:
@@ -289,8 +290,7 @@ class Diagnosis(Shown):
         """Of the group of `best`, or of no cause where nothing is missing; NaN where nothing was compared."""
         if self.certain is not None:
             return self.certain.probability
-        best = self.best
-        group = "none" if self.kind == NOTHING or best is None else best.group
+        group = "none" if self.kind == NOTHING or self.best is None else self.best.group
         return dict(self.groups).get(group, float("nan"))
 
     @property

@@ -172,6 +172,9 @@ def test_likely_is_not_proved():
     assert f"{told}that nothing is missing: 0.12)." in words(found)
     other = replace(found, groups=(("none", 0.6), ("ground-spring", 0.4)))
     assert sentences(other)[0].startswith("It is possible, not likely, that the model lacks a spring to the ground")
+    little = replace(found, groups=(("ground-spring", 0.96), ("none", 0.04)))
+    assert sentences(little)[0].endswith("(probability 0.96; that nothing is missing: 0.04).")
+    assert sentences(replace(found, groups=(("ground-spring", 0.99), ("none", 0.01))))[0].startswith("Something is missing")
     open_ = replace(found, groups=(("force", 0.64), ("ground-spring", 0.2), ("none", 0.16)))
     assert sentences(open_)[0] == (
         "It is likely, not proved, that something is missing (probability that nothing is: 0.16), and the test does not settle "
