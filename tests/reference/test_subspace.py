@@ -179,14 +179,14 @@ def lattice(side: int) -> tuple[csr_array, csr_array, Geometry]:
     return csr_array(K[np.ix_(free, free)]), csr_array(np.eye(len(free))), geometry
 
 
-def test_a_mass_beside_sensors_of_one_direction_acts_along_all_of_its_node():
-    """As much as the whole at a node of a lattice whose sensors look along Y: eigenvalues of the whole matrices with it."""
+def loaded(share: float):
+    """The reduced model of a lattice whose sensors look along Y, its test with a mass of that share of the whole at a node; K and M
+    (n, n) with it, the mass, and the index of the node."""
     K, M, geometry = lattice(14)
-    whole, n = deck(14, 1), K.shape[0]
-    node = int(geometry.node[n // 2 + 9])
+    n, node = K.shape[0], int(geometry.node[K.shape[0] // 2 + 9])
     here = np.flatnonzero(geometry.node == node)
     heavy = M.toarray()
-    heavy[here, here] += n / 2
+    heavy[here, here] += share * n / 2
     lam, X = eigh(K.toarray(), heavy, subset_by_index=[0, MODES - 1])
     dofs = np.arange(9, n, n // SENSORS) // 2 * 2 + 1
     sd = 0.002 * np.abs(X[dofs]).max(axis=0) * np.ones((len(dofs), MODES))
@@ -194,9 +194,22 @@ def test_a_mass_beside_sensors_of_one_direction_acts_along_all_of_its_node():
     test = ModalTest(np.arange(1, MODES + 1), hz, 1e-4 * hz, dofs, X[dofs], sd)
     structure = Structure(K, M, geometry=geometry, labels=geometry.labels())
     listed, A = ListedElements(np.zeros(n, bool), np.arange(n), np.arange(n)), K.diagonal()[:, None] * 1e-3
-    model = reduced(replace(whole, structure=structure, elements=listed, A=A, test=test), np.ones(1))
+    problem = replace(deck(14, 1), structure=structure, elements=listed, A=A, test=test)
+    K, _ = assembly(problem).matrices(np.ones(1))
+    return reduced(problem, np.ones(1)), K.toarray(), heavy, share * n / 2, node
+
+
+def test_a_mass_beside_sensors_of_one_direction_acts_along_all_of_its_node():
+    """As much as the whole: eigenvalues of the whole matrices."""
+    model, K, heavy, mass, node = loaded(1.0)
     recipe = next(each for each in model.recipes(registry()["mass"]) if each.site(each.grid[0]).ids == (node + 1,))
-    added = recipe.change(np.array([n / 2])).M
-    found = eigh(np.diag(model.eigenvalues), np.eye(model.r) + added, eigvals_only=True)[:MODES]
-    K, _ = assembly(model.problem).matrices(np.ones(1))
-    np.testing.assert_allclose(found, eigh(K.toarray(), heavy, eigvals_only=True)[:MODES], rtol=1e-4)
+    found = eigh(np.diag(model.eigenvalues), np.eye(model.r) + recipe.change(np.array([mass])).M, eigvals_only=True)
+    np.testing.assert_allclose(found[:MODES], eigh(K, heavy, eigvals_only=True)[:MODES], rtol=1e-4)
+
+
+def test_nodes_around_the_one_where_a_mass_explains_most_are_places():
+    """A tenth of the whole, at a node of which the survey knows one direction at a time."""
+    model, _, _, _, node = loaded(0.1)
+    geometry = model.problem.structure.geometry
+    near = np.linalg.norm(geometry.coordinates - geometry.coordinates[node], axis=1) < 1.1
+    assert near.sum() == 5 and np.isin(np.flatnonzero(near[geometry.node]), model.places).all()

@@ -94,17 +94,13 @@ def _most_sensitive(model: Reduced, update: Fit, count: int) -> np.ndarray:
     return np.array(found[:count], int)
 
 
-def gained(
-    update: Fit, T: np.ndarray, B: np.ndarray, together: np.ndarray | None = None
-) -> tuple[np.ndarray, np.ndarray]:
+def gained(update: Fit, T: np.ndarray, B: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """What a little spring and a little mass gain (2, n) of the misfit at each row of B (n, r) in own modes.
 
     And what they do to the data (2, q, n), over the length of what the deck's parameters, of derivatives T (q, k), cannot follow.
-    together (p, n): which rows act at once; gains and effects are then of those (2, p) and (2, q, p).
     """
     follow = np.linalg.solve(T.T @ T + np.eye(T.shape[1]), T.T)
     g = _effects(update, B)
-    g = g if together is None else g @ together.T
     left = np.maximum(np.einsum("cqn,cqn->cn", g, g - T @ (follow @ g)), 1e-300)
     return np.maximum(np.einsum("q,cqn->cn", update.point.residual, g), 0.0) ** 2 / left, g / np.sqrt(left)[:, None]
 

@@ -12,13 +12,13 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli.diagnosis.likelihoods.modal.directions import directions
-from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced, built
 from mouse_cli.diagnosis.likelihoods.modal.sets import MOST_OF_SETS, without_sets
 from mouse_cli.diagnosis.localise.force import matched
+from mouse_cli.diagnosis.localise.heavier import MOST as MOST_OF_NODES
+from mouse_cli.diagnosis.localise.heavier import heavier
 from mouse_cli.diagnosis.localise.matching import Matcher, shapes
-from mouse_cli.diagnosis.localise.survey import gained, survey
-from mouse_cli.diagnosis.search.fit import fit
+from mouse_cli.diagnosis.localise.survey import survey
 from mouse_cli.diagnosis.sites.residual import static
 from mouse_cli.diagnosis.sites.sheared import shearing
 from mouse_cli.dynamics.contraction import Stack
@@ -36,7 +36,6 @@ _MODES = 70  # of them at most from the eigensolver
 _MOVED = 30  # responses to what the parameters do
 _PLACES = 40  # degrees of freedom where a force may act
 _CLOSER = 4  # one in so many of them about the best of the others
-_NODES = 12  # of these, the best that may be acted on along all translations
 _EACH = 20_000  # degrees of freedom worked on at once
 
 
@@ -53,7 +52,7 @@ class Basis:
         theta, S, _ = solution.space.ritz()
         kept = min(max(last + 10, 3 * (last + 10) // 2, 30), _MODES, int((theta > INFINITE * theta[0]).sum()))
         modes = S[:, :kept].T @ solution.space.V[: solution.space.reached]
-        self.space = Krylov(operator, _MOST + 20 + 2 * _NODES + (MOST_OF_SETS if problem.groups else 0))
+        self.space = Krylov(operator, _MOST + 20 + MOST_OF_NODES + (MOST_OF_SETS if problem.groups else 0))
         self.space.append(modes, np.ascontiguousarray((K @ modes.T - self.sigma * (M @ modes.T)).T))
         self._T = np.zeros((0, 0))
         self.responses(np.zeros((K.shape[0], 0)))
@@ -130,7 +129,7 @@ def large(
         more = _closer(model, places, room // _CLOSER)
         basis.responses(_placed(total.n, more, np.eye(len(more))))
         places = np.concatenate([places, more])
-        beside = _beside(model, places)
+        beside = heavier(model, places)
         basis.responses(_placed(total.n, beside, np.eye(len(beside))))
         places = np.concatenate([places, beside])
     if problem.groups:
@@ -153,19 +152,6 @@ def _closer(model: Reduced, places: np.ndarray, count: int) -> np.ndarray:
     misfit = np.concatenate([sum(matcher.nearest(i, B)[1] for i in range(len(measured.modes))) for B in parts])
     misfit[places] = np.inf
     return np.argsort(misfit, kind="stable")[:count]
-
-
-def _beside(model: Reduced, places: np.ndarray) -> np.ndarray:
-    """The other translations of the nodes of `places` where a little mass gains most: it acts along all of them."""
-    at, update = model.problem.structure.geometry, fit(Model(model), np.zeros(0))
-    if at is None or update is None:
-        return np.zeros(0, int)
-    nodes = np.unique(at.node[places][at.node[places] >= 0])
-    own = np.flatnonzero(np.isin(at.node, nodes) & (at.direction < 3))
-    of_node = (at.node[own] == nodes[:, None]).astype(float)
-    gain = gained(update, update.model.jacobian(update.point), model.V[own] @ update.point.X, of_node)[0][1]
-    best = nodes[np.argsort(-gain, kind="stable")[:_NODES]]
-    return np.setdiff1d(own[np.isin(at.node[own], best)], places)
 
 
 def _placed(n: int, at: np.ndarray, values: np.ndarray) -> np.ndarray:

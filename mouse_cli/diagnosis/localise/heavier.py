@@ -1,0 +1,57 @@
+"""Nodes of a large model where a mass explains most, and those around them: what acts at a node acts along all translations."""
+
+import numpy as np
+
+from mouse_cli.diagnosis.likelihoods.modal.model import Model, modes_of
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.search.fit import Fit, fit
+from mouse_cli.model.geometry import Geometry
+
+_SHARES = 0.003, 0.01, 0.03, 0.1, 0.3  # masses that are tried, over that of the model
+_BEST = 12  # nodes that are taken
+_CENTRES, _AROUND = 2, 8  # of these, the first so many are looked around, at so many nodes each
+_TELLS = 0.5  # share of the misfit that a mass has to explain for that
+MOST = 2 * _BEST + 3 * _CENTRES * _AROUND  # degrees of freedom at most
+
+
+def heavier(model: Reduced, places: np.ndarray) -> np.ndarray:
+    """The other translations of the best nodes of `places`, and those around the first; none where nodes are not known.
+
+    A look at several masses at each node, the deck's parameters following to first order.
+    """
+    at, update = model.problem.structure.geometry, fit(Model(model), np.zeros(0))
+    if at is None or update is None or not (at.node[places] >= 0).any():
+        return np.zeros(0, int)
+    nodes = np.unique(at.node[places][at.node[places] >= 0])
+    left = np.array([_left(update, model.V[_translations(at, [node])]) for node in nodes])
+    best = nodes[np.argsort(left, kind="stable")[:_BEST]].tolist()
+    if left.min() < (1 - _TELLS) * update.misfit:
+        best += [node for centre in best[:_CENTRES] for node in _around(at, centre)]
+    return np.setdiff1d(_translations(at, best), places)
+
+
+def _left(update: Fit, B: np.ndarray) -> float:
+    """The least misfit with a mass on B (3, r)."""
+    model, base, x = update.model, update.model.base, update.point.x
+    T = model.jacobian(update.point)
+    H, least = T.T @ T + np.eye(len(x)), np.inf
+    for share in _SHARES:
+        K, M = (matrix.copy() for matrix in base.matrices(x))
+        found = modes_of(K, M + share * base.total_mass * B.T @ B)
+        at = model.paired(x, *found, np.zeros_like(base.sensing)) if np.isfinite(found[0]).all() else None
+        if at is not None:
+            pull = T.T @ at.residual - x
+            least = min(least, at.chi2 + float(x @ x - pull @ np.linalg.solve(H, pull)))
+    return least
+
+
+def _translations(at: Geometry, nodes: list[int]) -> np.ndarray:
+    """Their degrees of freedom."""
+    return np.flatnonzero(np.isin(at.node, nodes) & (at.direction < 3))
+
+
+def _around(at: Geometry, centre: int) -> list[int]:
+    """The nearest nodes that move."""
+    free = np.unique(at.node[at.node >= 0])
+    gap = np.linalg.norm(at.coordinates[free] - at.coordinates[centre], axis=1)
+    return free[np.argsort(gap, kind="stable")[1 : 1 + _AROUND]].tolist()
