@@ -82,8 +82,8 @@ MUTANTS = (
     *_of(
         "gates.py",
         _GATES,
-        gate_demanded=("0.1, 0.02", "0.1, 0.03", "test_demanded_and_likely"),
-        gate_likely=("0.1, 0.02", "0.05, 0.02", "test_demanded_and_likely"),
+        gate_demanded=("0.1, UNPROVED", "0.1, 1.5 * UNPROVED", "test_demanded_and_likely"),
+        gate_likely=("0.1, UNPROVED", "0.05, UNPROVED", "test_demanded_and_likely"),
         gate_sure=("SURE = 0.95", "SURE = 0.9", "test_a_name_is_sure"),
         gate_far=("FAR = 5.0", "FAR = 8.0", "test_a_parameter_far_from_its_prior_takes_the_name"),
     ),
