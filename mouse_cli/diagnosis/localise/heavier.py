@@ -35,9 +35,9 @@ def _left(update: Fit, B: np.ndarray) -> float:
     model, base, x = update.model, update.model.base, update.point.x
     T = model.jacobian(update.point)
     H, least = T.T @ T + np.eye(len(x)), np.inf
+    K, M = base.matrices(x)
     for share in _SHARES:
-        K, M = (matrix.copy() for matrix in base.matrices(x))
-        found = modes_of(K, M + share * base.total_mass * B.T @ B)
+        found = modes_of(K.copy(), M + share * base.total_mass * B.T @ B)
         at = model.paired(x, *found, np.zeros_like(base.sensing)) if np.isfinite(found[0]).all() else None
         if at is not None:
             pull = T.T @ at.residual - x

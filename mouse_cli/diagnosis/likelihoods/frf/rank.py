@@ -100,10 +100,11 @@ def _searched(judge: Judge, modal: Ranking) -> list[Fit]:
     if adequate(none):
         once = _once(quick, none, modal, starts)
         gained = {_causes(one) for one in once if one.log_evidence > none.log_evidence + _PLAIN / THIN}
-        looked = [one for one in once if _causes(one) not in gained]
         starts = [one for one in starts if _causes(one) in gained]
+        again = {_causes(one) for one in starts}
+        looked = [one for one in once if _causes(one) not in again]
     if starts or not looked:
-        looked += _looked(quick, none, modal, starts, stages)
+        looked = _looked(quick, none, modal, starts, stages, looked)
     return judge.uneven(judge.all_of([none, *_leading(looked)]))
 
 
@@ -117,9 +118,13 @@ def _once(quick: Judge, none: Fit, modal: Ranking, starts: list[Fit]) -> list[Fi
     return list(best.values())
 
 
-def _looked(quick: Judge, none: Fit, modal: Ranking, starts: list[Fit], stages: tuple[Judge, ...]) -> list[Fit]:
-    """A first look at `starts`, under every law of damping, at what only damps, and where modes did not show anything."""
-    looked: list[Fit] = []
+def _looked(
+    quick: Judge, none: Fit, modal: Ranking, starts: list[Fit], stages: tuple[Judge, ...], once: list[Fit]
+) -> list[Fit]:
+    """A first look at `starts`, under every law of damping, and where modes did not show anything; with what was looked at `once`,
+    where there is such, and else with what only damps.
+    """
+    looked = list(once)
 
     def look(starts: list[Fit], stages: tuple[Judge, ...]) -> None:
         for start in starts:
@@ -127,7 +132,7 @@ def _looked(quick: Judge, none: Fit, modal: Ranking, starts: list[Fit], stages: 
             looked.extend([] if one is None else quick.laws(one, within([none, *looked])))
 
     look(starts, stages)
-    looked += quick.damped(none, modal.baseline.model.base, within([none, *looked]))
+    looked += [] if once else quick.damped(none, modal.baseline.model.base, within([none, *looked]))
     if quick.known is not None or not any(map(adequate, looked)):
         look(anew(stages[0], modal), stages[1:])
     return looked
