@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.linalg import sqrtm
+from scipy.linalg import expm
 from test_channel_nuisances import K3, answer, cubic
 from two_masses import linear, record
 
@@ -22,18 +22,26 @@ def noisy(x: np.ndarray, share: float = 0.02) -> np.ndarray:
 
 
 def test_stretches_are_made_white_by_the_covariance_of_what_the_excitation_passes_on():
-    t = np.arange(60) * 0.02
-    pulses = np.stack([np.exp(-0.5 * t) * np.sin(9 * t), 0.7 * np.exp(-0.5 * t) * np.cos(9 * t)], axis=1)[:, :, None]
-    G = np.zeros((2, 60, 60))
-    for j in range(60):
-        G[:, j:, j] = pulses[: 60 - j, :, 0].T
-    G = G.reshape(120, 60)
-    exact = np.linalg.inv(sqrtm(np.eye(120) + G @ G.T).real)
-    x = np.random.default_rng(1).standard_normal((3, 2, 60, 4))
-    own = Repeated(pulses)
-    found = own.whitened(x)
-    assert np.abs(found - (exact @ x.reshape(3, 120, 4)).reshape(x.shape)).max() < 0.1  # shares below 5 % are left out
-    assert np.abs(own.whitened(found, 0.5) - x).max() < 1e-9
+    rng, t, s = np.random.default_rng(1), 60, 2
+    w, h = 9.0, 0.02
+    step = expm(np.array([[0, 1], [-(w**2), -1.0]]) * h)
+    given, read = np.array([[0.0], [0.6]]), np.array([[4.0, 0.0], [0.3, 0.7]])
+    direct, own = np.array([[0.2], [0.9]]), np.array([0.8, 0.5])
+    G = np.zeros((s, t, t))
+    for j in range(t):
+        G[:, j, j] = direct[:, 0]
+        for k in range(j + 1, t):
+            G[:, k, j] = (read @ np.linalg.matrix_power(step, k - j) @ given)[:, 0]
+    G = G.reshape(s * t, t)
+    covariance = G @ G.T + np.diag(np.repeat(own, t))
+    x = rng.standard_normal((3, s, t, 4))
+    filter = Repeated(step, given, read, direct, own)
+    found = filter.whitened(x)
+    as_one = lambda y: y.reshape(3, s * t, 4)
+    exact = np.einsum("pag,ab,pbh->pgh", as_one(x), np.linalg.inv(covariance), as_one(x))
+    np.testing.assert_allclose(np.einsum("pag,pah->pgh", as_one(found), as_one(found)), exact, rtol=1e-9, atol=1e-9)
+    assert np.abs(filter.coloured(found) - x).max() < 1e-9
+    assert np.abs(filter.whitened(x[:, :, :20]) - found[:, :, :20]).max() < 1e-12  # of what follows nothing is known
 
 
 @pytest.mark.parametrize("stated", ["", ", noise_sd: 2 %"])

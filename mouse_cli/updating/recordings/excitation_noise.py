@@ -1,55 +1,79 @@
 """Noise of the measured excitation: simulations repeat it as the structure amplifies it, and no initial state takes it.
 
-With f + e read where f acts, e white of covariance Q, outputs that are simulated over a stretch err by G e, G their answers to a
-unit at each sample. In the sd of the outputs the covariance of what is left is I + G Q G' = I + U diag(lambda) U', of few
-directions U that count beside I: those of resonances. Measured and simulated outputs are compared times (I + U lambda U')^-1/2.
+With f + e read where f acts, e white, outputs that are simulated over a stretch err by G e, G their answers to a unit at each
+sample. In the sd of the outputs the covariance of what is left is R + G Q G'. Its inverse square root is the innovations filter
+of the structure begun at rest (T. Kailath, IEEE Trans. Autom. Control 13, 1968): what is left at each sample less what the samples
+before it let expect. Measured and simulated outputs are compared behind it.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
 
-_LEAST = 0.05  # variance by that of the outputs from which on a direction counts
-_MOST = 192  # directions
-_PRECISE = 1e-3  # of those variances
+_STEADY = 1e-12  # of a gain, by which it changes from sample to sample, from which on it is one
 
 
 @dataclass(frozen=True, eq=False)
 class Repeated:
-    """pulses (t, s, i): answers of outputs, in their sd, to one sd of the noise of each excitation at the first sample; none:
-    there is no such noise.
+    """States (m,) go from sample to sample by step (m, m); one sd of the noise of each excitation adds given (m, i) to them at its
+    own sample. Outputs, in their sd or in their units (see `by`), have read (s, m) of the states and direct (s, i) of that noise;
+    own (s,): variance of theirs beside it.
     """
 
-    pulses: np.ndarray
+    step: np.ndarray
+    given: np.ndarray
+    read: np.ndarray
+    direct: np.ndarray
+    own: np.ndarray
 
-    def whitened(self, x: np.ndarray, power: float = -0.5) -> np.ndarray:
-        """Outputs (..., s, t, G) of stretches, in sd, times that power of I + U lambda U'."""
-        if not self.pulses.size:
+    def by(self, own: np.ndarray, sd: np.ndarray) -> "Repeated":
+        """The same of outputs by sd (s,), with noise of sd own (s,) of theirs."""
+        return replace(self, read=self.read / sd[:, None], direct=self.direct / sd[:, None], own=(own / sd) ** 2)
+
+    def whitened(self, x: np.ndarray) -> np.ndarray:
+        """Outputs (..., s, t, G) of stretches, in sd, as white noise of variance 1 beside the excitation's."""
+        return self._passed(x, 0)
+
+    def coloured(self, x: np.ndarray) -> np.ndarray:
+        """The inverse: outputs (..., s, t, G) that `whitened` makes x."""
+        return self._passed(x, 1)
+
+    def _passed(self, x: np.ndarray, way: int) -> np.ndarray:
+        if not self.given.size:
             return x
-        U, lam = self._directions(x.shape[-2])
-        s, t, G = x.shape[-3:]
-        flat = x.reshape(-1, s * t, G)
-        flat = flat + U @ (((1 + lam) ** power - 1)[:, None] * (U.T @ flat))
-        return flat.reshape(x.shape)
+        s, m = self.read.shape
+        y = np.moveaxis(x, -2, 0)
+        many = np.moveaxis(y, -2, 1).reshape(len(y), s, -1)
+        found, z = np.empty_like(many), np.zeros((m + s, many.shape[2]))
+        filters = self._filters(len(y))[way]
+        for k, now in enumerate(many):
+            z[m:] = now
+            after = filters[min(k, len(filters) - 1)] @ z
+            z[:m], found[k] = after[:m], after[m:]
+        shape = (len(y), s, *x.shape[:-3], x.shape[-1])
+        return np.moveaxis(np.moveaxis(found.reshape(shape), 1, -2), 0, -2)
 
     @lru_cache(maxsize=8)  # noqa: B019 - lives as long as the study
-    def _directions(self, t: int) -> tuple[np.ndarray, np.ndarray]:
-        """U (st, r) and lambda (r,) for stretches of t samples."""
-        from scipy.sparse.linalg import LinearOperator, eigsh
+    def _filters(self, t: int) -> tuple[np.ndarray, np.ndarray]:
+        """(k, m + s, m + s) from the states and what goes in at a sample to the states at the next and what comes out, of the first
+        k samples, the last of them for all that follow: to whiten, and back.
+        """
+        A, C, D = self.step, self.read, self.direct
+        B = A @ self.given
+        P, last, there, back = np.zeros_like(A), np.inf, [], []
+        for _ in range(t):
+            L = np.linalg.cholesky(C @ P @ C.T + D @ D.T + np.diag(self.own))
+            gain = np.linalg.solve(L, (A @ P @ C.T + B @ D.T).T).T  # by what comes out
+            white = np.linalg.inv(L)
+            there.append(np.block([[A - gain @ white @ C, gain @ white], [-white @ C, white]]))
+            back.append(np.block([[A, gain], [C, L]]))
+            P = A @ P @ A.T + B @ B.T - gain @ gain.T
+            P, size = (P + P.T) / 2, np.abs(gain).max()
+            if np.abs(gain - last).max() <= _STEADY * size:
+                break
+            last = gain
+        return np.array(there), np.array(back)
 
-        s, H = self.pulses.shape[1], np.fft.rfft(self.pulses[:t], 2 * t, axis=0)
 
-        def applied(y: np.ndarray) -> np.ndarray:
-            Y = np.fft.rfft(y.reshape(s, t).T, 2 * t, axis=0)
-            e = np.fft.irfft(np.einsum("lsi,ls->li", H.conj(), Y), 2 * t, axis=0)[:t]
-            E = np.fft.rfft(e, 2 * t, axis=0)
-            return np.fft.irfft(np.einsum("lsi,li->ls", H, E), 2 * t, axis=0)[:t].T.ravel()
-
-        operator = LinearOperator((s * t, s * t), applied, dtype=float)
-        begin = np.random.default_rng(0).standard_normal(s * t)
-        lam, U = eigsh(operator, min(_MOST, s * t - 1), tol=_PRECISE, v0=begin)
-        return U[:, lam > _LEAST], lam[lam > _LEAST]
-
-
-SILENT = Repeated(np.zeros((0, 0, 0)))
+SILENT = Repeated(*(np.zeros((0, 0)),) * 4, np.zeros(0))

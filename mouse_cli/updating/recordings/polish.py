@@ -10,13 +10,13 @@ from typing import ClassVar
 
 import numpy as np
 
-from mouse_cli.dynamics.response import simulate
 from mouse_cli.model.diagnosis import Cause, Size
 from mouse_cli.updating.recordings.acting import Part
 from mouse_cli.updating.recordings.hypothesis import Hypothesis
 from mouse_cli.updating.recordings.linear import rigid
 from mouse_cli.updating.recordings.segments import Segments
-from mouse_cli.updating.recordings.series import passed, sampled
+from mouse_cli.updating.recordings.series import passed
+from mouse_cli.updating.recordings.simulator import Point, Simulator
 
 _DAMPING, _UP, _DOWN = 1e-3, 10.0, 0.2  # of Levenberg and Marquardt
 _STEPS = 25
@@ -25,7 +25,7 @@ _SETTLED, _ROUGH = 0.05, 1e-3  # of the cost in nats, at which a step is no more
 _PATIENCE, _BEHIND, _ASTRAY = 3, 2.0, 100.0
 _HALVED = 10  # times that a start without stiffness is brought nearer to the mean
 _PROBE, _LESS = 0.1, 0.75  # share of a step where its curvature is seen; most of the second order by the first
-_PERTURBED, _ROUNDED = 1e-4, 1e-9  # of prior or range; of the largest stiffness, below zero
+_ROUNDED = 1e-9  # of the largest stiffness, below zero
 _SPEEDS, _TRIED = 2.5, 33  # speeds that no channel shows: how far, by their rms, and how many at a time
 
 
@@ -76,28 +76,13 @@ class Fit:
         return tuple(found)
 
 
-@dataclass
-class _Point:
-    """Residual (s, t, G) and Jacobians by x (s, t, G, k) and by initial states (s, t, G, 2n)."""
-
-    residual: np.ndarray
-    J: np.ndarray
-    X: np.ndarray
-
-
 class Polish:
     """The fit of one hypothesis to segments of records alike; spread (2n,): sd of initial states before the test."""
 
     def __init__(self, hypothesis: Hypothesis, data: list[Segments], spread: np.ndarray):
-        self.h, self.series, self.data = hypothesis, data[0].series, data
+        self.h, self.series = hypothesis, data[0].series
         self.spread = hypothesis.padded_states(spread)
-        self.force = np.concatenate([part.force for part in data], axis=2)
-        self.read = self._cleared(np.concatenate([part.measured for part in data], axis=2))
-        self.measured = self.series.repeated.whitened(self.read)
-
-    def _cleared(self, x: np.ndarray) -> np.ndarray:
-        """Outputs (..., s, t, G) without hum and drift."""
-        return self.series.disturbance.cleared(x, self.series.dt, axis=-2)
+        self.simulator = Simulator(hypothesis, data)
 
     def fit(
         self, x: np.ndarray, states: np.ndarray, internal=None, steps: int = _STEPS, beat: float = np.inf
@@ -114,12 +99,12 @@ class Polish:
     def _followed(self, x: np.ndarray, states: np.ndarray, internal, steps: int, beat: float) -> Fit | None:
         states = self.h.padded_states(states)
         x = self._sound(self.h.gauged(np.clip(x, *self.h.bounds)))
-        self.internal = internal
-        here = self._point(x, states)
+        self.simulator.internal = internal
+        here = self.simulator.point(x, states, self.spread)
         cost, damping = self._cost(here, x, states), _DAMPING
         if not np.isfinite(cost) or not self._stands(x):
             return None
-        most = min(_BEHIND * beat, _ASTRAY * float((self.measured**2).sum()))
+        most = min(_BEHIND * beat, _ASTRAY * float((self.simulator.measured**2).sum()))
         for step in range(steps):
             if step >= _PATIENCE and cost > most:
                 break
@@ -128,7 +113,7 @@ class Polish:
                 moved, d_states = self._bent(here, x, states, moved, d_states, damping)
             nx, ns = self.h.gauged(np.clip(x + moved, *self.h.bounds)), states + d_states
             sound = self.h.linear.sound(self.h.whole(nx[None])[0, : self.h.linear.k])
-            there = self._point(nx, ns) if sound else here
+            there = self.simulator.point(nx, ns, self.spread) if sound else here
             new = self._cost(there, nx, ns) if sound else np.inf
             if not np.isfinite(new) or new > cost:
                 damping = max(damping, 1e-6) * _UP
@@ -147,17 +132,17 @@ class Polish:
         """
         n, model = len(self.h.linear.M), self.h.linear
         slow = self.series.slow * self.series.dt
-        self.internal = internal
+        self.simulator.internal = internal
         for motion in rigid(model.K, model.M, slow).T:
             reach = _SPEEDS * np.abs(self.spread[n : 2 * n]).max() / np.abs(motion).max()
             for width in (reach, 2 * reach / _TRIED):
                 steps = np.linspace(-width, width, _TRIED)
                 many = np.repeat(states[None], _TRIED, 0)
                 many[:, n : 2 * n] += (steps[:, None] * motion)[:, :, None]
-                seen = self._simulated(
+                seen = self.simulator.seen(
                     np.repeat(x[None], _TRIED, 0), np.stack([self.h.padded_states(one) for one in many])
                 )
-                left = np.nan_to_num(((self.measured - seen) ** 2).sum(axis=(1, 2)), nan=np.inf)
+                left = np.nan_to_num(((self.simulator.measured - seen) ** 2).sum(axis=(1, 2)), nan=np.inf)
                 states = many[left.argmin(axis=0), :, np.arange(states.shape[1])].T
         return states
 
@@ -176,47 +161,12 @@ class Polish:
         mass, stiffness = (np.linalg.eigvalsh(one[0])[0] for one in (plant.M, plant.K))
         return bool(mass > 0 and stiffness >= -_ROUNDED * np.abs(plant.K).max())
 
-    @np.errstate(over="ignore", invalid="ignore")  # simulations may diverge; they are given up by their cost
-    def _point(self, x: np.ndarray, states: np.ndarray) -> _Point:
-        """Simulations at x, at every perturbed x and at every perturbed state, all at once."""
-        k, n2 = len(x), len(states)
-        steps = np.where(x + _PERTURBED * self.h.unit > self.h.bounds[1], -1, 1) * _PERTURBED * self.h.unit
-        many = np.vstack([x, x + np.diag(steps), np.repeat(x[None], n2, 0)])
-        begin = np.repeat(states[None], 1 + k + n2, 0)
-        nudge = _PERTURBED * self.spread
-        begin[1 + k + np.arange(n2), np.arange(n2)] += nudge[:, None]
-        seen = self._simulated(many, begin)
-        residual = self.measured - seen[0]
-        moved = seen[1:] - seen[0]
-        J = np.stack([moved[j] / steps[j] for j in range(k)], -1) if k else np.zeros((*residual.shape, 0))
-        X = np.stack([moved[k + j] / nudge[j] for j in range(n2)], -1)
-        return _Point(residual, J, X)
-
-    def _simulated(self, many: np.ndarray, begin: np.ndarray) -> np.ndarray:
-        """Filtered sensors over their sd (P, s, t, G), as their channels read them.
-
-        What a channel is late is taken off the record and not put into the simulation, so that any delay is exact.
-        """
-        series, z = self.series, None
-        if self.internal is not None:
-            z = [None if one is None else np.repeat(one[:, None], len(many), 1) for one in self.internal]
-        plant, local = self.h.plant(many, series), self.h.local(many)
-        with np.errstate(all="ignore"):
-            out, _ = simulate(plant, series.dt / series.factor, self.force, begin, local, z)
-        found, read = sampled(out, series.factor) / series.sd[None, :, None, None], self.h.read(many, series)
-        found = self._cleared(found) * read.gain[:, :, None, None]
-        for at in np.unique(read.delay, axis=0):
-            if at.any():
-                prompt = np.concatenate([part.earlier(at).measured for part in self.data], axis=2)
-                found[(read.delay == at).all(axis=1)] += self.read - self._cleared(prompt)
-        return self.series.repeated.whitened(found)
-
     @np.errstate(over="ignore", invalid="ignore")
-    def _cost(self, at: _Point, x: np.ndarray, states: np.ndarray) -> float:
+    def _cost(self, at: Point, x: np.ndarray, states: np.ndarray) -> float:
         prior = (((x - self.h.mean) / self.h.sd) ** 2).sum() + ((states / self.spread[:, None]) ** 2).sum()
         return float((at.residual**2).sum() + prior)
 
-    def _normal(self, at: _Point, x: np.ndarray, states: np.ndarray, damping: float):
+    def _normal(self, at: Point, x: np.ndarray, states: np.ndarray, damping: float):
         """Normal equations with the initial states eliminated: matrix, right side, and what gives the states back.
 
         A parameter that the data do not feel is held by the width of its range.
@@ -241,20 +191,20 @@ class Polish:
             backs.append(solved)
         return H, g, backs, logs
 
-    def _step(self, at: _Point, x: np.ndarray, states: np.ndarray, damping: float):
+    def _step(self, at: Point, x: np.ndarray, states: np.ndarray, damping: float):
         H, g, backs, _ = self._normal(at, x, states, damping)
         moved = np.linalg.solve(H + damping * np.diag(np.diag(H)), g) if len(x) else np.zeros(0)
         return moved, np.stack([b[:, -1] - b[:, :-1] @ moved for b in backs], axis=1)
 
-    def _bent(self, at: _Point, x: np.ndarray, states: np.ndarray, dx: np.ndarray, ds: np.ndarray, damping: float):
+    def _bent(self, at: Point, x: np.ndarray, states: np.ndarray, dx: np.ndarray, ds: np.ndarray, damping: float):
         """A step with its second order, along valleys that bend: parameters that act alike, one of them by its logarithm.
 
         Geodesic acceleration (M. K. Transtrum, J. P. Sethna, arXiv:1201.5885): d2 = -(J'J + D)^-1 J' f'' / 2, f'' the second
         derivative of the outputs along the step d; kept where it is the smaller of both.
         """
         near = np.clip(x + _PROBE * dx, *self.h.bounds)
-        seen = self._simulated(near[None], (states + _PROBE * ds)[None])[0]
-        bend = (seen - self.measured + at.residual) / _PROBE - at.J @ dx - np.einsum("stgn,ng->stg", at.X, ds)
+        seen = self.simulator.seen(near[None], (states + _PROBE * ds)[None])[0]
+        bend = (seen - self.simulator.measured + at.residual) / _PROBE - at.J @ dx - np.einsum("stgn,ng->stg", at.X, ds)
         if not np.isfinite(bend).all():
             return dx, ds
         along = replace(at, residual=-bend / _PROBE)  # of half the second derivative
@@ -267,14 +217,14 @@ class Polish:
         own = self.series.disturbance
         return own.columns(t, self.series.dt) * s * G if own else 0
 
-    def _fit(self, at: _Point, x: np.ndarray, states: np.ndarray, cost: float) -> Fit:
+    def _fit(self, at: Point, x: np.ndarray, states: np.ndarray, cost: float) -> Fit:
         H, _, _, logs = self._normal(at, x, states, 0.0)
         width = self.h.width
         own = np.isfinite(width)
         evidence = -cost / 2 - np.log(width[own] / np.sqrt(2 * np.pi)).sum() - (np.linalg.slogdet(H)[1] + logs) / 2
         misfit = float((at.residual**2).sum())
         dof = passed() * at.residual.size - len(x) - states.size - self._lost(*at.residual.shape)
-        covariance, as_read = np.linalg.inv(H), self.series.repeated.whitened(at.residual, 0.5)
+        covariance, as_read = np.linalg.inv(H), self.series.repeated.coloured(at.residual)
         return Fit(self.h, x, states, covariance, misfit, dof, cost, float(evidence), as_read)
 
 

@@ -14,8 +14,8 @@ from mouse_cli.updating.recordings.acting import Acting, Place
 from mouse_cli.updating.recordings.calibration import calibration
 from mouse_cli.updating.recordings.channels import SCALE, channel_sites
 from mouse_cli.updating.recordings.disturbance import BLOCK
-from mouse_cli.updating.recordings.excitation_noise import Repeated
-from mouse_cli.updating.recordings.free_force import Spectrum, free
+from mouse_cli.updating.recordings.excited import repeated
+from mouse_cli.updating.recordings.free_force import Spectrum
 from mouse_cli.updating.recordings.hypothesis import Hypothesis
 from mouse_cli.updating.recordings.linear import Linear, rigid
 from mouse_cli.updating.recordings.places import places
@@ -74,6 +74,20 @@ class Study:
         self.channels = [Place(site, *still, channel=i) for i, site in sites]
         self._at: dict[tuple, tuple[Fit | None, Regression]] = {}
 
+    def tune(self, one: Fit) -> bool:
+        """Lets the noise of the excitation be amplified as the structure of a fit amplifies it: a resonance that is off by its own
+        width at the mean of the parameters would take it for something else. Whether there is such noise.
+        """
+        if not self.look.repeated.given.size:
+            return False
+        matrices = (each[0] for each in one.hypothesis.linear.matrices(one.x[None, : self.model.linear.k]))
+        sd = self.look.sd
+        noisy = repeated(self.look, *matrices).by(sd * np.sqrt(self.look.repeated.own), sd)
+        heard = lambda series: replace(series, repeated=noisy)
+        self.data = [replace(part, series=heard(part.series)) for part in self.data]
+        self.look = heard(self.look)
+        return True
+
     def at(self, place: Place, series: Series | None = None, first: Fit | None = None) -> Regression:
         """The regression at a place of the record that is looked at, or of another; beside the laws of `first`."""
         if series is not None:
@@ -101,7 +115,7 @@ def study(problem: Problem, found: Records, of: Modelled = uncertain) -> Study:
     length = int(np.clip(_PERIODS / slowest / first.dt, _SHORTEST, _LONGEST))
     length = max(64, min(length, min(len(one) for one in found.fitted) // 3))
     slow = length if float(hz.min()) * length * first.dt < 1 else 0
-    found = _excited(accurate(found, length, slow), model, length)
+    found = _excited(accurate(found, length, slow), model)
     # what stops and starts, as nothing holds it, shakes modes far above the band of the force
     fitted = [steps(reduced(one, model), highest if slow else min(highest, high)) for one in found.fitted]
     share = max(2, _SEGMENTS // len(fitted))
@@ -115,22 +129,18 @@ def study(problem: Problem, found: Records, of: Modelled = uncertain) -> Study:
     return Study(problem, found, model, base, look, data, (low, high), length)
 
 
-def _excited(found: Records, model: Uncertain, length: int) -> Records:
-    """The records with what simulations make of the noise of their excitation over stretches of `length` samples.
+def _excited(found: Records, model: Uncertain) -> Records:
+    """The records with what simulations make of the noise of their excitation, at the mean of the parameters.
 
-    What it adds to an acceleration at its own sample is in the sd of that channel, the rest in `repeated`.
+    What it adds to an acceleration at its own sample is in the sd of that channel too, by which first looks weigh it.
     """
     first, linear = reduced(found.fitted[0], model), model.linear
     if not first.force_noise.any():
         return found
-    begun = np.linalg.solve(linear.M, first.loads(linear.M)) * first.force_noise
-    sensing = [first.sensing * (first.order == k)[:, None] for k in range(3)]
-    sd = np.sqrt(first.sd**2 + ((sensing[2] @ begun) ** 2).sum(axis=1))
-    pulses = np.zeros((length, len(sd), begun.shape[1]))
-    for order in np.unique(first.order):
-        moved = free(linear, length, first.dt, order)[len(linear.M) :]
-        pulses += sensing[order] @ np.tensordot(moved, begun * first.dt, (0, 0))
-    own = lambda series: tuple(replace(one, sd=sd, repeated=Repeated(pulses / sd[:, None])) for one in series)
+    noisy = repeated(first, linear.M, linear.C, linear.K)
+    sd = np.sqrt(first.sd**2 + ((first.order == 2)[:, None] * noisy.direct**2).sum(axis=1))
+    noisy = noisy.by(first.sd, sd)
+    own = lambda series: tuple(replace(one, sd=sd, repeated=noisy) for one in series)
     return replace(found, fitted=own(found.fitted), held=own(found.held))
 
 

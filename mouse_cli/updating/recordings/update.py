@@ -40,7 +40,10 @@ def update_records(problem: Problem, notice: Notice) -> RecordUpdate:
     own = study(problem, records(problem))
     found = own.records
     notice("simulation of the records")
-    prior, fit = _fitted(own, [_part(one, own) for one in problem.laws])
+    parts = [_part(one, own) for one in problem.laws]
+    prior, fit = _fitted(own, parts)
+    if fit is not None and own.tune(fit):
+        prior, fit = _fitted(own, parts)
     if fit is None:
         raise not_simulated(problem)
     notice("records that no fit has seen")

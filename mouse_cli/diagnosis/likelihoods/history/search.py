@@ -57,6 +57,8 @@ def weighed(study: Study, notice: Notice, known: list[Law] | None = None, causes
     """
     notice("the linear model as it is")
     baseline = fitted(study, None)
+    if baseline is not None and study.tune(baseline):
+        baseline = fitted(study, Start(study.base, baseline.x, 0.0))
     if baseline is None:
         raise not_simulated(study.problem)
     if not missing(baseline):
