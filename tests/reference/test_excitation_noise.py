@@ -2,17 +2,20 @@
 that scipy integrated, whose force was then falsified.
 """
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.linalg import expm
+from scipy.linalg import expm, solve_discrete_lyapunov
 from test_channel_nuisances import K3, answer, cubic
 from two_masses import linear, record
 
 import mouse_cli
 from mouse_cli.updating.recordings.excitation_noise import Repeated
+from mouse_cli.updating.recordings.excited import repeated
 from mouse_cli.updating.recordings.records import records
+from mouse_cli.updating.recordings.series import Series
 from mouse_cli.updating.recordings.study import fitted, study
 
 
@@ -68,3 +71,31 @@ def test_an_excitation_as_wide_as_its_samples_shows_no_noise(tmp_path):
     kept = dict(np.load(tmp_path / "run.npz"))
     np.savez(tmp_path / "run.npz", **kept | {"f": np.random.default_rng(3).standard_normal(len(kept["f"]))})
     assert not records(mouse_cli.read_deck(deck)).fitted[0].force_noise.any()
+
+
+@pytest.mark.parametrize("absolute", [True, False])
+def test_noise_of_the_ground_is_in_absolute_channels_as_the_transmissibility_has_it(absolute):
+    """A mass on a spring, its ground's acceleration read with noise: variances by the line integral of what it passes on."""
+    w0, zeta, dt, sd = 2 * np.pi * 9, 0.03, 1 / 100, 0.2
+    one, none = np.ones((1, 1)), np.zeros((1, 1))
+    series = Series("r", dt, none, none, np.ones(1), none, one, np.array([2]), one, force_noise=np.array([sd]))
+    series = replace(series, carried=one if absolute else 0.0)
+    found = repeated(series, one, 2 * zeta * w0 * one, w0**2 * one)
+    P = solve_discrete_lyapunov(found.step, found.step @ found.given @ found.given.T @ found.step.T)
+    w = np.linspace(0, np.pi / dt, 200_001)
+    answer = w**2 / (w0**2 - w**2 + 2j * zeta * w0 * w) + absolute
+    expected = sd**2 * (np.abs(answer) ** 2).mean()
+    assert (found.read @ P @ found.read.T + found.direct**2).item() == pytest.approx(expected, rel=0.03)
+
+
+def test_modes_above_half_the_sample_rate_are_not_rung_by_samples():
+    """A mode at 9 Hz and one at 70 Hz, sampled at 100 Hz: what the second adds is its answer without inertia."""
+    w0, dt = 2 * np.pi * np.array([9.0, 70.0]), 1 / 100
+    M, C, K = np.eye(2), np.diag(0.02 * w0), np.diag(w0**2)
+    read = lambda n: repeated(
+        Series("r", dt, np.zeros((1, 1)), np.zeros((1, 1)), np.ones(1), np.ones((n, 1)), np.ones((1, n)), np.array([0]),
+               np.zeros((n, 1)), force_noise=np.ones(1)), M[:n, :n], C[:n, :n], K[:n, :n])  # fmt: skip
+    both, first = read(2), read(1)
+    assert both.step.shape == first.step.shape
+    middle = (2 * np.pi * 25) ** 2
+    assert (both.direct - first.direct).item() == pytest.approx(1 / (w0[1] ** 2 - middle))

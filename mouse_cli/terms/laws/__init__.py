@@ -20,7 +20,9 @@ class Scale:
 
     band: lowest and highest frequency in the record, Hz. stiffest: contact that steps of a simulation can follow, 2 m / h^2.
     inertia: rms of the force that accelerates the mass, N: of bodies that move together it is far below stiffness times motion.
-    link: stiffness, N/m, of the spring that the model has there; 0 where it has none.
+    link: stiffness, N/m, of the spring that the model has there; 0 where it has none. least: some times force over motion of the
+    structure as a whole, which bends where `stiffness` holds all else still; most: mass of the mode that moves there most. A node of
+    a fine mesh is much stiffer and lighter than the structure; None: as stiff and as heavy.
     """
 
     stiffness: float
@@ -31,6 +33,18 @@ class Scale:
     stiffest: float = 0.0
     inertia: float = np.inf
     link: float = 0.0
+    least: float | None = None
+    most: float | None = None
+
+    @property
+    def softest(self) -> float:
+        """N/m from which on what acts there is measured against the structure as a whole."""
+        return self.stiffness if self.least is None else self.least
+
+    @property
+    def heaviest(self) -> float:
+        """Mass, kg, of the mode that moves there most."""
+        return self.mass if self.most is None else self.most
 
     @property
     def forces(self) -> tuple[float, float]:

@@ -12,7 +12,7 @@ def force(x, v, z, p, sign=1.0):
 
 def unknowns(scale: Scale) -> tuple[Unknown, ...]:
     """dk by its share of the linear stiffness."""
-    return (Unknown("stiffness of one side less the other's", "N/m", 0.002 * scale.stiffness, 2 * scale.stiffness),)
+    return (Unknown("stiffness of one side less the other's", "N/m", 0.002 * scale.softest, 2 * scale.stiffness),)
 
 
 LAW = Law(

@@ -10,8 +10,8 @@ def force(x, v, z, p, sign=1.0):
 
 def unknowns(scale: Scale) -> tuple[Unknown, ...]:
     """k3 by its share of the linear stiffness at the rms motion."""
-    size = scale.stiffness / scale.x**2
-    return (Unknown("cubic stiffness", "N/m^3", 1e-4 * size, 3 * size),)
+    x = scale.x
+    return (Unknown("cubic stiffness", "N/m^3", 1e-4 * scale.softest / x**2, 3 * scale.stiffness / x**2),)
 
 
 LAW = Law(

@@ -13,8 +13,8 @@ def matrices(p):
 
 def unknowns(scale: Scale) -> tuple[Unknown, ...]:
     """c by its force beside the elastic one."""
-    size = scale.stiffness * scale.x / scale.v
-    return (Unknown("viscous damping", "N s/m", 1e-4 * size, size),)
+    size = scale.x / scale.v
+    return (Unknown("viscous damping", "N s/m", 1e-4 * scale.softest * size, scale.stiffness * size),)
 
 
 LAW = Law("dashpot", "linear-damping", "a linear dashpot", "F = c v", unknowns, matrices=matrices)

@@ -8,7 +8,9 @@ from mouse_cli.terms.laws import Law, Scale, Unknown
 def force(x, v, z, p):
     """F = kt (x - z), |F| <= Fs: the slider z is dragged along when the limit is reached."""
     limit = p[1] / p[0]
-    stretch = np.minimum(np.maximum(x - z[0], -limit), limit)  # at each step of each simulation: np.clip takes twice as long
+    stretch = np.minimum(
+        np.maximum(x - z[0], -limit), limit
+    )  # at each step of each simulation: np.clip takes twice as long
     return p[0] * stretch, (x - stretch)[None]
 
 
@@ -17,7 +19,7 @@ def unknowns(scale: Scale) -> tuple[Unknown, ...]:
     k, (low, high) = scale.stiffness, scale.forces
     stiff = float(np.clip(scale.stiffest, 100 * k, 1e4 * k))  # Coulomb's law, as far as a simulation can follow it
     return (
-        Unknown("stiffness before slip", "N/m", 0.02 * k, stiff),
+        Unknown("stiffness before slip", "N/m", 0.02 * scale.softest, stiff),
         Unknown("slip force", "N", 0.003 * low, 3 * high),
     )
 

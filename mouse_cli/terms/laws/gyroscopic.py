@@ -15,8 +15,8 @@ def matrices(p, sign=1.0):
 
 def unknowns(scale: Scale) -> tuple[Unknown, ...]:
     """g by its force beside the elastic one."""
-    size = scale.stiffness * scale.x / scale.v
-    return (Unknown("gyroscopic coupling", "N s/m", 1e-4 * size, 3 * size),)
+    size = scale.x / scale.v
+    return (Unknown("gyroscopic coupling", "N s/m", 1e-4 * scale.softest * size, 3 * scale.stiffness * size),)
 
 
 LAW = Law(

@@ -38,7 +38,7 @@ def unknowns(scale: Scale) -> tuple[Unknown, ...]:
     k, (low, high) = scale.stiffness, scale.forces
     return (
         Unknown("slip force", "N", 0.01 * low, 10 * high),
-        Unknown("stiffness before slip", "N/m", 0.02 * k, 100 * k),
+        Unknown("stiffness before slip", "N/m", 0.02 * scale.softest, 100 * k),
         Unknown("1 + chi", "1", 0.1, 1.0),
         Unknown("beta", "1", 0.01, 10.0),
     )

@@ -13,7 +13,7 @@ def matrices(p):
 
 def unknowns(scale: Scale) -> tuple[Unknown, ...]:
     """m by its share of the mass there."""
-    return (Unknown("mass", "kg", 1e-3 * scale.mass, 2 * scale.mass),)
+    return (Unknown("mass", "kg", 1e-3 * scale.mass, 2 * scale.heaviest),)
 
 
 LAW = Law("mass", "mass", "a lumped mass", "F = m a", unknowns, matrices=matrices, at="ground")

@@ -15,7 +15,7 @@ def unknowns(scale: Scale) -> tuple[Unknown, ...]:
     """m by its share of the mass there; frequency in the band of the record or near it."""
     low, high = scale.band
     return (
-        Unknown("mass", "kg", 1e-3 * scale.mass, 0.5 * scale.mass),
+        Unknown("mass", "kg", 1e-3 * scale.mass, 0.5 * scale.heaviest),
         Unknown("frequency", "Hz", 0.7 * low, 1.4 * high),
         Unknown("damping ratio", "1", 1e-3, 0.2),
     )

@@ -12,8 +12,7 @@ def force(x, v, z, p, sign=1.0):
 
 def unknowns(scale: Scale) -> tuple[Unknown, ...]:
     """k2 by its share of the linear stiffness at the rms motion."""
-    size = scale.stiffness / scale.x
-    return (Unknown("quadratic stiffness", "N/m^2", 1e-4 * size, 3 * size),)
+    return (Unknown("quadratic stiffness", "N/m^2", 1e-4 * scale.softest / scale.x, 3 * scale.stiffness / scale.x),)
 
 
 LAW = Law(

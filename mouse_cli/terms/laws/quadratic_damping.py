@@ -12,8 +12,8 @@ def force(x, v, z, p):
 
 def unknowns(scale: Scale) -> tuple[Unknown, ...]:
     """c2 by its force beside the elastic one, both at rms motion."""
-    size = scale.stiffness * scale.x / scale.v**2
-    return (Unknown("quadratic damping", "N s^2/m^2", 1e-4 * size, 1 * size),)
+    size = scale.x / scale.v**2
+    return (Unknown("quadratic damping", "N s^2/m^2", 1e-4 * scale.softest * size, scale.stiffness * size),)
 
 
 LAW = Law(

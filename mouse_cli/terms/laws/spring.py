@@ -13,7 +13,7 @@ def matrices(p, sign=1.0):
 
 def unknowns(scale: Scale) -> tuple[Unknown, ...]:
     """dk by its share of the stiffness."""
-    return (Unknown("stiffness", "N/m", 1e-3 * scale.stiffness, 2 * scale.stiffness),)
+    return (Unknown("stiffness", "N/m", 1e-3 * scale.softest, 2 * scale.stiffness),)
 
 
 LAW = Law(

@@ -29,4 +29,5 @@ def repeated(series: Series, M: np.ndarray, C: np.ndarray, K: np.ndarray) -> Rep
     middle = (2 * np.pi * _MIDDLE / series.dt) ** 2
     above = (seen[:, ~own] / (values[~own] - middle)) @ loads[~own]
     follows = np.select([series.order == 0, series.order == 2], [1.0, -middle])[:, None] * above
-    return Repeated(by.next[0, :, :count], given, read, direct + read @ given / 2 + follows, np.zeros(len(seen)))
+    at_once = direct + follows + series.carried * series.force_noise
+    return Repeated(by.next[0, :, :count], given, read, at_once + read @ given / 2, np.zeros(len(seen)))

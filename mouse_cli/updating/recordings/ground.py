@@ -42,6 +42,16 @@ def relative(record: Recording, inputs: list[int], outputs: list[int], orders: n
     return found
 
 
+def carried(record: Recording, inputs: list[int], outputs: list[int], orders: np.ndarray) -> np.ndarray:
+    """Shares (s, i) of an acceleration of the ground, as it is measured, that `relative` takes off accelerations."""
+    found = np.zeros((len(outputs), len(inputs)))
+    for k, (j, order) in enumerate(zip(outputs, orders.tolist(), strict=True)):
+        for b, share in _shares(record, inputs, j).items():
+            if order == MOTIONS[record.channels[b].quantity] == _ACCELERATION:
+                found[k, inputs.index(b)] = share
+    return found
+
+
 def _moved(record: Recording, column: int, order: int) -> np.ndarray:
     """Samples (t,) of a motion of the ground, differentiated to `order`; a channel of a lower one in the band that it shows."""
     own = MOTIONS[record.channels[column].quantity]

@@ -14,6 +14,8 @@ from mouse_cli.updating.recordings.basis import LARGEST
 from mouse_cli.updating.recordings.free_force import Spectrum
 from mouse_cli.updating.recordings.uncertain import links
 
+# Of the stiffness of the whole structure, of which that of a mass on a few springs is so many times at most
+_WHOLE = 5.0
 _MOST_APART = 10  # pairs of measured degrees of freedom without a link that are looked at: those of five
 
 
@@ -83,15 +85,26 @@ def _named(label: str) -> str:
     return f"degree of freedom {label}" if label.isdigit() else label
 
 
-def places(problem: Problem, spectrum: Spectrum, basis: np.ndarray, band: tuple[float, float]) -> list[Place]:
-    """All of them, with the motion that the record has there.
+def _modes(M: np.ndarray, K: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Squares of circular frequencies and mass-normalised shapes."""
+    from scipy.linalg import eigh
+
+    return eigh(K, M)
+
+
+def places(
+    problem: Problem, spectrum: Spectrum, basis: np.ndarray, band: tuple[float, float], sensed: np.ndarray
+) -> list[Place]:
+    """All of them, with the motion that the record has there. sensed (n,): mask of what is driven or measured.
 
     Force over motion is elastic or inertial, whichever is more: a mass that nothing holds has no B'KB.
     """
-    series, model = spectrum.series, spectrum.linear
-    sensed = (np.abs(basis @ np.hstack([series.inputs, series.sensing.T])) > 1e-9).any(axis=1)
+    model = spectrum.linear
     u = spectrum.motions(np.zeros((basis.shape[1], 0)))
     found, moved = [], [spectrum.derivative(u, order) for order in (0, 1, 2)]
+
+    resonances, shapes = _modes(model.M, model.K)
+    moving = resonances < (2 * np.pi * band[1]) ** 2
 
     def scale(B: np.ndarray, link: float) -> Scale | None:
         size = float(B @ B)
@@ -100,7 +113,12 @@ def places(problem: Problem, spectrum: Spectrum, basis: np.ndarray, band: tuple[
             return None
         stiffness, mass = (float(B @ matrix @ B) / size**2 for matrix in (model.K, model.M))
         step = spectrum.series.dt / spectrum.series.factor
-        return Scale(max(stiffness, mass * a / x), mass, x, v, band, 2 * mass / step**2, mass * a, max(link, 0.0))
+        inertial, modal = mass * a / x, (B @ shapes) ** 2
+        least = max(1 / float(modal @ (1 / np.maximum(resonances, 1e-9 * resonances.max() + 1e-30))), inertial)
+        most = 1 / max(float(modal[moving].max(initial=0.0)), 1e-9 / mass)
+        stiffness = max(stiffness, inertial)
+        links = 2 * mass / step**2, mass * a, max(link, 0.0)
+        return Scale(stiffness, mass, x, v, band, *links, min(_WHOLE * least, stiffness), max(most, mass))
 
     for site, b, link in motions(problem, sensed):
         own = scale(basis.T @ b, link)

@@ -23,6 +23,7 @@ _STEPS = 25
 _SETTLED, _ROUGH = 0.05, 1e-3  # of the cost in nats, at which a step is no more worth its time; of what is above noise
 # steps of a fit whose cost is so many times that of a better one, or of no motion
 _PATIENCE, _BEHIND, _ASTRAY = 3, 2.0, 100.0
+_DIVERGED = 1e12  # the same, of a start with a law from which no fit comes back
 _HALVED = 10  # times that a start without stiffness is brought nearer to the mean
 _PROBE, _LESS = 0.1, 0.75  # share of a step where its curvature is seen; most of the second order by the first
 _ROUNDED = 1e-9  # of the largest stiffness, below zero
@@ -101,10 +102,11 @@ class Polish:
         x = self._sound(self.h.gauged(np.clip(x, *self.h.bounds)))
         self.simulator.internal = internal
         here = self.simulator.point(x, states, self.spread)
-        cost, damping = self._cost(here, x, states), _DAMPING
-        if not np.isfinite(cost) or not self._stands(x):
+        cost, damping = self._cost(here.residual, x, states), _DAMPING
+        loud = float((self.simulator.measured**2).sum())
+        if not cost < (_DIVERGED * loud if self.h.parts else np.inf) or not self._stands(x):
             return None
-        most = min(_BEHIND * beat, _ASTRAY * float((self.simulator.measured**2).sum()))
+        most = min(_BEHIND * beat, _ASTRAY * loud)
         for step in range(steps):
             if step >= _PATIENCE and cost > most:
                 break
@@ -114,7 +116,7 @@ class Polish:
             nx, ns = self.h.gauged(np.clip(x + moved, *self.h.bounds)), states + d_states
             sound = self.h.linear.sound(self.h.whole(nx[None])[0, : self.h.linear.k])
             there = self.simulator.point(nx, ns, self.spread) if sound else here
-            new = self._cost(there, nx, ns) if sound else np.inf
+            new = self._cost(there.residual, nx, ns) if sound else np.inf
             if not np.isfinite(new) or new > cost:
                 damping = max(damping, 1e-6) * _UP
                 if damping > 1e8:
@@ -123,7 +125,24 @@ class Polish:
             gained, x, states, here, cost, damping = cost - new, nx, ns, there, new, damping * _DOWN
             if gained < max(2 * _SETTLED, _ROUGH * (cost - here.residual.size)):
                 break
+        if self.h.parts and cost > _ASTRAY * loud:
+            return None
         return self._fit(here, x, states, cost)
+
+    def nearer(self, x: np.ndarray, states: np.ndarray, internal) -> np.ndarray:
+        """x (k,), or the same law with all nuisances at their mean, whichever costs less.
+
+        A first look is linear in what the law leaves, and may put them anywhere.
+        """
+        own = self.h.nuisances
+        if not self.h.parts or not x[:own].any():
+            return x
+        self.simulator.internal = internal
+        states = self.h.padded_states(states)
+        begun = [np.clip(each, *self.h.bounds) for each in (x, np.concatenate([self.h.mean[:own], x[own:]]))]
+        seen = [self.simulator.seen(each[None], states[None])[0] for each in begun]
+        costs = [self._cost(self.simulator.measured - one, x, states) for one, x in zip(seen, begun, strict=True)]
+        return begun[1] if not costs[0] <= costs[1] else x
 
     def with_speed(self, x: np.ndarray, states: np.ndarray, internal) -> np.ndarray:
         """States (2n, G) with that constant speed along motions which nothing holds that serves each segment best.
@@ -162,10 +181,11 @@ class Polish:
         return bool(mass > 0 and stiffness >= -_ROUNDED * np.abs(plant.K).max())
 
     @np.errstate(over="ignore", invalid="ignore")
-    def _cost(self, at: Point, x: np.ndarray, states: np.ndarray) -> float:
+    def _cost(self, residual: np.ndarray, x: np.ndarray, states: np.ndarray) -> float:
         prior = (((x - self.h.mean) / self.h.sd) ** 2).sum() + ((states / self.spread[:, None]) ** 2).sum()
-        return float((at.residual**2).sum() + prior)
+        return float((residual**2).sum() + prior)
 
+    @np.errstate(over="ignore", invalid="ignore")
     def _normal(self, at: Point, x: np.ndarray, states: np.ndarray, damping: float):
         """Normal equations with the initial states eliminated: matrix, right side, and what gives the states back.
 
@@ -243,6 +263,7 @@ def followed(
     begun = Polish(hypothesis, [part.begun() for part in data], spread)
     if data[0].series.adrift and not data[0].series.at_rest:
         states = begun.with_speed(x, states, internal)
+    x = begun.nearer(x, states, internal)
     first, steps = begun.fit(x, states, internal), _STEPS
     if first is not None:
         x, states = first.x, first.states

@@ -51,15 +51,16 @@ def records(problem: Problem) -> Records:
             f"{len(fitted) - len(alike)} recordings have other channels or another rate than the first and were left out"
         )
     held = [_rung(one, outputs) for one in held if _alike(one, first)]
-    orders = np.array([_ORDERS[first.channels[j].quantity] for j in outputs])
-    floors = {id(one): _floor(ground.relative(one, inputs, outputs, orders)) for one in [*alike, *held]}
+    floors = {id(one): _floor(one.samples[:, outputs]) for one in [*alike, *held]}
     sd = np.max([floors[id(one)] for one in alike], axis=0)
     clear = lambda one: _disturbance(one).cleared_by(one.samples[:, outputs], one.time_step_s, BLOCK)
     sd = np.max([sd, *(FLOOR * clear(one).std(axis=0) for one in alike)], axis=0)
     stated = lambda columns: np.array([first.channels[j].noise_sd for j in columns])
     sd = np.max([sd, *(stated(outputs) * clear(one).std(axis=0) for one in alike)], axis=0)
     quiet = np.max([_excitation_noise(ground.accelerations(one, inputs), stated(inputs)) for one in alike], axis=0)
-    make = lambda one: replace(_series(problem, one, inputs, outputs, sd), floor=floors[id(one)], force_noise=quiet)
+    make = lambda one: replace(
+        _series(problem, _quietened(one, inputs, quiet), inputs, outputs, sd), floor=floors[id(one)], force_noise=quiet
+    )
     said += [_left_out(one, outputs) for one in alike[:1] if _disturbance(one)]
     if any(first.channels[j].ground for j in inputs):
         said.append(_MOVING)
@@ -159,6 +160,7 @@ def _series(problem: Problem, record: Recording, inputs: list[int], outputs: lis
         rows(outputs),
         order,
         np.where(moving, rows(inputs).T, 0.0),
+        carried=ground.carried(record, inputs, outputs, order),
         first=record.start,
         free=record.free,
         disturbance=_disturbance(record),
@@ -198,6 +200,27 @@ def _excitation_noise(force: np.ndarray, stated: np.ndarray) -> np.ndarray:
     floor, more = _floor(force), np.sqrt(np.quantile(groups, 0.3, axis=0))
     seen = (floor < _SEEN * rms) & (more < _FLAT * floor)
     return np.where(stated > 0, stated * rms, np.where(seen, floor, 0.0))
+
+
+def _quietened(record: Recording, inputs: list[int], sd: np.ndarray) -> Recording:
+    """The record with its excitations as they most probably were, beside noise of so much sd (i,): their lines times the share of
+    their power that is not noise (N. Wiener 1949).
+
+    Where there is nothing but noise, a simulation would repeat it at the resonances there, and damping would be found too large.
+    """
+    samples = record.samples.copy()
+    for j, noise in zip(inputs, sd, strict=True):
+        channel = record.channels[j]
+        if noise and (not channel.ground or channel.quantity == "acceleration"):
+            x = samples[:, j] - samples[:, j].mean()
+            share = np.maximum(1 - noise**2 / _levels(x[:, None])[:, 0], 0.0)
+            share = np.max(
+                [share, np.append(share[1:], 0.0), np.append(0.0, share[:-1])], axis=0
+            )  # edges of bands are whole
+            lines = np.arange(len(x) // 2 + 1)
+            share = share[np.clip((lines - 1) // _LINES, 0, len(share) - 1)]
+            samples[:, j] += np.fft.irfft(share * np.fft.rfft(x), len(x)) - x
+    return replace(record, samples=samples)
 
 
 def _floor(samples: np.ndarray) -> np.ndarray:

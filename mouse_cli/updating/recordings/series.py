@@ -17,9 +17,9 @@ class Series:
     """t samples of one record, dt apart in s. force (t, i), measured (t, s); sd (s,) of the noise; factor: steps in a sample.
 
     inputs (n, i), sensing (s, n): how they meet the model; order (s,): 0 displacement, 1 velocity, 2 acceleration. base (n, i): how
-    the ground carries it along, where `force` is its acceleration; motions are then relative to it, and `inputs` 0. floor (s,): of
-    the noise, as the spectrum shows it, where sd is more; force_noise (i,): sd of that of the columns of `force`, and what
-    simulations make of it, `repeated`.
+    the ground carries it along, where `force` is its acceleration; motions are then relative to it, and `inputs` 0; carried (s, i):
+    how much of `force` was taken off outputs for that. floor (s,): of the noise, as the spectrum shows it, where sd is more;
+    force_noise (i,): sd of that of the columns of `force`, and what simulations make of it, `repeated`.
     free: whether the initial state alone moves it. disturbance: of the outputs, which no fit sees.
     slow: samples over which motions are free in a fit that no force makes, of a structure that nothing holds; 0 where all die away.
     """
@@ -41,6 +41,7 @@ class Series:
     slow: int = 0
     free: bool = False
     disturbance: Disturbance = NONE
+    carried: np.ndarray | float = 0.0
 
     def __len__(self) -> int:
         return len(self.measured)

@@ -68,7 +68,9 @@ class Study:
 
     def __post_init__(self) -> None:
         self.spectrum = Spectrum(self.look, self.model.linear)
-        self.places = places(self.problem, self.spectrum, self.model.basis, self.band)
+        first = self.records.fitted[0]
+        sensed = np.hstack([first.inputs, first.sensing.T]).any(axis=1)
+        self.places = places(self.problem, self.spectrum, self.model.basis, self.band, sensed)
         still = np.zeros(self.model.basis.shape[1]), False, SCALE, np.zeros(len(self.model.basis))
         sites = channel_sites(self.records.outputs, self.records.inputs)
         self.channels = [Place(site, *still, channel=i) for i, site in sites]
