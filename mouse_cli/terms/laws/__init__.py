@@ -21,8 +21,8 @@ class Scale:
     band: lowest and highest frequency in the record, Hz. stiffest: contact that steps of a simulation can follow, 2 m / h^2.
     inertia: rms of the force that accelerates the mass, N: of bodies that move together it is far below stiffness times motion.
     link: stiffness, N/m, of the spring that the model has there; 0 where it has none. least: some times force over motion of the
-    structure as a whole, which bends where `stiffness` holds all else still; most: mass of the mode that moves there most. A node of
-    a fine mesh is much stiffer and lighter than the structure; None: as stiff and as heavy.
+    structure as a whole, which bends where `stiffness` holds all else still; most: mass of the mode that moves there most. A node
+    of a fine mesh is much stiffer and lighter than the structure; None: as stiff and as heavy.
     """
 
     stiffness: float
