@@ -8,9 +8,7 @@ from mouse_cli.terms.laws import Law, Scale, Unknown
 def force(x, v, z, p):
     """F = kt (x - z), |F| <= Fs: the slider z is dragged along when the limit is reached."""
     limit = p[1] / p[0]
-    stretch = np.minimum(
-        np.maximum(x - z[0], -limit), limit
-    )  # at each step of each simulation: np.clip takes twice as long
+    stretch = np.minimum(np.maximum(x - z[0], -limit), limit)  # at each step of each simulation: np.clip takes twice as long
     return p[0] * stretch, (x - stretch)[None]
 
 

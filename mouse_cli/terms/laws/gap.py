@@ -15,10 +15,8 @@ def unknowns(scale: Scale) -> tuple[Unknown, ...]:
 
     Two stops softer than 2 % of the structure, which touch before its rms motion, are a hardening spring to any record.
     """
-    k, x = scale.stiffness, scale.x
-    return Unknown("contact stiffness", "N/m", 0.02 * scale.softest, 100 * k), Unknown(
-        "clearance", "m", 0.05 * x, 4 * x
-    )
+    x, stiff = scale.x, 100 * scale.stiffness
+    return Unknown("contact stiffness", "N/m", 0.02 * scale.softest, stiff), Unknown("clearance", "m", 0.05 * x, 4 * x)
 
 
 LAW = Law(

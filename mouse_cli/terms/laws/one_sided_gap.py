@@ -12,10 +12,8 @@ def force(x, v, z, p, sign=1.0):
 
 def unknowns(scale: Scale) -> tuple[Unknown, ...]:
     """Stiffness of the stop beside that of the structure; clearance beside the rms motion: with none at all it is `bilinear`."""
-    k, x = scale.stiffness, scale.x
-    return Unknown("contact stiffness", "N/m", 0.002 * scale.softest, 100 * k), Unknown(
-        "clearance", "m", 0.2 * x, 4 * x
-    )
+    x, stiff = scale.x, 100 * scale.stiffness
+    return Unknown("contact stiffness", "N/m", 0.002 * scale.softest, stiff), Unknown("clearance", "m", 0.2 * x, 4 * x)
 
 
 LAW = Law(

@@ -13,14 +13,8 @@ def force(x, v, z, p, sign=1.0):
 def unknowns(scale: Scale) -> tuple[Unknown, ...]:
     """dc by its force beside the elastic one, both at rms motion."""
     size = scale.x / scale.v
-    return (
-        Unknown(
-            "damping of one direction less the other's",
-            "N s/m",
-            1e-3 * scale.softest * size,
-            3 * scale.stiffness * size,
-        ),
-    )
+    least, most = 1e-3 * scale.softest * size, 3 * scale.stiffness * size
+    return (Unknown("damping of one direction less the other's", "N s/m", least, most),)
 
 
 LAW = Law(

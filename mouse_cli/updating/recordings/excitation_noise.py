@@ -2,8 +2,8 @@
 
 With f + e read where f acts, e white, outputs that are simulated over a stretch err by G e, G their answers to a unit at each
 sample. In the sd of the outputs the covariance of what is left is R + G Q G'. Its inverse square root is the innovations filter
-of the structure begun at rest (T. Kailath, IEEE Trans. Autom. Control 13, 1968): the residual at each sample less its prediction from
-those before it. Measured and simulated outputs are compared behind it.
+of the structure begun at rest (T. Kailath, IEEE Trans. Autom. Control 13, 1968): the residual at each sample less its prediction
+from those before it. Measured and simulated outputs are compared behind it.
 """
 
 from dataclasses import dataclass, replace
