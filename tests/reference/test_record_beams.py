@@ -106,5 +106,7 @@ def test_what_a_place_may_have_follows_from_the_structure_and_not_from_the_mesh(
 
 def test_laws_may_act_between_measured_places_of_a_reduced_model(tmp_path):
     problem = read_deck(Path(cantilever(tmp_path)))
-    both = [one.site.ids for one in study(problem, records(problem)).places if len(one.site.ids) == 2]
+    places = study(problem, records(problem)).places
+    assert {f"{i}TY" for i in range(2, N + 2)} == {one.site.ids[0] for one in places if one.ground}  # measured or not
+    both = [one.site.ids for one in places if len(one.site.ids) == 2]
     assert both == [("4TY", "6TY"), ("4TY", "9TY"), ("6TY", "9TY")]

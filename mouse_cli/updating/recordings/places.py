@@ -10,7 +10,6 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
 from mouse_cli.terms.laws import Scale
 from mouse_cli.updating.recordings.acting import Place
-from mouse_cli.updating.recordings.basis import LARGEST
 from mouse_cli.updating.recordings.free_force import Spectrum
 from mouse_cli.updating.recordings.uncertain import links
 
@@ -32,7 +31,7 @@ def motions(problem: Problem, sensed: np.ndarray) -> Iterator[tuple[Site, np.nda
     )
     grounded = {ends[0]: k for ends, _, k in pairs if len(ends) == 1}
     for i in range(n):
-        if not _turns(labels[i]) and (n <= LARGEST or sensed[i]):
+        if not _turns(labels[i]):
             text = f"between {_named(labels[i])} and the ground"
             yield Site("dof", (labels[i],), text=text), np.eye(n)[i], grounded.get(i, 0.0)
     linked = {tuple(ends): k for ends, _, k in pairs if len(ends) == 2}
@@ -85,13 +84,6 @@ def _named(label: str) -> str:
     return f"degree of freedom {label}" if label.isdigit() else label
 
 
-def _modes(M: np.ndarray, K: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Squares of circular frequencies and mass-normalised shapes."""
-    from scipy.linalg import eigh
-
-    return eigh(K, M)
-
-
 def places(
     problem: Problem, spectrum: Spectrum, basis: np.ndarray, band: tuple[float, float], sensed: np.ndarray
 ) -> list[Place]:
@@ -99,11 +91,13 @@ def places(
 
     Force over motion is elastic or inertial, whichever is more: a mass that nothing holds has no B'KB.
     """
+    from scipy.linalg import eigh
+
     model = spectrum.linear
     u = spectrum.motions(np.zeros((basis.shape[1], 0)))
     found, moved = [], [spectrum.derivative(u, order) for order in (0, 1, 2)]
 
-    resonances, shapes = _modes(model.M, model.K)
+    resonances, shapes = eigh(model.K, model.M)
     moving = resonances < (2 * np.pi * band[1]) ** 2
 
     def scale(B: np.ndarray, link: float) -> Scale | None:

@@ -25,8 +25,9 @@ class Point:
 class Simulator:
     """Filtered sensors over their sd of segments of records alike; internal: states in which the laws begin."""
 
-    def __init__(self, hypothesis: Hypothesis, data: list[Segments], internal: list | None = None):
-        self.h, self.series, self.data, self.internal = hypothesis, data[0].series, data, internal
+    def __init__(self, hypothesis: Hypothesis, data: list[Segments]):
+        self.h, self.series, self.data = hypothesis, data[0].series, data
+        self.internal: list | None = None
         self.force = np.concatenate([part.force for part in data], axis=2)
         self.read = self._cleared(np.concatenate([part.measured for part in data], axis=2))
         self.measured = self.series.repeated.whitened(self.read)
