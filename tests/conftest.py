@@ -7,6 +7,7 @@ from pathlib import Path
 import once
 import pytest
 from hypothesis import HealthCheck, settings
+from proofs import LONG
 from quick import QUICK
 
 # processes share the cores, and small matrices gain nothing by threads
@@ -34,12 +35,14 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark the quick tests."""
+    """Mark the quick tests, and the long ones."""
     chosen = {name for names in QUICK.values() for name in names}
     for item in items:
         path = item.path.relative_to(_TESTS).as_posix() if item.path.is_relative_to(_TESTS) else ""
         if path in chosen or f"{path}::{item.name.partition('[')[0]}" in chosen:
             item.add_marker(pytest.mark.quick)
+        if item.name in LONG.get(path, ()):
+            item.add_marker(pytest.mark.proof)
 
 
 @pytest.fixture(scope="session", autouse=True)

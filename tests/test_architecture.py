@@ -1,6 +1,7 @@
 """The house as CONTRIBUTING.md describes it: layers, who may print and exit, what loads what."""
 
 import ast
+import re
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -313,6 +314,17 @@ def test_small_card_deck_needs_numpy_alone():
     deck = PACKAGE.parent / "decks" / "table_5_2.dat"
     run = f"from mouse_cli.cli.main import cli; cli.main(['run', {str(deck)!r}, '-q'], standalone_mode=False)"
     assert not loaded(run) & {"scipy", "yaml", "matplotlib"}
+
+
+def test_long_proofs_are_there_and_have_shorter_ones_beside_them():
+    """tests/proofs.py names tests that files have, and never all of a file."""
+    from proofs import LONG
+
+    for path, names in LONG.items():
+        text, own = (PACKAGE.parent / "tests" / path).read_text(), {name.partition("[")[0] for name in names}
+        assert all(f"def {name}(" in text for name in own), path
+        whole = {name for name in own if name in names}
+        assert set(re.findall(r"def (test_\w+)\(", text)) > whole, path
 
 
 def test_quick_tests_are_of_every_package_and_are_there():

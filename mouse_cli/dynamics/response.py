@@ -122,8 +122,8 @@ def simulate(
     start: np.ndarray,
     local: LocalForce | LocalForces | None = None,
     z: np.ndarray | None = None,
-) -> tuple[np.ndarray, np.ndarray]:
-    """Sensors (P, s, t, G), and local motions, their velocities and forces (t, 3, P, r, G), at every step.
+) -> np.ndarray:
+    """Sensors (P, s, t, G) at every step.
 
     h: s; force (t, i, G): at every step; start (P, 2n, G): displacements and velocities; z: internal states of the local forces.
     """
@@ -132,12 +132,12 @@ def simulate(
         plant = replace(plant, local=plant.local[:, :0])
     by, r = discrete(plant, h), plant.local.shape[1]
     steps = max(1, min(t, _BLOCK // max(P * (n2 + 2 * i + r) * G, 1)))
-    x, motion = np.zeros((steps + 1, P, n2 + 2 * i + r, G)), np.zeros((t, 3, P, r, G))
+    x, last = np.zeros((steps + 1, P, n2 + 2 * i + r, G)), None
     x[0, :, :n2] = start
     if local:
-        motion[0], z = _begun(plant, start, local, z)
-        x[0, :, n2 + 2 * i :] = motion[0, 2]
-        x[0, :, :n2] += by.hold @ motion[0, 2]
+        last, z = _begun(plant, start, local, z)
+        x[0, :, n2 + 2 * i :] = last[1]
+        x[0, :, :n2] += by.hold @ last[1]
     idle = np.zeros((P, len(plant.order), i))  # sensors do not read the forces of the next step
     seen = np.concatenate([by.outputs[:, :, : n2 + i], idle, by.outputs[:, :, n2 + i :]], axis=2)
     out, jumps = np.zeros((P, len(plant.order), t, G)), {}
@@ -146,31 +146,32 @@ def simulate(
         following = min(count, t - 1 - begin)
         x[:count, :, n2 : n2 + i] = force[begin : begin + count, None]
         x[:following, :, n2 + i : n2 + 2 * i] = force[begin + 1 : begin + 1 + following, None]
-        z, jumped = _advanced(by, local, x, motion[begin:], z, following)
+        last, z, jumped = _advanced(by, local, x, last, z, following)
         jumps |= {begin + k: jump for k, jump in jumped.items()}
         out[:, :, begin : begin + count] = np.matmul(seen, x[:count]).transpose(1, 2, 0, 3)
         x[0] = x[count]
     _shared(out, jumps, by.outputs[:, :, n2 + i :] + by.outputs[:, :, :n2] @ by.hold)
-    return out, motion
+    return out
 
 
-def _advanced(by: Discrete, local: LocalForce | LocalForces | None, x: np.ndarray, motion: np.ndarray, z, count: int):
-    """`count` steps of states and forces x (t, P, 2n + 2i + r, G) and of local motions, in place; internal states after them, and
-    by step how much forces jumped within the one before.
+def _advanced(by: Discrete, local: LocalForce | LocalForces | None, x: np.ndarray, last, z, count: int):
+    """`count` steps of states and forces x (t, P, 2n + 2i + r, G) in place, from the `last` velocities and forces at local motions;
+    these and internal states after them, and by step how much forces jumped within the one before.
     """
     n2, r, jumps = by.hold.shape[1], by.hold.shape[2], {}
+    forces = x.shape[2] - r
     for k in range(count):
         y, after = by.next @ x[k], x[k + 1]
         after[:, :n2] = y[:, :n2]
         if not local:
             continue
-        over, F, z, moved = _corrected(local, y[:, n2:], by.drop, motion[k, 1:], z)
-        after[:, after.shape[1] - r :] = F
+        over, F, z, moved = _corrected(local, y[:, n2:], by.drop, last, z)
+        after[:, forces:] = F
         if over is not F:
             after[:, :n2] += by.hold @ (F - over)
             jumps[k + 1] = (over - F) / 2
-        motion[k + 1] = moved[:, :r], moved[:, r:], F
-    return z, jumps
+        last = moved[:, r:], F
+    return last, z, jumps
 
 
 def _shared(out: np.ndarray, jumps: dict[int, np.ndarray], feed: np.ndarray) -> None:
@@ -182,29 +183,33 @@ def _shared(out: np.ndarray, jumps: dict[int, np.ndarray], feed: np.ndarray) -> 
 
 
 def _begun(plant: Plant, start: np.ndarray, local: LocalForce, z):
-    """Local motions, velocities and forces (3, P, r, G) of the initial state, and internal states after it."""
+    """Velocities and forces (P, r, G) at local motions in the initial state, and internal states after it."""
     n = plant.states // 2
     x, v = plant.local.T @ start[:, :n], plant.local.T @ start[:, n:]
     F, z = local(x, v, z)
-    return np.stack([x, v, F]), z
+    return (v, F), z
 
 
-def _corrected(local: LocalForce | LocalForces, free: np.ndarray, drop: np.ndarray, begun: np.ndarray, z):
-    """F over a step and at its end, states and local motions with it, by fixed-point iteration from `begun`, v and F before it."""
-    v, F = begun
-    over, end, r = F, F, F.shape[1]
-    implicit = local.implicit if isinstance(local, LocalForces) else {}
+def _corrected(local: LocalForce | LocalForces, free: np.ndarray, drop: np.ndarray, last, z):
+    """F over a step and at its end, states and local motions with it, by fixed-point iteration from `last`, v and F before it."""
+    v, F = last
+    r, implicit = F.shape[1], local.implicit if isinstance(local, LocalForces) else None
+    if not implicit:
+        for _ in range(CORRECTIONS):
+            moved = free - drop * F if r == 1 else free - drop @ F
+            F, after = local(moved[:, :r], moved[:, r:], z)
+        return F, F, after, moved
     if len(implicit) == r == 1:  # alone, such a force follows from the step at once
         over, end = implicit[0](v[:, 0], F[:, 0], free[:, 1], drop[:, 1])
         one = over[:, None]
         return one, one if over is end else end[:, None], z, free - drop * one
-    moving = lambda F: free - drop * F if r == 1 else free - drop @ F
+    over = end = F
     for _ in range(CORRECTIONS):
-        moved = moving(over)
+        moved = free - drop @ over
         there, after = local(moved[:, :r], moved[:, r:], z)
-        end = there.copy() if implicit else there
+        end = there.copy()
         for i, solved in implicit.items():
             own = drop[:, r + i, i, None]
             there[:, i], end[:, i] = solved(v[:, i], F[:, i], moved[:, r + i] + own * over[:, i], own)
         over = there
-    return over, end, after, moving(over) if implicit else moved
+    return over, end, after, free - drop @ over

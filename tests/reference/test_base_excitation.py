@@ -213,7 +213,7 @@ def test_hidden_masses_feel_the_motion_of_the_ground(tmp_path):
     part = Segments(series, np.array([REACH]), len(series) - 2 * REACH)
     plant = h.plant(x[None], series)
     u0 = np.zeros((1, plant.states, 1))
-    out, _ = simulate(plant, series.dt / series.factor, part.force, u0)
+    out = simulate(plant, series.dt / series.factor, part.force, u0)
     simulated = out[0, :, :: series.factor, 0].T
     truth = (floors - ag[:, None])[: len(simulated)]
     late = slice(

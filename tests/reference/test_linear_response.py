@@ -41,7 +41,7 @@ def test_lines_and_steps_agree(damping):
     rng, one, h = np.random.default_rng(2), plant(damping), 1 / RATE / FACTOR
     given, n = force(rng), one.states // 2
     start = rng.standard_normal((2, 2 * n, 3)) * np.repeat([1e-3, 1.0], n)[:, None]
-    stepped = sampled(simulate(one, h, given, start)[0], FACTOR)
+    stepped = sampled(simulate(one, h, given, start), FACTOR)
     found = answered(one, h, given, start, FACTOR)
     assert found.shape == stepped.shape
     for a, b in zip(found.swapaxes(0, 1), stepped.swapaxes(0, 1), strict=True):
@@ -60,7 +60,8 @@ def test_slopes_by_states_are_free_motion(tmp_path):
     its, x = Simulator(own.base, own.data), np.zeros(len(own.base.mean))
     spread = np.ones(2 * len(own.model.linear.M))
     states = np.zeros((len(spread), its.read.shape[2]))
-    point = its.point(x, states, spread)
+    left = its.left(x, states)
+    point = its.point(left, x, states, spread)
     for j, at in enumerate(np.eye(len(spread))):
-        moved = its.seen(x[None], (states + at[:, None])[None])[0] - its.measured + point.residual
+        moved = its.seen(x[None], (states + at[:, None])[None])[0] - its.measured + left
         np.testing.assert_allclose(point.X[..., j], moved, atol=1e-6 * np.abs(moved).max())

@@ -13,7 +13,7 @@ from mouse_cli.model.local_law import LocalLaw
 from mouse_cli.model.problem import Problem
 from mouse_cli.updating.recordings.acting import Part
 from mouse_cli.updating.recordings.channels import Misreading
-from mouse_cli.updating.recordings.polish import Fit
+from mouse_cli.updating.recordings.fit import Fit
 
 
 def extended(problem: Problem, best: Fit) -> Problem | None:

@@ -5,7 +5,7 @@ import numpy as np
 from mouse_cli.model.record_diagnosis import Noise
 from mouse_cli.model.result import REJECT
 from mouse_cli.updating.chi_square import upper_tail
-from mouse_cli.updating.recordings.polish import Fit
+from mouse_cli.updating.recordings.fit import Fit
 
 MATERIAL, INADEQUATE = 1.1, 1.5  # ratios to the variance expected
 

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli.model.recording import Channel
+from mouse_cli.updating.recordings.fit import Fit
 from mouse_cli.updating.recordings.noise import LOUD
-from mouse_cli.updating.recordings.polish import Fit
 from mouse_cli.updating.recordings.segments import Segments
 
 _TIMES = 25.0  # the variance of what is left of a channel in the other recordings

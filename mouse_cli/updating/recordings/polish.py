@@ -5,13 +5,11 @@ models; initial states belong to one segment each and are eliminated (Golub and 
 nearly). The logarithm of the evidence is Laplace's.
 """
 
-from dataclasses import dataclass, field, replace
-from typing import ClassVar
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mouse_cli.model.diagnosis import Cause, Size
-from mouse_cli.updating.recordings.acting import Part
+from mouse_cli.updating.recordings.fit import Fit
 from mouse_cli.updating.recordings.hypothesis import Hypothesis
 from mouse_cli.updating.recordings.linear import rigid
 from mouse_cli.updating.recordings.segments import Segments
@@ -20,6 +18,7 @@ from mouse_cli.updating.recordings.simulator import Point, Simulator
 
 _DAMPING, _UP, _DOWN = 1e-3, 10.0, 0.2  # of Levenberg and Marquardt
 _STEPS = 25
+_FURTHER, _KEPT = 4, 0.9  # steps by slopes of one before; least share of what they promise, that they are taken for
 _SETTLED, _ROUGH = 0.05, 1e-3  # of the cost in nats, at which a step is no more worth its time; of what is above noise
 # steps of a fit whose cost is so many times that of a better one, or of no motion
 _PATIENCE, _BEHIND, _ASTRAY = 3, 2.0, 100.0
@@ -31,50 +30,13 @@ _SPEEDS, _TRIED = 2.5, 33  # speeds that no channel shows: how far, by their rms
 
 
 @dataclass
-class Fit:
-    """What a fit found. x (k,): nuisances and law; states (2n, G); covariance (k, k); misfit: chi2; log_evidence."""
+class _At:
+    """Where a fit is: x (k,), states (2n, G), what is left (s, t, G), and its cost."""
 
-    hypothesis: Hypothesis
     x: np.ndarray
     states: np.ndarray
-    covariance: np.ndarray
-    misfit: float
-    dof: float
+    left: np.ndarray
     cost: float
-    log_evidence: float
-    residual: np.ndarray = field(repr=False)
-    nameless: ClassVar[None] = None  # no rival without a name is sought in recordings
-    data: ClassVar[None] = None  # no errors of sensors are sought in them either
-
-    @property
-    def recipes(self) -> tuple[Part, ...]:
-        """Its laws at their places."""
-        return self.hypothesis.parts
-
-    @property
-    def groups(self) -> list[str]:
-        """Groups of its laws."""
-        return [cause.group for cause in self.causes]
-
-    @property
-    def calibrated(self) -> tuple[str, ...]:
-        """Gains and delays of channels that were estimated, in words."""
-        own = slice(self.hypothesis.offsets.stop, self.hypothesis.nuisances)
-        sd = np.sqrt(np.abs(np.diag(self.covariance)))[own]
-        return self.hypothesis.channels.said(self.x[own], sd)
-
-    @property
-    def causes(self) -> tuple[Cause, ...]:
-        """Its laws at their places, with their sizes."""
-        sd = np.sqrt(np.abs(np.diag(self.covariance)))[self.hypothesis.nuisances :]
-        found = []
-        for part, p in self.hypothesis.sizes(self.x[None]):
-            own, sd = sd[: len(part.unknowns)], sd[len(part.unknowns) :]
-            values = zip(part.unknowns, p[:, 0], own, strict=True)
-            sizes = tuple(Size(u.name, u.unit, float(v), float(v * s), u.lower, u.upper) for u, v, s in values)
-            group = part.law.seen_as(own)
-            found.append(Cause(part.law.key, group, part.title, part.place.site, sizes))
-        return tuple(found)
 
 
 class Polish:
@@ -101,33 +63,67 @@ class Polish:
         states = self.h.padded_states(states)
         x = self._sound(self.h.gauged(np.clip(x, *self.h.bounds)))
         self.simulator.internal = internal
-        here = self.simulator.point(x, states, self.spread)
-        cost, damping = self._cost(here.residual, x, states), _DAMPING
+        left = self.simulator.left(x, states)
+        cost, damping = self._cost(left, x, states), _DAMPING
         loud = float((self.simulator.measured**2).sum())
         if not cost < (_DIVERGED * loud if self.h.parts else np.inf) or not self._stands(x):
             return None
-        most = min(_BEHIND * beat, _ASTRAY * loud)
+        at, most = _At(x, states, left, cost), min(_BEHIND * beat, _ASTRAY * loud)
+        slopes = self.simulator.point(at.left, x, states, self.spread)
         for step in range(steps):
-            if step >= _PATIENCE and cost > most:
+            if step >= _PATIENCE and at.cost > most:
                 break
-            moved, d_states = self._step(here, x, states, damping)
-            if len(x):
-                moved, d_states = self._bent(here, x, states, moved, d_states, damping)
-            nx, ns = self.h.gauged(np.clip(x + moved, *self.h.bounds)), states + d_states
-            sound = self.h.linear.sound(self.h.whole(nx[None])[0, : self.h.linear.k])
-            there = self.simulator.point(nx, ns, self.spread) if sound else here
-            new = self._cost(there.residual, nx, ns) if sound else np.inf
-            if not np.isfinite(new) or new > cost:
+            there = self._tried(at, *self._bent(slopes, at, damping))
+            if not there.cost <= at.cost:
+                if self._promised(slopes, at, damping) < self._worth(at):
+                    break
                 damping = max(damping, 1e-6) * _UP
                 if damping > 1e8:
                     break
                 continue
-            gained, x, states, here, cost, damping = cost - new, nx, ns, there, new, damping * _DOWN
-            if gained < max(2 * _SETTLED, _ROUGH * (cost - here.residual.size)):
+            serve = not self.simulator.jumps and at.cost - there.cost > _KEPT * self._promised(slopes, at, damping)
+            damping, before = damping * _DOWN, at.cost
+            at = self._further(slopes, there, damping) if serve else there
+            if before - at.cost < self._worth(at):
                 break
-        if self.h.parts and cost > _ASTRAY * loud:
+            slopes = self.simulator.point(at.left, at.x, at.states, self.spread)
+        if self.h.parts and at.cost > _ASTRAY * loud:
             return None
-        return self._fit(here, x, states, cost)
+        return self._fit(replace(slopes, residual=at.left), at)
+
+    def _further(self, slopes: Point, at: _At, damping: float) -> _At:
+        """Further steps by the same slopes, while they gain as they promise: a simulation each, where slopes take many."""
+        for _ in range(_FURTHER):
+            own, worth = replace(slopes, residual=at.left), self._worth(at)
+            promised = self._promised(own, at, damping)
+            if promised < worth:
+                break
+            there = self._tried(at, *self._step(own, at.x, at.states, damping))
+            if not there.cost <= at.cost:
+                break
+            gained, at = at.cost - there.cost, there
+            if gained < max(_KEPT * promised, worth):
+                break
+        return at
+
+    def _promised(self, slopes: Point, at: _At, damping: float) -> float:
+        """What a step by slopes gains if they hold."""
+        dx, ds = self._step(slopes, at.x, at.states, damping)
+        return at.cost - self._cost(at.left - slopes.along(dx, ds), at.x + dx, at.states + ds)
+
+    def _tried(self, at: _At, dx: np.ndarray, ds: np.ndarray) -> _At:
+        """What a step leads to; its cost is infinite where nothing stands there."""
+        x, states = self.h.gauged(np.clip(at.x + dx, *self.h.bounds)), at.states + ds
+        if not self.h.linear.sound(self.h.whole(x[None])[0, : self.h.linear.k]):
+            return _At(x, states, at.left, np.inf)
+        left = self.simulator.left(x, states)
+        cost = self._cost(left, x, states)
+        return _At(x, states, left, cost if np.isfinite(cost) else np.inf)
+
+    @staticmethod
+    def _worth(at: _At) -> float:
+        """What a step has to gain for another one to be worth its time."""
+        return max(2 * _SETTLED, _ROUGH * (at.cost - at.left.size))
 
     def nearer(self, x: np.ndarray, states: np.ndarray, internal) -> np.ndarray:
         """x (k,), or the same law with all nuisances at their mean, whichever costs less.
@@ -216,19 +212,21 @@ class Polish:
         moved = np.linalg.solve(H + damping * np.diag(np.diag(H)), g) if len(x) else np.zeros(0)
         return moved, np.stack([b[:, -1] - b[:, :-1] @ moved for b in backs], axis=1)
 
-    def _bent(self, at: Point, x: np.ndarray, states: np.ndarray, dx: np.ndarray, ds: np.ndarray, damping: float):
+    def _bent(self, slopes: Point, at: _At, damping: float):
         """A step with its second order, along valleys that bend: parameters that act alike, one of them by its logarithm.
 
         Geodesic acceleration (M. K. Transtrum, J. P. Sethna, arXiv:1201.5885): d2 = -(J'J + D)^-1 J' f'' / 2, f'' the second
         derivative of the outputs along the step d; kept where it is the smaller of both.
         """
-        near = np.clip(x + _PROBE * dx, *self.h.bounds)
-        seen = self.simulator.seen(near[None], (states + _PROBE * ds)[None])[0]
-        bend = (seen - self.simulator.measured + at.residual) / _PROBE - at.J @ dx - np.einsum("stgn,ng->stg", at.X, ds)
+        dx, ds = self._step(slopes, at.x, at.states, damping)
+        if not len(dx):
+            return dx, ds
+        near = np.clip(at.x + _PROBE * dx, *self.h.bounds)
+        bend = (at.left - self.simulator.left(near, at.states + _PROBE * ds)) / _PROBE - slopes.along(dx, ds)
         if not np.isfinite(bend).all():
             return dx, ds
-        along = replace(at, residual=-bend / _PROBE)  # of half the second derivative
-        d2x, d2s = self._step(along, self.h.mean, np.zeros_like(states), damping)
+        along = replace(slopes, residual=-bend / _PROBE)  # of half the second derivative
+        d2x, d2s = self._step(along, self.h.mean, np.zeros_like(at.states), damping)
         size = lambda a, b: float((a @ a) + ((b / self.spread[:, None]) ** 2).sum())
         return (dx, ds) if size(d2x, d2s) > _LESS**2 * size(dx, ds) else (dx + d2x, ds + d2s)
 
@@ -237,15 +235,15 @@ class Polish:
         own = self.series.disturbance
         return own.columns(t, self.series.dt) * s * G if own else 0
 
-    def _fit(self, at: Point, x: np.ndarray, states: np.ndarray, cost: float) -> Fit:
-        H, _, _, logs = self._normal(at, x, states, 0.0)
+    def _fit(self, slopes: Point, at: _At) -> Fit:
+        H, _, _, logs = self._normal(slopes, at.x, at.states, 0.0)
         width = self.h.width
         own = np.isfinite(width)
-        evidence = -cost / 2 - np.log(width[own] / np.sqrt(2 * np.pi)).sum() - (np.linalg.slogdet(H)[1] + logs) / 2
-        misfit = float((at.residual**2).sum())
-        dof = passed() * at.residual.size - len(x) - states.size - self._lost(*at.residual.shape)
-        covariance, as_read = np.linalg.inv(H), self.series.repeated.coloured(at.residual)
-        return Fit(self.h, x, states, covariance, misfit, dof, cost, float(evidence), as_read)
+        evidence = -at.cost / 2 - np.log(width[own] / np.sqrt(2 * np.pi)).sum() - (np.linalg.slogdet(H)[1] + logs) / 2
+        misfit = float((at.left**2).sum())
+        dof = passed() * at.left.size - len(at.x) - at.states.size - self._lost(*at.left.shape)
+        covariance, as_read = np.linalg.inv(H), self.series.repeated.coloured(at.left)
+        return Fit(self.h, at.x, at.states, covariance, misfit, dof, at.cost, float(evidence), as_read)
 
 
 def followed(

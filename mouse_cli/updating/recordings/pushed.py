@@ -11,7 +11,7 @@ import numpy as np
 from mouse_cli.terms.laws import Law
 from mouse_cli.updating.recordings.acting import Place
 from mouse_cli.updating.recordings.adequacy import shifted
-from mouse_cli.updating.recordings.polish import Fit
+from mouse_cli.updating.recordings.fit import Fit
 from mouse_cli.updating.recordings.regression import Start, allowed
 
 _FAR, _MOST = 3.0, 3  # prior sd from which on a parameter is pushed; such parameters that are tried

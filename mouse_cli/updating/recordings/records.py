@@ -242,12 +242,12 @@ def _levels(samples: np.ndarray) -> np.ndarray:
     return power[: groups * lines].reshape(groups, lines, power.shape[1]).mean(axis=1)
 
 
-def steps(series: Series, highest_hz: float) -> Series:
+def steps(series: Series, highest_hz: float, top_hz: float) -> Series:
     """With so many steps in a sample that the highest mode of interest has _RATE in a period; 2 to 16, 4 at least
-    where accelerations of what nothing holds show the moments at which it stops.
+    where accelerations of what nothing holds show the moments at which it stops. top_hz: the highest mode of the model.
     """
-    wanted = _RATE * highest_hz * series.dt
-    return replace(series, factor=int(np.clip(2 ** np.ceil(np.log2(max(wanted, 1.0))), 4 if series.adrift else 2, 16)))
+    whole = lambda wanted: int(np.clip(np.ceil(wanted), 4 if series.adrift else 2, 16))
+    return replace(series, factor=whole(_RATE * highest_hz * series.dt), coarsest=whole(top_hz * series.dt + 0.5))
 
 
 def reduced(series: Series, model: Uncertain) -> Series:

@@ -22,6 +22,11 @@ class Segments:
         """Their first quarters."""
         return replace(self, length=max(self.length // 4, min(self.length, _LEAST)))
 
+    @property
+    def coarser(self) -> "Segments":
+        """The same in the steps that slopes take."""
+        return replace(self, series=self.series.coarser)
+
     def earlier(self, seconds: np.ndarray) -> "Segments":
         """The same of channels so many seconds (s,) earlier."""
         measured = earlier(self.series.measured, self.series.dt, seconds)

@@ -10,11 +10,13 @@ from mouse_cli.updating.recordings.excitation_noise import SILENT, Repeated
 
 REACH = 12  # samples on either side that the band-limiting filter takes in
 _EDGE, _WINDOW = 0.42, 6.0  # its edge by the sample rate; parameter of its Kaiser window
+_COARSER = 4  # steps of what is compared in one of slopes
 
 
 @dataclass(frozen=True)
 class Series:
-    """t samples of one record, dt apart in s. force (t, i), measured (t, s); sd (s,) of the noise; factor: steps in a sample.
+    """t samples of one record, dt apart in s. force (t, i), measured (t, s); sd (s,) of the noise; factor: steps in a sample;
+    coarsest: least of them that no mode of the model is folded into the band by.
 
     inputs (n, i), sensing (s, n): how they meet the model; order (s,): 0 displacement, 1 velocity, 2 acceleration. base (n, i): how
     the ground carries it along, where `force` is its acceleration; motions are then relative to it, and `inputs` 0; carried (s, i):
@@ -34,6 +36,7 @@ class Series:
     order: np.ndarray
     base: np.ndarray
     factor: int = 4
+    coarsest: int = 4
     first: int = 0
     floor: np.ndarray | None = None
     force_noise: np.ndarray | None = None
@@ -74,6 +77,11 @@ class Series:
 
         filter = firwin(2 * 24 * self.factor + 1, 1 / self.factor, window=("kaiser", 8.0))
         return resample_poly(self.force, self.factor, 1, axis=0, window=filter, padtype="line")
+
+    @cached_property
+    def coarser(self) -> "Series":
+        """The same in fewer steps, for slopes: they need not be as exact as what is compared."""
+        return replace(self, factor=min(self.factor, max(self.factor // _COARSER, self.coarsest)))
 
     @cached_property
     def filtered(self) -> np.ndarray:

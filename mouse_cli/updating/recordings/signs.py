@@ -4,7 +4,8 @@ import numpy as np
 
 from mouse_cli.model.record_diagnosis import LevelSign, Linearity
 from mouse_cli.records.linearity import distortion, incoherent, period
-from mouse_cli.updating.recordings.polish import Fit, Polish
+from mouse_cli.updating.recordings.fit import Fit
+from mouse_cli.updating.recordings.polish import Polish
 from mouse_cli.updating.recordings.segments import Segments
 from mouse_cli.updating.recordings.study import Study, begin
 

@@ -21,6 +21,10 @@ class Point:
     J: np.ndarray
     X: np.ndarray
 
+    def along(self, dx: np.ndarray, ds: np.ndarray) -> np.ndarray:
+        """What a step dx (k,), ds (2n, G) does to what is simulated (s, t, G), by first order."""
+        return self.J @ dx + np.einsum("stgn,ng->stg", self.X, ds)
+
 
 class Simulator:
     """Filtered sensors over their sd of segments of records alike; internal: states in which the laws begin."""
@@ -32,19 +36,42 @@ class Simulator:
         self.read = self._cleared(np.concatenate([part.measured for part in data], axis=2))
         self.measured = self.series.repeated.whitened(self.read)
 
+    @property
+    def jumps(self) -> bool:
+        """Whether a force jumps with the velocity."""
+        laws = (*(one.law for one in self.h.known), *(part.law for part in self.h.parts))
+        return any(law.implicit is not None for law in laws)
+
     def _cleared(self, x: np.ndarray) -> np.ndarray:
         """Outputs (..., s, t, G) without hum and drift."""
         return self.series.disturbance.cleared(x, self.series.dt, axis=-2)
 
+    def point(self, left: np.ndarray, x: np.ndarray, states: np.ndarray, spread: np.ndarray) -> Point:
+        """Slopes at x (k,) and states (2n, G), where so much is left (s, t, G); laws in coarser steps than what is compared.
+
+        They only lead to where that is least, and each may be a quarter of the work; those of forces that jump hold for their own
+        steps alone.
+        """
+        local, taken = self.h.local(x[None]) is not None, self
+        if local and not self.jumps:
+            taken = Simulator(self.h, [part.coarser for part in self.data])
+            taken.internal = self.internal
+        return Point(left, *taken._slopes(x, states, spread, local))
+
     @np.errstate(over="ignore", invalid="ignore")  # simulations may diverge; they are given up by their cost
-    def point(self, x: np.ndarray, states: np.ndarray, spread: np.ndarray) -> Point:
-        """Simulations at x (k,), at every perturbed x and from every perturbed state, by their spread (2n,), all at once.
+    def left(self, x: np.ndarray, states: np.ndarray) -> np.ndarray:
+        """Measured less simulated (s, t, G)."""
+        return self.measured - self.seen(x[None], states[None])[0]
+
+    @np.errstate(over="ignore", invalid="ignore")
+    def _slopes(self, x: np.ndarray, states: np.ndarray, spread: np.ndarray, local: bool):
+        """By x and states: simulations at every perturbed x and from every perturbed state, by their spread (2n,), all at once.
 
         Where all is linear, one stretch without force shows what initial states do.
         """
         k, n2 = len(x), len(states)
         steps = np.where(x + _PERTURBED * self.h.unit > self.h.bounds[1], -1, 1) * _PERTURBED * self.h.unit
-        nudge, local = _PERTURBED * spread, self.h.local(x[None]) is not None
+        nudge = _PERTURBED * spread
         many = np.vstack([x, x + np.diag(steps), np.repeat(x[None], n2 if local else 0, 0)])
         begin = np.repeat(states[None], len(many), 0)
         if local:
@@ -53,8 +80,7 @@ class Simulator:
         moved = seen[1:] - seen[0]
         J = np.stack([moved[j] / steps[j] for j in range(k)], -1) if k else np.zeros((*seen[0].shape, 0))
         by_states = np.stack([*moved[k:]], -1) if local else self._free(x, np.diag(nudge))[:, :, None]
-        X = np.broadcast_to(by_states / nudge, (*seen[0].shape, n2))
-        return Point(self.measured - seen[0], J, X)
+        return J, np.broadcast_to(by_states / nudge, (*seen[0].shape, n2))
 
     def _free(self, x: np.ndarray, begin: np.ndarray) -> np.ndarray:
         """Sensors (s, t, b) without force from states begin (2n, b) of a hypothesis that is linear."""
@@ -89,4 +115,4 @@ class Simulator:
                 return found
             if self.internal is not None:
                 z = [None if one is None else np.repeat(one[:, None], len(begin), 1) for one in self.internal]
-            return sampled(simulate(plant, h, force, begin, local, z)[0], series.factor)
+            return sampled(simulate(plant, h, force, begin, local, z), series.factor)

@@ -15,11 +15,12 @@ from mouse_cli.updating.recordings.calibration import calibration
 from mouse_cli.updating.recordings.channels import SCALE, channel_sites
 from mouse_cli.updating.recordings.disturbance import BLOCK
 from mouse_cli.updating.recordings.excited import repeated
+from mouse_cli.updating.recordings.fit import Fit
 from mouse_cli.updating.recordings.free_force import Spectrum
 from mouse_cli.updating.recordings.hypothesis import Hypothesis
 from mouse_cli.updating.recordings.linear import Linear, rigid
 from mouse_cli.updating.recordings.places import places
-from mouse_cli.updating.recordings.polish import Fit, followed
+from mouse_cli.updating.recordings.polish import followed
 from mouse_cli.updating.recordings.records import Records, reduced, steps
 from mouse_cli.updating.recordings.regression import Regression, Start
 from mouse_cli.updating.recordings.segments import Segments, segments
@@ -119,7 +120,8 @@ def study(problem: Problem, found: Records, of: Modelled = uncertain) -> Study:
     slow = length if float(hz.min()) * length * first.dt < 1 else 0
     found = _excited(accurate(found, length, slow), model)
     # what stops and starts, as nothing holds it, shakes modes far above the band of the force
-    fitted = [steps(reduced(one, model), highest if slow else min(highest, high)) for one in found.fitted]
+    top = highest if slow else min(highest, high)
+    fitted = [steps(reduced(one, model), top, float(hz.max())) for one in found.fitted]
     share = max(2, _SEGMENTS // len(fitted))
     data = [segments(one, length, share) for one in fitted]
     rms = np.sqrt(np.mean([(one.force**2).mean(axis=0) for one in fitted], axis=0))

@@ -14,10 +14,11 @@ from mouse_cli.terms.laws import Scale, registry
 from mouse_cli.updating.chi_square import upper_tail
 from mouse_cli.updating.recordings.acting import Part, Place
 from mouse_cli.updating.recordings.adequacy import close, strained, unlikely, with_noise
+from mouse_cli.updating.recordings.fit import Fit
 from mouse_cli.updating.recordings.hypothesis import Hypothesis
 from mouse_cli.updating.recordings.mistakes import check
 from mouse_cli.updating.recordings.noise import noise
-from mouse_cli.updating.recordings.polish import Fit, Polish, followed
+from mouse_cli.updating.recordings.polish import Polish, followed
 from mouse_cli.updating.recordings.records import named, records
 from mouse_cli.updating.recordings.regression import Regression
 from mouse_cli.updating.recordings.study import Study, begin, study

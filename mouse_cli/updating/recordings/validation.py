@@ -17,9 +17,10 @@ from mouse_cli.model.record_diagnosis import (
     Trace,
 )
 from mouse_cli.updating.recordings.channels import earlier
+from mouse_cli.updating.recordings.fit import Fit
 from mouse_cli.updating.recordings.free_force import Spectrum
 from mouse_cli.updating.recordings.law_forces import stepped
-from mouse_cli.updating.recordings.polish import Fit, followed
+from mouse_cli.updating.recordings.polish import followed
 from mouse_cli.updating.recordings.records import reduced
 from mouse_cli.updating.recordings.regression import Regression
 from mouse_cli.updating.recordings.segments import segments
@@ -38,9 +39,9 @@ def scores(study: Study, baseline: Fit, best: Fit | None) -> tuple[RecordScore, 
 
 
 def _held(study: Study) -> list[Series]:
-    factor = study.data[0].series.factor
+    seen = study.data[0].series
     found = [reduced(one, study.model) for one in study.records.held]
-    return [replace(one, factor=factor) for one in found]
+    return [replace(one, factor=seen.factor, coarsest=seen.coarsest) for one in found]
 
 
 def _score(study: Study, held: Series, models: dict[str, Fit]) -> RecordScore:
@@ -86,7 +87,7 @@ def free_run(study: Study, held: Series, one: Fit, found: Fit | None) -> np.ndar
     force = np.concatenate([part.fine[:, :, None], np.ones((len(part.fine), 1, 1))], axis=1)
     z = [np.zeros((one.law.states, 1, 1, 1)) for one in h.acting(one.x)]
     with np.errstate(all="ignore"):
-        out, _ = simulate(h.plant(x, held), held.dt / held.factor, force, start[None], h.local(x), z)
+        out = simulate(h.plant(x, held), held.dt / held.factor, force, start[None], h.local(x), z)
     answer, read = np.full(held.measured.shape, np.nan), h.read(x, held)
     answer[: len(part)] = earlier(read.gain[0] * out[0, :, :: held.factor, 0].T, held.dt, -read.delay[0])
     return answer

@@ -12,8 +12,8 @@ from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.rank import Ranking, ranking
 from mouse_cli.model.groups import enumerated
 from mouse_cli.updating.recordings.adequacy import close, unlikely, with_noise
+from mouse_cli.updating.recordings.fit import Fit as Simulated
 from mouse_cli.updating.recordings.noise import noise
-from mouse_cli.updating.recordings.polish import Fit as Simulated
 from mouse_cli.updating.recordings.records import cannot_judge, records
 from mouse_cli.updating.recordings.study import Study, alike, fitted, study
 

@@ -13,10 +13,10 @@ from mouse_cli.updating.recordings.acting import Place
 from mouse_cli.updating.recordings.adequacy import adequate, innovation, missing, strained, unlikely, with_noise
 from mouse_cli.updating.recordings.at_odds import odd
 from mouse_cli.updating.recordings.channels import Misreading, misreadings
+from mouse_cli.updating.recordings.fit import Fit
 from mouse_cli.updating.recordings.misread import misread
 from mouse_cli.updating.recordings.mistakes import check
 from mouse_cli.updating.recordings.noise import doubtful, noise
-from mouse_cli.updating.recordings.polish import Fit
 from mouse_cli.updating.recordings.pushed import pushed
 from mouse_cli.updating.recordings.regression import Regression, Start, starts
 from mouse_cli.updating.recordings.study import Study, fitted

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mouse_cli.updating.recordings.adequacy import adequate
-from mouse_cli.updating.recordings.polish import Fit
+from mouse_cli.updating.recordings.fit import Fit
 from mouse_cli.updating.recordings.study import Study
 
 _END = 0.01  # of the logarithm of a range, from its end

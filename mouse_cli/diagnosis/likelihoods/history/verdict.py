@@ -24,7 +24,7 @@ from mouse_cli.updating.recordings.adequacy import (
     unlikely,
 )
 from mouse_cli.updating.recordings.channels import Misreading, misreadings
-from mouse_cli.updating.recordings.polish import Fit
+from mouse_cli.updating.recordings.fit import Fit
 from mouse_cli.updating.recordings.regression import allowed
 from mouse_cli.updating.recordings.study import Study
 
