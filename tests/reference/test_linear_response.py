@@ -61,7 +61,7 @@ def test_slopes_by_states_are_free_motion(tmp_path):
     spread = np.ones(2 * len(own.model.linear.M))
     states = np.zeros((len(spread), its.read.shape[2]))
     left = its.left(x, states)
-    point = its.point(left, x, states, spread)
+    slopes = its.slopes(x, states, spread)
     for j, at in enumerate(np.eye(len(spread))):
         moved = its.seen(x[None], (states + at[:, None])[None])[0] - its.measured + left
-        np.testing.assert_allclose(point.X[..., j], moved, atol=1e-6 * np.abs(moved).max())
+        np.testing.assert_allclose(slopes.X[..., j], moved, atol=1e-6 * np.abs(moved).max())

@@ -5,7 +5,7 @@ models; initial states belong to one segment each and are eliminated (Golub and 
 nearly). The logarithm of the evidence is Laplace's.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from mouse_cli.updating.recordings.hypothesis import Hypothesis
 from mouse_cli.updating.recordings.linear import rigid
 from mouse_cli.updating.recordings.segments import Segments
 from mouse_cli.updating.recordings.series import passed
-from mouse_cli.updating.recordings.simulator import Point, Simulator
+from mouse_cli.updating.recordings.simulator import Simulator, Slopes
 
 _DAMPING, _UP, _DOWN = 1e-3, 10.0, 0.2  # of Levenberg and Marquardt
 _STEPS = 25
@@ -69,36 +69,37 @@ class Polish:
         if not cost < (_DIVERGED * loud if self.h.parts else np.inf) or not self._stands(x):
             return None
         at, most = _At(x, states, left, cost), min(_BEHIND * beat, _ASTRAY * loud)
-        slopes = self.simulator.point(at.left, x, states, self.spread)
+        slopes = self.simulator.slopes(x, states, self.spread)
         for step in range(steps):
             if step >= _PATIENCE and at.cost > most:
                 break
-            there = self._tried(at, *self._bent(slopes, at, damping))
+            straight = self._step(slopes, at, damping)
+            there, promised = self._tried(at, *self._bent(slopes, at, damping, *straight)), self._promised(slopes, at, *straight)
             if not there.cost <= at.cost:
-                if self._promised(slopes, at, damping) < self._worth(at):
+                if promised < self._worth(at):
                     break
                 damping = max(damping, 1e-6) * _UP
                 if damping > 1e8:
                     break
                 continue
-            serve = not self.simulator.jumps and at.cost - there.cost > _KEPT * self._promised(slopes, at, damping)
+            serve = not self.simulator.jumps and at.cost - there.cost > _KEPT * promised
             damping, before = damping * _DOWN, at.cost
             at = self._further(slopes, there, damping) if serve else there
             if before - at.cost < self._worth(at):
                 break
-            slopes = self.simulator.point(at.left, at.x, at.states, self.spread)
+            slopes = self.simulator.slopes(at.x, at.states, self.spread)
         if self.h.parts and at.cost > _ASTRAY * loud:
             return None
-        return self._fit(replace(slopes, residual=at.left), at)
+        return self._fit(slopes, at)
 
-    def _further(self, slopes: Point, at: _At, damping: float) -> _At:
+    def _further(self, slopes: Slopes, at: _At, damping: float) -> _At:
         """Further steps by the same slopes, while they gain as they promise: a simulation each, where slopes take many."""
         for _ in range(_FURTHER):
-            own, worth = replace(slopes, residual=at.left), self._worth(at)
-            promised = self._promised(own, at, damping)
+            moved, worth = self._step(slopes, at, damping), self._worth(at)
+            promised = self._promised(slopes, at, *moved)
             if promised < worth:
                 break
-            there = self._tried(at, *self._step(own, at.x, at.states, damping))
+            there = self._tried(at, *moved)
             if not there.cost <= at.cost:
                 break
             gained, at = at.cost - there.cost, there
@@ -106,9 +107,8 @@ class Polish:
                 break
         return at
 
-    def _promised(self, slopes: Point, at: _At, damping: float) -> float:
-        """What a step by slopes gains if they hold."""
-        dx, ds = self._step(slopes, at.x, at.states, damping)
+    def _promised(self, slopes: Slopes, at: _At, dx: np.ndarray, ds: np.ndarray) -> float:
+        """What a step gains if the slopes hold."""
         return at.cost - self._cost(at.left - slopes.along(dx, ds), at.x + dx, at.states + ds)
 
     def _tried(self, at: _At, dx: np.ndarray, ds: np.ndarray) -> _At:
@@ -136,8 +136,7 @@ class Polish:
         self.simulator.internal = internal
         states = self.h.padded_states(states)
         begun = [np.clip(each, *self.h.bounds) for each in (x, np.concatenate([self.h.mean[:own], x[own:]]))]
-        seen = [self.simulator.seen(each[None], states[None])[0] for each in begun]
-        costs = [self._cost(self.simulator.measured - one, x, states) for one, x in zip(seen, begun, strict=True)]
+        costs = [self._cost(self.simulator.left(each, states), x, states) for each in begun]
         return begun[1] if not costs[0] <= costs[1] else x
 
     def with_speed(self, x: np.ndarray, states: np.ndarray, internal) -> np.ndarray:
@@ -182,51 +181,50 @@ class Polish:
         return float((residual**2).sum() + prior)
 
     @np.errstate(over="ignore", invalid="ignore")
-    def _normal(self, at: Point, x: np.ndarray, states: np.ndarray, damping: float):
+    def _normal(self, slopes: Slopes, at: _At, damping: float):
         """Normal equations with the initial states eliminated: matrix, right side, and what gives the states back.
 
         A parameter that the data do not feel is held by the width of its range.
         """
         P0 = 1 / self.h.sd**2
-        H, g = np.diag(P0 + 2 * np.pi / self.h.width**2), -P0 * (x - self.h.mean)
+        H, g = np.diag(P0 + 2 * np.pi / self.h.width**2), -P0 * (at.x - self.h.mean)
         backs, logs = [], 0.0
-        for j in range(states.shape[1]):
+        for j in range(at.states.shape[1]):
             r, J, X = (
-                at.residual[:, :, j].ravel(),
-                at.J[:, :, j].reshape(at.residual[:, :, j].size, len(x)),
-                at.X[:, :, j].reshape(-1, len(states)),
+                at.left[:, :, j].ravel(),
+                slopes.J[:, :, j].reshape(at.left[:, :, j].size, len(at.x)),
+                slopes.X[:, :, j].reshape(-1, len(at.states)),
             )
             S0 = 1 / self.spread**2
             XX = X.T @ X + np.diag(S0)
             logs += np.linalg.slogdet(XX * np.outer(self.spread, self.spread))[1]
             XX = XX + damping * np.diag(np.diag(XX))
-            XJ, Xr = X.T @ J, X.T @ r - S0 * states[:, j]
+            XJ, Xr = X.T @ J, X.T @ r - S0 * at.states[:, j]
             solved = np.linalg.solve(XX, np.column_stack([XJ, Xr]))
             H = H + J.T @ J - XJ.T @ solved[:, :-1]
             g = g + J.T @ r - XJ.T @ solved[:, -1]
             backs.append(solved)
         return H, g, backs, logs
 
-    def _step(self, at: Point, x: np.ndarray, states: np.ndarray, damping: float):
-        H, g, backs, _ = self._normal(at, x, states, damping)
-        moved = np.linalg.solve(H + damping * np.diag(np.diag(H)), g) if len(x) else np.zeros(0)
+    def _step(self, slopes: Slopes, at: _At, damping: float):
+        H, g, backs, _ = self._normal(slopes, at, damping)
+        moved = np.linalg.solve(H + damping * np.diag(np.diag(H)), g) if len(at.x) else np.zeros(0)
         return moved, np.stack([b[:, -1] - b[:, :-1] @ moved for b in backs], axis=1)
 
-    def _bent(self, slopes: Point, at: _At, damping: float):
-        """A step with its second order, along valleys that bend: parameters that act alike, one of them by its logarithm.
+    def _bent(self, slopes: Slopes, at: _At, damping: float, dx: np.ndarray, ds: np.ndarray):
+        """A step dx, ds with its second order, along valleys that bend: parameters that act alike, one of them by its logarithm.
 
         Geodesic acceleration (M. K. Transtrum, J. P. Sethna, arXiv:1201.5885): d2 = -(J'J + D)^-1 J' f'' / 2, f'' the second
         derivative of the outputs along the step d; kept where it is the smaller of both.
         """
-        dx, ds = self._step(slopes, at.x, at.states, damping)
         if not len(dx):
             return dx, ds
         near = np.clip(at.x + _PROBE * dx, *self.h.bounds)
         bend = (at.left - self.simulator.left(near, at.states + _PROBE * ds)) / _PROBE - slopes.along(dx, ds)
         if not np.isfinite(bend).all():
             return dx, ds
-        along = replace(slopes, residual=-bend / _PROBE)  # of half the second derivative
-        d2x, d2s = self._step(along, self.h.mean, np.zeros_like(at.states), damping)
+        half = _At(self.h.mean, np.zeros_like(at.states), -bend / _PROBE, 0.0)  # of the second derivative
+        d2x, d2s = self._step(slopes, half, damping)
         size = lambda a, b: float((a @ a) + ((b / self.spread[:, None]) ** 2).sum())
         return (dx, ds) if size(d2x, d2s) > _LESS**2 * size(dx, ds) else (dx + d2x, ds + d2s)
 
@@ -235,8 +233,8 @@ class Polish:
         own = self.series.disturbance
         return own.columns(t, self.series.dt) * s * G if own else 0
 
-    def _fit(self, slopes: Point, at: _At) -> Fit:
-        H, _, _, logs = self._normal(slopes, at.x, at.states, 0.0)
+    def _fit(self, slopes: Slopes, at: _At) -> Fit:
+        H, _, _, logs = self._normal(slopes, at, 0.0)
         width = self.h.width
         own = np.isfinite(width)
         evidence = -at.cost / 2 - np.log(width[own] / np.sqrt(2 * np.pi)).sum() - (np.linalg.slogdet(H)[1] + logs) / 2

@@ -1,6 +1,7 @@
 """What a hypothesis makes of stretches of records that are simulated side by side, as its channels read it, and its slopes."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -13,11 +14,10 @@ from mouse_cli.updating.recordings.series import sampled
 _PERTURBED = 1e-4  # of prior or range
 
 
-@dataclass
-class Point:
-    """Residual (s, t, G) and Jacobians by x (s, t, G, k) and by initial states (s, t, G, 2n)."""
+@dataclass(frozen=True)
+class Slopes:
+    """Of what is simulated, by x (s, t, G, k) and by initial states (s, t, G, 2n)."""
 
-    residual: np.ndarray
     J: np.ndarray
     X: np.ndarray
 
@@ -46,17 +46,22 @@ class Simulator:
         """Outputs (..., s, t, G) without hum and drift."""
         return self.series.disturbance.cleared(x, self.series.dt, axis=-2)
 
-    def point(self, left: np.ndarray, x: np.ndarray, states: np.ndarray, spread: np.ndarray) -> Point:
-        """Slopes at x (k,) and states (2n, G), where so much is left (s, t, G); laws in coarser steps than what is compared.
+    def slopes(self, x: np.ndarray, states: np.ndarray, spread: np.ndarray) -> Slopes:
+        """At x (k,) and states (2n, G), laws in coarser steps than what is compared.
 
-        They only lead to where that is least, and each may be a quarter of the work; those of forces that jump hold for their own
+        They only lead to where least is left, and each may be a quarter of the work; those of forces that jump hold for their own
         steps alone.
         """
         local, taken = self.h.local(x[None]) is not None, self
         if local and not self.jumps:
-            taken = Simulator(self.h, [part.coarser for part in self.data])
+            taken = self._coarser
             taken.internal = self.internal
-        return Point(left, *taken._slopes(x, states, spread, local))
+        return taken._differences(x, states, spread, local)
+
+    @cached_property
+    def _coarser(self) -> "Simulator":
+        """The same in the steps that slopes take."""
+        return Simulator(self.h, [part.coarser for part in self.data])
 
     @np.errstate(over="ignore", invalid="ignore")  # simulations may diverge; they are given up by their cost
     def left(self, x: np.ndarray, states: np.ndarray) -> np.ndarray:
@@ -64,8 +69,8 @@ class Simulator:
         return self.measured - self.seen(x[None], states[None])[0]
 
     @np.errstate(over="ignore", invalid="ignore")
-    def _slopes(self, x: np.ndarray, states: np.ndarray, spread: np.ndarray, local: bool):
-        """By x and states: simulations at every perturbed x and from every perturbed state, by their spread (2n,), all at once.
+    def _differences(self, x: np.ndarray, states: np.ndarray, spread: np.ndarray, local: bool) -> Slopes:
+        """Simulations at every perturbed x and from every perturbed state, by their spread (2n,), all at once.
 
         Where all is linear, one stretch without force shows what initial states do.
         """
@@ -80,7 +85,7 @@ class Simulator:
         moved = seen[1:] - seen[0]
         J = np.stack([moved[j] / steps[j] for j in range(k)], -1) if k else np.zeros((*seen[0].shape, 0))
         by_states = np.stack([*moved[k:]], -1) if local else self._free(x, np.diag(nudge))[:, :, None]
-        return J, np.broadcast_to(by_states / nudge, (*seen[0].shape, n2))
+        return Slopes(J, np.broadcast_to(by_states / nudge, (*seen[0].shape, n2)))
 
     def _free(self, x: np.ndarray, begin: np.ndarray) -> np.ndarray:
         """Sensors (s, t, b) without force from states begin (2n, b) of a hypothesis that is linear."""

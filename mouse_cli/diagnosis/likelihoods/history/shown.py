@@ -1,7 +1,10 @@
-"""Which laws records can show: none slower than a stretch, none at the end of its range, no dashpot where damping is assumed."""
+"""Which laws records can show: none slower than a stretch, at the end of its range or but the limit of a plainer one, no dashpot
+where damping is assumed.
+"""
 
 import numpy as np
 
+from mouse_cli.updating.recordings.acting import Part
 from mouse_cli.updating.recordings.adequacy import adequate
 from mouse_cli.updating.recordings.fit import Fit
 from mouse_cli.updating.recordings.study import Study
@@ -19,7 +22,35 @@ def shown(study: Study, found: list[Fit], dropped: dict[str, str]) -> list[Fit]:
             kept.append(one)
         else:
             dropped[unseen[0]] = unseen[1]
+    return once(kept, dropped)
+
+
+def once(found: list[Fit], dropped: dict[str, str]) -> list[Fit]:
+    """Fits without those whose law is seen as what a plainer one beside it is, as likely at least: one hypothesis is weighed once.
+
+    Friction that never slips is a spring, with a slip force that no record tells.
+    """
+    plain = {tuple(_seen(one)): one.log_evidence for one in found if not _limited(one)}
+    kept = []
+    for one in found:
+        limited = _limited(one)
+        if limited and plain.get(tuple(_seen(one)), -np.inf) >= one.log_evidence:
+            part = limited[0]
+            size = part.unknowns[part.law.limit[0]].name
+            dropped[part.law.key] = f"{part.place.site.text}: no record reaches its {size}, and a plainer law is what it is below"
+        else:
+            kept.append(one)
     return kept
+
+
+def _seen(one: Fit) -> list[tuple[str, str]]:
+    """Groups as which the laws of a fit are seen, with their sites."""
+    return sorted((part.place.site.text, group) for part, group in zip(one.recipes, one.groups, strict=True))
+
+
+def _limited(one: Fit) -> list[Part]:
+    """Laws of a fit that are seen as something else."""
+    return [part for part, group in zip(one.recipes, one.groups, strict=True) if group != part.law.group]
 
 
 def undamped(study: Study, found: list[Fit], dropped: dict[str, str]) -> list[Fit]:
