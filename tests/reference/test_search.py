@@ -13,6 +13,7 @@ from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unseen
 from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.diagnosis.search import study
 from mouse_cli.diagnosis.search.alike import _may_rival
 from mouse_cli.diagnosis.search.descents import settled, tried
 from mouse_cli.diagnosis.search.fit import descended, fit
@@ -20,6 +21,7 @@ from mouse_cli.diagnosis.search.found import Found
 from mouse_cli.diagnosis.search.optima import distinct
 from mouse_cli.diagnosis.search.several import _begun
 from mouse_cli.diagnosis.search.study import Study
+from mouse_cli.model.geometry import Geometry
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
 from mouse_cli.model.problem import Problem
@@ -203,6 +205,45 @@ def test_the_true_place_gets_on_from_behind(monkeypatch):
     (best, *_) = sorted(tried(study, "mass", (), np.zeros(study.k), 2), key=lambda one: one.misfit)
     assert "18" in best.recipes[0].site(best.recipes[0].values(best.c)).text
     assert best.misfit < 5
+
+
+def net(rows: int, cols: int, at: int) -> Reduced:
+    """Unit masses on a net of springs that is held at one edge, and its six lowest modes with an oscillator at mass `at`."""
+    line = lambda n, ends: np.diag(np.r_[ends[0], 2 * np.ones(n - 2), ends[1]]) - np.eye(n, k=1) - np.eye(n, k=-1)
+    K = 1e4 * (np.kron(line(rows, (2, 1)), np.eye(cols)) + 0.7 * np.kron(np.eye(rows), line(cols, (1, 1))))
+    n, kg = len(K), 8.0
+    own = kg * eigh(K, eigvals_only=True)[0]
+    whole, mass = np.zeros((n + 1, n + 1)), np.diag(np.r_[np.ones(n), kg])
+    whole[:n, :n] = K
+    whole[np.ix_([at, n], [at, n])] += own * np.array([[1, -1], [-1, 1]])
+    lam, X = eigh(whole, mass, subset_by_index=[0, 5])
+    hz, seen = np.sqrt(lam) / (2 * np.pi), np.arange(4, n, n // 8)
+    shapes = X[seen]
+    sd = 0.01 * np.abs(shapes).max(axis=0) * np.ones_like(shapes)
+    test = ModalTest(np.arange(1, 7), hz, 2e-3 * hz, seen, shapes, sd)
+    row, col = np.divmod(np.arange(n), cols)
+    places = np.stack([row, col, np.zeros(n)], axis=1)
+    geometry = Geometry(np.arange(1, n + 1), places, np.arange(n), np.full(n, 2), np.zeros((0, 2)))
+    i, j = np.nonzero(np.triu(K))
+    listed = ListedElements(np.zeros(len(i), bool), i, j)
+    prior, parameters = Gaussian(np.ones(1), np.array([0.05**2])), (Parameter("factor", 0.05, 1.0),)
+    structure = Structure(K, np.eye(n), geometry=geometry, labels=geometry.labels())
+    return reduced(Problem("net", structure, listed, K[i, j][:, None], parameters, prior, test), prior.mean)
+
+
+def test_places_around_the_best_are_tried_whatever_a_first_look_makes_of_them(monkeypatch):
+    """The true place and those beside it are kept from every start: each is the next one of a place that is tried."""
+    at = 60
+    few = Study(net(11, 9, at)).coarse
+    recipes = few.recipes("oscillator")
+    place = [int(one.site(one.grid[0]).ids[0].removesuffix("TZ")) - 1 for one in recipes]
+    hidden = {i for i, one in enumerate(place) if abs(one - at) in (0, 1, 9)}
+    assert len(hidden) == 5 and len(recipes) == 99
+    known, led = study.spread, few.looks("oscillator", np.zeros(1), ())
+    seen = lambda starts: starts if len(starts) < len(led) else [each for each in starts if each[0] not in hidden]
+    monkeypatch.setattr(study, "spread", lambda starts, trials, most: known(seen(starts), trials, most))
+    left, best, _ = few.approached("oscillator", np.zeros(1), ())[0]
+    assert place[best] == at and left < 30
 
 
 def test_what_is_looked_at_beside_a_cause_is_looked_at_once(monkeypatch):

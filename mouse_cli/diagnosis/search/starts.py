@@ -10,7 +10,10 @@ from mouse_cli.model.site import gap
 
 _EACH = 4  # starts at least from one recipe
 _APART = 0.08  # of a range: between starts of one recipe
+_FOLLOWED = 40.0  # misfit above the best of an end, by what that leaves, from which on nobody looks around it
 _TOLD = 0.05  # squared distance of what two places predict, by the data's sd, up to which they are as one
+
+Led = list[tuple[int, np.ndarray, End]]  # number of the recipe, start and end of brief descents, the best first
 
 
 def spread(starts: list[tuple[int, np.ndarray]], trials: dict[int, Model], most: int) -> list[tuple[int, np.ndarray]]:
@@ -39,9 +42,29 @@ def _alike(one: End, other: End) -> bool:
     return near and bool(np.sum((one.point.residual - other.point.residual) ** 2) < _TOLD * (1 + 1e-2 * one.misfit))
 
 
-def leading(led: list, new: tuple[int, np.ndarray, End]) -> list:
+def leading(led: Led, new: tuple[int, np.ndarray, End]) -> Led:
     """Ends of descents with a further one among them, the best first and no two alike."""
     if any(cost(one) <= cost(new[2]) and _alike(one, new[2]) for *_, one in led):
         return led
     others = [each for each in led if cost(each[2]) <= cost(new[2]) or not _alike(each[2], new[2])]
     return sorted([*others, new], key=lambda item: cost(item[2]))
+
+
+def surrounding(led: Led, trials: dict[int, Model], begun: set[int], count: int, reach: float) -> list[tuple[int, np.ndarray]]:
+    """Starts at the `count` places nearest to each of `led` that none has `begun` from, with the sizes that were found there.
+
+    Where a size matters as sharply as the frequency of an oscillator, a first look at sizes of a list says how near one of them is
+    rather than how good the place is.
+    """
+    if not led:
+        return []
+    sites = {i: recipe.site(recipe.grid[0]) for i, trial in trials.items() if i not in begun and (recipe := trial.recipes[-1])}
+    best = led[0][2]
+    far = min(reach, best.misfit + _FOLLOWED * max(1.0, best.misfit / max(best.model.base.data.dof, 1)))
+    found: dict[int, np.ndarray] = {}
+    for _, _, end in (each for each in led if each[2].misfit <= far):
+        values, own = end.recipes[-1].values(end.c[end.model.own[-1]]), end.model.k + end.model.own[-1].start
+        gaps = {i: gap(end.sites[-1], site) for i, site in sites.items() if i not in found}
+        for i in sorted((i for i in gaps if np.isfinite(gaps[i])), key=gaps.__getitem__)[:count]:
+            found[i] = np.concatenate([end.point.x[:own], trials[i].recipes[-1].coordinates(values)])
+    return list(found.items())

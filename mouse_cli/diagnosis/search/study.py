@@ -14,14 +14,15 @@ from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
-from mouse_cli.diagnosis.search.fit import End, Fit, descended
+from mouse_cli.diagnosis.search.fit import Fit, descended
 from mouse_cli.diagnosis.search.optima import BEYOND
-from mouse_cli.diagnosis.search.starts import cost, leading, spread
+from mouse_cli.diagnosis.search.starts import Led, cost, leading, spread, surrounding
 from mouse_cli.diagnosis.search.superposed import KEPT, Alone, best_pairs, by_itself, chosen, text
 from mouse_cli.dynamics.eigen import IndefiniteError
 
 _LOOKS, _MOST, BRIEF = 12, 40, 4  # brief descents at least, at most, and their steps
 _POOR = 4  # brief descents where no first look is anywhere near what would matter
+_ROUNDS, _SURROUNDED, _AROUND = 3, 3, 6  # times that the best ends are surrounded by places, how many of them, and by how many
 _WEIGHED = 12  # ends of brief descents that are weighed in all coordinates
 MOVED = 5e-3  # share of parameters within which causes weigh alike
 _ABOUT = 4  # studies at other parameters that are kept
@@ -172,14 +173,25 @@ class Study:
         chosen = spread([(number, x) for _, number, x in looks], trials, most)
         if len(chosen) < 2:
             return [(0.0, i, [x]) for i, x in chosen]
-        led: list[tuple[int, np.ndarray, End]] = []
-        for i, x in chosen:  # so many are weighed at most, and one that cannot be among these is given up
-            last = cost(led[weighed_beside(beside) - 1][2]) if len(led) >= weighed_beside(beside) else np.inf
+        led = self._led([], chosen, trials, weighed_beside(beside), reach)
+        begun = {i for i, _ in chosen}
+        for _ in range(_ROUNDS if len(begun) < len(trials) else 0):
+            near = surrounding(led[:_SURROUNDED], trials, begun, _AROUND, reach)
+            if not near:
+                break
+            led = self._led(led, near, trials, weighed_beside(beside), reach)
+            begun |= {i for i, _ in near}
+        kept = {id(end) for _, end in spread([(i, one.point.x) for i, _, one in led], trials, most)}
+        return [(cost(one), i, [one.point.x, x]) for i, x, one in led if id(one.point.x) in kept]
+
+    def _led(self, led: Led, starts: list[tuple[int, np.ndarray]], trials: dict[int, Model], count: int, reach: float) -> Led:
+        """Ends of brief descents, with those from `starts` among them; one that cannot be among the first `count` is given up."""
+        for i, x in starts:
+            last = cost(led[count - 1][2]) if len(led) >= count else np.inf
             limit = last + 2 * sum(recipe.log_prior for recipe in trials[i].recipes)
             end = descended(trials[i], x[self.k :], x[: self.k], BRIEF, min(reach, limit))
             led = led if end is None else leading(led, (i, x, end))
-        kept = {id(end) for _, end in spread([(i, one.point.x) for i, _, one in led], trials, most)}
-        return [(cost(one), i, [one.point.x, x]) for i, x, one in led if id(one.point.x) in kept]
+        return led
 
     def _adapted(self, before: np.ndarray, others: tuple[Recipe, ...]) -> tuple[np.ndarray, np.ndarray]:
         """T (q, k + t), and (T'T + P)^-1 [T', -P] (k + t, q + k): how far the deck's parameters, and t coordinates of the causes
