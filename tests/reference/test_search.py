@@ -20,6 +20,7 @@ from mouse_cli.diagnosis.search.fit import descended, fit
 from mouse_cli.diagnosis.search.found import Found
 from mouse_cli.diagnosis.search.optima import distinct
 from mouse_cli.diagnosis.search.several import _begun
+from mouse_cli.diagnosis.search.starts import surrounding
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.model.geometry import Geometry
 from mouse_cli.model.modal_test import ModalTest
@@ -244,6 +245,17 @@ def test_places_around_the_best_are_tried_whatever_a_first_look_makes_of_them(mo
     monkeypatch.setattr(study, "spread", lambda starts, trials, most: known(seen(starts), trials, most))
     left, best, _ = few.approached("oscillator", np.zeros(1), ())[0]
     assert place[best] == at and left < 30
+
+
+def test_places_around_are_those_with_the_same_sizes():
+    """A stretch may end at an end of its line, or have both ends free: with one unknown more."""
+    study = Study(net(11, 9, 60))
+    k, trials = study.k, {i: study.with_cause((), "oscillator", i) for i in range(4)}
+    end = descended(trials[0], trials[0].recipes[0].coordinates(trials[0].recipes[0].grid[0]), np.zeros(k), most=0)
+    more = replace(trials[2].recipes[0], unknowns=(*trials[2].recipes[0].unknowns, trials[2].recipes[0].unknowns[0]))
+    trials[2] = Model(study.model, (more,))
+    near = surrounding([(0, end.point.x, end)], trials, {0}, 3, np.inf)
+    assert {i for i, _ in near} == {1, 3} and all(len(x) == len(end.point.x) for _, x in near)
 
 
 def test_what_is_looked_at_beside_a_cause_is_looked_at_once(monkeypatch):

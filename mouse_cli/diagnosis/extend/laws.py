@@ -9,11 +9,13 @@ from mouse_cli.diagnosis.extend.deck import in_its_units
 from mouse_cli.diagnosis.extend.matrices import of_matrices
 from mouse_cli.diagnosis.extend.points import Ends, add_dashpot, add_mass, add_oscillator, add_spring, remove_mass
 from mouse_cli.diagnosis.extend.renumbered import moved_channels
+from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.local_law import LocalLaw
 from mouse_cli.model.problem import Problem
 from mouse_cli.updating.recordings.acting import Part
 from mouse_cli.updating.recordings.channels import Misreading
 from mouse_cli.updating.recordings.fit import Fit
+from mouse_cli.updating.recordings.places import bodies
 
 
 def extended(problem: Problem, best: Fit) -> Problem | None:
@@ -38,7 +40,7 @@ def with_linear(problem: Problem, part: Part, p: np.ndarray) -> Problem | None:
     What is lost is a negative spring or, in a model of matrices, a negative mass. Where damping is assumed, as a deck has none, a
     dashpot would be all of it.
     """
-    law, labels = part.law.key, part.place.site.ids
+    law, labels = part.law.key, _labels(problem, part.place.site)
     bare = problem.structure.C is None and problem.modal_damping is None
     if of_matrices(problem) and bare and law in ("dashpot", "oscillator"):
         return None
@@ -65,6 +67,14 @@ def with_linear(problem: Problem, part: Part, p: np.ndarray) -> Problem | None:
     return replace(
         deck, held_records=replace(held, recordings=tuple(moved_channels(one, to) for one in held.recordings))
     )
+
+
+def _labels(problem: Problem, site: Site) -> tuple[str, ...]:
+    """Of the degrees of freedom of a site: of a body all by which it translates."""
+    if site.kind != "node":
+        return site.ids
+    own = next(own for one, own in bodies(problem) if one == site)
+    return tuple(problem.structure.labels[i] for i in own)
 
 
 def _law(part: Part, p: np.ndarray, labels: tuple[str, ...]) -> LocalLaw:

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.gates import SAME_SITE
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.scales import span
@@ -51,7 +52,7 @@ def leading(led: Led, new: tuple[int, np.ndarray, End]) -> Led:
 
 
 def surrounding(led: Led, trials: dict[int, Model], begun: set[int], count: int, reach: float) -> list[tuple[int, np.ndarray]]:
-    """Starts at the `count` places nearest to each of `led` that none has `begun` from, with the sizes that were found there.
+    """Starts at the `count` places of the same sizes nearest to each of `led` that none has `begun` from, with what was found there.
 
     Where a size matters as sharply as the frequency of an oscillator, a first look at sizes of a list says how near one of them is
     rather than how good the place is.
@@ -64,7 +65,13 @@ def surrounding(led: Led, trials: dict[int, Model], begun: set[int], count: int,
     found: dict[int, np.ndarray] = {}
     for _, _, end in (each for each in led if each[2].misfit <= far):
         values, own = end.recipes[-1].values(end.c[end.model.own[-1]]), end.model.k + end.model.own[-1].start
-        gaps = {i: gap(end.sites[-1], site) for i, site in sites.items() if i not in found}
+        alike = [i for i in sites if i not in found and _sizes(trials[i].recipes[-1]) == _sizes(end.recipes[-1])]
+        gaps = {i: gap(end.sites[-1], sites[i]) for i in alike}
         for i in sorted((i for i in gaps if np.isfinite(gaps[i])), key=gaps.__getitem__)[:count]:
             found[i] = np.concatenate([end.point.x[:own], trials[i].recipes[-1].coordinates(values)])
     return list(found.items())
+
+
+def _sizes(recipe: Recipe) -> list[tuple[str, str]]:
+    """Names and units of the unknowns of a recipe."""
+    return [(unknown.name, unknown.unit) for unknown in recipe.unknowns]

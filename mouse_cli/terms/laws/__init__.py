@@ -66,9 +66,10 @@ class Law:
     apart as words. homogeneous: indices of parameters with which F grows in proportion. grid: values of each other parameter
     that a first search tries. implicit(v, F before, free, drop, p) -> F, F at the end: of a step, for a law whose force jumps
     with the velocity, see dynamics.response.Implicit. prepare(p): what `force` takes in place of p and depends on p alone, where it
-    costs more than a step. at: `anywhere`, `ground` where it acts only between a point and the ground,
-    `link` where the model has a spring, or `plane` between two directions of one body. limit: index of the unknown that a record
-    must show, and the group of what the law is where it does not. motions: how many it couples, the first rows of `matrices`.
+    costs more than a step. at: `anywhere`, `ground` where it acts only between a point and the ground, `link` where the model has a
+    spring, `plane` between two directions of one body, or `body` along all that it translates by. limit: index of the unknown that
+    a record must show, and the group of what the law is where it does not. motions: how many it couples, the first rows of
+    `matrices`.
     """
 
     key: str
@@ -94,6 +95,11 @@ class Law:
         """Its force(x, v, z) -> (F, z) at parameters p for many steps."""
         held = p if self.prepare is None else self.prepare(p)
         return lambda x, v, z: self.force(x, v, z, held, **words)
+
+    def on(self, count: int, p: np.ndarray, words: dict[str, float]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """K, C, M on so many motions, and on coordinates of its own: a law of one acts along each of them alike."""
+        own = self.matrices(p, **words)
+        return own if count == self.motions else tuple(np.kron(np.eye(count), one) for one in own)
 
     def seen_as(self, log_sd: np.ndarray) -> str:
         """Its group where its unknowns are known to those sd (q,) of their logarithms; that of its limit where one is not seen."""

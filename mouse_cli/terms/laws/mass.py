@@ -1,4 +1,4 @@
-"""A lumped mass."""
+"""A lumped mass, which its body carries along wherever it moves."""
 
 import numpy as np
 
@@ -16,4 +16,4 @@ def unknowns(scale: Scale) -> tuple[Unknown, ...]:
     return (Unknown("mass", "kg", 1e-3 * scale.mass, 2 * scale.heaviest),)
 
 
-LAW = Law("mass", "mass", "a lumped mass", "F = m a", unknowns, matrices=matrices, at="ground")
+LAW = Law("mass", "mass", "a lumped mass", "F = m a", unknowns, matrices=matrices, at="body")

@@ -25,5 +25,5 @@ LAW = Law(
     "F = -m a: a mass of the model that has lost a part of itself, or is gone",
     unknowns,
     matrices=matrices,
-    at="ground",
+    at="body",
 )

@@ -10,14 +10,15 @@ from mouse_cli.terms.laws import Law, Scale, Unknown
 
 
 def _columns(B: np.ndarray, across: np.ndarray | None) -> np.ndarray:
-    return np.stack([B] if across is None else [B, across], axis=1)
+    return np.column_stack([B] if across is None else [B, across])
 
 
 @dataclass(frozen=True)
 class Place:
     """Where a law may act. B (m,): the motion in the coordinates of the simulation; motion (n,): by the degrees of freedom of the
     deck; ground: whether its other end is the ground. channel: number of a channel instead, outputs before forces. across (m,):
-    another motion of the same body, where a law of two acts.
+    another motion of the same body, where a law of two acts; (m, d - 1): all other translations of a body that has several. whole:
+    whether its motions are all translations of its body.
     """
 
     site: Site
@@ -27,6 +28,7 @@ class Place:
     motion: np.ndarray
     channel: int = -1
     across: np.ndarray | None = None
+    whole: bool = False
 
     @property
     def directions(self) -> np.ndarray:
@@ -81,14 +83,14 @@ class Part:
         return self.law.variants[self.variant]
 
     def matrices(self, p: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """K, C, M of a linear law."""
-        return self.law.matrices(p, **self.words)
+        """K, C, M of a linear law, on the motions of its place first."""
+        return self.law.on(self.place.directions.shape[1], p, self.words)
 
     @cached_property
     def extra(self) -> int:
         """Degrees of freedom of a linear law's own."""
         middle = np.array([np.sqrt(u.lower * u.upper) for u in self.unknowns])
-        return len(self.matrices(middle)[0]) - self.law.motions if self.law.linear else 0
+        return len(self.matrices(middle)[0]) - self.place.directions.shape[1] if self.law.linear else 0
 
     def acting(self, p: np.ndarray) -> Acting:
         """With parameters p."""

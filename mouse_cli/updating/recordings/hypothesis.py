@@ -168,13 +168,13 @@ class Hypothesis:
         M, C, K = (np.pad(one, ((0, 0), (0, a), (0, a))) for one in matrices)
         for one in (each for each in self.known if each.law.linear):
             B = np.pad(one.directions, ((0, a), (0, 0)))
-            for whole, own in zip((K, C, M), one.law.matrices(one.p, **one.words), strict=True):
+            for whole, own in zip((K, C, M), one.law.on(one.directions.shape[1], one.p, one.words), strict=True):
                 whole += B @ own @ B.T
         at = m
         for part, values in self.sizes(many):
             if not part.law.linear:
                 continue
-            d = part.law.motions
+            d = part.place.directions.shape[1]
             B = np.zeros((m + a, d + part.extra))
             B[:m, :d] = part.place.directions
             B[at : at + part.extra, d:] = np.eye(part.extra)

@@ -43,6 +43,17 @@ def motions(problem: Problem, sensed: np.ndarray) -> Iterator[tuple[Site, np.nda
         yield Site("dof", (labels[i], labels[j]), text=text), np.eye(n)[j] - np.eye(n)[i], linked.get((i, j), 0.0)
 
 
+def bodies(problem: Problem) -> Iterator[tuple[Site, list[int]]]:
+    """Site and degrees of freedom of bodies that translate along several axes: their inertia acts along all of them."""
+    found: dict[str, list[int]] = {}
+    for i, label in enumerate(problem.structure.labels):
+        if not label.isdigit() and not _turns(label):
+            found.setdefault(label[:-2], []).append(i)
+    for node, own in found.items():
+        if len(own) > 1:
+            yield Site("node", (int(node) if node.isdigit() else node,), text=f"node {node}"), own
+
+
 def planes(problem: Problem, sensed: np.ndarray) -> Iterator[tuple[Site, int, int]]:
     """Site and degrees of freedom of pairs of directions of one body, of which one at least is driven or measured.
 
@@ -114,13 +125,26 @@ def places(
         links = 2 * mass / step**2, mass * a, max(link, 0.0)
         return Scale(stiffness, mass, x, v, band, *links, min(_WHOLE * least, stiffness), max(most, mass))
 
+    several = {i for _, own in bodies(problem) for i in own}
     for site, b, link in motions(problem, sensed):
         own = scale(basis.T @ b, link)
         if own is not None:
-            found.append(Place(site, basis.T @ b, len(site.ids) == 1, own, b))
+            ground = len(site.ids) == 1
+            found.append(Place(site, basis.T @ b, ground, own, b, whole=ground and int(np.argmax(b)) not in several))
+    for site, own in bodies(problem):
+        scales = [(i, one) for i in own if (one := scale(basis[i], 0.0)) is not None]
+        if scales:  # those of the translation that moves most
+            first, most = max(scales, key=lambda each: each[1].x)
+            others = [i for i, _ in scales if i != first]
+            found.append(Place(site, basis[first], True, most, _unit(problem, first), across=basis[others].T, whole=True))
     for site, i, j in planes(problem, sensed):
         both = [one for one in (scale(basis[i], 0.0), scale(basis[j], 0.0)) if one is not None]
         if len(both) == 2:
             own = max(both, key=lambda one: one.stiffness * one.x / one.v)
-            found.append(Place(site, basis[i], False, own, np.eye(problem.structure.n)[i], across=basis[j]))
+            found.append(Place(site, basis[i], False, own, _unit(problem, i), across=basis[j]))
     return found
+
+
+def _unit(problem: Problem, i: int) -> np.ndarray:
+    """The motion (n,) of degree of freedom number i alone."""
+    return np.eye(problem.structure.n)[i]

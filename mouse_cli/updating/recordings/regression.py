@@ -117,7 +117,7 @@ class Regression:
         linear += [part.acting(p[:, 0]) for part, p in self.base.sizes(x[None]) if part.law.linear]
         for one in linear:
             B = one.directions
-            F = linear_force(one.law.matrices(one.p, **one.words), s.w, self._U @ B, self._carried(B))
+            F = linear_force(one.law.on(B.shape[1], one.p, one.words), s.w, self._U @ B, self._carried(B))
             found += s.history(np.einsum("ld,lsd->ls", F, s.SH @ B)) * s.window[:, None]
         return found
 
@@ -226,7 +226,7 @@ class Regression:
             return
         for p in many:
             if law.linear:
-                yield linear_force(law.matrices(p, **words), s.w, local.X, local.carried)
+                yield linear_force(law.on(local.X.shape[1], p, words), s.w, local.X, local.carried)
             else:
                 yield s.line(law.force(local.x, local.v, None, p, **words)[0] * s.window)[:, None]
 
@@ -279,8 +279,8 @@ def allowed(place: Place, laws: list[Law] | None = None) -> list[Law]:
     """The laws that a first look tries at a place."""
     own = registry().values() if laws is None else laws
     if place.across is not None:
-        return [law for law in own if law.at == "plane"]
-    there = {"anywhere": True, "ground": place.ground, "link": place.scale.link > 0, "plane": False}
+        return [law for law in own if law.at == ("body" if place.whole else "plane")]
+    there = {"anywhere": True, "ground": place.ground, "link": place.scale.link > 0, "body": place.whole, "plane": False}
     return [law for law in own if law.key != "iwan" and there[law.at]]
 
 

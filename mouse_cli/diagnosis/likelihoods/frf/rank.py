@@ -26,7 +26,8 @@ from mouse_cli.updating.frf_start import WIDTHS
 
 _REACH = 60.0  # nats by which modes may speak against an explanation that is judged by FRFs still
 _SINGLES = 3  # single causes that are judged in any case
-_ELSEWHERE = 2  # other places at which modes leave a cause possible
+# Other places at which modes leave a cause possible: so many whatever they say, and so many of at least this share
+_ELSEWHERE, _PLACES, _SHARE = 2, 6, 1e-3
 _WIDTHS = WIDTHS[1:]  # damping ratios by which resonances are broadened
 _UNSTATED = ("hann", "uniform")  # windows that are tried where a deck states none
 _PLAIN = 10.0  # nats that one must gain
@@ -191,11 +192,13 @@ def _promising(modal: Ranking) -> list[Fit]:
         if (one.recipes or one.nameless) and one.log_evidence / modal.noise_scale > best - _REACH
     ]
     singles = [one for one in modal.fits if len(one.recipes) == 1 and not any(one is other for other in near)]
-    return [
-        place
-        for one in near + singles[:_SINGLES]
-        for place in (one, *(other for other, _ in one.elsewhere[:_ELSEWHERE]))
-    ]
+    return [place for one in near + singles[:_SINGLES] for place in _places(one)]
+
+
+def _places(one: Fit) -> list[Fit]:
+    """A fit, and the same at other places that modes leave possible."""
+    others = enumerate(one.elsewhere[:_PLACES])
+    return [one, *(other for i, (other, share) in others if i < _ELSEWHERE or share > _SHARE)]
 
 
 def _leading(looked: list[Fit]) -> list[Fit]:

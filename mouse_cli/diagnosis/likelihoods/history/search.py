@@ -26,6 +26,7 @@ _POLISHED, _MORE, _AGAIN = 4, 12, 8  # starts that are fitted; where none of the
 _NEAREST = 3  # laws that are begun again with nuisances at their mean
 # Of what is missing: error of first looks, where nuisances that leave their prior explain it by first order
 _FIRST_ORDER = 0.02
+_ELSEWHERE = 4  # places at which a law that comes near is tried besides
 _ALIKE = 6  # starts that are fitted although an adequate law was found, as they are like it
 _TAKEN = 0.5  # of what may be noise, that a law leaves at most to be more than it
 _SERIES = "smooth-stiffness"  # group of laws that are terms of one power series
@@ -105,7 +106,7 @@ def _singles(study: Study, notice: Notice, known: list[Law] | None, baseline: Fi
             found.append(one)
             best = min(best, one, key=innovation)
     if not adequate(best):
-        found += _again(study, found)
+        found += _again(study, found, order, tried)
     elif best is not baseline:
         for start in alike(order, tried, _where(best)):
             notice(_named(start))
@@ -119,10 +120,19 @@ def alike(order: list[Start], tried: list[Start], leader: tuple[str, str]) -> li
 
     Where data are few or noisy a law explains them that is not true, and a first look may have had the true one behind others.
     """
-    place = lambda one: (one.hypothesis.law.key, one.hypothesis.place.site.text)
-    gone = {place(one) for one in tried}
+    gone = set(map(_begins, tried))
     shares = lambda at: at not in gone and (at[0] == leader[0]) != (at[1] == leader[1])
-    return [one for one in order if shares(place(one))][:_ALIKE]
+    return [one for one in order if shares(_begins(one))][:_ALIKE]
+
+
+def elsewhere(order: list[Start], tried: list[Start], law: str) -> list[Start]:
+    """Starts of a law at places where it was not tried yet, the most promising ones."""
+    gone = set(map(_begins, tried))
+    return [one for one in order if one.hypothesis.law.key == law and _begins(one) not in gone][:_ELSEWHERE]
+
+
+def _begins(one: Start) -> tuple[str, str]:
+    return one.hypothesis.law.key, one.hypothesis.place.site.text
 
 
 def _looked(study: Study, look: Callable[[Place], Regression], known: list[Law] | None) -> list[Start]:
@@ -209,15 +219,19 @@ def _other(study: Study, pair: Fit, tried: list[tuple[str, str]]) -> Fit | None:
     return fitted(study, Start(alone, x, 0.0))
 
 
-def _again(study: Study, singles: list[Fit]) -> list[Fit]:
-    """The laws that come nearest with nuisances at their mean, then the nearest from elsewhere, until one is adequate.
+def _again(study: Study, singles: list[Fit], order: list[Start], tried: list[Start]) -> list[Fit]:
+    """The laws that come nearest at other places, then with nuisances at their mean, then the nearest from other sizes, until one
+    is adequate.
 
-    What a first look put far from the prior may have been given up behind a law that is not the true one.
+    A first look sees the true place behind others that nuisances help; and what it put far from the prior may have been given up
+    behind a law that is not the true one.
     """
     near = {_where(one): one for one in sorted(singles, key=innovation, reverse=True)}
     nearest, found = sorted(near.values(), key=innovation)[:_NEAREST], []
 
     def begun() -> Iterator[tuple[Start, float]]:
+        for law in dict.fromkeys(one.hypothesis.law.key for one in nearest):
+            yield from ((start, np.inf) for start in elsewhere(order, tried, law))
         yield from ((from_mean(one), np.inf) for one in nearest)
         if nearest:
             yield from begun_again(study, min([*nearest, *found], key=innovation))
