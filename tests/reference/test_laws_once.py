@@ -21,9 +21,9 @@ class Found:
 
     @property
     def recipes(self):
-        law, site = registry()[self.law], SimpleNamespace(text=self.site)
+        law, place = registry()[self.law], SimpleNamespace(site=SimpleNamespace(text=self.site), where=self.site)
         unknowns = tuple(SimpleNamespace(name=name) for name in ("stiffness before slip", "slip force")[: len(self.sd)])
-        return (SimpleNamespace(law=law, place=SimpleNamespace(site=site), unknowns=unknowns),)
+        return (SimpleNamespace(law=law, place=place, unknowns=unknowns),)
 
     @property
     def groups(self):

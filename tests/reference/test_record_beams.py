@@ -10,9 +10,15 @@ from scipy.linalg import eigh
 from scipy.signal import cont2discrete, dlsim
 
 from mouse_cli.cli.main import cli
+from mouse_cli.diagnosis.extend.laws import with_linear
+from mouse_cli.diagnosis.likelihoods.history.search import alike
 from mouse_cli.formats import read_deck
+from mouse_cli.model.arrays import dense
+from mouse_cli.terms.assembly import assembly
+from mouse_cli.terms.laws import registry
 from mouse_cli.updating.recordings.records import records
-from mouse_cli.updating.recordings.study import study
+from mouse_cli.updating.recordings.regression import Start, allowed
+from mouse_cli.updating.recordings.study import Study, study
 
 N, SPAN, E, A, I, DENSITY = 8, 1.2, 2.1e11, 3.2e-4, 1.70667e-9, 7850.0
 RATE, SECONDS, DRIVEN, SENSED = 1000.0, 6.0, 6, (4, 6, 9)
@@ -110,3 +116,40 @@ def test_laws_may_act_between_measured_places_of_a_reduced_model(tmp_path):
     assert {f"{i}TY" for i in range(2, N + 2)} == {one.site.ids[0] for one in places if one.ground}  # measured or not
     both = [one.site.ids for one in places if len(one.site.ids) == 2]
     assert both == [("4TY", "6TY"), ("4TY", "9TY"), ("6TY", "9TY")]
+
+
+def in_a_plane(tmp_path) -> Study:
+    """The same with axial motion: nodes that translate along two axes."""
+    deck = Path(cantilever(tmp_path))
+    deck.write_text(deck.read_text().replace("directions: [TY, RZ]", "plane: XY"))
+    problem = read_deck(deck)
+    return study(problem, records(problem))
+
+
+def test_a_mass_acts_along_all_that_its_node_translates_by(tmp_path):
+    """A floor carries it up and down as well as sideways; forces of springs act along one of them."""
+    own = in_a_plane(tmp_path)
+    labels, V, m = own.problem.structure.labels, own.model.basis, 0.7
+    place = next(one for one in own.places if one.site.text == "node 5")
+    assert {law.key for law in allowed(place)} == {"mass", "mass-loss"}
+    assert not {"mass", "mass-loss"} & {law.key for one in own.places if one.site.kind == "dof" for law in allowed(one)}
+    heavy = own.base.placed(place).at(registry()["mass"], 0)
+    x = np.append(np.zeros(heavy.nuisances), np.log(m))
+    added = heavy.plant(x[None], own.look).M[0] - own.base.plant(np.zeros((1, own.base.nuisances)), own.look).M[0]
+    both = V[[labels.index("5TX"), labels.index("5TY")]]
+    np.testing.assert_allclose(added, m * both.T @ both, atol=1e-9 * np.abs(added).max())
+    deck = with_linear(own.problem, heavy.parts[0], np.array([m]))
+    M = [dense(assembly(each).matrices(each.prior.mean)[1]) for each in (deck, own.problem)]
+    np.testing.assert_allclose(V.T @ (M[0] - M[1]) @ V, added, atol=1e-9 * np.abs(added).max())
+
+
+def test_beside_an_oscillator_the_mass_that_it_is_above_the_band_is_tried_first(tmp_path):
+    """Oscillators at other nodes and richer laws come after what has fewer sizes at its own node."""
+    own = in_a_plane(tmp_path)
+    at = {one.site.text: one for one in own.places}
+    start = lambda law, text: Start(own.base.placed(at[text]).at(registry()[law], 0), np.zeros(0), 0.0)
+    leader = start("oscillator", "between 5TY and the ground")
+    others = [start("oscillator", f"between {i}TY and the ground") for i in (2, 3, 4, 6, 7, 8)]
+    mass, there = start("mass", "node 5"), start("mass", "node 6")
+    found = alike([leader, *others, there, mass], [leader], ("oscillator", leader.hypothesis.place.where))
+    assert [id(one) for one in found] == [id(one) for one in (mass, *others[:5])]

@@ -18,7 +18,8 @@ class Place:
     """Where a law may act. B (m,): the motion in the coordinates of the simulation; motion (n,): by the degrees of freedom of the
     deck; ground: whether its other end is the ground. channel: number of a channel instead, outputs before forces. across (m,):
     another motion of the same body, where a law of two acts; (m, d - 1): all other translations of a body that has several. whole:
-    whether its motions are all translations of its body.
+    whether its motions are all translations of its body; body: the name of one that has several, as what acts along one of them
+    and what acts along all are at one place.
     """
 
     site: Site
@@ -29,6 +30,12 @@ class Place:
     channel: int = -1
     across: np.ndarray | None = None
     whole: bool = False
+    body: str = ""
+
+    @property
+    def where(self) -> str:
+        """What is the same of two places where laws are at one."""
+        return self.body or self.site.text
 
     @property
     def directions(self) -> np.ndarray:

@@ -125,18 +125,20 @@ def places(
         links = 2 * mass / step**2, mass * a, max(link, 0.0)
         return Scale(stiffness, mass, x, v, band, *links, min(_WHOLE * least, stiffness), max(most, mass))
 
-    several = {i for _, own in bodies(problem) for i in own}
+    body = {i: site.text for site, own in bodies(problem) for i in own}
     for site, b, link in motions(problem, sensed):
         own = scale(basis.T @ b, link)
         if own is not None:
             ground = len(site.ids) == 1
-            found.append(Place(site, basis.T @ b, ground, own, b, whole=ground and int(np.argmax(b)) not in several))
+            name = body.get(int(np.argmax(b)), "") if ground else ""
+            found.append(Place(site, basis.T @ b, ground, own, b, whole=ground and not name, body=name))
     for site, own in bodies(problem):
         scales = [(i, one) for i in own if (one := scale(basis[i], 0.0)) is not None]
         if scales:  # those of the translation that moves most
             first, most = max(scales, key=lambda each: each[1].x)
-            others = [i for i, _ in scales if i != first]
-            found.append(Place(site, basis[first], True, most, _unit(problem, first), across=basis[others].T, whole=True))
+            across = basis[[i for i, _ in scales if i != first]].T
+            one = Place(site, basis[first], True, most, _unit(problem, first), across=across, whole=True, body=site.text)
+            found.append(one)
     for site, i, j in planes(problem, sensed):
         both = [one for one in (scale(basis[i], 0.0), scale(basis[j], 0.0)) if one is not None]
         if len(both) == 2:

@@ -49,7 +49,7 @@ OFFSET = 0.3  # sd of the offset of a force channel, by its rms
 _SAMPLES = 8192  # of a record that the closed form looks at
 _PERIODS, _SHORTEST, _LONGEST = 10, 256, 1024  # of the first mode in a horizon; its samples
 _SEGMENTS = 10
-_ABOVE = 2.0  # highest mode of a large model, by the highest frequency of the response
+_ABOVE = 5.0  # highest mode of a large model, by the highest frequency of the response: what acts between sensors bends it too
 _BEYOND = 0.75  # the same, by the sample rate at most
 
 

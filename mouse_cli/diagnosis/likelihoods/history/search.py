@@ -116,13 +116,18 @@ def _singles(study: Study, notice: Notice, known: list[Law] | None, baseline: Fi
 
 
 def alike(order: list[Start], tried: list[Start], leader: tuple[str, str]) -> list[Start]:
-    """Starts that were not tried yet and are most like the leader, law and site: other laws at its site, and its law elsewhere.
+    """Starts that were not tried yet and are most like the leader, law and place: other laws there, those of fewer sizes first, and
+    its law elsewhere.
 
-    Where data are few or noisy a law explains them that is not true, and a first look may have had the true one behind others.
+    Where data are few or noisy a law explains them that is not true, and a first look may have had the true one behind others: a
+    mass behind oscillators above the band, which are one there.
     """
     gone = set(map(_begins, tried))
     shares = lambda at: at not in gone and (at[0] == leader[0]) != (at[1] == leader[1])
-    return [one for one in order if shares(_begins(one))][:_ALIKE]
+    like = [one for one in order if shares(_begins(one))]
+    count = len(laws()[leader[0]].parameters) if leader[0] in laws() else 0
+    plain = lambda one: _begins(one)[1] == leader[1] and len(one.hypothesis.parts[-1].unknowns) < count
+    return ([one for one in like if plain(one)][: _ALIKE // 2] + [one for one in like if not plain(one)])[:_ALIKE]
 
 
 def elsewhere(order: list[Start], tried: list[Start], law: str) -> list[Start]:
@@ -132,7 +137,7 @@ def elsewhere(order: list[Start], tried: list[Start], law: str) -> list[Start]:
 
 
 def _begins(one: Start) -> tuple[str, str]:
-    return one.hypothesis.law.key, one.hypothesis.place.site.text
+    return one.hypothesis.law.key, one.hypothesis.place.where
 
 
 def _looked(study: Study, look: Callable[[Place], Regression], known: list[Law] | None) -> list[Start]:
@@ -181,7 +186,7 @@ def plainest(singles: list[Fit]) -> Fit:
 
 
 def _where(one: Fit) -> tuple[str, str]:
-    return one.hypothesis.law.key, one.hypothesis.place.site.text
+    return one.hypothesis.law.key, one.hypothesis.place.where
 
 
 def _beside(study: Study, notice: Notice, known: list[Law] | None, first: Fit, others: list[Fit]) -> list[Fit]:
@@ -203,7 +208,7 @@ def doubled(start: Start) -> bool:
 
     Smooth stiffness is a power series there: its terms, the even and the odd ones, add up.
     """
-    laws = [(part.law.key if part.law.group == _SERIES else part.law.group, part.place.site.text)
+    laws = [(part.law.key if part.law.group == _SERIES else part.law.group, part.place.where)
             for part in start.hypothesis.parts]  # fmt: skip
     return len({*laws}) < len(laws)
 
@@ -214,32 +219,33 @@ def _other(study: Study, pair: Fit, tried: list[tuple[str, str]]) -> Fit | None:
     count = len(part.unknowns)
     alone = study.base.placed(part.place).at(part.law, part.variant)
     x = np.concatenate([pair.x[: hypothesis.nuisances], pair.x[-count:]])
-    if (part.law.key, part.place.site.text) in tried:
+    if (part.law.key, part.place.where) in tried:
         return None
     return fitted(study, Start(alone, x, 0.0))
 
 
 def _again(study: Study, singles: list[Fit], order: list[Start], tried: list[Start]) -> list[Fit]:
-    """The laws that come nearest at other places, then with nuisances at their mean, then the nearest from other sizes, until one
-    is adequate.
+    """The laws that come nearest with nuisances at their mean, then each of them at other places, then the nearest from other
+    sizes, until the best is adequate.
 
-    A first look sees the true place behind others that nuisances help; and what it put far from the prior may have been given up
-    behind a law that is not the true one.
+    What a first look put far from the prior may have been given up behind a law that is not the true one; and the true place may be
+    behind others, where nuisances help.
     """
     near = {_where(one): one for one in sorted(singles, key=innovation, reverse=True)}
     nearest, found = sorted(near.values(), key=innovation)[:_NEAREST], []
 
-    def begun() -> Iterator[tuple[Start, float]]:
+    def turns() -> Iterator[list[tuple[Start, float]]]:
+        yield from ([(from_mean(one), np.inf)] for one in nearest)
         for law in dict.fromkeys(one.hypothesis.law.key for one in nearest):
-            yield from ((start, np.inf) for start in elsewhere(order, tried, law))
-        yield from ((from_mean(one), np.inf) for one in nearest)
+            yield [(start, np.inf) for start in elsewhere(order, tried, law)]
         if nearest:
-            yield from begun_again(study, min([*nearest, *found], key=innovation))
+            yield from ([each] for each in begun_again(study, min([*nearest, *found], key=innovation)))
 
-    for start, beat in begun():
-        one = fitted(study, start, beat)
-        found += [] if one is None else [one]
-        if one is not None and adequate(one):
+    for turn in turns():
+        for start, beat in turn:
+            one = fitted(study, start, beat)
+            found += [] if one is None else [one]
+        if adequate(min([*nearest, *found], key=innovation)):
             break
     return found
 

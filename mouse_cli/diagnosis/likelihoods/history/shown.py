@@ -44,8 +44,8 @@ def once(found: list[Fit], dropped: dict[str, str]) -> list[Fit]:
 
 
 def _seen(one: Fit) -> list[tuple[str, str]]:
-    """Groups as which the laws of a fit are seen, with their sites."""
-    return sorted((part.place.site.text, group) for part, group in zip(one.recipes, one.groups, strict=True))
+    """Groups as which the laws of a fit are seen, with their places."""
+    return sorted((part.place.where, group) for part, group in zip(one.recipes, one.groups, strict=True))
 
 
 def _limited(one: Fit) -> list[Part]:
