@@ -12,7 +12,7 @@ import mouse_cli
 from benchmarks.blind.drives.decks import write
 from benchmarks.blind.drives.draws import cases
 from mouse_cli.cli.main import cli
-from mouse_cli.diagnosis.likelihoods.history.search import begun_again, from_mean
+from mouse_cli.diagnosis.likelihoods.history.order import begun_again, from_mean
 from mouse_cli.terms.laws import registry
 from mouse_cli.updating.recordings.polish import Polish
 from mouse_cli.updating.recordings.records import records

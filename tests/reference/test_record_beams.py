@@ -11,7 +11,7 @@ from scipy.signal import cont2discrete, dlsim
 
 from mouse_cli.cli.main import cli
 from mouse_cli.diagnosis.extend.laws import with_linear
-from mouse_cli.diagnosis.likelihoods.history.search import alike
+from mouse_cli.diagnosis.likelihoods.history.order import alike
 from mouse_cli.formats import read_deck
 from mouse_cli.model.arrays import dense
 from mouse_cli.terms.assembly import assembly

@@ -14,7 +14,8 @@ from two_masses import linear, record
 
 from mouse_cli.cli.main import cli
 from mouse_cli.diagnosis.likelihoods.history import shown as showing
-from mouse_cli.diagnosis.likelihoods.history.search import Weighed, alike, doubled, plainest
+from mouse_cli.diagnosis.likelihoods.history.order import alike
+from mouse_cli.diagnosis.likelihoods.history.search import Weighed, doubled, plainest
 from mouse_cli.diagnosis.likelihoods.history.shown import hidden, undamped
 from mouse_cli.diagnosis.likelihoods.history.verdict import decided, far, ranked
 from mouse_cli.formats import read_deck

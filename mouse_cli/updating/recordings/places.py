@@ -1,6 +1,6 @@
 """Where a local force may act: between two degrees of freedom that are linked or measured, and from each to the ground."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import combinations
 
 import numpy as np
@@ -98,33 +98,8 @@ def _named(label: str) -> str:
 def places(
     problem: Problem, spectrum: Spectrum, basis: np.ndarray, band: tuple[float, float], sensed: np.ndarray
 ) -> list[Place]:
-    """All of them, with the motion that the record has there. sensed (n,): mask of what is driven or measured.
-
-    Force over motion is elastic or inertial, whichever is more: a mass that nothing holds has no B'KB.
-    """
-    from scipy.linalg import eigh
-
-    model = spectrum.linear
-    u = spectrum.motions(np.zeros((basis.shape[1], 0)))
-    found, moved = [], [spectrum.derivative(u, order) for order in (0, 1, 2)]
-
-    resonances, shapes = eigh(model.K, model.M)
-    moving = resonances < (2 * np.pi * band[1]) ** 2
-
-    def scale(B: np.ndarray, link: float) -> Scale | None:
-        size = float(B @ B)
-        x, v, a = (float((one @ B).std()) for one in moved)
-        if size < 1e-24 or x == 0:
-            return None
-        stiffness, mass = (float(B @ matrix @ B) / size**2 for matrix in (model.K, model.M))
-        step = spectrum.series.dt / spectrum.series.factor
-        inertial, modal = mass * a / x, (B @ shapes) ** 2
-        least = max(1 / float(modal @ (1 / np.maximum(resonances, 1e-9 * resonances.max() + 1e-30))), inertial)
-        most = 1 / max(float(modal[moving].max(initial=0.0)), 1e-9 / mass)
-        stiffness = max(stiffness, inertial)
-        links = 2 * mass / step**2, mass * a, max(link, 0.0)
-        return Scale(stiffness, mass, x, v, band, *links, min(_WHOLE * least, stiffness), max(most, mass))
-
+    """All of them, with the motion that the record has there. sensed (n,): mask of what is driven or measured."""
+    found, scale = [], _scales(spectrum, basis.shape[1], band)
     body = {i: site.text for site, own in bodies(problem) for i in own}
     for site, b, link in motions(problem, sensed):
         own = scale(basis.T @ b, link)
@@ -145,6 +120,36 @@ def places(
             own = max(both, key=lambda one: one.stiffness * one.x / one.v)
             found.append(Place(site, basis[i], False, own, _unit(problem, i), across=basis[j]))
     return found
+
+
+def _scales(spectrum: Spectrum, m: int, band: tuple[float, float]) -> Callable[[np.ndarray, float], Scale | None]:
+    """What a motion B (m,) with a link is like in the record; None where it has none.
+
+    Force over motion is elastic or inertial, whichever is more: a mass that nothing holds has no B'KB.
+    """
+    from scipy.linalg import eigh
+
+    model = spectrum.linear
+    u = spectrum.motions(np.zeros((m, 0)))
+    moved = [spectrum.derivative(u, order) for order in (0, 1, 2)]
+    resonances, shapes = eigh(model.K, model.M)
+    moving = resonances < (2 * np.pi * band[1]) ** 2
+
+    def scale(B: np.ndarray, link: float) -> Scale | None:
+        size = float(B @ B)
+        x, v, a = (float((one @ B).std()) for one in moved)
+        if size < 1e-24 or x == 0:
+            return None
+        stiffness, mass = (float(B @ matrix @ B) / size**2 for matrix in (model.K, model.M))
+        step = spectrum.series.dt / spectrum.series.factor
+        inertial, modal = mass * a / x, (B @ shapes) ** 2
+        least = max(1 / float(modal @ (1 / np.maximum(resonances, 1e-9 * resonances.max() + 1e-30))), inertial)
+        most = 1 / max(float(modal[moving].max(initial=0.0)), 1e-9 / mass)
+        stiffness = max(stiffness, inertial)
+        links = 2 * mass / step**2, mass * a, max(link, 0.0)
+        return Scale(stiffness, mass, x, v, band, *links, min(_WHOLE * least, stiffness), max(most, mass))
+
+    return scale
 
 
 def _unit(problem: Problem, i: int) -> np.ndarray:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mouse_cli.diagnosis.likelihoods.history.order import POLISHED, alike, begun_again, elsewhere, from_mean, varied
 from mouse_cli.diagnosis.likelihoods.history.shown import shown, undamped
 from mouse_cli.model.record_diagnosis import Noise
 from mouse_cli.terms.laws import Law
@@ -22,12 +23,10 @@ from mouse_cli.updating.recordings.regression import Regression, Start, starts
 from mouse_cli.updating.recordings.study import Study, fitted
 from mouse_cli.updating.refusals import not_simulated
 
-_POLISHED, _MORE, _AGAIN = 4, 12, 8  # starts that are fitted; where none of them is adequate; of the nearest law again
+_MORE = 12  # starts that are fitted where none of the first is adequate
 _NEAREST = 3  # laws that are begun again with nuisances at their mean
 # Of what is missing: error of first looks, where nuisances that leave their prior explain it by first order
 _FIRST_ORDER = 0.02
-_ELSEWHERE = 4  # places at which a law that comes near is tried besides
-_ALIKE = 6  # starts that are fitted although an adequate law was found, as they are like it
 _TAKEN = 0.5  # of what may be noise, that a law leaves at most to be more than it
 _SERIES = "smooth-stiffness"  # group of laws that are terms of one power series
 _ABOUT = 1.15  # times the least that a law leaves, up to which another one leaves about as much
@@ -95,9 +94,9 @@ def _singles(study: Study, notice: Notice, known: list[Law] | None, baseline: Fi
     error = _FIRST_ORDER if strained(baseline) else 0.0
     order = pushed(baseline, study.places, _of_places(known))
     order += _looked(study, lambda place: study.looked(place, study.spectrum, error=error), known)
-    found, best, tried, order = [], baseline, [], _varied(order)
+    found, best, tried, order = [], baseline, [], varied(order)
     for count, start in enumerate(order, 1):
-        if count > _POLISHED and (adequate(best) or count > _MORE):
+        if count > POLISHED and (adequate(best) or count > _MORE):
             break
         notice(_named(start))
         tried.append(start)
@@ -113,31 +112,6 @@ def _singles(study: Study, notice: Notice, known: list[Law] | None, baseline: Fi
             one = fitted(study, start, best.cost)
             found += [] if one is None else [one]
     return found + _relatives(study, best, known)
-
-
-def alike(order: list[Start], tried: list[Start], leader: tuple[str, str]) -> list[Start]:
-    """Starts that were not tried yet and are most like the leader, law and place: other laws there, those of fewer sizes first, and
-    its law elsewhere.
-
-    Where data are few or noisy a law explains them that is not true, and a first look may have had the true one behind others: a
-    mass behind oscillators above the band, which are one there.
-    """
-    gone = set(map(_begins, tried))
-    shares = lambda at: at not in gone and (at[0] == leader[0]) != (at[1] == leader[1])
-    like = [one for one in order if shares(_begins(one))]
-    count = len(laws()[leader[0]].parameters) if leader[0] in laws() else 0
-    plain = lambda one: _begins(one)[1] == leader[1] and len(one.hypothesis.parts[-1].unknowns) < count
-    return ([one for one in like if plain(one)][: _ALIKE // 2] + [one for one in like if not plain(one)])[:_ALIKE]
-
-
-def elsewhere(order: list[Start], tried: list[Start], law: str) -> list[Start]:
-    """Starts of a law at places where it was not tried yet, the most promising ones."""
-    gone = set(map(_begins, tried))
-    return [one for one in order if one.hypothesis.law.key == law and _begins(one) not in gone][:_ELSEWHERE]
-
-
-def _begins(one: Start) -> tuple[str, str]:
-    return one.hypothesis.law.key, one.hypothesis.place.where
 
 
 def _looked(study: Study, look: Callable[[Place], Regression], known: list[Law] | None) -> list[Start]:
@@ -193,7 +167,7 @@ def _beside(study: Study, notice: Notice, known: list[Law] | None, first: Fit, o
     """Fits of `first` with a second law; two laws of one group at one place are one."""
     order = pushed(first, study.places, _of_places(known))
     order += _looked(study, lambda place: study.looked(place, study.spectrum, first), known)
-    order = [one for one in _varied(order) if not doubled(one)]
+    order = [one for one in varied(order) if not doubled(one)]
     found: list[Fit] = []
     for start in order[:_SECONDS]:
         notice(_named(start))
@@ -248,40 +222,6 @@ def _again(study: Study, singles: list[Fit], order: list[Start], tried: list[Sta
         if adequate(min([*nearest, *found], key=innovation)):
             break
     return found
-
-
-def from_mean(one: Fit) -> Start:
-    """Its sizes, with nuisances at their mean."""
-    own = one.hypothesis
-    return Start(own, np.concatenate([own.mean[: own.nuisances], one.x[own.nuisances :]]), 0.0)
-
-
-def begun_again(study: Study, best: Fit) -> Iterator[tuple[Start, float]]:
-    """Further starts of a law that was fitted, with the cost that they have to beat: where it ended, then other sizes.
-
-    A first look may put nuisances that act alike many sd apart, along a valley in which a fit runs out of steps: friction then
-    left twice the noise, and a little more friction elsewhere was found for the rest.
-    """
-    yield Start(best.hypothesis, best.x, 0.0), np.inf
-    last = best.hypothesis.parts[-1]
-    for start in study.at(last.place).apart(last.law, last.variant, _AGAIN)[1:]:
-        yield start, best.cost
-
-
-def _varied(order: list[Start]) -> list[Start]:
-    """The first of each law at each place; after the leaders the first of each group that is not among them."""
-    seen, found = set(), []
-    for one in order:
-        key = one.hypothesis.law.key, id(one.hypothesis.place)
-        if key not in seen:
-            seen.add(key)
-            found.append(one)
-    known = {one.hypothesis.law.group for one in found[:_POLISHED]}
-    groups, others = [], []
-    for one in found[_POLISHED:]:
-        (others if one.hypothesis.law.group in known else groups).append(one)
-        known.add(one.hypothesis.law.group)
-    return found[:_POLISHED] + groups + others
 
 
 def _relatives(study: Study, best: Fit, known: list[Law] | None) -> list[Fit]:
