@@ -41,7 +41,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         path = item.path.relative_to(_TESTS).as_posix() if item.path.is_relative_to(_TESTS) else ""
         if path in chosen or f"{path}::{item.name.partition('[')[0]}" in chosen:
             item.add_marker(pytest.mark.quick)
-        if item.name in LONG.get(path, ()):
+        if not {item.name, item.name.partition("[")[0]}.isdisjoint(LONG.get(path, ())):
             item.add_marker(pytest.mark.proof)
 
 
