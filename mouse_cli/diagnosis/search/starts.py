@@ -52,7 +52,7 @@ def leading(led: Led, new: tuple[int, np.ndarray, End]) -> Led:
 
 
 def surrounding(led: Led, trials: dict[int, Model], begun: set[int], count: int, reach: float) -> list[tuple[int, np.ndarray]]:
-    """Starts at the `count` places of the same sizes nearest to each of `led` that none has `begun` from, with those found there.
+    """Starts at the `count` nearest places of the same kind that none has `begun` from, around each of `led`, with the sizes there.
 
     Where a size matters as sharply as the frequency of an oscillator, a first look at sizes of a list says how near one of them is
     rather than how good the place is.
