@@ -6,6 +6,7 @@ from mouse_cli.model.record_diagnosis import RecordDiagnosis
 from mouse_cli.report.field_words import field_sentences
 from mouse_cli.report.sections._diagnosis_wording import (
     called,
+    companion,
     companions,
     grouped,
     in_common,
@@ -22,6 +23,7 @@ from mouse_cli.report.sections._diagnosis_wording import (
 )
 
 _EVEN = 0.5  # probability of no mechanism up to which one is called likely
+_SURE = 0.95  # probability of what acts beside a name, from which on its place alone is open
 
 
 def sentences(found: Diagnosis) -> tuple[str, ...]:
@@ -82,7 +84,13 @@ def _panelled(found: Diagnosis) -> str:
 
 
 def _companions(found: Diagnosis) -> str:
-    return f"What acts beside it is open: {companions(found)}." if found.certain else ""
+    """What acts beside what is named; where that is sure itself, its place is what keeps it from the name."""
+    if found.certain is None:
+        return ""
+    groups, p = found.certain.companions[0]
+    if groups != "none" and p >= _SURE:
+        return f"Beside it acts {companion(found, groups)} ({with_p(p)}), and the test does not settle where."
+    return f"What acts beside it is open: {companions(found)}."
 
 
 def _loose(found: Diagnosis) -> str:

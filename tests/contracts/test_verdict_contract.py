@@ -199,6 +199,8 @@ def test_what_is_certain_is_named_while_its_companion_is_open():
         "The model lacks an open crack: element 12, 0.43 m from node 1 (probability 0.95).",
         "What acts beside it is open: shear or rotary inertia 0.53, nothing 0.32, an added mass 0.16.",
     ]
+    sure = replace(found, certain=replace(found.certain, companions=(("mass", 0.9995), ("none", 0.0005))))
+    assert sentences(sure)[1] == "Beside it acts an added mass (probability > 0.999), and the test does not settle where."
     told = words(found)
     assert "An open crack, group local-stiffness, probability 0.95 of the group." in told
     assert "The extended deck has the likeliest companion in it too." in told

@@ -140,10 +140,15 @@ def _in_groups(one: Explanation) -> str:
 
 def companions(found: Diagnosis) -> str:
     """Groups of what may act beside what is certain, and the probability of each."""
+    each = ((companion(found, groups), p) for groups, p in found.certain.companions if p >= LEAST)
+    return ", ".join(f"{words} {probable(p)}" for words, p in each)
+
+
+def companion(found: Diagnosis, groups: str) -> str:
+    """Groups of what acts beside what is certain, in words."""
     title = {cause.group: cause.title for one in reversed(found.explanations) for cause in one.causes}
     of = lambda group: TITLES.get(group, title[group]) if group != "none" else "nothing"
-    words = lambda groups: counted([of(each) for each in groups.split(" + ")])
-    return ", ".join(f"{words(groups)} {probable(p)}" for groups, p in found.certain.companions if p >= LEAST)
+    return counted([of(each) for each in groups.split(" + ")])
 
 
 def within(explanations: Sequence[Explanation], one: Explanation) -> str:
