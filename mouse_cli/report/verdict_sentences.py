@@ -29,7 +29,7 @@ _SURE = 0.95  # probability of what acts beside a name, from which on its place 
 def sentences(found: Diagnosis) -> tuple[str, ...]:
     """What was found, the first sentence first."""
     if found.kind == NOTHING:
-        return (_nothing(found),)
+        return tuple(filter(None, (_nothing(found), _possible(found))))
     if found.kind == NAMED:
         return _named(found)
     if found.kind == ONE_OF:
@@ -56,6 +56,19 @@ def _nothing(found: Diagnosis) -> str:
             "that only their shift from the prior shows what is missing."
         )
     return sentence if status.exit_code == 0 else f"{sentence} But its revision is not to be trusted. {status.sentence}"
+
+
+def _possible(found: Diagnosis) -> str:
+    """What may be missing although nothing is shown to be: where that is the more probable."""
+    none = dict(found.groups).get("none", 1.0)
+    if none >= _EVEN:
+        return ""
+    (group, p), *_ = (each for each in found.groups if each[0] != "none")
+    first = next((one for one in found.explanations if one.causes and one.group == group), None)
+    begin = "Something may be missing all the same"
+    if first is None:
+        return f"{begin} (probability that nothing is: {probable(none)})."
+    return f"{begin}, most likely {grouped(found.explanations, first)} ({with_p(p)}; that nothing is: {probable(none)})."
 
 
 def _named(found: Diagnosis) -> tuple[str, ...]:
