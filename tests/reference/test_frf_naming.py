@@ -1,5 +1,7 @@
 """Causes concealed in the functions of a chain of six masses, truths by inverting K (1 + i eta) + i omega C - omega^2 M."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from proofs import proofs
@@ -7,6 +9,7 @@ from proofs import proofs
 from mouse_cli.cli.main import _run
 from mouse_cli.diagnosis import diagnose
 from mouse_cli.diagnosis.likelihoods.frf.judge import Judge
+from mouse_cli.diagnosis.likelihoods.frf.rank import _places
 from mouse_cli.formats import read_deck
 from mouse_cli.model.diagnosis import NAMED, NOTHING
 from mouse_cli.updating import run
@@ -119,3 +122,12 @@ def test_the_extended_deck_runs_and_fits_as_well(tmp_path):
     assert _run(["diagnose", str(path), "-q", "-o", str(tmp_path / "extended.yaml")]) == 1
     fit = run(read_deck(tmp_path / "extended.yaml")).frf[0]
     assert fit.median_db(fit.prior) > 0.1 > fit.median_db(fit.revised)
+
+
+def test_functions_judge_all_places_that_modes_leave():
+    """Two whatever modes say of them, and up to six that hold more than a thousandth."""
+    place = lambda share: (SimpleNamespace(share=share), share)
+    seen = lambda *shares: [each.share for each in _places(SimpleNamespace(share=None, elsewhere=tuple(map(place, shares))))]
+    assert seen(1e-5, 1e-6, 1e-7) == [None, 1e-5, 1e-6]
+    assert seen(0.2, 0.1, 0.05, 1e-4) == [None, 0.2, 0.1, 0.05]
+    assert len(seen(*[0.1] * 9)) == 7
