@@ -11,7 +11,7 @@ from scipy.signal import cont2discrete, dlsim
 
 from mouse_cli.cli.main import cli
 from mouse_cli.diagnosis.extend.laws import with_linear
-from mouse_cli.diagnosis.likelihoods.history.order import alike
+from mouse_cli.diagnosis.likelihoods.history.order import alike, elsewhere
 from mouse_cli.formats import read_deck
 from mouse_cli.model.arrays import dense
 from mouse_cli.terms.assembly import assembly
@@ -153,3 +153,6 @@ def test_beside_an_oscillator_the_mass_that_it_is_above_the_band_is_tried_first(
     mass, there = start("mass", "node 5"), start("mass", "node 6")
     found = alike([leader, *others, there, mass], [leader], ("oscillator", leader.hypothesis.place.where))
     assert [id(one) for one in found] == [id(one) for one in (mass, *others[:5])]
+    tried = elsewhere([mass, there, *others], [mass], "mass")
+    assert [id(one) for one in tried] == [id(there)]
+    assert len(elsewhere(others, [], "oscillator")) == 4
