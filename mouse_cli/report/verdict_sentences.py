@@ -61,9 +61,9 @@ def _nothing(found: Diagnosis) -> str:
 def _possible(found: Diagnosis) -> str:
     """What may be missing although nothing is shown to be: where that is the more probable."""
     none = dict(found.groups).get("none", 1.0)
-    if none >= _EVEN:
+    group, p = max(found.groups, key=lambda each: each[1], default=("none", 1.0))
+    if p <= none:
         return ""
-    (group, p), *_ = (each for each in found.groups if each[0] != "none")
     first = next((one for one in found.explanations if one.causes and one.group == group), None)
     begin = "Something may be missing all the same"
     if first is None:
