@@ -59,16 +59,18 @@ def surrounding(led: Led, trials: dict[int, Model], begun: set[int], count: int,
     """
     if not led:
         return []
-    sites = {i: recipe.site(recipe.grid[0]) for i, trial in trials.items() if i not in begun and (recipe := trial.recipes[-1])}
+    recipes = {i: trial.recipes[-1] for i, trial in trials.items() if i not in begun}
+    sites = {i: recipe.site(recipe.grid[0]) for i, recipe in recipes.items()}
     best = led[0][2]
     far = min(reach, best.misfit + _FOLLOWED * max(1.0, best.misfit / max(best.model.base.data.dof, 1)))
     found: dict[int, np.ndarray] = {}
     for _, _, end in (each for each in led if each[2].misfit <= far):
-        values, own = end.recipes[-1].values(end.c[end.model.own[-1]]), end.model.k + end.model.own[-1].start
-        alike = [i for i in sites if i not in found and _sizes(trials[i].recipes[-1]) == _sizes(end.recipes[-1])]
+        last, own = end.recipes[-1], end.model.own[-1]
+        values, sizes = last.values(end.c[own]), _sizes(last)
+        alike = [i for i, recipe in recipes.items() if i not in found and _sizes(recipe) == sizes]
         gaps = {i: gap(end.sites[-1], sites[i]) for i in alike}
         for i in sorted((i for i in gaps if np.isfinite(gaps[i])), key=gaps.__getitem__)[:count]:
-            found[i] = np.concatenate([end.point.x[:own], trials[i].recipes[-1].coordinates(values)])
+            found[i] = np.concatenate([end.point.x[: end.model.k + own.start], recipes[i].coordinates(values)])
     return list(found.items())
 
 

@@ -33,14 +33,14 @@ def motions(problem: Problem, sensed: np.ndarray) -> Iterator[tuple[Site, np.nda
     for i in range(n):
         if not _turns(labels[i]):
             text = f"between {_named(labels[i])} and the ground"
-            yield Site("dof", (labels[i],), text=text), np.eye(n)[i], grounded.get(i, 0.0)
+            yield Site("dof", (labels[i],), text=text), _unit(n, i), grounded.get(i, 0.0)
     linked = {tuple(ends): k for ends, _, k in pairs if len(ends) == 2}
     along = lambda pairs: [(i, j) for i, j in pairs if _alike(labels[i], labels[j])]
     apart = [pair for pair in along(combinations(np.flatnonzero(sensed).tolist(), 2)) if pair not in linked]
     near = [] if len(apart) > _MOST_APART else apart  # towers that pound, a cable between floors
     for i, j in along(linked) + near:
         text = f"between {_named(labels[i])} and {_named(labels[j])}"
-        yield Site("dof", (labels[i], labels[j]), text=text), np.eye(n)[j] - np.eye(n)[i], linked.get((i, j), 0.0)
+        yield Site("dof", (labels[i], labels[j]), text=text), _unit(n, j) - _unit(n, i), linked.get((i, j), 0.0)
 
 
 def bodies(problem: Problem) -> Iterator[tuple[Site, list[int]]]:
@@ -99,7 +99,7 @@ def places(
     problem: Problem, spectrum: Spectrum, basis: np.ndarray, band: tuple[float, float], sensed: np.ndarray
 ) -> list[Place]:
     """All of them, with the motion that the record has there. sensed (n,): mask of what is driven or measured."""
-    found, scale = [], _scales(spectrum, basis.shape[1], band)
+    found, scale, n = [], _scales(spectrum, basis.shape[1], band), problem.structure.n
     body = {i: site.text for site, own in bodies(problem) for i in own}
     for site, b, link in motions(problem, sensed):
         own = scale(basis.T @ b, link)
@@ -112,13 +112,13 @@ def places(
         if scales:  # those of the translation that moves most
             first, most = max(scales, key=lambda each: each[1].x)
             across = basis[[i for i, _ in scales if i != first]].T
-            one = Place(site, basis[first], True, most, _unit(problem, first), across=across, whole=True, body=site.text)
+            one = Place(site, basis[first], True, most, _unit(n, first), across=across, whole=True, body=site.text)
             found.append(one)
     for site, i, j in planes(problem, sensed):
         both = [one for one in (scale(basis[i], 0.0), scale(basis[j], 0.0)) if one is not None]
         if len(both) == 2:
             own = max(both, key=lambda one: one.stiffness * one.x / one.v)
-            found.append(Place(site, basis[i], False, own, _unit(problem, i), across=basis[j]))
+            found.append(Place(site, basis[i], False, own, _unit(n, i), across=basis[j]))
     return found
 
 
@@ -152,6 +152,8 @@ def _scales(spectrum: Spectrum, m: int, band: tuple[float, float]) -> Callable[[
     return scale
 
 
-def _unit(problem: Problem, i: int) -> np.ndarray:
+def _unit(n: int, i: int) -> np.ndarray:
     """The motion (n,) of degree of freedom number i alone."""
-    return np.eye(problem.structure.n)[i]
+    found = np.zeros(n)
+    found[i] = 1.0
+    return found

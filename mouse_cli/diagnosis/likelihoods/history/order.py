@@ -21,21 +21,22 @@ def alike(order: list[Start], tried: list[Start], leader: tuple[str, str]) -> li
     Where data are few or noisy a law explains them that is not true, and a first look may have had the true one behind others: a
     mass behind oscillators above the band, which are one there.
     """
-    gone = set(map(_begins, tried))
+    gone = set(map(where, tried))
     shares = lambda at: at not in gone and (at[0] == leader[0]) != (at[1] == leader[1])
-    like = [one for one in order if shares(_begins(one))]
+    like = [one for one in order if shares(where(one))]
     count = len(laws()[leader[0]].parameters) if leader[0] in laws() else 0
-    plain = lambda one: _begins(one)[1] == leader[1] and len(one.hypothesis.parts[-1].unknowns) < count
+    plain = lambda one: where(one)[1] == leader[1] and len(one.hypothesis.parts[-1].unknowns) < count
     return ([one for one in like if plain(one)][: _ALIKE // 2] + [one for one in like if not plain(one)])[:_ALIKE]
 
 
 def elsewhere(order: list[Start], tried: list[Start], law: str) -> list[Start]:
     """Starts of a law at places where it was not tried yet, the most promising ones."""
-    gone = set(map(_begins, tried))
-    return [one for one in order if one.hypothesis.law.key == law and _begins(one) not in gone][:_ELSEWHERE]
+    gone = set(map(where, tried))
+    return [one for one in order if one.hypothesis.law.key == law and where(one) not in gone][:_ELSEWHERE]
 
 
-def _begins(one: Start) -> tuple[str, str]:
+def where(one: Start | Fit) -> tuple[str, str]:
+    """Key and place of its last law."""
     return one.hypothesis.law.key, one.hypothesis.place.where
 
 

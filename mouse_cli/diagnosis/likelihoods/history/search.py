@@ -5,7 +5,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.diagnosis.likelihoods.history.order import POLISHED, alike, begun_again, elsewhere, from_mean, varied
+from mouse_cli.diagnosis.likelihoods.history.order import (
+    POLISHED,
+    alike,
+    begun_again,
+    elsewhere,
+    from_mean,
+    varied,
+    where,
+)
 from mouse_cli.diagnosis.likelihoods.history.shown import shown, undamped
 from mouse_cli.model.record_diagnosis import Noise
 from mouse_cli.terms.laws import Law
@@ -107,7 +115,7 @@ def _singles(study: Study, notice: Notice, known: list[Law] | None, baseline: Fi
     if not adequate(best):
         found += _again(study, found, order, tried)
     elif best is not baseline:
-        for start in alike(order, tried, _where(best)):
+        for start in alike(order, tried, where(best)):
             notice(_named(start))
             one = fitted(study, start, best.cost)
             found += [] if one is None else [one]
@@ -139,7 +147,7 @@ def _pairs(study: Study, notice: Notice, known: list[Law] | None, singles: list[
     first = plainest(singles)
     tried = []
     for _ in range(_ROUNDS):
-        tried.append(_where(first))
+        tried.append(where(first))
         notice(f"a second law beside {first.hypothesis.law.title}, {first.hypothesis.place.site.text}")
         found += _beside(study, notice, known, first, found)
         if not found or adequate(min(found, key=innovation)):
@@ -157,10 +165,6 @@ def plainest(singles: list[Fit]) -> Fit:
         (one for one in singles if innovation(one) <= least),
         key=lambda one: (len(one.hypothesis.unknowns), innovation(one)),
     )
-
-
-def _where(one: Fit) -> tuple[str, str]:
-    return one.hypothesis.law.key, one.hypothesis.place.where
 
 
 def _beside(study: Study, notice: Notice, known: list[Law] | None, first: Fit, others: list[Fit]) -> list[Fit]:
@@ -205,7 +209,7 @@ def _again(study: Study, singles: list[Fit], order: list[Start], tried: list[Sta
     What a first look put far from the prior may have been given up behind a law that is not the true one; and the true place may be
     behind others, where nuisances help.
     """
-    near = {_where(one): one for one in sorted(singles, key=innovation, reverse=True)}
+    near = {where(one): one for one in sorted(singles, key=innovation, reverse=True)}
     nearest, found = sorted(near.values(), key=innovation)[:_NEAREST], []
 
     def turns() -> Iterator[list[tuple[Start, float]]]:
