@@ -56,6 +56,7 @@ def parsed(path: Path) -> ast.Module:
     return ast.parse(path.read_text())
 
 
+@cache
 def imported(path: Path, head_only: bool = False) -> set[str]:
     """Dotted names that the module imports, anywhere or at its head."""
     nodes = parsed(path).body if head_only else ast.walk(parsed(path))
