@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.linalg import expm, solve_discrete_lyapunov
+from scipy.linalg import eigh, expm, solve_discrete_lyapunov
 from test_channel_nuisances import K3, answer, cubic
 from two_masses import linear, record
 
@@ -58,6 +58,22 @@ def test_two_percent_of_noise_in_the_force_is_neither_physics_nor_strain(tmp_pat
     one = fitted(own, None)
     assert 0.85 < one.misfit / one.dof < 1.1
     assert np.abs(one.x).max() < 3.5
+
+
+def test_noise_of_the_force_is_amplified_as_the_structure_of_the_first_fit_amplifies_it(tmp_path):
+    deck = Path(record(tmp_path, linear))
+    kept = dict(np.load(tmp_path / "run.npz"))
+    np.savez(tmp_path / "run.npz", **kept | {"f": noisy(kept["f"])})
+    deck.write_text(deck.read_text().replace("quantity: force", "quantity: force, noise_sd: 2 %"))
+    problem = mouse_cli.read_deck(str(deck))
+    own = study(problem, records(problem))
+    one, poles = fitted(own, None), lambda: np.sort(np.abs(np.angle(np.linalg.eigvals(own.look.repeated.step))))
+    M, _, K = (each[0] for each in own.model.linear.matrices(one.x[None, : own.model.linear.k]))
+    before, there = poles(), np.sqrt(np.repeat(eigh(K, M, eigvals_only=True), 2)) * own.look.dt
+    assert np.abs(before / there - 1).min() > 0.005  # the springs are 2 % off those of the deck
+    assert own.tune(one)
+    np.testing.assert_allclose(poles(), there, rtol=1e-3)
+    assert all(part.series.repeated is own.look.repeated for part in own.data)
 
 
 def test_a_law_is_named_beside_noise_in_the_force(tmp_path):

@@ -10,6 +10,7 @@ from mouse_cli.cli.main import _run
 from mouse_cli.diagnosis import diagnose
 from mouse_cli.diagnosis.likelihoods.frf.judge import Judge
 from mouse_cli.diagnosis.likelihoods.frf.rank import _places
+from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.formats import read_deck
 from mouse_cli.model.diagnosis import NAMED, NOTHING
 from mouse_cli.updating import run
@@ -131,3 +132,32 @@ def test_functions_judge_all_places_that_modes_leave():
     assert seen(1e-5, 1e-6, 1e-7) == [None, 1e-5, 1e-6]
     assert seen(0.2, 0.1, 0.05, 1e-4) == [None, 0.2, 0.1, 0.05]
     assert len(seen(*[0.1] * 9)) == 7
+
+
+def test_damping_of_every_mode_is_tried_once_for_explanations_that_predict_the_same(monkeypatch):
+    """What it does not gain for one it does not gain for the other; where it gains, the next is tried too."""
+    damping = SimpleNamespace(unevenly=lambda: "each mode")
+    model = SimpleNamespace(damping=damping, t=0, base=SimpleNamespace(data=SimpleNamespace(dof=100)))
+
+    def one(misfit: float, evidence: float, *left: float) -> Fit:
+        return Fit(model, SimpleNamespace(residual=np.array(left), free=0), misfit, np.zeros((0, 0)), evidence)
+
+    tried: list = []
+
+    def fitted(self, start, **by):
+        assert by["damping"] == "each mode"
+        tried.append(start)
+        return one(90.0, start.log_evidence + 5.0, *start.point.residual) if start.point.residual[0] > 100 else None
+
+    monkeypatch.setattr(Judge, "fitted", fitted)
+    judge = Judge(None, None)
+    first, alike, apart = one(100.0, -50.0, 0.0, 0.0), one(101.0, -52.0, 1.0, 1.0), one(102.0, -51.0, 5.0, 5.0)
+    ended = judge.uneven([first, alike, apart])
+    assert tried == [first, apart]
+    assert [each.log_evidence for each in ended] == pytest.approx([-50.0, -52.0, -51.0])
+    tried.clear()
+    gaining, beside = one(150.0, -75.0, 200.0, 0.0), one(151.0, -76.0, 200.0, 1.0)
+    ended = judge.uneven([gaining, beside])
+    assert tried == [gaining, beside]
+    gain = 5.0 + np.log1p(np.exp(-5.0)) - np.log(2)
+    assert [each.log_evidence for each in ended] == pytest.approx([-75.0 + gain, -76.0 + gain])

@@ -57,3 +57,19 @@ def test_a_rejected_step_that_promises_nothing_ends_a_fit(own, monkeypatch):
     monkeypatch.setattr(Polish, "_tried", refuse)
     again = Polish(h, own.data, spread).fit(settled.x, settled.states)
     assert len(tried) == 1 and again.cost == settled.cost
+
+
+def test_a_fit_with_a_law_that_stays_astray_is_dropped_and_one_without_is_not(own):
+    look = own.at(own.places[0])
+
+    def ended(h, x, times: float):
+        """The fit that takes no step from `times` the motion that the record shows, and the square of what the record has."""
+        states, internal = begin(h, x, own.data, [look for _ in own.data])
+        its = Polish(h, own.data, look.spread)
+        return its.fit(x, times * states, internal, steps=0), float((its.simulator.measured**2).sum())
+
+    with_law, bare = hypothesis(own, "spring"), (own.base, np.zeros(len(own.base.mean)))
+    assert ended(*with_law, 1.0)[0] is not None
+    assert ended(*with_law, 1e2)[0] is None
+    one, loud = ended(*bare, 1e2)
+    assert one.cost > 100 * loud
