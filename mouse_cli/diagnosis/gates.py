@@ -13,6 +13,9 @@ ONE, MORE = 0.6, 1 / 7
 ALIKE = 0.5
 """Share of the sets of several mechanisms that are of one group because it is one; others may be of one group too."""
 
+BY_GROUP = 0.5
+"""Share of the prior of mechanisms that is spread evenly over groups and then over places; the rest is over places at once."""
+
 NAMELESS = 0.1
 """Prior weight of a change without a name, about that of a pair."""
 

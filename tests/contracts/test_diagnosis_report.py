@@ -233,6 +233,20 @@ def test_a_doubtful_test_hides_no_field():
     assert "has no name" not in _told(replace(found, misstated="frequency", field=None))
 
 
+def test_what_explains_a_test_that_is_right_is_told_beside_an_error_of_it():
+    """An error of the test is the more probable, and the mechanism has its odds over none all the same."""
+    found = DIAGNOSES["unknown"]()
+    none = next(one for one in found.explanations if not one.causes)
+    best = next(one for one in found.explanations if one.causes)
+    fitting = replace(best, p=0.2, log_evidence=none.log_evidence + 40.0)
+    groups = (("none", 0.9), (best.group, 0.1))
+    at_fault = replace(found, misstated="frequency", groups=groups, field=None, explanations=(none, fitting))
+    words = f"If the test is as accurate as stated, {best.title} at"
+    assert words in _told(at_fault) and "goodness of fit p = 0.20." in _told(at_fault)
+    worse = replace(at_fault, explanations=(none, replace(fitting, p=1e-4)))
+    assert words not in _told(worse) and "No candidate does better than none at all." in _told(worse)
+
+
 def test_no_name_without_a_verdict():
     """Neither `unknown` nor `one-of` says that the model lacks a certain thing."""
     for name in ("one-of", "unknown", "nothing", "bare"):

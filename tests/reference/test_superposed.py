@@ -103,7 +103,7 @@ def test_the_best_look_beside_a_cause_is_among_those_that_are_taken(name, monkey
         monkeypatch.setattr(each, "KEPT", few_at_most)
     model = chain_with({5: 0.4}, {16: 4e3})
     study = Study(model)
-    first = tried(study, "mass", (), np.zeros(study.k), 1)[0]
+    first = tried(study, "mass", (), np.zeros(study.k), 1)[0][0]
     assert "6" in first.recipes[0].site(first.recipes[0].values(first.c)).text
     few = study.looks(name, first.point.x, first.recipes)
     monkeypatch.setattr(searched, "KEPT", 10**9)

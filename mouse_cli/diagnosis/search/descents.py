@@ -51,8 +51,9 @@ def best(study: Study, name: str, reach: float = np.inf) -> Fit | None:
 
     reach: misfit above which no fit matters, and is left as it was found.
     """
-    found = distinct([pared(one, study) for one in tried(study, name, (), np.zeros(study.k), _STARTS, reach=reach)])
-    return summed([settled(shifted(one), study) if one.misfit < reach else one for one in found], reach)
+    found, others = tried(study, name, (), np.zeros(study.k), _STARTS, reach=reach)
+    apart = distinct([pared(one, study) for one in found])
+    return summed([settled(shifted(one), study) if one.misfit < reach else one for one in apart], reach, others)
 
 
 def tried(
@@ -63,26 +64,28 @@ def tried(
     count: int,
     most: int = MOST,
     reach: float = np.inf,
-) -> list[Fit]:
-    """Fits of candidate `name` from its `count` most promising places, in at most so many steps, beside `others` there `before`.
+) -> tuple[list[Fit], float]:
+    """Fits of candidate `name` from its `count` most promising places, in at most so many steps, beside `others` there `before`;
+    and the evidence of places that need no fit, over that of the first.
 
     Each first in the lowest coordinates, then in all; in all at once where there is little to look at, for what is spread over
     the structure, such as shear, is not to be had in few. reach: misfit above which none matters.
     """
     first = study if sum(len(recipe.grid) for recipe in study.recipes(name)) <= _FEW else study.coarse
     near_by = first.approached(name, before, others, _SLACK * reach)
-    tied = 0 if others or not near_by else sum(left < near_by[0][0] + TIED for left, _, _ in near_by)
-    count = max(count, min(tied, _TIES)) if near_by and near_by[0][0] < BEYOND * reach else 1
-    chosen = near_by[:count] if first is study else _weighed(study, before, others, name, near_by, count)
-    ways = [(first, *each) for each in chosen] + (
-        [] if others else [(study, *each) for each in _screened(study, name, reach)]
-    )
+    if not others and near_by and first.idle(near_by[0][0], before):
+        chosen, further, alike = near_by[:count], [], near_by[count:]
+    else:
+        tied = 0 if others or not near_by else sum(left < near_by[0][0] + TIED for left, _, _ in near_by)
+        count = max(count, min(tied, _TIES)) if near_by and near_by[0][0] < BEYOND * reach else 1
+        chosen = near_by[:count] if first is study else _weighed(study, before, others, name, near_by, count)
+        further, alike = [] if others else _screened(study, name, reach), []
     found: list[Fit] = []
-    for way, _, i, x in ways:
+    for way, _, i, x in [*((first, *each) for each in chosen), *((study, *each) for each in further)]:
         least = min(reach, within(found, NEAR)) if found and others else reach  # beside others the best alone is kept
         one = _ended(study, way, others, name, i, x, most, least)
         found += [] if one is None else [one]
-    return found
+    return found, sum(float(np.exp((near_by[0][0] - left) / 2)) for left, _, _ in alike)
 
 
 def _screened(study: Study, name: str, reach: float) -> list[tuple[float, int, list[np.ndarray]]]:
@@ -139,17 +142,17 @@ def _ended(
     return one if lost else uncrossed(one, most, reach)
 
 
-def summed(found: list[Fit], reach: float = np.inf) -> Fit | None:
+def summed(found: list[Fit], reach: float = np.inf, more: float = 0.0) -> Fit | None:
     """The best of several optima, its theory taken for as good as it is; those at other places add to its evidence.
 
-    Each is weighed by what it says of modes that the test does not have.
+    Each is weighed by what it says of modes that the test does not have. more: evidence of further places over that of the best.
     """
     if not found:
         return None
     weighed = [(one.log_evidence - unseen(one), one) for one in distinct(found)]
     weighed.sort(key=lambda item: -item[0])
     (first, leading), *rest = weighed
-    total = float(np.logaddexp.reduce([weight for weight, _ in weighed]))
+    total = float(np.logaddexp.reduce([weight for weight, _ in weighed] + [first + np.log(max(more, 1e-300))]))
     others = tuple((one, float(np.exp(weight - total))) for weight, one in rest)
     best = idealised(leading) if leading.misfit < reach else leading
     return replace(best, log_evidence=best.log_evidence - unseen(best) + total - first, elsewhere=others)

@@ -103,5 +103,5 @@ def look_beside(study: Study, beside: Beside, name: str, reach: float) -> Looks:
 def partner(study: Study, beside: Beside, name: str, count: int, most: int, reach: float) -> list[Found]:
     """Fits of a candidate beside causes that are there."""
     there, own = beside.at(study)
-    fits = tried(there, name, own, beside.x, count, most, reach)
+    fits, _ = tried(there, name, own, beside.x, count, most, reach)
     return [Found(one.recipes[-1].number, one.point, one.misfit, one.hessian, one.log_evidence) for one in fits]

@@ -24,6 +24,7 @@ from mouse_cli.diagnosis.search.descents import settled
 from mouse_cli.diagnosis.search.disguised import disguised
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.grounded import one_tie
+from mouse_cli.diagnosis.search.levelled import levelled
 from mouse_cli.diagnosis.search.moves import adequate
 from mouse_cli.diagnosis.search.optima import within
 from mouse_cli.diagnosis.search.pared import plainest
@@ -245,9 +246,9 @@ def ranking(baseline: Fit, fits: list[Fit]) -> Ranking:
     totals = np.array([np.logaddexp.reduce(part) for part in parts])
     evidence = totals + np.array([one.log_evidence for one in fits])
     weights = evidence + np.array([_log_prior(one, fits) for one in fits])
-    order = np.argsort(-weights, kind="stable")
     weights = np.exp(weights - weights.max())
-    weights /= weights.sum()
+    weights = levelled(weights / weights.sum(), fits)
+    order = np.argsort(-weights, kind="stable")
     shared = [np.exp(part - total) for part, total in zip(parts, totals, strict=True)]
     stated = np.array([share[0] for share in shared])[order]
     found = doubts([(p, own, share) for p, own, share in zip(weights, each, shared, strict=True)])

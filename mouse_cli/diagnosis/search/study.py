@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from mouse_cli.diagnosis import gates
 from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.evidence import capped
 from mouse_cli.diagnosis.likelihoods.modal.lowest import lowest
@@ -19,6 +20,7 @@ from mouse_cli.diagnosis.search.optima import BEYOND
 from mouse_cli.diagnosis.search.starts import Led, cost, leading, spread, surrounding
 from mouse_cli.diagnosis.search.superposed import KEPT, Alone, best_pairs, by_itself, chosen, text
 from mouse_cli.dynamics.eigen import IndefiniteError
+from mouse_cli.updating.chi_square import upper_tail
 
 _LOOKS, _MOST, BRIEF = 12, 40, 4  # brief descents at least, at most, and their steps
 _POOR = 4  # brief descents where no first look is anywhere near what would matter
@@ -163,8 +165,8 @@ class Study:
     ) -> list[tuple[float, int, list[np.ndarray]]]:
         """Misfit - 2 ln prior, number of the recipe, x at the end and the start of brief descents, the best first, no two alike.
 
-        reach: misfit from which on none need go on. What a first look finds best may be beside the true place many times
-        over, and the true one at a wrong size.
+        reach: misfit from which on none need go on. What a first look finds best may be beside the true place many times over, and
+        the true one at a wrong size. Where the first ends show that the cause is idle, the other starts stand for theirs.
         """
         trials = {i: self.with_cause(beside, name, i) for i in range(len(self.recipes(name)))}
         looks = self.looks(name, before, beside)
@@ -173,7 +175,12 @@ class Study:
         chosen = spread([(number, x) for _, number, x in looks], trials, most)
         if len(chosen) < 2:
             return [(0.0, i, [x]) for i, x in chosen]
-        led = self._led([], chosen, trials, weighed_beside(beside), reach)
+        led = self._led([], chosen[:_LOOKS], trials, weighed_beside(beside), reach)
+        if not beside and led and self.idle(cost(led[0][2]), before):
+            left = {id(x): each - 2 * trials[i].recipes[-1].log_prior for each, i, x in looks}
+            ends = [(cost(one), i, [one.point.x, x]) for i, x, one in led]
+            return sorted(ends + [(left[id(x)], i, [x]) for i, x in chosen[_LOOKS:]], key=lambda each: each[0])
+        led = self._led(led, chosen[_LOOKS:], trials, weighed_beside(beside), reach)
         begun = {i for i, _ in chosen}
         for _ in range(_ROUNDS if len(begun) < len(trials) else 0):
             near = surrounding(led[:_SURROUNDED], trials, begun, _AROUND, reach)
@@ -183,6 +190,13 @@ class Study:
             begun |= {i for i, _ in near}
         kept = {id(end) for _, end in spread([(i, one.point.x) for i, _, one in led], trials, most)}
         return [(cost(one), i, [one.point.x, x]) for i, x, one in led if id(one.point.x) in kept]
+
+    def idle(self, least: float, before: np.ndarray) -> bool:
+        """Whether the model explains the data as it is, `before`, and a cause that leaves `least` gains less than a name takes."""
+        bare = self.kind(self.model)
+        at = bare.point(before)
+        left = np.inf if at is None else self.predicted(at, before)
+        return left - least < 2 * gates.ODDS and upper_tail(left, max(bare.base.data.dof, 1)) > gates.GATE
 
     def _led(self, led: Led, starts: list[tuple[int, np.ndarray]], trials: dict[int, Model], count: int, reach: float) -> Led:
         """Ends of brief descents, with those from `starts` among them; one that cannot be among the first `count` is given up."""

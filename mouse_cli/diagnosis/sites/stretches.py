@@ -13,19 +13,21 @@ from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 
 _STARTS = 8  # places to begin from on a line
+_WIDEST = 0.6  # of a line that is all of the structure: beyond, a stretch is the modulus of all
 
 
 def of_lines(model: Reduced, candidate: Candidate, stiffer: bool = False) -> list[Recipe]:
     """1/EI (1 + d), or EI (1 + d) of one that is stiffer, over a stretch of width w about x, for each line of bars."""
     chosen = lines(model)
     total = sum(line.length for line in chosen)
-    return [_recipe(model, candidate, line, line.length / total, stiffer) for line in chosen]
+    widest = _WIDEST if len(chosen) == 1 else 1.0
+    return [_recipe(model, candidate, line, line.length / total, widest, stiffer) for line in chosen]
 
 
-def _recipe(model: Reduced, candidate: Candidate, line: Line, share: float, stiffer: bool) -> Recipe:
+def _recipe(model: Reduced, candidate: Candidate, line: Line, share: float, widest: float, stiffer: bool) -> Recipe:
     L = line.length
     d = Unknown("stiffness added" if stiffer else "flexibility added", "1", 0.02, 3.0)
-    w = Unknown("width over length", "1", 0.05, 0.6)
+    w = Unknown("width over length", "1", 0.05, widest)
     x = Unknown(PLACE, "m", 0.0, L, log=False)
 
     def change(values: np.ndarray) -> Change:

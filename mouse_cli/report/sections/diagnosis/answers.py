@@ -46,6 +46,7 @@ _FEW = 0.25  # share of all places that may hold half of the energy, for it to p
 _INFLATED = 1.05  # noise scale from which on it is told
 _SURE = 0.9  # probability from which on a doubt is none between groups
 _GAIN, _RATIO = 3.0, 0.7  # what a proof takes: gain in log density, ratio of errors
+_ADEQUATE, _ODDS = 1e-3, 3.0  # p-value of what a candidate leaves, and log odds over none, by which it explains the data
 _OWN_MODE = ("oscillator", "sprung-mass")  # mechanisms that bring a mode with them, whatever group they are in
 _INTERVAL = 0.9  # probability of each interval of a prediction
 _RARE = 0.01  # probability of so few frequencies within their intervals below which these are too narrow
@@ -130,12 +131,26 @@ def _what(found: Diagnosis) -> Iterator[Block]:
         yield Table(columns, tuple(rows)).without_empty_columns()
         yield Text(f"{conditional}{_noise(found)}.")
     elif best is None or not best.causes or found.groups[0][0] == "none":
-        yield Text("No candidate does better than none at all.")
+        yield Text(_if_accurate(found) or "No candidate does better than none at all.")
     else:
         yield Text(
             f"No candidate is adequate. The nearest, {best.title}, has a goodness of fit of {p_value(best.p)}{_noise(found)}; "
             "nearest does not mean adequate."
         )
+
+
+def _if_accurate(found: Diagnosis) -> str:
+    """What explains the data as they stand, where an error of the test is the more probable; empty: nothing does."""
+    none = next((one for one in found.explanations if not one.causes), None)
+    explaining = [one for one in found.explanations if one.causes and one.p >= _ADEQUATE]
+    best = max(explaining, key=attrgetter("log_evidence"), default=None)
+    if none is None or best is None or best.log_evidence - none.log_evidence < _ODDS:
+        return ""
+    where = " and ".join(map(place, best.sites))
+    return (
+        f"An error of the test is more probable than any candidate. If the test is as accurate as stated, {best.title} at {where} "
+        f"explains it: goodness of fit {p_value(best.p)}."
+    )
 
 
 def _inside(found: Diagnosis) -> str:
