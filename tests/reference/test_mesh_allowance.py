@@ -157,3 +157,29 @@ test:
     model = replace(reduced(problem, problem.prior.mean), finer=found.finer)
     rates, _ = model.refined(model.eigenvalues, np.eye(model.r))
     assert np.sqrt(rates[0]) / (2 * np.pi) == pytest.approx(exact, rel=1e-3)
+
+
+def test_one_mode_above_the_swing_of_elements_does_not_leave_those_below_uncorrected():
+    """A pinned beam of four elements, which swing between held ends at 36 times its first frequency; its seventh is 49 times it."""
+    text = f"""\
+mouse: 1
+model:
+  structure:
+    nodes: [{{line: {{from: 1, to: 5, start: [0, 0], end: [8, 0]}}}}]
+    elements: [{{id: 1-4, type: beam, nodes: 1-5, E: {E}, A: 1e-3, density: {RHO}, Iz: 1e-6}}]
+    supports: {{1: [TX, TY], 5: [TY], 2-4: [TX]}}
+    plane: XY
+parameters:
+  - {{name: E, elements: 1-4, property: E, sd: 2 %}}
+test:
+  modes: {{frequency: [1], frequency_sd: 0.1 %}}
+"""
+    problem, numbers = assemble(yaml_deck.read(text, "pinned.yaml")), np.array([0, 1, 2, 6])
+    exact = np.pi / (2 * 8**2) * np.sqrt(E * 1e-6 / (RHO * 1e-3)) * np.arange(1, 8) ** 2
+    found = numerics(problem, problem.prior.mean, numbers, np.full(4, 1e-4), corrects=True)
+    own = reduced(problem, problem.prior.mean)
+    assert own.eigenvalues[2] < found.finer.below < own.eigenvalues[6]
+    rates, _ = replace(own, finer=found.finer).refined(own.eigenvalues, np.eye(own.r))
+    hz = lambda values: np.sqrt(values[:7]) / (2 * np.pi)
+    before, after = (np.abs(hz(each) / exact - 1)[:3] for each in (own.eigenvalues, rates))
+    assert (after < before / 3).all() and rates[6] == own.eigenvalues[6]

@@ -24,17 +24,20 @@ _SAME = 1e-6  # relative difference of K up to which halves are as stiff as the 
 
 @dataclass(frozen=True)
 class Finer:
-    """M_T - M and D (n, n), sparse, see above."""
+    """M_T - M and D (n, n), sparse, see above; below: the eigenvalue up to which modes are corrected, where halves swing by
+    themselves.
+    """
 
     spread: Matrix
     within: Matrix
+    below: float = np.inf
 
     def of(self, V: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Both in coordinates V (n, r)."""
         return V.T @ (self.spread @ V), V.T @ (self.within @ V)
 
 
-def inertia(problem: Problem, halves: Problem, theta: np.ndarray) -> Finer | None:
+def inertia(problem: Problem, halves: Problem, theta: np.ndarray, below: float = np.inf) -> Finer | None:
     """What `halves`, the deck with every beam in two, has more than `problem` at theta (p,); None where it is not as stiff."""
     from scipy.sparse import csc_array, csc_matrix
     from scipy.sparse.linalg import spsolve
@@ -50,7 +53,7 @@ def inertia(problem: Problem, halves: Problem, theta: np.ndarray) -> Finer | Non
         return None
     B = M[new][:, old] + M[new][:, new] @ T
     spread = M[old][:, old] + M[old][:, new] @ T + T.T @ B - mass
-    return Finer(spread.tocsr(), (B.T @ csc_array(spsolve(own, csc_matrix(B)))).tocsr())
+    return Finer(spread.tocsr(), (B.T @ csc_array(spsolve(own, csc_matrix(B)))).tocsr(), below)
 
 
 def refined(

@@ -68,13 +68,16 @@ def numerics(
     if len(coarse.eigenvalues) <= numbers.max():
         return still
     finer = _Mesh(halved(problem), theta)
-    if loose := finer.loose(problem, float(coarse.eigenvalues[numbers].max())):
+    swings = finer.swings(problem)
+    loose = {number for number, own in swings.items() if own < np.median(coarse.eigenvalues[numbers])}
+    limit = min((own for number, own in swings.items() if number not in loose), default=np.inf)
+    if loose:
         finer = _Mesh(halved(problem, loose), theta)
     moved = coarse.moved(_Modes(finer, 2 * len(coarse.eigenvalues) + _BESIDE))[numbers]
     worst = int(np.argmax(np.abs(moved) / sd))
     if abs(moved[worst]) < _TELLING * sd[worst]:
         return Numerics(numbers, moved)
-    by = inertia(problem, finer.problem, theta) if corrects else None
+    by = inertia(problem, finer.problem, theta, limit) if corrects else None
     done = "that much is allowed for" if by is None else "predictions are corrected for it to first order"
     told = (
         f"numerics: half as long elements with masses spread along them move mode {numbers[worst] + 1} by "
@@ -117,19 +120,20 @@ class _Mesh:
     def __init__(self, problem: Problem, theta: np.ndarray):
         self.problem, (self.K, self.M) = problem, assembly(problem).matrices(theta)
 
-    def loose(self, whole: Problem, highest: float) -> set[int]:
-        """Numbers of beams of `whole`, halved here, that swing between their ends, held still, below the eigenvalue `highest`: they
-        have modes of their own among those that are compared, and to first order no inertia is theirs.
+    def swings(self, whole: Problem) -> dict[int, float]:
+        """The lowest eigenvalue at which each beam of `whole`, halved here, swings between its ends, held still, by its number.
+
+        Below, to first order, its inertia is its ends'; what swings among the modes that are compared has modes of its own there.
         """
         from scipy.linalg import eigh
 
-        found, node_of = set(), self.problem.structure.geometry.node
+        found, node_of = {}, self.problem.structure.geometry.node
         for node, number in self._middles(whole):
             at = np.flatnonzero(node_of == node)
             stiff, mass = (dense(each[at][:, at]) for each in (self.K, self.M))
             stiff = stiff + np.finfo(float).eps * stiff.trace() * np.eye(len(at))  # no stiffness in torsion: loose
-            if len(at) and highest * eigh(mass, stiff, eigvals_only=True)[-1] > 1:
-                found.add(number)
+            if len(at) and (rate := float(eigh(mass, stiff, eigvals_only=True)[-1])) > 0:
+                found[number] = 1 / rate
         return found
 
     def _middles(self, whole: Problem) -> Iterator[tuple[int, int]]:

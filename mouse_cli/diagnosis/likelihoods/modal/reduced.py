@@ -79,7 +79,7 @@ class Reduced:
         """Eigenvalues (size,) and modes X (r or more, size), the lowest as half as long elements have them."""
         if self.finer is None:
             return eigenvalues, X
-        count = min(len(eigenvalues), 2 * int(self.data.test.number.max()) + _BEYOND)
+        count = min(int(np.searchsorted(eigenvalues, self.finer.below)), 2 * int(self.data.test.number.max()) + _BEYOND)
         return refined(self._finer, eigenvalues, X, X[: self.r, :count])
 
     @cached_property
