@@ -88,6 +88,24 @@ MUTANTS = (
         gate_far=("FAR = 5.0", "FAR = 8.0", "test_a_parameter_far_from_its_prior_takes_the_name"),
     ),
     *_of(
+        "gates.py",
+        f"{_REFERENCE}test_levelled.py",
+        prior_by_groups_alone=(
+            "BY_GROUP = 0.5",
+            "BY_GROUP = 1.0",
+            "test_a_support_of_twelve_is_not_told_from_a_member_of_seven_hundred_by_their_numbers",
+        ),
+    ),
+    *_of(
+        "search/levelled.py",
+        f"{_REFERENCE}test_levelled.py",
+        places_of_a_line_forgotten=(
+            "np.log(width / (np.sqrt(2 * np.pi) * s))",
+            "0.0",
+            "test_a_place_along_a_line_is_one_of_as_many_as_fit_in",
+        ),
+    ),
+    *_of(
         "validate/informed.py",
         _GATES,
         held_out_counts_for_nothing=(

@@ -177,9 +177,9 @@ class Study:
             return [(0.0, i, [x]) for i, x in chosen]
         led = self._led([], chosen[:_LOOKS], trials, weighed_beside(beside), reach)
         if not beside and led and self.idle(cost(led[0][2]), before):
-            left = {id(x): each - 2 * trials[i].recipes[-1].log_prior for each, i, x in looks}
+            promised = {id(x): left - 2 * trials[i].recipes[-1].log_prior for left, i, x in looks}
             ends = [(cost(one), i, [one.point.x, x]) for i, x, one in led]
-            return sorted(ends + [(left[id(x)], i, [x]) for i, x in chosen[_LOOKS:]], key=lambda each: each[0])
+            return sorted(ends + [(promised[id(x)], i, [x]) for i, x in chosen[_LOOKS:]], key=lambda each: each[0])
         led = self._led(led, chosen[_LOOKS:], trials, weighed_beside(beside), reach)
         begun = {i for i, _ in chosen}
         for _ in range(_ROUNDS if len(begun) < len(trials) else 0):
