@@ -14,7 +14,9 @@ from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.diagnosis.validate.measurements import SHAPE_SD, measurements
 from mouse_cli.diagnosis.validate.next_measurement import chosen_places, order, proposals, separated
 from mouse_cli.formats import read_deck
+from mouse_cli.model.arrays import dense
 from mouse_cli.model.diagnosis import Effort, Proposal
+from mouse_cli.terms.assembly import assembly
 
 HELD = 4e4  # N/m, of the spring to the ground that the model lacks
 
@@ -146,6 +148,33 @@ def test_supports_of_a_model_are_released_once(tmp_path, monkeypatch):
     for each in several:
         separated(*found, each)
     assert len(asked) <= 2 * len({id(one.model.base) for one in found})
+
+
+def test_a_sensor_on_a_support_reads_what_the_deck_with_that_support_on_a_spring_does(tmp_path):
+    """Where no cause lets it move it reads nothing, and is proposed for the sake of one that does."""
+    path = tmp_path / "column.yaml"
+    seen = "frequency_sd: 1 %, dofs: [4TX, 7TX], shapes: [[0.4, -0.7], [1, 1]], shape_sd: 1 %}"
+    path.write_text(COLUMN.replace("frequency_sd: 1 %}", seen))
+    deck = read_deck(str(path))
+    base = reduced(deck, deck.prior.mean)
+
+    def fitted(physics: str, *values: float):
+        recipe = registry()[physics].recipes(base, registry()[physics])[0]
+        return fit(Model(base, (recipe,)), recipe.coordinates(np.array(values)), most=0)
+
+    free, held = fitted("support-translation", 2e6), fitted("mass", 1.0, 2.5)
+    assert "support" not in {each.kind for each in measurements(held)}
+    (sensor,) = [each for each in measurements(held, free) if each.kind == "support"]
+    (tip,) = [each for each in measurements(free) if each.text == "the shapes at 7TX again, by another sensor"]
+    assert sensor.text == "the shapes at the support of node 1 too" and free.sites[0].text == "the support of node 1, TX"
+    modes = free.point.modes
+    read = lambda one: sensor.read(one.point, one, modes).reshape(-1, len(modes))[0]
+    assert not read(held).any()
+    on_spring = free.recipes[0].extend(deck, np.array([2e6]))
+    K, M = map(dense, assembly(on_spring).matrices(on_spring.prior.mean))
+    X = eigh(K, M)[1][:, modes]
+    rows = [on_spring.structure.labels.index(label) for label in ("1TX", "7TX")]
+    np.testing.assert_allclose(read(free) / tip.read(free.point, free, modes), X[rows[0]] / X[rows[1]], rtol=0.02)
 
 
 COLUMN = """\

@@ -17,6 +17,7 @@ from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.sites.points import Points, all_motions, directions
 from mouse_cli.model.diagnosis import Effort
+from mouse_cli.model.geometry import DIRECTIONS
 
 _MORE = 3  # modes above the highest measured one
 _MASS = 0.05  # of the total mass, added
@@ -47,8 +48,8 @@ class Measurement:
     sd: float
 
 
-def measurements(one: Fit) -> Iterator[Measurement]:
-    """All that is considered, for the deck of a fit."""
+def measurements(one: Fit, *others: Fit) -> Iterator[Measurement]:
+    """All that is considered, for the deck of a fit; `others` are fits of the same deck whose supports may move too."""
     base = one.model.base
     test = base.data.test
     sd = float(np.nanmedian(base.data.sd_log[base.data.has_frequency])) if base.data.has_frequency.any() else 0.01
@@ -73,6 +74,9 @@ def measurements(one: Fit) -> Iterator[Measurement]:
                 continue
             text = f"the shapes at {place.text} too"
             yield Measurement("sensor", text, Effort.SENSOR, unaltered, place.seen, noise)
+        for node, labels in _moving_supports((one, *others)).items():
+            text = f"the shapes at the support of node {node} too"
+            yield Measurement("support", text, Effort.SENSOR, unaltered, _of_support(labels), noise)
         for k in range(test.s):
             text = f"the shapes at {name(base.problem, k)} again, by another sensor"
             yield Measurement("repeated", text, Effort.SENSOR, unaltered, _true_reading(k), noise)
@@ -176,6 +180,33 @@ def _true_reading(k: int) -> Read:
         at.a * (fitted.model.base.sensing[k] @ fitted.model.moved(at.X[:, modes])) / _largest(fitted)
     )
     return read
+
+
+def _moving_supports(fits: tuple[Fit, ...]) -> dict[int, tuple[str, ...]]:
+    """Supports that a cause of some fit lets move, by their node: labels of their directions of translation."""
+    mesh = fits[0].model.base.problem.mesh
+    found: dict[int, tuple[str, ...]] = {}
+    for node, d in [] if mesh is None else mesh.supports.tolist():
+        text = f"{mesh.node_ids[node]}{DIRECTIONS[d]}"
+        if d < 3 and any(_support_motion(one, one.point, (text,)).any() for one in fits):
+            number = int(mesh.node_ids[node])
+            found[number] = (*found.get(number, ()), text)
+    return found
+
+
+def _support_motion(fitted: Fit, at: Point, labels: tuple[str, ...]) -> np.ndarray:
+    """Motion (l, size) of degrees of freedom that the deck holds, in each mode of a point; 0 where no cause lets them move."""
+    found = np.zeros((len(labels), at.X.shape[1]))
+    for i, recipe in enumerate(fitted.recipes):
+        if recipe.carried is not None and all(text in recipe.carried.place for text in labels):
+            rows = [recipe.carried.place[text] for text in labels]
+            found += recipe.carried.whole[rows] @ at.X[fitted.model.places[i][fitted.model.base.r :]]
+    return found
+
+
+def _of_support(labels: tuple[str, ...]) -> Read:
+    """What sensors on a support read, in units of the largest component of each shape."""
+    return lambda at, fitted, modes: (at.a * _support_motion(fitted, at, labels)[:, modes] / _largest(fitted)).ravel()
 
 
 def _supports(base: Reduced, known: Yielding) -> list[tuple[int, str]]:

@@ -26,7 +26,7 @@ class Rivals:
 
     def __init__(self, fits: list[Fit], names: list[str]):
         self.fits, self.names = fits, names
-        self.every = list(measurements(fits[0]))
+        self.every = list(measurements(*fits))
         self._known: dict[tuple[int, int], Prediction | None] = {}
         self._spots = places(fits[0].model.base, directions)
 
