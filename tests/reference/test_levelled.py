@@ -12,7 +12,7 @@ from mouse_cli.diagnosis.search.levelled import levelled, log_places
 def placed(group: str, places: int, **more):
     """A fit of one mechanism that could be at so many places."""
     one = made_up(group, **more)
-    one.recipes[0].log_prior = -np.log(places)
+    one.recipes[0].log_prior, one.recipes[0].seldom = -np.log(places), 0.0
     one.model.width = np.ones(1)
     return one
 
@@ -28,6 +28,14 @@ def test_a_support_of_twelve_is_not_told_from_a_member_of_seven_hundred_by_their
     np.testing.assert_allclose(found[:2], 0.5 * p[:2] + 0.5 * 0.45)
 
 
+def test_what_is_seldom_stays_so_wherever_it_may_be():
+    """A stiffer spring of four has a tenth of the prior of a softer one of four, by places too."""
+    fits = [placed("local-stiffness", 4), placed("added-stiffness", 4)]
+    fits[1].recipes[0].log_prior, fits[1].recipes[0].seldom = np.log(0.1 / 4), np.log(0.1)
+    p = np.array([10 / 11, 1 / 11])
+    np.testing.assert_allclose(levelled(p, fits), p)
+
+
 def test_what_the_data_tell_apart_stays_so():
     fits = [placed("support", 12), placed("member", 696)]
     found = levelled(np.array([1 - 1e-6, 1e-6]), fits)
@@ -36,7 +44,9 @@ def test_what_the_data_tell_apart_stays_so():
 
 def test_sets_of_equally_many_share_among_themselves_and_what_has_no_name_keeps_its_own():
     pair = made_up("support", "member")
-    pair.recipes[0].log_prior, pair.recipes[1].log_prior, pair.model.width = -1.0, -2.0, np.ones(2)
+    pair.model.width = np.ones(2)
+    for one in pair.recipes:
+        one.log_prior, one.seldom = -1.0, 0.0
     fits = [placed("support", 2), pair, made_up(nameless="field-stiffness")]
     p = np.array([0.5, 0.3, 0.2])
     np.testing.assert_allclose(levelled(p, fits), p)

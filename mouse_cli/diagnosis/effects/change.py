@@ -133,9 +133,9 @@ class Recipe:
 
     change(values), site(values): what it does, and where, for values (t,) of the unknowns. own: degrees of freedom of its own.
     grid (g, t): values to begin from; starts: those (t,) that a screening found. log_prior: ln of the share of the candidate's
-    prior that this place has. extend(problem, values): the deck with the cause in it. number: which of its candidate's recipes
-    it is. carried: how degrees of freedom of its own move the model along, which other causes see. law: how its spring loses
-    energy, see `frf/lossy.py`.
+    prior that this place has; seldom: of it, ln of how seldom such a thing is, wherever it is. extend(problem, values): the deck
+    with the cause in it. number: which of its candidate's recipes it is. carried: how degrees of freedom of its own move the model
+    along, which other causes see. law: how its spring loses energy, see `frf/lossy.py`.
     limit(values): group that it cannot be told from at such values, the end of their range; empty: none, its candidate's own.
     jumps: coordinates, in order, at which the matrices jump, by number of the unknown; there the piece after it begins.
     parts: names of several things, each with the unknown of the same number, of which there are recipes with fewer; empty: none.
@@ -162,6 +162,7 @@ class Recipe:
     linear: int | None = None
     home: Any = field(default=None, repr=False, compare=False)
     grows: tuple[np.ndarray, np.ndarray] | None = field(default=None, repr=False, compare=False)
+    seldom: float = 0.0
     _last: dict[bytes, Change] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def at(self, coordinates: np.ndarray) -> Change:

@@ -14,7 +14,8 @@ _SELDOM = 0.1  # how often a part is of another material beside how often any ot
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """(a - 1) K_s and (b - 1) M_s of each element set."""
-    return [replace(each, log_prior=each.log_prior + float(np.log(_SELDOM))) for each in remade(model, candidate)]
+    seldom = float(np.log(_SELDOM))
+    return [replace(each, log_prior=each.log_prior + seldom, seldom=seldom) for each in remade(model, candidate)]
 
 
 CANDIDATE = Candidate(

@@ -24,10 +24,11 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     others = of_elements(model, candidate, 1, directed=True) + of_springs(model, candidate, 1)
     kinds = [of_lines(model, candidate, True), others, of_members(model, candidate, 1), of_shells(model, candidate, 1)]
     kinds = [each for each in kinds if each]
-    share = float(np.log(_SELDOM / max(len(kinds), 1)))
+    share = -float(np.log(max(len(kinds), 1)))
     found = [each for kind in kinds for each in kind]
     known = [_log_known(model, each) if len(each.unknowns) == 1 else 0.0 for each in found]
-    return [replace(each, log_prior=each.log_prior + share + log) for each, log in zip(found, known, strict=True)]
+    seldom = [float(np.log(_SELDOM)) + log for log in known]
+    return [replace(each, log_prior=each.log_prior + share + log, seldom=log) for each, log in zip(found, seldom, strict=True)]
 
 
 def _log_known(model: Reduced, recipe: Recipe) -> float:

@@ -38,7 +38,7 @@ def log_places(one: Fit) -> float:
     by its range over its sd.
     """
     sd = np.sqrt(np.abs(np.diag(one.covariance)))[one.model.k :]
-    found = -sum(recipe.log_prior for recipe in one.recipes)
+    found = sum(recipe.seldom - recipe.log_prior for recipe in one.recipes)
     for recipe, own in zip(one.recipes, one.model.own, strict=True):
         for unknown, s, width in zip(recipe.unknowns, sd[own], one.model.width[own], strict=True):
             if unknown.name == PLACE:
