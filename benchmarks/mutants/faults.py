@@ -97,7 +97,7 @@ MUTANTS = (
         ),
     ),
     *_of(
-        "search/levelled.py",
+        "search/fit.py",
         f"{_REFERENCE}test_levelled.py",
         places_of_a_line_forgotten=(
             "np.log(width / (np.sqrt(2 * np.pi) * s))",

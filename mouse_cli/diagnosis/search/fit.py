@@ -10,7 +10,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Recipe
+from mouse_cli.diagnosis.effects.change import PLACE, Recipe
 from mouse_cli.diagnosis.evidence import capped, laplace
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
@@ -98,6 +98,19 @@ class Fit(End):
     def dof(self) -> int:
         """Degrees of freedom that the misfit has when the model is right."""
         return self.model.base.data.dof - self.model.t - round(self.point.free)
+
+    @property
+    def log_places(self) -> float:
+        """ln of how many places its causes could be at for each that the data leave: by their prior, and of a place along a line by
+        its range over its sd.
+        """
+        sd = np.sqrt(np.abs(np.diag(self.covariance)))[self.model.k :]
+        found = sum(recipe.seldom - recipe.log_prior for recipe in self.recipes)
+        for recipe, own in zip(self.recipes, self.model.own, strict=True):
+            for unknown, s, width in zip(recipe.unknowns, sd[own], self.model.width[own], strict=True):
+                if unknown.name == PLACE:
+                    found += max(0.0, float(np.log(width / (np.sqrt(2 * np.pi) * s))))
+        return float(found)
 
     @property
     def root(self) -> np.ndarray:

@@ -25,6 +25,7 @@ class Fit:
     residual: np.ndarray = field(repr=False)
     nameless: ClassVar[None] = None  # no rival without a name is sought in recordings
     data: ClassVar[None] = None  # no errors of sensors are sought in them either
+    log_places: ClassVar[float] = 0.0  # its evidence has no prior of places
 
     @property
     def recipes(self) -> tuple[Part, ...]:
