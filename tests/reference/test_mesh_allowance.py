@@ -183,3 +183,5 @@ test:
     hz = lambda values: np.sqrt(values[:7]) / (2 * np.pi)
     before, after = (np.abs(hz(each) / exact - 1)[:3] for each in (own.eigenvalues, rates))
     assert (after < before / 3).all() and rates[6] == own.eigenvalues[6]
+    stiff, _ = replace(own, finer=found.finer).refined(1e3 * own.eigenvalues, np.eye(own.r))  # all above: no fewer are corrected
+    assert (stiff[:3] < 1e3 * own.eigenvalues[:3]).all()

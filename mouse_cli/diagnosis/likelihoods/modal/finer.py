@@ -36,6 +36,14 @@ class Finer:
         """Both in coordinates V (n, r)."""
         return V.T @ (self.spread @ V), V.T @ (self.within @ V)
 
+    def corrected(self, known: np.ndarray, most: int) -> int:
+        """How many modes are corrected: `most`, or those below the limit in the model as it is, of eigenvalues `known` (r,).
+
+        As many whatever parameters and causes do, so that no mode jumps on its way past it.
+        """
+        below = int(np.searchsorted(known, self.below))
+        return min(max(below, 1), most) if below < len(known) else most
+
 
 def inertia(problem: Problem, halves: Problem, theta: np.ndarray, below: float = np.inf) -> Finer | None:
     """What `halves`, the deck with every beam in two, has more than `problem` at theta (p,); None where it is not as stiff."""

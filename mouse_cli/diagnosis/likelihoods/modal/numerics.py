@@ -78,7 +78,8 @@ def numerics(
     if abs(moved[worst]) < _TELLING * sd[worst]:
         return Numerics(numbers, moved)
     by = inertia(problem, finer.problem, theta, limit) if corrects else None
-    done = "that much is allowed for" if by is None else "predictions are corrected for it to first order"
+    left = by is None or coarse.eigenvalues[numbers[worst]] >= limit
+    done = "that much is allowed for" if left else "predictions are corrected for it to first order"
     told = (
         f"numerics: half as long elements with masses spread along them move mode {numbers[worst] + 1} by "
         f"{100 * moved[worst]:.2g} %, {abs(moved[worst]) / sd[worst]:.1f} of its standard deviation; {done}, "

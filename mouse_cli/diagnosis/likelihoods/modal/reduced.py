@@ -79,8 +79,8 @@ class Reduced:
         """Eigenvalues (size,) and modes X (r or more, size), the lowest as half as long elements have them."""
         if self.finer is None:
             return eigenvalues, X
-        count = min(int(np.searchsorted(eigenvalues, self.finer.below)), 2 * int(self.data.test.number.max()) + _BEYOND)
-        return refined(self._finer, eigenvalues, X, X[: self.r, :count])
+        most = min(len(eigenvalues), 2 * int(self.data.test.number.max()) + _BEYOND)
+        return refined(self._finer, eigenvalues, X, X[: self.r, : self.finer.corrected(self.eigenvalues, most)])
 
     @cached_property
     def _finer(self) -> tuple[np.ndarray, np.ndarray]:

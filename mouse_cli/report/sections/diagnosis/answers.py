@@ -144,7 +144,7 @@ def _if_accurate(found: Diagnosis) -> str:
     none = next((one for one in found.explanations if not one.causes), None)
     explaining = [one for one in found.explanations if one.causes and one.p >= _ADEQUATE]
     best = max(explaining, key=attrgetter("log_evidence"), default=None)
-    if none is None or best is None or best.log_evidence - none.log_evidence < _ODDS:
+    if not found.misstated or none is None or best is None or best.log_evidence - none.log_evidence < _ODDS:
         return ""
     where = " and ".join(map(place, best.sites))
     return (
